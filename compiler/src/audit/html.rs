@@ -1,4 +1,4 @@
-//! The page: one table a library, the differences above them.
+//! The page: one table per library, with the differences above it.
 
 use super::{Audit, Row, Verdict};
 
@@ -115,7 +115,7 @@ fn line(row: &Row) -> String {
         Some((right, printed)) => format!("{right} of {printed}"),
         None => row.numbers.clone(),
     };
-    // Intervals far out are often very narrow; JSON has all of them.
+    // Distant intervals are often very narrow; JSON has all of them.
     let stable = match row.stable.split_once(" ∪ ") {
         Some((first, _)) => format!("{first} ∪ …"),
         None => row.stable.clone(),

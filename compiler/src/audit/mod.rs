@@ -1,4 +1,4 @@
-//! What the tables of other libraries claim, and what is proved of them.
+//! Claims of the tables of other libraries, compared with proofs.
 //!
 //! ```toml
 //! library = "SUNDIALS ARKODE"
@@ -16,10 +16,10 @@
 //! ahat = ["7/24", "3/4", "-1/24"]
 //! ```
 //!
-//! Of each table the order for each class of Hamiltonians is proved, with the first order condition that is violated, and whether
-//! it is symmetric and symplectic; its decimals are held against those of the exact method near them. Beside it stands the order
-//! that is [seen](crate::Tableau::observed_order) on the pendulum: a difference between claim and proof that is not seen is not
-//! reported as one but as unexplained.
+//! For each table the order for each class of Hamiltonians is proved, with the first violated order condition, and whether
+//! it is symmetric and symplectic. Its decimals are compared with those of the exact method near them. The report also has the order
+//! that is [observed](crate::Tableau::observed_order) on the pendulum. A difference between claim and proof that is not observed
+//! is reported as unexplained.
 
 mod file;
 mod html;
@@ -33,10 +33,10 @@ use crate::error::Error;
 use crate::expression::Input;
 use crate::limits::Limits;
 
-/// The tables of some files.
+/// The audited tables of some files.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Audit {
-    /// One for each table, in the order of the files.
+    /// One row per table, in the order of the files.
     pub rows: Vec<Row>,
 }
 
@@ -69,8 +69,8 @@ impl Audit {
     /// ```
     ///
     /// # Errors
-    /// [`ErrorKind::Document`](crate::ErrorKind::Document) for a file that is not of this form, for example without a `convention`;
-    /// [`ErrorKind::Unknown`](crate::ErrorKind::Unknown) for a convention or a class that is not known;
+    /// [`ErrorKind::Document`](crate::ErrorKind::Document) for a file that does not have this form, for example without a `convention`;
+    /// [`ErrorKind::Unknown`](crate::ErrorKind::Unknown) for an unknown convention or class;
     /// [`ErrorKind::Syntax`](crate::ErrorKind::Syntax) for the first text that is not a number. Each with its place.
     pub fn add(&mut self, file_name: &str, text: &str, limits: &Limits) -> Result<(), Error> {
         let rows = file::rows(Input::of_file(file_name, text), limits)?;
@@ -78,19 +78,19 @@ impl Audit {
         Ok(())
     }
 
-    /// The tables that prove something else than they claim.
+    /// The tables whose proved order differs from their claim.
     pub fn differences(&self) -> impl Iterator<Item = &Row> {
         self.rows
             .iter()
             .filter(|row| row.verdict != Verdict::AsClaimed)
     }
 
-    /// The tables whose proved order is not the one that is seen.
+    /// The tables whose proved order differs from the observed order.
     pub fn unexplained(&self) -> impl Iterator<Item = &Row> {
         self.rows.iter().filter(|row| !row.explained)
     }
 
-    /// All of it as JSON: `{"rows": [{"library", "version", "source", "name", "claim": {"order", "class"}, "general": C, "separable":
+    /// The audit as JSON: `{"rows": [{"library", "version", "source", "name", "claim": {"order", "class"}, "general": C, "separable":
     /// C, "nystrom": C, …}]}` with `C = {"order", "evidence", "violated", "residual"}`.
     pub fn json(&self) -> String {
         let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
@@ -98,7 +98,7 @@ impl Audit {
         text
     }
 
-    /// All of it as one page, which needs no other file.
+    /// The audit as a single self-contained page.
     pub fn html(&self) -> String {
         html::page(self)
     }

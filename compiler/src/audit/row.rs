@@ -1,4 +1,4 @@
-//! One table: what is claimed, what is proved, what is seen.
+//! One table: the claimed, the proved and the observed order.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -12,10 +12,10 @@ use crate::limits::Limits;
 use crate::order::{ClassOrder, HamiltonianClass, Kinetic};
 use crate::stability::evidence_text;
 
-/// How far an order that is seen may be from the one that is proved.
+/// The largest accepted difference between the observed and the proved order.
 const TOLERANCE: f64 = 0.05;
 
-/// What the tables of a file have in common.
+/// The data common to the tables of a file.
 pub(super) struct Source {
     pub library: String,
     pub version: String,
@@ -23,12 +23,12 @@ pub(super) struct Source {
     pub convention: Library,
 }
 
-/// What a library claims of a table.
+/// The claim of a library about a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Claim {
     /// The order.
     pub order: usize,
-    /// The Hamiltonians that it is for.
+    /// The class of Hamiltonians.
     #[serde(serialize_with = "class_name")]
     pub class: HamiltonianClass,
 }
@@ -37,28 +37,28 @@ fn class_name<S: Serializer>(class: &HamiltonianClass, serializer: S) -> Result<
     serializer.serialize_str(class.name())
 }
 
-/// Whether the proof gives what is claimed.
+/// The proved order compared with the claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
-    /// The same order.
+    /// The orders agree.
     AsClaimed,
-    /// A lower order.
+    /// The proved order is lower.
     LessThanClaimed,
-    /// A higher order.
+    /// The proved order is higher.
     MoreThanClaimed,
 }
 
-/// What is known of the order for a class.
+/// The order for a class, with its evidence.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct ProvedOrder {
     /// The order.
     pub order: usize,
-    /// How it is known: proved, certified for the exact method near the decimals, or verified to some binary places.
+    /// The evidence: proved, certified for the exact method near the decimals, or verified to some binary places.
     pub evidence: String,
-    /// The tree of the first condition that is violated.
+    /// The tree of the first violated condition.
     pub violated: Option<String>,
-    /// Its weight less what it should be.
+    /// The elementary weight minus its required value.
     pub residual: Option<String>,
 }
 
@@ -81,19 +81,19 @@ pub struct Row {
     pub library: String,
     /// Its version.
     pub version: String,
-    /// Where the numbers are from.
+    /// The source of the numbers.
     pub source: String,
-    /// How the library steps them, and where it says so.
+    /// How the library steps the numbers, and where it documents that.
     pub convention: String,
     /// The name of the table there.
     pub name: String,
-    /// What is claimed.
+    /// The claim of the library.
     pub claim: Claim,
-    /// A remark of the file.
+    /// A remark in the file.
     pub note: Option<String>,
     /// The number of stages.
     pub stages: usize,
-    /// What the numbers are: exact, decimals of an exact method, or decimals near which no exact method was found.
+    /// The kind of the numbers: exact, decimals of an exact method, or decimals near which no exact method was found.
     pub numbers: String,
     /// For every Hamiltonian.
     pub general: ProvedOrder,
@@ -101,23 +101,23 @@ pub struct Row {
     pub separable: ProvedOrder,
     /// For quadratic `T`.
     pub nystrom: ProvedOrder,
-    /// Whether it is symmetric, for separable Hamiltonians at least.
+    /// Whether it is symmetric, at least for separable Hamiltonians.
     pub symmetric: bool,
-    /// Whether it is symplectic, for separable Hamiltonians at least.
+    /// Whether it is symplectic, at least for separable Hamiltonians.
     pub symplectic: bool,
-    /// The decimal places to which the exact method has the printed numbers, and how many are printed; `None` if the numbers are exact, and
-    /// if no exact method was found.
-    /// Where conditions leave coefficients free, another exact method may have more of them.
+    /// The decimal places in which the printed numbers agree with the exact method, and the number of printed places. `None` if the numbers
+    /// are exact or if no exact method was found.
+    /// If the conditions leave coefficients free, another exact method may agree in more places.
     pub right_places: Option<(u32, u32)>,
     /// The stable steps `hω` on the oscillator.
     pub stable: String,
-    /// The order that is seen on the pendulum with `T = p²/2`.
+    /// The order observed on the pendulum with `T = p²/2`.
     pub seen_quadratic: Option<f64>,
-    /// The order that is seen on the pendulum with `T = √(1 + p²)`.
+    /// The order observed on the pendulum with `T = √(1 + p²)`.
     pub seen_relativistic: Option<f64>,
-    /// Whether the proof gives what is claimed.
+    /// The proved order compared with the claim.
     pub verdict: Verdict,
-    /// Whether the orders that are proved are those that are seen, and those of the printed numbers up to their rounding.
+    /// Whether the proved orders agree with the observed orders, and with those of the printed numbers up to their rounding.
     pub explained: bool,
 }
 
@@ -135,7 +135,7 @@ impl Row {
         let orders = tableau.orders();
         let [general, mut separable, mut nystrom] =
             HamiltonianClass::ALL.map(|class| ProvedOrder::new(orders.class(class)));
-        // The conditions that the printed numbers violate, not those that the exact method near them happens to violate by less.
+        // The conditions violated by the printed numbers, rather than those that the exact method near them violates by less.
         let within = match &read.origin {
             Origin::Exact => None,
             Origin::Refined(within) | Origin::Decimals(within) => Some(within),
@@ -153,7 +153,7 @@ impl Row {
                 found.order = *order;
                 found.evidence = "up to the rounding of the decimals".to_owned();
             }
-            // Conditions of the decimals are computed up to a limit, and that of the exact method may be higher.
+            // Conditions of the decimals are computed up to a limit; the order of the exact method may be higher.
             agree &= found.order == *order || violated.is_none() && found.order > *order;
         }
         let seen = |kinetic, order: usize| tableau.observed_order(kinetic, order);
@@ -216,7 +216,7 @@ impl Row {
         })
     }
 
-    /// What is proved for the class of the claim.
+    /// The proved order for the class of the claim.
     pub fn proved(&self) -> &ProvedOrder {
         match self.claim.class {
             HamiltonianClass::General => &self.general,
@@ -246,9 +246,9 @@ fn convention(library: Library) -> String {
     }
 }
 
-/// The decimal places to which a number is known that is known up to an error.
+/// The number of correct decimal places for an error.
 fn places(error: &BigRational) -> u32 {
-    /// More than any table has.
+    /// More than in any table.
     const MOST: u32 = 200;
     let half = BigRational::new(BigInt::one(), 2.into());
     if error.is_zero() {

@@ -34,7 +34,7 @@ impl Affine {
         Affine::rational(BigRational::zero()).plus(self, factor)
     }
 
-    /// The sum with a multiple of another one.
+    /// The sum with a multiple of another function.
     pub fn plus(mut self, other: &Affine, factor: &BigRational) -> Self {
         self.constant += &other.constant * factor;
         for (index, own) in &other.factors {
@@ -45,17 +45,17 @@ impl Affine {
     }
 }
 
-/// What was solved, in the form that a certificate for other programs has.
+/// The solved conditions, in the form that certificates for other programs contain.
 #[derive(Debug)]
 pub(crate) struct Solved {
-    /// What the conditions are sufficient for: an order with any symmetric base for a composition.
+    /// The claim for which the conditions are sufficient; for a composition, an order with any symmetric base.
     pub claim: Claim,
     /// The fractions of a composition, in the order of its steps.
     pub weights: Option<Vec<Affine>>,
 }
 
 impl Certificate {
-    /// A coefficient as an affine function of the unknowns that are not known to be rational.
+    /// A coefficient as an affine function of the unknowns whose values are not known rationals.
     pub(crate) fn affine(&self, coefficient: Coefficient) -> Option<Affine> {
         let target = self.target(coefficient)?;
         let terms = target.terms.iter();
@@ -65,7 +65,7 @@ impl Certificate {
         ))
     }
 
-    /// An unknown: its value where that is known to be rational.
+    /// An unknown, replaced by its value if that is known to be rational.
     fn argument(&self, index: usize) -> Affine {
         match self.solution().known(index) {
             Some(value) => Affine::rational(value),

@@ -1,4 +1,4 @@
-//! What is known of the exact method behind printed digits.
+//! What is known about the exact method behind printed digits.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -20,8 +20,8 @@ use crate::arithmetic::rounding::Decimal;
 
 /// A proof that an exact method has the claimed order, with all its digits.
 ///
-/// Copies share the digits that have been computed. Whatever was asked for before, the same question has the
-/// same answer.
+/// Copies share the digits that have been computed. The same question always has the same answer, whatever was
+/// asked before.
 #[derive(Debug, Clone)]
 pub struct Certificate(Arc<Facts>);
 
@@ -39,13 +39,13 @@ pub(super) struct Facts {
     pub digit_bits: u32,
     /// Whether an exact method has all printed digits.
     pub digits: Digits,
-    /// Other printed numbers that could be the wrong one.
+    /// Other printed numbers, any one of which could be the wrong number.
     pub suspects: Vec<Coefficient>,
     pub uniqueness: Option<Uniqueness>,
     pub solution: Solution,
 }
 
-/// How far around printed values a solution is the only one, found when it is asked for.
+/// The radius around printed values within which the solution is unique, computed on demand.
 #[derive(Debug)]
 pub(super) struct Uniqueness {
     proof: Proof,
@@ -64,15 +64,15 @@ impl Uniqueness {
     }
 }
 
-/// A coefficient that the conditions leave free, and its exact value in the certified method.
+/// A coefficient that the conditions leave free, with its exact value in the certified method.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fixed {
-    /// The first of the coefficients that are equal to it by symmetry or structure.
+    /// The first of the coefficients that are equal by symmetry or structure.
     pub coefficient: Coefficient,
     /// The exact value.
     pub value: BigRational,
-    /// Whether the value is that of the printed text, and not another number which the text rounds: a simple fraction, or
-    /// one with which the other coefficients round to their prints.
+    /// Whether the value is that of the printed text. Otherwise the text is a rounding of the value: a simple fraction, or
+    /// a number with which the other coefficients round to their prints.
     pub as_printed: bool,
 }
 
@@ -81,15 +81,15 @@ pub struct Fixed {
 pub(super) enum Solution {
     /// Rational numbers for which all conditions hold exactly.
     Exact(Vec<BigRational>),
-    /// The only zero in a cube.
+    /// The unique zero in a cube.
     Enclosed(Box<Enclosed>),
 }
 
-/// Enclosures of the unknowns with more and more binary places.
+/// Enclosures of the unknowns with increasing binary places.
 #[derive(Debug)]
 pub(crate) struct Enclosed<S = System> {
     proof: Proof<S>,
-    /// The unknowns that are rational: those that are fixed, and those that they determine linearly.
+    /// The rational unknowns: the fixed ones, and those that they determine linearly.
     known: Vec<Option<BigRational>>,
     levels: Mutex<Vec<Level>>,
 }
@@ -114,7 +114,7 @@ impl Enclosed {
 }
 
 impl<S: Equations> Enclosed<S> {
-    /// With the unknowns that are known to be rational.
+    /// A solution with the unknowns that are known to be rational.
     pub fn with_known(proof: Proof<S>, known: Vec<Option<BigRational>>) -> Self {
         let solution = proof.solution(&proof.center, proof.bits);
         let first = Level {
@@ -171,7 +171,7 @@ impl<S: Equations> Enclosed<S> {
 }
 
 impl Solution {
-    /// An unknown that is known to be rational.
+    /// The value of an unknown that is known to be rational.
     pub fn known(&self, index: usize) -> Option<BigRational> {
         match self {
             Solution::Exact(values) => values.get(index).cloned(),
@@ -192,7 +192,7 @@ impl Solution {
 }
 
 impl Target {
-    /// The exact value, if that of each of its unknowns is known.
+    /// The exact value, if the values of all its unknowns are known.
     pub(super) fn rational(&self, solution: &Solution) -> Option<BigRational> {
         let mut terms = self.terms.iter();
         terms.try_fold(BigRational::zero(), |sum, (index, factor)| {
@@ -217,7 +217,7 @@ impl Certificate {
         &self.0.solution
     }
 
-    /// Whether both are one.
+    /// Whether both are the same certificate (the same allocation).
     pub(crate) fn is(&self, other: &Certificate) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
@@ -227,7 +227,7 @@ impl Certificate {
         &self.0.claim
     }
 
-    /// How the coefficients of the exact method hang together.
+    /// The structure of the coefficients of the exact method.
     pub fn structure(&self) -> Structure {
         self.0.structure
     }
@@ -237,7 +237,7 @@ impl Certificate {
         self.0.conditions
     }
 
-    /// The number of unknowns: coefficients that are different, up to structure.
+    /// The number of unknowns: distinct coefficients, up to structure.
     pub fn unknowns(&self) -> usize {
         self.0.unknowns
     }
@@ -247,7 +247,7 @@ impl Certificate {
         &self.0.fixed
     }
 
-    /// Whether the conditions of the next order are refuted; `None` where that is not one class.
+    /// Whether the conditions of the next order are refuted; `None` if the next order is not a single claim.
     pub fn sharp(&self) -> Option<bool> {
         self.0.sharp
     }
@@ -257,13 +257,13 @@ impl Certificate {
         &self.0.distance
     }
 
-    /// [`Certificate::distance`] with two digits.
+    /// [`Certificate::distance`] to two digits.
     pub fn distance_text(&self) -> String {
         Decimal::round(&self.0.distance, 2).to_string()
     }
 
-    /// The coefficients that do not round to their print, proved to be more than half a unit of its last place away from
-    /// it, with upper bounds on how far. What is printed as a fraction or an integer is exact.
+    /// The coefficients that do not round to their print, with upper bounds on their distance from it. Each is proved to be more than
+    /// half a unit of its last place away. A printed fraction or integer is exact.
     pub fn wrong_digits(&self) -> Vec<(Coefficient, BigRational)> {
         let distances = distances(&self.0.targets, &self.0.solution, self.0.digit_bits);
         let pairs = self.0.targets.iter().zip(distances);
@@ -275,7 +275,7 @@ impl Certificate {
         wrong
     }
 
-    /// Whether every coefficient is as near to its print as its own last place or a tolerance allows.
+    /// Whether every coefficient agrees with its print to within half a unit of its last place or a tolerance.
     pub(super) fn is_near(&self, tolerance: &BigRational) -> bool {
         let distances = distances(&self.0.targets, &self.0.solution, self.0.digit_bits);
         let mut pairs = self.0.targets.iter().zip(distances);
@@ -285,18 +285,18 @@ impl Certificate {
         })
     }
 
-    /// Whether an exact method has all printed digits: this one, none, or none that was found.
+    /// Whether an exact method has all printed digits: this method, none, or none that was found.
     pub fn digits(&self) -> Digits {
         self.0.digits
     }
 
-    /// The printed numbers that could be the wrong one instead of that in [`Certificate::wrong_digits`]: some exact method
+    /// The printed numbers that could be wrong instead of those in [`Certificate::wrong_digits`]: for each, some exact method
     /// has all other digits.
     pub fn suspects(&self) -> &[Coefficient] {
         &self.0.suspects
     }
 
-    /// How far around the printed values of the free unknowns the solution is the only one, with the others
+    /// The radius around the printed values of the free unknowns within which the solution is unique, with the others
     /// fixed; `None` if the method is exact, or if the digits are too far away for a proof.
     pub fn uniqueness_radius(&self) -> Option<&BigRational> {
         let Uniqueness {
@@ -324,8 +324,8 @@ impl Certificate {
         self.0.targets.iter().find(|t| t.name == coefficient)
     }
 
-    /// The value of a coefficient, if it is known to be a rational number: one that is fixed, what is left of 1 beside
-    /// fixed ones, or any of a method all of whose coefficients are.
+    /// The value of a coefficient, if it is known to be rational: a fixed coefficient, the remainder of 1 after
+    /// fixed ones, or any coefficient of a method that is rational throughout.
     pub fn rational(&self, coefficient: Coefficient) -> Option<BigRational> {
         self.target(coefficient)?.rational(&self.0.solution)
     }
@@ -338,11 +338,11 @@ impl Certificate {
         }
     }
 
-    /// A coefficient of the exact method, enclosed with `bits` binary places; `None` if there is none of that
+    /// A coefficient of the exact method, enclosed with `bits` binary places; `None` if there is no coefficient of that
     /// name.
     ///
-    /// The width is at most a few units of the last place. The time grows with `bits`, of which the caller
-    /// has to take care.
+    /// The width is at most a few units of the last place. The time grows with `bits`; the caller
+    /// must keep it reasonable.
     pub fn enclose(&self, coefficient: Coefficient, bits: u32) -> Option<Interval> {
         let target = self.target(coefficient)?;
         let fine = bits.saturating_add(8);
@@ -350,13 +350,13 @@ impl Certificate {
         Some(target.enclosed(&unknowns, fine).with_bits(bits))
     }
 
-    /// A coefficient with as many digits as its print has; `None` if there is none of that name.
+    /// A coefficient with as many digits as its print has; `None` if there is no coefficient of that name.
     pub fn as_printed(&self, coefficient: Coefficient, printed: &Printed) -> Option<Decimal> {
         self.decimal(coefficient, printed.significant_digits())
             .ok()?
     }
 
-    /// A coefficient, correctly rounded to some significant digits; `None` if there is none of that name.
+    /// A coefficient, correctly rounded to some significant digits; `None` if there is no coefficient of that name.
     ///
     /// # Errors
     /// [`CertifyError::Digits`] for more than [`MAX_DIGITS`].
@@ -388,13 +388,13 @@ impl Certificate {
             }
             bits = bits.saturating_add(bits / 2);
         }
-        // A tie as far as can be told: the simplest number in the enclosure is the middle of two decimals.
+        // Possibly a tie: the simplest number in the enclosure is taken to be the midpoint of two decimals.
         let interval = self.enclose(coefficient, bits);
         Ok(interval.map(|x| Decimal::round(&simplest_between(&x.low(), &x.high()), digits)))
     }
 }
 
-/// An upper bound on the distance of any target from what is printed.
+/// An upper bound on the distance of any target from its print.
 pub(super) fn distance(targets: &[Target], solution: &Solution, bits: u32) -> BigRational {
     let distances = distances(targets, solution, bits).into_iter();
     let bounds = distances.map(|Distance { at_most, .. }| at_most);

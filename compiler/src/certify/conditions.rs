@@ -1,8 +1,8 @@
 //! Order conditions as linear forms in the coefficients of words.
 //!
 //! Let `A` and `B` be the Lie derivatives of the drift and the kick, `f ↦ d/dt f∘φ_t` at `t = 0`. The pull-back
-//! of a composition reverses its factors, `(φ₂∘φ₁)* = φ₁*φ₂*`, so a splitting which begins with the kick
-//! `k₁` and goes on with the drift `d₁` acts on functions by
+//! of a composition reverses its factors, `(φ₂∘φ₁)* = φ₁*φ₂*`, so a splitting that begins with the kick
+//! `k₁` and continues with the drift `d₁` acts on functions by
 //!
 //! ```text
 //! S = exp(k₁B) exp(d₁A) exp(k₂B) exp(d₂A) ⋯,      h = 1,
@@ -11,27 +11,27 @@
 //! and has order `p` for every separable `H` if `S = exp(A + B)` in the free associative algebra up to the
 //! degree `p` (GNI III.5; Murua & Sanz-Serna 1999).
 //!
-//! **Lyndon words suffice.** Both sides are exponentials of Lie series, so the map of a word to its coefficient
-//! is for both a character of the shuffle algebra, and the Lyndon words generate that algebra over ℚ
-//! (Radford 1979; Reutenauer, *Free Lie algebras*, theorem 6.1): a word is a polynomial in Lyndon words with
+//! **Lyndon words suffice.** Both sides are exponentials of Lie series, so for both the map of a word to its coefficient
+//! is a character of the shuffle algebra. The Lyndon words generate that algebra over ℚ
+//! (Radford 1979; Reutenauer, *Free Lie algebras*, theorem 6.1): a word is a polynomial in Lyndon words that have
 //! together the same letters. So if the coefficients of all Lyndon words of degree at most `p` are those of
-//! `exp(A + B)`, which are `1/|w|!`, so are those of all words.
+//! `exp(A + B)`, namely `1/|w|!`, then the same holds for all words.
 //!
 //! **Symmetric methods need odd degrees only.** For a palindromic `S`, replacing `h` by `−h` gives the inverse,
 //! so `log S` is odd in `h`. If the conditions of all degrees below an even degree `2k` hold, then
-//! `log S = A + B + O(h^{2k+1})`, as its part of degree `2k` is zero: those of degree `2k` hold too.
+//! `log S = A + B + O(h^{2k+1})`, because its part of degree `2k` is zero: the conditions of degree `2k` hold too.
 //!
 //! **Compositions of a symmetric method.** A symmetric basic method has the logarithm `hE₁ + h³E₃ + h⁵E₅ + ⋯`,
 //! and its composition with weights `w₁, …, w_s` is `∏ exp(w_i E₁ + w_i³ E₃ + ⋯)`. Over the letters `E₁, E₃, …`
 //! of degrees 1, 3, … the same holds with `exp(E₁)` on the right: `[E₁] = 1`, and every other Lyndon word has
-//! the coefficient 0. This is sufficient whatever the basic method is, implicit ones included (McLachlan 1995;
+//! the coefficient 0. This is sufficient for every basic method, implicit ones included (McLachlan 1995;
 //! GNI V.3.2). There are 1, 1, 2, 4, 8 conditions of degree 1, 3, 5, 7, 9.
 //!
 //! **Perturbed systems**, `H = H_A + εH_B`, order `(s₁, s₂, …, s_m)` with `s₁ ≥ s₂ ≥ …`: the terms of `log S` with
 //! `j` letters `B` vanish up to the degree `s_j` (for `j > m`, `s_m`), apart from `A + B` (Blanes, Casas,
 //! Farrés, Laskar, Makazaga & Murua 2013; Laskar & Robutel 2001 for `m = 2`). The grades with `a` drifts
-//! and `j ≥ 1` kicks, `a + j > s_j`, span an ideal. With a word of any other grade all words with at most as many
-//! of each letter are of another grade too, apart from powers of `A`, which `[A] = 1` determines; so the Lyndon
+//! and `j ≥ 1` kicks, `a + j > s_j`, span an ideal. If a word has any other grade, so do all words with at most as many
+//! of each letter, except powers of `A`, which `[A] = 1` determines. So the Lyndon
 //! words of the other grades are a sufficient set.
 
 use std::collections::BTreeMap;
@@ -46,13 +46,13 @@ use super::lyndon::{Alphabet, Word, split_lyndon};
 use super::nystrom::{Combination, Quotient};
 use crate::order::HamiltonianClass;
 
-/// The highest order that can be claimed.
+/// The highest order that a method can claim.
 pub const MAX_ORDER: usize = 10;
-/// The highest order in `ε` that can be claimed of a method for perturbed systems; beyond
-/// [`MAX_ORDER`] there is one condition a degree.
+/// The highest order in `ε` that a method for perturbed systems can claim. Beyond
+/// [`MAX_ORDER`] there is one condition per degree.
 pub const MAX_PERTURBED_ORDER: usize = 24;
 
-/// What a method claims.
+/// The claim of a method.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Claim {
     /// The order for every `H = T(p) + U(q)`.
@@ -75,7 +75,7 @@ impl Claim {
         }
     }
 
-    /// The order; for perturbed systems the largest of its numbers.
+    /// The order; for perturbed systems the largest of the orders.
     pub fn order(&self) -> usize {
         match self {
             Claim::Separable(order) | Claim::Nystrom(order) | Claim::SymmetricBase(order) => *order,
@@ -83,7 +83,7 @@ impl Claim {
         }
     }
 
-    /// The order that follows for the conditions with at most so many letters `B`, one at least: the `s_j` of a method
+    /// The order that follows from the conditions with at most `power` letters `B` (at least one): the `s_j` of a method
     /// for perturbed systems.
     pub fn order_in_power(&self, power: usize) -> usize {
         match self {
@@ -94,13 +94,13 @@ impl Claim {
                 let order = orders.get(power.saturating_sub(1)).or(orders.last());
                 order.copied().unwrap_or(0)
             }
-            // Whatever the basic method is.
+            // For every basic method.
             Claim::SymmetricBase(_) => 1,
         }
     }
 
-    /// The order for a class of Hamiltonians that follows, at least. Kicks and drifts which sum to 1 are of order 1
-    /// for all.
+    /// A lower bound on the order for a class of Hamiltonians. Kicks and drifts that sum to 1 give order 1
+    /// for every class.
     pub(crate) fn order_for(&self, class: HamiltonianClass) -> usize {
         match (class, self) {
             (HamiltonianClass::General, _) => 1,
@@ -163,7 +163,7 @@ impl fmt::Display for Claim {
     }
 }
 
-/// One condition: `Σ_w c_w [w]S` has the wanted value.
+/// One condition: `Σ_w c_w [w]S` equals the wanted value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Condition {
     /// The coefficients `c_w` with the indices of the words `w` in [`Conditions::words`].
@@ -183,7 +183,7 @@ pub struct Conditions {
 }
 
 impl Conditions {
-    /// The conditions for a claim, of odd degrees only if the method is symmetric.
+    /// The conditions for a claim; only those of odd degree if the method is symmetric.
     ///
     /// ```
     /// use symplectic_compiler::certify::{Claim, Conditions};
@@ -205,7 +205,7 @@ impl Conditions {
         ))
     }
 
-    /// The conditions of some degrees, which are ascending.
+    /// The conditions of the given degrees, which are ascending.
     pub(super) fn of_degrees(claim: &Claim, degrees: impl Iterator<Item = usize>) -> Self {
         let mut all = Conditions {
             alphabet: claim.alphabet(),
@@ -288,7 +288,7 @@ fn perturbed(orders: &[usize], degree: usize) -> Vec<Word> {
             Vec::new()
         }
     };
-    // One letter alone is a Lyndon word of degree 1 only.
+    // A power of one letter is a Lyndon word in degree 1 only.
     (1..degree).flat_map(grade).collect()
 }
 
@@ -320,13 +320,13 @@ mod tests {
             counts(&Claim::SymmetricBase(10), true),
             [1, 0, 1, 0, 2, 0, 4, 0, 8, 0]
         );
-        // (10, 4): one condition with one kick a degree, and all of degree 3, of which one has two kicks.
+        // (10, 4): one condition with one kick per degree, and all conditions of degree 3, one of which has two kicks.
         let claim = Claim::Perturbed(vec![10, 4]);
         assert_eq!(counts(&claim, true), [2, 0, 2, 0, 1, 0, 1, 0, 1, 0]);
-        // (10, 6, 4) has in degree 5 also the two Lyndon words with two kicks.
+        // (10, 6, 4) also has in degree 5 the two Lyndon words with two kicks.
         let claim = Claim::Perturbed(vec![10, 6, 4]);
         assert_eq!(counts(&claim, true), [2, 0, 2, 0, 3, 0, 1, 0, 1, 0]);
-        // Equal orders are an order for separable H.
+        // Equal orders amount to an order for separable H.
         let claim = Claim::Perturbed(vec![8]);
         assert_eq!(counts(&claim, false), counts(&Claim::Separable(8), false));
     }

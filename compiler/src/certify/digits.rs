@@ -1,4 +1,4 @@
-//! Printed digits held against those of an exact method.
+//! Printed digits compared with those of an exact method.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -9,15 +9,15 @@ use super::linear::magnitude;
 use super::structure::Target;
 use crate::arithmetic::interval::Interval;
 
-/// Whether an exact method of the claimed order, with the structure that was read, has all printed digits: each of its
-/// coefficients rounds to its print, and is equal to what is printed as a fraction or an integer.
+/// Whether an exact method of the claimed order, with the structure that was read, has all printed digits: each
+/// coefficient rounds to its print, and equals a printed fraction or integer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Digits {
-    /// The method of the certificate has all of them.
+    /// The method of the certificate has all printed digits.
     All,
-    /// It is proved that no method has.
+    /// It is proved that no method has all printed digits.
     Excluded,
-    /// None was found that has. Whether there is one is not decided.
+    /// No such method was found; whether there is one is undecided.
     NotFound,
 }
 
@@ -28,7 +28,7 @@ pub(super) struct Distance {
     pub at_most: BigRational,
 }
 
-/// The distances of some targets from what is printed.
+/// The distances of some targets from their prints.
 pub(super) fn distances(targets: &[Target], solution: &Solution, bits: u32) -> Vec<Distance> {
     let mut enclosed: Option<Vec<Interval>> = None;
     let distance = |target: &Target| {

@@ -1,14 +1,14 @@
-//! Why a method is not certified.
+//! Reasons why a method is not certified.
 
 use super::certificate::Certificate;
 use super::conditions::Claim;
 use super::structure::Structure;
 
-/// Why there is no certificate.
+/// The reason why there is no certificate.
 #[derive(Debug, Clone, thiserror::Error)]
 #[non_exhaustive]
 pub enum CertifyError {
-    /// A coefficient that is not a number.
+    /// The text of a coefficient is not a number.
     #[error("`{text}` is not a decimal or a fraction of two, with at most 10000 characters")]
     NotANumber {
         /// The beginning of the text.
@@ -24,18 +24,18 @@ pub enum CertifyError {
         /// The number of drifts.
         drifts: usize,
     },
-    /// No coefficients, or more than can be dealt with.
+    /// There are no coefficients, or too many.
     #[error("{count} stages; between 1 and {limit} are certified")]
     Stages {
-        /// Their number.
+        /// The number of stages.
         count: usize,
-        /// The most that are certified.
+        /// The largest number that is certified.
         limit: usize,
     },
-    /// A coefficient that is too large to be one of a method in use.
+    /// A coefficient is too large for a practical method.
     #[error("{coefficient} = {value} is larger than {limit}")]
     TooLarge {
-        /// Which one.
+        /// The coefficient.
         coefficient: String,
         /// Its value.
         value: String,
@@ -52,7 +52,7 @@ pub enum CertifyError {
         /// The highest order.
         limit: usize,
     },
-    /// Weights that do not sum to 1, by more than their digits explain.
+    /// The weights do not sum to 1, by more than their digits explain.
     #[error("the {what} sum to {sum}, not to 1{}", nearest.as_ref().map_or("; no certified solution was found".to_owned(), |found| format!("; the nearest certified solution is {} away", found.distance_text())))]
     WeightSum {
         /// `kicks`, `drifts` or `weights`.
@@ -62,7 +62,7 @@ pub enum CertifyError {
         /// The exact method to which Newton's iteration leads from the digits, if it leads to any.
         nearest: Option<Box<Certificate>>,
     },
-    /// An order for any symmetric basic method is claimed of what is no composition of one.
+    /// An order for every symmetric basic method is claimed, but the coefficients are not those of a composition.
     #[error(
         "these are not the coefficients of a composition of Störmer–Verlet: then the outer ones were half sums of neighbouring inner ones"
     )]
@@ -72,30 +72,30 @@ pub enum CertifyError {
         "{claim} takes {conditions} conditions, and a {structure} with these coefficients has {unknowns} unknown{}: too few to certify a solution", if *unknowns == 1 {""} else {"s"}
     )]
     TooFewCoefficients {
-        /// What is claimed.
+        /// The claim.
         claim: Claim,
-        /// How the method was read.
+        /// The structure in which the method was read.
         structure: Structure,
         /// The number of order conditions.
         conditions: usize,
         /// The number of free coefficients.
         unknowns: usize,
     },
-    /// Conditions whose derivatives are dependent near the digits.
+    /// The conditions have dependent derivatives near the digits.
     #[error(
         "the {conditions} conditions of {claim} are dependent at these digits (rank {rank} as a {structure}), so that no solution near them can be proved by their derivatives"
     )]
     Dependent {
-        /// What is claimed.
+        /// The claim.
         claim: Claim,
-        /// How the method was read.
+        /// The structure in which the method was read.
         structure: Structure,
         /// The number of order conditions.
         conditions: usize,
         /// The numerical rank of their derivatives.
         rank: usize,
     },
-    /// The digits are not those of the exact method in their neighbourhood.
+    /// The exact method in the neighbourhood has other digits.
     #[error(
         "the nearest certified solution of {} is {} away from the digits, and they allow for {allowed}", certificate.claim(), certificate.distance_text()
     )]
@@ -105,24 +105,24 @@ pub enum CertifyError {
         /// The exact method that was found.
         certificate: Box<Certificate>,
     },
-    /// Newton's iteration leads nowhere from the digits.
+    /// Newton's iteration does not converge from the digits.
     #[error(
         "{claim} is not certified: no solution was found from these digits, whose largest residual is {residual}, in a condition of degree {degree}"
     )]
     NotFound {
-        /// What is claimed.
+        /// The claim.
         claim: Claim,
         /// The largest residual of an order condition for the digits.
         residual: String,
         /// The degree of that condition.
         degree: usize,
     },
-    /// More digits than are computed.
+    /// More digits are requested than are computed.
     #[error("{digits} digits; at most {limit} are computed")]
     Digits {
-        /// How many were asked for.
+        /// The number of digits requested.
         digits: usize,
-        /// The most.
+        /// The largest number of digits.
         limit: usize,
     },
 }

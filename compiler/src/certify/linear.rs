@@ -1,4 +1,4 @@
-//! Linear algebra with dyadic numbers that are only approximate: what it gives is verified elsewhere.
+//! Linear algebra with approximate dyadic numbers; its results are verified elsewhere.
 
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
@@ -36,7 +36,7 @@ pub fn magnitude(interval: &Interval) -> BigInt {
     interval.low.abs().max(interval.high.abs())
 }
 
-/// The same number with other binary places.
+/// The same number with a different number of binary places.
 pub fn rescaled(value: &BigInt, from: u32, to: u32) -> BigInt {
     if to >= from {
         value << (to - from)

@@ -1,4 +1,4 @@
-//! Words over a graded alphabet, and among them the Lyndon words.
+//! Words over a graded alphabet, including Lyndon words.
 
 /// A word: indices of letters.
 pub type Word = Vec<u8>;
@@ -73,7 +73,7 @@ impl Alphabet {
     }
 }
 
-/// The words with so many drifts and kicks, in lexicographic order.
+/// The words with these numbers of drifts and kicks, in lexicographic order.
 pub fn split_words(drifts: usize, kicks: usize) -> Vec<Word> {
     if drifts + kicks == 0 {
         return vec![Word::new()];
@@ -91,7 +91,7 @@ pub fn split_words(drifts: usize, kicks: usize) -> Vec<Word> {
     found
 }
 
-/// The Lyndon words with so many drifts and kicks, in lexicographic order.
+/// The Lyndon words with these numbers of drifts and kicks, in lexicographic order.
 pub fn split_lyndon(drifts: usize, kicks: usize) -> Vec<Word> {
     let mut words = split_words(drifts, kicks);
     words.retain(|word| is_lyndon(word));

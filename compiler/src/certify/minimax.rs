@@ -1,4 +1,4 @@
-//! The point whose numbers are nearest to printed ones, each measured by its own last place: a linear programme.
+//! The point nearest to printed numbers, each distance measured in units of the number's last place: a linear programme.
 //!
 //! For rows `i` with a residual `r_i`, slopes `A_i` and half a unit `h_i > 0` of the last place, [`minimax`] finds the
 //! shift `y` with the smallest `t` such that `|r_i + A_i y| ≤ t h_i` for all `i`. It does so with the simplex method on the
@@ -8,7 +8,7 @@
 //! max Σ μ_i r_i    with    Σ μ_i A_i = 0,    Σ |μ_i| h_i = 1,
 //! ```
 //!
-//! in integers, exactly (Edmonds 1967): no tolerance decides anything. The `μ_i` prove that no smaller `t` will do.
+//! in exact integers (Edmonds 1967): no tolerance decides anything. The `μ_i` prove that no smaller `t` is possible.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -17,9 +17,9 @@ use num_traits::{One, Signed, Zero};
 /// One printed number. All rows are integers in the same unit.
 #[derive(Debug, Clone)]
 pub struct Row {
-    /// How far the number is from the print.
+    /// The difference between the number and its print.
     pub residual: BigInt,
-    /// How it changes with the components of the shift.
+    /// The derivatives of the number with respect to the components of the shift.
     pub slopes: Vec<BigInt>,
     /// Half a unit of its last printed place, positive.
     pub half: BigInt,
@@ -28,7 +28,7 @@ pub struct Row {
 /// The best shift.
 #[derive(Debug, Clone)]
 pub struct Best {
-    /// The largest distance that is left, in halves of a unit of the last place.
+    /// The largest remaining distance, in halves of a unit of the last place.
     pub level: BigRational,
     /// The shift.
     pub shift: Vec<BigRational>,
@@ -36,16 +36,16 @@ pub struct Best {
     pub multipliers: Vec<BigRational>,
 }
 
-/// A bound on the pivots, well above what problems of this size take.
+/// A bound on the number of pivots, well above what problems of this size take.
 const MAX_PIVOTS: usize = 2000;
 
-/// The best shift; `None` if there is no row, or if it takes too many steps.
+/// The best shift; `None` if there are no rows, or if the simplex method takes too many pivots.
 pub fn minimax(rows: &[Row]) -> Option<Best> {
     let shifts = rows.first()?.slopes.len();
     let mut table = Table::new(rows, shifts);
     table.start(shifts);
     for pivots in 0..MAX_PIVOTS {
-        // After many steps without an end the rule that cannot cycle (Bland 1977).
+        // After many pivots, use the rule that cannot cycle (Bland 1977).
         let Some(column) = table.entering(pivots > MAX_PIVOTS / 2) else {
             return Some(table.best(rows.len(), shifts));
         };
@@ -57,7 +57,7 @@ pub fn minimax(rows: &[Row]) -> Option<Best> {
 
 /// The programme in the current basis: integers over a common positive denominator.
 ///
-/// Columns are `μ⁺_i`, then `μ⁻_i`, then one artificial variable a row, then the right-hand side.
+/// Columns are `μ⁺_i`, then `μ⁻_i`, then one artificial variable per row, then the right-hand side.
 struct Table {
     rows: Vec<Vec<BigInt>>,
     objective: Vec<BigInt>,
@@ -96,7 +96,7 @@ impl Table {
         }
     }
 
-    /// The basis with `μ⁺_0 = μ⁻_0`, which satisfies all constraints; whatever else is in it is zero.
+    /// The basis with `μ⁺_0 = μ⁻_0`, which satisfies all constraints; all other basic variables are zero.
     fn start(&mut self, shifts: usize) {
         let minus = self.real / 2;
         self.pivot(shifts, 0);
@@ -136,7 +136,7 @@ impl Table {
         })
     }
 
-    /// Exchanges a variable of the basis; every division has no remainder.
+    /// Exchanges a variable of the basis; every division is exact.
     fn pivot(&mut self, row: usize, column: usize) {
         if self.rows[row][column].is_negative() {
             self.rows[row].iter_mut().for_each(|entry| *entry *= -1);
@@ -192,7 +192,7 @@ mod tests {
         entries.iter().map(row).collect()
     }
 
-    /// The level is reached, and the multipliers prove that it cannot be less.
+    /// Checks that the level is reached, and that the multipliers prove that it is minimal.
     fn assert_best(rows: &[Row], found: &Best) {
         let integer = |x: &BigInt| BigRational::from_integer(x.clone());
         let shifts = found.shift.len();
@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn small_problems_by_hand() {
-        // |y − 1| and |y + 1|: in the middle.
+        // |y − 1| and |y + 1|: the midpoint.
         let two = rows(&[(-1, &[1], 1), (1, &[1], 1)]);
         let found = minimax(&two).expect("small");
         assert_eq!(
@@ -225,7 +225,7 @@ mod tests {
             (&ratio(1, 1), &ratio(0, 1))
         );
         assert_best(&two, &found);
-        // The second counts three times as much: |y − 1| = 3 |y + 1|.
+        // The second row counts three times as much: |y − 1| = 3 |y + 1|.
         let weighted = rows(&[(-3, &[3], 3), (1, &[1], 1), (0, &[0], 1)]);
         assert_best(&weighted, &minimax(&weighted).expect("small"));
         // No shift at all.

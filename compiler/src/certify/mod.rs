@@ -2,7 +2,7 @@
 //!
 //! The decimals of a paper satisfy the order conditions only up to their last digits. [`certify()`] solves the
 //! conditions exactly: it proves that near the digits there is a method with real coefficients which has the
-//! claimed order, tells how far it is from the digits and within which distance it is the only one, and
+//! claimed order. It bounds the distance of that method from the digits, gives a radius within which it is unique, and
 //! computes its coefficients to any number of digits.
 //!
 //! ```
@@ -20,16 +20,16 @@
 //! ```
 //!
 //! 1. The structure is read off the digits: symmetric sequences, compositions of Störmer–Verlet, equal
-//!    coefficients ([`Structure`]); what has more structure is tried first.
+//!    coefficients ([`Structure`]). Readings with more structure are tried first.
 //! 2. Each structure has a sufficient set of order conditions ([`Conditions`], where they are derived), which
 //!    are polynomials in the unknowns with rational coefficients.
-//! 3. If there are more unknowns than conditions, as in methods whose authors minimised an error norm, the right
-//!    number of them is fixed at exact values ([`Certificate::fixed`]): first those that look exact in print, as
+//! 3. There may be more unknowns than conditions, as in methods whose authors minimised an error norm. Then the excess
+//!    unknowns are fixed at exact values ([`Certificate::fixed`]): first those that look exact in print, as
 //!    `0.28` or `0.5454…5455 = 6/11`, then those on which the conditions depend least.
-//! 4. Newton's iteration leads from the digits to a point of which interval arithmetic proves by Krawczyk's
-//!    test that it is near an exact solution (Krawczyk 1969).
+//! 4. Newton's iteration leads from the digits to a point, and Krawczyk's test in interval arithmetic proves that
+//!    this point is near an exact solution (Krawczyk 1969).
 //!
-//! What is proved depends on none of the guesses: whatever structure was read and whatever was fixed, the
+//! The proof depends on none of the guesses: whatever structure was read and whichever unknowns were fixed, the
 //! method in the certificate has real coefficients that satisfy every order condition of the claim.
 
 mod affine;

@@ -1,4 +1,4 @@
-//! Newton's iteration for as many conditions as unknowns, in dyadic arithmetic that is only approximate.
+//! Newton's iteration for as many conditions as unknowns, in approximate dyadic arithmetic.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -8,17 +8,17 @@ use super::linear::{Dyadics, inverse, magnitude, middle, point, rescaled};
 use super::system::System;
 use crate::arithmetic::interval::Interval;
 
-/// The most iterations from the printed digits; a handful suffices near a regular solution, and one that is
-/// reached after wandering about has nothing to do with the digits.
+/// The maximum number of iterations from the printed digits. A handful suffices near a regular solution; a solution
+/// found after many iterations is unrelated to the digits.
 const MAX_ITERATIONS: usize = 24;
-/// The iteration is given up when an unknown exceeds `2^12`.
+/// The iteration stops without a solution when an unknown exceeds `2^12`.
 const MAX_MAGNITUDE_BITS: u64 = 12;
 
 /// Equations between arguments.
 pub trait Equations: Clone + std::fmt::Debug {
     /// Enclosures of the residuals for all arguments in a box.
     fn residuals(&self, arguments: &[Interval]) -> Vec<Interval>;
-    /// Enclosures of the derivatives by some arguments, for all arguments in a box.
+    /// Enclosures of the derivatives with respect to some arguments, for all arguments in a box.
     fn derivatives(&self, arguments: &[Interval], by: &[usize]) -> Vec<Vec<Interval>>;
 }
 
@@ -32,23 +32,23 @@ impl Equations for System {
     }
 }
 
-/// Conditions with as many unknowns: the other arguments are fixed.
+/// As many conditions as unknowns: the other arguments are fixed.
 #[derive(Debug, Clone)]
 pub struct Square<S = System> {
     pub system: S,
-    /// The values of the arguments that are fixed.
+    /// The values of the fixed arguments.
     pub fixed: Vec<Option<BigRational>>,
-    /// The others.
+    /// The indices of the free arguments.
     pub free: Vec<usize>,
 }
 
 impl Square {
-    /// The arguments that are rational numbers: those that are fixed, and those that a linear condition determines when all
-    /// others in it are.
+    /// The arguments that are rational numbers: the fixed ones, and those that a linear condition determines from
+    /// known ones.
     pub fn linear_values(&self) -> Vec<Option<BigRational>> {
         let mut known = self.fixed.clone();
         let sums = self.system.linear_conditions();
-        // Each pass that finds one may make another one findable.
+        // Each pass that determines an argument may make another one determinable.
         while let Some((argument, value)) = sums.iter().find_map(|sum| sum.missing(&known)) {
             known[argument] = Some(value);
         }
@@ -57,7 +57,7 @@ impl Square {
 }
 
 impl<S: Equations> Square<S> {
-    /// All arguments, from those that are free.
+    /// All arguments, from the free ones.
     pub fn arguments(&self, free: &[Interval], bits: u32) -> Vec<Interval> {
         let mut next = free.iter();
         let value = |fixed: &Option<BigRational>| match fixed {
@@ -74,7 +74,7 @@ impl<S: Equations> Square<S> {
         self.system.residuals(&self.arguments(free, bits))
     }
 
-    /// Enclosures of the derivatives by the free arguments in a box.
+    /// Enclosures of the derivatives with respect to the free arguments in a box.
     pub fn derivatives(&self, free: &[Interval], bits: u32) -> Vec<Vec<Interval>> {
         self.system
             .derivatives(&self.arguments(free, bits), &self.free)
@@ -127,11 +127,11 @@ impl<S: Equations> Square<S> {
         None
     }
 
-    /// Refines an approximation with `from` correct binary places to `bits` ones, as far as the doubling of
+    /// Refines an approximation from `from` to `bits` correct binary places, as far as the doubling of
     /// Newton's iteration goes.
     pub fn polish(&self, at: &[BigInt], from: u32, bits: u32) -> Vec<BigInt> {
         let mut at: Vec<BigInt> = at.iter().map(|x| rescaled(x, from, bits)).collect();
-        // The derivative is needed to as many places as each iteration adds.
+        // The derivative only needs as many places as each iteration adds.
         let coarse = from.min(bits);
         let rounded: Vec<BigInt> = at.iter().map(|x| rescaled(x, bits, coarse)).collect();
         let Some(matrix) = self.inverse_derivative(&rounded, coarse) else {
@@ -140,7 +140,7 @@ impl<S: Equations> Square<S> {
         for _ in 0..3 {
             let (moved, largest) = self.corrected(&at, bits, &matrix, coarse);
             at = moved;
-            // What is left after this correction is its product with the error of the inverse.
+            // The error after this correction is its product with the error of the inverse.
             if largest.bits() <= u64::from(coarse / 2) {
                 break;
             }
@@ -149,7 +149,7 @@ impl<S: Equations> Square<S> {
     }
 }
 
-/// Intervals with one number each.
+/// Intervals that contain one number each.
 pub fn points(at: &[BigInt], bits: u32) -> Vec<Interval> {
     at.iter().map(|x| point(x, bits)).collect()
 }

@@ -1,8 +1,8 @@
-//! Order conditions for a kinetic energy that is quadratic in the momenta.
+//! Order conditions for kinetic energies that are quadratic in the momenta.
 //!
 //! The Lie derivatives of `T` and `U` correspond to `T` and `U` with the Poisson bracket. A Lie element with
 //! `a` letters `A` and `b` letters `B` has degree `a − b + 1` in `p` if `T` has degree 2 and `U` has degree 0,
-//! because each of the `a + b − 1` brackets takes one derivative by `p`. So those with `b − a ≥ 2` vanish,
+//! because each of the `a + b − 1` brackets takes one derivative with respect to `p`. So the elements with `b − a ≥ 2` vanish,
 //! and with them the ideal `J` of the free Lie algebra `L` which they generate (McLachlan 1995; Blanes &
 //! Moan 2002).
 //!
@@ -13,7 +13,7 @@
 //! `S_n − exp(A + B)_n ≡ Z_n` (for `n = 1`, `Z₁ − A − B`). A linear form `φ` on `F_n` that vanishes on `I_n` has
 //! therefore the same value for both sides. Such forms whose restrictions to `L_n` are a basis of the dual of
 //! `L_n/(L_n ∩ I_n)` are a sufficient set of conditions of degree `n`: if all are satisfied, `Z_n` lies in `I`.
-//! None is superfluous, because `F/I = U(L/J)`, and `L ∩ I = J` by the theorem of Poincaré, Birkhoff and Witt.
+//! No condition is superfluous, because `F/I = U(L/J)`, and `L ∩ I = J` by the theorem of Poincaré, Birkhoff and Witt.
 //!
 //! `I` and `L` are graded by the numbers of both letters, so both are computed exactly, degree by degree.
 //! The dimensions of `L_n/J_n` are 2, 1, 2, 2, 4, 5, 10, 14, 25, 39 (Blanes, Casas &
@@ -65,7 +65,7 @@ impl Quotient {
                 form
             })
             .collect();
-        // Those with few words first; a form is kept if its restriction to L is independent of those before.
+        // Forms with few words first; a form is kept if its restriction to L is independent of the earlier ones.
         forms.sort_by_key(Combination::len);
         let mut restrictions: Vec<Combination> = Vec::new();
         forms.retain(|form| {

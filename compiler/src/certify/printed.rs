@@ -1,4 +1,4 @@
-//! Coefficients as papers print them: decimals and fractions, with what their digits allow to conclude.
+//! Coefficients as papers print them: decimals and fractions, and what can be inferred from their digits.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -7,10 +7,10 @@ use num_traits::{One, Signed, Zero};
 use super::CertifyError;
 use crate::arithmetic::rational::{ratio, simplest_between};
 
-/// The most characters of a printed number, and the largest size of its exponent.
+/// The largest number of characters of a printed number, and the largest magnitude of its exponent.
 pub const MAX_DIGITS: usize = 10_000;
 
-/// Decimals with at most this many significant digits are taken for exact: `0.28`, `-0.5`, `0.1867`.
+/// Decimals with at most this many significant digits are assumed to be exact: `0.28`, `-0.5`, `0.1867`.
 const EXACT_DIGITS: u64 = 6;
 
 /// A number as it is printed: a decimal such as `-0.045454545454545454545` or `1e-3`, or a fraction of two
@@ -92,7 +92,7 @@ impl Printed {
         self.places
     }
 
-    /// Half a unit of the last decimal place: how far a number may be from the print that rounds it. Zero for a fraction
+    /// Half a unit of the last decimal place: the largest distance of a number from a print that rounds it. Zero for a fraction
     /// or an integer, and for a printed zero, which means that the step is left out.
     pub fn half_unit(&self) -> BigRational {
         match self.places {
@@ -103,7 +103,7 @@ impl Printed {
         }
     }
 
-    /// The digits from the first one that is not zero to the last place; some of an exact fraction.
+    /// The digits from the first nonzero one to the last place; a fixed number of digits for an exact fraction.
     pub fn significant_digits(&self) -> usize {
         const OF_FRACTIONS: usize = 20;
         let digits = self.places.map(|places| {
@@ -115,12 +115,12 @@ impl Printed {
         })
     }
 
-    /// The exact number that the digits seem to stand for, if it is a simple one: the value of a fraction, of
-    /// a decimal with few digits, or the fraction of which a long decimal is the rounding.
+    /// The exact number that the digits seem to stand for, if it is simple: the value of a fraction, of
+    /// a decimal with few digits, or the fraction that a long decimal rounds.
     ///
     /// A decimal with `D` significant digits is taken for `a/b` if `|a|·b ≤ 10^(D/2)`, which happens by chance
-    /// with a probability of about `10^(−D/2)`. Nothing that is proved depends on the guess: it only chooses
-    /// at which value a coefficient that may have any value is fixed.
+    /// with a probability of about `10^(−D/2)`. The proofs do not depend on the guess: it only chooses
+    /// the value at which a free coefficient is fixed.
     pub fn simple(&self) -> Option<BigRational> {
         let Some(places) = self.places else {
             return Some(self.value.clone());

@@ -1,4 +1,4 @@
-//! The proof that an exact solution exists, and where it is the only one.
+//! The proof that an exact solution exists, and where it is unique.
 //!
 //! Let `F` be the residuals as a function of the free coefficients, `y` a point with exact dyadic coordinates,
 //! `C` a matrix, and `X` the cube of all `x` with `|x − y|_∞ ≤ ρ`. Interval arithmetic gives
@@ -16,9 +16,9 @@
 //! have `0 = C(F(x) − F(x')) = C M (x − x')` with the mean `M ∈ F'(X)` of the derivative on the segment between
 //! them, and `CM` is regular.
 //!
-//! **Refinement.** In the same way the zero `x*` and another point `z` of `X` have `C F(z) = CM(z − x*)`, so
-//! `‖z − x*‖_∞ ≤ ‖C F(z)‖_∞/(1 − ε)`: after any approximate iteration one evaluation of `F` at `z`, outward
-//! rounded, encloses the solution anew. Newton's iteration doubles the digits from one such `z` to the next.
+//! **Refinement.** In the same way the zero `x*` and another point `z` of `X` satisfy `C F(z) = CM(z − x*)`, so
+//! `‖z − x*‖_∞ ≤ ‖C F(z)‖_∞/(1 − ε)`: after any approximate iteration, one evaluation of `F` at `z`, rounded outward,
+//! encloses the solution anew. Newton's iteration doubles the digits from one such `z` to the next.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -29,10 +29,10 @@ use super::newton::{Equations, Square, largest, points};
 use super::system::System;
 use crate::arithmetic::interval::Interval;
 
-/// A proof is given up if evaluating the conditions loses more binary places than this, whatever their number. Those of
+/// A proof fails if evaluating the conditions loses more binary places than this, whatever the precision. Conditions of
 /// degree 20 are divided by 20!, which is 62 places.
 const ROUNDING_BITS: u64 = 128;
-/// The binary places of a refined solution which are not known.
+/// The number of binary places of a refined solution that are unknown.
 pub const LOST_BITS: u32 = 160;
 
 /// The radius `2⁻⁶⁴` of the cube that is tried first.
@@ -53,7 +53,7 @@ pub struct Proof<S = System> {
 }
 
 impl<S: Equations> Proof<S> {
-    /// Proves that there is a solution near an approximate one; `None` if that fails.
+    /// Proves that there is a solution near an approximate one; `None` if the proof fails.
     pub fn new(square: Square<S>, center: Vec<BigInt>, bits: u32) -> Option<Self> {
         let matrix = square.inverse_derivative(&center, bits)?;
         let mut proof = Proof {
@@ -67,8 +67,8 @@ impl<S: Equations> Proof<S> {
         if delta.bits() > ROUNDING_BITS {
             return None;
         }
-        // The contraction ε grows with the radius. A small one will do; where it does not, the largest power of two with
-        // ε ≤ 1/2 is found by bisection.
+        // The contraction ε grows with the radius. A small radius usually works; otherwise bisection finds the largest power of two with
+        // ε ≤ 1/2.
         let half = BigInt::one() << (bits - 1);
         let contraction = |exponent: u32| {
             let radius = BigInt::one() << exponent;
@@ -88,10 +88,10 @@ impl<S: Equations> Proof<S> {
         (image < (&proof.radius << bits)).then_some(proof)
     }
 
-    /// An upper bound on `‖C F(z)‖_∞` for a point `z` with some binary places, in units of the last.
+    /// An upper bound on `‖C F(z)‖_∞` for a point `z` with `bits` binary places, in units of the last place.
     fn step(&self, z: &[BigInt], bits: u32) -> BigInt {
         let residuals = self.square.residuals(&points(z, bits), bits);
-        // Products with the entries of C, which are exact with their own binary places.
+        // Products with the entries of C are exact, with the places of both factors.
         let components = self.matrix.iter().map(|row| {
             let mut sum = point(&BigInt::zero(), bits + self.bits);
             for (entry, residual) in row.iter().zip(&residuals) {
@@ -130,7 +130,7 @@ impl<S: Equations> Proof<S> {
         sums.max().unwrap_or_else(BigInt::zero)
     }
 
-    /// The largest power of two such that the solution is the only one in the cube of that radius around a
+    /// The largest power of two such that the solution is unique in the cube of that radius around a
     /// point; `None` if the point is not near enough for a proof.
     pub fn unique_around(&self, start: &[BigRational]) -> Option<BigRational> {
         let enclosed: Vec<Interval> = {
@@ -139,7 +139,7 @@ impl<S: Equations> Proof<S> {
         };
         let around: Vec<BigInt> = enclosed.iter().map(middle).collect();
         let one = BigInt::one() << self.bits;
-        // A unit in the last place more covers the rounding of the point.
+        // One extra unit in the last place covers the rounding of the point.
         let proved = |radius: &BigInt| self.contraction(&around, &(radius + 1u32)) < one;
         let radius = BigInt::one() << largest_power(self.bits, proved)?;
         let solution = self.solution(&self.center, self.bits);
@@ -174,8 +174,8 @@ impl<S: Equations> Proof<S> {
         if outside(&at) {
             at = center();
         }
-        // g maps the cube into itself and halves the distance to the solution at least, so that this many
-        // iterations suffice; one is the rule, and none is needed after Newton's.
+        // g maps the cube into itself and at least halves the distance to the solution, so that this many
+        // iterations suffice. Usually one is enough, and none is needed after Newton's iteration.
         for _ in 0..bits {
             let solution = self.solution(&at, bits);
             let width = solution.iter().map(Interval::width_bits).max().unwrap_or(0);
@@ -190,7 +190,7 @@ impl<S: Equations> Proof<S> {
     }
 }
 
-/// The largest exponent of a radius `2ⁿ` in units of the last place, below 1, for which a monotone statement
+/// The largest exponent of a radius `2ⁿ` in units of the last place, below 1, for which a monotone predicate
 /// holds.
 fn largest_power(bits: u32, holds: impl Fn(&BigInt) -> bool) -> Option<u32> {
     let at = |exponent: u32| holds(&(BigInt::one() << exponent));
@@ -255,7 +255,7 @@ mod tests {
         let difference = cube.subtract(&x.power(3).scale(&ratio(2, 1)));
         assert!(difference.contains(&BigRational::zero()));
         assert!(difference.magnitude_bits() < -450);
-        // Around the digits the solution is the only one …
+        // Around the digits the solution is unique …
         let unique = proof.unique_around(&near()).expect("near");
         assert!(unique > ratio(1, 1000) && unique < ratio(1, 1));
         // … and around a point far away nothing is proved.

@@ -1,4 +1,4 @@
-//! From printed digits to a certificate: each structure in turn, until one has a solution near the digits.
+//! From printed digits to a certificate: tries each structure until one has a solution near the digits.
 
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
@@ -23,13 +23,13 @@ use crate::arithmetic::rounding::Decimal;
 /// Proves that a splitting with exact coefficients and the claimed order exists near the printed digits.
 ///
 /// # Errors
-/// * [`CertifyError::Lengths`], [`CertifyError::Stages`], [`CertifyError::TooLarge`], [`CertifyError::Order`] for
-///   what cannot be a splitting or a claim,
+/// * [`CertifyError::Lengths`], [`CertifyError::Stages`], [`CertifyError::TooLarge`], [`CertifyError::Order`] if
+///   the input is not a valid splitting or claim,
 /// * [`CertifyError::WeightSum`] if kicks or drifts do not sum to 1, by more than their digits explain,
 /// * [`CertifyError::TooFewCoefficients`] if there are more conditions than unknowns,
 /// * [`CertifyError::DifferentSolution`], with its certificate, if the nearest exact method that was found is
 ///   farther away than `10^−10` and ten units of the last printed place,
-/// * [`CertifyError::Dependent`] and [`CertifyError::NotFound`] if none was found.
+/// * [`CertifyError::Dependent`] and [`CertifyError::NotFound`] if no exact method was found.
 pub fn certify(splitting: &Splitting, claim: &Claim) -> Result<Certificate, CertifyError> {
     splitting.check()?;
     claim.check()?;
@@ -63,7 +63,7 @@ pub fn certify(splitting: &Splitting, claim: &Claim) -> Result<Certificate, Cert
 /// ```
 ///
 /// # Errors
-/// As [`certify()`].
+/// The same as for [`certify()`].
 pub fn certify_composition(weights: &[Printed], order: usize) -> Result<Certificate, CertifyError> {
     check(weights, Coefficient::Weight)?;
     let claim = Claim::SymmetricBase(order);
@@ -76,10 +76,10 @@ pub fn certify_composition(weights: &[Printed], order: usize) -> Result<Certific
     found
 }
 
-/// The binary places with which the proof is done.
+/// The binary places of the proof.
 pub(crate) const PROOF_BITS: u32 = 320;
 
-/// The binary places with which digits are compared: more than they have.
+/// The binary places with which digits are compared: more than the digits have.
 fn digit_bits<'a>(all: impl Iterator<Item = &'a Printed>) -> u32 {
     let places = all.filter_map(Printed::places).max().unwrap_or(0);
     128 + places.saturating_mul(4)
@@ -91,7 +91,7 @@ fn check_sum(
     tolerance: &BigRational,
     found: &Result<Certificate, CertifyError>,
 ) -> Result<(), CertifyError> {
-    // Coarse digits that are all right need not sum to 1.
+    // Coarse digits that are all correct need not sum to 1.
     let right = |certificate: &Certificate| certificate.digits() == Digits::All;
     if found.as_ref().is_ok_and(right) {
         return Ok(());
@@ -116,7 +116,7 @@ fn check_sum(
     })
 }
 
-/// The certificate of the first reading that has one near the digits; else the most telling error.
+/// The certificate of the first reading with a solution near the digits; otherwise the most informative error.
 fn first_certified(
     readings: &[Reading],
     claim: &Claim,
@@ -124,7 +124,7 @@ fn first_certified(
     bits: u32,
 ) -> Result<Certificate, CertifyError> {
     let mut worst: Option<CertifyError> = None;
-    // The first one that is near, unless another one has all printed digits.
+    // The first certificate near the digits, unless another one has all printed digits.
     let mut near: Option<Certificate> = None;
     for reading in readings {
         let error = match certified(reading, claim, bits) {
@@ -149,8 +149,8 @@ fn first_certified(
     }
 }
 
-/// A solution tells more than none, the nearer the more; then that one was looked for; then how many
-/// coefficients are missing.
+/// Whether an error is more informative. A solution ranks highest, and a nearer solution higher; then a failed search;
+/// then the number of missing coefficients.
 fn tells_more(error: &CertifyError, known: &CertifyError) -> bool {
     let rank = |error: &CertifyError| match error {
         CertifyError::DifferentSolution { .. } => 3,
@@ -179,14 +179,14 @@ fn tells_more(error: &CertifyError, known: &CertifyError) -> bool {
     }
 }
 
-/// The certificate of a reading, however far from the digits.
+/// The certificate of a reading, at any distance from the digits.
 fn certified(
     reading: &Reading,
     claim: &Claim,
     digit_bits: u32,
 ) -> Result<Certificate, CertifyError> {
     let structure = reading.structure;
-    // What is proved of the composition of any symmetric method holds for Störmer–Verlet and each class.
+    // A proof for compositions of any symmetric method holds for Störmer–Verlet and each class.
     let solved = if structure.composition() {
         Claim::SymmetricBase(claim.order())
     } else {
@@ -370,7 +370,7 @@ fn recognised(proof: &Proof) -> Option<Vec<BigRational>> {
 /// For a composition of Störmer–Verlet these are the conditions of the class for the drifts and kicks.
 fn sharp(reading: &Reading, claim: &Claim, solution: &Solution) -> Option<bool> {
     const BITS: u32 = 192;
-    // A symmetric method has even order, so that an odd claim is one order too low.
+    // A symmetric method has even order, so an odd claim understates the order by one.
     let degree = claim.order() + 1;
     let next = claim.next(1)?;
     let unknowns = solution.unknowns(BITS);
@@ -386,7 +386,7 @@ fn sharp(reading: &Reading, claim: &Claim, solution: &Solution) -> Option<bool> 
     Some(residuals.iter().any(|r| !r.contains(&BigRational::zero())))
 }
 
-/// The steps and coefficients of a splitting in the order in which they are done.
+/// The steps and coefficients of a splitting in the order in which they are applied.
 pub(super) fn expanded(
     targets: &[Target],
     unknowns: &[Interval],

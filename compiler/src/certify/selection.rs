@@ -1,4 +1,4 @@
-//! Which coefficients are solved for, and which are fixed as exact numbers.
+//! Which coefficients are solved for, and which are fixed at exact values.
 
 use super::newton::Equations;
 use super::structure::{Reading, Unknown};
@@ -6,14 +6,15 @@ use super::system::System;
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rounding::to_f64;
 
-/// Pivots below this share of the largest entry of their row count as zero.
+/// Pivots below this fraction of the largest entry of their row count as zero.
 const RANK_THRESHOLD: f64 = 1e-12;
 
 /// The unknowns to solve for, as many as there are conditions.
 ///
 /// The derivatives of the conditions at the printed point are eliminated with full pivoting. Columns whose
-/// digits look exact come after all others, and those that are printed exactly come last, so that `0.28` and `6/11` stay
-/// what they are where that leaves enough unknowns. Only what is proved later depends on floating-point numbers here, not whether it is true.
+/// digits look exact come after all others, and those printed exactly come last, so that `0.28` and `6/11` stay
+/// as they are if enough other unknowns remain. Floating-point numbers here only affect which claims can be proved later, not whether
+/// a proof is valid.
 ///
 /// # Errors
 /// The numerical rank, if it is smaller than the number of conditions.
@@ -28,7 +29,7 @@ pub fn free_unknowns(system: &System, reading: &Reading) -> Result<Vec<usize>, u
 }
 
 /// Independent equations with the unknowns to solve them for: pivots of the derivatives at the printed point, none below
-/// a threshold.
+/// the threshold.
 pub fn pivots<S: Equations>(
     system: &S,
     unknowns: &[Unknown],
@@ -52,7 +53,7 @@ pub fn pivots<S: Equations>(
             let taken = |column: usize| pivots.iter().any(|(_, known)| *known == column);
             let columns = all.iter().filter(|&&c| class_of(c) == class && !taken(c));
             let candidates = columns.flat_map(|&c| (done..rows.len()).map(move |r| (r, c)));
-            // The first of the largest, so that the choice does not depend on anything else.
+            // The first of the largest entries, so that the choice is deterministic.
             let best = candidates.fold(None, |best: Option<(usize, usize)>, (r, c)| match best {
                 Some((i, j)) if rows[i].1[j].abs() >= rows[r].1[c].abs() => best,
                 _ => Some((r, c)),

@@ -1,16 +1,16 @@
-//! Where to fix the coefficients that the conditions leave free: within their last places, so that all others round to
-//! their prints too.
+//! Chooses the values of the coefficients that the conditions leave free, within their last places, so that all others
+//! round to their prints too.
 //!
-//! The exact methods near the digits are a manifold. Let `F` be the conditions, `B` the free unknowns, as many as there
-//! are conditions, and `N` the others, which are fixed. A shift `y` of those fixed moves the printed number `i`, a linear
+//! The exact methods near the digits form a manifold. Let `F` be the conditions, `B` the free unknowns, as many as there
+//! are conditions, and `N` the other unknowns, which are fixed. A shift `y` of the fixed unknowns moves the printed number `i`, a linear
 //! form `L_i` of the unknowns, along the manifold by
 //!
 //! ```text
 //! A_i y = (L_iN − L_iB F_B⁻¹ F_N) y.
 //! ```
 //!
-//! [`minimax`] finds the shift that brings all of them nearest to their prints, each measured by its own last place;
-//! Newton's iteration leads back to the manifold, and so on until all round to their prints or no shift can help.
+//! [`minimax`] finds the shift that brings all of them nearest to their prints, each measured by its own last place.
+//! Newton's iteration leads back to the manifold. This repeats until all round to their prints or no shift can help.
 //!
 //! **No method has all digits.** Let `p` be the print, `X` the box of all `x` that round to it, and `h` its half edges. For
 //! any numbers `μ` and `λ` let `φ(x) = Σ μ_i (L_i x − p_i) − λᵀF(x)`. At a method in `X`, `|φ(x)| ≤ Σ |μ_i| h_i`. But
@@ -31,32 +31,32 @@ use super::printed::power_of_ten;
 use super::structure::{Coefficient, Target, Unknown};
 use crate::arithmetic::interval::Interval;
 
-/// The most shifts; a few suffice, because each one squares what is left.
+/// The maximum number of shifts; a few suffice, because each one squares the remaining error.
 const MAX_SHIFTS: usize = 8;
-/// Longer digits are not searched: one step of Newton's iteration would take seconds.
+/// Longer digits are not searched: one Newton iteration would take seconds.
 const MAX_BITS: u32 = 8192;
-/// How many of the prints that could be the wrong one are looked at.
+/// The maximum number of suspect prints that are examined.
 const MAX_SUSPECTS: usize = 4;
 /// Binary places of the linear programme beyond the finest half unit.
 const GUARD_BITS: u64 = 40;
 
-/// What was found.
+/// The outcome of the search.
 pub(crate) enum Settled {
     /// Values of the fixed unknowns with which all numbers round to their prints.
     All(Vec<Option<BigRational>>),
-    /// None.
+    /// No such values were found.
     Wrong {
-        /// Whether it is proved that there is none.
+        /// Whether it is proved that there are none.
         excluded: bool,
-        /// The printed numbers apart from which some method has all digits.
+        /// Printed numbers, each of which is the only wrong one for some method.
         suspects: Vec<Suspect>,
     },
 }
 
-/// A printed number that could be the wrong one.
+/// A printed number that could be wrong.
 pub(crate) struct Suspect {
     pub coefficient: Coefficient,
-    /// Values of the fixed unknowns with which all others round to their prints.
+    /// Values of the fixed unknowns with which all other numbers round to their prints.
     pub fixed: Vec<Option<BigRational>>,
 }
 
@@ -95,7 +95,7 @@ pub(crate) fn settle<S: Equations>(
     }
 }
 
-/// The printed numbers, equal ones once.
+/// The printed numbers, without duplicates.
 fn prints(targets: &[Target]) -> Vec<Target> {
     let mut prints: Vec<Target> = Vec::new();
     for target in targets {
@@ -116,7 +116,7 @@ struct Search<'a> {
     bits: u32,
 }
 
-/// A method: the conditions with what is fixed, and the solution.
+/// A method: the conditions with the fixed unknowns, and the solution.
 #[derive(Clone)]
 struct Method<S> {
     square: Square<S>,
@@ -125,12 +125,12 @@ struct Method<S> {
 
 enum Outcome<S> {
     Reached(Method<S>),
-    /// With the method and the linear programme in which it was seen.
+    /// No shift suffices: the method and the linear programme that show it.
     OutOfReach(Option<(Method<S>, Best)>),
 }
 
 impl Search<'_> {
-    /// The solution with what is fixed in `square`, from the printed digits.
+    /// The solution with the fixed unknowns of `square`, starting from the printed digits.
     fn solved<S: Equations>(&self, square: Square<S>) -> Option<Method<S>> {
         let unknowns = self.unknowns;
         let start = square.free.iter().map(|&i| unknowns[i].start.clone());
@@ -146,7 +146,7 @@ impl Search<'_> {
         all.iter().map(middle).collect()
     }
 
-    /// The print less one, in units of `2⁻ᵇⁱᵗˢ`.
+    /// The value minus the print, in units of `2⁻ᵇⁱᵗˢ`.
     fn residual(&self, print: &Target, values: &[BigInt]) -> BigInt {
         let terms = print.terms.iter();
         let value = terms.fold(BigInt::zero(), |sum, (index, factor)| {
@@ -155,7 +155,7 @@ impl Search<'_> {
         value - units(&print.printed, self.bits)
     }
 
-    /// Whether all numbers round to their prints, apart from one; those printed exactly are left to the certificate.
+    /// Whether all numbers except `apart_from` round to their prints; numbers printed exactly are checked by the certificate.
     fn reached<S: Equations>(&self, method: &Method<S>, apart_from: Option<usize>) -> bool {
         let values = self.values(method);
         let mut prints = self.prints.iter().enumerate();
@@ -166,7 +166,7 @@ impl Search<'_> {
         })
     }
 
-    /// Shifts what is fixed until all numbers round to their prints, apart from one.
+    /// Shifts the fixed unknowns until all numbers except `apart_from` round to their prints.
     fn shifted<S: Equations>(&self, start: Method<S>, apart_from: Option<usize>) -> Outcome<S> {
         let mut method = start;
         let mut last: Option<(Method<S>, Best)> = None;
@@ -195,7 +195,7 @@ impl Search<'_> {
         Outcome::OutOfReach(last)
     }
 
-    /// The unknowns that are fixed and may move: not those that are printed exactly.
+    /// The fixed unknowns that may move, which excludes those printed exactly.
     fn movable<S: Equations>(&self, square: &Square<S>, apart_from: Option<usize>) -> Vec<usize> {
         let unknowns = self.unknowns.iter().enumerate();
         let wrong = apart_from.map(|index| &self.prints[index].terms);
@@ -244,7 +244,7 @@ impl Search<'_> {
         let (kept, rows): (Vec<usize>, Vec<Row>) =
             rows.map(|(index, pair)| (index, row(pair))).unzip();
         let mut best = minimax(&rows)?;
-        // One multiplier for each print, also for those that are not in the programme.
+        // One multiplier for each print, including those that are not in the programme.
         let mut multipliers = vec![BigRational::zero(); self.prints.len()];
         for (index, multiplier) in kept.into_iter().zip(best.multipliers) {
             multipliers[index] = multiplier;
@@ -290,10 +290,10 @@ impl Search<'_> {
         )
     }
 
-    /// The conditions with what is fixed moved by a shift, to a few decimal places more than are printed.
+    /// The conditions with the fixed unknowns moved by a shift, to a few more decimal places than are printed.
     fn moved<S: Equations>(&self, square: &Square<S>, movable: &[usize], best: &Best) -> Square<S> {
         let places = self.prints.iter().map(|print| print.half.denom().bits());
-        // A decimal place takes 3.32 binary ones.
+        // A decimal place takes 3.32 binary places.
         let places = places.max().unwrap_or(0) * 3 / 10 + 4;
         let scale = power_of_ten(u32::try_from(places).unwrap_or(u32::MAX));
         let unit = self.coarsest();
@@ -307,7 +307,7 @@ impl Search<'_> {
         moved
     }
 
-    /// The printed numbers apart from which some method has all digits. The first one is the last in the step: papers
+    /// The printed numbers, each of which is the only wrong one for some method. The last number in the step comes first: papers
     /// compute it from the others.
     fn suspects<S: Equations>(&self, start: &Method<S>) -> Vec<Suspect> {
         let level = |index: usize| {
@@ -333,7 +333,7 @@ impl Search<'_> {
     fn excluded<S: Equations>(&self, method: &Method<S>, best: &Best) -> Option<bool> {
         let square = &method.square;
         let enclosing = |x: &BigRational| Interval::enclosing(x, self.bits);
-        // The printed unknowns, and the box of all that round to them.
+        // The printed unknowns, and the box of all values that round to them.
         let center: Vec<Interval> = {
             let unknowns = self.unknowns.iter();
             unknowns.map(|unknown| enclosing(&unknown.start)).collect()
@@ -352,7 +352,7 @@ impl Search<'_> {
         if largest.is_zero() {
             return None;
         }
-        // Any numbers prove it; these are exact, whatever they were rounded from.
+        // Any numbers serve for the proof; these are exact integers after rounding.
         let weights: Vec<BigInt> = {
             let all = best.multipliers.iter();
             all.map(|x| units(&(x / &largest), self.bits)).collect()
@@ -380,7 +380,7 @@ impl Search<'_> {
         let all: Vec<usize> = (0..center.len()).collect();
         let derivatives = square.system.derivatives(&cube, &all);
         let residuals = square.system.residuals(&center);
-        // |φ(p)| less what it can change in the box …
+        // |φ(p)| minus its possible variation in the box …
         let combined = |entries: &mut dyn Iterator<Item = &Interval>, start: Interval| {
             let pairs = multipliers.iter().zip(entries);
             pairs.fold(start, |sum, (factor, x)| sum.subtract(&factor.multiply(x)))
@@ -397,7 +397,7 @@ impl Search<'_> {
             let slope = combined(&mut column, own.clone());
             left -= magnitude(&slope) * (&halves[index] + 2u32);
         }
-        // … is more than what a method in it allows.
+        // … is larger than any method in the box allows.
         let pairs = self.prints.iter().zip(&weights);
         let allowed: BigInt = pairs
             .map(|(print, weight)| weight.abs() * (units(&print.half, self.bits) + 1u32))
@@ -405,7 +405,7 @@ impl Search<'_> {
         Some(left > allowed)
     }
 
-    /// How far an unknown that rounds to its prints is from its printed value, at most, in units of `2⁻ᵇⁱᵗˢ`.
+    /// A bound, in units of `2⁻ᵇⁱᵗˢ`, on the distance of an unknown that rounds to its print from its printed value.
     fn reach(&self, index: usize) -> Option<BigInt> {
         let start = &self.unknowns[index].start;
         let alone = self

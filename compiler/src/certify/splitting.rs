@@ -1,4 +1,4 @@
-//! Explicit splittings as they are printed.
+//! Explicit splittings as printed.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -10,12 +10,12 @@ use super::structure::Coefficient;
 use crate::arithmetic::rational::ratio;
 use crate::arithmetic::rounding::Decimal;
 
-/// The most stages of a splitting, and the most weights of a composition.
+/// The largest number of stages of a splitting, and of weights of a composition.
 pub const MAX_STAGES: usize = 64;
 /// The largest absolute value of a coefficient.
 const MAX_COEFFICIENT: u32 = 1000;
-/// Differences up to `10^−10` are ascribed to the precision with which a paper was computed, and those beyond
-/// `10^−3` never to short digits.
+/// Decimal places of the tolerance. Differences up to `10^−10` are attributed to the precision of a paper's computation;
+/// differences beyond `10^−3` are never attributed to short digits.
 const TOLERANCE_PLACES: std::ops::RangeInclusive<u32> = 3..=10;
 
 /// A splitting: for `i = 1, …, n`, `p -= kick[i] h ∂U/∂q(q)`, then `q += drift[i] h ∂T/∂p(p)`.
@@ -23,7 +23,7 @@ const TOLERANCE_PLACES: std::ops::RangeInclusive<u32> = 3..=10;
 pub struct Splitting {
     /// The coefficients of the kicks.
     pub kick: Vec<Printed>,
-    /// The coefficients of the drifts, as many.
+    /// The coefficients of the drifts, as many as kicks.
     pub drift: Vec<Printed>,
 }
 
@@ -32,7 +32,7 @@ impl Splitting {
     ///
     /// # Errors
     /// [`CertifyError::NotANumber`], [`CertifyError::Lengths`] for lists of different length,
-    /// [`CertifyError::Stages`] for none or more than [`MAX_STAGES`], and [`CertifyError::TooLarge`].
+    /// [`CertifyError::Stages`] for no stages or more than [`MAX_STAGES`], and [`CertifyError::TooLarge`].
     pub fn parse(kick: &[&str], drift: &[&str]) -> Result<Self, CertifyError> {
         let read = |texts: &[&str]| -> Result<Vec<Printed>, CertifyError> {
             texts.iter().map(|text| Printed::parse(text)).collect()
@@ -81,8 +81,8 @@ pub(super) fn check(
     Ok(())
 }
 
-/// How far the digits may be from those of an exact method: `10^−10`, or ten units of the last decimal place of
-/// the longest coefficient where there are fewer.
+/// The allowed distance of the digits from those of an exact method: `10^−10`, or ten units of the last decimal place of
+/// the longest coefficient if there are fewer places.
 pub(super) fn tolerance<'a>(all: impl Iterator<Item = &'a Printed>) -> BigRational {
     let places = all.filter_map(Printed::places).max();
     let (fewest, most) = (*TOLERANCE_PLACES.start(), *TOLERANCE_PLACES.end());
@@ -90,7 +90,7 @@ pub(super) fn tolerance<'a>(all: impl Iterator<Item = &'a Printed>) -> BigRation
     BigRational::new(BigInt::one(), power_of_ten(places))
 }
 
-/// The sum of the printed values, if it is not 1 within what rounding each of them explains.
+/// The sum of the printed values, if it differs from 1 by more than the rounding of each value explains.
 pub(super) fn wrong_sum(list: &[Printed], tolerance: &BigRational) -> Option<BigRational> {
     let sum: BigRational = list.iter().map(Printed::value).sum();
     let bound = tolerance * ratio(list.len().try_into().unwrap_or(i64::MAX), 1);

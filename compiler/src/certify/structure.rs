@@ -1,4 +1,4 @@
-//! What the unknowns of a method are: its symmetry and structure, read off the digits.
+//! The unknowns of a method: its symmetry and structure, read off the digits.
 
 use std::fmt;
 
@@ -11,7 +11,7 @@ use super::splitting::Splitting;
 use super::system::{Kind, Step};
 use crate::arithmetic::rational::ratio;
 
-/// Which coefficient of a method, counted from 0.
+/// A coefficient of a method, counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Coefficient {
     /// `kick[i]`.
@@ -32,16 +32,16 @@ impl fmt::Display for Coefficient {
     }
 }
 
-/// How the coefficients of a method hang together.
+/// The structure of a method's coefficients.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Structure {
-    /// Kicks and drifts on their own.
+    /// Independent kicks and drifts.
     Splitting,
-    /// Kicks and drifts which read the same from both ends.
+    /// Palindromic kicks and drifts.
     SymmetricSplitting,
     /// Compositions of a symmetric basic method.
     Composition,
-    /// Compositions of a symmetric basic method whose weights read the same from both ends.
+    /// Compositions of a symmetric basic method with palindromic weights.
     SymmetricComposition,
 }
 
@@ -74,10 +74,10 @@ impl fmt::Display for Structure {
     }
 }
 
-/// A free coefficient, or several that are equal.
+/// A free coefficient, or several equal ones.
 #[derive(Debug, Clone)]
 pub struct Unknown {
-    /// The first coefficient that it is.
+    /// The first coefficient with this value.
     pub name: Coefficient,
     /// The printed value.
     pub start: BigRational,
@@ -92,7 +92,7 @@ pub struct Unknown {
 pub struct Target {
     pub name: Coefficient,
     pub printed: BigRational,
-    /// Half a unit of the last printed place; zero for what is printed exactly.
+    /// Half a unit of the last printed place; zero for a number that is printed exactly.
     pub half: BigRational,
     pub terms: Vec<(usize, BigRational)>,
 }
@@ -129,7 +129,7 @@ impl Factor<'_> {
     }
 }
 
-/// All ways to read a splitting, those with the most structure first.
+/// All ways to read a splitting, with the most structure first.
 pub fn readings(splitting: &Splitting) -> Vec<Reading> {
     let mut factors = Vec::new();
     let mut zeros = Vec::new();
@@ -174,15 +174,15 @@ pub fn composition_readings(weights: &[Printed]) -> Vec<Reading> {
 
 const COMPOSITIONS: [Structure; 2] = [Structure::SymmetricComposition, Structure::Composition];
 
-/// Whether two numbers may be meant to be equal: they agree to three places.
+/// Whether two numbers may be intended to be equal: they agree to three places.
 ///
-/// This is coarse, so that a wrong digit does not hide the structure. What the structure leads to is compared
+/// This is coarse, so that a wrong digit does not hide the structure. The result is compared
 /// with all digits.
 fn close(x: &BigRational, y: &BigRational) -> bool {
     (x - y).abs() <= ratio(1, 1000)
 }
 
-/// Each factor with its own argument, but for symmetry and equal digits; then without either.
+/// Each factor with its own argument, up to symmetry and equal digits; then without either.
 fn plain(factors: &[Factor<'_>], [symmetric, asymmetric]: [Structure; 2]) -> Vec<Reading> {
     let partner = |index: usize| factors.len() - 1 - index;
     let pairs = || (0..factors.len()).map(|i| (&factors[i], &factors[partner(i)]));
@@ -203,7 +203,7 @@ fn plain(factors: &[Factor<'_>], [symmetric, asymmetric]: [Structure; 2]) -> Vec
     readings
 }
 
-/// The reading with a structure, where equal digits are one unknown or not.
+/// The reading with a structure; with `equal`, equal digits are one unknown.
 fn read(factors: &[Factor<'_>], structure: Structure, equal: bool) -> Reading {
     let mut unknowns: Vec<(Kind, Unknown)> = Vec::new();
     let mut arguments: Vec<usize> = Vec::new();
@@ -254,7 +254,7 @@ fn composition_of_verlet(factors: &[Factor<'_>]) -> Vec<Reading> {
         return Vec::new();
     }
     let inner: Vec<Factor<'_>> = factors.iter().skip(1).step_by(2).copied().collect();
-    // The inner neighbours of the outer coefficient with a number.
+    // The inner neighbours of the outer coefficient with this index.
     let neighbours = |index: usize| index.saturating_sub(1)..(index + 1).min(inner.len());
     let half = ratio(1, 2);
     let outer: Vec<&Factor<'_>> = factors.iter().step_by(2).collect();

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! and that of a word `w` in the product of the steps is the sum over all ways to cut `w` into as many blocks,
-//! possibly empty, as there are steps. Prefixes of `w` in the product of the first `i` steps, and suffixes in
-//! that of the others, are found step by step; both together give the derivative by the argument of each step.
+//! possibly empty, as there are steps. Prefixes of `w` in the product of the first `i` steps, and suffixes in the product
+//! of the others, are computed step by step. Together they give the derivative with respect to the argument of each step.
 
 use std::collections::BTreeMap;
 
@@ -24,13 +24,13 @@ use crate::arithmetic::rational::ratio;
 /// One factor of the product.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Step {
-    /// What it is the exponential of.
+    /// The exponent.
     pub kind: Kind,
     /// The index of its argument.
     pub argument: usize,
 }
 
-/// What a step is the exponential of.
+/// The exponent of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// One letter.
@@ -49,7 +49,7 @@ pub struct System {
 /// A linear condition, `Σ_j m_j x_j = w`: the kicks, the drifts or the weights sum to 1.
 #[derive(Debug, Clone)]
 pub struct Sum {
-    /// Arguments with how often they occur.
+    /// Arguments with their multiplicities.
     terms: BTreeMap<usize, i64>,
     wanted: BigRational,
 }
@@ -76,7 +76,7 @@ impl Sum {
 
 /// `x^n/m!` for an argument `x`: the coefficients of blocks.
 struct Powers {
-    /// By `n` and `m`.
+    /// The entries by `n` and `m`.
     entries: Vec<Vec<Interval>>,
     /// The derivatives `n x^{n−1}/m!`.
     derivatives: Vec<Vec<Interval>>,
@@ -107,7 +107,7 @@ impl Powers {
 }
 
 impl System {
-    /// The degree of a block in a step, if its coefficient is not zero.
+    /// The degree of a block in a step, if its coefficient is nonzero.
     fn block(&self, step: Step, block: &[u8]) -> Option<usize> {
         match step.kind {
             Kind::Letter(own) => block.iter().all(|&l| l == own).then_some(block.len()),
@@ -115,7 +115,7 @@ impl System {
         }
     }
 
-    /// The conditions of degree 1 that are about one letter.
+    /// The conditions of degree 1 with a single letter.
     pub fn linear_conditions(&self) -> Vec<Sum> {
         let conditions = self.conditions.conditions().iter();
         let linear = conditions.filter_map(|condition| match &*condition.terms {
@@ -145,7 +145,7 @@ impl System {
         conditions.map(|c| c.degree).max().unwrap_or(0)
     }
 
-    /// What the conditions combine from the values of words, less what is wanted.
+    /// The combination of the values of words in a condition, minus the wanted value if `wanted`.
     fn combined(&self, condition: &Condition, words: &[Interval], wanted: bool) -> Interval {
         let bits = words.first().map_or(0, Interval::bits);
         let start = if wanted {
@@ -177,7 +177,7 @@ impl System {
         conditions.map(|c| self.combined(c, &words, true)).collect()
     }
 
-    /// Enclosures of the derivatives of all conditions by some arguments, for all arguments in a box.
+    /// Enclosures of the derivatives of all conditions with respect to some arguments, for all arguments in a box.
     pub fn derivatives(&self, arguments: &[Interval], by: &[usize]) -> Vec<Vec<Interval>> {
         let length = self.longest();
         let powers: Vec<Powers> = arguments.iter().map(|x| Powers::new(x, length)).collect();
@@ -208,7 +208,7 @@ impl System {
         let mut all = vec![current.clone()];
         for &step in &self.steps {
             let powers = &powers[step.argument];
-            // From the end, so that the shorter prefixes are still those without this step.
+            // From the end, so that the shorter prefixes do not include this step yet.
             for end in (1..=word.len()).rev() {
                 for start in (0..end).rev() {
                     let Some(degree) = self.block(step, &word[start..end]) else {
@@ -225,7 +225,7 @@ impl System {
         all
     }
 
-    /// The derivatives of the coefficient of a word by some arguments.
+    /// The derivatives of the coefficient of a word with respect to some arguments.
     fn gradient(&self, word: &[u8], powers: &[Powers], by: &[usize], bits: u32) -> Vec<Interval> {
         let prefixes = self.prefixes(word, powers, bits);
         let mut gradient = vec![zero(bits); by.len()];
@@ -263,7 +263,7 @@ impl System {
 
     /// Whether all conditions hold for rational arguments, in exact arithmetic.
     pub fn holds_exactly(&self, arguments: &[BigRational]) -> bool {
-        // Enclosures refute faster what does not hold.
+        // Enclosures refute false conditions faster.
         let enclosed: Vec<Interval> = arguments
             .iter()
             .map(|x| Interval::enclosing(x, 256))
@@ -326,7 +326,7 @@ mod tests {
     use crate::certify::conditions::Claim;
     use crate::certify::lyndon::{DRIFT, KICK};
 
-    /// Three steps, kick, drift, kick, of which the first and the last have different arguments.
+    /// Three steps, kick, drift, kick; the first and the last have different arguments.
     fn system(claim: Claim, kinds: &[Kind]) -> System {
         let step = |(argument, &kind)| Step { kind, argument };
         System {

@@ -12,9 +12,9 @@ use crate::derive::Substep;
 use crate::properties::multiplier_matrix;
 use crate::tableau::Tableau;
 
-/// The `CONSTRAINED` of a `Method`; nothing for a method that does not qualify.
+/// The `CONSTRAINED` constant of a `Method`; empty for a method that does not qualify.
 ///
-/// A composition qualifies if every method of which it consists does: it composes their constrained steps.
+/// A composition qualifies if all its methods do: it composes their constrained steps.
 pub(super) fn code(
     tableau: &Tableau,
     numbers: &Coefficients<Number<'_>>,
@@ -36,7 +36,8 @@ pub(super) fn code(
     Some(steps("CONSTRAINED", &tableaux, Some(&list(substeps))))
 }
 
-/// Symplectic Euler with its end as a second stage of weight 0: the property `constrained` of one stage leaves no other coefficients.
+/// Symplectic Euler with the end of the step as a second stage of weight 0. With one stage, the property `constrained` admits no other
+/// coefficients.
 fn with_its_end() -> TokenStream {
     let [zero, one] = [0.0, 1.0].map(|value| {
         let value = literal::double(value);
@@ -54,7 +55,7 @@ fn with_its_end() -> TokenStream {
     }
 }
 
-/// A constant of a `Method` with steps of these tableaux: those of a list, or a whole one.
+/// A constant of a `Method`: steps of these tableaux, with the substeps of `list`, or one step of size 1.
 pub(super) fn steps(
     name: &str,
     tableaux: &[TokenStream],
@@ -80,7 +81,7 @@ pub(super) fn steps(
     }
 }
 
-/// The start and the size of every substep as fractions of the step, and its tableau.
+/// The start and the size of every substep as fractions of the step, and the index of its tableau.
 pub(super) fn list(substeps: &[Substep]) -> Vec<TokenStream> {
     let coefficient = |real: &Real| literal::coefficient(&Reals.number(real));
     let mut start = Real::rational(BigRational::default());
@@ -94,7 +95,7 @@ pub(super) fn list(substeps: &[Substep]) -> Vec<TokenStream> {
     substeps.iter().map(step).collect()
 }
 
-/// A tableau, rounded so that it is symplectic exactly, and `X⁻¹`.
+/// A tableau, rounded so that it is exactly symplectic, and `X⁻¹`.
 pub(super) fn constants(
     numbers: &Coefficients<Number<'_>>,
     inverse: &[Vec<f64>],

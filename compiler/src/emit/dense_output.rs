@@ -13,18 +13,18 @@ use crate::schedule::{Class, Evaluation, Node, StepGraph};
 
 use super::symplectic_rounding::decide;
 
-/// The polynomials through the evaluations of a tableau at its nodes, worked out when they are asked for.
+/// The polynomials through the evaluations of a tableau at its nodes, computed on demand.
 pub(super) struct StagePolynomials<'n, 'a> {
     numbers: &'n Coefficients<Number<'a>>,
     nodes: OnceCell<Option<Nodes<'n, 'a>>>,
 }
 
-/// What a polynomial through evaluations makes of them inside a step.
+/// The polynomial through the evaluations of a step, which gives values inside the step.
 #[derive(Debug, PartialEq)]
 pub(super) struct Extension {
-    /// For k = 1, …, s − 1 an entry for each evaluation: its part in the Legendre coefficient of degree k.
+    /// For k = 1, …, s − 1 an entry for each evaluation: its contribution to the Legendre coefficient of degree k.
     pub rows: Vec<Vec<f64>>,
-    /// The largest m for which values inside a step of size h have errors of `O(hᵐ)`, apart from those of its start.
+    /// The largest m for which values inside a step of size h have errors of `O(hᵐ)`, apart from the error at its start.
     pub order: usize,
 }
 
@@ -36,11 +36,11 @@ impl<'n, 'a> StagePolynomials<'n, 'a> {
         }
     }
 
-    /// The extension of the velocities or of the forces of a step, whatever the index of `kind`.
+    /// The extension of the velocities or of the forces of a step. The index of `kind` does not matter.
     ///
     /// Let `ℓ_j` be the Lagrange polynomials of the nodes and `L_k` the Legendre polynomials on [0, 1]. Then
-    /// `ℓ_j = Σ_k γ_jk L_k`; an entry is `γ_jk`, or `γ_jk/b_j` where evaluations are increments. `None` where nodes
-    /// coincide or where the weights are not the integrals of the `ℓ_j`: a polynomial through all evaluations would not
+    /// `ℓ_j = Σ_k γ_jk L_k`; an entry is `γ_jk`, or `γ_jk/b_j` where evaluations are increments. Returns `None` if nodes
+    /// coincide or if the weights are not the integrals of the `ℓ_j`: a polynomial through all evaluations would then not
     /// lead to the end of the step.
     pub(super) fn extension(
         &self,
@@ -90,14 +90,14 @@ impl<'n, 'a> StagePolynomials<'n, 'a> {
 struct Nodes<'n, 'a> {
     times: &'n [Number<'a>],
     first: Enclosed,
-    /// For what the first does not tell from zero.
+    /// Narrower enclosures, for values that `first` does not separate from zero.
     second: OnceCell<Enclosed>,
     /// The largest η with `Σ_j a_ij c_j^(k−1) = c_i^k/k` for all k ≤ η, for a and for ã.
     stage_orders: [usize; 2],
 }
 
 impl<'n, 'a> Nodes<'n, 'a> {
-    /// The row sums of a, or else those of ã, if they are distinct and both weights those of interpolation.
+    /// The row sums of a, or else those of ã, if they are distinct and both weights are those of interpolation.
     fn new(numbers: &'n Coefficients<Number<'a>>) -> Option<Self> {
         let nodes = |times: &'n [Number<'a>]| {
             let first = Enclosed::new(times, 0);
@@ -114,7 +114,7 @@ impl<'n, 'a> Nodes<'n, 'a> {
         nodes(&numbers.c).or_else(|| nodes(&numbers.c_tilde))
     }
 
-    /// Something of enclosures with at least this many binary places.
+    /// Evaluates `of` on enclosures with at least `bits` binary places.
     fn enclosed<T>(&self, bits: u32, of: impl Fn(&Enclosed) -> T) -> T {
         if bits <= self.first.bits {
             return of(&self.first);
@@ -127,12 +127,12 @@ impl<'n, 'a> Nodes<'n, 'a> {
     }
 }
 
-/// Enclosures of what Lagrange polynomials are made of.
+/// Enclosures of the quantities that define the Lagrange polynomials.
 struct Enclosed {
     bits: u32,
     /// The powers `c_j^m`, m ≤ s, for each m.
     powers: Vec<Vec<Interval>>,
-    /// The Legendre coefficients of each Lagrange polynomial `ℓ_j`, from degree 0 on; `None` where nodes are not told apart.
+    /// The Legendre coefficients of each Lagrange polynomial `ℓ_j`, from degree 0 on; `None` if the enclosures do not separate the nodes.
     legendre: Option<Vec<Vec<Interval>>>,
 }
 
@@ -186,14 +186,14 @@ impl Enclosed {
         }
     }
 
-    /// Whether `Σ_j w_j c_j^m = 1/(m + 1)` for all m < s, as far as is known.
+    /// Whether the enclosures admit `Σ_j w_j c_j^m = 1/(m + 1)` for all m < s.
     fn integrates(&self, weights: &[Number<'_>]) -> bool {
         let weights: Vec<_> = weights.iter().map(|w| w.enclose(self.bits)).collect();
         let exact = |m: usize| self.sum(&weights, m).contains(&ratio(1, m as i64 + 1));
         (0..weights.len()).all(exact)
     }
 
-    /// The largest η ≤ s with `Σ_j a_ij c_j^(k−1) = c_i^k/k` for k ≤ η, as far as is known.
+    /// The largest η ≤ s for which the enclosures admit `Σ_j a_ij c_j^(k−1) = c_i^k/k` for k ≤ η.
     fn stage_order(&self, matrix: &[Vec<Number<'_>>]) -> usize {
         let enclose = |row: &Vec<Number<'_>>| row.iter().map(|a| a.enclose(self.bits)).collect();
         let rows: Vec<Vec<Interval>> = matrix.iter().map(enclose).collect();
@@ -297,7 +297,7 @@ mod tests {
         assert_eq!(orders(midpoint, Class::General), [Some(2), Some(2)]);
     }
 
-    /// Weights that are not those of a polynomial, by a little too, and nodes that coincide.
+    /// Weights that are not interpolatory, even by a small perturbation, and nodes that coincide.
     #[test]
     fn other_methods_have_none() {
         for definition in [

@@ -1,4 +1,4 @@
-//! What has been worked out of a tableau, for the plans of both classes.
+//! Results computed from a tableau, shared by the plans of both classes.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -11,8 +11,8 @@ use super::symplectic_rounding::Rounded;
 use crate::arithmetic::eigen::{Blocks, Rows};
 use crate::tableau::Tableau;
 
-/// Results that plans share, since much is the same for both classes of systems, and all is twice the same where both
-/// halves of a tableau are.
+/// Results that plans share: many are the same for both classes of systems, and all occur twice if the two halves of the
+/// tableau are equal.
 pub(crate) struct Known {
     /// Whether `a = ã` and `b = b̃`.
     equal_halves: bool,
@@ -28,13 +28,13 @@ pub(super) type Term = (Vec<usize>, Vec<usize>);
 /// Stages of the tableau that are merged in each of some evaluations.
 pub(super) type Groups = Vec<Vec<usize>>;
 
-/// Two rounded coefficients that make 1, if they do.
+/// Two rounded coefficients with the sum 1, if there are any.
 pub(super) type Complements = Option<(Rounded, Rounded)>;
 
-/// The matrix that takes the evaluations of a step to those of the next, if there is one.
+/// The matrix that maps the evaluations of a step to those of the next step, if there is one.
 pub(super) type Extrapolation = Option<Rc<Vec<Vec<f64>>>>;
 
-/// What the coefficients of a half of the tableau belong to.
+/// The half of the tableau that coefficients belong to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Half {
     /// Positions and velocities.
@@ -44,7 +44,7 @@ pub(super) enum Half {
 }
 
 impl Known {
-    /// Nothing yet.
+    /// An empty cache.
     pub(crate) fn new(tableau: &Tableau) -> Self {
         Known {
             equal_halves: tableau.equal_halves() == (true, true),
@@ -55,7 +55,7 @@ impl Known {
         }
     }
 
-    /// Two rounded quotients that make 1, of a position and of a momentum. With `true`, `compute` has to round two that
+    /// Two rounded quotients with the sum 1, one of positions and one of momenta. `compute` gets `true` if the two quotients
     /// are the same.
     pub(super) fn complements(
         &self,
@@ -95,7 +95,7 @@ impl Known {
         known.or_insert_with(|| compute().map(Rc::new)).clone()
     }
 
-    /// The code of half a tableau at this place in the code: where the same is written already, its place.
+    /// The code of half a tableau at `place` in the code. If the same half has been written already, the place of that one.
     pub(super) fn written(
         &self,
         place: TokenStream,
@@ -111,7 +111,7 @@ impl Known {
         code
     }
 
-    /// The blocks of a matrix on the diagonal, which are computed when it is another one than the last.
+    /// The diagonal blocks of a matrix. They are computed again only if the matrix differs from the last one.
     pub(super) fn blocks(
         &self,
         matrix: Rows,

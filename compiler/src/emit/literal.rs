@@ -11,15 +11,15 @@ pub(super) fn identifier(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
 }
 
-/// A double as a literal, the shortest that reads back to it; negative ones in parentheses, so that a
-/// method call on it means the negative number.
+/// A double as its shortest literal that reads back to it. Negative numbers are in parentheses, so that a
+/// method call applies to the negative number.
 pub(super) fn double(value: f64) -> TokenStream {
     // `{:?}` always reads as a floating-point literal: 1.0, never the integer 1.
     let size = format!("{:?}", value.abs());
     signed(&size, "f64", value.is_sign_negative())
 }
 
-/// The same for a single: where an f32 is expected the literal is read as one, without a double in between.
+/// A single as a literal: where an f32 is expected, the literal is read as an f32 directly, not through a double.
 fn single(value: f32) -> TokenStream {
     let size = format!("{:?}", value.abs());
     signed(&size, "f32", value.is_sign_negative())
@@ -28,7 +28,7 @@ fn single(value: f32) -> TokenStream {
 fn signed(size: &str, kind: &str, negative: bool) -> TokenStream {
     let size = match size.parse::<Literal>() {
         Ok(literal) => quote!(#literal),
-        // Finite numbers read as literals; the one that does not is infinite.
+        // Every finite number is a valid literal; this one is infinite.
         Err(_) => {
             let kind = identifier(kind);
             quote!(::core::primitive::#kind::INFINITY)
@@ -37,7 +37,7 @@ fn signed(size: &str, kind: &str, negative: bool) -> TokenStream {
     if negative { quote!((-#size)) } else { size }
 }
 
-/// A coefficient as the runtime takes it: rounded to a double, what that leaves out, and rounded to a single.
+/// A coefficient as the runtime takes it: rounded to a double, the remainder, and rounded to a single.
 pub(super) fn coefficient(number: &Number<'_>) -> TokenStream {
     let double = number.to_f64();
     rounded(Rounded {
@@ -47,7 +47,7 @@ pub(super) fn coefficient(number: &Number<'_>) -> TokenStream {
     })
 }
 
-/// The same for a number that has been rounded already.
+/// [`coefficient`] for a number that has been rounded already.
 pub(super) fn rounded(number: Rounded) -> TokenStream {
     let high = double(number.double);
     if number.low == 0.0 && number.single.to_bits() == (number.double as f32).to_bits() {
@@ -57,7 +57,7 @@ pub(super) fn rounded(number: Rounded) -> TokenStream {
     quote!(::symplectic::emitted::Coefficient::new(#high, #low, #single))
 }
 
-/// A number of stages without a suffix.
+/// A count as a literal without a suffix.
 pub(super) fn count(value: usize) -> Literal {
     Literal::usize_unsuffixed(value)
 }

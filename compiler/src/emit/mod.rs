@@ -1,11 +1,11 @@
 //! From an exact tableau to Rust code.
 //!
 //! The generated code names everything as `::symplectic::emitted::…`. It contains the coefficients as constants,
-//! each rounded correctly to a double, and as what the runtime computes with: rounded correctly to a
-//! double and from the exact value again to a single, which is infinite for a coefficient beyond the
-//! largest single, because the method is sound in doubles. For each class of Hamiltonians a plan of the step in which every
-//! stage is a line of its own: no product with zero, equal stages computed once, stages
-//! in order where they are explicit, no evaluation that the previous step has made already.
+//! each rounded correctly to a double. It also contains them in the form that the runtime computes with: the exact value
+//! rounded correctly to a double, and again to a single. The single is infinite for a coefficient beyond the
+//! largest single, because the method is sound in doubles. For each class of Hamiltonians there is a plan of the step in which
+//! every stage is a line of its own: no product with zero, equal stages computed once, explicit stages
+//! in order, and no evaluation that the previous step has made already.
 
 mod constrained;
 mod dense_output;
@@ -48,12 +48,12 @@ pub struct Header {
 /// The type of a method with its coefficients and its plans.
 ///
 /// # Errors
-/// [`ErrorKind::Overflow`] where a coefficient is beyond the largest double; [`ErrorKind::ExpressionSize`] where a
-/// fraction of a composition of compositions were too long.
+/// [`ErrorKind::Overflow`] if a coefficient is beyond the largest double; [`ErrorKind::ExpressionSize`] if a
+/// fraction of a composition of compositions would be too long.
 pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKind> {
     let numbers = tableau.numbers();
     let matrices = left_out(tableau);
-    // The entries of matrices that are left out are weights.
+    // The entries of the matrices that are left out are weights.
     let doubles = match matrices {
         Some(_) => Coefficients {
             a: Vec::new(),
@@ -80,7 +80,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
     let provenance = tableau.provenance();
     let definition = provenance.definition.to_string();
     let coefficients = coefficients(tableau, &numbers, matrices);
-    // The plans are named after the method, so that they are not the method.
+    // The plans have names of their own, derived from the method's name.
     let [general_plan, separable_plan] =
         ["General", "Separable"].map(|class| format_ident!("{name}{class}"));
     let names = [
@@ -111,7 +111,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         #visibility struct #name;
 
-        // A coefficient may well be 1/π.
+        // A coefficient may be 1/π.
         #[allow(clippy::approx_constant)]
         impl #name {
             #constants
@@ -147,7 +147,7 @@ fn constants(
     left_out: Option<Staircase>,
 ) -> TokenStream {
     let stages = literal::count(tableau.stages());
-    // Where both halves are the same, the second is written as the first.
+    // If both halves are equal, the second is written as a reference to the first.
     let same = tableau.equal_halves();
     let vector = |name: &str, doc: &str, values: TokenStream| {
         let name = literal::identifier(name);
@@ -214,7 +214,7 @@ fn constants(
     quote!(#(#constants)*)
 }
 
-/// The coefficients as the runtime takes them.
+/// The coefficients in the form that the runtime takes.
 fn coefficients(
     tableau: &Tableau,
     numbers: &Coefficients<Number<'_>>,
@@ -251,7 +251,7 @@ fn coefficients(
         vector(&b, &numbers.b),
         vector(&c, &numbers.c),
     ];
-    // Where both halves are the same, the second is the first.
+    // If both halves are equal, the second is a copy of the first.
     let (same_a, same_b) = tableau.equal_halves();
     if same_a {
         (a_tilde, c_tilde) = (a.clone(), c.clone());
@@ -289,7 +289,7 @@ fn orders(tableau: &Tableau) -> TokenStream {
     }
 }
 
-/// Whether the method is its own adjoint; nothing for a method that is not.
+/// Whether the method is its own adjoint; empty for a method that is not.
 fn symmetry(tableau: &Tableau) -> Option<TokenStream> {
     let general = tableau.properties().symmetric.holds;
     let separable = general || tableau.separable_properties().symmetric.holds;
@@ -301,8 +301,8 @@ fn symmetry(tableau: &Tableau) -> Option<TokenStream> {
     })
 }
 
-/// The classes of systems on which the method is no worse than on narrower ones; those with holonomic constraints too where it is
-/// `constrained`, and those with non-holonomic ones where it is `nonholonomic`.
+/// The classes of systems on which the method keeps the order of narrower classes. Systems with holonomic constraints are included if
+/// the method is `constrained`, and those with non-holonomic constraints if it is `nonholonomic`.
 fn proved(tableau: &Tableau, name: &Ident, steps: [bool; 2]) -> TokenStream {
     if tableau.keeps_its_order_in_general() {
         let bound = match steps {
@@ -316,10 +316,10 @@ fn proved(tableau: &Tableau, name: &Ident, steps: [bool; 2]) -> TokenStream {
             impl<C: ::symplectic::emitted::#bound> ::symplectic::emitted::ProvedFor<C> for #name {}
         };
     }
-    // The second keeps the compiler from concluding the class from the method.
+    // The second class keeps the compiler from inferring the class from the method.
     let mut classes = vec![quote!(::symplectic::emitted::Separable), quote!(())];
     let orders = tableau.orders();
-    // With friction, kicks depend on momenta: an order for quadratic kinetic energy only does not hold.
+    // With friction, kicks depend on the momenta: an order that needs quadratic kinetic energy does not hold.
     if orders.separable.order >= orders.nystrom.order {
         classes.push(quote!(::symplectic::emitted::Damped));
     }
@@ -332,5 +332,5 @@ fn documentation(tableau: &Tableau) -> String {
     format!("\n\n```text\n{table}```")
 }
 
-/// Digits of the coefficients in the documentation that have no short exact form.
+/// Digits in the documentation for coefficients without a short exact form.
 const DOCUMENTATION_DIGITS: usize = 16;

@@ -10,9 +10,9 @@ use crate::order::symmetric_composition;
 use crate::symbolic::Constant;
 use crate::tableau::Tableau;
 
-/// The `NONHOLONOMIC` of a `Method`; nothing for a method that does not qualify.
+/// The `NONHOLONOMIC` constant of a `Method`; empty for a method that does not qualify.
 ///
-/// A composition qualifies if it keeps its order whatever the symmetric step of order 2 is of which it consists.
+/// A composition qualifies if it keeps its order for every symmetric basic step of order 2.
 pub(super) fn code(
     tableau: &Tableau,
     numbers: &Coefficients<Number<'_>>,

@@ -38,8 +38,8 @@ pub struct SecondOrder {
 }
 
 impl SecondOrder {
-    /// The coefficients of a method, which has to be symplectic, with the weights `Σ b_j = 1`; `None` where they are not,
-    /// where a weight is zero, or where a coefficient is 2 or more.
+    /// The coefficients of a symplectic method with the weights `Σ b_j = 1`. Returns `None` if the method is not symplectic,
+    /// if a weight is zero, or if a coefficient is 2 or more.
     pub fn new(graph: &StepGraph<'_>) -> Option<Self> {
         if graph.class != Class::Separable {
             return None;
@@ -94,7 +94,7 @@ fn sum(mut intervals: impl Iterator<Item = Interval>) -> Option<Interval> {
 
 /// The multiple of 2^-[`PLACES`] nearest to a number.
 fn on_grid(value: &BigRational) -> f64 {
-    // The whole part of twice the number and a half.
+    // Round to nearest: the floor of the scaled number plus one half.
     let scaled = (value.numer() << (PLACES + 1)) + value.denom();
     let nearest = scaled.div_floor(&(value.denom() << 1));
     to_f64(&dyadic(&nearest, PLACES))
@@ -106,12 +106,12 @@ mod tests {
     use crate::arithmetic::rounding::exact;
     use crate::{Limits, catalogue};
 
-    /// ν_ik − ν_ki = c_i − c_k for every method of the catalogue that has them, in exact arithmetic, and next to what
-    /// they are rounded from.
+    /// ν_ik − ν_ki = c_i − c_k in exact arithmetic for every method of the catalogue with Nyström coefficients; the rounded
+    /// coefficients are close to the exact ones.
     #[test]
     fn rounded_coefficients_are_symplectic_exactly() {
         let mut methods = 0;
-        // As many stages as the macros take.
+        // At most the number of stages that the macros take.
         let usual = |entry: &catalogue::Entry| entry.stages <= Limits::default().stages;
         for entry in catalogue::entries().filter(usual) {
             let tableau = entry.derive().expect("derived");
@@ -134,7 +134,7 @@ mod tests {
                 }
             }
             for (node, force) in rounded.nodes.iter().zip(&graph.forces) {
-                // Half a unit of the grid, and half of one in the last place of the other.
+                // Half a unit of the grid, plus half a unit in the last place of the other number.
                 assert!((node - force.time.to_f64()).abs() <= 2.0 * f64::EPSILON);
             }
         }

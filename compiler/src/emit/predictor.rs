@@ -1,4 +1,4 @@
-//! Starting values for the stages of a step from those of the step before.
+//! Starting approximations for the stages of a step from those of the previous step.
 
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
@@ -8,7 +8,7 @@ use crate::schedule::{Evaluation, Node, StepGraph};
 use super::facts::{Extrapolation, Half, Known};
 use super::symplectic_rounding::decide;
 
-/// The matrix that takes the increments `h w_j f_j` of a step to those of the next one of the same size.
+/// The matrix that maps the increments `h w_j f_j` of a step to those of the next step of the same size.
 ///
 /// The polynomial through the evaluations `f_j` at the times `c_j` is evaluated at `1 + c_i`:
 ///
@@ -16,8 +16,8 @@ use super::symplectic_rounding::decide;
 /// E_ij = (w_i/w_j) Π_{k≠j} (1 + c_i − c_k)/(c_j − c_k)
 /// ```
 ///
-/// Correctly rounded; `None` where times coincide, as far as is known. `kind` says which evaluations they are, whatever
-/// its index.
+/// The entries are correctly rounded. Returns `None` if times coincide as far as enclosures can tell. `kind` selects the
+/// evaluations; its index does not matter.
 pub(super) fn matrix(
     graph: &StepGraph<'_>,
     kind: Node,
@@ -46,7 +46,7 @@ fn compute(evaluations: &[&Evaluation<'_>]) -> Option<Vec<Vec<f64>>> {
     indices.clone().map(row).collect()
 }
 
-/// Enclosures of what the entries are made of.
+/// Enclosures of the factors of the entries.
 struct Enclosed {
     bits: u32,
     times: Vec<Interval>,
@@ -68,7 +68,7 @@ impl Enclosed {
         }
     }
 
-    /// An enclosure of one entry; `None` where a divisor is not told from zero by it.
+    /// An enclosure of one entry; `None` if a divisor's enclosure contains zero.
     fn entry(&self, i: usize, j: usize) -> Option<Interval> {
         let later = self.times[i].add(&Interval::enclosing(&ratio(1, 1), self.bits));
         product(&self.weights[i], &later, &self.times, j).divide(&self.divisors[j])

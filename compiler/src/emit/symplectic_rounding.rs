@@ -2,8 +2,8 @@
 //! sums of increments: `Q_i = q0 + Σ_j μ_ij (h b_j velocity_j)`.
 //!
 //! A method is symplectic iff `μ̃_ij + μ_ji = 1`, which can hold exactly in floating-point arithmetic:
-//! the larger of the two, which is at least 1/2, is rounded correctly to x, and the other one is 1 − x, which is exact
-//! for every double from 1/2 to 2⁵³. With correctly rounded `a_ij` the condition fails by a rounding error, always the
+//! the larger of the two, which is at least 1/2, is rounded correctly to x. The other one is 1 − x, which is exact
+//! for every double from 1/2 to 2⁵³. With correctly rounded `a_ij` the condition fails by a rounding error that is always the
 //! same, and the energy drifts (Hairer, McLachlan & Razakarivony, 2008; Antoñana, Makazaga & Murua, 2017).
 
 use num_rational::BigRational;
@@ -15,12 +15,12 @@ use crate::arithmetic::rational::ratio;
 use crate::arithmetic::rounding::{exact, to_f32, to_f64};
 use crate::schedule::StepGraph;
 
-/// A coefficient rounded to what the scalars take.
+/// A coefficient rounded for the scalar types.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rounded {
     /// The double.
     pub double: f64,
-    /// The double nearest to what `double` leaves out.
+    /// The double nearest to the remainder, the exact value minus `double`.
     pub low: f64,
     /// The single.
     pub single: f32,
@@ -44,7 +44,7 @@ impl Rounded {
         single: 0.5,
     };
 
-    /// 1 minus the number, where that is exact in doubles: from 1/2 to 2⁵³. In singles it is to 2²⁴.
+    /// 1 minus the number, if that is exact in doubles: from 1/2 to 2⁵³. For singles it is exact up to 2²⁴.
     fn complement(self) -> Option<Self> {
         let exact = (0.5..9_007_199_254_740_992.0).contains(&self.double);
         exact.then(|| Rounded {
@@ -65,7 +65,7 @@ pub struct Relative {
 }
 
 impl Relative {
-    /// The relative coefficients; `None` where the method is not symplectic, where a weight is zero, or so small that
+    /// The relative coefficients; `None` if the method is not symplectic, if a weight is zero, or if a weight is so small that
     /// a quotient has no exact complement.
     pub(crate) fn new(graph: &StepGraph<'_>, known: &Known) -> Option<Self> {
         let evaluations = || graph.velocities.iter().chain(&graph.forces);
@@ -103,8 +103,8 @@ impl Relative {
 /// A coefficient and the weight that it is relative to.
 pub(super) type Fraction<'n> = (&'n Number<'n>, &'n Number<'n>);
 
-/// Two quotients the sum of which is 1, rounded so that it stays 1; `None` where it is not. If they are the `same`, they
-/// are 1/2, which no enclosure tells.
+/// Two quotients with the sum 1, rounded so that the sum stays 1; `None` if the sum is not 1. If the quotients are the `same`, both
+/// are 1/2, which no enclosure can prove.
 pub(super) fn complements(
     mu: Fraction<'_>,
     mu_tilde: Fraction<'_>,
@@ -126,7 +126,7 @@ pub(super) fn complements(
     if mu_tilde.0.is_zero() {
         return Some((Rounded::ONE, Rounded::ZERO));
     }
-    // Where both are 1/2, or as good as that, either may be the larger one.
+    // If both are 1/2, exactly or nearly, either may be taken as the larger one.
     let first_is_larger = enclosure.middle() >= ratio(1, 2);
     let larger = round(if first_is_larger { mu } else { mu_tilde })?;
     let smaller = larger.complement()?;
@@ -137,7 +137,7 @@ pub(super) fn complements(
     })
 }
 
-/// An enclosure of a quotient; `None` where the weight is not told from zero by it.
+/// An enclosure of a quotient; `None` if the enclosure of the weight contains zero.
 fn quotient((value, weight): Fraction<'_>, bits: u32) -> Option<Interval> {
     value.enclose(bits).divide(&weight.enclose(bits))
 }
@@ -163,9 +163,9 @@ fn round(fraction: Fraction<'_>) -> Option<Rounded> {
     })
 }
 
-/// Binary places of the enclosures by which a number is rounded: nearly always the first are enough, and by the second
-/// both ends of what encloses zero round to zero. A number that the last do not tell from the middle between two
-/// neighbours is taken for it.
+/// Binary places of the enclosures that decide a rounding. The first are nearly always enough; with the second,
+/// both ends of an enclosure of zero round to zero. A number that the last do not separate from the midpoint of two
+/// neighbours is taken to be that midpoint.
 const DECIDING_BITS: [u32; 3] = [192, ZERO_BITS, ROUNDING_BITS];
 
 /// Rounds a number that is enclosed as narrowly as needed.
@@ -178,7 +178,7 @@ pub(super) fn decide<T: PartialEq>(
         let Some(interval) = enclose(bits) else {
             continue;
         };
-        // Zero without the sign of an end.
+        // Zero without the sign of an endpoint.
         let middle = interval
             .sign()
             .map_or_else(|| ratio(0, 1), |_| interval.middle());
@@ -196,10 +196,10 @@ mod tests {
     use crate::catalogue;
     use crate::schedule::Class;
 
-    /// Every pair of coefficients that belong together, of every symplectic method with weights that are not zero.
+    /// Every pair of complementary coefficients of every symplectic method whose weights are nonzero.
     fn pairs(mut check: impl FnMut(&str, Fraction<'_>, Rounded, Fraction<'_>, Rounded)) -> usize {
         let mut methods = 0;
-        // As many stages as the macros take.
+        // At most the number of stages that the macros take.
         let usual = |entry: &catalogue::Entry| entry.stages <= crate::Limits::default().stages;
         for entry in catalogue::entries().filter(usual) {
             let tableau = entry.derive().expect("derived");
@@ -208,7 +208,7 @@ mod tests {
             for class in [Class::General, Class::Separable] {
                 let graph = StepGraph::new(class, &tableau, &numbers);
                 let Some(relative) = Relative::new(&graph, &known) else {
-                    // With equal weights, a symplectic method has this form.
+                    // A symplectic method with equal weights would have this form.
                     assert!(!tableau.properties().symplectic.holds, "{}", entry.name);
                     continue;
                 };
@@ -259,7 +259,7 @@ mod tests {
         });
     }
 
-    /// The negative twin: rounded each for itself, the two do not make 1.
+    /// The negative twin: if each of the two is rounded by itself, their sum is not 1.
     #[test]
     fn correctly_rounded_methods_are_not_symplectic() {
         let mut broken = 0;

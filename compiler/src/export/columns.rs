@@ -1,18 +1,18 @@
-//! Columns that line up on a screen.
+//! Aligned columns on a screen.
 
-/// The number of columns that a text takes on a screen: combining marks, as in `b̃`, take none.
+/// The number of columns of a text on a screen: combining marks, as in `b̃`, take none.
 pub(super) fn width(text: &str) -> usize {
     text.chars()
         .filter(|c| !('\u{300}'..='\u{36f}').contains(c))
         .count()
 }
 
-/// The text with spaces before it, up to a width.
+/// The text padded with spaces on the left, up to a width.
 pub(super) fn right(text: &str, to: usize) -> String {
     format!("{}{text}", " ".repeat(to.saturating_sub(width(text))))
 }
 
-/// The text with spaces after it, up to a width.
+/// The text padded with spaces on the right, up to a width.
 pub(super) fn left(text: &str, to: usize) -> String {
     format!("{text}{}", " ".repeat(to.saturating_sub(width(text))))
 }

@@ -5,14 +5,14 @@ use std::path::Path;
 
 use crate::error::{Error, ErrorKind};
 
-/// The largest table file that is read, in bytes; one of 36 stages has about 1 MB.
+/// The largest table file that is read, in bytes; a file with 36 stages has about 1 MB.
 const MAX_FILE: u64 = 64 << 20;
 
-/// The text of a table file, without a byte-order mark and with a line feed for each carriage return that stands alone.
+/// The text of a table file, without a byte-order mark. Carriage returns without a line feed become line feeds.
 ///
 /// # Errors
-/// [`ErrorKind::Document`] where the file cannot be read, is too large or is not UTF-8 text; text in UTF-16 or UTF-32 is
-/// named.
+/// [`ErrorKind::Document`] if the file cannot be read, is too large or is not UTF-8 text; the message identifies UTF-16 and
+/// UTF-32.
 pub fn read_text(path: &Path) -> Result<String, Error> {
     let name = path.display();
     let unreadable = |error: std::io::Error| bad(format!("cannot read `{name}`: {error}"));
@@ -33,7 +33,7 @@ fn bad(message: String) -> Error {
     ErrorKind::Document { message }.into()
 }
 
-/// The text that bytes in UTF-8 stand for, without a byte-order mark.
+/// UTF-8 bytes as text, without a byte-order mark.
 fn decode(name: &str, bytes: Vec<u8>) -> Result<String, Error> {
     const INSTEAD: &str = "save it as UTF-8 (in PowerShell with `-Encoding utf8`)";
     if let Some(encoding) = wide_encoding(&bytes) {
@@ -48,7 +48,7 @@ fn decode(name: &str, bytes: Vec<u8>) -> Result<String, Error> {
     Ok(with_line_feeds(without_mark(&text)))
 }
 
-/// The text with the line ends of old Macintosh programs as TOML has them; all places stay where they are.
+/// The text with the line ends of old Macintosh programs replaced by those of TOML; all offsets stay the same.
 fn with_line_feeds(text: &str) -> String {
     let mut rest = text.chars().peekable();
     let mut lines = String::with_capacity(text.len());
@@ -62,12 +62,12 @@ fn with_line_feeds(text: &str) -> String {
 /// The character that some programs write at the start of UTF-8 text.
 const BYTE_ORDER_MARK: char = '\u{feff}';
 
-/// A text without the byte-order mark that may stand at its start.
+/// A text without a byte-order mark at its start.
 pub fn without_mark(text: &str) -> &str {
     text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text)
 }
 
-/// The encoding with units of two or four bytes that a text has, by its byte-order mark or by its first character, which is
+/// The UTF-16 or UTF-32 encoding of a text, detected by its byte-order mark or by its first character, which is
 /// ASCII in a table file.
 fn wide_encoding(bytes: &[u8]) -> Option<&'static str> {
     match bytes {

@@ -1,4 +1,4 @@
-//! The entries of a file in the order in which they stand, each with its name and its place.
+//! The entries of a file in their order, each with its name and its place.
 
 use std::fmt;
 use std::ops::Range;
@@ -14,11 +14,11 @@ use crate::expression::Input;
 /// One entry of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Entry {
-    /// What it is, as messages name it: `ã_21 (decimal)`.
+    /// Its name in messages: `ã_21 (decimal)`.
     pub name: String,
-    /// What the file says.
+    /// Its value in the file.
     pub value: String,
-    /// The bytes of the file that say it.
+    /// Its bytes in the file.
     pub span: Range<usize>,
 }
 
@@ -32,13 +32,13 @@ impl Entry {
     }
 }
 
-/// Holds every entry of a file against the entry that it should be.
+/// Compares every entry of a file with the expected entry.
 ///
-/// Both lists come from files of one format; where they differ in length, an entry before the end,
+/// Both lists come from files of one format. If their lengths differ, an entry before the end,
 /// the number of stages, differs.
 ///
 /// # Errors
-/// [`ErrorKind::Mismatch`] for the first entry that does not fit.
+/// [`ErrorKind::Mismatch`] for the first entry that differs.
 pub(crate) fn compare(file: Input<'_>, found: &[Entry], expected: &[Entry]) -> Result<(), Error> {
     let all = found;
     let Some((found, expected)) = all
@@ -46,7 +46,7 @@ pub(crate) fn compare(file: Input<'_>, found: &[Entry], expected: &[Entry]) -> R
         .zip(expected)
         .find(|(f, e)| f.name != e.name || f.value != e.value)
     else {
-        // What is left out at the end.
+        // Entries missing at the end.
         let Some(missing) = expected.get(all.len()) else {
             return Ok(());
         };
@@ -59,7 +59,7 @@ pub(crate) fn compare(file: Input<'_>, found: &[Entry], expected: &[Entry]) -> R
         return Err(file.error(&(end..end), kind));
     };
     if found.name != expected.name {
-        // One of the two has an entry that the other has not.
+        // One of the two has an entry that the other does not have.
         let kind = if all.iter().any(|entry| entry.name == expected.name) {
             ErrorKind::Mismatch {
                 entry: found.name.clone(),
@@ -84,10 +84,10 @@ pub(crate) fn compare(file: Input<'_>, found: &[Entry], expected: &[Entry]) -> R
     Err(file.error(&found.span, kind))
 }
 
-/// Values longer than this are shown around the place where they begin to differ.
+/// Longer values are shown around the place where they begin to differ.
 const LONG: usize = 120;
 
-/// Two different values as a message shows them.
+/// Two different values in the form for a message.
 fn difference(found: &str, expected: &str) -> (String, String) {
     let (found, expected): (Vec<char>, Vec<char>) =
         (found.chars().collect(), expected.chars().collect());
@@ -110,7 +110,7 @@ fn difference(found: &str, expected: &str) -> (String, String) {
     (shown(&found), shown(&expected))
 }
 
-/// The entries of a value of JSON, with the name of the value before them.
+/// The entries of a JSON value, prefixed with its name.
 pub(super) fn of_json(file: Input<'_>, name: &str, value: &RawValue, entries: &mut Vec<Entry>) {
     let text = value.get();
     // The value is borrowed from the text.
@@ -135,7 +135,7 @@ pub(super) fn of_json(file: Input<'_>, name: &str, value: &RawValue, entries: &m
     }
 }
 
-/// The entries of an object, a key that stands there twice included.
+/// The entries of an object, including duplicate keys.
 struct Pairs<'a>(Vec<(String, &'a RawValue)>);
 
 impl<'de: 'a, 'a> Deserialize<'de> for Pairs<'a> {
@@ -162,7 +162,7 @@ impl<'de: 'a, 'a> Deserialize<'de> for Pairs<'a> {
     }
 }
 
-/// The entries of a value of TOML, with the name of the value before them.
+/// The entries of a TOML value, prefixed with its name.
 pub(super) fn of_toml(name: &str, value: &Spanned<DeValue<'_>>, entries: &mut Vec<Entry>) {
     match value.get_ref() {
         DeValue::Table(table) => {
@@ -181,7 +181,7 @@ pub(super) fn of_toml(name: &str, value: &Spanned<DeValue<'_>>, entries: &mut Ve
                 of_toml(&format!("{name}[{index}]"), value, entries);
             }
         }
-        // Quotes tell a string from the number, the truth value or the empty list that it looks like.
+        // Quotes distinguish a string from the number, truth value or empty list that it looks like.
         DeValue::String(text)
             if text.parse::<i64>().is_ok() || ["true", "false", "[]", "{}"].contains(&&**text) =>
         {
@@ -196,7 +196,7 @@ pub(super) fn of_toml(name: &str, value: &Spanned<DeValue<'_>>, entries: &mut Ve
     }
 }
 
-/// The place in a text of a line and a column, both counted from 1, the column in bytes.
+/// The offset of a line and a column in a text, both counted from 1, the column in bytes.
 pub(super) fn offset(text: &str, line: usize, column: usize) -> usize {
     let start: usize = text
         .split_inclusive('\n')
@@ -210,7 +210,7 @@ pub(super) fn offset(text: &str, line: usize, column: usize) -> usize {
     offset
 }
 
-/// A span without what follows its first line, so that a caret can stand under it.
+/// A span cut at the end of its first line, so that a caret can be placed under it.
 pub(crate) fn first_line(text: &str, span: Range<usize>) -> Range<usize> {
     let end = text
         .get(span.clone())

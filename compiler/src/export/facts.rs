@@ -1,4 +1,4 @@
-//! Order and stability of a tableau as data, in one shape for all formats.
+//! Order and stability of a tableau as data, in the same shape for all formats.
 
 use super::json::evidence;
 use crate::order::{ClassOrder, HamiltonianClass, PerturbedOrder, PowerOrder, SymplecticityOrder};
@@ -12,13 +12,13 @@ use crate::tableau::Tableau;
 pub(super) enum Fact {
     /// A text.
     Text(String),
-    /// A number or a truth value, as all formats write it.
+    /// A number or a truth value in its notation, the same in all formats.
     Literal(String),
-    /// Nothing: null in JSON, left out of a table and an empty text in a list of TOML.
+    /// An absent value: null in JSON, left out of a table and an empty text in a list of TOML.
     Absent,
     /// A list.
     List(Vec<Fact>),
-    /// Values with names.
+    /// Named values.
     Table(Vec<(&'static str, Fact)>),
 }
 
@@ -29,7 +29,7 @@ impl Fact {
         text.map_or(Absent, |text| Text(text.to_string()))
     }
 
-    /// The value as JSON in one line.
+    /// The value as JSON on one line.
     pub fn json(&self) -> String {
         match self {
             Text(text) => serde_json::Value::from(text.as_str()).to_string(),
@@ -47,7 +47,7 @@ impl Fact {
         }
     }
 
-    /// The value as TOML in one line.
+    /// The value as TOML on one line.
     pub fn toml(&self) -> String {
         match self {
             Text(_) => self.json().replace('\u{7f}', "\\u007f"),
@@ -110,7 +110,7 @@ pub(super) fn sections(
     [("order", order), ("stability", stability)]
 }
 
-/// What a method is for separable Hamiltonians and is not known to be for all: its names in files and for people.
+/// Properties that hold for separable Hamiltonians and are not known to hold for all: their names in files and for people.
 pub(super) fn separable_only(tableau: &Tableau) -> Vec<(&'static str, &'static str, Property)> {
     let properties = tableau.properties();
     if properties.symplectic.holds && properties.symmetric.holds {
@@ -136,7 +136,7 @@ pub(super) fn separable_only(tableau: &Tableau) -> Vec<(&'static str, &'static s
         .collect()
 }
 
-/// What is left out of stability, and why.
+/// The note about a part of stability that is left out, with the reason.
 fn omitted(what: &str) -> String {
     format!("{what}: more than {MOST_STAGES} stages")
 }
@@ -183,7 +183,7 @@ fn perturbed_order(found: PerturbedOrder) -> Fact {
     List(found.powers.into_iter().map(power).collect())
 }
 
-/// Up to this order the order of symplecticity is looked for.
+/// The highest order of symplecticity that is tested.
 pub(super) const SYMPLECTICITY_LIMIT: usize = 8;
 
 /// The order of symplecticity of a method that is not symplectic.
@@ -268,7 +268,7 @@ fn stability(found: &Stability, digits: usize) -> Vec<(&'static str, Fact)> {
     facts
 }
 
-/// Lines about order and stability for people.
+/// Order and stability as lines for people.
 pub(super) fn lines(tableau: &Tableau) -> Vec<String> {
     let report = tableau.orders();
     let mut lines = vec!["order".to_owned()];

@@ -30,24 +30,24 @@ pub(crate) use entries::{compare, first_line};
 pub use language::Language;
 pub use stepper::{SteppedClass, Stepper};
 
-/// The significant digits of decimals in JSON and TOML, unless another number is asked for.
+/// The default number of significant digits of decimals in JSON and TOML.
 pub const DEFAULT_DIGITS: usize = 40;
-/// The significant digits of decimals in a text table, unless another number is asked for.
+/// The default number of significant digits of decimals in a text table.
 pub const TEXT_DIGITS: usize = 16;
-/// The most significant digits of a decimal that can be asked for.
+/// The largest number of significant digits of a decimal.
 pub const MAX_DIGITS: usize = 10_000;
 
-/// The most significant digits that are written of a tableau within about ten seconds, [`MAX_DIGITS`] at most.
+/// The largest number of significant digits that can be computed for a tableau within about ten seconds, at most [`MAX_DIGITS`].
 ///
-/// An entry of the matrices of `s` algebraic nodes is a sum of `s²` products of numbers with as many digits.
+/// A matrix entry for `s` algebraic nodes is a sum of `s²` products of numbers with as many digits.
 pub fn most_digits(tableau: &Tableau) -> usize {
-    /// The square of the digits times the cube of the stages.
+    /// A bound on the square of the digits times the cube of the stages.
     const MOST_WORK: u64 = 2_000_000_000_000;
     match &tableau.exact {
         Exact::Nodes(_) => {
             let stages = tableau.stages().max(1) as u64;
             let digits = (MOST_WORK / stages.saturating_pow(3)).isqrt();
-            // Rounded down to hundreds, and no fewer than everybody may ask for.
+            // Rounded down to hundreds, but at least the number that is always allowed.
             usize::try_from(digits / 100 * 100).map_or(MAX_DIGITS, |n| n.clamp(100, MAX_DIGITS))
         }
         _ => MAX_DIGITS,

@@ -1,4 +1,4 @@
-//! What a file says about where its tableau comes from.
+//! The provenance of a tableau in a file.
 
 use std::ops::Range;
 
@@ -13,31 +13,31 @@ use crate::tableau::Tableau;
 #[derive(Clone)]
 pub(super) struct Part {
     pub key: Key,
-    /// What it says.
+    /// Its text.
     pub text: String,
-    /// The bytes of the file that say it, quotes included.
+    /// Its bytes in the file, including quotes.
     pub span: Range<usize>,
 }
 
-/// Name, definition and source as a file gives them.
+/// Name, definition and source in a file.
 pub(super) struct Origin {
     pub name: Option<String>,
     pub parts: Vec<Part>,
     pub source: Option<String>,
-    /// The bytes of the file that stand for all parts together.
+    /// The bytes of the file that all parts span together.
     pub span: Range<usize>,
 }
 
 impl Origin {
-    /// What the file says that its tableau is derived from.
+    /// The definition of the tableau in the file.
     pub fn definition(&self) -> Definition {
         Definition::new(self.parts.iter().map(|part| (part.key, &*part.text)))
     }
 
-    /// Derives the tableau anew.
+    /// Derives the tableau again.
     ///
     /// # Errors
-    /// As [`Definition::derive`], with places in the file.
+    /// The errors of [`Definition::derive`], with places in the file.
     pub fn derive(&self, file: Input<'_>, limits: &Limits) -> Result<Tableau, Error> {
         let derived = self.definition().derive(limits);
         let mut tableau = derived.map_err(|error| self.in_file(file, error))?;
@@ -48,8 +48,8 @@ impl Origin {
         Ok(tableau)
     }
 
-    /// Moves the place of an error from an expression to the file that the expression stands in; what
-    /// is wrong with the parts together stands where all of them do.
+    /// Moves the place of an error from an expression to the file that contains it. An error
+    /// in the combination of the parts is placed at all of them.
     fn in_file(&self, file: Input<'_>, mut error: Error) -> Error {
         let found = error.place.as_ref().and_then(|place| {
             let part = self.parts.iter().find(|p| p.key.name() == place.input)?;
@@ -65,10 +65,10 @@ impl Origin {
     }
 }
 
-/// The bytes of a file that say some bytes of a part.
+/// The bytes of a file for a range of bytes of a part.
 fn moved(file: &str, part: &Part, within: &Range<usize>) -> Range<usize> {
     let Part { text, span, .. } = part;
-    // Between two quotes and without escapes, bytes of the expression are bytes of the file.
+    // Without escapes, bytes between the quotes are the bytes of the expression.
     let quoted = file.get(span.start + 1..span.end.saturating_sub(1));
     if quoted != Some(text.as_str()) {
         return span.clone();

@@ -10,9 +10,9 @@ use crate::stability::evidence_text;
 use crate::tableau::Tableau;
 use crate::tableau::left_out;
 
-/// Exact forms that are longer than this give way to decimals.
+/// Longer exact forms are replaced by decimals.
 const LONGEST_EXACT: usize = 28;
-/// Two tables stand side by side where they are not wider than this together.
+/// The largest total width of two tables side by side.
 const WIDEST: usize = 100;
 const GAP: &str = "     ";
 
@@ -40,7 +40,7 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
     title.extend(parts.map(|(key, text)| format!("{} {text}", key.name())));
     let mut text = title.join(", ") + "\n";
     if let Some(source) = &provenance.source {
-        // One paper a line.
+        // One paper per line.
         text.push_str(&format!(
             "source: {}\n",
             source.replace("; ", ";\n        ")
@@ -81,7 +81,7 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
     finished(text, tableau, rounded.then_some(digits))
 }
 
-/// The text with what is said below the coefficients, and to how many digits they are rounded, if they are.
+/// The text with the notes below the coefficients, including the number of digits if entries are rounded.
 fn finished(mut text: String, tableau: &Tableau, digits: Option<usize>) -> String {
     if let Some(digits) = digits {
         text.push_str(&format!(
@@ -118,7 +118,7 @@ fn push_lines(text: &mut String, lines: &[String]) {
     }
 }
 
-/// Every coefficient as it is shown, and whether any of them is rounded.
+/// The text of every coefficient, and whether any of them is rounded.
 fn cells(tableau: &Tableau, digits: usize) -> (Coefficients<String>, bool) {
     let short = written(tableau, tableau.exact_forms()).map(|form| {
         let exact = form.as_ref();
@@ -135,7 +135,7 @@ fn cells(tableau: &Tableau, digits: usize) -> (Coefficients<String>, bool) {
     (cells, rounded)
 }
 
-/// The flows of a splitting, those of a stage in a line, in place of the matrices that the weights say.
+/// The flows of a splitting, one line per stage, in place of the matrices that the weights determine.
 fn flows(cells: &Coefficients<String>, staircase: Staircase) -> Vec<String> {
     let (kick, drift) = (("kick b̃", &cells.b_tilde), ("drift b", &cells.b));
     let both = match staircase {

@@ -1,4 +1,4 @@
-//! What a definition asks for: properties of the system, and functions that are conserved.
+//! The checks that a definition requests: properties of the system, and conserved functions.
 
 use num_traits::One;
 
@@ -21,11 +21,11 @@ pub const PROPERTIES: [&str; 5] = [
     "chain",
 ];
 
-/// A bracket above this, relative to its parts, is not zero.
+/// A bracket above this, relative to its terms, counts as nonzero.
 const ROUNDING: f64 = 1e-8;
 
 impl System {
-    /// Checks what the definition requires, and refutes invariants that are none; `text` is that of the definition.
+    /// Checks the properties that the definition requires, and refutes false invariants; `text` is the text of the definition.
     ///
     /// # Errors
     /// A property that does not hold, at the term that violates it; a function that is not conserved.
@@ -43,7 +43,7 @@ impl System {
             return Err(kind.into());
         }
         if self.without_hamiltonian().is_some() {
-            // Where something needs H, L was refused when it was read.
+            // If a part of the definition needs H, L was rejected on reading.
             return Ok(());
         }
         if self.friction.is_some() {
@@ -67,7 +67,7 @@ impl System {
         Ok(())
     }
 
-    /// Friction is for separable systems, and conserves nothing.
+    /// Friction is only for separable systems, and excludes invariants.
     fn check_friction(&self, structure: &Structure, input: Input<'_>) -> Result<(), Error> {
         if let Err(term) = structure.split {
             let kind = FormulaError::Unsupported {
@@ -169,7 +169,7 @@ impl System {
         }
     }
 
-    /// Whether it is proved that a function is conserved, by a symmetry that shows in the formula. Else it is compared at a few states.
+    /// Whether a function is proved to be conserved, by a symmetry visible in the formula. Otherwise the bracket is tested at a few states.
     ///
     /// # Errors
     /// [`FormulaError::NotConserved`].
@@ -201,7 +201,7 @@ impl System {
         Ok(proved)
     }
 
-    /// Whether H, or another formula in its place, does not change in the direction that a function generates, seen from the formulas.
+    /// Whether H, or `energy` in its place, is visibly invariant along the direction that a function generates.
     fn is_symmetry(&mut self, function: Id, energy: Id) -> bool {
         if self.graph.depends(function).time {
             return false;
@@ -223,7 +223,7 @@ impl System {
         seen && self.graph.is_zero(speed)
     }
 
-    /// Whether applied forces change a function, as far as it shows.
+    /// Whether applied forces change a function, as far as the formula shows.
     fn is_forced(&mut self, function: Id) -> bool {
         let system = self.clone();
         let mut seen = true;
@@ -238,7 +238,7 @@ impl System {
         !(seen && self.graph.is_zero(power))
     }
 
-    /// `{function, energy}`, the time derivative, and if `energy` is H what applied forces add, at a state, and the size of the terms.
+    /// At a state: `{function, energy}` plus the time derivative, plus the applied forces' term if `energy` is H; and the terms' size.
     fn bracket(&mut self, function: Id, energy: Id, seed: u64) -> Option<(f64, f64)> {
         let mut derivatives = Vec::new();
         for (of, half) in [
@@ -278,7 +278,7 @@ impl System {
         sum.is_finite().then_some((sum, size))
     }
 
-    /// A state and parameters, without a pattern; the same for the same seed.
+    /// A pseudo-random state and parameters; the same for the same seed.
     pub fn random_point(&self, seed: u64) -> Option<Point<f64>> {
         let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0x5851_F42D_4C95_7F2D;
         let mut next = || {
@@ -307,7 +307,7 @@ impl System {
             .parameters
             .iter()
             .map(|parameter| match &parameter.shape {
-                // Whatever a parameter is set to.
+                // Independent of the default value.
                 Shape::Number(_) => vec![vec![next()]],
                 Shape::Pairs => Vec::new(),
                 Shape::Array(lengths) => {
@@ -336,7 +336,7 @@ impl System {
     }
 }
 
-/// The derivative by a coordinate, from the parts of a derivative; `None` where that is not seen.
+/// The derivative with respect to a coordinate, from the parts of a derivative; `None` if the parts do not show it.
 pub(super) fn at(
     system: &System,
     graph: &mut Graph,

@@ -9,14 +9,14 @@ use super::graph::{Graph, Id, Node, integer};
 use super::modular::{Modular, Points};
 use super::system::System;
 
-/// The highest degree that is looked for.
+/// The highest degree that is tested.
 const MOST_DEGREE: usize = 32;
 
-/// The degree of H as a polynomial in positions and momenta; `None` if it does not show that it is one.
+/// The degree of H as a polynomial in positions and momenta; `None` if H is not visibly a polynomial.
 pub fn degree(system: &System) -> Option<usize> {
     let written = as_written(&system.graph, system.energy)?;
     let points = Points::of(system);
-    // What is written may cancel.
+    // The written leading terms may cancel.
     let leading = |degree: &usize| {
         let mut found = points.exact().iter();
         found.any(|point| {

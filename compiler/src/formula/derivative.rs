@@ -1,7 +1,7 @@
 //! Derivatives.
 //!
 //! [`gradient`] goes through a formula from the result to the coordinates (reverse mode), *under* the sums: the derivative of a sum over an
-//! index is a loop over that index, whatever the number of terms. [`directional`] goes from the coordinates to the result.
+//! index is a loop over that index, for any number of terms. [`directional`] goes from the coordinates to the result.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -10,10 +10,10 @@ use num_traits::One;
 use super::function::Elementary;
 use super::graph::{Coordinate, Graph, Half, Id, LoopId, Node, Number, integer};
 
-/// A part of a derivative: in these loops, one in the other, the value is added to the derivative by the coordinate.
+/// A part of a derivative: in these nested loops, the value is added to the derivative with respect to the coordinate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scatter {
-    /// The loops, the outer ones first.
+    /// The loops, outermost first.
     pub loops: Vec<LoopId>,
     /// The coordinate.
     pub target: Coordinate,
@@ -21,9 +21,10 @@ pub struct Scatter {
     pub value: Id,
 }
 
-/// The derivatives of a node by all coordinates of a half, times a factor. The node stands in some loops, in which the derivatives stay.
+/// The derivatives of a node with respect to all coordinates of a half, times a factor. The node stands in the given loops, and the
+/// derivatives stay in them.
 ///
-/// Coordinates that have more than one part get them in the order in which they are listed.
+/// If a coordinate has several parts, they come in the order in which they are listed.
 pub fn gradient(
     graph: &mut Graph,
     root: Id,
@@ -31,7 +32,7 @@ pub fn gradient(
     factor: Number,
     half: Half,
 ) -> Vec<Scatter> {
-    // What has been collected for nodes, by the loops in which it has to be added.
+    // The adjoints collected for each node, by the loops in which they are added.
     type Open = BTreeMap<Id, Vec<(Vec<LoopId>, Vec<(Number, Id)>)>>;
     let mut open = Open::new();
     let own = loops.len();
@@ -41,7 +42,7 @@ pub fn gradient(
             if !graph.depends(to).on(half) || graph.is_zero(value) {
                 return;
             }
-            // A loop that the node does not feel is a sum now.
+            // A loop on which the node does not depend becomes a sum.
             while let Some(place) = (own..loops.len()).rev().find(|&k| {
                 let others = loops.iter().enumerate().filter(|&(other, _)| other != k);
                 let needed = others.fold(0, |all, (_, id)| all | graph.range_loops(*id));
@@ -57,7 +58,7 @@ pub fn gradient(
             }
         };
     let start = graph.scale(factor, one);
-    // Loops that the root does not feel stay: they are of the caller.
+    // Loops on which the root does not depend stay: they belong to the caller.
     if graph.depends(root).on(half) {
         open.entry(root)
             .or_default()
@@ -118,7 +119,7 @@ pub fn gradient(
     scatters
 }
 
-/// A sum in some loops, with an index that none of them has.
+/// A sum, with its index renamed to one that none of the loops uses.
 fn apart(graph: &mut Graph, loops: &[LoopId], over: LoopId, body: Id) -> (LoopId, Id) {
     if !loops.contains(&over) {
         return (over, body);
@@ -137,7 +138,7 @@ fn apart(graph: &mut Graph, loops: &[LoopId], over: LoopId, body: Id) -> (LoopId
     new.depth = depths.max().map_or(0, |deepest| deepest + 1);
     match graph.add_loop(new) {
         Some(other) => (other, graph.rename(body, over, other)),
-        // More loops than there can be: see `MOST_LOOPS`.
+        // More loops than are allowed: see `MOST_LOOPS`.
         None => (over, body),
     }
 }
@@ -152,7 +153,7 @@ fn by_factor(graph: &mut Graph, factors: &[(Id, Number)], k: usize, value: Id) -
     graph.product(exponent.clone(), parts)
 }
 
-/// The derivative of `atan2(y, x)` by its first or second argument.
+/// The derivative of `atan2(y, x)` with respect to its first or second argument.
 fn by_argument(graph: &mut Graph, y: Id, x: Id, argument: usize) -> Id {
     let [x2, y2] = [x, y].map(|side| graph.power(side, integer(2)));
     let square = graph.sum([(Number::one(), x2), (Number::one(), y2)]);
@@ -163,7 +164,7 @@ fn by_argument(graph: &mut Graph, y: Id, x: Id, argument: usize) -> Id {
     )
 }
 
-/// The derivative of a function of one number by its argument.
+/// The derivative of a function of one variable.
 fn slope(graph: &mut Graph, id: Id) -> Id {
     use Elementary::{Acos, Asin, Atan, Cos, Cosh, Exp, Ln, Sin, Sinh, Tan, Tanh};
     let (function, x) = match *graph.node(id) {
@@ -200,7 +201,7 @@ fn slope(graph: &mut Graph, id: Id) -> Id {
     }
 }
 
-/// The derivative of a node in a direction, which says how fast each coordinate changes; the time has the speed given.
+/// The derivative of a node in a direction, given by the rate of each coordinate and of the time.
 pub fn directional(
     graph: &mut Graph,
     root: Id,
@@ -254,7 +255,7 @@ pub fn directional(
     known.get(&root).copied().unwrap_or(zero)
 }
 
-/// A value in some loops, with other indices for the sums in it that would stand in a loop of the same index.
+/// A value in some loops; sums in it whose index is that of a loop around them get another index.
 fn distinct(
     graph: &mut Graph,
     root: Id,
@@ -276,7 +277,7 @@ fn distinct(
     for id in order {
         let made = match *graph.node(id) {
             Node::Total(over, body) => {
-                // It is computed in the outermost loops that it needs.
+                // The value is computed in the outermost loops that it needs.
                 let felt = around
                     .iter()
                     .rposition(|&id2| graph.depends(id).changes_in(id2));

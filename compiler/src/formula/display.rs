@@ -11,10 +11,10 @@ use super::structure::each_once;
 use super::syntax::Length;
 use super::system::{Layout, System};
 
-/// How formulas are written.
+/// The notation of formulas.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Notation {
-    /// In one line, with the letters of Unicode.
+    /// On one line, with Unicode letters.
     Text,
     /// For LaTeX and KaTeX.
     Latex,
@@ -28,7 +28,7 @@ enum Strength {
     Atom,
 }
 
-/// What is written already.
+/// The texts of nodes written so far.
 type Texts = HashMap<Id, (String, Strength)>;
 
 /// Longest formula that is written out.
@@ -62,7 +62,7 @@ impl System {
         })
     }
 
-    /// A derivative, one line for each part; `name` says what is on the left.
+    /// A derivative, one line for each part; `name` gives the left side.
     pub(super) fn lines(
         &self,
         parts: &[Scatter],
@@ -86,7 +86,7 @@ impl System {
         lines.collect()
     }
 
-    /// The loops in which a line holds, in parentheses.
+    /// The loops over which a line holds, in parentheses.
     pub(super) fn ranges(&self, loops: &[LoopId], notation: Notation) -> String {
         let ranges: Vec<String> = loops
             .iter()
@@ -120,7 +120,7 @@ impl System {
         }
     }
 
-    /// What a coordinate is called.
+    /// The name of a coordinate.
     pub fn coordinate_name(&self, coordinate: &Coordinate, notation: Notation) -> String {
         if coordinate.index == STRETCH {
             return "d".to_owned();
@@ -297,7 +297,7 @@ impl System {
             text.push_str(&term);
         };
         let alone = terms.len() == 1 && constant.is_zero();
-        // What is added comes first.
+        // A positive constant comes first.
         let before = constant.is_positive() && terms.iter().all(|(factor, _)| factor.is_negative());
         if before {
             push(false, number(constant, notation).0);
@@ -390,7 +390,7 @@ fn operator(name: &str, notation: Notation) -> String {
     }
 }
 
-/// A name; in LaTeX a long one is upright.
+/// A name; in LaTeX a long name is upright.
 fn symbol(name: &str, notation: Notation) -> String {
     let escaped = name.replace('_', "\\_");
     match (notation, name.chars().count()) {

@@ -1,21 +1,21 @@
-//! How far apart coordinates in a formula can be.
+//! The largest distance between coordinates in a formula.
 
 use super::graph::{Base, Coordinate, Index, LoopRange};
 use super::syntax::Length;
 use super::system::System;
 
-/// The largest `|i − j|` of the components `i` and `j` of two coordinates, where it is known.
+/// The largest `|i − j|` of the components `i` and `j` of two coordinates, if it is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Distance {
-    /// A number, whatever the parameters are.
+    /// A number, independent of the parameters.
     Number(u64),
-    /// Of the indices `k` and `l` in the pairs of a parameter: the largest `components·|k − l| + more`.
+    /// For indices `k` and `l` in the pairs of a parameter: the largest `components·|k − l| + more`.
     OfPairs {
-        /// The number of the parameter.
+        /// The index of the parameter.
         list: usize,
         /// The number of components of each coordinate.
         components: u64,
-        /// What is added.
+        /// The constant that is added.
         more: u64,
     },
 }
@@ -52,14 +52,14 @@ pub fn distance(system: &System, [a, b]: [&Coordinate; 2]) -> Option<Distance> {
     distances.min().map(Distance::Number)
 }
 
-/// An index is from `base + first` to `base + last`.
+/// Bounds of an index: it lies between `base + first` and `base + last`.
 struct Span {
     base: Base,
     first: i64,
     last: i64,
 }
 
-/// All that is known of an index: by its own base, by that of the range of its loop, and so on.
+/// All known bounds of an index: by its own base, by that of the range of its loop, and so on.
 fn spans(system: &System, index: &Index) -> Vec<Span> {
     let mut spans = Vec::new();
     let mut next = Some(Span {

@@ -1,6 +1,6 @@
-//! What can be wrong with a formula, beyond what can be wrong with any expression.
+//! Errors of formulas, beyond those of any expression.
 
-/// The kinds of wrong formulas.
+/// The errors of formulas.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FormulaError {
@@ -9,24 +9,24 @@ pub enum FormulaError {
     Taken {
         /// The name.
         name: String,
-        /// What it is.
+        /// Its meaning.
         meaning: String,
     },
-    /// A part of the definition that has to be there.
+    /// A required part of the definition is missing.
     #[error("the system has no {part}: write `{example}`")]
     Missing {
         /// What is missing.
         part: &'static str,
-        /// How it is written.
+        /// An example of how it is written.
         example: &'static str,
     },
-    /// A part that is there twice.
+    /// A part is given twice.
     #[error("{part} is given twice")]
     Twice {
-        /// What it is.
+        /// The part.
         part: String,
     },
-    /// A part of the other form: H in a Lagrangian, or L in a Hamiltonian.
+    /// A part that belongs to the other form: H in a Lagrangian, or L in a Hamiltonian.
     #[error(
         "`{found}` does not belong here: write `{coordinates}` and `{function} = …`, or take `{other}`"
     )]
@@ -63,12 +63,12 @@ pub enum FormulaError {
          or implement `Lagrangian` by hand and take `symplectic::variational::DiracIntegrator`"
     )]
     Singular {
-        /// What is singular.
+        /// The reason why it is singular.
         reason: String,
-        /// The relation of positions and momenta that follows.
+        /// The resulting relation of positions and momenta.
         constraint: String,
     },
-    /// A coordinate without influence.
+    /// A coordinate on which H does not depend.
     #[error("H does not depend on {coordinate}")]
     Unused {
         /// The coordinate or momentum.
@@ -79,15 +79,15 @@ pub enum FormulaError {
     NotSmooth {
         /// The function.
         function: String,
-        /// What is wrong with it.
+        /// The defect: a kink or a jump.
         defect: &'static str,
-        /// What to do.
+        /// The remedy.
         instead: &'static str,
     },
-    /// A quotient with a product after it.
+    /// An ambiguous quotient followed by a product.
     #[error("is it `a / (b c)` or `(a / b) c`? Write the parentheses")]
     AmbiguousQuotient,
-    /// An index beyond an array.
+    /// An index out of range.
     #[error("the index {index} of `{name}` is not between 0 and {last}")]
     IndexRange {
         /// The index.
@@ -97,7 +97,7 @@ pub enum FormulaError {
         /// The largest index.
         last: String,
     },
-    /// A sum without an end.
+    /// A sum without a known range.
     #[error(
         "the range of the sum is not known: write `sum({index} in 0..n: …)` with a number or a length of the system for n"
     )]
@@ -105,15 +105,15 @@ pub enum FormulaError {
         /// The index.
         index: String,
     },
-    /// A property that is required and does not hold.
+    /// A required property that does not hold.
     #[error("the system is not {property}: {reason}")]
     Property {
-        /// What is required.
+        /// The property.
         property: &'static str,
         /// Why it does not hold.
         reason: String,
     },
-    /// A function of the state that changes along solutions.
+    /// A supposed invariant that changes along solutions.
     #[error("`{name}` is not conserved: {{{name}, {of}}} is {bracket} at a random state, not 0")]
     NotConserved {
         /// The name of the invariant.
@@ -123,12 +123,12 @@ pub enum FormulaError {
         /// The Poisson bracket.
         bracket: String,
     },
-    /// Something that is not built for this kind of system.
+    /// A feature that this kind of system does not support.
     #[error("{what} is not supported here: {instead}")]
     Unsupported {
         /// What was written.
         what: String,
-        /// What to do instead.
+        /// The alternative.
         instead: &'static str,
     },
 }

@@ -6,7 +6,7 @@ use super::derivative::Scatter;
 use super::function::Elementary;
 use super::graph::{Base, Coordinate, Graph, Half, Id, Index, LoopId, LoopRange, Node, Number};
 
-/// Numbers that formulas can be evaluated with.
+/// Numbers in which formulas can be evaluated.
 pub trait Real: Clone {
     /// A rational number.
     fn number(value: &Number) -> Self;
@@ -24,7 +24,7 @@ pub trait Real: Clone {
     fn atan2(&self, x: &Self) -> Self;
 }
 
-/// What a formula is evaluated at.
+/// The point at which a formula is evaluated.
 #[derive(Debug, Clone)]
 pub struct Point<R> {
     /// The time.
@@ -37,7 +37,7 @@ pub struct Point<R> {
     pub pairs: Vec<Vec<[usize; 2]>>,
 }
 
-/// Most nodes that are computed.
+/// The largest number of nodes that are computed.
 const MOST_NODES: usize = 3_000_000;
 
 /// The values of nodes at a point.
@@ -45,14 +45,14 @@ pub struct Evaluator<'a, R> {
     graph: &'a Graph,
     point: &'a Point<R>,
     values: HashMap<Id, R>,
-    /// The indices of the loops that are run, of a list the number of the pair.
+    /// The indices of the running loops; for a list, the index of the pair.
     indices: HashMap<LoopId, usize>,
-    /// How many more nodes are computed.
+    /// How many more nodes may be computed.
     budget: usize,
 }
 
 impl<'a, R: Real> Evaluator<'a, R> {
-    /// Nothing is evaluated yet.
+    /// An evaluator without values.
     pub fn new(graph: &'a Graph, point: &'a Point<R>) -> Self {
         Evaluator {
             graph,
@@ -63,20 +63,20 @@ impl<'a, R: Real> Evaluator<'a, R> {
         }
     }
 
-    /// Fixes the index of a loop that the nodes stand in.
+    /// Fixes the index of a loop around the nodes.
     pub fn fix(&mut self, over: LoopId, index: usize) {
         self.indices.insert(over, index);
         self.forget(over);
     }
 
-    /// The value of a node; `None` where a function of the user is needed, or an entry does not exist.
+    /// The value of a node; `None` if a user's function is needed, or an entry does not exist.
     pub fn value(&mut self, id: Id) -> Option<R> {
         let order = self.graph.below([id]);
         self.run(&order);
         self.values.get(&id).cloned()
     }
 
-    /// The derivative of which these are the parts, by all coordinates and their components.
+    /// The derivative with these parts, with respect to all coordinates and their components.
     pub fn sum(&mut self, parts: &[Scatter]) -> Option<Vec<Vec<R>>> {
         let zero = R::number(&super::graph::integer(0));
         let shape = &self.point.halves[0];
@@ -95,8 +95,8 @@ impl<'a, R: Real> Evaluator<'a, R> {
         Some(sum)
     }
 
-    /// The matrix of second derivatives of which these are the parts, each after the coordinate of its row; components of a body are
-    /// next to each other.
+    /// The matrix of second derivatives with these parts, each preceded by the coordinate of its row; the components of a body are
+    /// adjacent.
     pub fn matrix(&mut self, parts: &[(Coordinate, Scatter)]) -> Option<Vec<Vec<R>>> {
         let components = self.point.halves[0].first().map_or(1, Vec::len);
         let size = self.point.halves[0].len() * components;
@@ -169,7 +169,7 @@ impl<'a, R: Real> Evaluator<'a, R> {
         usize::try_from(i64::try_from(base).ok()? + index.offset).ok()
     }
 
-    /// Evaluates nodes, those first of which others are made.
+    /// Evaluates nodes; operands come before the nodes that use them.
     fn run(&mut self, order: &[Id]) {
         for &id in order {
             if !self.values.contains_key(&id)
@@ -218,7 +218,7 @@ impl<'a, R: Real> Evaluator<'a, R> {
             }
             Node::Elementary(function, x) => of(self, x)?.elementary(*function),
             Node::Atan2(y, x) => of(self, y)?.atan2(&of(self, x)?),
-            // Any function will do: sin(x + c).
+            // Any function serves: sin(x + c).
             Node::User(function, derivative, x) => {
                 let shift = R::number(&super::graph::integer(*function as i64 + 1));
                 let angle = of(self, x)?.add(&shift);
@@ -232,7 +232,7 @@ impl<'a, R: Real> Evaluator<'a, R> {
                 }
             }
             Node::Total(over, body) => {
-                // Under other loops it is looked at there.
+                // In loops that are not running it is evaluated later.
                 if self.graph.depends(id).loops & !self.bound() != 0 {
                     return None;
                 }

@@ -1,4 +1,4 @@
-//! The functions of one number.
+//! The functions of one variable.
 
 /// An elementary function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -27,7 +27,7 @@ pub enum Elementary {
     Tanh,
 }
 
-/// All of them, by their names in formulas and in Rust.
+/// All elementary functions, by their names in formulas and in Rust.
 pub const ELEMENTARY: [(&str, Elementary); 11] = [
     ("exp", Elementary::Exp),
     ("ln", Elementary::Ln),
@@ -42,10 +42,10 @@ pub const ELEMENTARY: [(&str, Elementary); 11] = [
     ("tanh", Elementary::Tanh),
 ];
 
-/// A function of one number in a formula.
+/// A function of one variable in a formula.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Function {
-    /// An elementary one.
+    /// An elementary function.
     Elementary(Elementary),
     /// The square root, which is the power 1/2.
     Sqrt,
@@ -63,7 +63,7 @@ impl Function {
 }
 
 impl Elementary {
-    /// Its name.
+    /// The name of the function.
     pub fn name(self) -> &'static str {
         let found = ELEMENTARY.iter().find(|(_, function)| *function == self);
         found.map_or("", |(name, _)| name)

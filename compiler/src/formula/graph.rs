@@ -1,6 +1,6 @@
 //! A formula as a graph in which equal parts are one node.
 //!
-//! Nodes are made by the functions of [`Graph`] only, which bring them into one form. What they change is exact: factors that are numbers
+//! Nodes are only made by the functions of [`Graph`], which bring them into a normal form. These changes are exact: numeric factors
 //! are collected, equal terms and equal factors are joined, and terms and factors are put in the order in which they first appeared in the
 //! formula. Nothing is expanded: a sum in parentheses stays a term, a product in parentheses a factor.
 
@@ -45,35 +45,35 @@ impl Half {
 /// A loop over one index, or over the pairs of a list.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Loop {
-    /// What it goes over.
+    /// The range of the loop.
     pub range: LoopRange,
-    /// In how many other loops it stands.
+    /// The number of loops around it.
     pub depth: usize,
 }
 
-/// What a loop goes over.
+/// The range of a loop.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum LoopRange {
-    /// From the first index to before the second.
+    /// From the first index up to, but excluding, the second.
     Between(Index, Index),
-    /// The pairs of a parameter.
+    /// The pairs of a parameter, given by its index.
     List(usize),
 }
 
-/// A loop, by its number.
+/// The index of a loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct LoopId(pub usize);
 
 /// The index of an entry: a base and an offset.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Index {
-    /// What the offset is added to.
+    /// The base.
     pub base: Base,
-    /// What is added.
+    /// The offset.
     pub offset: i64,
 }
 
-/// What an index is counted from.
+/// The base of an index.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Base {
     /// Zero.
@@ -100,7 +100,7 @@ impl Index {
         Index { base, offset: 0 }
     }
 
-    /// The loop that the index changes in.
+    /// The loop in which the index changes.
     pub fn loop_id(&self) -> Option<LoopId> {
         match self.base {
             Base::Loop(id) | Base::Pair(id, _) => Some(id),
@@ -112,16 +112,16 @@ impl Index {
 /// A coordinate or momentum.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Coordinate {
-    /// Which half of the state.
+    /// The half of the state.
     pub half: Half,
-    /// Which one.
+    /// The index within the half.
     pub index: Index,
-    /// Which component, where each is a vector.
+    /// The component, if each coordinate is a vector.
     pub component: usize,
 }
 
 impl Coordinate {
-    /// The one of another half with the same index.
+    /// The coordinate of another half with the same index.
     pub fn of(&self, half: Half) -> Self {
         Coordinate {
             half,
@@ -130,7 +130,7 @@ impl Coordinate {
     }
 }
 
-/// What a node is.
+/// The expression at a node.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Node {
     /// A number.
@@ -157,7 +157,7 @@ pub enum Node {
     Total(LoopId, Id),
 }
 
-/// What a node depends on.
+/// The dependences of a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Dependence {
     /// On positions.
@@ -173,7 +173,7 @@ pub struct Dependence {
 }
 
 impl Dependence {
-    /// Adds what something else depends on.
+    /// Adds the dependences of another node.
     pub fn join(&mut self, other: Self) {
         self.q |= other.q;
         self.p |= other.p;
@@ -182,7 +182,7 @@ impl Dependence {
         self.loops |= other.loops;
     }
 
-    /// Whether it depends on a half of the state.
+    /// Whether the node depends on a half of the state.
     pub fn on(self, half: Half) -> bool {
         match half {
             Half::Q => self.q,
@@ -191,22 +191,22 @@ impl Dependence {
         }
     }
 
-    /// Whether it is a function of parameters only.
+    /// Whether the node is a function of parameters only.
     pub fn is_fixed(self) -> bool {
         !(self.q || self.p || self.v || self.time)
     }
 
-    /// Whether it changes in a loop.
+    /// Whether the node changes in a loop.
     pub fn changes_in(self, id: LoopId) -> bool {
         self.loops & (1 << id.0) != 0
     }
 }
 
-/// Most factors of a product; a longer one is a product of products.
+/// The largest number of factors of a product; a longer product becomes a product of products.
 const MOST_FACTORS: usize = 8;
-/// The longest number that a power is written out as, in bits.
+/// The longest numeric power that is evaluated, in bits.
 const MOST_BITS: u64 = 4096;
-/// Most loops of a formula.
+/// The largest number of loops of a formula.
 pub const MOST_LOOPS: usize = 64;
 
 /// The nodes of formulas.
@@ -216,17 +216,17 @@ pub struct Graph {
     depends: Vec<Dependence>,
     ids: HashMap<Node, Id>,
     loops: Vec<Loop>,
-    /// Whether a derivative needed more loops than there can be.
+    /// Whether a derivative needed more loops than allowed.
     overflowed: bool,
 }
 
 impl Graph {
-    /// What a node is.
+    /// The expression at a node.
     pub fn node(&self, id: Id) -> &Node {
         &self.nodes[id.0 as usize]
     }
 
-    /// What a node depends on.
+    /// The dependences of a node.
     pub fn depends(&self, id: Id) -> Dependence {
         self.depends[id.0 as usize]
     }
@@ -236,7 +236,7 @@ impl Graph {
         &self.loops[id.0]
     }
 
-    /// The number of a loop; `None` where there are too many.
+    /// The index of a loop; `None` if there are too many.
     pub fn add_loop(&mut self, new: Loop) -> Option<LoopId> {
         let found = self.loops.iter().position(|known| *known == new);
         if found.is_none() && self.loops.len() == MOST_LOOPS {
@@ -295,7 +295,7 @@ impl Graph {
         self.add(Node::Constant(value))
     }
 
-    /// A whole number.
+    /// An integer.
     pub fn integer(&mut self, value: i64) -> Id {
         self.constant(integer(value))
     }
@@ -373,7 +373,7 @@ impl Graph {
             [(factor, x)] if factor.is_one() && constant.is_zero() => return *x,
             _ => {}
         }
-        // d and −d are one node and its negative.
+        // d and −d share one node.
         if joined.len() > 1 && constant.is_zero() && joined[0].0.is_negative() {
             for term in &mut joined {
                 term.0 = -&term.0;
@@ -384,7 +384,7 @@ impl Graph {
         self.add(Node::Sum(joined, constant))
     }
 
-    /// `factor·Π xᵉ`; 0 is not to a negative power.
+    /// `factor·Π xᵉ`; 0 must not have a negative exponent.
     pub fn product(
         &mut self,
         factor: Number,
@@ -395,7 +395,7 @@ impl Graph {
         for (x, exponent) in factors {
             let (scale, x) = self.scaled(x);
             match exponent.is_integer().then(|| exponent.to_i64()).flatten() {
-                // A number of its own.
+                // A numeric power becomes part of the factor.
                 Some(power) if scale.is_one() || is_short(&scale, power) => {
                     factor *= whole_power(&scale, power);
                     match self.value(x) {
@@ -456,7 +456,7 @@ impl Graph {
         self.product_of(parts)
     }
 
-    /// Adds a factor; a power of a power is one power, where that is the same.
+    /// Adds a factor; a power of a power becomes one power if the two are equal.
     fn factor(&self, list: &mut Vec<(Id, Number)>, x: Id, exponent: Number) {
         if let Node::Product(inner) = self.node(x)
             && let [(base, power)] = inner.as_slice()
@@ -469,7 +469,7 @@ impl Graph {
         list.push((x, exponent));
     }
 
-    /// `x²·(x²)ᵉ = (x²)ᵉ⁺¹`, which has a value at zero where the left side may have none.
+    /// `x²·(x²)ᵉ = (x²)ᵉ⁺¹`, which is defined at zero even if the left side is not.
     fn absolute_values(&self, factors: &mut Vec<(Id, Number)>) {
         let two = integer(2);
         for k in 0..factors.len() {
@@ -501,7 +501,7 @@ impl Graph {
         self.product(Number::one(), [(x, exponent)])
     }
 
-    /// The product of two.
+    /// The product of two nodes.
     pub fn multiply(&mut self, a: Id, b: Id) -> Id {
         self.product(Number::one(), [(a, Number::one()), (b, Number::one())])
     }
@@ -557,7 +557,7 @@ impl Graph {
         children(self.node(id))
     }
 
-    /// All nodes that some are made of, and these, in the order in which they can be computed.
+    /// The roots and all nodes below them, in an order in which they can be computed.
     pub fn below(&self, roots: impl IntoIterator<Item = Id>) -> Vec<Id> {
         let mut found = std::collections::BTreeSet::new();
         let mut open: Vec<Id> = roots.into_iter().collect();
@@ -579,7 +579,7 @@ impl Graph {
         loops.collect()
     }
 
-    /// A node with the index of another loop in place of one.
+    /// A node with the index of one loop replaced by that of another.
     pub fn rename(&mut self, root: Id, from: LoopId, to: LoopId) -> Id {
         let index = |index: &Index| {
             let base = match &index.base {
@@ -631,7 +631,7 @@ impl Graph {
         known.get(&root).copied().unwrap_or(root)
     }
 
-    /// A node with another index in place of that of a loop over a range; no sum in it may change in that loop.
+    /// A node with the index of a loop over a range replaced by another index; no sum in it may change in that loop.
     pub fn with_index(&mut self, root: Id, from: LoopId, to: &Index) -> Id {
         let index = |index: &Index| match &index.base {
             Base::Loop(id) if *id == from => Index {
@@ -664,12 +664,12 @@ impl Graph {
         known.get(&root).copied().unwrap_or(root)
     }
 
-    /// Whether more loops were needed than there can be: a derivative is wrong then.
+    /// Whether more loops were needed than allowed; a derivative is then wrong.
     pub fn overflowed(&self) -> bool {
         self.overflowed
     }
 
-    /// How many loops there are.
+    /// The number of loops.
     pub fn count_loops(&self) -> usize {
         self.loops.len()
     }
@@ -679,17 +679,17 @@ impl Graph {
         (0..self.nodes.len() as u32).map(Id)
     }
 
-    /// How many nodes there are.
+    /// The number of nodes.
     pub fn size(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Makes a node anew with other parts.
+    /// Rebuilds a node with other operands.
     pub fn rebuild(&mut self, id: Id, part: impl FnMut(Id) -> Id) -> Id {
         self.make(self.node(id).clone(), part)
     }
 
-    /// Makes a node of another graph with the same loops, or of this one, with other parts.
+    /// Makes a copy of a node, from this graph or another one with the same loops, with other operands.
     pub fn make(&mut self, node: Node, mut part: impl FnMut(Id) -> Id) -> Id {
         match node {
             Node::Sum(terms, constant) => {
@@ -729,7 +729,7 @@ impl Graph {
     }
 }
 
-/// A whole number.
+/// An integer.
 pub fn integer(value: i64) -> Number {
     Number::from_integer(value.into())
 }
@@ -738,7 +738,7 @@ fn bits(index: &Index) -> u64 {
     index.loop_id().map_or(0, |id| 1 << id.0)
 }
 
-/// Whether a power is a number that is not too long.
+/// Whether a numeric power is short enough.
 fn is_short(base: &Number, power: i64) -> bool {
     let bits = base.numer().bits() + base.denom().bits();
     bits.saturating_mul(power.unsigned_abs()) <= MOST_BITS

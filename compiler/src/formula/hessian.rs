@@ -1,4 +1,4 @@
-//! Whether `∂²H/∂p²` is regular, as methods need it whose momenta have more stages than their positions have functions.
+//! Whether `∂²H/∂p²` is regular. Methods whose momenta have more stages than their positions have functions need this.
 
 use num_traits::One;
 
@@ -9,32 +9,32 @@ use super::modular::Points;
 use super::syntax::Length;
 use super::system::System;
 
-/// Most momenta whose second derivatives are looked at.
+/// The largest number of momenta for which second derivatives are examined.
 const MOST_MOMENTA: usize = 60;
 
-/// A pivot below this, relative to its row and column, is zero.
+/// A pivot below this, relative to its row and column, counts as zero.
 const ROUNDING: f64 = 1e-11;
 
-/// What is known of `∂²H/∂p²`.
+/// What is known about `∂²H/∂p²`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MomentumHessian {
-    /// It is zero: H is linear in the momenta.
+    /// Zero: H is linear in the momenta.
     Zero,
-    /// It is singular at random points, of this rank and this size.
+    /// Singular at random points, of this rank and size.
     Singular {
         /// The rank.
         rank: usize,
         /// The number of momenta.
         size: usize,
     },
-    /// It is regular at a random point.
+    /// Regular at a random point.
     Regular,
-    /// There are too many momenta to look at.
+    /// Unknown: there are too many momenta to examine.
     Unknown,
 }
 
 impl MomentumHessian {
-    /// That of a system.
+    /// The result for a system.
     pub fn of(system: &System) -> Self {
         if system.lagrangian.is_some() {
             return MomentumHessian::Regular;
@@ -66,7 +66,7 @@ impl MomentumHessian {
         }
         let points = Points::of(system);
         let exact = largest_rank(&graph, points.exact(), &parts, |x| x.size());
-        // Other identities than those of exact numbers.
+        // Doubles also detect identities that the exact numbers do not satisfy.
         let doubles = largest_rank(&graph, points.doubles(), &parts, |x| Some(x.abs()));
         match exact.into_iter().chain(doubles).min() {
             Some((rank, size)) if rank == size => MomentumHessian::Regular,
@@ -91,7 +91,7 @@ fn largest_rank<R: Real>(
     found.max()
 }
 
-/// The rank of a matrix; `None` where an entry is not known. Sizes are relative to those of rows and columns, so that units do not matter.
+/// The rank of a matrix; `None` if an entry is not known. Sizes are relative to rows and columns, so that units do not matter.
 fn rank<R: Real>(mut matrix: Vec<Vec<R>>, size: impl Fn(&R) -> Option<f64>) -> Option<usize> {
     let count = matrix.len();
     let mut sizes = Vec::with_capacity(count);

@@ -1,4 +1,4 @@
-//! Systems whose Hamiltonian has no formula: L by itself.
+//! Systems without a formula of H: L itself.
 
 use super::derivative::{Scatter, gradient};
 use super::description::displays;
@@ -6,7 +6,7 @@ use super::display::Notation;
 use super::graph::{Half, integer};
 use super::system::System;
 
-/// What is to be known of such a system.
+/// The note for such a system.
 pub const FACT: &str = "not quadratic in the velocities, so there is no formula of H: steps are those of \
                         `symplectic::variational::LagrangianIntegrator`, by L and its derivatives";
 

@@ -1,4 +1,4 @@
-//! Hamiltonians and Lagrangians as formulas: read, differentiated, and looked at.
+//! Hamiltonians and Lagrangians as formulas: parsing, derivatives, and analysis.
 //!
 //! ```
 //! use symplectic_compiler::formula::{System, Structure, Kinetic};
@@ -59,18 +59,18 @@ use crate::error::Error;
 use crate::expression::Input;
 
 impl System {
-    /// Reads the definition of a system by its Hamiltonian; `name` says where the text is from.
+    /// Reads the definition of a system by its Hamiltonian; `name` names the source of the text.
     ///
     /// # Errors
-    /// Anything that is wrong with it, at its place.
+    /// Any error in the definition, at its place.
     pub fn read(name: &str, text: &str) -> Result<Self, Error> {
         Self::read_as(Form::Hamiltonian, name, text)
     }
 
-    /// Reads the definition of a system by its Hamiltonian or its Lagrangian; `name` says where the text is from.
+    /// Reads the definition of a system by its Hamiltonian or its Lagrangian; `name` names the source of the text.
     ///
     /// # Errors
-    /// Anything that is wrong with it, at its place.
+    /// Any error in the definition, at its place.
     pub fn read_as(form: Form, name: &str, text: &str) -> Result<Self, Error> {
         let input = Input { name, text };
         let definition = parse::parse(input, form)?;
@@ -83,7 +83,7 @@ impl System {
 }
 
 impl Form {
-    /// What a text gives: L, if it has `L = …` or `v: […]`, else H.
+    /// The form of a text: L, if it has `L = …` or `v: […]`, else H.
     pub fn of(text: &str) -> Self {
         parse::form(Input { name: "", text })
     }

@@ -1,9 +1,9 @@
-//! Whether a formula is zero whatever its coordinates and parameters are: it is evaluated at random points, exactly.
+//! Whether a formula is identically zero in its coordinates and parameters: it is evaluated exactly at random points.
 //!
-//! The numbers are those of the field of 2⁶¹ − 1 elements. A rational function that is not zero is zero there at a random point with a
-//! probability of its degree over 2⁶¹. Sine and cosine are rational functions of a random number that belongs to their argument, so that
+//! The numbers are elements of the field with 2⁶¹ − 1 elements. A nonzero rational function vanishes there at a random point with a
+//! probability of its degree over 2⁶¹. Sine and cosine are rational functions of a random number that depends on their argument, so that
 //! sin² + cos² = 1 holds, and likewise for hyperbolic functions and the exponential function; other functions have random values.
-//! What vanishes by other identities, such as that of sin(a + b), is looked for in doubles.
+//! Zeros by other identities, such as the addition theorem of sin(a + b), are detected in doubles.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -16,23 +16,23 @@ use super::system::System;
 
 /// The number of elements.
 const PRIME: u64 = (1 << 61) - 1;
-/// At how many points a formula is evaluated.
+/// The number of points at which a formula is evaluated.
 const POINTS: u64 = 6;
-/// A double below this, relative to its terms, is zero up to rounding.
+/// A double below this, relative to its terms, counts as zero up to round-off.
 const ROUNDING: f64 = 1e-11;
 
 /// An element of the field; `None` after a division by zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Modular(Option<u64>);
 
-/// Points to evaluate formulas of a system at.
+/// Points at which formulas of a system are evaluated.
 pub struct Points {
     exact: Vec<Point<Modular>>,
     doubles: Vec<Point<f64>>,
 }
 
 impl Points {
-    /// Points without a pattern; none if the system is very large.
+    /// Pseudo-random points; none if the system is very large.
     pub fn of(system: &System) -> Self {
         let doubles: Vec<_> = (0..POINTS)
             .filter_map(|seed| system.random_point(seed))
@@ -53,7 +53,7 @@ impl Points {
         &self.doubles
     }
 
-    /// Whether a node, in a loop or in none, is zero at all points; in doubles, up to rounding of a number of the size of `scale`.
+    /// Whether a node, in a loop or in none, is zero at all points. In doubles: up to the round-off of a number of the size of `scale`.
     pub fn vanishes(&self, graph: &Graph, id: Id, scale: Id, within: Option<LoopId>) -> bool {
         if let Some(value) = graph.value(id) {
             return *value == Number::default();
@@ -75,12 +75,12 @@ impl Points {
     }
 }
 
-/// Whether all are true, and there is one.
+/// Whether there is at least one value and all are true.
 fn all_true(mut found: impl Iterator<Item = bool>) -> bool {
     found.next() == Some(true) && found.all(|zero| zero)
 }
 
-/// A point with other numbers, that have no pattern either.
+/// A point with other pseudo-random numbers.
 fn modular(point: &Point<f64>) -> Point<Modular> {
     let number = |x: &f64| Modular(Some(random(x.to_bits())));
     let rows = |rows: &Vec<Vec<f64>>| -> Vec<Vec<Modular>> {
@@ -96,7 +96,7 @@ fn modular(point: &Point<f64>) -> Point<Modular> {
     }
 }
 
-/// A number that looks random, and is the same for the same seed.
+/// A pseudo-random number, the same for the same seed.
 fn random(seed: u64) -> u64 {
     let mut x = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
     x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -130,12 +130,12 @@ impl Modular {
         Modular(self.0.map(function))
     }
 
-    /// Whether it is known, and not zero.
+    /// Whether the number is known and nonzero.
     pub fn is_not_zero(self) -> bool {
         self.0.is_some_and(|x| x != 0)
     }
 
-    /// 0 for zero, and 1 for any other number; `None` where it is not known.
+    /// 0 for zero, and 1 for any other number; `None` if it is not known.
     pub fn size(self) -> Option<f64> {
         self.0.map(|x| if x == 0 { 0.0 } else { 1.0 })
     }
@@ -148,7 +148,7 @@ impl Modular {
         self.map(|x| (PRIME - x) % PRIME)
     }
 
-    /// A random number that belongs to this one and to some words.
+    /// A pseudo-random number determined by this one and some words.
     fn mixed(self, words: impl IntoIterator<Item = u64>) -> Self {
         let words = words.into_iter();
         self.map(|x| words.fold(random(x), |all, word| random(all ^ word.rotate_left(17))))
@@ -174,7 +174,7 @@ impl Real for Modular {
     }
 
     fn power(&self, exponent: &Number) -> Self {
-        // x^((P + 1)/4) is a root of x or of −x, and that of a product is the product of the roots.
+        // x^((P + 1)/4) is a root of x or of −x, and it is multiplicative.
         let base = match exponent.denom() {
             denominator if denominator.is_one() => *self,
             denominator if *denominator == 2.into() => self.map(|x| raised(x, PRIME.div_ceil(4))),

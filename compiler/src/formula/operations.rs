@@ -1,7 +1,8 @@
-//! A formula as operations of two numbers, in the order in which they are computed.
+//! A formula as binary operations, in the order in which they are computed.
 //!
-//! Terms and factors are taken in the order of the graph. Factors that depend on parameters only come first and are computed in double
-//! precision; what divides comes last, in one quotient. Whole powers are products, by squaring; halves of powers are square roots.
+//! Terms and factors are taken in the order of the graph. Factors that depend only on parameters come first and are computed in double
+//! precision; divisors come last, in one quotient. Integer powers are products, by repeated squaring; half-integer powers contain
+//! square roots.
 
 use std::collections::{HashMap, HashSet};
 
@@ -10,11 +11,11 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use crate::formula::function::Elementary;
 use crate::formula::graph::{Coordinate, Dependence, Graph, Id, Index, LoopId, Node, Number};
 
-/// An operation, by its number.
+/// The index of an operation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Op(pub usize);
 
-/// What is computed.
+/// The kinds of operations.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Operation {
     /// A number.
@@ -52,7 +53,7 @@ pub enum Operation {
 }
 
 impl Operation {
-    /// What it is computed from.
+    /// The operands.
     pub fn operands(&self) -> Vec<Op> {
         match *self {
             Operation::Negative(a)
@@ -74,23 +75,23 @@ impl Operation {
         }
     }
 
-    /// Whether it is read where it is needed, and not kept.
+    /// Whether the value is read where it is needed, and not stored.
     pub fn is_leaf(&self) -> bool {
         self.operands().is_empty()
     }
 }
 
-/// The operations of some formulas, equal ones once.
+/// The operations of some formulas, without duplicates.
 pub struct Operations<'a> {
     graph: &'a Graph,
     list: Vec<Operation>,
     depends: Vec<Dependence>,
     numbers: HashMap<Operation, Op>,
-    /// What nodes have become.
+    /// The operation of each node.
     known: HashMap<Id, Op>,
-    /// Nodes by which is divided more than once.
+    /// Nodes that are divisors more than once.
     divisors: HashMap<Id, usize>,
-    /// Reciprocals that are used once, as the second factor of a product in the same loops: the product is written as a quotient.
+    /// Reciprocals used once, as the second factor of a product in the same loops: the product is written as a quotient.
     quotients: HashSet<Op>,
 }
 
@@ -148,14 +149,14 @@ impl<'a> Operations<'a> {
         once.collect()
     }
 
-    /// Whether a reciprocal is no operation of its own, but the division of the one product with it.
+    /// Whether a reciprocal is not an operation of its own, but the division in the only product that contains it.
     ///
-    /// It depends on all roots, and not on the function that is written: two functions with the same operations round alike.
+    /// This depends on all roots, not on the function that is written: two functions with the same operations round alike.
     pub fn is_division(&self, op: Op) -> bool {
         self.quotients.contains(&op)
     }
 
-    /// What a node has become.
+    /// The operation of a node.
     pub fn of(&self, id: Id) -> Op {
         self.known[&id]
     }
@@ -165,12 +166,12 @@ impl<'a> Operations<'a> {
         &self.list[op.0]
     }
 
-    /// All of them: what an operation is computed from comes before it.
+    /// All operations: operands come before the operations that use them.
     pub fn all(&self) -> impl Iterator<Item = Op> + use<> {
         (0..self.list.len()).map(Op)
     }
 
-    /// What its result depends on.
+    /// The dependences of a result.
     pub fn depends(&self, op: Op) -> Dependence {
         self.depends[op.0]
     }
@@ -243,7 +244,7 @@ impl<'a> Operations<'a> {
         }
     }
 
-    /// `Σ c x + constant`: what depends on parameters only is one number.
+    /// `Σ c x + constant`: the part that depends only on parameters is one number.
     fn sum(&mut self, terms: &[(Number, Id)], constant: &Number) -> Op {
         let graph = self.graph;
         let (fixed, free): (Vec<_>, Vec<_>) = terms
@@ -260,7 +261,7 @@ impl<'a> Operations<'a> {
         if !constant.is_zero() {
             numbers.push((constant.is_negative(), self.constant(&constant.abs())));
         }
-        // The numbers together, with a sign of their own.
+        // The numeric terms together, with their common sign outside.
         if !numbers.is_empty() {
             let negative = numbers.iter().all(|(minus, _)| *minus);
             if negative {
@@ -272,7 +273,7 @@ impl<'a> Operations<'a> {
         self.chain(list)
     }
 
-    /// The sum of terms, `true` for those that are subtracted, one after the other; the first that is added begins.
+    /// The sum of terms from left to right, `true` for those that are subtracted; the first added term begins.
     fn chain(&mut self, mut terms: Vec<(bool, Op)>) -> Op {
         let start = terms.iter().position(|(minus, _)| !minus).unwrap_or(0);
         let (minus, first) = terms.remove(start);
@@ -304,7 +305,7 @@ impl<'a> Operations<'a> {
     /// `factor·Π xᵉ`
     fn product(&mut self, factor: &Number, factors: &[(Id, Number)]) -> Op {
         let graph = self.graph;
-        // By parameters only, and not; in numerator and denominator.
+        // Factors that depend only on parameters, and the others; in numerator and denominator.
         let mut parts: [[Vec<Op>; 2]; 2] = Default::default();
         if !factor.is_one() {
             let number = self.constant(factor);

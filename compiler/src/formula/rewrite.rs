@@ -1,4 +1,4 @@
-//! Formulas made from other formulas: copied, at rest, and with sums written out.
+//! Formulas derived from other formulas: copied, at rest, and with sums written out.
 
 use std::collections::HashMap;
 
@@ -6,15 +6,15 @@ use num_traits::{One, Signed, Zero};
 
 use super::graph::{Base, Coordinate, Graph, Id, Index, LoopId, LoopRange, Node, Number, integer};
 
-/// Copies nodes into another graph with the same loops: nodes that are copied first come first there.
+/// Copies nodes into another graph with the same loops. Nodes copied first come first there.
 pub(super) struct Copier {
     from: Graph,
-    /// What was copied.
+    /// The copies of nodes.
     pub known: HashMap<Id, Id>,
 }
 
 impl Copier {
-    /// From a graph.
+    /// A copier from a graph.
     pub fn new(from: Graph) -> Self {
         Copier {
             from,
@@ -22,7 +22,7 @@ impl Copier {
         }
     }
 
-    /// Copies what every formula begins with, coordinates with names and parameters that are numbers, so that it comes first again.
+    /// Copies the nodes with which every formula begins, named coordinates and numeric parameters, so that they come first again.
     pub fn copy_names(&mut self, to: &mut Graph) {
         let all = self.from.ids();
         let names = all.take_while(|&id| match self.from.node(id) {
@@ -47,7 +47,7 @@ impl Copier {
     }
 }
 
-/// A formula with all velocities zero.
+/// A formula with all velocities set to zero.
 pub(super) fn at_rest(graph: &mut Graph, root: Id) -> Id {
     let zero = graph.integer(0);
     let mut known: HashMap<Id, Id> = HashMap::new();
@@ -64,7 +64,7 @@ pub(super) fn at_rest(graph: &mut Graph, root: Id) -> Id {
     known.get(&root).copied().unwrap_or(root)
 }
 
-/// The terms of a formula or, with the sign −1, of its negative; sums with another factor, and those that are kept, are one term.
+/// The terms of a formula or, with the sign −1, of its negative. Sums with another factor, and nodes in `kept`, stay one term.
 pub(super) fn flat(graph: &mut Graph, sign: i64, id: Id, kept: &[Id]) -> Vec<(Number, Id)> {
     let mut open = vec![(integer(sign), id)];
     let mut terms = Vec::new();
@@ -87,22 +87,22 @@ pub(super) fn flat(graph: &mut Graph, sign: i64, id: Id, kept: &[Id]) -> Vec<(Nu
     terms
 }
 
-/// Deepest formula whose sums are written out.
+/// The greatest depth of formulas whose sums are written out.
 const MOST_DEPTH: usize = 500;
-/// Most nodes of a graph in which sums are written out.
+/// The largest number of nodes of a graph in which sums are written out.
 const MOST_NODES: usize = 200_000;
 
 /// Writes out sums over velocities.
 #[derive(Default)]
 pub(super) struct Unroll {
-    /// The indices of the loops around.
+    /// The current indices of the surrounding loops.
     indices: Vec<(LoopId, i64)>,
     known: HashMap<(Id, Vec<(LoopId, i64)>), Id>,
     depth: usize,
 }
 
 impl Unroll {
-    /// The formula with its sums over velocities written out; `None` where a length is not known, or the formula is too large.
+    /// The formula with its sums over velocities written out; `None` if a length is not known, or the formula is too large.
     pub fn run(&mut self, graph: &mut Graph, id: Id) -> Option<Id> {
         let depends = graph.depends(id);
         let around = self.indices.iter().copied();
@@ -166,7 +166,7 @@ impl Unroll {
         let Base::Loop(over) = index.base else {
             return index.clone();
         };
-        // The innermost, where a sum stands in one of the same index.
+        // The innermost loop, if a sum is nested in one with the same index.
         match self.indices.iter().rev().find(|(known, _)| *known == over) {
             Some((_, k)) => Index::number(k + index.offset),
             None => index.clone(),

@@ -1,7 +1,7 @@
-//! What can be found out of a formula: whether H is separable, how the kinetic energy depends on the momenta, what is conserved.
+//! The structure of a formula: whether H is separable, how the kinetic energy depends on the momenta, what is conserved.
 //!
-//! All of it is decided on the graph, so a property that is found is proved. One that is not found may hold all the same, where it
-//! does not show in the form of the formula.
+//! All of it is decided on the graph, so a property that is found is proved. A property that is not found may still hold, if it
+//! is not visible in the form of the formula.
 
 use num_traits::{One, Zero};
 
@@ -13,7 +13,7 @@ use super::hessian::MomentumHessian;
 use super::syntax::Length;
 use super::system::{Layout, System};
 
-/// What was found of a system.
+/// The structure found for a system.
 #[derive(Debug, Clone)]
 pub struct Structure {
     /// The two parts of a separable H, or a term with positions and momenta.
@@ -22,15 +22,15 @@ pub struct Structure {
     pub kinetic: Kinetic,
     /// Whether H depends on the time.
     pub time_dependent: bool,
-    /// The coordinates with a name that are not in H: their momenta are conserved.
+    /// The named coordinates that are not in H: their momenta are conserved.
     pub cyclic: Vec<usize>,
-    /// The components in which all positions can be moved together: the sum of the momenta is conserved.
+    /// The components in which all positions can be translated together: the sum of the momenta is conserved.
     pub translations: Vec<usize>,
-    /// The planes in which all positions and momenta can be turned together: the angular momentum there is conserved.
+    /// The planes in which all positions and momenta can be rotated together: the angular momentum there is conserved.
     pub rotations: Vec<[usize; 2]>,
     /// The potentials of a chain, if H is one.
     pub chain: Option<ChainParts>,
-    /// What is known of `∂²H/∂p²`.
+    /// What is known about `∂²H/∂p²`.
     pub hessian: MomentumHessian,
     /// The degree of H in positions and momenta, if it is a polynomial.
     pub degree: Option<usize>,
@@ -68,7 +68,7 @@ pub struct ChainParts {
 }
 
 impl Structure {
-    /// Looks at a system.
+    /// Analyses a system.
     pub fn of(system: &mut System) -> Self {
         let energy = system.energy;
         let split = split(&mut system.graph, energy);
@@ -84,7 +84,7 @@ impl Structure {
         };
         let mut symmetries = Symmetries::of(system);
         if system.without_hamiltonian().is_some() {
-            // Velocities are not turned with the positions.
+            // Velocities are not rotated with the positions.
             symmetries.rotations.clear();
         }
         Structure {
@@ -102,7 +102,7 @@ impl Structure {
     }
 }
 
-/// What can be moved or turned without a change of H, and of constraints.
+/// Translations and rotations that leave H and the constraints invariant.
 struct Symmetries {
     cyclic: Vec<usize>,
     translations: Vec<usize>,
@@ -131,7 +131,7 @@ impl Symmetries {
         found
     }
 
-    /// Those of the formula in the place of H.
+    /// The symmetries of the formula in the place of H.
     fn of_energy(system: &mut System) -> Self {
         Symmetries {
             cyclic: cyclic(system),
@@ -140,7 +140,7 @@ impl Symmetries {
         }
     }
 
-    /// Keeps what others have too.
+    /// Keeps the symmetries that `others` has too.
     fn keep(&mut self, others: &Self) {
         self.cyclic.retain(|x| others.cyclic.contains(x));
         self.translations
@@ -149,17 +149,17 @@ impl Symmetries {
     }
 }
 
-/// Most terms that a formula is taken apart into.
+/// The largest number of terms into which a formula is split.
 const MOST_TERMS: usize = 100_000;
 
-/// Something around a term.
+/// The surroundings of a term.
 #[derive(Clone)]
 enum Around {
     Loop(LoopId),
     Factors(Vec<(Id, Number)>),
 }
 
-/// The terms of a node that `whole` does not leave as they are, each with the node that it was a part of; `None` where there are too many.
+/// The terms of a node that `whole` does not keep intact, each with the node that it came from; `None` if there are too many.
 pub(super) fn terms(
     graph: &mut Graph,
     root: Id,
@@ -226,7 +226,7 @@ pub(super) fn terms(
     Some(found)
 }
 
-/// T and U, or a part with positions and momenta that is no sum.
+/// T and U, or a part that depends on positions and momenta and is not a sum.
 fn split(graph: &mut Graph, energy: Id) -> Result<Split, Id> {
     let pure = |graph: &Graph, id: Id| {
         let depends = graph.depends(id);
@@ -362,7 +362,7 @@ fn rotations(system: &mut System) -> Vec<[usize; 2]> {
         return Vec::new();
     }
     let energy = system.energy;
-    // In a loop, which component it is, is not seen.
+    // In a loop, the component is not known.
     let indexed = [Half::Q, Half::P].into_iter().any(|half| {
         let found = coordinates(&system.graph, energy, half);
         found.iter().any(|found| found.index.base != Base::Start)
@@ -436,7 +436,7 @@ fn chain(system: &mut System, potential: Id) -> Option<ChainParts> {
     }
     let bond = system.graph.sum(bond);
     let on_site = over.map(|id| (system.graph.sum(on_site), id));
-    // The same for every bond and every particle.
+    // The potential must be the same for every bond and every particle.
     let roots = [Some(bond), on_site.map(|(id, _)| id)];
     let nodes = system.graph.below(roots.into_iter().flatten());
     let uniform = nodes.iter().all(|&id| match system.graph.node(id) {

@@ -1,22 +1,22 @@
-//! The parts of a definition, as they are written.
+//! The syntax tree of a definition.
 
 use std::ops::Range;
 
 use num_rational::BigRational;
 
-/// The bytes that something was read from.
+/// A range of bytes of the text.
 pub type Span = Range<usize>;
 
-/// A name and where it stands.
+/// A name and its place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Name {
     /// The name.
     pub text: String,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
 }
 
-/// What a definition gives: H of positions and momenta, or L of positions and velocities.
+/// The function of a definition: H of positions and momenta, or L of positions and velocities.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
     /// `H = …`
@@ -34,7 +34,7 @@ impl Form {
         }
     }
 
-    /// The letter of what it depends on besides the positions.
+    /// The letter of its second argument, besides the positions.
     pub fn second(self) -> &'static str {
         match self {
             Form::Hamiltonian => "p",
@@ -42,7 +42,7 @@ impl Form {
         }
     }
 
-    /// What that letter means.
+    /// The meaning of that letter.
     pub fn second_meaning(self) -> &'static str {
         match self {
             Form::Hamiltonian => "momenta",
@@ -50,7 +50,7 @@ impl Form {
         }
     }
 
-    /// The macro that takes it.
+    /// The macro for this form.
     pub fn macro_name(self) -> &'static str {
         match self {
             Form::Hamiltonian => "hamiltonian!",
@@ -58,7 +58,7 @@ impl Form {
         }
     }
 
-    /// How coordinates are declared.
+    /// An example of the declaration of coordinates.
     pub fn coordinates(self) -> &'static str {
         match self {
             Form::Hamiltonian => "q: [a, b], p: [pa, pb];",
@@ -70,19 +70,19 @@ impl Form {
 /// A whole definition.
 #[derive(Debug, Clone)]
 pub struct Definition {
-    /// What it gives.
+    /// The form of its function.
     pub form: Form,
     /// The name of the system.
     pub name: Name,
-    /// Lengths that the type of the system is generic in.
+    /// Generic lengths of the type of the system.
     pub lengths: Vec<Name>,
     /// Its parameters.
     pub parameters: Vec<Parameter>,
     /// The positions, and the momenta or velocities.
     pub coordinates: [Option<Coordinates>; 2],
-    /// How a chain ends.
+    /// The ends of a chain.
     pub ends: Option<(Ends, Span)>,
-    /// Functions that the user has written in Rust: the function, its first and its second derivative.
+    /// Functions written by the user in Rust: the function, its first and its second derivative.
     pub functions: Vec<[Name; 3]>,
     /// Abbreviations, in order.
     pub abbreviations: Vec<Abbreviation>,
@@ -90,7 +90,7 @@ pub struct Definition {
     pub function: Option<Expression>,
     /// Holonomic constraints.
     pub constraints: Vec<Constraint>,
-    /// Applied forces, without a potential.
+    /// Applied (non-potential) forces.
     pub forces: Vec<Force>,
     /// The velocities, in a Hamiltonian system with non-holonomic constraints.
     pub velocities: Option<Coordinates>,
@@ -98,20 +98,20 @@ pub struct Definition {
     pub nonholonomic: Vec<Constraint>,
     /// The rate γ of a friction `−γp`.
     pub friction: Option<Expression>,
-    /// What is said to be conserved.
+    /// The functions declared to be conserved.
     pub invariants: Vec<(Name, Expression)>,
-    /// What the system has to be.
+    /// The required properties.
     pub required: Vec<Name>,
 }
 
-/// `name = φ` or `name(i in a..b) = φ`: φ is zero, a function of the positions or a form of the velocities.
+/// `name = φ` or `name(i in a..b) = φ`: φ, a function of the positions or a form of the velocities, vanishes.
 #[derive(Debug, Clone)]
 pub struct Constraint {
     /// The name.
     pub name: Name,
-    /// The indices for each of which there is one.
+    /// The indices of the family.
     pub over: Option<Over>,
-    /// What is zero.
+    /// The expression that vanishes.
     pub value: Expression,
 }
 
@@ -120,7 +120,7 @@ pub struct Constraint {
 pub struct Force {
     /// The coordinate: a name, or `q` with an index.
     pub target: Expression,
-    /// The indices for each of which there is one.
+    /// The indices of the family.
     pub over: Option<Over>,
     /// The force.
     pub value: Expression,
@@ -131,14 +131,14 @@ pub struct Force {
 pub struct Parameter {
     /// Its name.
     pub name: Name,
-    /// What it holds.
+    /// Its kind.
     pub kind: ParameterKind,
 }
 
-/// What a parameter holds.
+/// The kind of a parameter.
 #[derive(Debug, Clone)]
 pub enum ParameterKind {
-    /// A number, with the value that it has unless another is set.
+    /// A number, with its default value if it has one.
     Number(Option<BigRational>),
     /// Numbers in one or two dimensions.
     Array(Vec<Length>),
@@ -151,11 +151,11 @@ pub enum ParameterKind {
 pub enum Length {
     /// A number.
     Fixed(usize),
-    /// A constant that the type is generic in.
+    /// A generic constant of the type.
     Generic(String),
-    /// Known when the program runs.
+    /// A length known at run time.
     Runtime,
-    /// As many as a parameter has pairs.
+    /// The number of pairs in a parameter.
     PairsOf(String),
 }
 
@@ -166,45 +166,45 @@ pub struct Abbreviation {
     pub name: Name,
     /// The names of the arguments, if it has any.
     pub arguments: Vec<Name>,
-    /// What it stands for.
+    /// Its value.
     pub value: Expression,
 }
 
 /// Positions, momenta or velocities.
 #[derive(Debug, Clone)]
 pub struct Coordinates {
-    /// What they are.
+    /// Their kind.
     pub kind: CoordinatesKind,
-    /// Where that is written.
+    /// Their place.
     pub span: Span,
 }
 
-/// What positions, momenta or velocities are.
+/// The kind of positions, momenta or velocities.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CoordinatesKind {
-    /// Each with a name of its own.
+    /// Named, one by one.
     Named(Vec<Name>),
     /// Numbered; with the number of components of each, if they are vectors.
     Numbered(Length, Option<usize>),
 }
 
-/// What is beyond the ends of a chain.
+/// The ends of a chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ends {
-    /// A bond to a wall at zero.
+    /// Bonds to walls at zero.
     Walls,
-    /// Nothing.
+    /// Free ends.
     Free,
-    /// The other end.
+    /// Periodic: the ends are joined.
     Ring,
 }
 
-/// An expression and where it stands.
+/// An expression and its place.
 #[derive(Debug, Clone)]
 pub struct Expression {
-    /// What it is.
+    /// Its kind.
     pub kind: Kind,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
 }
 
@@ -217,7 +217,7 @@ pub enum Kind {
     Name(String),
     /// Terms; `true` for those that are subtracted.
     Sum(Vec<(bool, Expression)>),
-    /// Factors; `true` for those by which it is divided.
+    /// Factors; `true` for divisors.
     Product(Vec<(bool, Expression)>),
     /// A power.
     Power(Box<Expression>, Box<Expression>),
@@ -233,7 +233,7 @@ pub enum Kind {
     Total(Box<Over>, Box<Expression>),
 }
 
-/// What a sum goes over.
+/// The range of a sum.
 #[derive(Debug, Clone)]
 pub enum Over {
     /// `i` or `i in a..b`
@@ -244,7 +244,7 @@ pub enum Over {
     Bonds(Name),
     /// `(i, j) in list` or `s = (i, j) in list`
     List {
-        /// The number of the pair.
+        /// The index of the pair.
         number: Option<Name>,
         /// Its indices.
         indices: [Name; 2],

@@ -9,19 +9,19 @@ use super::syntax::{Ends, Length, Name, Span};
 /// A Hamiltonian system that was read from a formula.
 #[derive(Debug, Clone)]
 pub struct System {
-    /// Where the text is from.
+    /// The source of the text.
     pub source: String,
     /// Its name.
     pub name: String,
-    /// The lengths that its type is generic in.
+    /// The generic lengths of its type.
     pub lengths: Vec<String>,
     /// Its parameters.
     pub parameters: Vec<Parameter>,
     /// Its coordinates.
     pub layout: Layout,
-    /// How it ends, if it is a chain.
+    /// The ends of a chain.
     pub ends: Option<Ends>,
-    /// The functions of the user, each with its two derivatives.
+    /// The user's functions, each with its first two derivatives.
     pub functions: Vec<[String; 3]>,
     /// All formulas.
     pub graph: Graph,
@@ -29,7 +29,7 @@ pub struct System {
     pub energy: Id,
     /// The Lagrangian, if one was given.
     pub lagrangian: Option<Lagrangian>,
-    /// The names of the velocities, where coordinates have names and velocities are known.
+    /// The names of the velocities, if coordinates have names and velocities are known.
     pub velocities: Vec<String>,
     /// Holonomic constraints.
     pub constraints: Vec<Constraint>,
@@ -39,15 +39,15 @@ pub struct System {
     pub nonholonomic: Vec<Constraint>,
     /// The rate γ of a friction `−γp`.
     pub friction: Option<Id>,
-    /// What is said to be conserved.
+    /// The functions declared to be conserved.
     pub invariants: Vec<Invariant>,
-    /// What it has to be.
+    /// The required properties.
     pub required: Vec<Name>,
     /// The sums over bonds.
     pub bonds: Vec<Bonds>,
-    /// How many coordinates there have to be at least.
+    /// The smallest number of coordinates the formula needs.
     pub least: usize,
-    /// Where nodes were read first.
+    /// Where nodes were first read.
     pub places: HashMap<Id, Span>,
 }
 
@@ -65,11 +65,11 @@ pub struct Lagrangian {
 /// Whether H follows from a Lagrangian.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Legendre {
-    /// It does: `L = v·M v/2 + A·v − U`, and M consists of numbers, with a determinant that is not zero.
+    /// H follows: `L = v·M v/2 + A·v − U`, and M is a numeric matrix with a nonzero determinant.
     Regular,
-    /// It does, and the determinant of M is not zero at random points.
+    /// H follows, and the determinant of M is nonzero at random points.
     RegularAtRandomPoints,
-    /// L is not quadratic in the velocities: there is no formula of H, and the formula of the energy is L.
+    /// L is not quadratic in the velocities: there is no formula of H, and `energy` holds L.
     None,
 }
 
@@ -78,14 +78,14 @@ pub enum Legendre {
 pub struct Parameter {
     /// Its name.
     pub name: String,
-    /// What it holds.
+    /// Its shape.
     pub shape: Shape,
 }
 
-/// What a parameter holds.
+/// The shape of a parameter.
 #[derive(Debug, Clone)]
 pub enum Shape {
-    /// A number, with the value that it has unless another is set.
+    /// A number, with its default value if it has one.
     Number(Option<Number>),
     /// Numbers in one or two dimensions.
     Array(Vec<Length>),
@@ -93,12 +93,12 @@ pub enum Shape {
     Pairs,
 }
 
-/// How positions and momenta are laid out.
+/// The layout of positions and momenta.
 #[derive(Debug, Clone)]
 pub enum Layout {
-    /// Each has a name.
+    /// Named coordinates.
     Named([Vec<String>; 2]),
-    /// They are numbered; with the number of components, if each is a vector.
+    /// Numbered coordinates, with the number of components if each is a vector.
     Numbered(Length, Option<usize>),
 }
 
@@ -112,7 +112,7 @@ impl Layout {
         names.iter().flatten()
     }
 
-    /// How many there are.
+    /// The number of coordinates.
     pub fn length(&self) -> Length {
         match self {
             Layout::Named([names, _]) => Length::Fixed(names.len()),
@@ -120,7 +120,7 @@ impl Layout {
         }
     }
 
-    /// The number of components of each.
+    /// The number of components of each coordinate.
     pub fn components(&self) -> usize {
         match self {
             Layout::Numbered(_, Some(components)) => *components,
@@ -128,7 +128,7 @@ impl Layout {
         }
     }
 
-    /// What a coordinate is called.
+    /// The name of a coordinate.
     pub fn name(&self, half: Half, index: usize) -> String {
         match (self, half) {
             (Layout::Named([names, _]), Half::Q) | (Layout::Named([_, names]), Half::P) => {
@@ -146,7 +146,7 @@ impl System {
         (lagrangian.legendre == Legendre::None).then_some(lagrangian)
     }
 
-    /// Whether there is nothing but H: no constraint, no applied force, no friction.
+    /// Whether the system consists of H alone: no constraint, no applied force, no friction.
     pub fn is_free(&self) -> bool {
         !self.is_constrained() && self.applied.is_empty() && self.friction.is_none()
     }
@@ -156,7 +156,7 @@ impl System {
         !(self.constraints.is_empty() && self.nonholonomic.is_empty())
     }
 
-    /// Adds the applied forces to the parts of `−∂H/∂q`: in one term where the same loops go to the same coordinate.
+    /// Adds the applied forces to the parts of `−∂H/∂q`: in the same term if loops and coordinate agree.
     pub fn add_applied(&mut self, force: &mut Vec<Scatter>) {
         for applied in &self.applied {
             let same =
@@ -177,7 +177,7 @@ impl System {
         values.find(|&value| self.graph.depends(value).p)
     }
 
-    /// The sum of the squares of all constraints, which changes wherever one of them does; none where there is no constraint.
+    /// The sum of the squares of all constraints, which changes wherever one of them changes; `None` without constraints.
     pub fn constraint_square(&mut self) -> Option<Id> {
         let mut terms = Vec::new();
         for constraint in &self.constraints {
@@ -192,13 +192,13 @@ impl System {
         (!terms.is_empty()).then(|| self.graph.sum(terms))
     }
 
-    /// Where a node, or the node that it is a multiple of, was read first.
+    /// Where a node, or the node that it is a multiple of, was first read.
     pub fn place_of(&self, id: Id) -> Option<&Span> {
         let inner = self.graph.scaled(id).1;
         self.places.get(&inner).or_else(|| self.places.get(&id))
     }
 
-    /// What a coordinate with a number is called.
+    /// The name of a coordinate with a numeric index.
     pub fn name_of(&self, coordinate: &Coordinate) -> String {
         let index = usize::try_from(coordinate.index.offset).unwrap_or(0);
         match (self.velocities.get(index), &self.layout, coordinate.half) {
@@ -208,29 +208,29 @@ impl System {
     }
 }
 
-/// Functions of the positions, or forms of the velocities, that are zero.
+/// Functions of the positions, or forms of the velocities, that vanish.
 #[derive(Debug, Clone)]
 pub struct Constraint {
     /// The name.
     pub name: String,
-    /// The loop for each index of which there is one.
+    /// The loop over the indices of the family.
     pub over: Option<LoopId>,
-    /// What is zero: one function, or the components of a vector.
+    /// The vanishing function, or the components of a vanishing vector.
     pub parts: Vec<Id>,
 }
 
-/// A function of the state that is said to be conserved.
+/// A function of the state that is declared to be conserved.
 #[derive(Debug, Clone)]
 pub struct Invariant {
     /// Its name.
     pub name: String,
-    /// Where the name stands.
+    /// The place of the name.
     pub span: Span,
     /// Its components.
     pub parts: Vec<Id>,
-    /// Whether it is a number, and no vector.
+    /// Whether it is a number rather than a vector.
     pub scalar: bool,
-    /// Whether it is proved that it is conserved, by a symmetry that shows in the formula.
+    /// Whether it is proved to be conserved, by a symmetry visible in the formula.
     pub proved: bool,
 }
 

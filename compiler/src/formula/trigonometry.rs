@@ -1,4 +1,4 @@
-//! `cos a cos b + sin a sin b = cos(a − b)`, so that masses written in Cartesian velocities come out short: `sin² + cos² = 1`.
+//! `cos a cos b + sin a sin b = cos(a − b)`, so that masses written in Cartesian velocities become short: `sin² + cos² = 1`.
 
 use std::collections::BTreeMap;
 
@@ -7,19 +7,19 @@ use num_traits::One;
 use super::function::Elementary;
 use super::graph::{Graph, Id, Node, Number, integer};
 
-/// Most terms that a formula is expanded into.
+/// The largest number of terms into which a formula is expanded.
 const MOST_TERMS: usize = 128;
-/// Most times that a formula is shortened.
+/// The largest number of simplification rounds.
 const MOST_ROUNDS: usize = 128;
 
 /// Factors with their exponents.
 type Factors = BTreeMap<Id, Number>;
-/// The same as a list.
+/// Factors with their exponents as a list.
 type Product = Vec<(Id, Number)>;
-/// Products of factors, with what each is multiplied by.
+/// Products of factors with their coefficients.
 type Terms = BTreeMap<Product, Number>;
 
-/// A formula with the identity used in its terms, or the formula as it is where that does not apply.
+/// The formula with the identity applied to its terms, or unchanged if it does not apply.
 pub(super) fn shortened(graph: &mut Graph, id: Id) -> Id {
     let Some(mut terms) = expanded(graph, id) else {
         return id;
@@ -106,7 +106,7 @@ fn multiplied(a: &Terms, b: &Terms) -> Option<Terms> {
     (product.len() <= MOST_TERMS).then_some(product)
 }
 
-/// The terms with one pair of cosines and one of sines in place of both.
+/// The terms with a pair of cosines and a pair of sines replaced by one cosine.
 fn addition(graph: &mut Graph, terms: &Terms) -> Option<Terms> {
     for (cosines, factor) in terms {
         for ([a, b], rest) in pairs(graph, cosines, Elementary::Cos) {
@@ -142,7 +142,7 @@ fn addition(graph: &mut Graph, terms: &Terms) -> Option<Terms> {
     None
 }
 
-/// The angles of two factors of a product that are this function, and the rest.
+/// The arguments of two factors of a product that are this function, and the remaining factors.
 fn pairs(graph: &Graph, factors: &[(Id, Number)], function: Elementary) -> Vec<([Id; 2], Product)> {
     let angle = |x: Id| match graph.node(x) {
         Node::Elementary(known, angle) if *known == function => Some(*angle),

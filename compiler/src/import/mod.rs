@@ -2,7 +2,7 @@
 //!
 //! A file holds the numbers of one table, in the language of the library: Julia's `1//2` and `big"0.5"`, C's `0x1.8p-1`, Fortran's
 //! `1.0d0` and `0.5_real64`, Mathematica's `` 1.5`20 ``, Python's `Fraction(1, 2)`, Matlab's `[1 2; 3 4]`. Numbers are exact: a
-//! decimal is a rational number, `sqrt(2)` is a root. Where decimals are rounded, the table is that of the exact method that is
+//! decimal is a rational number, `sqrt(2)` is a root. If decimals are rounded, the table is that of the exact method that is
 //! [proved](crate::certify) to be near them.
 
 mod numbers;
@@ -24,10 +24,10 @@ use crate::library::{Library, Notation, Stepping};
 use crate::limits::Limits;
 use crate::tableau::Tableau;
 
-/// Reads a table as a library has it.
+/// Reads a table in the form of a library.
 ///
-/// The letters and the order of kicks and drifts are those of [`Library::stepping`]; Butcher tables have `A` or `a`, `b`, perhaps
-/// `c`, and perhaps `a_tilde`, `b_tilde`. Matrices are read row by row. What else is in the file is passed over.
+/// The letters and the order of kicks and drifts are those of [`Library::stepping`]. Butcher tables have `A` or `a`, `b`, optionally
+/// `c`, and optionally `a_tilde`, `b_tilde`. Matrices are read row by row. Everything else in the file is skipped.
 ///
 /// ```
 /// use symplectic_compiler::{Library, Limits, import};
@@ -48,7 +48,7 @@ use crate::tableau::Tableau;
 /// ```
 ///
 /// # Errors
-/// [`ErrorKind::Syntax`] for the first thing that is not a number; [`ErrorKind::Document`] for missing lists, lists of different
+/// [`ErrorKind::Syntax`] for the first part that is not a number; [`ErrorKind::Document`] for missing lists, lists of different
 /// lengths, names with two values, a `c` that is not the row sum; [`ErrorKind::TooManyStages`]. Each with its place in the file.
 pub fn import(
     library: Library,
@@ -59,21 +59,21 @@ pub fn import(
     import_with_origin(library, file_name, text, limits).map(|(tableau, _)| tableau)
 }
 
-/// Where the exact coefficients of a table that is read come from.
+/// The origin of the exact coefficients of an imported table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ImportOrigin {
     /// The numbers of the table are exact.
     Exact,
-    /// They are decimals, and the coefficients are those of the exact method near them.
+    /// The numbers are decimals; the coefficients are those of the exact method near them.
     NearDecimals {
-        /// The largest distance of a coefficient from its decimal; `None` if they do not stand in the same places.
+        /// The largest distance of a coefficient from its decimal; `None` if the stages are in a different order.
         distance: Option<f64>,
     },
-    /// They are decimals as they stand, because no exact method was found near them.
+    /// The decimals themselves, because no exact method was found near them.
     Decimals,
 }
 
-/// Reads a table as [`import`] does, and says where its coefficients come from.
+/// Reads a table like [`import`], and returns the origin of its coefficients.
 ///
 /// ```
 /// use symplectic_compiler::{ImportOrigin, Library, Limits, import_with_origin};
@@ -85,7 +85,7 @@ pub enum ImportOrigin {
 /// ```
 ///
 /// # Errors
-/// Those of [`import`].
+/// The errors of [`import`].
 pub fn import_with_origin(
     library: Library,
     file_name: &str,
@@ -161,7 +161,7 @@ fn read(library: Library, input: Input<'_>, limits: &Limits) -> Result<Numbers, 
     Ok(Numbers::RungeKutta { positions, momenta })
 }
 
-/// What a file of a library has to hold.
+/// The error for a missing part of a file of a library.
 fn missing(input: Input<'_>, library: Library, name: &str) -> Error {
     let splitting = library.stepping().map(|stepping| {
         let Stepping { drift, kick, .. } = stepping;

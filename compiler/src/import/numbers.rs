@@ -26,41 +26,41 @@ type Half = (Vec<Vec<Value>>, Vec<Value>);
 /// The numbers of a table.
 #[derive(Debug, Clone)]
 pub(crate) enum Numbers {
-    /// Drifts and kicks, as many of both, whichever comes first.
+    /// Drifts and kicks, equal in number.
     Splitting {
         drifts: Vec<Value>,
         kicks: Vec<Value>,
         drifts_first: bool,
     },
-    /// Matrices and weights; those for momenta are the same if they are not given.
+    /// Matrices and weights; those for momenta are the same as for positions if they are not given.
     RungeKutta {
         positions: Half,
         momenta: Option<Half>,
     },
 }
 
-/// Where the exact coefficients of a tableau come from.
+/// The origin of the exact coefficients of a tableau.
 #[derive(Debug, Clone)]
 pub(crate) enum Origin {
     /// The numbers are exact.
     Exact,
     /// The exact method that is proved to be near the decimals.
     Refined(Within),
-    /// The decimals as they stand, because no exact method was found near them.
+    /// The decimals themselves, because no exact method was found near them.
     Decimals(Within),
 }
 
-/// The orders of decimals up to their rounding, with the first conditions that are violated by more: for separable `H` and for
-/// quadratic `T`.
+/// The orders of decimals up to their rounding, with the first conditions that are violated by more than that: for separable `H` and
+/// for quadratic `T`.
 pub(crate) type Within = [(usize, Option<ViolatedCondition>); 2];
 
-/// A table that is read.
+/// An imported table.
 pub(crate) struct Read {
     pub tableau: Tableau,
     pub origin: Origin,
 }
 
-/// The half of a Runge–Kutta table, with the matrix row by row and perhaps the nodes.
+/// A half of a Runge–Kutta table, with the matrix row by row and optionally the nodes.
 pub(crate) fn half(
     matrix: Vec<Value>,
     weights: Vec<Value>,
@@ -85,7 +85,7 @@ pub(crate) fn half(
     for (i, (row, node)) in rows.iter().zip(nodes.iter().flatten()).enumerate() {
         let sum = sum(row)?;
         let distance = (sum.rational() - node.rational()).abs();
-        // Irrational numbers are enclosed that narrowly.
+        // Irrational numbers are enclosed to 40 decimal places.
         let enclosed = BigRational::new(BigInt::one(), BigInt::from(10).pow(40));
         if distance > (&sum.error + &node.error) * ratio(4, 1) + enclosed {
             let i = i + 1;
@@ -103,7 +103,7 @@ fn sum(values: &[Value]) -> Result<Value, ErrorKind> {
 }
 
 impl Numbers {
-    /// The lists of a splitting, as a library steps them.
+    /// The lists of a splitting in the order in which a library steps them.
     pub fn splitting(
         stepping: &Stepping,
         mut drifts: Vec<Value>,
@@ -126,7 +126,7 @@ impl Numbers {
             return Err(ErrorKind::Document { message });
         }
         if stepping.mirrored {
-            // What is written last stands in the middle, once; then the flows in turn, from the front and from the back.
+            // The flow written last is in the middle, once; the others alternate towards both ends.
             let reversed = |list: &[Value], skipped: usize| -> Vec<Value> {
                 list.iter().rev().skip(skipped).cloned().collect()
             };
@@ -161,7 +161,7 @@ impl Numbers {
         self.all().into_iter().all(Value::is_exact)
     }
 
-    /// The tableau: of the numbers if they are exact, else of the exact method near them.
+    /// The tableau of the numbers if they are exact, otherwise of the exact method near them.
     ///
     /// # Errors
     /// Numbers that are too long.
@@ -176,7 +176,7 @@ impl Numbers {
         let within = self.orders_within();
         let (separable, nystrom) = (within[0].0, within[1].0);
         let claims = [("nystrom", nystrom), ("separable", separable)];
-        // For separable H it is at most the order for quadratic T.
+        // The order for separable H is at most the order for quadratic T.
         let skipped = usize::from(nystrom <= separable);
         for (class, order) in claims.into_iter().skip(skipped) {
             if let Some(tableau) = self.refined(class, order, limits)? {
@@ -190,7 +190,7 @@ impl Numbers {
     }
 
     fn orders_within(&self) -> Within {
-        /// How many errors of the coefficients a condition may be off by.
+        /// The allowed residual of a condition, in units of the largest error of a coefficient.
         const UNITS: i64 = 50;
         let all = self.all();
         let error = all.iter().map(|value| &value.error).max();
@@ -231,7 +231,7 @@ impl Numbers {
         }
     }
 
-    /// The exact method of an order that is near the numbers, if one is found.
+    /// The exact method of this order near the numbers, if one is found.
     fn refined(
         &self,
         class: &str,
@@ -259,7 +259,7 @@ impl Numbers {
                 Ok(definition.derive(limits).ok())
             }
             Numbers::RungeKutta { positions, momenta } => {
-                // Trees are enumerated up to a limit, and a quadrature of a higher order determines its method.
+                // Trees are enumerated up to a limit; a quadrature of a higher order determines its method.
                 let order = match order >= OrderOptions::default().limit {
                     true => order.max(quadrature_order(positions)),
                     false => order,
@@ -296,7 +296,7 @@ impl Numbers {
         }
     }
 
-    /// The tableau of the numbers, whatever they sum to.
+    /// The tableau of the numbers, whatever their sums.
     fn as_they_stand(&self, limits: &Limits) -> Result<Tableau, Error> {
         let texts = |values: &[Value]| -> Vec<String> {
             values.iter().map(|v| v.constant.to_string()).collect()
@@ -309,7 +309,7 @@ impl Numbers {
             } => {
                 let (drifts, kicks) = (texts(drifts), texts(kicks));
                 let splitting = definition(*drifts_first, &drifts, &kicks, None);
-                // Those that do not sum to 1 are refused there.
+                // Numbers that do not sum to 1 are rejected there.
                 if let Ok(tableau) = splitting.derive(limits) {
                     return Ok(tableau);
                 }
@@ -356,7 +356,7 @@ impl Numbers {
         }
     }
 
-    /// How far the exact coefficients are from the numbers at most, if each has its number.
+    /// A bound on the distance of the exact coefficients from the numbers, if each has its number.
     pub fn largest_error(&self, tableau: &Tableau) -> Option<BigRational> {
         let Numbers::RungeKutta { positions, momenta } = self else {
             return self.distance(tableau);
@@ -383,7 +383,7 @@ impl Numbers {
         Some(largest)
     }
 
-    /// How far the exact method is from the numbers at most, for a splitting or a table whose stages stand as they are written.
+    /// A bound on the distance of the exact method from the numbers, for a splitting or a table whose stages are in the written order.
     pub fn distance(&self, tableau: &Tableau) -> Option<BigRational> {
         let Numbers::Splitting {
             drifts,
@@ -410,7 +410,7 @@ impl Numbers {
         };
         let numbers = tableau.numbers();
         let stages = tableau.stages();
-        // The stages of the tableau begin with whichever flow makes it shorter.
+        // The stages of the tableau begin with the flow that makes it shorter.
         let starts = tableau_starts_with_drift(tableau);
         let mut exact = Vec::new();
         for i in 0..stages {
@@ -441,7 +441,7 @@ impl Numbers {
     }
 }
 
-/// The sum of a row as a table prints it; 0 and 1 are the ends of the step.
+/// The sum of a row as a table prints it; sums near 0 and 1 are the ends of the step.
 fn node(row: &[Value]) -> Result<String, ErrorKind> {
     let sum = sum(row)?;
     for end in [BigRational::zero(), BigRational::one()] {
@@ -452,7 +452,7 @@ fn node(row: &[Value]) -> Result<String, ErrorKind> {
     Ok(sum.printed()?.text().to_owned())
 }
 
-/// The order of the quadrature, `Σ b_i c_i^(k−1) = 1/k` for `k` up to it, as far as decimals tell.
+/// The order of the quadrature: the largest k with `Σ b_i c_i^(k−1) = 1/k` up to it, as far as decimals tell.
 fn quadrature_order((rows, weights): &Half) -> usize {
     let nodes: Vec<BigRational> = rows
         .iter()
@@ -474,9 +474,9 @@ fn quadrature_order((rows, weights): &Half) -> usize {
     2 * weights.len()
 }
 
-/// The Runge–Kutta method with the numbers of one half of a pair: that of its positions, or of its momenta.
+/// The Runge–Kutta method with the numbers of one half of a pair: the positions or the momenta.
 fn alone(tableau: Tableau, (rows, weights): &Half, limits: &Limits) -> Option<Tableau> {
-    /// Far more than the rounding of decimals, and far less than what the halves differ by.
+    /// Far more than the rounding of decimals, and far less than the difference of the halves.
     const NEAR: f64 = 1e-6;
     if tableau.equal_halves() == (true, true) {
         return Some(tableau);

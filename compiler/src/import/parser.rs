@@ -1,4 +1,4 @@
-//! The expressions of a table, in whichever of the languages they are written.
+//! The expressions of a table in any of the languages.
 
 use std::ops::Range;
 
@@ -12,10 +12,10 @@ use crate::library::Notation;
 /// An operation on two numbers.
 type Combine = fn(&Value, &Value) -> Result<Value, ErrorKind>;
 
-/// What an expression is.
+/// The value of an expression.
 pub(super) enum Item {
     One(Value),
-    /// A list, with those in it one after another.
+    /// A list, with nested lists flattened.
     Many(Vec<Value>),
 }
 
@@ -32,13 +32,13 @@ impl Item {
 pub(super) struct Parser<'s, 'a> {
     pub source: &'s Source<'a>,
     pub tokens: &'s [Spanned],
-    /// Where the text ends.
+    /// The end of the text.
     pub end: usize,
     pub at: usize,
     pub depth: usize,
-    /// In how many brackets, where the end of a line means nothing.
+    /// The number of open brackets; within brackets the end of a line has no meaning.
     pub inside: usize,
-    /// Whether the innermost bracket is `[` of a matrix, where white space is between the numbers.
+    /// Whether the innermost bracket is `[` of a matrix, where white space separates numbers.
     pub matrix: bool,
 }
 
@@ -57,7 +57,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// Takes a symbol if it stands here.
+    /// Consumes a symbol if it comes next.
     fn take(&mut self, wanted: char) -> bool {
         let found = self.symbol() == Some(wanted);
         self.at += usize::from(found);
@@ -76,7 +76,7 @@ impl Parser<'_, '_> {
             .map_or(self.end..self.end, |found| found.span.clone())
     }
 
-    /// What stands here is something else.
+    /// The error for an unexpected next token.
     pub fn unexpected(&self, expected: &str) -> Error {
         let span = self.span();
         let found = match self.peek() {
@@ -110,7 +110,7 @@ impl Parser<'_, '_> {
         self.deeper()?;
         let mut left = self.term()?;
         while let Some(operator @ ('+' | '-')) = self.symbol() {
-            // In lists without commas a sign that clings to what follows begins the next number.
+            // In lists without commas, a sign directly before a number begins that number.
             let [here, next] = [self.at, self.at + 1].map(|at| self.tokens.get(at));
             let clings = here.is_some_and(|x| x.apart) && next.is_some_and(|x| !x.apart);
             if self.matrix && clings && matches!(left, Item::One(_)) {
@@ -144,7 +144,7 @@ impl Parser<'_, '_> {
         Ok(left)
     }
 
-    /// Factors with `//` between them, which binds more tightly than `/` in Julia.
+    /// Factors separated by `//`, which binds more tightly than `/` in Julia.
     fn fraction(&mut self) -> Result<Item, Error> {
         let mut left = self.factor()?;
         while self.symbol() == Some('÷') {
@@ -160,7 +160,7 @@ impl Parser<'_, '_> {
         Ok(left)
     }
 
-    /// A quotient; that of two integers is cut to an integer in C and Fortran.
+    /// A quotient; C and Fortran truncate the quotient of two integers.
     fn quotient(&self, left: Item, right: Item, span: Range<usize>) -> Result<Item, Error> {
         let cuts = self.source.notation == Notation::C || self.source.fortran;
         if let (Item::One(x), Item::One(y)) = (&left, &right)
@@ -299,7 +299,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// What stands between quotes, read as an expression.
+    /// The text between quotes, read as an expression.
     pub fn quoted(&mut self, range: Range<usize>) -> Result<Item, Error> {
         self.deeper()?;
         let (input, notation) = (self.source.input, self.source.notation);
@@ -321,7 +321,7 @@ impl Parser<'_, '_> {
         Ok(item)
     }
 
-    /// Items up to a closing bracket; keyword arguments are passed over.
+    /// Items up to a closing bracket; keyword arguments are skipped.
     fn items(&mut self, close: char) -> Result<Vec<Item>, Error> {
         self.deeper()?;
         self.inside += 1;
@@ -329,7 +329,7 @@ impl Parser<'_, '_> {
             close == ']' && self.source.notation == Notation::Julia && !self.source.fortran;
         let outside = std::mem::replace(&mut self.matrix, spaces);
         let (mut items, mut numbers) = (Vec::new(), 0);
-        // Whether white space in a line is between the item before and this one.
+        // Whether white space on the same line separates the previous item from this one.
         let mut beside = false;
         loop {
             match self.symbol() {
@@ -370,7 +370,7 @@ impl Parser<'_, '_> {
                 return Err(self.wrong(span, kind));
             }
             items.push(item);
-            // White space or the end of a line separates numbers of a matrix.
+            // White space or the end of a line separates the numbers of a matrix.
             let line = matches!(self.peek(), Some(Token::Line));
             let apart = self.tokens.get(self.at).is_some_and(|next| next.apart);
             let ends = matches!(self.symbol(), Some(c) if c == close || c == ',' || c == ';');
@@ -393,7 +393,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// Passes over a keyword argument.
+    /// Skips a keyword argument.
     fn pass_over(&mut self, close: char) {
         let mut depth = 0_i32;
         while let Some(token) = self.tokens.get(self.at) {
@@ -408,7 +408,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// A variable, an element, a call, or a list with the type of its entries before it.
+    /// A variable, an element, a call, or a list preceded by the type of its entries.
     fn named(&mut self, name: &str, span: Range<usize>) -> Result<Item, Error> {
         // `big"0.5"`
         if let Some(Token::Text(range)) = self.peek().cloned()
@@ -473,7 +473,7 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// Refuses `static_cast<int>`, which cuts a number.
+    /// Rejects `static_cast<int>`, which truncates a number.
     fn no_integer(&self) -> Result<(), Error> {
         const INTEGERS: [&str; 8] = [
             "int", "unsigned", "short", "char", "bool", "size_t", "int32_t", "int64_t",
@@ -560,7 +560,7 @@ impl Parser<'_, '_> {
         Ok(item)
     }
 
-    /// A function of one or two numbers, or a conversion, which leaves a number as it is.
+    /// A function of one or two numbers, or a conversion, which keeps the number.
     fn call(&self, name: &str, span: Range<usize>, arguments: Vec<Item>) -> Result<Item, Error> {
         /// Conversions: the number is the first argument.
         const CONVERSIONS: [&str; 25] = [
@@ -605,12 +605,12 @@ impl Parser<'_, '_> {
                 .map_err(|kind| self.wrong(span.clone(), kind)),
             _ => wrong("two numbers"),
         };
-        // A vector of several numbers; several arguments are something else in C++.
+        // A vector of several numbers; in C++ several arguments mean something else.
         let vectors = matches!(
             self.source.notation,
             Notation::Julia | Notation::Python | Notation::Mathematica
         );
-        // The precision, or the kind of Fortran, is no number of the table.
+        // The precision, or the kind in Fortran, is not a number of the table.
         let second = matches!(name, "N" | "mpf" | "Float") || plain == "real";
         match (plain.as_str(), arguments.len()) {
             ("sqrt" | "sunrsqrt" | "cbrt" | "cuberoot", _) => match &arguments[..] {
@@ -653,13 +653,13 @@ impl Parser<'_, '_> {
     }
 }
 
-/// Types of Julia that stand before a list of their numbers.
+/// Julia types that may precede a list of their numbers.
 const TYPES: [&str; 13] = [
     "SA", "T", "T2", "Float64", "Float32", "BigFloat", "Rational", "BigInt", "Int", "Int64",
     "Real", "Number", "Any",
 ];
 
-/// Whether it is a list of several numbers.
+/// Whether the item is a list of several numbers.
 fn is_long(item: &Item) -> bool {
     matches!(item, Item::Many(values) if values.len() > 1)
 }
@@ -668,7 +668,7 @@ fn joined(items: Vec<Item>) -> Item {
     Item::Many(items.into_iter().flat_map(Item::values).collect())
 }
 
-/// The first argument, which is a real number of its language from here on.
+/// The first argument, which becomes a real number of its language.
 fn first(arguments: Vec<Item>) -> Item {
     match arguments.into_iter().next() {
         Some(Item::One(value)) => Item::One(value.with_whole(false)),

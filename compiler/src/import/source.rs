@@ -1,11 +1,11 @@
-//! The assignments of a text, and the exact values of those that are asked for.
+//! The assignments of a text, and the exact values of the requested ones.
 //!
 //! ```text
 //! a = [1//2, big"0.5"]      a1 = convert(T, 0.5)      table->a[0] = SUN_RCONST(1.0) / SUN_RCONST(3.0);
 //! static const double a[2] = { 0x1.8p-1, 0.5f };      b = {1/2, Sqrt[2]/2, 1.5`20};
 //! ```
 //!
-//! Everything else in the text is passed over.
+//! Everything else in the text is skipped.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
@@ -20,24 +20,24 @@ use crate::expression::{Input, shown};
 use crate::library::Notation;
 use crate::symbolic::Constant;
 
-/// The most numbers in a list: the matrix of a hundred stages.
+/// The largest number of numbers in a list: the matrix of a hundred stages.
 pub(super) const MAX_NUMBERS: usize = 10_000;
-/// The most numbers that are copied from lists into others.
+/// The largest number of numbers that are copied from lists into others.
 const MAX_COPIES: usize = 100 * MAX_NUMBERS;
 
-/// Where values are assigned to a name.
+/// The assignments to a name.
 #[derive(Default)]
 pub(super) struct Assigned {
-    /// The name and the first token of the value, of the whole or of a list.
+    /// The place of the name and the first token of the value, if the name is assigned as a whole.
     pub whole: Option<(Range<usize>, usize)>,
-    /// The same for `a[3]`, by the number.
+    /// The same for elements such as `a[3]`, by index.
     pub elements: BTreeMap<usize, (Range<usize>, usize)>,
-    /// Where it is not certain what the name stands for, and why.
+    /// The place where the value of the name becomes ambiguous, and the reason.
     pub refused: Option<(Range<usize>, &'static str)>,
 }
 
 impl Assigned {
-    /// An error only where the values of this name are asked for.
+    /// Notes an error that is reported only if the values of this name are requested.
     fn refuse(&mut self, span: Range<usize>, why: &'static str) {
         self.refused.get_or_insert((span, why));
     }
@@ -48,12 +48,12 @@ const CHANGED: &str = "is changed later; write the numbers that it has in the en
 const INDEX: &str = "has an index that is not one number; write the list as a whole";
 const TOGETHER: &str = "gets its value together with others; give each name its own";
 
-/// What an assignment begins with.
+/// The left side of an assignment.
 struct Target {
     name: String,
-    /// The number in brackets.
+    /// The index in brackets.
     index: Option<usize>,
-    /// How many brackets there are.
+    /// The number of brackets.
     brackets: usize,
     /// The first token of the value.
     value: usize,
@@ -65,14 +65,14 @@ pub(super) struct Source<'a> {
     pub notation: Notation,
     pub fortran: bool,
     tokens: Vec<Spanned>,
-    /// In how many brackets each token is.
+    /// The bracket depth of each token.
     depths: Vec<usize>,
     pub names: BTreeMap<String, Assigned>,
-    /// How many values were computed: a name may stand in many others, and these in many others again.
+    /// The number of computed values. It is bounded, because names may refer to each other many times.
     computed: Cell<usize>,
-    /// How many numbers were copied from lists.
+    /// The number of numbers copied from lists.
     copied: Cell<usize>,
-    /// The lists that are computed.
+    /// The lists computed so far.
     lists: RefCell<BTreeMap<String, Rc<Vec<Value>>>>,
 }
 
@@ -128,12 +128,12 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// The first token behind the brackets that follow a name, how many they are, and the number in the only one.
+    /// The first token after the brackets that follow a name, the number of brackets, and the index if there is only one.
     fn brackets(&self, at: usize) -> Option<(usize, usize, Option<usize>)> {
         let (mut after, mut brackets, mut index) = (at + 1, 0, None);
         while let Some('[' | '(') = self.symbol(after) {
             let depth = self.depths[after];
-            // The size of an array may be anything.
+            // The size of an array may be any expression.
             let inner = self.depths[after + 1..].iter().take(64);
             let length = inner.take_while(|&&inside| inside > depth).count();
             let end = after + 1 + length;
@@ -154,7 +154,7 @@ impl<'a> Source<'a> {
         Some((after, brackets, index))
     }
 
-    /// What an assignment begins with, if one begins at a name.
+    /// The left side of an assignment, if one begins at a name.
     fn assignment(&self, at: usize, name: &str) -> Option<Target> {
         let (after, brackets, index) = self.brackets(at)?;
         let equals = self.symbol(after) == Some('=');
@@ -166,7 +166,7 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// Whether what a name stands for is changed here: `a += 1`, `a .*= 2`, `a[1]++`, `push!(a, 1)`.
+    /// Whether the value of a name is changed here: `a += 1`, `a .*= 2`, `a[1]++`, `push!(a, 1)`.
     fn changes(&self, at: usize) -> bool {
         let before = |n: usize| at.checked_sub(n).and_then(|at| self.symbol(at));
         let function = at.checked_sub(3).and_then(|at| self.tokens.get(at));
@@ -196,7 +196,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Notes an assignment: of an element where the value is no list.
+    /// Notes an assignment: of an element if the value is not a list.
     fn note(&mut self, at: usize, target: Target) {
         let Target {
             name,
@@ -228,17 +228,17 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Whether a comma outside brackets makes a tuple, and not another declaration.
+    /// Whether a comma outside brackets forms a tuple rather than separating declarations.
     fn has_tuples(&self) -> bool {
         self.notation != Notation::C && !self.fortran
     }
 
-    /// Whether a name has a value, or `a1`, `a2`, … have.
+    /// Whether a name has a value, or `a1`, `a2`, … have values.
     pub fn has(&self, name: &str) -> bool {
         self.names.contains_key(name) || !self.numbered(name).is_empty()
     }
 
-    /// `a1`, `a2`, … by their numbers.
+    /// The names `a1`, `a2`, … by their numbers.
     fn numbered(&self, name: &str) -> BTreeMap<usize, String> {
         let keys = self.names.keys();
         let numbered = keys.filter_map(|key| Some((number(name, key)?, key.clone())));
@@ -248,13 +248,13 @@ impl<'a> Source<'a> {
     /// The list of a name; `None` if there is none.
     ///
     /// # Errors
-    /// The first thing in it that is not a number, a name that is assigned twice, and numbers that do not follow one another.
+    /// The first part that is not a number, a name that is assigned twice, and numbers that are not consecutive.
     pub fn list(&self, name: &str) -> Result<Option<Vec<Value>>, Error> {
         self.list_within(name, 0)
             .map(|list| list.map(|list| list.to_vec()))
     }
 
-    /// Where a name is first assigned.
+    /// The place of the first assignment to a name.
     pub fn place(&self, name: &str) -> Range<usize> {
         let own = self.names.get(name).and_then(|assigned| {
             let first = assigned.elements.values().next();
@@ -267,7 +267,7 @@ impl<'a> Source<'a> {
         own.or_else(numbered).map_or(0..0, |(span, _)| span.clone())
     }
 
-    /// The same, computed once.
+    /// [`list`](Self::list), computed once.
     pub fn list_within(&self, name: &str, depth: usize) -> Result<Option<Rc<Vec<Value>>>, Error> {
         if let Some(known) = self.lists.borrow().get(name) {
             return Ok(Some(Rc::clone(known)));
@@ -319,7 +319,7 @@ impl<'a> Source<'a> {
             .map(Some)
     }
 
-    /// What is assigned to a name as a whole; a list is computed once.
+    /// The value assigned to a name as a whole; a list is computed once.
     pub fn whole(&self, name: &str, value: usize, depth: usize) -> Result<Item, Error> {
         let known = self.lists.borrow().get(name).map(Rc::clone);
         if let Some(list) = known.filter(|list| list.len() != 1) {
@@ -333,7 +333,7 @@ impl<'a> Source<'a> {
         Ok(item)
     }
 
-    /// The numbers of a list, of which there may not be too many.
+    /// A copy of the numbers of a list, up to a limit.
     pub fn copy(&self, name: &str, list: &[Value]) -> Result<Vec<Value>, Error> {
         self.copied.set(self.copied.get() + list.len());
         if self.copied.get() > MAX_COPIES {
@@ -347,7 +347,7 @@ impl<'a> Source<'a> {
         Ok(list.to_vec())
     }
 
-    /// Refuses a name of which it is not certain what it stands for.
+    /// Rejects a name with an ambiguous value.
     pub fn once(&self, name: &str) -> Result<(), Error> {
         let assigned = self.names.get(name);
         match assigned.and_then(|assigned| assigned.refused.as_ref()) {
@@ -383,7 +383,7 @@ impl<'a> Source<'a> {
         Ok(values)
     }
 
-    /// The value that begins at a token and takes the whole statement.
+    /// The value that begins at a token and extends over the whole statement.
     pub fn evaluate(&self, at: usize, depth: usize) -> Result<Item, Error> {
         self.computed.set(self.computed.get() + 1);
         if self.computed.get() > MAX_NUMBERS {
@@ -423,7 +423,7 @@ impl<'a> Source<'a> {
                 Err(self.wrong(&found.span, message))
             }
             Token::Symbol(',') => Ok(item),
-            // The next statement of Fortran, or the end of a block of Julia.
+            // The next statement in Fortran, or the end of a block in Julia.
             Token::Name(_) if other_line => Ok(item),
             Token::Name(name) if name == "end" && self.notation == Notation::Julia => Ok(item),
             _ => Err(parser.unexpected("an operator, or the end of the statement")),
@@ -438,7 +438,7 @@ impl<'a> Source<'a> {
     }
 
     fn skip_lines(&self, mut at: usize) -> usize {
-        // In Python the line ends the statement.
+        // In Python the end of the line ends the statement.
         let over = self.notation != Notation::Python;
         while over
             && matches!(self.tokens.get(at), Some(found) if matches!(found.token, Token::Line))
@@ -476,7 +476,7 @@ pub(super) fn value_of(
     }
 }
 
-/// The number of `a1` or `a_1` behind the name `a`.
+/// The number after the name `a` in `a1` or `a_1`.
 fn number(name: &str, key: &str) -> Option<usize> {
     let digits = key.strip_prefix(name)?;
     let digits = digits.strip_prefix('_').unwrap_or(digits);

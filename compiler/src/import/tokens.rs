@@ -1,4 +1,4 @@
-//! The text of a table as tokens, in whichever of the languages it is written.
+//! The tokens of a table in any of the languages.
 
 use std::ops::Range;
 
@@ -15,17 +15,17 @@ const MAX_LENGTH: usize = 1 << 20;
 #[derive(Debug, Clone)]
 pub(super) enum Token {
     Number(Value),
-    /// A name; of `table->a` and `numpy.array` the last part.
+    /// A name; for `table->a` and `numpy.array` the last part.
     Name(String),
-    /// What stands between quotes.
+    /// The text between quotes.
     Text(Range<usize>),
-    /// `÷` is the `//` of fractions, `^` is `**` too, and `=` is `:=` too.
+    /// A symbol. `÷` stands for the `//` of fractions, `^` also for `**`, and `=` also for `:=`.
     Symbol(char),
     /// The end of a line.
     Line,
 }
 
-/// A token and where it stands.
+/// A token and its place.
 #[derive(Debug, Clone)]
 pub(super) struct Spanned {
     pub token: Token,
@@ -34,16 +34,16 @@ pub(super) struct Spanned {
     pub apart: bool,
 }
 
-/// What the text of the tokens is.
+/// The kind of text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     /// A file, with comments and continued lines.
     File,
-    /// A single number, as between quotes.
+    /// A single number, as in quotes.
     Number,
 }
 
-/// Whether a text is Fortran: declarations with ` :: ` or lines that `&` continues, and no braces.
+/// Whether a text is Fortran: it has declarations with ` :: ` or lines continued by `&`, and no braces.
 pub(super) fn is_fortran(text: &str, notation: Notation) -> bool {
     let continued = |line: &str| {
         let line = line.trim_end();
@@ -79,13 +79,13 @@ pub(super) fn tokenize(
     };
     let mut tokens = Vec::new();
     let mut apart = true;
-    // Whether nothing is before it in its line.
+    // Whether the line has no tokens yet.
     let mut fresh = true;
     while reader.at < reader.end {
         let start = reader.at;
         let continues = reader.fortran && fresh && !tokens.is_empty();
         if continues && reader.rest().starts_with('&') {
-            // The line before goes on here.
+            // The previous line continues here.
             if matches!(
                 tokens.last(),
                 Some(Spanned {
@@ -132,7 +132,7 @@ impl<'a> Reader<'a> {
         self.at = (self.at + bytes).min(self.end);
     }
 
-    /// Skips what is accepted.
+    /// Skips the accepted characters.
     fn run(&mut self, accept: impl Fn(char) -> bool) {
         let rest = self.rest();
         self.skip(rest.find(|c| !accept(c)).unwrap_or(rest.len()));
@@ -143,7 +143,7 @@ impl<'a> Reader<'a> {
         self.input.error(&span, ErrorKind::Document { message })
     }
 
-    /// Skips a comment of several lines or a text of several lines.
+    /// Skips a multi-line comment or text.
     fn block(&mut self, open: &str, close: &str) -> Result<(), Error> {
         let nests = matches!(open, "#=" | "(*");
         let (start, mut depth) = (self.at, 1_usize);
@@ -172,7 +172,7 @@ impl<'a> Reader<'a> {
             return Ok(false);
         }
         let rest = self.rest();
-        // `%` is an operator of Julia, except where a number cannot end.
+        // `%` is an operator in Julia, except where a number cannot end.
         let begins = || match last.map(|last| &last.token) {
             None | Some(Token::Line) => true,
             Some(Token::Symbol(c)) => matches!(c, ';' | ',' | '['),
@@ -214,7 +214,7 @@ impl<'a> Reader<'a> {
         Ok(true)
     }
 
-    /// Skips the mark of a line that goes on, of Fortran, Python and Matlab, if one stands here.
+    /// Skips the continuation mark of Fortran, Python and Matlab, if there is one here.
     fn continued(&mut self, first: char) -> bool {
         if self.kind == Kind::Number {
             return false;
@@ -232,7 +232,7 @@ impl<'a> Reader<'a> {
             self.skip(mark + line.len() + 1);
             return true;
         }
-        // `...` in a line puts the entries of a list one after another.
+        // `...` within a line splices the entries of a list.
         if mark == 3 {
             self.skip(mark);
         }
@@ -274,7 +274,7 @@ impl<'a> Reader<'a> {
         if first.is_ascii_digit() || first == '.' && digit_follows {
             return self.number().map(|value| Some(Token::Number(value)));
         }
-        // A matrix is transposed by the `'` that clings to it.
+        // `'` directly after a matrix transposes it.
         let transposed = self.notation == Notation::Julia
             && first == '\''
             && !apart
@@ -291,7 +291,7 @@ impl<'a> Reader<'a> {
                 let start = self.at;
                 self.run(|c| c.is_alphanumeric() || c == '_');
                 let name = start..self.at;
-                // `table->a`, `numpy.array` and `std::sqrt` are their last parts.
+                // `table->a`, `numpy.array` and `std::sqrt` are reduced to their last parts.
                 let rest = self.rest();
                 // `a.b` is a product in Mathematica.
                 let dots = self.notation != Notation::Mathematica;
@@ -316,7 +316,7 @@ impl<'a> Reader<'a> {
         Ok(Some(Token::Symbol(first)))
     }
 
-    /// What stands between quotes, in one line.
+    /// The text between quotes, on one line.
     fn text(&mut self, quote: char) -> Result<Token, Error> {
         let open = self.at..self.at + 1;
         self.skip(1);
@@ -338,7 +338,7 @@ impl<'a> Reader<'a> {
         Ok(Token::Text(range))
     }
 
-    /// A number with whatever its language puts behind it.
+    /// A number with the suffix of its language.
     fn number(&mut self) -> Result<Value, Error> {
         let start = self.at;
         let text = self.rest();
@@ -388,7 +388,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// The marks of exponents: `e`, `d` of Fortran, `f` of Julia and `*^` of Mathematica.
+    /// The exponent marks: `e`, `d` in Fortran, `f` in Julia and `*^` in Mathematica.
     fn exponents(&self) -> &'static [&'static str] {
         match self.notation {
             _ if self.fortran => &["e", "E", "d", "D"],
@@ -398,7 +398,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// `_real64` of Fortran, `f` and `L` of C, and the precision `` `20 `` of Mathematica.
+    /// Skips `_real64` in Fortran, `f` and `L` in C, and the precision `` `20 `` in Mathematica.
     fn suffix(&mut self) {
         let rest = self.rest();
         if self.fortran {
@@ -414,7 +414,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A decimal with an exponent behind one of some marks, and its length.
+/// A decimal with an exponent after one of the marks, and its length.
 fn decimal(text: &str, marks: &[&str]) -> (Option<Value>, usize) {
     let digits = |from: usize| {
         let rest = &text[from..];
@@ -444,9 +444,9 @@ fn decimal(text: &str, marks: &[&str]) -> (Option<Value>, usize) {
     (Value::decimal(&number).ok(), end)
 }
 
-/// What stands behind `0x` in a hexadecimal floating constant, and its length.
+/// The part after `0x` of a hexadecimal floating constant, and its length.
 fn hexadecimal(text: &str) -> (Option<Value>, usize) {
-    /// More digits are no number of a table.
+    /// Numbers of a table have no more digits.
     const MOST: usize = 64;
     let hex = |from: usize| {
         let rest = &text[from..];

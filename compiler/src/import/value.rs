@@ -1,4 +1,4 @@
-//! Numbers of tables: exact values, and how far the number that is meant may be from each.
+//! Numbers of tables: exact values with error bounds.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -14,19 +14,19 @@ use crate::symbolic::Constant;
 const EXACT_DIGITS: usize = 6;
 /// Doubles with at most this many binary digits are exact: `0x1.8p-1`.
 const EXACT_BITS: u64 = 20;
-/// Irrational exact values beside decimals are decimals with this many places.
+/// The decimal places of irrational exact values when others are decimals.
 const PLACES: u32 = 50;
 
 /// A number of a table.
 #[derive(Debug, Clone)]
 pub(crate) struct Value {
-    /// The exact value of what is written.
+    /// The exact value as written.
     pub constant: Constant,
-    /// Half a unit of the last place of a decimal, and what becomes of it; zero for an exact number.
+    /// Half a unit of the last place of a decimal, propagated through operations; zero for an exact number.
     pub error: BigRational,
-    /// A single decimal as it is written.
+    /// The text of a single decimal.
     text: Option<String>,
-    /// Whether it is an integer of its language, such as `1` and not `1.0`.
+    /// Whether it is an integer in its language, such as `1` but not `1.0`.
     pub whole: bool,
 }
 
@@ -65,7 +65,7 @@ impl Value {
         })
     }
 
-    /// The number `numerator·2^exponent` of a hexadecimal constant, which is a rounded one if it has many digits.
+    /// The number `numerator·2^exponent` of a hexadecimal constant, which is considered rounded if it has many digits.
     pub fn binary(numerator: BigInt, exponent: i64) -> Result<Self, ErrorKind> {
         let twos = numerator.trailing_zeros().unwrap_or(0);
         let long = numerator.bits() - twos > EXACT_BITS;
@@ -76,7 +76,7 @@ impl Value {
         // Half a unit of the last of 53 binary places.
         let last = i64::try_from(numerator.bits()).unwrap_or(i64::MAX) + exponent - 53;
         let value = BigRational::from_integer(numerator) * two(exponent);
-        // The shortest decimal that is this double, which is what was meant where it was a decimal.
+        // The shortest decimal that reads back to this double: the intended number, if that was a decimal.
         let text = long.then(|| shortest(to_f64(&value)));
         Ok(Value {
             constant: Constant::rational(value)?,
@@ -90,7 +90,7 @@ impl Value {
         })
     }
 
-    /// The same number as an integer of its language, or as another number.
+    /// The same number, marked as an integer of its language or not.
     pub fn with_whole(mut self, whole: bool) -> Self {
         self.whole = whole;
         self
@@ -101,7 +101,7 @@ impl Value {
         self.error.is_zero()
     }
 
-    /// A rational number not farther away than its error, or than `10^−50` if it is irrational.
+    /// A rational number within the error of this one, or within `10^−50` if it is irrational.
     pub fn rational(&self) -> BigRational {
         match self.constant.as_rational() {
             Some(value) => value.clone(),
@@ -112,13 +112,13 @@ impl Value {
         }
     }
 
-    /// The number as a paper would print it: as it is written, a fraction if it is exact, else a decimal with the places that are sure.
+    /// The number as a paper would print it: the text as written, a fraction if it is exact, else a decimal with the certain places.
     pub fn printed(&self) -> Result<Printed, ErrorKind> {
         let text = match (&self.text, self.constant.as_rational()) {
             (Some(text), _) => text.clone(),
             (None, Some(value)) if self.is_exact() => value.to_string(),
             _ => {
-                // A tenth of half a unit of the next place, which is left for the rounding.
+                // A tenth of half a unit of the next place is left for the rounding.
                 let (mut places, mut half) = (0, ratio(1, 200));
                 while places < PLACES && half >= self.error {
                     places += 1;
@@ -175,14 +175,14 @@ impl Value {
         let error = (&self.error + quotient * &other.error) / divisor;
         Ok(Value {
             constant,
-            // To first order, and twice that for the rest.
+            // The first-order error, doubled to cover the rest.
             error: error * ratio(2, 1),
             text: None,
             whole: false,
         })
     }
 
-    /// `self^exponent` for a fraction with the denominator 1, 2 or 3.
+    /// `self^exponent` for a fraction with denominator 1, 2 or 3.
     pub fn power(&self, exponent: &Self) -> Result<Self, ErrorKind> {
         let wrong = || ErrorKind::Type {
             found: format!("the exponent {}", exponent.constant),

@@ -11,7 +11,7 @@ pub enum HamiltonianClass {
     General,
     /// `H = T(p) + U(q)`: neighbouring vertices have different colours.
     Separable,
-    /// `H = pᵀM⁻¹p/2 + U(q)` (Nyström): moreover a vertex for `q'` has at most one child, because
+    /// `H = pᵀM⁻¹p/2 + U(q)` (Nyström): in addition, a vertex for `q'` has at most one child, because
     /// `∂H/∂p` is linear in `p`.
     Nystrom,
 }
@@ -33,7 +33,7 @@ impl HamiltonianClass {
         }
     }
 
-    /// Whether the elementary differential of a tree can be different from zero in this class.
+    /// Whether the elementary differential of a tree can be nonzero in this class.
     pub fn contains(self, tree: &BicolouredTree) -> bool {
         let children = tree.children();
         let colours = match self {

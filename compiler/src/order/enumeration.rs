@@ -1,7 +1,7 @@
 //! All trees of a class, order by order.
 //!
-//! Every tree with more than one vertex is, in exactly one way, a smaller tree `rest` with one more
-//! child `last` at its root that stands in the enumeration no earlier than the other children. So
+//! Every tree with more than one vertex is, in exactly one way, a smaller tree `rest` with an additional
+//! child `last` at its root that does not come before the other children in the enumeration. So
 //! orders grow from products of smaller ones without repetition, a tree takes 16 bytes, and `Φ(rest)`
 //! times the stages of `last` is `Φ` of the tree.
 
@@ -10,13 +10,13 @@ use std::ops::Range;
 use super::class::HamiltonianClass;
 use super::tree::{BicolouredTree, Colour};
 
-/// Which trees are enumerated.
+/// The rule that selects the enumerated trees.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TreeRule {
     /// The trees of a class of Hamiltonians.
     Class(HamiltonianClass),
-    /// The trees whose vertices are all coloured `q`: those of one Runge–Kutta method, `ã = a` and
-    /// `b̃ = b`, for which colours make no difference.
+    /// The trees whose vertices are all coloured `q`: those of a single Runge–Kutta method, `ã = a` and
+    /// `b̃ = b`, for which colours do not matter.
     OneColour,
 }
 
@@ -28,7 +28,7 @@ impl TreeRule {
         }
     }
 
-    /// Whether a root of this colour can have another child of that colour.
+    /// Whether a root of colour `root` can have another child of colour `child`.
     fn allows(self, root: Colour, is_single: bool, child: Colour) -> bool {
         match self {
             TreeRule::Class(HamiltonianClass::General) | TreeRule::OneColour => true,
@@ -40,7 +40,7 @@ impl TreeRule {
     }
 }
 
-/// A tree in an enumeration: a product of two that stand before it, or a single vertex.
+/// A tree in an enumeration: a product of two earlier trees, or a single vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Entry {
     pub(super) colour: Colour,
@@ -97,7 +97,7 @@ impl Trees {
         }
     }
 
-    /// Which trees these are.
+    /// The rule of these trees.
     pub fn rule(&self) -> TreeRule {
         self.rule
     }
@@ -112,8 +112,8 @@ impl Trees {
         self.indices(order).map(|index| self.tree(index))
     }
 
-    /// The number of trees of an order that is at most one beyond the highest, for which no tree is
-    /// kept.
+    /// The number of trees of an order. The order may be one higher than the highest; trees of that order are counted
+    /// without being stored.
     pub fn count(&self, order: usize) -> usize {
         if order > self.order() {
             self.products(order).count()
@@ -130,24 +130,24 @@ impl Trees {
     /// The indices of the trees of one order.
     pub(super) fn indices(&self, order: usize) -> Range<u32> {
         match order.checked_sub(1).and_then(|n| self.starts.get(n..n + 2)) {
-            // The enumeration of trees ends long before 2³² of them.
+            // The enumeration ends long before 2³² trees.
             Some(&[start, end]) => start as u32..end as u32,
             _ => 0..0,
         }
     }
 
-    /// The trees of an order that is at most one beyond the highest, as `(rest, last)`.
+    /// The trees of an order at most one higher than the highest, as `(rest, last)`.
     pub(super) fn products(&self, order: usize) -> impl Iterator<Item = (u32, u32)> {
         self.products_with_last(order, order)
     }
 
-    /// As [`Trees::products`], only those whose children all have orders below `bound`.
+    /// [`Trees::products`], restricted to trees whose children all have orders below `bound`.
     pub(super) fn products_with_last(
         &self,
         order: usize,
         bound: usize,
     ) -> impl Iterator<Item = (u32, u32)> {
-        // Roots coloured q first, and below that children of low order.
+        // Roots coloured q come first, and among them children of low order.
         let colours = self.rule.colours().iter();
         let sizes = colours.flat_map(move |&root| (1..order.min(bound)).map(move |n| (root, n)));
         sizes.flat_map(move |(root, size)| {
@@ -217,8 +217,8 @@ mod tests {
         (1..=order).map(|n| trees.count(n)).collect()
     }
 
-    /// The number of multisets of trees with `size` vertices in all, for each size, from the number of
-    /// trees of each order (the Euler transform), and of those with at most one tree where `single`.
+    /// The number of multisets of trees with `size` vertices in total, for each size, from the number of
+    /// trees of each order (the Euler transform). With `single`, only multisets of at most one tree.
     fn multisets(trees: &[u64], single: bool) -> Vec<u64> {
         let mut sets = vec![1u64];
         for size in 1..=trees.len() {
@@ -264,8 +264,8 @@ mod tests {
         q.iter().zip(&p).map(|(q, p)| (q + p) as usize).collect()
     }
 
-    /// The first numbers were found by several independent programs; orders 9 and 10
-    /// with them, and the trees of order 10 are counted without being kept.
+    /// The first numbers were found by several independent programs, and orders 9 and 10
+    /// together with these. The trees of order 10 are counted without being stored.
     #[test]
     fn the_numbers_of_trees_are_known() {
         let general = TreeRule::Class(HamiltonianClass::General);
@@ -281,12 +281,12 @@ mod tests {
         assert_eq!(recursion(separable, 10), rooted.map(|n| 2 * n));
         let nystrom = TreeRule::Class(HamiltonianClass::Nystrom);
         assert_eq!(counts(nystrom, 12), recursion(nystrom, 12));
-        // The roots coloured p are the special Nyström trees of HNW II.14, those coloured q one order
+        // The trees with roots coloured p are the special Nyström trees of HNW II.14, those with roots coloured q one order
         // higher: 1, 1, 2, 3, 6, 10, 20, …
         assert_eq!(counts(nystrom, 6), [2, 2, 3, 5, 9, 16]);
     }
 
-    /// Every tree occurs once, is in the class, and their monotonic labellings are all there are.
+    /// Every tree occurs once and is in the class, and the monotonic labellings are complete.
     #[test]
     fn trees_are_different_and_complete() {
         for class in HamiltonianClass::ALL {

@@ -1,6 +1,6 @@
 //! The size of the leading error term.
 //!
-//! One step of a method of order `p` is off by
+//! One step of a method of order `p` has the error
 //!
 //! ```text
 //! h^(p+1) Σ_τ α(τ)/|τ|! · (γ(τ) φ(τ) − 1) F(τ) + O(h^(p+2)),    |τ| = p + 1
@@ -23,21 +23,21 @@ use crate::algebra::Number;
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rounding::Decimal;
 
-/// The digits that are certified.
+/// The number of certified digits.
 const DIGITS: usize = 12;
 
-/// Binary places of the first enclosures, and those beyond which a rounding is left undecided.
+/// Binary places of the first enclosures, and the limit beyond which a rounding is left undecided.
 const BITS: std::ops::Range<u32> = 192..20_000;
 
-/// One term: a value, what it should be and the weight of the square of the difference.
+/// One term: a value, its required value, and the weight of the squared difference.
 pub(super) struct Term<'a> {
     pub(super) value: Number<'a>,
     pub(super) wanted: BigRational,
     pub(super) weight: BigRational,
 }
 
-/// The root of the weighted sum of squares to [`DIGITS`] digits; `None` if it is too close to the middle
-/// between two decimals, or to zero.
+/// The square root of the weighted sum of squares to [`DIGITS`] digits; `None` if it is too close to the midpoint of
+/// two decimals, or to zero.
 pub(super) fn norm(terms: &[Term<'_>]) -> Option<Decimal> {
     let mut bits = BITS.start;
     while bits < BITS.end {
@@ -49,7 +49,7 @@ pub(super) fn norm(terms: &[Term<'_>]) -> Option<Decimal> {
         };
         let zero = Interval::enclosing(&BigRational::default(), bits);
         let sum = terms.iter().map(square).fold(zero, |sum, x| sum.add(&x));
-        // A product of an interval with itself may reach below zero.
+        // The product of an interval with itself may extend below zero.
         let low = sum.low.max(BigInt::default());
         let root = |square: BigInt| (square << bits).sqrt();
         let unit = BigInt::from(1) << bits;

@@ -2,13 +2,13 @@
 //!
 //! With the letters of [`crate::certify`], `A` for drifts and `B` for kicks, a step that begins with the kick `k₁` acts
 //! on functions by `S = exp(k₁B) exp(d₁A) exp(k₂B) ⋯`. The coefficient of a word in the product of the first `i`
-//! factors is the sum over the number `n` of letters at its end that the last of them gives,
+//! factors is a sum over the number `n` of letters at its end that come from the last factor,
 //!
 //! ```text
 //! [w]ᵢ = Σ_n [w without its last n letters]ᵢ₋₁ xᵢⁿ/n!,
 //! ```
 //!
-//! for a letter other than that of the factor with `n = 0` only. What is found for the prefixes of a word is kept for
+//! with only `n = 0` if the last letter differs from that of the factor. The coefficients of the prefixes of a word are stored for
 //! other words.
 
 use std::collections::HashMap;
@@ -56,7 +56,7 @@ impl<'a, F: Field> Product<'a, F> {
         self.field
     }
 
-    /// About how many products of numbers have been made.
+    /// The approximate number of products computed so far.
     pub fn cost(&self) -> usize {
         self.known.len() * self.factors.len()
     }

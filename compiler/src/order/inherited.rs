@@ -1,34 +1,34 @@
-//! Orders that follow from how a method is made, whatever its coefficients show.
+//! Orders that follow from the construction of a method, independent of its coefficients.
 
 use super::class::HamiltonianClass;
 use crate::certify::Claim;
 use crate::evidence::Evidence;
 
-/// An order, at least, that is known before any condition is looked at.
+/// A lower bound on the order that is known before any condition is evaluated.
 ///
-/// It is that of a certificate, or that of a symmetric composition: if a symmetric method of the even order `p` is
-/// made with the fractions `γ_1, …, γ_m` of a step, the same from both ends, and `Σ γ_i = 1` and `Σ γ_i^{p+1} = 0`,
-/// the leading term `C h^{p+1}` of the local error is `Σ γ_i^{p+1} C h^{p+1} = 0` (GNI II.4, Theorem 4.1), so that the
-/// order is `p + 1` at least, and that of a symmetric method is even (GNI II.3, Theorem 3.2): `p + 2`. This is so for
+/// It comes from a certificate or from a symmetric composition. Let a symmetric method of even order `p` be
+/// composed with palindromic fractions `γ_1, …, γ_m` of a step, with `Σ γ_i = 1` and `Σ γ_i^{p+1} = 0`. Then
+/// the leading term of the local error is `Σ γ_i^{p+1} C h^{p+1} = 0` (GNI II.4, Theorem 4.1), so that the
+/// order is at least `p + 1`; and that of a symmetric method is even (GNI II.3, Theorem 3.2): `p + 2`. This holds for
 /// every Hamiltonian for which the base has its order and is symmetric.
 ///
-/// A certificate for quadratic `T` is one of order 3 for separable Hamiltonians too, and so of order 4 if the method is
-/// symmetric: of the terms of the modified equation up to degree 4 only `[B, [B, [B, A]]]` vanishes for quadratic `T`.
+/// A certificate for quadratic `T` also gives order 3 for separable Hamiltonians, and order 4 if the method is
+/// symmetric: of the terms of the modified equation up to degree 4, only `[B, [B, [B, A]]]` vanishes for quadratic `T`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct GivenOrder {
-    /// What is known for separable Hamiltonians.
+    /// The claim for separable Hamiltonians.
     pub claim: Claim,
     /// The order for every Hamiltonian.
     pub general: usize,
-    /// How it is known.
+    /// The evidence.
     pub evidence: Evidence,
-    /// Whether the method is a splitting that reads the same from both ends, so that its orders for separable
+    /// Whether the method is a palindromic splitting, so that its orders for separable
     /// Hamiltonians are even.
     pub symmetric: bool,
 }
 
 impl GivenOrder {
-    /// That of a method which a certificate proves to exist. Kicks and drifts which sum to 1 are of order 1 for all.
+    /// The order of a method that a certificate proves to exist. Kicks and drifts that sum to 1 give order 1 for every class.
     pub fn certified(claim: Claim) -> Self {
         GivenOrder {
             claim,
@@ -38,7 +38,7 @@ impl GivenOrder {
         }
     }
 
-    /// The order for a class of Hamiltonians, at least.
+    /// A lower bound on the order for a class of Hamiltonians.
     pub fn for_class(&self, class: HamiltonianClass) -> usize {
         match class {
             HamiltonianClass::General => self.general,
@@ -46,7 +46,7 @@ impl GivenOrder {
         }
     }
 
-    /// The order in a power of `ε` for perturbed systems, at least.
+    /// A lower bound on the order in a power of `ε` for perturbed systems.
     pub fn in_power(&self, power: usize) -> usize {
         self.even(self.claim.order_in_power(power))
     }

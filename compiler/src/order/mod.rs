@@ -5,27 +5,27 @@
 //! together with a tree of order `p + 1` whose condition is refuted. It is proved
 //!
 //! 1. by the [`SimplifyingAssumptions`] up to the order that they give,
-//! 2. for a method with a [`Claim`](crate::certify::Claim) by its certificate, and for a triple jump or a fractal of Suzuki
+//! 2. for a method with a [`Claim`](crate::certify::Claim) by its certificate, and for a triple jump or a Suzuki fractal
 //!    by the theorem on symmetric compositions (GNI II.4),
 //! 3. by evaluating conditions, order by order, up to [`OrderOptions::limit`]: all of them, or for
-//!    methods that are symplectic one for each tree without a root,
-//! 4. and refuted beyond the limit by the quadrature, `B(p + 1)`, which is one tree.
+//!    symplectic methods one for each tree without a root,
+//! 4. and refuted beyond the limit by the quadrature, `B(p + 1)`, which is a single tree.
 //!
 //! | order of the trees | 6 | 7 | 8 | 9 | 10 |
 //! |---|---|---|---|---|---|
 //! | conditions, general | 916 | 4 116 | 18 996 | 89 894 | 433 196 |
-//! | those that a symplectic method leaves | 91 | 350 | 1 376 | 5 743 | 24 635 |
+//! | conditions that remain for a symplectic method | 91 | 350 | 1 376 | 5 743 | 24 635 |
 //! | all, three classes, Gauss with 5 stages | 20 ms | 60 ms | 0.3 s | 1.2 s | 6 s |
 //! | memory for that | 14 MB | 14 MB | 14 MB | 18 MB | 72 MB |
 //!
 //! Measured on one core, optimised. With the default options the methods of the catalogue take at most
-//! 0.1 s each but for the two of order 9, which take 1 s, and Gauss with 20 stages, order 40, takes 0.2 s. Orders
-//! the conditions of which take more than ten million products of a coefficient and a stage, or four where numbers are
-//! expressions, are not enumerated: what is then known of them is what the simplifying assumptions say.
+//! 0.1 s each, except the two of order 9, which take 1 s, and Gauss with 20 stages, order 40, which takes 0.2 s. Conditions of an
+//! order are not enumerated if they take more than ten million products of a coefficient and a stage, or four million if numbers are
+//! expressions. Then only the simplifying assumptions give information about that order.
 //!
-//! The order that is [seen](Tableau::observed_order) in a step of the pendulum does not use any of this.
+//! The order [observed](Tableau::observed_order) in a step of the pendulum does not use any of this.
 //!
-//! Splittings have an order for perturbed systems besides, a [`PerturbedOrder`], from words instead of trees.
+//! Splittings also have an order for perturbed systems, a [`PerturbedOrder`], from words instead of trees.
 
 mod class;
 mod enumeration;
@@ -72,15 +72,15 @@ use crate::pair::Pair;
 use crate::properties::shown;
 use crate::tableau::Tableau;
 
-/// How orders are decided.
+/// Options for deciding orders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OrderOptions {
     /// The highest order of trees that are enumerated; 10 unless changed, and at most 20.
     ///
-    /// Each order has about five times as many trees as the one before.
+    /// Each order has about five times as many trees as the previous order.
     pub limit: usize,
-    /// Evaluates the conditions of all trees from order 1 on, whatever follows from symplecticity or
-    /// from simplifying assumptions.
+    /// Evaluates the conditions of all trees from order 1 on, without using symplecticity
+    /// or simplifying assumptions.
     pub all_conditions: bool,
 }
 
@@ -123,10 +123,10 @@ impl Tableau {
         over_algebra!(self, pair => simplifying_assumptions(pair))
     }
 
-    /// The order of symplecticity for general Hamiltonians, from trees up to an order; `None` for a
+    /// The order of symplecticity for general Hamiltonians, from trees up to order `limit`; `None` for a
     /// method that is symplectic by its coefficients.
     ///
-    /// Where no condition up to the limit is violated it is the order of the method, if that is higher: the
+    /// If no condition up to the limit is violated, it is the order of the method if that is higher, because the
     /// exact flow is symplectic.
     pub fn symplecticity_order(&self, limit: usize) -> Option<SymplecticityOrder> {
         let mut found = over_algebra!(self, pair => {
@@ -135,7 +135,7 @@ impl Tableau {
         let verified = matches!(found.evidence, Evidence::Verified { .. });
         if found.violated.is_none() || verified {
             let general = self.orders().general;
-            // What is better known of the order is so of this.
+            // Better knowledge of the order is also knowledge of the order of symplecticity.
             if general.order > found.order || (verified && general.order == found.order) {
                 found.order = general.order;
                 found.evidence = general.evidence;
@@ -170,11 +170,11 @@ pub(crate) fn order<A: StageAlgebra>(
     options: &OrderOptions,
     given: Option<&GivenOrder>,
 ) -> OrderReport {
-    // Where enclosures would only verify it.
+    // The given order is used only where enclosures would merely verify it.
     let verified = pair.algebra.constants().verified_bits().is_some();
     let given = given.filter(|_| verified && !options.all_conditions);
     let known = Known::of(pair, options);
-    // What is left is to refute the next order, for which enclosures with a few bits do.
+    // It remains to refute the next order, for which enclosures with few bits suffice.
     let enclosed = given.map(|_| pair.enclosed(BITS));
     let class = |class| {
         let known = given.map_or_else(|| known.clone(), |given| known.with(given, class));
@@ -190,10 +190,10 @@ pub(crate) fn order<A: StageAlgebra>(
     }
 }
 
-/// What makes it unnecessary to evaluate conditions.
+/// Knowledge that makes it unnecessary to evaluate conditions.
 #[derive(Clone)]
 struct Known {
-    /// The order that the simplifying assumptions, a certificate or a construction give.
+    /// The order from the simplifying assumptions, a certificate or a construction.
     order: usize,
     evidence: Evidence,
     symplecticity: Symplecticity,
@@ -226,14 +226,14 @@ impl Known {
 }
 
 impl Known {
-    /// The same with an order that is known of how the method is made.
+    /// The same knowledge with an order that follows from the construction of the method.
     fn with(&self, given: &GivenOrder, class: HamiltonianClass) -> Self {
         let mut known = self.clone();
         let order = given.for_class(class);
         if order > 0 && order >= known.order {
             known.order = order;
             known.evidence = given.evidence;
-            // For these there are few trees, and one order of them alone has to be looked at.
+            // These classes have few trees, and only one order has to be examined.
             if class != HamiltonianClass::General {
                 known.limit = known.limit.max(order + 1).min(MAX_ORDER);
             }
@@ -242,10 +242,10 @@ impl Known {
     }
 }
 
-/// Bits of the enclosures by which an order is refuted beyond one that is known.
+/// Bits of the enclosures that refute an order beyond a known one.
 const BITS: u32 = 256;
 
-/// The order that is known, if conditions of the next one are refuted and their error constant found.
+/// The known order, if conditions of the next order are refuted and their error constant is found.
 fn refuted(
     pair: &Pair<Dense<Balls>>,
     class: HamiltonianClass,
@@ -266,7 +266,7 @@ fn class_order<A: StageAlgebra>(
     class: HamiltonianClass,
     known: &Known,
 ) -> ClassOrder {
-    // Conditions that follow from equations which are only verified are verified less well than those.
+    // Consequences of equations that are only verified are less certain than the equations themselves.
     let representatives = known.symplecticity.evidence(class) == Some(Evidence::Proved);
     let mut evidence = known.evidence;
     let mut weights = Weights::new(pair, TreeRule::Class(class));
@@ -279,7 +279,7 @@ fn class_order<A: StageAlgebra>(
         let conditions = weights.conditions(order, representatives);
         let mut first = None;
         let mut terms = Vec::new();
-        // That of this order counts only if all of its conditions hold.
+        // The evidence of this order counts only if all of its conditions hold.
         let mut held = evidence;
         for condition in conditions {
             let (value, wanted) = (weights.value(condition), weights.wanted(condition));
@@ -324,8 +324,8 @@ fn class_order<A: StageAlgebra>(
     }
 }
 
-/// The order for a class up to a tolerance of the conditions, of numbers that are rounded, and the first condition that is violated
-/// by more; the order is at most [`OrderOptions::limit`].
+/// The order for a class up to a tolerance of the conditions, for rounded numbers, and the first condition that is violated
+/// by more than that; the order is at most [`OrderOptions::limit`].
 pub(crate) fn order_within<A: StageAlgebra>(
     pair: &Pair<A>,
     class: HamiltonianClass,
@@ -389,7 +389,7 @@ impl ViolatedCondition {
         value: &Number<'_>,
     ) -> Self {
         let wanted = tree.wanted();
-        // The same share of the wanted value at each stage, so that the sum is the residual.
+        // The same fraction of the wanted value at each stage, so that the sum is the residual.
         let share = &wanted / BigRational::from_integer(algebra.stages().into());
         let residual = algebra.subtract(terms, &algebra.constant(&share));
         let number = algebra.sum(&residual);
@@ -403,10 +403,10 @@ impl ViolatedCondition {
     }
 }
 
-/// Exact values with more characters than this are written as decimals.
+/// Exact values with more characters are written as decimals.
 const SHORT: usize = 40;
 
-/// `Σ_i f_i`, which is `number`: exact where that is short, otherwise its first digits and `…`.
+/// `Σ_i f_i`, equal to `number`: exact if that is short, otherwise its first digits and `…`.
 fn short_sum<A: StageAlgebra>(algebra: &A, f: &A::Vector, number: &Number<'_>) -> String {
     match algebra.exact_sum(f) {
         Some(exact) if exact.chars().count() <= SHORT => exact,
@@ -414,7 +414,7 @@ fn short_sum<A: StageAlgebra>(algebra: &A, f: &A::Vector, number: &Number<'_>) -
     }
 }
 
-/// The first digits of a number that has no short exact form.
+/// The first digits of a number without a short exact form.
 fn short(number: &Number<'_>) -> String {
     let text = shown(number);
     if text.chars().count() <= SHORT {

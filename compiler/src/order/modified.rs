@@ -1,4 +1,4 @@
-//! The modified equation, of which the method is the exact flow.
+//! The modified equation, whose exact flow is the method.
 //!
 //! See [`ModifiedTerm`].
 
@@ -17,7 +17,7 @@ use crate::algebra::{Number, StageAlgebra};
 use crate::arithmetic::rounding::Decimal;
 use crate::pair::Pair;
 
-/// One term `h^(|τ|−1)/σ(τ) β(τ) F(τ)` of the modified equation, of which the method is the exact flow.
+/// One term `h^(|τ|−1)/σ(τ) β(τ) F(τ)` of the modified equation, whose exact flow is the method.
 ///
 /// A step is a P-series, `y1 = y0 + Σ_τ h^|τ|/σ(τ) φ(τ) F(τ)`, and so is the modified equation,
 ///
@@ -32,19 +32,19 @@ use crate::pair::Pair;
 /// (∂κ)(τ) = Σ κ(τ∖v) β(v)
 /// ```
 ///
-/// summed over the edges of `τ`, of which each cuts a branch `v` off, and Taylor's formula at `t = h` gives
+/// summed over the edges of `τ`, each of which cuts off a branch `v`. Taylor's formula at `t = h` gives
 /// (GNI IX.9 for trees of one colour, IX.10 for two)
 ///
 /// ```text
 /// φ(τ) = Σ_{j=1}^{|τ|} (∂^(j−1) β)(τ)/j!
 /// ```
 ///
-/// In it `β(τ)` stands once, all else belongs to smaller trees.
+/// Here `β(τ)` occurs once; all other terms belong to smaller trees.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ModifiedTerm {
     /// The tree `τ`.
     pub tree: BicolouredTree,
-    /// The coefficient `β(τ)` in a readable exact form, where there is one.
+    /// The coefficient `β(τ)` in a readable exact form, if there is one.
     pub exact: Option<String>,
     /// The coefficient to 16 digits.
     pub decimal: Decimal,
@@ -86,7 +86,7 @@ pub(super) fn modified_equation<A: StageAlgebra>(
         .collect()
 }
 
-/// Numbers here are vectors that have the same value at every stage, which every algebra has.
+/// The coefficients so far. Numbers are vectors with the same value at every stage, which every algebra has.
 struct Series<'a, A: StageAlgebra> {
     pair: &'a Pair<A>,
     /// The matrix of ones, which sums a vector.
@@ -98,7 +98,7 @@ struct Series<'a, A: StageAlgebra> {
 }
 
 impl<A: StageAlgebra> Series<'_, A> {
-    /// Computes the coefficients of a tree whose parts have theirs, and returns `β`.
+    /// Computes the coefficients of a tree whose parts are known already, and returns `β`.
     fn add(&mut self, tree: &BicolouredTree) -> A::Vector {
         let algebra = &*self.pair.algebra;
         let zero = algebra.constant(&BigRational::default());
@@ -161,7 +161,7 @@ impl<A: StageAlgebra> Series<'_, A> {
     }
 }
 
-/// For each edge what is left of the tree without the branch above the edge, and the branch.
+/// For each edge, the tree without the branch above the edge, and the branch.
 fn cuts(tree: &BicolouredTree) -> Vec<(BicolouredTree, BicolouredTree)> {
     let mut found = Vec::new();
     for (index, child) in tree.children().iter().enumerate() {
@@ -244,7 +244,7 @@ mod tests {
     }
 
     /// `log [[1 − h², h], [−h, 1]] = g(h) [[−h²/2, h], [−h, h²/2]]`, `g = Σ (n!)²/(2n + 1)! h²ⁿ`: the step of
-    /// the harmonic oscillator, which sees the trees without branches only.
+    /// the harmonic oscillator, for which only trees without branches matter.
     #[test]
     fn the_oscillator_has_its_logarithm() {
         let factorial = |n: usize| BigRational::from_integer((1..=n).map(BigInt::from).product());
@@ -317,7 +317,7 @@ mod tests {
             sum
         }
 
-        /// `[f, g] = −{f, g}`, so that the Lie derivatives `{·, f}` multiply as the functions do.
+        /// `[f, g] = −{f, g}`, so that the Lie derivatives `{·, f}` multiply like the functions.
         fn bracket(&self, other: &Self) -> Self {
             let first = self
                 .derivative(Colour::P)
@@ -329,7 +329,7 @@ mod tests {
         }
     }
 
-    /// The elementary differential, of one degree of freedom.
+    /// The elementary differential for one degree of freedom.
     fn differential(tree: &BicolouredTree, t: &Bivariate, u: &Bivariate) -> Bivariate {
         let (function, by, sign) = match tree.colour() {
             Colour::Q => (t, Colour::P, 1),
@@ -346,7 +346,7 @@ mod tests {
         })
     }
 
-    /// The modified Hamiltonians of the splittings by the formulas of Baker, Campbell and Hausdorff.
+    /// The modified Hamiltonians of the splittings by the Baker–Campbell–Hausdorff formula.
     #[test]
     fn modified_equations_are_those_of_the_modified_hamiltonians() {
         let polynomial = |coefficients: &[(u32, i64, i64)], colour: Colour| {

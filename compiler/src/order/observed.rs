@@ -1,9 +1,9 @@
-//! The order that is seen: one step of the pendulum beside its exact flow, in 96 digits.
+//! The observed order: one step of the pendulum compared with its exact flow, in 96 digits.
 //!
 //! `H = T(p) − cos q` with `T = p²/2`, which is in the Nyström class, or with `T = √(1 + p²)`, which is in no smaller class than the
-//! separable one. No tree and no order condition enters. The local error of a method of order `p` is `C hᵖ⁺¹`, so that the error at
-//! `h` is `2ᵖ⁺¹` times the one at `h/2`; the steps are so small (`2⁻⁶⁷` at order 1, `2⁻¹⁷` at order 10) that the next power of `h`
-//! does not show. A step of a usual size can show an order that a method does not have.
+//! separable one. No tree and no order condition is used. The local error of a method of order `p` is `C hᵖ⁺¹`, so that the error at
+//! `h` is `2ᵖ⁺¹` times the error at `h/2`. The steps are so small (`2⁻⁶⁷` at order 1, `2⁻¹⁷` at order 10) that the next power of `h`
+//! is negligible. A step of ordinary size can suggest an order that a method does not have.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -12,15 +12,15 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use crate::coefficients::Coefficients;
 use crate::tableau::Tableau;
 
-/// Numbers are integers that stand for multiples of `2^−BITS`.
+/// Numbers are integers, in units of `2^−BITS`.
 const BITS: usize = 320;
-/// The binary places of the error that is looked at.
+/// The binary places of the error that are used.
 const ERROR_BITS: usize = 200;
-/// Errors below this many units are rounding.
+/// Errors below this many bits count as round-off.
 const NOISE_BITS: u64 = 40;
-/// The terms of the Taylor series of the exact flow: `(2⁻¹⁷)²⁴` is below a unit.
+/// The number of terms of the Taylor series of the exact flow: `(2⁻¹⁷)²⁴` is below a unit.
 const TERMS: usize = 24;
-/// Sweeps over the stages; each makes the error smaller by a multiple of `h`.
+/// Sweeps over the stages; each reduces the error by a factor proportional to `h`.
 const SWEEPS: usize = 64;
 
 /// A kinetic energy.
@@ -33,11 +33,11 @@ pub enum Kinetic {
 }
 
 impl Tableau {
-    /// The order that is seen on the pendulum with a kinetic energy: `log₂` of the quotient of the errors of one step, less 1.
-    /// `expected` decides how small the step is.
+    /// The order observed on the pendulum with a kinetic energy: `log₂` of the ratio of the errors of one step, minus 1.
+    /// `expected` determines the size of the step.
     ///
-    /// `None` where the error is lost in rounding, because the order is much higher than expected, and where the stages are not
-    /// found by iteration.
+    /// `None` if the error is lost in round-off, because the order is much higher than expected, or if the iteration for the
+    /// stages does not converge.
     ///
     /// ```
     /// use symplectic_compiler::{catalogue, order::Kinetic};
@@ -143,7 +143,7 @@ fn series(kinetic: Kinetic, start: &[BigInt; 2]) -> Vec<[BigInt; 2]> {
         let products = (0..=n).map(|k| &x[k] * &y[n - k]);
         products.sum::<BigInt>() >> BITS
     };
-    // Products of series, which grow with them.
+    // Products of series, extended together with them.
     let (mut velocities, mut forces): (Vec<BigInt>, Vec<BigInt>) = (Vec::new(), Vec::new());
     let (mut squares, mut cubes, mut momenta): (Vec<BigInt>, Vec<BigInt>, Vec<BigInt>) =
         (Vec::new(), Vec::new(), Vec::new());
@@ -190,7 +190,7 @@ fn step(
     for _ in 0..SWEEPS {
         let mut moved = 0;
         for i in 0..stages {
-            // What is explicit is found in one sweep.
+            // Explicit stages are found in one sweep.
             let kick_first = !method.a_tilde[i][i].is_zero();
             for positions in [kick_first, !kick_first] {
                 let (slopes, new) = match positions {

@@ -1,7 +1,7 @@
 //! The order of a splitting for perturbed systems `H = H_A + εH_B`.
 //!
-//! Drifts integrate `H_A` and kicks integrate `εH_B`, as in the `SABA` and `SBAB` of Laskar & Robutel (2001); with
-//! positions and momenta exchanged it is the other way round. A method has the order `(s₁, s₂, …)`, `s₁ ≥ s₂ ≥ …`, if
+//! Drifts integrate `H_A` and kicks integrate `εH_B`, as in the `SABA` and `SBAB` methods of Laskar & Robutel (2001); with
+//! positions and momenta exchanged the roles are exchanged. A method has the order `(s₁, s₂, …)`, `s₁ ≥ s₂ ≥ …`, if
 //! its modified Hamiltonian differs from `H` by
 //!
 //! ```text
@@ -9,14 +9,14 @@
 //! ```
 //!
 //! the terms of `log S` with `j` letters `B` vanish up to the degree `s_j`, apart from `A + B` (Blanes, Casas, Farrés,
-//! Laskar, Makazaga & Murua 2013). That is so if and only if the Lyndon words with `j` letters `B`, of degree `s_j` at
-//! most, have in `S` the coefficients that they have in `exp(A + B)`, `1/|w|!`; [`crate::certify`] says why. So `s_m`
+//! Laskar, Makazaga & Murua 2013). This holds if and only if the Lyndon words with `j` letters `B`, of degree at most
+//! `s_j`, have in `S` the coefficients that they have in `exp(A + B)`, `1/|w|!`; [`crate::certify`] gives the reason. So `s_m`
 //! is the largest degree up to which the conditions with at most `m` letters `B` hold, and the condition that refutes
 //! `s_m + 1` has a word.
 //!
-//! The words with one letter `B` ask for a quadrature, `Σ k_i c_iⁿ = 1/(n + 1)` with the kicks `k_i` at the times `c_i`:
-//! `s₁` is its degree plus 1. The conditions of all words together are those for separable `H`, so that the
-//! numbers fall to the order `p` for these, `s_{p−1} = p` at the latest.
+//! The words with one letter `B` are quadrature conditions, `Σ k_i c_iⁿ = 1/(n + 1)` with the kicks `k_i` at the times `c_i`:
+//! `s₁` is the degree of the quadrature plus 1. The conditions of all words together are those for separable `H`, so that the
+//! orders decrease to the order `p` for these, with `s_{p−1} = p` at the latest.
 
 use std::fmt;
 
@@ -40,7 +40,7 @@ use crate::tableau::Tableau;
 /// The order `(s₁, s₂, …)` of a splitting for `H = H_A + εH_B` with drifts for `H_A` and kicks for `εH_B`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PerturbedOrder {
-    /// The orders in `ε`, `ε²`, …, two at least; the last one is that in all higher powers, and so the order for
+    /// The orders in `ε`, `ε²`, …, at least two; the last one holds for all higher powers, and so is the order for
     /// separable `H`.
     pub powers: Vec<PowerOrder>,
 }
@@ -48,25 +48,25 @@ pub struct PerturbedOrder {
 /// The order in a power of `ε`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PowerOrder {
-    /// All conditions of this power and the lower ones hold up to this degree.
+    /// The degree up to which all conditions of this power and the lower ones hold.
     pub order: usize,
-    /// How it is known that they hold.
+    /// The evidence that they hold.
     pub evidence: Evidence,
-    /// A condition of this power or a lower one and of the next degree that does not hold. Where there is none the
-    /// order is at least the number: conditions of higher degrees were not looked at.
+    /// A violated condition of the next degree, of this power or a lower one. If there is none, the
+    /// order is a lower bound: conditions of higher degrees were not evaluated.
     pub refuted_by: Option<ViolatedWord>,
 }
 
-/// A condition on the coefficient of a word that does not hold.
+/// A violated condition on the coefficient of a word.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ViolatedWord {
     /// The word: `A^2B` for `AAB`.
     pub word: String,
-    /// Its coefficient, exact where that is short, otherwise its first digits and `…`.
+    /// Its coefficient, exact if that is short, otherwise its first digits and `…`.
     pub value: String,
-    /// What it should be, `1/|w|!`.
+    /// Its required value, `1/|w|!`.
     pub wanted: BigRational,
-    /// The value less what it should be, written like the value.
+    /// The value minus the required value, written like the value.
     pub residual: String,
 }
 
@@ -76,13 +76,13 @@ impl PerturbedOrder {
         self.powers.iter().map(|power| power.order).collect()
     }
 
-    /// What is known of the order in a power of `ε`, 1 at least.
+    /// The order in a power of `ε`, with `power` at least 1.
     pub fn power(&self, power: usize) -> Option<&PowerOrder> {
         let known = self.powers.get(power.saturating_sub(1));
         known.or(self.powers.last())
     }
 
-    /// The numbers as they are printed, `(8, 2)`, with `≥` where a number is a bound.
+    /// The orders as text, `(8, 2)`, with `≥` for a lower bound.
     pub fn numbers(&self) -> String {
         let number = |power: &PowerOrder| {
             let at_least = if power.refuted_by.is_none() {
@@ -103,7 +103,7 @@ impl fmt::Display for PerturbedOrder {
         f.write_str(&self.numbers())?;
         let evidence = |power: &PowerOrder| evidence_text(power.evidence);
         let mut known: Vec<String> = self.powers.iter().map(evidence).collect();
-        // One word for all, or one for each number.
+        // One word for all, or one for each order.
         if known.iter().all(|word| *word == known[0]) {
             known.truncate(1);
         }
@@ -142,9 +142,9 @@ impl fmt::Display for ViolatedWord {
 
 impl Tableau {
     /// The order `(s₁, s₂, …)` for perturbed systems `H = H_A + εH_B` with drifts for `H_A` and kicks for `εH_B`,
-    /// decided at the first call; `None` for a method that is no splitting for separable `H`.
+    /// computed on the first call; `None` for a method that is not a splitting for separable `H`.
     ///
-    /// The first number is looked for up to [`MAX_PERTURBED_ORDER`], the others up to [`MAX_ORDER`].
+    /// The first order is determined up to [`MAX_PERTURBED_ORDER`], the others up to [`MAX_ORDER`].
     ///
     /// ```
     /// use symplectic_compiler::catalogue;
@@ -157,7 +157,7 @@ impl Tableau {
     pub fn perturbed_order(&self) -> Option<PerturbedOrder> {
         self.perturbed
             .get_or_init(|| {
-                // A splitting is explicit, which is known sooner.
+                // A splitting is explicit, which is decided faster.
                 let explicit = self.properties().explicit.holds;
                 explicit.then(|| perturbed_order(self)).flatten()
             })
@@ -171,7 +171,7 @@ fn perturbed_order(tableau: &Tableau) -> Option<PerturbedOrder> {
     let chain = graph.splitting()?;
     let given = tableau.given.as_ref();
     match &tableau.exact {
-        // There are splittings among these with one or two nodes only, which are 0 and 1.
+        // The splittings among these have only one or two nodes, which are 0 and 1.
         Exact::Nodes(_) => {
             let rational = |&node: &Node| {
                 let weight = graph.evaluation(node).weight.short_rational()?;
@@ -191,7 +191,7 @@ fn perturbed_order(tableau: &Tableau) -> Option<PerturbedOrder> {
     }
 }
 
-/// Orders in `ε`, `ε²`, … as they are printed: `(8, 4)`.
+/// Orders in `ε`, `ε²`, … as text: `(8, 4)`.
 pub(crate) fn listed(orders: &[usize]) -> String {
     let orders: Vec<String> = orders.iter().map(usize::to_string).collect();
     format!("({})", orders.join(", "))
@@ -204,7 +204,7 @@ fn letter(node: Node) -> u8 {
     }
 }
 
-/// Kicks and drifts with their fractions of the step: the weights of the stages that coincide, together.
+/// Kicks and drifts with their fractions of the step: the sums of the weights of coinciding stages.
 fn letters<F: Field>(
     pair: &Pair<Dense<F>>,
     graph: &StepGraph<'_>,
@@ -232,7 +232,7 @@ fn of_letters<F: Field>(
     given: Option<&GivenOrder>,
 ) -> PerturbedOrder {
     let mut product = Product::new(field, letters);
-    // Where enclosures would only verify it.
+    // The given order is used only where enclosures would merely verify it.
     let given = given.filter(|_| field.verified_bits().is_some());
     let first = power_order(&mut product, 1, MAX_PERTURBED_ORDER, None, given);
     let mut powers = vec![first];
@@ -245,7 +245,7 @@ fn of_letters<F: Field>(
         powers.push(next);
         power += 1;
     }
-    // The last one is that of all higher powers.
+    // The last order holds for all higher powers.
     while powers.len() > 2
         && powers[powers.len() - 1].order == powers[powers.len() - 2].order
         && let Some(last) = powers.pop()
@@ -256,8 +256,8 @@ fn of_letters<F: Field>(
     PerturbedOrder { powers }
 }
 
-/// The order in a power of `ε`, `limit` at most: from the conditions, what is known of the power before, and what is
-/// given, for which no condition is looked at.
+/// The order in a power of `ε`, at most `limit`: from the conditions, the result for the previous power, and the given
+/// order, up to which no condition is evaluated.
 fn power_order<F: Field>(
     product: &mut Product<'_, F>,
     power: usize,
@@ -276,7 +276,7 @@ fn power_order<F: Field>(
         },
         refuted_by,
     };
-    // In degree m there is no word with m letters B but B itself.
+    // The only word of degree m with m letters B, a condition of its own, is B itself.
     let holds = given_order.max(if power == 1 { 0 } else { power });
     for degree in holds + 1..=limit {
         if product.cost() > most_products(product.field()) {
@@ -292,7 +292,7 @@ fn power_order<F: Field>(
     }
 }
 
-/// A condition with so many letters `B`, of a degree, that does not hold.
+/// A violated condition of a degree, with `power` letters `B`.
 fn violated<F: Field>(
     product: &mut Product<'_, F>,
     power: usize,
@@ -312,7 +312,7 @@ fn violated<F: Field>(
     })
 }
 
-/// The words whose coefficients are the conditions with so many letters `B`, in a degree.
+/// The words of a degree with `power` letters `B`, whose coefficients are the conditions.
 fn conditions(power: usize, degree: usize) -> Vec<Word> {
     match degree {
         1 => vec![vec![DRIFT], vec![KICK]],
@@ -326,7 +326,7 @@ fn exact_flow(degree: usize) -> BigRational {
     BigRational::new(BigInt::one(), factorial)
 }
 
-/// A word with powers for letters that follow one another: `A^2B`.
+/// A word with powers for repeated letters: `A^2B`.
 fn text(word: &[u8]) -> String {
     let run = |run: &[u8]| {
         let name = if run[0] == DRIFT { 'A' } else { 'B' };

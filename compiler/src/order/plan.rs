@@ -1,4 +1,4 @@
-//! Order conditions as a plan, for numbers that are in no algebra of this crate.
+//! Order conditions as a plan, for numbers that do not belong to an algebra of this crate.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -7,12 +7,12 @@ use num_traits::One;
 use super::enumeration::{TreeRule, Trees};
 use super::tree::Colour;
 
-/// A tree of which others are made.
+/// A tree from which other trees are formed.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Planned {
     /// Whether its root is coloured `p`: it takes `b̃` and, as a child, `ã`.
     pub momentum: bool,
-    /// A tree that stands before it, with another one as one more child of its root.
+    /// An earlier tree, and another one that becomes an additional child of its root.
     pub product: Option<(usize, usize)>,
 }
 
@@ -32,8 +32,8 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// The conditions of orders from 2 on: all, or one for each tree without a root, which are those that a symplectic
-    /// method leaves.
+    /// The conditions of orders from 2 on: all, or with `representatives` one for each tree without a root, which are
+    /// those that remain for a symplectic method.
     pub fn new(rule: TreeRule, orders: &[usize], representatives: bool) -> Self {
         let highest = orders.iter().max().copied().unwrap_or(1);
         let trees = Trees::up_to(rule, highest.saturating_sub(1).max(1));
@@ -76,7 +76,7 @@ impl Plan {
     }
 }
 
-/// `γ(rest)` has the factor `|rest|`, which becomes `|rest| + |last|`.
+/// The density `γ`: the factor `|rest|` of `γ(rest)` becomes `|rest| + |last|`.
 fn density(trees: &Trees, densities: &[BigInt], (rest, last): (u32, u32)) -> BigInt {
     let (before, added) = (trees.size(rest), trees.size(last));
     &densities[rest as usize] / before * (before + added) * &densities[last as usize]

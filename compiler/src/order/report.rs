@@ -1,4 +1,4 @@
-//! What is found out about the order of a method.
+//! Results about the order of a method.
 
 use std::fmt;
 
@@ -37,14 +37,14 @@ impl OrderReport {
 pub struct ClassOrder {
     /// The order `p`: all conditions up to it hold.
     pub order: usize,
-    /// How it is known that they hold: proved, certified by a claim, or verified to some binary places.
+    /// The evidence that they hold: proved, certified by a claim, or verified to some binary places.
     pub evidence: Evidence,
-    /// A condition of order `p + 1` that does not hold. Where there is none, the order is at least `p`:
-    /// trees of higher order were not looked at.
+    /// A violated condition of order `p + 1`. If there is none, the order is at least `p`:
+    /// trees of higher order were not evaluated.
     pub refuted_by: Option<ViolatedCondition>,
     /// The norm `(Σ_τ ((φ(τ) − 1/γ(τ))/σ(τ))²)^½` over the trees `τ` of order `p + 1` in the class, to 12
     /// digits; each term is `α(τ)/|τ|! · (γ(τ) φ(τ) − 1)`, the coefficient of the elementary differential in
-    /// the local error. `None` where trees of that order are not enumerated.
+    /// the local error. `None` if trees of that order are not enumerated.
     pub error_constant: Option<Decimal>,
 }
 
@@ -63,16 +63,16 @@ impl fmt::Display for ClassOrder {
     }
 }
 
-/// An order condition that does not hold.
+/// A violated order condition.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ViolatedCondition {
     /// The tree.
     pub tree: BicolouredTree,
-    /// Its elementary weight `Σ_i b_i Φ_i`, exact where that is short, otherwise its first digits and `…`.
+    /// Its elementary weight `Σ_i b_i Φ_i`, exact if that is short, otherwise its first digits and `…`.
     pub value: String,
-    /// What it should be, `1/γ`.
+    /// Its required value, `1/γ`.
     pub wanted: BigRational,
-    /// The value less what it should be, written like the value.
+    /// The value minus the required value, written like the value.
     pub residual: String,
     /// The residual to 12 significant digits.
     pub residual_decimal: Decimal,

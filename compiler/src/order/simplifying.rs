@@ -1,34 +1,34 @@
 //! Order without enumerating trees: the simplifying assumptions.
 //!
 //! The statement is at [`SimplifyingAssumptions`]. For `ã = a` it is Butcher's theorem (Butcher 1964; Hairer,
-//! Nørsett & Wanner, *Solving ODEs I*, Theorem II.7.4: `p ≤ η + ζ + 1` and `p ≤ 2η + 2`). It needs no
+//! Nørsett & Wanner, *Solving ODEs I*, Theorem II.7.4: `p ≤ η + ζ + 1` and `p ≤ 2η + 2`). It does not require
 //! symplecticity.
 //!
 //! **Proof**, along the lines of Butcher's. Write `η_x`, `ζ_x` for the numbers of the matrix that belongs
 //! to children of colour `x`. Let a *generalised tree* have, besides vertices, factors `c` at vertices,
-//! each counted as one vertex of the order. Its weight has `c_i` there; the value wanted for it is the
+//! each counted as one vertex of the order. Its weight has `c_i` there. Its required value is the
 //! weight under the exact flow, which is the method with the stages `0 ≤ t ≤ 1`, `Σ_j a_ij f_j = ∫_0^t f`
 //! and `c = t`. The exact flow satisfies all assumptions for all `k`, so each replacement below changes
-//! weight and wanted value in the same way, and it is enough to show that replacements lead every
+//! weight and required value in the same way. So it is enough to show that replacements lead every
 //! generalised tree of order `n ≤ p` to trees of lower order and to `Σ_i b_i c_i^(n−1)`, where `B` holds.
-//! The colour of the root makes no difference, as `b = b̃`. Induction over the order and then over the
+//! The colour of the root does not matter, because `b = b̃`. The proof is by induction over the order and then over the
 //! number of vertices.
 //!
 //! 1. A vertex of colour `x` other than the root that carries `k − 1` factors `c` and nothing else, with
 //!    `k ≤ η_x`, is replaced by `c^k/k` at its parent, by `C`. That leaves fewer vertices.
 //! 2. Where no such vertex is left, each branch at the root has a lowest vertex, of some colour `y`, with
-//!    at least `η_y` factors `c`: the branch has order at least `η_y + 1`. Two branches would make
+//! 2. If no such vertex is left, each branch at the root has a lowest vertex, of some colour `y`, with
+//!    at least `η_y` factors `c`: the branch has order at least `η_y + 1`. Two branches would give
 //!    `n ≥ 2 min(η, η̂) + 3 > p`. So there is one branch, or none, which is `B`.
 //! 3. The root has `k − 1` factors `c` and one branch, whose own root has colour `x`. If that root is the
 //!    lowest vertex, the branch has order at least `η_x + 1` and `k ≤ n − η_x − 1 ≤ ζ_x`. If the lowest
 //!    vertex is a different one, of colour `y`, the order is at least `η_y + 2` and
-//!    `k ≤ n − η_y − 2 ≤ p − min(η, η̂) − 2 ≤ min(ζ, ζ̂) ≤ ζ_x`. Either way `D` replaces
+//!    `k ≤ n − η_y − 2 ≤ p − min(η, η̂) − 2 ≤ min(ζ, ζ̂) ≤ ζ_x`. In both cases `D` replaces
 //!    `Σ_i b_i c_i^(k−1) a_ij` by `b_j (1 − c_j^k)/k`: the root of the branch becomes the root, once with
-//!    order `n − k`, once with `k` factors `c` more, order `n` and a vertex less.
-//!
-//! In the second case of step 3, for `y ≠ x`, lies the difference from using Butcher's theorem with the smaller
-//! numbers of both matrices: Lobatto IIIA has `C(s)`, `D(s−2)`, IIIB `Ĉ(s−2)`, `D̂(s)`, and the theorem gives
-//! `2s − 2`, the order of the quadrature (Jay 1996), where the smaller numbers give `2s − 3`. For a collocation
+//!    order `n − k`, and once with `k` additional factors `c`, order `n` and one vertex less.
+//! The second case of step 3, for `y ≠ x`, is the difference from using Butcher's theorem with the smaller
+//! numbers of both matrices. Lobatto IIIA has `C(s)`, `D(s−2)`, IIIB `Ĉ(s−2)`, `D̂(s)`; the theorem gives
+//! `2s − 2`, the order of the quadrature (Jay 1996), whereas the smaller numbers give `2s − 3`. For a collocation
 //! method `a` at `s` nodes with a quadrature of order `s + m` and the `ã` that makes the pair symplectic, `C(s)`
 //! and `D(m)` hold, hence `D̂(s)` and `Ĉ(m)`, and the theorem gives `min(s + m, 2m + 2)`: Gauss `2s`, Radau
 //! `2s − 1`, Lobatto `2s − 2`.
@@ -41,7 +41,7 @@ use crate::evidence::Evidence;
 use crate::pair::Pair;
 use crate::properties::vanishing_vector;
 
-/// The largest numbers for which the simplifying assumptions hold, none counted beyond `B`.
+/// The largest numbers for which the simplifying assumptions hold, each at most that of `B`.
 ///
 /// For weights `b = b̃` and one vector `c`, the row sums of `a` or of `ã`,
 ///
@@ -51,13 +51,13 @@ use crate::properties::vanishing_vector;
 /// D(ζ):  Σ_i b_i c_i^(k−1) a_ij = b_j (1 − c_j^k)/k    k ≤ ζ     D̂(ζ̂) the same for ã
 /// ```
 ///
-/// **Theorem.** If these hold, the method has order `p` for every Hamiltonian for every
+/// **Theorem.** If these hold, the method has, for every Hamiltonian, every order
 ///
 /// ```text
 /// p ≤ 2 min(η, η̂) + 2,    p ≤ η + ζ + 1,    p ≤ η̂ + ζ̂ + 1,    p ≤ min(η, η̂) + min(ζ, ζ̂) + 2
 /// ```
 ///
-/// up to that of `B` (Butcher 1964 for `ã = a`; the source of this file has the proof for pairs).
+/// up to the order of `B` (Butcher 1964 for `ã = a`; the source of this file has the proof for pairs).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SimplifyingAssumptions {
     /// `p` of `B(p)`: the order of the quadrature.
@@ -70,7 +70,7 @@ pub struct SimplifyingAssumptions {
     pub d: usize,
     /// `ζ̂` of `D̂(ζ̂)`, for `ã`.
     pub d_tilde: usize,
-    /// How it is known that all of these hold.
+    /// The evidence that all of these hold.
     pub evidence: Evidence,
 }
 
@@ -88,10 +88,10 @@ impl SimplifyingAssumptions {
     }
 }
 
-/// The simplifying assumptions of a pair with `b = b̃`, with `c` the row sums of `a` or those of `ã`,
-/// whichever prove the higher order; `None` if `b` differs from `b̃`.
+/// The simplifying assumptions of a pair with `b = b̃`. `c` is the row sums of `a` or those of `ã`,
+/// whichever prove the higher order. `None` if `b` differs from `b̃`.
 ///
-/// Each equation is decided in the algebra; the work is some products of a matrix and a vector for each
+/// Each equation is decided in the algebra; the work is a few products of a matrix and a vector for each
 /// number up to `2s`.
 pub(super) fn simplifying_assumptions<A: StageAlgebra>(
     pair: &Pair<A>,
@@ -114,10 +114,10 @@ fn assumptions<A: StageAlgebra>(
     mut evidence: Evidence,
 ) -> SimplifyingAssumptions {
     let algebra = &*pair.algebra;
-    // c^k, from k = 0 on, as far as they are needed: those of long numbers are long.
+    // c^k, starting with k = 0, computed as needed, because powers of long numbers are long.
     let mut powers = vec![algebra.constant(&BigRational::one())];
     let mut b = 0;
-    // A quadrature with s weights has no higher order than 2s.
+    // A quadrature with s weights has order at most 2s.
     while b < 2 * algebra.stages() {
         let wanted = BigRational::new(One::one(), (b + 1).into());
         match algebra.inner(&pair.b, &powers[b]).difference(&wanted) {
@@ -142,7 +142,7 @@ fn assumptions<A: StageAlgebra>(
     let fraction = |k: usize| algebra.constant(&BigRational::new(One::one(), k.into()));
     let vanishes =
         |f: &A::Vector, g: &A::Vector| vanishing_vector(algebra, &algebra.subtract(f, g)).ok();
-    // No more than B can be of use.
+    // Orders higher than that of B are useless.
     let mut rows = |matrix: &A::Matrix| {
         largest(b, &|k| {
             let integral = algebra.multiply(&powers[k], &fraction(k));

@@ -1,4 +1,4 @@
-//! The order of compositions of any symmetric method of order 2, whatever it is applied to.
+//! The order of compositions of any symmetric method of order 2, for all systems.
 //!
 //! The logarithm of a symmetric map is `hE₁ + h³E₃ + h⁵E₅ + ⋯`, so a composition with the fractions `γ_1, …, γ_m` is
 //! `∏ exp(γ_i hE₁ + γ_i³h³E₃ + ⋯)`. It has order p iff the coefficients of all Lyndon words over `E₁, E₃, …` up to the degree p are those
@@ -32,7 +32,7 @@ pub(crate) fn has_order(fractions: &[Constant], order: usize) -> bool {
 /// The coefficient of a word of letters of these degrees.
 fn coefficient(degrees: &[usize], fractions: &[Interval]) -> Interval {
     let constant = |value: &BigRational| Interval::enclosing(value, BITS);
-    // Those of its first letters in the factors so far.
+    // The coefficients of the word's prefixes in the product of the factors so far.
     let mut known = vec![constant(&ratio(0, 1)); degrees.len() + 1];
     known[0] = constant(&ratio(1, 1));
     for fraction in fractions {
@@ -71,7 +71,7 @@ mod tests {
             ("base: gauss-1, weights: suzuki(4)", 4),
             ("base: gauss-1, weights: triple_jump(6)", 6),
             ("base: lobatto-2, weights: triple_jump(8)", 8),
-            // Two equal steps, and two whose fractions do not add up to 1.
+            // Two equal steps, and two whose fractions do not sum to 1.
             (
                 "compose: [[1/2, basis: polynomial(1), nodes: gauss(1)], [1/2, basis: polynomial(1), nodes: gauss(1)]]",
                 2,

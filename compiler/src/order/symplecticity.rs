@@ -1,4 +1,4 @@
-//! Up to which order a method is symplectic.
+//! The order up to which a method is symplectic.
 
 use std::fmt;
 
@@ -14,8 +14,8 @@ use crate::properties::{vanishing_matrix, vanishing_vector};
 /// The order of symplecticity of a method that is not symplectic (pseudo-symplecticity, Aubry & Chartier
 /// 1998): the step changes the symplectic form by `O(hᵖ⁺¹)`.
 ///
-/// Whether a method is symplectic is decided by its coefficients, `b_i ã_ij + b̃_j a_ji = b_i b̃_j`, which is necessary
-/// for irreducible methods only: one that has equal stages, or stages that nothing depends on, can take
+/// Whether a method is symplectic is decided by its coefficients, `b_i ã_ij + b̃_j a_ji = b_i b̃_j`. This is necessary only
+/// for irreducible methods: a method with equal stages, or with stages that nothing depends on, can take
 /// symplectic steps and violate it. It then has no order of symplecticity that could be refuted, and this is a
 /// lower bound.
 ///
@@ -32,20 +32,20 @@ use crate::properties::{vanishing_matrix, vanishing_vector};
 pub struct SymplecticityOrder {
     /// The order `p`.
     pub order: usize,
-    /// How it is known that the conditions up to order `p` hold.
+    /// The evidence that the conditions up to order `p` hold.
     pub evidence: Evidence,
-    /// A condition of order `p + 1` that does not hold, if one was found up to the limit.
+    /// A violated condition of order `p + 1`, if one was found up to the limit.
     pub violated: Option<SymplecticityViolation>,
 }
 
-/// A condition of symplecticity that does not hold.
+/// A violated condition of symplecticity.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SymplecticityViolation {
     /// The tree `u` with a root coloured `q`.
     pub left: BicolouredTree,
-    /// The tree `v` with a root coloured `p`; for one whose root may not change its colour, that root.
+    /// The tree `v` with a root coloured `p`; `None` for a condition on the colour of the root.
     pub right: Option<BicolouredTree>,
-    /// `φ(u∘v) + φ(v∘u) − φ(u) φ(v)`, or the weight of `u` less the one with the other colour of the root.
+    /// `φ(u∘v) + φ(v∘u) − φ(u) φ(v)`, or the weight of `u` minus that of `u` with the other colour of the root.
     pub defect: String,
 }
 
@@ -66,7 +66,7 @@ impl fmt::Display for SymplecticityViolation {
     }
 }
 
-/// What is known of the coefficients' conditions for symplecticity; `None` where one does not hold.
+/// The evidence for the symplecticity conditions on the coefficients; `None` if a condition is violated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Symplecticity {
     /// `b_i ã_ij + b̃_j a_ji = b_i b̃_j`
@@ -80,7 +80,7 @@ impl Symplecticity {
         let algebra = &*pair.algebra;
         let weights = algebra.subtract(&pair.b, &pair.b_tilde);
         let matrices = match pair.staircase() {
-            // A splitting is, whatever its coefficients are.
+            // A splitting is symplectic for all coefficients.
             Some(_) => Some(Evidence::Proved),
             None => vanishing_matrix(algebra, &defect(pair)).ok(),
         };
@@ -90,7 +90,7 @@ impl Symplecticity {
         }
     }
 
-    /// How it is known that the method is symplectic for a class.
+    /// The evidence that the method is symplectic for a class.
     pub(super) fn evidence(self, class: HamiltonianClass) -> Option<Evidence> {
         match class {
             HamiltonianClass::General => Some(self.matrices?.and(self.weights?)),
@@ -110,7 +110,7 @@ fn defect<A: StageAlgebra>(pair: &Pair<A>) -> A::Matrix {
 
 /// The order of symplecticity for a class; `None` for a method that is symplectic by its coefficients.
 ///
-/// Trees are looked at up to order `limit`; a method that is symplectic that far has no violated
+/// Trees are examined up to order `limit`; a method that is symplectic to that order has no violated
 /// condition.
 pub(super) fn symplecticity_order<A: StageAlgebra>(
     pair: &Pair<A>,
@@ -122,7 +122,7 @@ pub(super) fn symplecticity_order<A: StageAlgebra>(
         return None;
     }
     let algebra = &*pair.algebra;
-    // Where it is zero for certain, no pair of trees is looked at.
+    // If it is proved to be zero, no pair of trees is examined.
     let defect = (known.matrices != Some(Evidence::Proved)).then(|| defect(pair));
     let unequal = algebra.subtract(&pair.b, &pair.b_tilde);
     let mut weights = Weights::new(pair, TreeRule::Class(class));
@@ -215,7 +215,7 @@ mod tests {
             let violated = found.violated.expect("violated below order 8");
             (found.order, violated)
         };
-        // RK4 has its own order: a method of order p keeps the form as well as the exact flow to order p.
+        // RK4 has only its own order: a method of order p preserves the symplectic form to order p, like the exact flow.
         let (rk4, violated) = order(&explicit_runge_kutta("rk4"));
         assert_eq!(rk4, 4);
         let right = violated.right.expect("a pair of trees");
@@ -261,7 +261,7 @@ mod tests {
             (violated.left.to_string().as_str(), violated.right),
             ("q[q]", None)
         );
-        // The same with one digit changed is no longer symplectic for any class.
+        // With one digit changed it is no longer symplectic for any class.
         let mut changed = ruth;
         changed.a[1][0] = &changed.a[1][0] + decimal("0.001");
         let separable = symplecticity_order(&changed, HamiltonianClass::Separable, 8);

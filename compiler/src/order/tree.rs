@@ -43,9 +43,9 @@ impl Colour {
 
 /// A bicoloured rooted tree `τ` in canonical form: equal trees are equal values.
 ///
-/// A tree stands for one order condition: with the weights of the root's colour,
-/// `Σ_i b_i Φ_i(τ) = 1/γ(τ)`, where `Φ_i(τ)` multiplies over the children `u` of the root
-/// `Σ_j a_ij Φ_j(u)` for a child coloured `q` and `Σ_j ã_ij Φ_j(u)` for one coloured `p`.
+/// A tree represents one order condition: with the weights of the root's colour,
+/// `Σ_i b_i Φ_i(τ) = 1/γ(τ)`. Here `Φ_i(τ)` is the product over the children `u` of the root of
+/// `Σ_j a_ij Φ_j(u)` for a child coloured `q` and `Σ_j ã_ij Φ_j(u)` for a child coloured `p`.
 ///
 /// It is written as the letter of its root and, in brackets, its children: `q[p,p[q]]` has a white root
 /// with a black leaf and a black child that has a white leaf. Four or more equal children are written once,
@@ -79,8 +79,8 @@ impl BicolouredTree {
         BicolouredTree::new(colour, Vec::new())
     }
 
-    /// The tree whose `order − 1` children are leaves of the other colour, which is in every class for a
-    /// root coloured `p`.
+    /// The tree whose `order − 1` children are leaves of the other colour. With a root coloured `p` it is in every
+    /// class.
     pub fn bushy(colour: Colour, order: usize) -> Self {
         let leaf = BicolouredTree::vertex(colour.opposite());
         BicolouredTree::new(colour, vec![leaf; order.saturating_sub(1)])
@@ -111,7 +111,7 @@ impl BicolouredTree {
         children.fold(BigInt::from(self.order()), |product, child| product * child)
     }
 
-    /// The symmetry `σ(τ) = Π σ(u)ᵐ m!` over the different children `u`, each `m` times there: the number
+    /// The symmetry `σ(τ) = Π σ(u)ᵐ m!` over the different children `u` with multiplicities `m`: the number
     /// of automorphisms.
     pub fn symmetry(&self) -> BigInt {
         let groups = self.children.chunk_by(|left, right| left == right);
@@ -127,7 +127,7 @@ impl BicolouredTree {
         factorial / (self.density() * self.symmetry())
     }
 
-    /// What the elementary weight of the tree has to be: `1/γ(τ)`.
+    /// The required value of the elementary weight of the tree: `1/γ(τ)`.
     pub fn wanted(&self) -> BigRational {
         BigRational::new(BigInt::one(), self.density())
     }
@@ -180,18 +180,18 @@ impl fmt::Display for BicolouredTree {
     }
 }
 
-/// Text that is no bicoloured tree.
+/// The error for text that is not a bicoloured tree.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum TreeError {
-    /// A character that cannot stand where it does, or the end too early.
+    /// An unexpected character, or a premature end.
     #[error("expected {expected} at character {position} of the tree")]
     Unexpected {
-        /// What could stand there.
+        /// The expected text.
         expected: &'static str,
-        /// The character, counted from 1.
+        /// The position of the character, counted from 1.
         position: usize,
     },
-    /// More vertices than are read.
+    /// Too many vertices.
     #[error("the tree has more than {limit} vertices")]
     TooLarge {
         /// The largest number of vertices.
@@ -199,19 +199,19 @@ pub enum TreeError {
     },
 }
 
-/// This many equal children are written as one with an exponent.
+/// From this number on, equal children are written once with an exponent.
 const SPELLED_OUT: usize = 4;
 
-/// The number of vertices of the largest tree that is read, which bounds the depth of the recursion.
+/// The largest number of vertices of a tree that is read; it bounds the depth of the recursion.
 const READ_LIMIT: usize = 1000;
 
 impl FromStr for BicolouredTree {
     type Err = TreeError;
 
-    /// Reads what [`fmt::Display`] writes, with the children in any order and any exponents, without spaces.
+    /// Reads the format of [`fmt::Display`], with the children in any order and any exponents, without spaces.
     ///
     /// # Errors
-    /// Where the text is no tree, or one with more than 1000 vertices.
+    /// If the text is not a tree, or a tree with more than 1000 vertices.
     fn from_str(text: &str) -> Result<Self, TreeError> {
         let mut reader = Reader {
             rest: text.chars().collect::<Vec<_>>().into_iter(),
@@ -278,7 +278,7 @@ impl Reader {
         Ok(BicolouredTree::new(colour, children))
     }
 
-    /// Reads `^12`, or nothing, which is 1.
+    /// Reads `^12`, or nothing, which means 1.
     fn exponent(&mut self) -> Result<usize, TreeError> {
         if self.rest.as_slice().first() != Some(&'^') {
             return Ok(1);

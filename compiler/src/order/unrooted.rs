@@ -1,26 +1,26 @@
-//! Trees without a root: the order conditions that a symplectic method leaves.
+//! Trees without a root: the order conditions that remain for a symplectic method.
 //!
-//! Let `u` have a root coloured `q` and `v` one coloured `p`, let `u∘v` be `u` with `v` as one more
+//! Let `u` have a root coloured `q` and `v` a root coloured `p`, let `u∘v` be `u` with `v` as an additional
 //! child of its root, and write `φ` for elementary weights. `b_i ã_ij + b̃_j a_ji = b_i b̃_j` gives
 //!
 //! ```text
 //! φ(u∘v) + φ(v∘u) = Σ_ij Φ_i(u) (b_i ã_ij + b̃_j a_ji) Φ_j(v) = φ(u) φ(v)
 //! ```
 //!
-//! and the exact flow, being symplectic too, has the same for `1/γ`. Hence where the conditions of
+//! and the exact flow, being symplectic too, satisfies the same for `1/γ`. Hence if the conditions of
 //! lower orders hold, the residuals of `u∘v` and `v∘u` are equal up to the sign: the condition of a
-//! tree is the one of any tree that differs by the place of the root (GNI VI.7). Moving the root along
+//! tree is equivalent to that of any tree that differs only in the place of the root (GNI VI.7). Moving the root along
 //! an edge keeps which end of the edge is differentiated by `q` and which by `p`: a child coloured `q`
-//! makes the old root a child coloured `p` and the other way round. In a separable class that leaves
-//! all colours as they are. For general `H` the colour of the root itself makes no difference if
-//! `b = b̃`, so the classes are trees with directed edges. For one tableau, `ã = a`, colours make no
-//! difference at all, and the condition of a tree `u∘u` follows from lower orders: it is superfluous.
+//! makes the old root a child coloured `p` and vice versa. In a separable class this leaves
+//! all colours unchanged. For general `H` the colour of the root itself does not matter if
+//! `b = b̃`, so the classes are trees with directed edges. For one tableau, `ã = a`, colours do not
+//! matter at all, and the condition of a tree `u∘u` follows from lower orders: it is superfluous.
 //!
 //! On the way the root may pass a Nyström vertex for `q'` with two neighbours: its tree is not in the
-//! class, but the identity holds for it all the same.
+//! class, but the identity still holds for it.
 //!
-//! Each class has one representative: the root is the centroid, so that no child has more than half of
-//! the vertices. That takes the stages of trees of half the order only.
+//! Each class has one representative, whose root is the centroid: no child has more than half of
+//! the vertices. So only the stages of trees of half the order are needed.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -32,8 +32,8 @@ use super::enumeration::{TreeRule, Trees};
 use super::tree::{BicolouredTree, Colour};
 
 impl Trees {
-    /// One tree for each condition of this order that a symplectic method leaves, as `(rest, last)`;
-    /// the order is at least 2 and at most one beyond the highest.
+    /// One tree for each condition of this order that remains for a symplectic method, as `(rest, last)`;
+    /// the order is at least 2 and at most one higher than the highest.
     pub(super) fn representatives(&self, order: usize) -> impl Iterator<Item = (u32, u32)> {
         let products = self.products_with_last(order, order.div_ceil(2) + 1);
         products.filter(move |&(rest, last)| self.is_representative(order, rest, last))
@@ -45,9 +45,9 @@ impl Trees {
         let size = self.size(last);
         let (below, half) = (2 * size <= order, 2 * size == order);
         match self.rule() {
-            // Two centroids, of which the earlier comes below the later; equal halves are superfluous.
+            // Of two centroids the earlier comes below the later; equal halves are superfluous.
             TreeRule::OneColour => below && (!half || rest > last),
-            // One end of the edge between two centroids sees a child coloured p at the other.
+            // One end of the edge between two centroids has a child coloured p at the other end.
             TreeRule::Class(HamiltonianClass::General) => {
                 let root = self.colour(rest) == Colour::Q;
                 root && below && (!half || self.colour(last) == Colour::P)
@@ -67,10 +67,10 @@ impl Trees {
 }
 
 impl BicolouredTree {
-    /// The trees that differ from this one by the place of the root, this one among them.
+    /// The trees that differ from this one only in the place of the root, including this tree.
     ///
-    /// The colour of a new root is the one that it has as a child; its old parent gets the opposite of
-    /// that, see the head of this file.
+    /// The colour of a new root is the one that it has as a child; its old parent gets the opposite
+    /// colour, see the head of this file.
     pub fn rerooted(&self) -> BTreeSet<BicolouredTree> {
         let mut found = BTreeSet::from([self.clone()]);
         let mut pending = vec![self.clone()];
@@ -91,8 +91,8 @@ impl BicolouredTree {
     }
 }
 
-/// `Σ 1/σ(τ)²` over all trees `τ` whose condition is the one of a tree: that tree only, or if it is a
-/// representative all that differ by the place of the root.
+/// `Σ 1/σ(τ)²` over all trees `τ` with the same condition as `tree`: only that tree, or for a
+/// representative all trees that differ in the place of the root.
 pub(super) fn weight(
     class: HamiltonianClass,
     tree: &BicolouredTree,
@@ -137,7 +137,7 @@ mod tests {
         // Oriented trees, OEIS A000238.
         let general = TreeRule::Class(HamiltonianClass::General);
         assert_eq!(counts(general, 9), [1, 3, 8, 27, 91, 350, 1376, 5743]);
-        // Trees without a root, OEIS A000055, less those with two equal halves, OEIS A000081.
+        // Trees without a root, OEIS A000055, minus those with two equal halves, OEIS A000081.
         let free = [1, 1, 2, 3, 6, 11, 23, 47, 106];
         let equal_halves = [1, 0, 1, 0, 2, 0, 4, 0, 9];
         let expected = |each: fn(usize, usize) -> usize| -> Vec<usize> {
@@ -147,7 +147,7 @@ mod tests {
                 .collect()
         };
         assert_eq!(counts(TreeRule::OneColour, 10), expected(|f, e| f - e));
-        // Two colourings each, which are one and the same for two equal halves.
+        // Two colourings each, which coincide for two equal halves.
         let separable = TreeRule::Class(HamiltonianClass::Separable);
         assert_eq!(counts(separable, 10), expected(|f, e| 2 * f - e));
     }

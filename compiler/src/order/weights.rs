@@ -1,9 +1,9 @@
 //! Elementary weights over a pair of matrices, exactly.
 //!
-//! `Φ_i(u∘v) = Φ_i(u) Σ_j a_ij Φ_j(v)`, so with the stages of all smaller trees kept a tree takes one
-//! product of vectors, and as the root of a condition one inner product: in a node algebra a trace. What
-//! is kept for a tree: `Φ_i`, `b_i Φ_i` and `Σ_j a_ij Φ_j`, each computed when it is first needed.
-//! Conditions of the highest order keep nothing.
+//! `Φ_i(u∘v) = Φ_i(u) Σ_j a_ij Φ_j(v)`, so if the stages of all smaller trees are stored, a tree takes one
+//! product of vectors, and a condition one inner product: in a node algebra a trace. For each tree
+//! `Φ_i`, `b_i Φ_i` and `Σ_j a_ij Φ_j` are stored, each computed when it is first needed.
+//! For conditions of the highest order nothing is stored.
 
 use std::cell::OnceCell;
 
@@ -16,16 +16,16 @@ use super::tree::{BicolouredTree, Colour};
 use crate::algebra::{Field, Number, StageAlgebra};
 use crate::pair::{Pair, Staircase};
 
-/// The highest order of trees that are enumerated: densities, at most `order!`, are kept in 64 bits.
+/// The highest order of enumerated trees: densities, at most `order!`, are stored in 64 bits.
 pub(super) const MAX_ORDER: usize = 20;
 
-/// The most products of a coefficient and a stage, for all trees: with rationals that is half a minute.
+/// The largest number of products of a coefficient and a stage, for all trees: half a minute with rationals.
 const MOST_PRODUCTS: usize = 10_000_000;
 
-/// The same where numbers are expressions, about 500 bytes each, which are kept with their enclosures: 2 GB.
+/// The same if numbers are expressions, about 500 bytes each, which are stored with their enclosures: 2 GB.
 const MOST_EXPRESSIONS: usize = 4_000_000;
 
-/// The most products that are made of numbers of a field.
+/// The largest number of products of elements of a field.
 pub(super) fn most_products<F: Field>(field: &F) -> usize {
     match field.keeps_operands() {
         false => MOST_PRODUCTS,
@@ -40,7 +40,7 @@ pub(super) struct Condition {
     last: Option<u32>,
 }
 
-/// What is kept for a tree, each once it is needed.
+/// The stored values of a tree, each computed on demand.
 struct Kept<V> {
     /// `γ`
     density: u64,
@@ -58,14 +58,14 @@ pub(super) struct Weights<'a, A: StageAlgebra> {
     staircase: Option<Staircase>,
     trees: Trees,
     kept: Vec<Kept<A::Vector>>,
-    /// The products of a coefficient and a stage for a tree.
+    /// The number of products of a coefficient and a stage per tree.
     products: usize,
 }
 
 impl<'a, A: StageAlgebra> Weights<'a, A> {
     pub(super) fn new(pair: &'a Pair<A>, rule: TreeRule) -> Self {
         let stages = pair.algebra.stages();
-        // A splitting takes one a stage for each of the vectors that are kept.
+        // A splitting takes one product per stage for each of the stored vectors.
         let for_all = stages * stages;
         let staircase = pair.staircase();
         let products = staircase.map_or(for_all, |_| for_all.min(3 * stages));
@@ -78,7 +78,7 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
         }
     }
 
-    /// The trees of all conditions of an order, or only those that a symplectic method leaves; the order
+    /// The trees of all conditions of an order, or only those that remain for a symplectic method; the order
     /// is between 1 and [`MAX_ORDER`].
     pub(super) fn conditions(&mut self, order: usize, representatives: bool) -> Vec<Condition> {
         self.grow(order - 1);
@@ -114,7 +114,7 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
         }
     }
 
-    /// Whether the conditions of an order, 1 at least, can be evaluated in bounded time and memory.
+    /// Whether the conditions of an order, at least 1, can be evaluated in bounded time and memory.
     pub(super) fn affordable(&mut self, order: usize) -> bool {
         let algebra = &*self.pair.algebra;
         self.grow(order - 1);
@@ -124,19 +124,19 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
 
     fn density(&self, rest: u32, last: u32) -> u64 {
         let (before, added) = (self.trees.size(rest) as u64, self.trees.size(last) as u64);
-        // γ(rest) has the factor |rest|, which becomes |rest| + |last|.
+        // The factor |rest| of γ(rest) becomes |rest| + |last|.
         let grown = self.kept[rest as usize].density / before * (before + added);
         grown * self.kept[last as usize].density
     }
 
-    /// What the elementary weight has to be: `1/γ`.
+    /// The required value of the elementary weight: `1/γ`.
     pub(super) fn wanted(&self, condition: Condition) -> BigRational {
         let Condition { rest, last } = condition;
         let density = last.map_or(1, |last| self.density(rest, last));
         BigRational::new(BigInt::one(), density.into())
     }
 
-    /// The tree.
+    /// The tree of a condition.
     pub(super) fn tree(&self, condition: Condition) -> BicolouredTree {
         let Condition { rest, last } = condition;
         last.map_or_else(
@@ -204,7 +204,7 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
     fn applied(&self, index: u32) -> &A::Vector {
         self.kept[index as usize].applied.get_or_init(|| {
             let (algebra, colour) = (&*self.pair.algebra, self.trees.colour(index));
-            // The entries are the weights again.
+            // The entries of the matrices are the weights.
             let sums = self.staircase.and_then(|staircase| {
                 let own = match colour {
                     Colour::Q => staircase.has_own_drift(),

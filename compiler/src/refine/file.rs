@@ -1,4 +1,4 @@
-//! Reading a file with printed coefficients, and where in it is what does not fit.
+//! Reading a file with printed coefficients, and the places of its errors.
 
 use std::ops::Range;
 
@@ -106,7 +106,7 @@ impl PrintedTable {
 }
 
 impl Lists<'_> {
-    /// All coefficients; the kicks first.
+    /// All coefficients, the kicks first.
     fn entries(&self, file: Input<'_>) -> Result<Vec<Entry>, Error> {
         type Named<'a> = (&'a List, fn(usize) -> Coefficient);
         let lists: Vec<Named<'_>> = match self {
@@ -134,7 +134,7 @@ impl Lists<'_> {
         Ok(entries)
     }
 
-    /// The place of the list that is called `kicks`, `drifts` or `weights` in an error.
+    /// The place of the list named `kicks`, `drifts` or `weights` in an error.
     fn span(&self, what: &str) -> Range<usize> {
         match self {
             Lists::Splitting { kick, .. } if what == "kicks" => kick.span(),
@@ -156,7 +156,7 @@ fn splitting(entries: &[Entry]) -> Splitting {
     }
 }
 
-/// What the file claims, and where it does.
+/// The claim of the file, and its place.
 fn claim(
     file: Input<'_>,
     table: &Spanned<ClaimTable>,
@@ -248,10 +248,10 @@ fn in_file(
     }
 }
 
-/// The coefficient that is farthest from the print, and a few of its digits.
+/// The coefficient that is farthest from its print, and a few of its digits.
 fn farthest<'a>(certificate: &Certificate, entries: &'a [Entry]) -> Option<(&'a Entry, String)> {
     let wrong = certificate.wrong_digits().into_iter();
-    // Of equal ones the first.
+    // The first of equal ones.
     let (name, _) = wrong.rev().max_by(|(_, x), (_, y)| x.cmp(y))?;
     let entry = entries.iter().find(|entry| entry.name == name)?;
     let digits = certificate.decimal(name, 20).ok()??;

@@ -13,8 +13,8 @@
 //! drift = ["1.35120719", "-1.70241438", "1.35120719", "0"]
 //! ```
 //!
-//! Instead of `kick` and `drift` there may be `weights`, those of a composition of any symmetric basic method of
-//! order 2; then the claim is an `order` alone.
+//! Instead of `kick` and `drift` a file may have `weights`, the weights of a composition of any symmetric basic method of
+//! order 2; then the claim is just an `order`.
 
 mod file;
 mod table;
@@ -58,11 +58,11 @@ pub struct Refinement {
 /// ```
 ///
 /// # Errors
-/// [`ErrorKind::Document`](crate::ErrorKind::Document) for what is no such file: missing and unknown keys, texts that
-/// are no numbers, lists of different length, claims that nothing can have.
-/// [`ErrorKind::NotCertified`](crate::ErrorKind::NotCertified) where the digits are not those of a method with the
-/// claimed order: they do not sum to 1, are too few, or no solution is near them, and how far the nearest one is that
-/// was found. Each with its place in the file.
+/// [`ErrorKind::Document`](crate::ErrorKind::Document) for an invalid file: missing and unknown keys, texts that
+/// are not numbers, lists of different length, impossible claims.
+/// [`ErrorKind::NotCertified`](crate::ErrorKind::NotCertified) if the digits are not those of a method with the
+/// claimed order: they do not sum to 1, are too few, or no solution is near them. The error tells the distance of the
+/// nearest solution that was found. Each with its place in the file.
 pub fn refine(file_name: &str, text: &str) -> Result<Refinement, Error> {
     file::refine(crate::expression::Input::of_file(file_name, text))
 }
@@ -78,17 +78,17 @@ impl Refinement {
         self.source.as_deref()
     }
 
-    /// What is proved.
+    /// The certificate of the exact method.
     pub fn certificate(&self) -> &Certificate {
         &self.certificate
     }
 
-    /// The coefficients as they are printed.
+    /// The coefficients as printed.
     pub fn printed(&self) -> &[(Coefficient, Printed)] {
         &self.printed
     }
 
-    /// What is proved and all coefficients to some significant digits, for people.
+    /// The proved facts and all coefficients to `digits` significant digits, for people.
     ///
     /// # Errors
     /// [`ErrorKind::NotCertified`](crate::ErrorKind::NotCertified) for more digits than are computed.
@@ -96,7 +96,7 @@ impl Refinement {
         write::text(self, digits)
     }
 
-    /// What is proved and all coefficients to some significant digits, as JSON.
+    /// The proved facts and all coefficients to `digits` significant digits, as JSON.
     ///
     /// ```text
     /// {"name", "source", "claim": string, "evidence": "certified", "distance": D, "structure", "conditions", "unknowns",
@@ -109,12 +109,12 @@ impl Refinement {
     /// ```
     ///
     /// # Errors
-    /// As [`Refinement::text`].
+    /// The errors of [`Refinement::text`].
     pub fn json(&self, digits: usize) -> Result<String, Error> {
         let report = write::report(self, digits)?;
         let mut text = Vec::new();
         let mut serializer = serde_json::Serializer::pretty(&mut text);
-        // Strings and numbers in a vector of bytes: there is nothing that can fail.
+        // Writing strings and numbers to a vector of bytes cannot fail.
         let written = report.serialize(&mut serializer);
         debug_assert!(written.is_ok());
         text.push(b'\n');

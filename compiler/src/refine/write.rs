@@ -1,4 +1,4 @@
-//! What is known of a refined method, as text and as data.
+//! The facts about a refined method, as text and as data.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -11,10 +11,10 @@ use crate::arithmetic::rounding::Decimal;
 use crate::certify::{CertifyError, Coefficient, Digits};
 use crate::error::{Error, ErrorKind};
 
-/// Exact values with more characters than this are not shown beside decimals.
+/// Longer exact values are not shown beside decimals.
 const LONGEST_EXACT: usize = 24;
 
-/// What JSON says.
+/// The contents of the JSON text.
 #[derive(Serialize)]
 pub(super) struct Report {
     name: Option<String>,
@@ -63,10 +63,10 @@ struct Entry {
     decimal: String,
 }
 
-/// A bound from above with two digits: not smaller than the value.
+/// An upper bound with two digits, not smaller than the value.
 pub(super) fn at_most(value: &BigRational) -> String {
     let nearest = Decimal::round(value, 2);
-    // Two digits are off by at most 1/20.
+    // Two digits are wrong by at most 1/20.
     let up = || Decimal::round(&(value * ratio(11, 10)), 2);
     let bound = if nearest.value() < *value {
         up()
@@ -76,7 +76,7 @@ pub(super) fn at_most(value: &BigRational) -> String {
     bound.to_string()
 }
 
-/// A bound from below with two digits: not larger than the value.
+/// A lower bound with two digits, not larger than the value.
 fn at_least(value: &BigRational) -> String {
     let nearest = Decimal::round(value, 2);
     let down = || Decimal::round(&(value * ratio(9, 10)), 2);
@@ -159,7 +159,7 @@ pub(super) fn text(refinement: &Refinement, digits: usize) -> Result<String, Err
     let origin = [&report.name, &report.source];
     let origin: Vec<&str> = origin.into_iter().flatten().map(String::as_str).collect();
     if !origin.is_empty() {
-        // Whatever stands in the file, it is one line.
+        // Always one line, even if the file contains control characters.
         let line = origin
             .join(", ")
             .replace(|c: char| c.is_control(), "\u{fffd}");
@@ -281,7 +281,7 @@ fn fixed(refinement: &Refinement, report: &Report) -> Vec<String> {
     report.fixed.iter().map(words).collect()
 }
 
-/// The value of a coefficient that was moved, which is a decimal.
+/// The value of a coefficient that was moved, as a decimal.
 fn moved(fixed: &FixedEntry) -> String {
     let value = fixed.value.parse::<BigRational>();
     let decimal = value.map(|value| terminating(&value));
@@ -291,7 +291,7 @@ fn moved(fixed: &FixedEntry) -> String {
         .unwrap_or_else(|| fixed.value.clone())
 }
 
-/// A number as a decimal with all its places; `None` if there is no end.
+/// A number as a decimal with all its places; `None` if it does not terminate.
 fn terminating(value: &BigRational) -> Option<String> {
     // A denominator below 2ⁿ has at most n factors 2 or 5.
     let places = u32::try_from(value.denom().bits()).ok()?;

@@ -1,4 +1,4 @@
-//! Which stages coincide, which need which, and in what order they can be computed.
+//! Which stages coincide, which stages each needs, and the order in which they can be computed.
 
 mod phases;
 mod splitting;
@@ -19,9 +19,9 @@ use crate::tableau::Tableau;
 /// What the derivatives of a Hamiltonian depend on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Class {
-    /// Velocity and force see position and momentum.
+    /// Velocity and force depend on position and momentum.
     General,
-    /// `H = T(p) + U(q)`: the velocity sees the momentum only, the force the position only.
+    /// `H = T(p) + U(q)`: the velocity depends on the momentum only, the force on the position only.
     Separable,
 }
 
@@ -47,7 +47,7 @@ pub struct StageValue<'a> {
     pub coefficients: Vec<Number<'a>>,
     /// Whether the value is the result of the step: its coefficients are the weights.
     pub is_end: bool,
-    /// For each evaluation whether it has been applied where the value is reached, if every coefficient is either the
+    /// For each evaluation, whether it has been applied when the value is reached. `Some` only if every coefficient is either the
     /// weight of its evaluation or zero, as in a splitting.
     pub applied: Option<Vec<bool>>,
 }
@@ -93,11 +93,11 @@ pub struct StepGraph<'a> {
 /// An order of computation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Schedule {
-    /// What can be computed in order from the start of the step.
+    /// Nodes that can be computed in order from the start of the step.
     pub before: Vec<Node>,
-    /// What needs itself in the end.
+    /// Nodes that depend on themselves, possibly through others.
     pub coupled: Vec<Node>,
-    /// What can be computed in order when the coupled ones are known.
+    /// Nodes that can be computed in order once the coupled ones are known.
     pub after: Vec<Node>,
 }
 
@@ -122,7 +122,7 @@ impl<'a> StepGraph<'a> {
                       evaluations: &[Vec<usize>],
                       (matrix, entries): (&A::Matrix, &[Vec<Number<'a>>]),
                       (complement, weights): (&A::Matrix, &[Number<'a>])| {
-            // An entry that is the weight itself, as in the rows of a splitting, is looked at once for all rows.
+            // A weight that is itself an entry, as in the rows of a splitting, is tested once for all rows.
             let zero_weights: Vec<OnceCell<bool>> = vec![OnceCell::new(); weights.len()];
             let is_zero_weight =
                 |stage: usize| *zero_weights[stage].get_or_init(|| weights[stage].is_zero());
@@ -139,7 +139,7 @@ impl<'a> StepGraph<'a> {
                     let [entry, weight] = [&entries[row][stage], &weights[stage]];
                     compare(&entry.enclose(0), &weight.enclose(0)).is_some()
                 };
-                // The row of weights is the one of whose complement b_j − a_ij nothing is left.
+                // A row is the row of weights if its complement b_j − a_ij vanishes.
                 let vanishes = |group: &Vec<usize>| match group.as_slice() {
                     group if is_weight(group).is_some() => true,
                     [single] if differ(*single) => false,
@@ -219,7 +219,7 @@ impl<'a> StepGraph<'a> {
             ),
         };
         match class {
-            // Each stage is seen by an evaluation of both kinds there.
+            // There, evaluations of both kinds use each stage.
             Class::General => graph,
             Class::Separable => graph.without_what_is_not_used(),
         }
@@ -239,7 +239,7 @@ impl<'a> StepGraph<'a> {
         }
     }
 
-    /// What a node needs.
+    /// The nodes that a node needs.
     pub fn needs(&self, node: Node) -> Vec<Node> {
         let terms = |value: &StageValue<'_>, evaluation: fn(usize) -> Node| {
             let nonzero = value
@@ -273,7 +273,7 @@ impl<'a> StepGraph<'a> {
         positions.chain(forces).chain(momenta).chain(velocities)
     }
 
-    /// Splits the nodes into those before, in and after the coupled ones.
+    /// Splits the nodes into those before the coupled ones, the coupled ones, and those after them.
     pub fn schedule(&self) -> Schedule {
         let nodes: Vec<Node> = self.nodes().collect();
         let indices: BTreeMap<Node, usize> = nodes.iter().copied().zip(0..).collect();
@@ -290,7 +290,7 @@ impl<'a> StepGraph<'a> {
         }
         let mut left = vec![true; nodes.len()];
         let before = take_while_possible(&mut left, &needs, &needed_by);
-        // The same from the other end: what no remaining node needs comes last.
+        // The same in reverse: nodes that no remaining node needs come last.
         let mut after = take_while_possible(&mut left, &needed_by, &needs);
         after.reverse();
         let coupled = (0..nodes.len()).filter(|&node| left[node]).collect();
@@ -302,17 +302,17 @@ impl<'a> StepGraph<'a> {
         }
     }
 
-    /// The stages in an order in which each can be computed from those before it, by name.
+    /// The names of the stages in an order in which each can be computed from the earlier ones.
     ///
     /// # Errors
-    /// Where there is none: the names of stages each of which needs the next, and the last the first.
+    /// If there is no such order: the names of stages that each need the next, and the last the first.
     pub fn order(&self) -> Result<Vec<String>, Vec<String>> {
         let schedule = self.schedule();
         let Some(&start) = schedule.coupled.first() else {
             let order = schedule.before.iter().chain(&schedule.after);
             return Ok(order.filter_map(|&node| self.names(node)).collect());
         };
-        // Every coupled node needs a coupled one: walk until one comes again.
+        // Every coupled node needs a coupled one: walk until a node repeats.
         let mut path = vec![start];
         let cycle = loop {
             let needs = self.needs(path[path.len() - 1]);
@@ -328,7 +328,7 @@ impl<'a> StepGraph<'a> {
         Err(cycle.iter().filter_map(|&node| self.names(node)).collect())
     }
 
-    /// The names of the stages that a value stands for: `P1 = P2`.
+    /// The names of the stages that share a value: `P1 = P2`.
     fn names(&self, node: Node) -> Option<String> {
         let (letter, value) = match node {
             Node::Position(i) => ('Q', &self.positions[i]),
@@ -363,7 +363,7 @@ pub(crate) struct Groups {
 
 impl Groups {
     /// Joins stages with equal rows, then evaluations at equal stages, then the stages whose rows have
-    /// become equal by that, until nothing more coincides.
+    /// become equal thereby, until nothing more coincides.
     pub fn new<A: StageAlgebra>(class: Class, pair: &Pair<A>) -> Self {
         let algebra = &*pair.algebra;
         let single: Vec<Vec<usize>> = (0..algebra.stages()).map(|stage| vec![stage]).collect();
@@ -392,8 +392,8 @@ impl Groups {
     }
 }
 
-/// Takes what is left, one at a time, the first of those that wait for nothing that is left; `awaited_by` says the same
-/// as `waits_for` from the other end.
+/// Takes the remaining nodes one at a time, always the first that waits for no remaining node. `awaited_by` is the
+/// transpose of `waits_for`.
 fn take_while_possible(
     left: &mut [bool],
     waits_for: &[Vec<usize>],

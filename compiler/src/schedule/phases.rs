@@ -1,4 +1,4 @@
-//! A step in the phases in which code computes it, and how often it evaluates.
+//! The phases in which code computes a step, and the number of evaluations of a step.
 
 use super::{Class, Evaluation, Node, Schedule, StageValue, StepGraph};
 use crate::arithmetic::rational::ratio;
@@ -12,7 +12,7 @@ pub struct Phases<'g, 'a> {
     pub begin: Vec<Node>,
     /// What is solved for.
     pub coupled: Vec<Node>,
-    /// What is computed last, from the first stage on that is the result of the step.
+    /// What is computed last, starting with the first stage that is the result of the step.
     pub finish: Vec<Node>,
 }
 
@@ -27,7 +27,7 @@ impl<'g, 'a> Phases<'g, 'a> {
         let mut begin = before;
         let mut finish = after;
         if coupled.is_empty() {
-            // From the first stage on that is the result itself, everything is computed where the
+            // Starting with the first stage that is the result itself, everything is computed where the
             // result is written.
             let is_end = |node: &Node| graph.value(*node).is_some_and(|value| value.is_end);
             let split = begin.iter().position(is_end).unwrap_or(begin.len());
@@ -50,7 +50,7 @@ impl<'g, 'a> Phases<'g, 'a> {
                 .is_some_and(|value| value.is_end && !value.is_start())
     }
 
-    /// Evaluations at the start of the step that are the same as one at the end of the previous step.
+    /// Evaluations at the start of the step that equal one at the end of the previous step.
     pub fn carried(&self) -> Vec<(Node, Node)> {
         let forces = (0..self.graph.forces.len()).map(Node::Force);
         let velocities = (0..self.graph.velocities.len()).map(Node::Velocity);
@@ -79,9 +79,9 @@ impl<'g, 'a> Phases<'g, 'a> {
                 matches!(node, Node::Force(_)) == matches!(first, Node::Force(_))
                     && self.finish.contains(node)
                     && sees_only(**node, &|n| self.is_aliased(n), 1)
-                    // Nothing but the result is made of it.
+                    // Only the result uses it.
                     && values().all(|value| !self.graph.needs(value).contains(node))
-                    // An evaluation can take the place of one other only.
+                    // An evaluation can replace only one other.
                     && carried.iter().all(|(_, taken)| taken != *node)
             };
             if let Some(&last) = nodes.iter().find(is_last) {
@@ -93,7 +93,7 @@ impl<'g, 'a> Phases<'g, 'a> {
 }
 
 impl<'a> StepGraph<'a> {
-    /// The value that a node is, if it is a stage.
+    /// The value of a node, if it is a stage.
     pub fn value(&self, node: Node) -> Option<&StageValue<'a>> {
         match node {
             Node::Position(i) => self.positions.get(i),
@@ -102,7 +102,7 @@ impl<'a> StepGraph<'a> {
         }
     }
 
-    /// The evaluation that a node is, or that is made at it.
+    /// The evaluation at a node: the node itself, or the one at this stage.
     pub fn evaluation(&self, node: Node) -> &Evaluation<'a> {
         match node {
             Node::Position(i) | Node::Force(i) => &self.forces[i],
@@ -111,7 +111,7 @@ impl<'a> StepGraph<'a> {
     }
 }
 
-/// How often a step of many evaluates the two halves of a separable Hamiltonian.
+/// How often one step within a long run evaluates the two halves of a separable Hamiltonian.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Evaluations {
     /// Evaluations of the force `−∂U/∂q`.
@@ -122,10 +122,10 @@ pub struct Evaluations {
 
 impl Tableau {
     /// How often a step evaluates force and velocity, for separable Hamiltonians and a method that is explicit for
-    /// them; `None` for one that solves for its stages.
+    /// them; `None` for a method with coupled stages.
     ///
-    /// What the previous step has evaluated already (first same as last) is not counted: the first step of all needs
-    /// it once more.
+    /// Evaluations of the previous step that are reused (first same as last) do not count: only the very first step
+    /// makes them.
     ///
     /// ```
     /// use symplectic_compiler::schedule::Evaluations;

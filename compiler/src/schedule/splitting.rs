@@ -1,8 +1,8 @@
-//! Splittings: steps that are kicks and drifts one after another.
+//! Splittings: steps that are sequences of kicks and drifts.
 
 use super::{Class, Node, StageValue, StepGraph};
 
-/// The evaluations that are in a chain.
+/// The evaluations that are in the sequence so far.
 struct Made {
     forces: Vec<bool>,
     velocities: Vec<bool>,
@@ -11,7 +11,7 @@ struct Made {
 impl<'a> StepGraph<'a> {
     /// The evaluations in the order of the step, if it is a splitting; evaluations without weight are left out.
     ///
-    /// Where every stage of a separable system has each earlier evaluation in it in full or not at all, a step is a
+    /// If every stage of a separable system contains each earlier evaluation either in full or not at all, a step is a
     /// sequence of drifts `q += h b_j velocity(p)` and kicks `p += h b̃_j force(q)` (MW 2.6.4).
     pub fn splitting(&self) -> Option<Vec<Node>> {
         if self.class != Class::Separable {
@@ -33,7 +33,7 @@ impl<'a> StepGraph<'a> {
             let mut ready = ready
                 .by_ref()
                 .filter(|&(_, &node)| self.follows(node, &made).unwrap_or(false));
-            // Were two ready, the one would have to come before the other and the other before the one.
+            // If two were ready, each would have to come before the other.
             let (next, None) = (ready.next()?.0, ready.next()) else {
                 return None;
             };
@@ -48,7 +48,7 @@ impl<'a> StepGraph<'a> {
         Some(chain)
     }
 
-    /// Whether exactly those evaluations have been applied that an evaluation waits for.
+    /// Whether exactly those evaluations have been applied that this evaluation waits for.
     fn follows(&self, node: Node, made: &Made) -> Option<bool> {
         let applied = self.argument(node)?.applied.as_deref()?;
         Some(match node {
@@ -57,7 +57,7 @@ impl<'a> StepGraph<'a> {
         })
     }
 
-    /// The one stage value that an evaluation sees, for separable Hamiltonians.
+    /// The one stage value that an evaluation depends on, for separable Hamiltonians.
     pub(crate) fn argument(&self, node: Node) -> Option<&StageValue<'a>> {
         let evaluation = self.evaluation(node);
         match node {

@@ -1,14 +1,13 @@
-//! Evaluations that neither the result of a step nor any stage that it needs depends on.
+//! Evaluations that neither the result of a step nor a stage it needs depends on.
 
 use super::{Evaluation, StageValue, StepGraph};
 use crate::algebra::{Number, Zero};
 
 impl StepGraph<'_> {
-    /// The graph for separable Hamiltonians without evaluations that have no weight and that no stage needs of which
-    /// there is use, and without the stages at which they are made: the drift of 0 at the end of a splitting asks for
-    /// no velocity.
+    /// The graph for separable Hamiltonians without unused evaluations and their stages. An evaluation is unused if it has no
+    /// weight and no used stage needs it: the drift of 0 at the end of a splitting needs no velocity.
     ///
-    /// What is only known to be tiny counts as used.
+    /// A coefficient that is only known to be tiny counts as used.
     pub(super) fn without_what_is_not_used(mut self) -> Self {
         loop {
             let used = |evaluations: &[Evaluation<'_>], values: &[StageValue<'_>]| {
@@ -29,7 +28,7 @@ impl StepGraph<'_> {
             }
             retain(&mut self.velocities, &velocities);
             retain(&mut self.forces, &forces);
-            // Stage and evaluation have the same index here: a force is at a position, a velocity at a momentum.
+            // Stage and evaluation have the same index here: a force belongs to a position, a velocity to a momentum.
             retain(&mut self.positions, &forces);
             retain(&mut self.momenta, &velocities);
             for (values, kept) in [

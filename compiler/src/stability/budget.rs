@@ -1,11 +1,11 @@
-//! A bound on the work that exact arithmetic may take.
+//! A bound on the work of exact arithmetic.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Products of machine words that may be spent.
 ///
-/// It counts operations, not time, so that the same input has the same outcome everywhere. Once it is spent,
-/// results mean nothing, and whoever made the budget has to throw them away.
+/// The budget counts operations, not time, so that the same input has the same outcome everywhere. Once it is spent,
+/// results are meaningless, and the caller that created the budget must discard them.
 #[derive(Debug)]
 pub(super) struct Budget(AtomicU64);
 
@@ -25,7 +25,7 @@ impl Budget {
             .store(left.saturating_sub(products), Ordering::Relaxed);
     }
 
-    /// Takes the bound away: what is decided is printed to as many digits as are asked for.
+    /// Removes the bound: results that are decided already are printed to any number of digits.
     pub(super) fn lift(&self) {
         self.0.store(u64::MAX, Ordering::Relaxed);
     }

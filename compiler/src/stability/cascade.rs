@@ -1,6 +1,6 @@
-//! One step that consists of several, one after another: its matrix is the product of theirs.
+//! A composition of several steps: its matrix is the product of theirs.
 //!
-//! The stages of a composition are those of its steps, and each has all of the weights of the steps before:
+//! The stages of a composition are those of its steps, and each contains all weights of the previous steps:
 //!
 //! ```text
 //!     ⎛ A₁                ⎞
@@ -8,7 +8,7 @@
 //!     ⎝ 1b₁ᵀ  1b₂ᵀ  A₃    ⎠
 //! ```
 //!
-//! and the same for momenta. The inverse of `1 + xÃA` for all stages takes `s⁴` products, those of the steps far fewer.
+//! and the same for momenta. The inverse of `1 + xÃA` for all stages takes `s⁴` products; the inverses for the steps take far fewer.
 
 use std::ops::Range;
 
@@ -100,7 +100,7 @@ impl<F: Field> Lists<'_, F> {
     }
 }
 
-/// The parts of the whole from those of the steps, the first step first.
+/// The parts of the composition from those of its steps, in the order of the steps.
 pub(super) fn joined<F: Field>(
     field: &F,
     steps: &[Parts<Vec<F::Element>>],
@@ -141,7 +141,7 @@ pub(super) fn joined<F: Field>(
     }
 }
 
-/// `det(1 − zA)` and `bᵀ adj(1 − zA) 1` of the whole from those of the steps: the stability function is the product.
+/// `det(1 − zA)` and `bᵀ adj(1 − zA) 1` of the composition from those of its steps: the stability function is the product.
 pub(super) fn joined_functions<F: Field>(
     field: &F,
     steps: &[[Vec<F::Element>; 2]],
@@ -168,7 +168,7 @@ mod tests {
     use crate::arithmetic::rational::ratio;
     use std::sync::Arc;
 
-    /// Two steps of two stages and one of one: `[[1/3, 1/5], [2/7, −1]]`, `[[2, 1], [0, 1/2]]` and `[[3/2]]`, with other
+    /// Two steps of two stages and a step of one stage: `[[1/3, 1/5], [2/7, −1]]`, `[[2, 1], [0, 1/2]]` and `[[3/2]]`, with other
     /// matrices for momenta.
     fn composition() -> Pair<Dense<Rationals>> {
         let b = [(1, 2), (1, 3), (-1, 4), (2, 1), (1, 7)].map(|(n, d)| ratio(n, d));

@@ -10,20 +10,20 @@ use super::polynomial::RealPolynomial;
 use crate::arithmetic::rational::{ratio, simplest_between};
 use crate::arithmetic::roots::compare;
 
-/// The positive roots of polynomials in ascending order, and a rational point between each two, before the
+/// The positive roots of polynomials in ascending order, and rational sample points: between every two roots, before the
 /// first and after the last.
 ///
-/// The roots are those of squarefree polynomials that are pairwise coprime and of which each given
-/// polynomial is a product, up to multiplicity: at a root, a given polynomial vanishes iff it is divisible
+/// The roots are those of squarefree, pairwise coprime polynomials. Each given polynomial is a product of
+/// these, up to multiplicity: at a root, a given polynomial vanishes iff it is divisible
 /// by the root's polynomial. Between the roots all given polynomials have constant signs.
 pub(super) struct Cells<P> {
     pub(super) roots: Vec<PositiveRoot<P>>,
-    /// One more than there are roots.
+    /// One sample more than there are roots.
     pub(super) samples: Vec<BigRational>,
 }
 
 impl<P: RealPolynomial> Cells<P> {
-    /// Cuts at the positive roots of these polynomials, zero polynomials left out. `None` if enclosures do not tell them apart.
+    /// Cuts at the positive roots of these polynomials, ignoring zero polynomials. `None` if enclosures do not separate the roots.
     pub(super) fn new(polynomials: &[P]) -> Option<Self> {
         let mut roots: Vec<PositiveRoot<P>> = Vec::new();
         for polynomial in coprime_base(polynomials) {
@@ -36,7 +36,7 @@ impl<P: RealPolynomial> Cells<P> {
             .iter()
             .filter_map(|root| root.polynomial.finest_bits());
         let finest = finest.min().unwrap_or(MOST_BITS);
-        // Different positive numbers: enough places tell them apart, and from zero.
+        // Distinct positive numbers: with enough places, enclosures separate them from each other and from zero.
         let enclosures = loop {
             let enclosed = |root: PositiveRoot<P>| (root.enclose(bits), root);
             let mut enclosures: Vec<_> = roots.drain(..).map(enclosed).collect();
@@ -70,18 +70,18 @@ impl<P: RealPolynomial> Cells<P> {
     }
 }
 
-/// Binary places of first enclosures.
+/// Binary places of the first enclosures.
 const FIRST_BITS: u32 = 32;
-/// Binary places of last enclosures, of numbers that are known to any.
+/// Binary places of the last enclosures, for numbers that are known to any precision.
 const MOST_BITS: u32 = 1 << 16;
 
-/// A short rational strictly between two.
+/// A short rational strictly between two rationals.
 fn between(low: &BigRational, high: &BigRational) -> BigRational {
     let margin = (high - low) / ratio(4, 1);
     simplest_between(&(low + &margin), &(high - &margin))
 }
 
-/// Squarefree polynomials, pairwise coprime and not constant, of which each given one is a product up to
+/// Squarefree polynomials, pairwise coprime and not constant. Each given polynomial is a product of them, up to
 /// multiplicity.
 fn coprime_base<P: RealPolynomial>(polynomials: &[P]) -> Vec<P> {
     let long = |p: &P| p.degree().unwrap_or(0) > 0;

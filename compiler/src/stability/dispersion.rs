@@ -1,4 +1,4 @@
-//! How far the phase of the numerical oscillation is off.
+//! The phase error of the numerical oscillation.
 
 use num_rational::BigRational;
 use num_traits::One;
@@ -14,14 +14,14 @@ use crate::arithmetic::rational::ratio;
 pub struct Dispersion {
     /// The order `k`, which is even.
     pub order: usize,
-    /// The coefficient `d`, not zero.
+    /// The coefficient `d`, which is nonzero.
     pub coefficient: Coefficient,
 }
 
 /// Compares `cos 2θ = tr²/(2 det) − 1`, a rational function of `x = ν²`, with `cos 2ν`.
 ///
 /// If `cos 2θ − cos 2ν = e xᵐ + …` with `m > 1`, then `−2 sin(2ν) (θ − ν) = e ν²ᵐ + …`, and so
-/// `θ − ν = −(e/4) ν²ᵐ⁻¹ + …`. `None` for `m = 1`, where the method has not even order 1.
+/// `θ − ν = −(e/4) ν²ᵐ⁻¹ + …`. Returns `None` if `m = 1`: the method is not even of order 1.
 pub(super) fn leading<P: RealPolynomial>(step: &Step<P>) -> Option<Dispersion> {
     let (t, d) = (&step.trace, &step.determinant);
     let two = ratio(2, 1);
@@ -34,7 +34,7 @@ pub(super) fn leading<P: RealPolynomial>(step: &Step<P>) -> Option<Dispersion> {
     let square = t.numerator.multiply(&t.numerator).multiply(&d.denominator);
     let numerator = square.subtract(&denominator);
     let degrees = numerator.degree().unwrap_or(0) + denominator.degree().unwrap_or(0);
-    // A rational function with these degrees agrees with a cosine in no more terms than it has
+    // A rational function with these degrees agrees with a cosine in at most as many terms as it has
     // coefficients.
     let mut cosine = numerator.constant(&BigRational::one());
     let mut power = cosine.clone();

@@ -1,4 +1,4 @@
-//! The ends of intervals: zero, infinity, and square roots of roots of polynomials.
+//! The end points of intervals: zero, infinity, and square roots of roots of polynomials.
 
 use std::cmp::Ordering;
 use std::fmt::{self, Debug};
@@ -24,11 +24,11 @@ pub(super) struct PositiveRoot<P> {
     finest: EnclosureCache,
 }
 
-/// A positive real number that is enclosed as narrowly as needed and compared with rationals.
+/// A positive real number that can be enclosed to any precision and compared with rationals.
 pub(super) trait PositiveReal: Debug {
-    /// An enclosure with this many binary places, whose width tends to zero as they grow, as far as the number is known.
+    /// An enclosure with this many binary places. Its width tends to zero as `bits` grows, as far as the number is known.
     fn enclose(&self, bits: u32) -> Interval;
-    /// Whether it is this number.
+    /// Whether the number equals `value`.
     fn equals(&self, value: &BigRational) -> bool;
 }
 
@@ -63,7 +63,7 @@ impl<P: RealPolynomial> PositiveReal for PositiveRoot<P> {
     }
 }
 
-/// An end of an interval of step sizes: zero, infinity, or the square root of an algebraic or otherwise
+/// An end point of an interval of step sizes: zero, infinity, or the square root of an algebraic or otherwise
 /// exactly known number.
 #[derive(Debug, Clone)]
 pub struct EndPoint(Value);
@@ -92,7 +92,7 @@ impl EndPoint {
         })
     }
 
-    /// The square root of a number that has no short form.
+    /// The square root of a number without a short exact form.
     pub(super) fn square_root(square: impl PositiveReal + 'static) -> Self {
         EndPoint(Value::SquareRoot {
             square: Arc::new(square),
@@ -100,17 +100,17 @@ impl EndPoint {
         })
     }
 
-    /// Whether it is zero.
+    /// Whether the end point is zero.
     pub fn is_zero(&self) -> bool {
         matches!(self.0, Value::Zero)
     }
 
-    /// Whether it is infinite.
+    /// Whether the end point is infinite.
     pub fn is_infinite(&self) -> bool {
         matches!(self.0, Value::Infinity)
     }
 
-    /// The exact form, where it is short: `0`, `2*sqrt(2)`, `infinity`.
+    /// The exact form, if it is short: `0`, `2*sqrt(2)`, `infinity`.
     pub fn exact(&self) -> Option<&str> {
         match &self.0 {
             Value::Zero => Some("0"),
@@ -119,7 +119,7 @@ impl EndPoint {
         }
     }
 
-    /// An enclosure with this number of binary places, whose width tends to zero as they grow; `None` if
+    /// An enclosure with this number of binary places, whose width tends to zero as `bits` grows; `None` if
     /// infinite.
     pub fn enclose(&self, bits: u32) -> Option<Interval> {
         match &self.0 {
@@ -161,15 +161,15 @@ impl EndPoint {
         }
     }
 
-    /// The number rounded to `digits` significant decimal digits, ties to even; `infinity` if infinite. Fewer digits of a
-    /// number that is not known to as many.
+    /// The number rounded to `digits` significant decimal digits, ties to even; `infinity` if infinite. Fewer digits are returned if
+    /// the number is not known to that many.
     pub fn decimal(&self, digits: usize) -> String {
         let digits = self.known_digits(digits);
         self.round(|value| Decimal::round(value, digits), Decimal::value)
             .map_or_else(|| "infinity".to_owned(), |decimal| decimal.to_string())
     }
 
-    /// The exact form, where it is short, and otherwise this many digits.
+    /// The exact form if it is short, and otherwise this many digits.
     pub(super) fn text(&self, digits: usize) -> String {
         match (&self.0, self.exact()) {
             (Value::Infinity, _) => "∞".to_owned(),
@@ -184,7 +184,7 @@ impl EndPoint {
             .unwrap_or(f64::INFINITY)
     }
 
-    /// As many of these digits as enclosures tell.
+    /// The number of digits, at most `digits`, that enclosures determine.
     fn known_digits(&self, digits: usize) -> usize {
         if self.is_zero() {
             return digits;
@@ -193,7 +193,7 @@ impl EndPoint {
         let mut width = None;
         while let Some(interval) = self.enclose(bits) {
             let known = interval.magnitude_bits() - interval.width_bits();
-            // A digit has less than 4 bits, and more than 3.
+            // A digit takes between 3 and 4 bits.
             let known = usize::try_from(known).unwrap_or(0);
             if known / 4 >= digits {
                 break;
@@ -206,8 +206,8 @@ impl EndPoint {
         digits
     }
 
-    /// Rounds by refining the enclosure until both ends round to the same, which they do unless the number
-    /// is the middle between two neighbours; that is decided exactly.
+    /// Rounds by refining the enclosure until both ends round to the same value. They do unless the number
+    /// is the midpoint of two neighbours; that is decided exactly.
     fn round<T: PartialEq>(
         &self,
         round: impl Fn(&BigRational) -> T,
@@ -241,14 +241,14 @@ impl EndPoint {
     }
 }
 
-/// Whether an enclosure with twice the places is hardly narrower than the one before.
+/// Whether doubling the places has hardly narrowed the enclosure.
 fn is_stuck(width: &mut Option<BigRational>, interval: &Interval) -> bool {
     let now = interval.width();
     let before = width.replace(now.clone());
     before.is_some_and(|before| now.is_positive() && now * ratio(2, 1) > before)
 }
 
-/// Binary places of first enclosures.
+/// Binary places of the first enclosures.
 const FIRST_BITS: u32 = 128;
 
 impl fmt::Display for EndPoint {

@@ -18,31 +18,31 @@ use crate::arithmetic::roots::{Root, compare};
 
 /// A polynomial over the field of constants of an algebra.
 ///
-/// Where the field cannot tell a number from zero, it is taken for zero, and what is found is verified
-/// only as far as the field verifies.
+/// A number that the field cannot distinguish from zero is taken to be zero. Results are then verified
+/// only to the precision to which the field verifies.
 #[derive(Debug)]
 pub(super) struct FieldPolynomial<A: StageAlgebra> {
     algebra: Arc<A>,
     budget: Arc<Budget>,
-    /// The constant first; the last one is not zero.
+    /// The constant first; the leading coefficient is nonzero.
     coefficients: Vec<Scalar<A>>,
-    /// Enclosures of the coefficients, for each of [`PRECISIONS`], once they were needed.
+    /// Enclosures of the coefficients for each of [`PRECISIONS`], computed on demand.
     enclosures: [OnceLock<Vec<Ball>>; PRECISIONS.len()],
-    /// The positive roots, if enclosures tell them apart, once they were needed.
+    /// The positive roots if enclosures separate them, computed on demand.
     roots: OnceLock<Option<Vec<Root>>>,
 }
 
-/// Bits of enclosures. The signs of numbers that the last ones do not tell are found exactly, or are not known.
+/// Bits of enclosures. Signs that the last enclosures do not determine are found exactly, or stay unknown.
 const PRECISIONS: [u32; 6] = [256, 1 << 10, 1 << 12, 1 << 14, 1 << 16, 1 << 18];
-/// So many of [`PRECISIONS`] are tried to tell roots apart.
+/// The number of [`PRECISIONS`] that are tried to separate roots.
 const TRIED: usize = 3;
-/// Bits of enclosures that are tried for every point where coefficients are known to any number of them.
+/// Bits of the enclosures that are tried for every point if the coefficients are known to any precision.
 const USUAL: u64 = 1 << 12;
-/// Bits by which a value near a root is told from zero, beside those of the point.
+/// Bits, beyond those of the point, by which a value near a root is distinguished from zero.
 const NEAR: u64 = 1 << 10;
-/// About the products that take as long as an inverse.
+/// Approximate cost of an inverse, in products.
 const INVERSE: u64 = 8;
-/// For each bit of enclosures, about the products of machine words that take as long as a search for roots that are too close.
+/// Approximate cost of a failed search for roots that are too close, in products of machine words per bit of the enclosures.
 const FAILURE: u64 = 1 << 15;
 
 impl<A: StageAlgebra + 'static> Clone for FieldPolynomial<A> {
@@ -89,7 +89,7 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
         FieldPolynomial::new(&self.algebra, &self.budget, coefficients)
     }
 
-    /// Enclosures of the coefficients, and their bits.
+    /// Enclosures of the coefficients, and their precision in bits.
     fn enclosed(&self, precision: usize) -> (&[Ball], u32) {
         let bits = PRECISIONS[precision];
         let enclose = |x| self.field().enclose(x, bits);
@@ -105,13 +105,13 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
         list.reduce(|value, c| value.multiply(&point, bits).add(&c, bits))
     }
 
-    /// The products of machine words of [`FieldPolynomial::value_at`].
+    /// The cost of [`FieldPolynomial::value_at`] in products of machine words.
     fn cost_of_value(&self, precision: usize) -> u64 {
         let words = u64::from(PRECISIONS[precision] / 64);
         self.coefficients.len() as u64 * words * words
     }
 
-    /// The value at a rational point, if enclosures tell its sign: with more bits than a point near a root has.
+    /// The value at a rational point, if enclosures determine its sign. They need more bits than a point near a root has.
     fn known_value(&self, point: &BigRational) -> Option<Ball> {
         let needed = match self.field().finest_bits() {
             Some(finest) => u64::from(finest),
@@ -130,7 +130,7 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
         (0..tried).find_map(known)
     }
 
-    /// The positive roots, if they are simple and narrow enclosures tell them apart.
+    /// The positive roots, if they are simple and narrow enclosures separate them.
     fn roots(&self) -> Option<&[Root]> {
         let find = || {
             if self.degree().unwrap_or(0) == 0 {
@@ -158,7 +158,7 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
     fn root_in(&self, interval: Interval) -> Option<Root> {
         let signs = [interval.low(), interval.high()].map(|end| self.sign_at(&end));
         match signs {
-            // The other end of another interval, or zero.
+            // The root is the end of another interval, or zero.
             [Ordering::Equal, _] => None,
             [_, Ordering::Equal] => Some(Root::Rational(interval.high())),
             [low, high] if low == high => None,
@@ -166,7 +166,7 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
         }
     }
 
-    /// Whether enclosures prove that no positive root is one of another polynomial.
+    /// Whether enclosures prove that this polynomial and another have no positive root in common.
     fn is_apart_from(&self, other: &Self) -> bool {
         let (Some(roots), Some(others)) = (self.roots(), other.roots()) else {
             return false;
@@ -191,12 +191,12 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
         a
     }
 
-    /// Whether the arithmetic of the field decides what is zero.
+    /// Whether the arithmetic of the field decides equality with zero.
     fn is_exact(&self) -> bool {
         self.field().verified_bits().is_none()
     }
 
-    /// The product of elements, paid for.
+    /// The product of elements, charged to the budget.
     fn product(&self, x: &Scalar<A>, y: &Scalar<A>) -> Scalar<A> {
         let field = self.field();
         self.budget.spend(field.length(x) * field.length(y));
@@ -206,7 +206,7 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
         field.multiply(x, y)
     }
 
-    /// The coefficients in a finite field, if none of them is undefined there and the leading one is not
+    /// The coefficients in a finite field, if all are defined there and the leading coefficient is not
     /// zero.
     fn image(&self, image: &Image) -> Option<Vec<u64>> {
         let list: Option<Vec<u64>> = self
@@ -217,8 +217,8 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
         list.filter(|list| list.last().is_some_and(|&c| c != 0))
     }
 
-    /// A bound on the degree of a greatest common divisor: its degree in a finite field, where the leading
-    /// coefficients stay. `None` if there is no image.
+    /// A bound on the degree of a greatest common divisor: its degree in a finite field in which the leading
+    /// coefficients do not vanish. `None` if there is no such field.
     fn degree_of_gcd(&self, other: &Self) -> Option<usize> {
         let degree = |image: &Image| {
             let (a, b) = (self.image(image)?, other.image(image)?);
@@ -253,7 +253,7 @@ impl<A: StageAlgebra + 'static> FieldPolynomial<A> {
         self.trimmed(self.coefficients.iter().map(product).collect())
     }
 
-    /// With the leading coefficient ±1.
+    /// The polynomial scaled to the leading coefficient ±1.
     fn signed_monic(&self) -> Self {
         let inverse = self.coefficients.last().and_then(|c| {
             self.budget.spend(INVERSE * self.field().length(c).pow(2));
@@ -338,7 +338,7 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
         let mut rest = self.coefficients.clone();
         let mut quotient = Vec::new();
         while rest.len() > degree {
-            // The divisor times this takes the leading term away, exactly.
+            // The divisor times this factor cancels the leading term exactly.
             let factor = rest.pop().map(|top| self.product(&top, &inverse));
             let factor = factor.unwrap_or_else(|| self.integer(0));
             let shift = rest.len() - degree;
@@ -369,8 +369,8 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
         self.euclid(other)
     }
 
-    /// Where what is zero is only known from enclosures, those of Euclid's algorithm lose all their places if numbers differ
-    /// much in size. So they are asked only where enclosures do not tell the roots apart, and have to explain why not.
+    /// If zeros are only known from enclosures, those of Euclid's algorithm lose all their places when numbers differ
+    /// much in size. So Euclid's algorithm runs only if enclosures do not separate the roots, where it must explain why.
     fn common_factor(&self, other: &Self) -> Self {
         let constant = [self, other].iter().any(|p| p.degree() == Some(0));
         if self.is_exact() || constant {
@@ -391,7 +391,7 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
         common
     }
 
-    /// Where enclosures tell the positive roots apart, each of them is simple.
+    /// If enclosures separate the positive roots, each of them is simple.
     fn squarefree(&self) -> Self {
         let simple = self.degree().unwrap_or(0) < 2 || !self.is_exact() && self.roots().is_some();
         if simple {
@@ -400,8 +400,8 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
         self.divide(&self.common_factor(&self.derivative())).0
     }
 
-    /// From the lowest coefficients upwards, for which nothing but polynomials in the generators of the
-    /// field is needed.
+    /// Divides from the lowest coefficients upwards, which needs only polynomials in the generators of the
+    /// field.
     fn quotient_from_below(&self, divisor: &Self) -> Self {
         let length = (self.coefficients.len() + 1).saturating_sub(divisor.coefficients.len());
         let mut rest = self.coefficients.clone();
@@ -484,8 +484,8 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
         value.map_or(Ordering::Equal, |value| field.number(&value).sign())
     }
 
-    /// From enclosures of the coefficients: the polynomial is squarefree, so that narrow ones tell its roots
-    /// apart.
+    /// Found from enclosures of the coefficients: the polynomial is squarefree, so narrow enclosures separate its
+    /// roots.
     fn positive_roots(&self) -> Option<Vec<Root>> {
         if self.budget.is_spent() {
             return None;

@@ -33,7 +33,7 @@ impl<P: RealPolynomial> Fraction<P> {
         }
     }
 
-    /// Whether it is a rational number, and this one.
+    /// Whether the function is this rational number.
     pub(super) fn is(&self, value: &BigRational) -> bool {
         let difference = self.numerator.subtract(&self.denominator.scale(value));
         difference.is_zero()
@@ -49,7 +49,7 @@ impl<P: RealPolynomial> Fraction<P> {
         let (mut numerator, mut denominator) = (self.numerator.clone(), self.denominator.clone());
         let mut rational = None;
         if let (Some(n), Some(d)) = (self.numerator.as_rational(), self.denominator.as_rational()) {
-            // Coprime whole coefficients.
+            // Coprime integer coefficients.
             let mut all = Polynomial::coefficients(n);
             all.extend(Polynomial::coefficients(d));
             let first = all.iter().rev().find(|c| !c.is_zero()).cloned();
@@ -75,7 +75,7 @@ impl<P: RealPolynomial> Fraction<P> {
     }
 }
 
-/// A real number for people: exactly, where that is readable, and as a double.
+/// A real number for people: exact if the exact form is readable, and as a double.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coefficient {
     /// The exact form, or the first digits and `…`.
@@ -95,8 +95,8 @@ impl Coefficient {
         }
     }
 
-    /// Whether it is zero, as far as is known. What is zero is rational; the double of what is not may be
-    /// zero.
+    /// Whether the coefficient is zero, as far as is known. A zero is always known as a rational; a nonzero number may
+    /// round to the double zero.
     pub(super) fn is_zero(&self) -> bool {
         self.rational.as_ref().is_some_and(|value| value.is_zero())
     }
@@ -105,7 +105,7 @@ impl Coefficient {
         if number.is_zero() {
             return Coefficient::rational(BigRational::default());
         }
-        // Where numbers are enclosed, as far as is known.
+        // If numbers are only enclosed, as far as is known.
         if let Some(value) = number.short_rational_as_far_as_known() {
             return Coefficient::rational(value);
         }
@@ -123,7 +123,7 @@ impl fmt::Display for Coefficient {
     }
 }
 
-/// What a rational function is a function of.
+/// The variable of a rational function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Variable {
     /// `ν²`
@@ -137,13 +137,13 @@ pub enum Variable {
 /// A rational function in lowest terms, for people and for exports.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RationalFunction {
-    /// What the coefficients belong to.
+    /// The variable.
     pub variable: Variable,
     /// The coefficients of the numerator, the constant first.
     pub numerator: Vec<Coefficient>,
     /// The coefficients of the denominator, the constant first.
     pub denominator: Vec<Coefficient>,
-    /// Both as polynomials with coprime whole coefficients, if the coefficients are known to be rational.
+    /// Numerator and denominator with coprime integer coefficients, if the coefficients are known to be rational.
     pub rational: Option<(Polynomial, Polynomial)>,
 }
 
@@ -190,7 +190,7 @@ impl RationalFunction {
             };
             terms.push((negative, term));
         }
-        // Descending, unless that begins with a minus sign and ascending does not.
+        // Descending, unless that order begins with a minus sign and the ascending order does not.
         if terms.last().is_some_and(|(negative, _)| !negative)
             || terms.first().is_some_and(|(negative, _)| *negative)
         {

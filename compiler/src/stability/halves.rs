@@ -1,6 +1,6 @@
-//! The first stable steps of a splitting that reads the same from both ends, from one half of it.
+//! The first stable steps of a palindromic (symmetric) splitting, from one half of it.
 //!
-//! Let `N = (a b; c d)` be the matrix of the first half, the flow in the middle halved, and `R = diag(1, −1)`. Each flow has
+//! Let `N = (a b; c d)` be the matrix of the first half, with the middle flow halved, and `R = diag(1, −1)`. Each flow satisfies
 //! `R F⁻¹ R = F`, so that the other half, the same flows in reverse, is `R N⁻¹ R = (d b; c a)`, and the step is
 //!
 //! ```text
@@ -8,12 +8,12 @@
 //!                 ⎝ 2ac      ad + bc ⎠
 //! ```
 //!
-//! Near zero `a, d > 0`, `b > 0` and `c < 0`. So all steps are stable up to the first root of one of `a`, `b/ν`, `c/ν` and `d`,
-//! which are polynomials in `x = ν²` of half the degree of the trace. As `ad − bc = 1`, a root that is no root of another of
-//! them leaves one of the entries `2bd` and `2ac`: that step is not stable, and those after it are not.
+//! Near zero `a, d > 0`, `b > 0` and `c < 0`. So all steps are stable up to the first root of `a`, `b/ν`, `c/ν` or `d`,
+//! which are polynomials in `x = ν²` of half the degree of the trace. As `ad − bc = 1`, a root of exactly one of
+//! them leaves one of the entries `2bd` and `2ac` nonzero: that step is not stable, nor are those just after it.
 //!
-//! The trace comes close to ±2 wherever a step is close to a multiple of half a period. Its roots there are pairs that lie as
-//! close together as the phase is accurate; those of the four polynomials are apart.
+//! The trace comes close to ±2 wherever a step is close to a multiple of half a period. Its roots there are pairs whose
+//! distance is as small as the phase error; the roots of the four polynomials are well separated.
 
 use std::cmp::Ordering;
 use std::sync::{Arc, OnceLock};
@@ -42,17 +42,17 @@ const PRECISIONS: [u32; 7] = [
     1 << 16,
 ];
 
-/// Bits by which a value near a root is told from zero, beside those of the point.
+/// Bits, beyond those of the point, by which a value near a root is distinguished from zero.
 const NEAR: u32 = 512;
 
-/// So many of [`PRECISIONS`] are tried to tell the roots apart.
+/// The number of [`PRECISIONS`] that are tried to separate the roots.
 const TRIED: usize = 3;
 
-/// The interval of stable steps that begins at zero, if the pair is that of a splitting which reads the same from both ends
-/// and enclosures decide where it ends.
+/// The interval of stable steps that begins at zero, if the pair is a palindromic splitting
+/// and enclosures decide where the interval ends.
 ///
-/// They do not where two of the polynomials have their first root in common, which leaves the step `±1` there, or where
-/// it is a double one.
+/// They do not decide it if two of the polynomials share their first root, where the step is `±1`, or if
+/// that root is a double root.
 pub(super) fn first_interval<A: StageAlgebra + 'static>(
     pair: &Pair<A>,
 ) -> Option<StabilityInterval> {
@@ -76,7 +76,7 @@ pub(super) fn first_interval<A: StageAlgebra + 'static>(
 struct Half<A: StageAlgebra> {
     algebra: Arc<A>,
     flows: Flows<Scalar<A>>,
-    /// For each of [`PRECISIONS`], once they were needed.
+    /// Enclosures for each of [`PRECISIONS`], computed on demand.
     enclosures: [OnceLock<Flows<Ball>>; PRECISIONS.len()],
 }
 
@@ -98,12 +98,12 @@ impl<A: StageAlgebra> Half<A> {
         self.enclosures[precision].get_or_init(|| self.flows.map(enclose))
     }
 
-    /// The sign of an entry of `N` at `x`, if enclosures tell it.
+    /// The sign of an entry of `N` at `x`, if enclosures determine it.
     fn sign_at(&self, entry: usize, x: &BigRational) -> Option<Ordering> {
         self.value_at(entry, x).and_then(|value| value.sign())
     }
 
-    /// Whether it is known that an entry of `N` vanishes at `x`.
+    /// Whether an entry of `N` is known to vanish at `x`.
     fn vanishes_at(&self, entry: usize, x: &BigRational) -> bool {
         if let Some(sign) = self.sign_at(entry, x) {
             return sign.is_eq();
@@ -123,9 +123,9 @@ impl<A: StageAlgebra> Half<A> {
         field.zero(&entries[entry]) == Zero::Yes
     }
 
-    /// The value of an entry of `N` at `x`, if enclosures tell its sign.
+    /// The value of an entry of `N` at `x`, if enclosures determine its sign.
     ///
-    /// Near a root it takes as many bits as the point has; with fewer ones it is not tried.
+    /// Near a root this takes as many bits as the point has; fewer bits are not tried.
     fn value_at(&self, entry: usize, x: &BigRational) -> Option<Ball> {
         let value = |precision: usize, bits: u32| {
             let x = Ball::quotient(x, bits);
@@ -151,8 +151,8 @@ impl<A: StageAlgebra> Half<A> {
         few.or_else(|| (first..=last).find_map(|k| value(k, PRECISIONS[k])))
     }
 
-    /// The first positive root of the entries of `N`: which of them has it, and an interval in which it is alone, and no
-    /// other entry has a root before it. `None` if that is not decided with enclosures of these bits.
+    /// The first positive root among the entries of `N`: the index of its entry, and an interval that isolates it and before
+    /// which no entry has a root. `None` if enclosures of these bits do not decide.
     fn first_root(&self, precision: usize) -> Option<(usize, Interval)> {
         let bits = PRECISIONS[precision];
         let entries = matrix_of_flows(&Balls::new(bits), self.enclosed(precision));
@@ -164,7 +164,7 @@ impl<A: StageAlgebra> Half<A> {
         if !stable_at_first {
             return None;
         }
-        // Up to x = 1, 2, 4, …, so that little is looked at beyond the first root.
+        // Up to x = 1, 2, 4, …, so that the search goes little beyond the first root.
         let (mut low, mut high) = (BigInt::from(0), BigInt::from(1));
         while high.bits() as i64 <= last.max(0) + 1 {
             let window = Interval { low, high, bits: 0 };
@@ -192,7 +192,7 @@ impl<A: StageAlgebra> Half<A> {
         None
     }
 
-    /// The least of roots, if a few places tell it from the others.
+    /// The least of the roots, if a few places separate it from the others.
     fn least(&self, mut roots: Vec<(usize, Interval)>) -> Option<(usize, Interval)> {
         for places in [32, 128, 512] {
             for (entry, interval) in &mut roots {
@@ -270,7 +270,7 @@ mod tests {
         }
     }
 
-    /// From the traces of the products of 81, 125 and 625 matrices in arithmetic of 80 digits, which are ±2 there.
+    /// Ends from the traces of products of 81, 125 and 625 matrices in arithmetic of 80 digits; the traces are ±2 there.
     #[test]
     fn long_compositions() {
         for (name, end) in [
@@ -285,11 +285,11 @@ mod tests {
 
     #[test]
     fn what_is_not_decided_is_left_open() {
-        // Not the same from both ends.
+        // Not palindromic.
         assert!(known("ruth-1983").first_stable_interval().is_none());
-        // No splitting.
+        // Not a splitting.
         assert!(known("gauss-2").first_stable_interval().is_none());
-        // The step is ±1 at roots in common, and stable beyond.
+        // The step is ±1 at common roots, and stable beyond.
         let thrice = "base: velocity-verlet, weights: [1/3, 1/3, 1/3]";
         assert!(defined(thrice).first_stable_interval().is_none());
     }

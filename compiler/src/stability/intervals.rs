@@ -11,7 +11,7 @@ use super::end_point::{EndPoint, PositiveRoot};
 use super::oscillator::Step;
 use super::polynomial::RealPolynomial;
 
-/// An interval of step sizes `ν = hω > 0`; one point where both ends are the same and belong to it.
+/// An interval of step sizes `ν = hω > 0`; a single point if both ends are equal and closed.
 #[derive(Debug, Clone)]
 pub struct StabilityInterval {
     /// The lower end.
@@ -35,20 +35,20 @@ impl StabilityInterval {
     }
 }
 
-/// The digits of an end that has no short exact form.
+/// Digits of an end without a short exact form.
 pub(super) const SHOWN_DIGITS: usize = 12;
-/// How often they are doubled to tell the ends of an interval apart.
+/// How often the digits are doubled to distinguish the ends of an interval.
 const MOST_DOUBLINGS: u32 = 7;
 
 impl fmt::Display for StabilityInterval {
-    /// `(0, 2*sqrt(2))`, with brackets at ends that belong to it, and as many digits as tell the ends apart.
+    /// `(0, 2*sqrt(2))`, with brackets at closed ends, and enough digits to distinguish the ends.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let open = if self.low_closed { '[' } else { '(' };
         let close = if self.high_closed { ']' } else { ')' };
         let differ = |digits: &usize| self.low.decimal(*digits) != self.high.decimal(*digits);
         let mut digits = SHOWN_DIGITS;
         if !differ(&digits) {
-            // Where one end is the whole interval, none does.
+            // If the interval is a single point, no number of digits distinguishes its ends.
             let more = (1..=MOST_DOUBLINGS).map(|n| SHOWN_DIGITS << n);
             digits = more.into_iter().find(differ).unwrap_or(digits);
         }
@@ -57,7 +57,7 @@ impl fmt::Display for StabilityInterval {
     }
 }
 
-/// What vanishes at all roots of a polynomial, which are roots of nothing else.
+/// The quantities that vanish at all roots of a polynomial; no other polynomial has these roots.
 struct Vanishing<P> {
     polynomial: Arc<P>,
     stages: bool,
@@ -67,9 +67,10 @@ struct Vanishing<P> {
 
 /// The step sizes `ν > 0` for which the powers of the matrix are bounded.
 ///
-/// That is where the eigenvalues are in the closed unit disc ([`Step::conditions`]) and those on the circle
+/// The powers are bounded where the eigenvalues are in the closed unit disc ([`Step::conditions`]) and those on the circle
 /// are semisimple. A real matrix can only fail the latter with a double eigenvalue ±1, that is with
 /// `det M = 1` and `tr M = ±2`, unless `M = ±1`. Where the stages have no unique solution there is no
+/// step, and so no stability. Returns `None` if roots cannot be separated.
 /// step, and so no stability. `None` if that is not decided.
 pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Option<Vec<StabilityInterval>> {
     let conditions = step.conditions();
@@ -83,7 +84,7 @@ pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Option<Vec<StabilityI
     }
     let [area, _, one, minus_one] = [0, 1, 2, 3].map(|k| conditions[k].numerator.is_zero());
     if area && (one || minus_one) {
-        // The eigenvalue is double everywhere, and semisimple at the roots of this one.
+        // The eigenvalue is double everywhere, and semisimple at the roots of this polynomial.
         cuts.push(scalar.clone());
     }
     let cells = Cells::new(&cuts)?;
@@ -99,7 +100,7 @@ pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Option<Vec<StabilityI
             });
         }
     }
-    // At a root, if there is one, which the sample lies next to; at the sample otherwise.
+    // At the root next to the sample, if one is given; otherwise at the sample.
     let bounded = |sample: &BigRational, root: Option<&PositiveRoot<P>>| {
         let zero = root.and_then(|root| vanishing_at(&vanishing, &root.polynomial));
         if zero.is_some_and(|zero| zero.stages) {
@@ -124,7 +125,7 @@ pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Option<Vec<StabilityI
                 .map(|k| EndPoint::square_root_of(&cells.roots[k]));
             open = Some((end.unwrap_or(EndPoint::ZERO), false));
         } else if !inside && let Some((low, low_closed)) = open.take() {
-            // The root before this cell was stable, and is the end.
+            // The previous root was stable, and ends the interval.
             let high = index
                 .checked_sub(1)
                 .map(|k| EndPoint::square_root_of(&cells.roots[k]));

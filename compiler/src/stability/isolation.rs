@@ -1,4 +1,4 @@
-//! Simple positive roots of polynomials whose coefficients are enclosed.
+//! Simple positive roots of polynomials with enclosed coefficients.
 
 use std::cmp::Ordering;
 
@@ -10,8 +10,8 @@ use crate::algebra::Ball;
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::dyadic;
 
-/// Half-open intervals `(low, high]·2⁻ᵇⁱᵗˢ` in ascending order, in each of which a polynomial has at most one root and changes its sign there, and
-/// outside of which it has no positive root.
+/// Half-open intervals `(low, high]·2⁻ᵇⁱᵗˢ` in ascending order that contain all positive roots. In each, the polynomial has at most
+/// one root, where it changes its sign.
 ///
 /// With `f(m + ry) = Σ c_k yᵏ` there is no root for `|y| ≤ 1` if `|c_0| > Σ_{k>0} |c_k|`, and `f` is monotonic if
 /// `|c_1| > Σ_{k>1} k|c_k|`. `None` if the enclosures are too wide to tell.
@@ -21,7 +21,7 @@ pub(super) fn monotonic(coefficients: &[Ball], precision: u32) -> Option<Vec<Int
     Some(found.collect::<Option<Vec<_>>>()?.concat())
 }
 
-/// Intervals `(low, high]` in ascending order, with all positive roots: outside of them one term is larger than all others
+/// Intervals `(low, high]` in ascending order that contain all positive roots. Outside of them one term is larger than all others
 /// together. `None` if the leading coefficient may be zero.
 ///
 /// The ends are powers of two, near the slopes of the Newton polygon, or zero.
@@ -43,11 +43,11 @@ fn windows(coefficients: &[Ball]) -> Option<Vec<Interval>> {
     Some(windows)
 }
 
-/// The exponents `e` for which the term of degree `k` is larger than all others together at `x = 2ᵉ`: the first, unless there
-/// is none, and the last.
+/// The first and the last exponent `e` for which the term of degree `k` is larger than all others together at `x = 2ᵉ`. The first
+/// is `None` if there is no lower bound.
 fn dominated(coefficients: &[Ball], k: usize) -> Option<(Option<i64>, Option<i64>)> {
     let least = coefficients[k].least_magnitude()?;
-    // As many terms as this power of two, at most.
+    // An upper bound on the number of terms, as a power of two.
     let terms = i64::from(usize::BITS - coefficients.len().leading_zeros());
     let excess = |c: &Ball| c.magnitude() + terms - least;
     let nonzero = |c: &&Ball| c.sign() != Some(Ordering::Equal);
@@ -71,7 +71,7 @@ fn window(low: Option<i64>, high: i64) -> Interval {
     }
 }
 
-/// As [`monotonic`], for the roots in one interval without its lower end.
+/// [`monotonic`] for the roots in one half-open interval `(low, high]`.
 pub(super) fn monotonic_within(
     coefficients: &[Ball],
     interval: &Interval,
@@ -88,11 +88,11 @@ pub(super) fn monotonic_within(
     let whole = local(coefficients, &low, &high, bits, precision);
     let words = coefficients.len().pow(2) * (precision / 64 + OVERHEAD) as usize;
     let mut left = (MOST_WORDS / words).max(FEWEST_PARTS);
-    // The leftmost on top.
+    // The leftmost interval on top.
     let mut pending = vec![(low, high, bits, whole)];
     while let Some((low, high, bits, shifted)) = pending.pop() {
         let depth = bits - first_bits;
-        // The root may be a double one, however near.
+        // The root may be a double root, at any distance.
         let undecided = |list: &[Ball]| {
             let mut lowest = list.iter().take(2);
             list.len() > 1 && lowest.all(|c| c.sign().is_none())
@@ -105,7 +105,7 @@ pub(super) fn monotonic_within(
         if undecided(&shifted) {
             return None;
         }
-        // Σ |c_k| binom(k, m) for the terms from one on.
+        // Σ |c_k| binom(k, m) over the terms with k ≥ `first`.
         let sum = |first: usize, derivative: usize| {
             let terms = shifted.iter().enumerate().skip(first);
             terms.fold(None, |sum: Option<Ball>, (k, c)| {
@@ -170,24 +170,24 @@ pub(super) fn monotonic_within(
     Some(found)
 }
 
-/// Places of a point between two roots that are tried first.
+/// Binary places of a point between two roots that are tried first.
 const FIRST_PLACES: u32 = 4;
 
-/// Where a polynomial that is convex or concave for `|y| ≤ 1` is nearest to zero or beyond it.
+/// The extremum of a polynomial that is convex or concave for `|y| ≤ 1`, relative to zero.
 enum Vertex {
-    /// It has no root.
+    /// The polynomial has no root.
     NoRoot,
-    /// Beyond the ends: the polynomial is monotonic.
+    /// The extremum is outside the interval: the polynomial is monotonic.
     Outside,
-    /// It is on the other side at `y·2⁻ᵖˡᵃᶜᵉˢ`: at most one root is on either side of that.
+    /// The polynomial has the other sign at `y·2⁻ᵖˡᵃᶜᵉˢ`: at most one root is on either side of that point.
     Beyond { y: BigInt, places: u32 },
-    /// The vertex is not told from zero: the root may be a double one.
+    /// The extremum cannot be distinguished from zero: there may be a double root.
     NotTold,
 }
 
-/// The vertex of a polynomial `f = Σ c_k yᵏ` with `|f''| ≥ 2·bend` for `|y| ≤ 1`; `None` if it is not found in there.
+/// The vertex of a polynomial `f = Σ c_k yᵏ` with `|f''| ≥ 2·bend` for `|y| ≤ 1`; `None` if it is not found in the interval.
 ///
-/// With `f'(z) = s`, the least value is `f(z) − s²/(4·bend)` at least, if `f'' > 0`.
+/// With `f'(z) = s` and `f'' > 0`, the minimum is at least `f(z) − s²/(4·bend)`.
 fn vertex(coefficients: &[Ball], bend: &Ball, precision: u32) -> Option<Vertex> {
     let derivative = |list: &[Ball]| -> Vec<Ball> {
         let terms = list.iter().enumerate().skip(1);
@@ -205,16 +205,16 @@ fn vertex(coefficients: &[Ball], bend: &Ball, precision: u32) -> Option<Vertex> 
     let one = Ball::whole(1);
     let slope = |y: &Ball| at(&slopes, y)?.sign();
     match [slope(&one.negate())?, slope(&one)?] {
-        // Zero at an end.
+        // Zero at an end point.
         [first, last] if first.is_eq() || last.is_eq() => return None,
         [first, last] if first == last => return Some(Vertex::Outside),
-        // The slope has one root in there.
+        // The slope has one root in the interval.
         _ => {}
     }
     let dyadic = |y: &BigInt| Ball::dyadic(y.clone(), -i64::from(precision), u32::MAX);
     let unit = BigInt::one() << precision;
     let mut y = BigInt::zero();
-    // Newton's iteration doubles the places once it is near.
+    // Newton's iteration doubles the places once it is near the root.
     for _ in 0..=2 * precision.ilog2() {
         let here = dyadic(&y);
         let change =
@@ -235,7 +235,7 @@ fn vertex(coefficients: &[Ball], bend: &Ball, precision: u32) -> Option<Vertex> 
         return None;
     }
     if sign != side {
-        // As few places as tell.
+        // As few places as suffice.
         let mut places = FIRST_PLACES.min(precision);
         loop {
             let coarse: BigInt = &y >> (precision - places);
@@ -259,23 +259,24 @@ fn vertex(coefficients: &[Ball], bend: &Ball, precision: u32) -> Option<Vertex> 
     (least.sign() == Some(Ordering::Greater)).then_some(Vertex::NoRoot)
 }
 
-/// Halvings after which the coefficients are computed anew: each halving costs one binary place.
+/// Halvings after which the coefficients are recomputed: each halving costs one binary place.
 const HALVINGS: u32 = 32;
-/// Bits of the coefficients in between, which have to tell sizes only.
+/// Bits of the coefficients in between, which only need to give magnitudes.
 const COARSE: u32 = 192;
 
 /// Sums of machine words that may be spent on one interval: about a tenth of a second.
 const MOST_WORDS: usize = 1 << 25;
-/// So many parts of an interval are looked at in any case.
+/// The number of parts of an interval that are examined in any case.
 const FEWEST_PARTS: usize = 1 << 12;
 /// The overhead of one addition, in machine words.
 const OVERHEAD: u32 = 32;
 
-/// Narrows an interval at the ends of which a function has different signs, around a root, to this many binary places, or
+/// Narrows an isolating interval, at whose ends a function has different signs, to this many binary places, or
 /// until a sign is not known.
 ///
-/// The interval is cut into `2ⁿ` parts, and the root is sought in the one in which the chord vanishes. Where it is there,
-/// `n` is doubled, otherwise halved (Abbott, *Quadratic interval refinement for real roots*). `value_at` is a value whose
+/// The interval is cut into `2ⁿ` parts, and the root is sought in the part in which the chord vanishes. If it is there,
+/// `n` is doubled, otherwise halved (Abbott, *Quadratic interval refinement for real roots*). `value_at` returns a value whose
+/// sign is known.
 /// sign is known.
 pub(super) fn narrow(
     interval: &Interval,
@@ -302,7 +303,7 @@ pub(super) fn narrow(
         (low, high, places) = (low << count, high << count, places + count);
         let (start, last) = (low.clone(), (BigInt::one() << count) - BigInt::one());
         let mut part = chord(&below, &above, count).clamp(BigInt::one(), last.clone());
-        // The ends of the part in which the root should be.
+        // The ends of the part that should contain the root.
         for _ in 0..2 {
             if !part.is_positive() || part > last {
                 break;
@@ -341,7 +342,7 @@ pub(super) fn narrow(
     .with_bits(bits)
 }
 
-/// About where the chord between values at the ends of an interval vanishes, in `2ⁿ` parts of it.
+/// Approximate zero of the chord between the values at the ends of an interval, in `2ⁿ` parts of it.
 fn chord(below: &Ball, above: &Ball, parts: u32) -> BigInt {
     let bits = parts + 64;
     let (below, above) = (below.size(), above.size());
@@ -353,10 +354,10 @@ fn chord(below: &Ball, above: &Ball, parts: u32) -> BigInt {
 }
 
 /// The coefficients of `f((z ± 1)/2)` from those of `f(y)`: halves of the interval `|y| ≤ 1`, by additions alone. Each
-/// halving costs one binary place or so.
+/// halving costs about one binary place.
 fn half(coefficients: &[Ball], right: bool, precision: u32) -> Vec<Ball> {
     let halved = (0..).zip(coefficients).map(|(k, c): (i64, &Ball)| {
-        // With −z for z on the left, so that what is added is positive on both sides.
+        // With −z for z on the left, so that the shift is positive on both sides.
         let c = c.with_bits(precision).shifted(-k);
         if right || k % 2 == 0 { c } else { c.negate() }
     });
@@ -397,7 +398,7 @@ fn local(
     list
 }
 
-/// An exponent `n` with all roots below `2ⁿ` in size (Fujiwara).
+/// An exponent `n` such that all roots are below `2ⁿ` in magnitude (Fujiwara).
 pub(super) fn root_bound(coefficients: &[Ball]) -> Option<i64> {
     let (leading, rest) = coefficients.split_last()?;
     let top = leading.least_magnitude()?;
@@ -445,7 +446,7 @@ mod tests {
         assert!(with_a_root(&[1, 0, 1], 0, &intervals).is_empty());
     }
 
-    /// The places of the intervals in which a polynomial in `2ˢx` changes its sign or vanishes at the upper end.
+    /// The indices of the intervals in which a polynomial in `2ˢx` changes its sign or vanishes at the upper end.
     fn with_a_root(coefficients: &[i64], shift: i64, intervals: &[Interval]) -> Vec<usize> {
         let scale = ratio(2, 1).pow(shift as i32);
         let list: Vec<_> = coefficients.iter().map(|&c| ratio(c, 1)).collect();

@@ -2,8 +2,8 @@
 //! Integration*, §I.5 and §IX.9; Hairer & Wanner, *Solving Ordinary Differential Equations II*, §IV.3).
 //!
 //! For the oscillator `q' = p`, `p' = −ω²q` one step is a 2×2 matrix whose entries are rational functions of
-//! `ν = hω`. Their coefficients are found without rounding, so that everything said about them is decided:
-//! signs by Sturm's theorem, equalities by arithmetic. Over the node algebra all of it is rational, for the
+//! `ν = hω`. Their coefficients are found without rounding, so that every statement about them is decided:
+//! signs by Sturm's theorem, equalities by arithmetic. Over the node algebra all of this is rational, because the
 //! coefficients of the functions are traces.
 
 mod budget;
@@ -63,21 +63,21 @@ pub struct Stability {
     /// All step sizes `ν = hω > 0` for which the stages have a solution and all powers of `M` are bounded,
     /// in ascending order, with as few intervals as possible.
     pub intervals: Vec<StabilityInterval>,
-    /// Whether that is so for all `ν > 0`.
+    /// Whether the powers of `M` are bounded for all `ν > 0`.
     pub p_stable: bool,
-    /// The leading term of the phase error; `None` if the method has not even order 1.
+    /// The leading term of the phase error; `None` if the method is not even of order 1.
     pub dispersion: Option<Dispersion>,
     /// The stability function, for methods with `ã = a` and `b̃ = b`.
     pub runge_kutta: Option<RungeKuttaStability>,
-    /// How all this is known: proved, or verified where numbers are only known by enclosures.
+    /// The evidence: proved, or verified if numbers are only known by enclosures.
     pub evidence: Evidence,
 }
 
 impl Stability {
     /// Decides the linear stability of a pair.
     ///
-    /// Where the exact arithmetic takes more than some number of operations, or there is none, from
-    /// enclosures of the coefficients; what is taken for zero then is verified only.
+    /// If exact arithmetic is not available or takes more than a fixed number of operations, enclosures
+    /// of the coefficients decide; numbers taken to be zero are then only verified.
     pub(crate) fn of_pair<A: StageAlgebra + 'static>(pair: &Pair<A>) -> Self {
         Stability::within(pair, PRODUCTS)
     }
@@ -92,7 +92,7 @@ impl Stability {
             let parts = oscillator::parts(pair);
             let function = equal.then(|| runge_kutta::parts(pair));
             let rational = |list: &Vec<Scalar<A>>| rational_polynomial(field, list);
-            // Over the rationals the arithmetic of polynomials is much faster.
+            // Over the rationals, polynomial arithmetic is much faster.
             let lists = function.as_ref();
             let rational_function = lists.map(|[d, n]| Some([rational(d)?, rational(n)?]));
             if let (Some(parts), None | Some(Some(_))) = (parts.map(rational), &rational_function) {
@@ -131,13 +131,13 @@ impl Stability {
         Stability::decide(&parts, function)
     }
 
-    /// From enclosures of the coefficients, with more and more bits until what is taken for zero is very small: compared
-    /// with the terms of the sum that it is, and with the smallest of the numbers that are given.
+    /// Stability from enclosures of the coefficients. The bits grow until every number taken to be zero is very small compared
+    /// with the terms of its sum, and with the smallest of the given numbers.
     fn enclosed<A: StageAlgebra>(pair: &Pair<A>, precision: &Precision) -> Self {
         let numbers = pair.numbers();
         let equal = pair.equal_halves() == (true, true);
         let fineness = numbers.iter().map(Number::fineness).max().unwrap_or(0);
-        // Determinants have products of large numbers, one of each row, which may cancel and leave one of about 1.
+        // Determinants contain products of large numbers, one from each row, which may cancel to a number of about 1.
         let row = |row: &Vec<Number<'_>>| row.iter().map(Number::largeness).max().unwrap_or(0);
         let rows = numbers.a.iter().chain(&numbers.a_tilde);
         let rows = rows.chain([&numbers.b, &numbers.b_tilde]);
@@ -146,7 +146,7 @@ impl Stability {
             .zero
             .saturating_add(u32::try_from(largeness).unwrap_or(u32::MAX))
             .saturating_add(ORDERS.saturating_mul(fineness));
-        // More bits than are spent: none of them is worth it.
+        // More bits than allowed: the computation would be wasted.
         let most = if wanted.saturating_add(GUARD) > precision.most {
             FEWEST
         } else {
@@ -187,7 +187,7 @@ impl Stability {
         !matches!(self.evidence, Evidence::Undecided { .. })
     }
 
-    /// From enclosures with several times as many bits.
+    /// Stability from enclosures with several times as many bits.
     #[cfg(test)]
     pub(crate) fn with_more_bits<A: StageAlgebra>(pair: &Pair<A>, times: u32) -> Self {
         let Precision { zero, most } = Precision::USUAL;
@@ -198,7 +198,7 @@ impl Stability {
         Stability::enclosed(pair, &precision)
     }
 
-    /// Decides everything from polynomials, or not: then the roots are not told apart.
+    /// Decides everything from polynomials, or returns "undecided" if the roots cannot be separated.
     fn decide<P: RealPolynomial>(parts: &Parts<P>, function: Option<[P; 2]>) -> Self {
         let step = Step::new(parts);
         let intervals = intervals::stable(&step);
@@ -226,20 +226,20 @@ impl Stability {
         }
     }
 
-    /// The interval that begins at zero, of a splitting that reads the same from both ends, however long; what else is known
-    /// of it is left to [`Stability::of_pair`].
+    /// The interval that begins at zero, for a palindromic splitting of any length. [`Stability::of_pair`] decides everything
+    /// else.
     pub(crate) fn first_interval<A: StageAlgebra + 'static>(
         pair: &Pair<A>,
     ) -> Option<StabilityInterval> {
         halves::first_interval(pair)
     }
 
-    /// Whether a step size `ν = hω > 0` is in the set.
+    /// Whether a step size `ν = hω > 0` is stable.
     pub fn contains(&self, nu: &BigRational) -> bool {
         self.intervals.iter().any(|interval| interval.contains(nu))
     }
 
-    /// Whether all `0 < ν ≤ bound` are in the set.
+    /// Whether all `0 < ν ≤ bound` are stable.
     pub fn stable_to(&self, bound: &BigRational) -> bool {
         let first = self.intervals.first().filter(|first| first.low.is_zero());
         first.is_some_and(|first| !bound.is_positive() || first.contains(bound))
@@ -257,7 +257,7 @@ impl Stability {
         texts.join(" ∪ ")
     }
 
-    /// Everything as plain data, numbers with this many significant digits.
+    /// Everything as plain data, with numbers to this many significant digits.
     pub fn summary(&self, digits: usize) -> StabilitySummary {
         let exact = |end: &EndPoint| end.exact().map(str::to_owned);
         let intervals = self.intervals.iter();
@@ -289,14 +289,14 @@ impl Stability {
     }
 }
 
-/// Products of machine words beyond which stability is decided from enclosures: about a second, with all
-/// that goes with a product in a field.
+/// Products of machine words beyond which stability is decided from enclosures: about a second, including the
+/// overhead of products in a field.
 const PRODUCTS: u64 = 2_500_000;
-/// Products of machine words beyond which stability is left undecided by enclosures: about two seconds.
+/// Products of machine words beyond which stability from enclosures is left undecided: about two seconds.
 const ENCLOSED_PRODUCTS: u64 = 1 << 31;
-/// How narrow enclosures are.
+/// The precision of enclosures.
 struct Precision {
-    /// The binary places to which numbers that are given with usual ones have to vanish where they are taken for zero.
+    /// The binary places to which numbers must vanish to be taken as zero, for given numbers of ordinary size.
     zero: u32,
     /// The most bits of enclosures.
     most: u32,
@@ -309,11 +309,11 @@ impl Precision {
     };
 }
 
-/// The bits of enclosures that decide nothing.
+/// The bits of the enclosures if none can decide.
 const FEWEST: u32 = 1 << 10;
-/// Bits that are usually lost on the way.
+/// Bits that are usually lost during the computation.
 const GUARD: u32 = 512;
-/// What vanishes to first order in the smallest of the given numbers may still be one of the second order or so.
+/// A quantity that vanishes to first order in the smallest given number may be nonzero to a higher order, up to about this one.
 const ORDERS: u32 = 4;
 
 /// A polynomial whose coefficients are known to be rational.
@@ -353,7 +353,7 @@ impl fmt::Display for Stability {
             self.intervals_text()
         )?;
         if let Some(Dispersion { order, coefficient }) = &self.dispersion {
-            // A sum is in brackets, as in the trace.
+            // A sum is in parentheses, as in the trace.
             let coefficient = match coefficient.text.contains(' ') {
                 true => format!("({coefficient})"),
                 false => coefficient.to_string(),
@@ -386,15 +386,15 @@ pub struct StabilitySummary {
     pub trace: String,
     /// The determinant as text.
     pub determinant: String,
-    /// The ends of the intervals exactly, where that is short.
+    /// The exact ends of the intervals, where they are short.
     pub intervals: Vec<[Option<String>; 2]>,
     /// The ends of the intervals as decimals.
     pub decimal: Vec<[String; 2]>,
-    /// Which ends belong to their intervals.
+    /// Which ends are closed.
     pub closed: Vec<[bool; 2]>,
     /// Whether the method is stable for all step sizes.
     pub p_stable: bool,
-    /// How that is known.
+    /// The evidence.
     pub evidence: String,
     /// The order of the phase error.
     pub dispersion_order: Option<usize>,
@@ -416,7 +416,7 @@ pub struct RungeKuttaSummary {
     pub a_stable: bool,
     /// Whether the method is L-stable.
     pub l_stable: bool,
-    /// The bound on the imaginary axis exactly, where that is short.
+    /// The exact bound on the imaginary axis, if it is short.
     pub imaginary: Option<String>,
     /// The bound on the imaginary axis as a decimal.
     pub imaginary_decimal: String,

@@ -12,7 +12,7 @@ use super::resolvent::{Resolvent, apply, apply_left, dot};
 use crate::algebra::{Field, Number, Scalar, StageAlgebra};
 use crate::pair::{Flows, Pair};
 
-/// What the matrix of one step is made of: polynomials in `x`, the constant first.
+/// The polynomials in `x`, the constant first, that determine the matrix of one step.
 ///
 /// With `ν = hω`, `x = ν²` and `(q, p/ω)` the stages are `(1 + xAÃ) Q = 1 q0 + νA1 p0/ω` and
 /// `(1 + xÃA) P = 1 p0/ω − νÃ1 q0`, so that with `D = det(1 + xÃA) = det(1 + xAÃ)` and
@@ -52,8 +52,8 @@ impl<T> Parts<T> {
     }
 }
 
-/// About how many products of machine words [`parts`] takes: `s⁴` products of matrix entries, for a splitting `s²`,
-/// each of which is brought to lowest terms.
+/// Approximate cost of [`parts`] in products of machine words: `s⁴` products of matrix entries, for a splitting `s²`,
+/// each reduced to lowest terms.
 pub(super) fn cost<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
     let algebra = &*pair.algebra;
     if !algebra.constants().is_costly() {
@@ -72,8 +72,8 @@ pub(super) fn cost<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
     products.saturating_mul(reduced)
 }
 
-/// About how many products of machine words, where each takes little, all that follows takes: the coefficients of the
-/// matrix are products of an entry of each row, and elimination squares their length.
+/// Approximate cost, in products of machine words, of everything that follows, for fields with cheap products. The coefficients
+/// of the matrix are products of one entry from each row, and elimination squares their length.
 fn cost_of_length<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
     let longest = |row: &Vec<Number<'_>>| row.iter().map(Number::words).max().unwrap_or(0);
     let total = |matrix: &A::Matrix| -> u64 {
@@ -140,7 +140,7 @@ impl<T: Clone> Operators<T> {
         }
     }
 
-    /// Those of some stages alone.
+    /// The coefficients of these stages only.
     fn part(&self, stages: &Range<usize>) -> Self {
         let vector = |list: &[T]| list[stages.clone()].to_vec();
         Operators {
@@ -198,7 +198,7 @@ fn parts_of_splitting<A: StageAlgebra>(
     }
 }
 
-/// The matrix of flows one after another: [`product_of_flows`] as polynomials in `x`.
+/// The matrix of a sequence of flows: [`product_of_flows`] as polynomials in `x`.
 pub(super) fn matrix_of_flows<F: Field>(
     field: &F,
     flows: &Flows<F::Element>,
@@ -221,8 +221,8 @@ pub(super) fn matrix_of_flows<F: Field>(
 /// ⎝ 0   1 ⎠      ⎝ −νk  1 ⎠
 /// ```
 ///
-/// as `M11`, `M12/ν`, `M21/ν` and `M22`, so that `ν² = x` is left where two of them meet: to a sum `add` adds the product
-/// of a factor, another entry and this power of `x`.
+/// as `M11`, `M12/ν`, `M21/ν` and `M22`, so that `ν² = x` remains where two off-diagonal entries meet. `add` adds to a sum the
+/// product of a factor, another entry and this power of `x`.
 pub(super) fn product_of_flows<E: Clone, T: Clone>(
     flows: &Flows<E>,
     [zero, one]: [T; 2],
@@ -252,7 +252,7 @@ fn pair_of<T>(lists: Vec<Vec<T>>) -> [Vec<T>; 2] {
 /// The matrix of one step: `M11`, `M12/ν`, `M21/ν` and `M22` as functions of `x`.
 #[derive(Debug)]
 pub(super) struct Step<P> {
-    /// `det(1 + xÃA)`; where it vanishes the stages have no solution, or many.
+    /// `det(1 + xÃA)`; where it vanishes the stages have no solution, or infinitely many.
     pub(super) stages: P,
     pub(super) m11: Fraction<P>,
     pub(super) m12: Fraction<P>,
@@ -269,7 +269,7 @@ impl<P: RealPolynomial> Step<P> {
         let m22 = d.subtract(&parts.ab_one.shift());
         let m12 = parts.b_one.clone();
         let m21 = parts.ab_c.shift().subtract(&d.multiply(&parts.b_sum));
-        // D² det M is a multiple of D, for D det M is det(1 + xÃ*A*) of the adjoint method.
+        // D² det M is a multiple of D, because D det M is det(1 + xÃ*A*) of the adjoint method.
         let determinant = m11.multiply(&m22).subtract(&m12.multiply(&m21).shift());
         let one = d.constant(&BigRational::one());
         let quotient = determinant.quotient_from_below(d);
@@ -291,8 +291,8 @@ impl<P: RealPolynomial> Step<P> {
         }
     }
 
-    /// A polynomial that vanishes where the matrix is a multiple of the identity, and, as far as `x > 0`
-    /// is no pole, nowhere else.
+    /// A polynomial that vanishes where the matrix is a multiple of the identity, and nowhere else on `x > 0`
+    /// except at poles.
     pub(super) fn scalar(&self) -> P {
         let [(n11, d11), (n22, d22)] =
             [&self.m11, &self.m22].map(|f| (&f.numerator, &f.denominator));
@@ -311,10 +311,10 @@ impl<P: RealPolynomial> Step<P> {
 
     /// `1 − det M`, `1 + det M`, `1 + det M − tr M` and `1 + det M + tr M`.
     ///
-    /// Both eigenvalues of a real matrix are in the closed unit disc iff none of them is negative: with
+    /// Both eigenvalues of a real matrix are in the closed unit disc iff none of these is negative: with
     /// `χ(λ) = λ² − tr λ + det`, the last two are `χ(1)` and `χ(−1)` (Jury; Schur, Cohn). If the eigenvalues are
-    /// complex, `|λ|² = det ≤ 1`. If they are real, `χ(±1) ≥ 0` leaves no eigenvalue alone outside
-    /// `[−1, 1]` on a side, and two on one side have a product greater than 1.
+    /// complex, `|λ|² = det ≤ 1`. If they are real, `χ(±1) ≥ 0` excludes that exactly one eigenvalue is outside
+    /// `[−1, 1]` on a side; two outside on one side have a product greater than 1.
     pub(super) fn conditions(&self) -> [Fraction<P>; 4] {
         let (t, d) = (&self.trace, &self.determinant);
         let one = BigRational::one();

@@ -1,4 +1,4 @@
-//! Polynomials whose coefficients are real numbers of one field, with what decides signs and roots.
+//! Polynomials whose coefficients are real numbers of one field: arithmetic, signs and roots.
 
 use std::cmp::Ordering;
 use std::fmt::Debug;
@@ -17,7 +17,7 @@ use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::ratio;
 use crate::arithmetic::roots::{Root, classified, enclose, real_roots};
 
-/// A polynomial in one variable `x` over an ordered field. All polynomials that meet are over the same.
+/// A polynomial in one variable `x` over an ordered field. All operands of an operation are over the same field.
 pub(super) trait RealPolynomial: Clone + Debug + 'static {
     /// A rational constant over the same field.
     fn constant(&self, value: &BigRational) -> Self;
@@ -31,15 +31,15 @@ pub(super) trait RealPolynomial: Clone + Debug + 'static {
     fn scale(&self, factor: &BigRational) -> Self;
     /// The product with `x`.
     fn shift(&self) -> Self;
-    /// The quotient by the constant coefficient of another polynomial, which is not zero.
+    /// The quotient by the constant coefficient of another polynomial, which is nonzero.
     fn over_constant_of(&self, other: &Self) -> Self;
     /// The degree; `None` for zero.
     fn degree(&self) -> Option<usize>;
-    /// Quotient and remainder of the division by a polynomial that is not zero.
+    /// Quotient and remainder of the division by a nonzero polynomial.
     fn divide(&self, divisor: &Self) -> (Self, Self);
     /// A greatest common divisor.
     fn gcd(&self, other: &Self) -> Self;
-    /// A common divisor with all positive roots that both have.
+    /// A common divisor that has all common positive roots.
     fn common_factor(&self, other: &Self) -> Self {
         self.gcd(other)
     }
@@ -53,9 +53,9 @@ pub(super) trait RealPolynomial: Clone + Debug + 'static {
     fn leading_sign(&self) -> Ordering;
     /// The sign of the value at a rational point.
     fn sign_at(&self, point: &BigRational) -> Ordering;
-    /// The positive roots in ascending order, if they can be told apart; the polynomial is squarefree.
+    /// The positive roots in ascending order, if they can be separated; the polynomial is squarefree.
     fn positive_roots(&self) -> Option<Vec<Root>>;
-    /// An enclosure of a root with this number of binary places, whose width tends to zero as they grow.
+    /// An enclosure of a root with this number of binary places, whose width tends to zero as `bits` grows.
     fn enclose_root(&self, root: &Root, bits: u32) -> Interval;
     /// The square root of a positive root, if it is short.
     fn square_root_text(&self, root: &Root) -> Option<String>;
@@ -63,7 +63,7 @@ pub(super) trait RealPolynomial: Clone + Debug + 'static {
     fn coefficients(&self) -> Vec<Coefficient>;
     /// The quotient of the leading coefficients.
     fn leading_ratio(&self, other: &Self) -> Coefficient;
-    /// The bits beyond which enclosures of roots get no narrower; `None` where there are none.
+    /// The bits beyond which enclosures of roots do not get narrower; `None` if there is no such limit.
     fn finest_bits(&self) -> Option<u32> {
         None
     }
@@ -75,18 +75,18 @@ pub(super) trait RealPolynomial: Clone + Debug + 'static {
         self.degree().is_none()
     }
 
-    /// The remainder of the division by a polynomial that is not zero.
+    /// The remainder of the division by a nonzero polynomial.
     fn remainder(&self, divisor: &Self) -> Self {
         self.divide(divisor).1
     }
 
-    /// The quotient of a division without remainder by a polynomial that is 1 at zero. What it is where
-    /// there is a remainder is left open.
+    /// The quotient of an exact division by a polynomial that is 1 at zero. Unspecified if there is a
+    /// remainder.
     fn quotient_from_below(&self, divisor: &Self) -> Self {
         self.divide(divisor).0
     }
 
-    /// Whether a polynomial that is not zero divides this one.
+    /// Whether a nonzero polynomial divides this one.
     fn is_multiple_of(&self, divisor: &Self) -> bool {
         self.remainder(divisor).is_zero()
     }
@@ -174,7 +174,7 @@ impl RealPolynomial for Polynomial {
         Polynomial::sign_at(self, point)
     }
 
-    /// By enclosures, for which a few bits of long coefficients are enough.
+    /// Uses enclosures, for which a few bits of long coefficients are enough.
     fn positive_roots(&self) -> Option<Vec<Root>> {
         let enclosed = |bits| {
             let coefficients = self.numerators().iter().cloned();
@@ -187,7 +187,7 @@ impl RealPolynomial for Polynomial {
         let root = |interval: &Interval| {
             let [low, high] = [interval.low(), interval.high()].map(|end| self.sign_at(&end));
             match (low, high) {
-                // The lower end is that of another interval, or zero.
+                // The lower end belongs to another interval, or is zero.
                 (Ordering::Equal, _) => None,
                 (_, Ordering::Equal) => Some(Root::Rational(interval.high())),
                 (low, high) if low == high => None,
@@ -219,21 +219,21 @@ impl RealPolynomial for Polynomial {
     }
 }
 
-/// Bits of enclosures by which roots are told apart.
+/// Bits of the enclosures that separate roots.
 const PRECISIONS: [u32; 4] = [256, 1024, 4096, 16384];
 
-/// The positive roots of a polynomial some of whose roots lie very close to one another, if that takes little enough.
+/// The positive roots of a polynomial with some very close roots, if the cost is low enough.
 fn positive_roots_by_sturm(polynomial: &Polynomial) -> Option<Vec<Root>> {
     let coefficients = polynomial.numerators();
     let longest = coefficients.iter().map(BigInt::bits).max().unwrap_or(0);
-    // Those of the remainders are as long as a determinant.
+    // The coefficients of the remainders are as long as a determinant.
     let words = longest * coefficients.len() as u64 / 64;
     if words * coefficients.len() as u64 > MOST_WORDS {
         return None;
     }
     let positive = |root: &Root| match root {
         Root::Rational(value) => value.is_positive(),
-        // Zero would be a rational root, so enough places tell.
+        // A zero would be a rational root, so enough places determine the sign.
         Root::Irrational(interval) => (interval.bits()..)
             .find_map(|bits| enclose(polynomial, root, bits).sign())
             .is_some_and(Ordering::is_gt),
@@ -246,13 +246,13 @@ fn positive_roots_by_sturm(polynomial: &Polynomial) -> Option<Vec<Root>> {
     )
 }
 
-/// The words of all remainders in Sturm's sequence, beyond which it takes seconds.
+/// The words of all remainders in Sturm's sequence beyond which the search takes seconds.
 const MOST_WORDS: u64 = 1 << 13;
 
-/// Roots of longer polynomials are not searched for quadratic ones: factoring them takes longer than all
-/// the rest.
+/// Number of coefficients beyond which quadratic roots are not searched for: factoring would take longer than
+/// everything else.
 const LONGEST: usize = 12;
-/// Nor are those of polynomials with longer coefficients, in bits.
+/// Length of coefficients, in bits, beyond which quadratic roots are not searched for either.
 const LONGEST_COEFFICIENT: u64 = 1 << 13;
 
 /// The square root of a positive root that is rational or quadratic: `2*sqrt(2)`, `sqrt(5 - sqrt(5))`.
@@ -278,8 +278,8 @@ fn square_root_text(polynomial: &Polynomial, root: &Root) -> Option<String> {
             let half = (ratio(2, 1) * &a).recip();
             let centre = -b * &half;
             let extension = rationals.square_root(&Polynomial::constant(discriminant))?;
-            // The isolating interval holds one of the two roots, and so is on one side of the centre or
-            // the sign of the value there tells on which the root is.
+            // The isolating interval holds one of the two roots. Either it is on one side of the centre, or
+            // the sign of the value at the centre tells on which side the root is.
             let above = match (interval.low() >= centre, interval.high() <= centre) {
                 (true, _) => true,
                 (_, true) => false,
@@ -302,7 +302,7 @@ fn square_root_text(polynomial: &Polynomial, root: &Root) -> Option<String> {
     (text.len() <= SHORT).then_some(text)
 }
 
-/// The length of the longest exact forms that are called readable.
+/// Greatest length of an exact form that counts as readable.
 pub(super) const SHORT: usize = 40;
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use num_traits::{One, Zero};
 
 use crate::algebra::Field;
 
-/// `det(1 + xP)` and what it takes to compute `uᵀ adj(1 + xP) v`, for a square matrix `P` over a field.
+/// `det(1 + xP)` and the data to compute `uᵀ adj(1 + xP) v`, for a square matrix `P` over a field.
 ///
 /// Faddeev and Le Verrier: with `B_0 = 1`, `c_k = tr(P B_{k−1})/k` and `B_k = c_k − P B_{k−1}`,
 ///
@@ -13,16 +13,16 @@ use crate::algebra::Field;
 /// det(1 + xP) = Σ_{k≤s} c_k xᵏ      adj(1 + xP) = Σ_{k<s} B_k xᵏ
 /// ```
 ///
-/// and `B_s = 0` (Cayley–Hamilton). Both are identities of polynomials, so what follows from them is exact
-/// and no approximation. Nothing is divided by but whole numbers, so no element has to be told from zero.
+/// and `B_s = 0` (Cayley–Hamilton). Both are polynomial identities, so their consequences are exact,
+/// not approximations. The only divisors are integers, so no element has to be distinguished from zero.
 pub(super) struct Resolvent<'a, F: Field> {
     field: &'a F,
     matrix: Cleared<F>,
-    /// The `c_k` of the whole multiple of `P`.
+    /// The `c_k` of the integral multiple of `P`.
     determinant: Vec<F::Element>,
 }
 
-/// Elements multiplied by a common denominator, so that most arithmetic is with whole numbers.
+/// Elements multiplied by a common denominator, so that most arithmetic is with integers.
 struct Cleared<F: Field> {
     rows: Vec<Vec<F::Element>>,
     denominator: BigRational,
@@ -85,12 +85,12 @@ fn product<F: Field>(
 }
 
 impl<'a, F: Field> Resolvent<'a, F> {
-    /// That of the matrix `P`.
+    /// The resolvent of the matrix `P`.
     pub(super) fn new(field: &'a F, matrix: &[Vec<F::Element>]) -> Self {
         Resolvent::of_cleared(field, Cleared::new(field, matrix))
     }
 
-    /// That of the product `P = LR`.
+    /// The resolvent of the product `P = LR`.
     pub(super) fn of_product(
         field: &'a F,
         left: &[Vec<F::Element>],
@@ -107,7 +107,7 @@ impl<'a, F: Field> Resolvent<'a, F> {
     fn of_cleared(field: &'a F, matrix: Cleared<F>) -> Self {
         let size = matrix.rows.len();
         let mut determinant = vec![field.rational(&BigRational::one())];
-        // B_0 = 1, and P times that.
+        // B_0 = 1, and P B_0.
         let mut image = matrix.rows.clone();
         for k in 1..=size {
             let diagonal: Vec<_> = (0..size).map(|i| image[i][i].clone()).collect();
@@ -171,7 +171,7 @@ impl<'a, F: Field> Resolvent<'a, F> {
         scaled.collect()
     }
 
-    /// Coefficients for the matrix itself, from those for its whole multiple, divided by a number.
+    /// Coefficients for the matrix itself, from those for its integral multiple, divided by a number.
     fn scaled(&self, coefficients: &[F::Element], divisor: &BigRational) -> Vec<F::Element> {
         let mut factor = divisor.recip();
         let mut scaled = Vec::with_capacity(coefficients.len());

@@ -25,9 +25,9 @@ pub struct RungeKuttaStability {
     pub at_infinity: Option<Coefficient>,
     /// Whether `|R(z)| ≤ 1` for `Re z ≤ 0`.
     pub a_stable: bool,
-    /// Whether it is A-stable and `R(∞) = 0`.
+    /// Whether the method is A-stable and `R(∞) = 0`.
     pub l_stable: bool,
-    /// The largest `y` with `|R(iη)| ≤ 1` for `0 ≤ η ≤ y`, which belongs to the interval unless infinite.
+    /// The largest `y` with `|R(iη)| ≤ 1` for `0 ≤ η ≤ y`; the interval is closed at `y` unless infinite.
     pub imaginary: EndPoint,
 }
 
@@ -53,7 +53,7 @@ pub(super) fn parts<A: StageAlgebra>(pair: &Pair<A>) -> [Vec<Scalar<A>>; 2] {
     cascade::joined_functions(field, &steps.iter().map(part).collect::<Vec<_>>())
 }
 
-/// The same from the matrix for all stages.
+/// [`parts`] from the matrix of all stages.
 pub(super) fn parts_of_stages<F: Field>(
     field: &F,
     a: &[Vec<F::Element>],
@@ -72,7 +72,7 @@ pub(super) fn parts_of_stages<F: Field>(
     })
 }
 
-/// Decides everything from the polynomials of [`parts`], if that can be done.
+/// Decides everything from the polynomials of [`parts`]; `None` if roots cannot be separated.
 pub(super) fn decide<P: RealPolynomial>(
     denominator: &P,
     numerator: &P,
@@ -80,7 +80,7 @@ pub(super) fn decide<P: RealPolynomial>(
     let function = Fraction::new(&denominator.add(&numerator.shift()), denominator);
     let (p, q) = (&function.numerator, &function.denominator);
     // |Q(iy)|² − |P(iy)|² as a polynomial in y²: not negative where |R(iy)| ≤ 1. A pole on the axis makes
-    // it negative, for P does not vanish there.
+    // it negative, because P does not vanish there.
     let size = |p: &P| {
         let (real, imaginary) = p.on_imaginary_axis();
         real.multiply(&real)
@@ -99,7 +99,7 @@ pub(super) fn decide<P: RealPolynomial>(
         Ordering::Equal => Some(p.leading_ratio(q)),
         Ordering::Greater => None,
     };
-    // The maximum principle on the left half-plane: R is bounded by 1 there iff it is on its boundary and
+    // The maximum principle on the left half-plane: R is bounded by 1 there iff it is bounded by 1 on the boundary and
     // has no pole inside (Hairer & Wanner, Solving ODEs II, IV.3).
     let a_stable = first.is_none() && at_infinity.is_some() && roots_on_the_right(q);
     Some(RungeKuttaStability {

@@ -1,36 +1,36 @@
-//! What is found of the stable steps of a method, in bounded time.
+//! The stable steps of a method, computed in bounded time.
 
 use super::{Stability, StabilityInterval, evidence_text};
 use crate::evidence::Evidence;
 use crate::tableau::Tableau;
 
-/// Up to so many stages all stable steps are looked for: the real roots of polynomials of twice that degree take a second
-/// or two, with 82 stages several. [`Tableau::stability`] has no such bound.
+/// The largest number of stages for which all stable steps are computed. The real roots of polynomials of twice that degree take
+/// a second or two; with 82 stages they take several. [`Tableau::stability`] has no such bound.
 pub const MOST_STAGES: usize = 36;
 
-/// What is found of the stable steps of a method, in bounded time.
+/// The stable steps of a method, computed in bounded time.
 #[derive(Debug, Clone)]
 pub enum StableSteps {
-    /// All of them, of a method of at most [`MOST_STAGES`] stages.
+    /// All stable steps, for a method of at most [`MOST_STAGES`] stages.
     All(Box<Stability>),
     /// The [first interval](Tableau::first_stable_interval) of a longer method.
     First {
-        /// The interval, whose upper end is not stable, nor are the steps next to it.
+        /// The interval. Its upper end is not stable, nor are the steps just beyond it.
         interval: StabilityInterval,
-        /// How it is known.
+        /// The evidence.
         evidence: Evidence,
     },
-    /// Nothing: enclosures do not decide it.
+    /// Undecided: the enclosures are too wide.
     NotDecided {
         /// The bits of the enclosures.
         bits: u32,
     },
-    /// Nothing of a longer method that is not the same from both ends.
+    /// Not computed: the method has more stages and is not a palindromic splitting.
     NotComputed,
 }
 
 impl Tableau {
-    /// What is found of the stable steps in bounded time.
+    /// The stable steps, computed in bounded time.
     ///
     /// ```
     /// use symplectic_compiler::{catalogue, stability::StableSteps};
@@ -52,7 +52,7 @@ impl Tableau {
         let Some(interval) = self.first_stable_interval() else {
             return StableSteps::NotComputed;
         };
-        // Enclosures are of the method that is given, or proved to exist.
+        // Enclosures apply to the given method, or to one that is proved to exist.
         let given = self.given.as_ref();
         let evidence = given.map_or(Evidence::Proved, |given| given.evidence);
         StableSteps::First { interval, evidence }

@@ -1,4 +1,4 @@
-//! Methods whose stability is known, and the whole catalogue against floating-point arithmetic.
+//! Methods with known stability, and the whole catalogue against floating-point arithmetic.
 
 use std::sync::Arc;
 
@@ -109,7 +109,7 @@ fn explicit_runge_kutta_methods() {
         &["1/6", "2/3", "1/6"],
     );
     assert_eq!(rk.imaginary.exact(), Some("sqrt(3)"));
-    // Damped up to the end, and bounded there.
+    // Damped up to the end of the interval, and bounded there.
     assert_eq!(kutta.intervals_text(), "(0, sqrt(3)]");
     let (classical, rk) = runge_kutta(
         &[
@@ -143,7 +143,7 @@ fn implicit_runge_kutta_methods() {
         &["1/6", "2/3", "1/6"],
     );
     assert!(lobatto.l_stable && lobatto.imaginary.is_infinite());
-    // Of order 3 with γ = 1/6: bounded by 1 nowhere on the axis near 0, or with poles on the left.
+    // Of order 3 with γ = 1/6: nowhere bounded by 1 on the axis near 0, or with poles on the left.
     let (_, negative) = runge_kutta(&[&["-1/2"]], &["1"]);
     assert!(!negative.a_stable && !negative.imaginary.is_infinite());
     // R(z) = 1/(1 + z) is bounded on the axis by 1, and has a pole on the left.
@@ -251,7 +251,7 @@ fn methods_over_a_field() {
     assert!(stability.preserves_area && stability.dispersion.is_none());
 }
 
-/// The same by the arithmetic for any field, whether the polynomials are rational or not.
+/// Stability by the arithmetic for any field, whether the polynomials are rational or not.
 fn over_field<A: StageAlgebra + 'static>(pair: &Pair<A>) -> Stability {
     let make = |list: &Vec<Scalar<A>>| {
         FieldPolynomial::new(&pair.algebra, &Arc::new(Budget::unlimited()), list.clone())
@@ -293,7 +293,7 @@ fn both_kinds_of_polynomials_agree() {
     assert!(radau.a_stable && radau.l_stable);
 }
 
-/// Enough operations for the exact arithmetic, and too few.
+/// A budget with enough operations for the exact arithmetic, and one with too few.
 #[test]
 fn the_budget_decides_the_evidence_and_nothing_else() {
     for (basis, nodes) in [
@@ -323,7 +323,7 @@ fn the_budget_decides_the_evidence_and_nothing_else() {
         };
         assert_eq!(order(&exact), order(&limited));
     }
-    // Six stages with exponentials cost more than is spent.
+    // Six stages with exponentials exceed the budget.
     let basis = "1, exp(t), exp(2*t), exp(3*t), exp(-t), t";
     let tableau = crate::derive(basis, "0, 1/5, 2/5, 3/5, 4/5, 1").expect("derived");
     assert_eq!(tableau.tier(), crate::Tier::ConstantField);
@@ -336,7 +336,7 @@ fn the_budget_decides_the_evidence_and_nothing_else() {
 proptest::proptest! {
     #![proptest_config(proptest::prelude::ProptestConfig::with_cases(24))]
 
-    /// The step `1 − Kz` divides, and a rational number for `K`: the same set, however large or small `K` is.
+    /// A step divided by `1 − Kz`, with a rational number for `K`: the set is the same, however large or small `K` is.
     #[test]
     fn enclosures_do_not_depend_on_the_scale(n in 1i64..50, exponent in -400i32..400, second in -40i32..40) {
         let ten = ratio(10, 1);
@@ -397,16 +397,16 @@ fn a_number_whose_double_is_zero_is_not_zero() {
     assert_eq!(stability.intervals[0].high.decimal(9), "3.54490770e-200");
 }
 
-/// A pair that is not symplectic, with `det M = 1 − x²/4` and `tr M = 2 − x + x²/4`, and one whose step is not
-/// defined where the matrix is.
+/// A pair that is not symplectic, with `det M = 1 − x²/4` and `tr M = 2 − x + x²/4`, and a pair whose stages have no solution
+/// at a point where the matrix is defined.
 #[test]
 fn pairs_that_are_not_symplectic() {
-    // Two stages of Heun for q, of Heun for p.
+    // Two stages: Heun's method for both q and p.
     let (heun, _) = runge_kutta(&[&["0", "0"], &["1", "0"]], &["1/2", "1/2"]);
     // det = (1 − x/2)² + x = 1 + x²/4: unstable for all steps.
     assert_eq!(heun.determinant.to_string(), "(ν⁴ + 4)/4");
     assert!(heun.intervals.is_empty());
-    // Explicit for q, implicit for p with too small weights: damped.
+    // Explicit for q, implicit for p with weights that are too small: damped.
     let algebra = Arc::new(Dense::new(Rationals, 1));
     let damped = Pair {
         a: matrix(&[&["1"]]),
@@ -417,7 +417,7 @@ fn pairs_that_are_not_symplectic() {
     };
     let damped = Stability::of_pair(&damped);
     assert!(!damped.preserves_area && damped.p_stable, "{damped}");
-    // A second stage that no weight sees, and that has no solution at ν = 1.
+    // A second stage without weight that has no solution at ν = 1.
     let algebra = Arc::new(Dense::new(Rationals, 2));
     let unseen = Pair {
         a: matrix(&[&["1/2", "0"], &["0", "1"]]),
@@ -460,7 +460,7 @@ fn a_touching_trace_does_not_split_an_interval_if_the_matrix_is_scalar() {
     assert_eq!(error.coefficient.text, "1/96");
 }
 
-/// `M = ((1, 0), (−ν(1 − ν²/2), 1))`: the trace is 2 everywhere, and the powers are bounded where `M = 1` only.
+/// `M = ((1, 0), (−ν(1 − ν²/2), 1))`: the trace is 2 everywhere, and the powers are bounded only where `M = 1`.
 #[test]
 fn a_constant_trace_leaves_the_points_where_the_matrix_is_scalar() {
     let kick = Pair {
@@ -475,10 +475,10 @@ fn a_constant_trace_leaves_the_points_where_the_matrix_is_scalar() {
     assert_eq!(stability.intervals_text(), "[sqrt(2), sqrt(2)]");
 }
 
-/// The trace and the spectral radius of one step from the coefficients in floating-point arithmetic.
+/// The trace and the spectral radius of one step, computed from the coefficients in floating-point arithmetic.
 fn trace_and_radius(c: &Coefficients<f64>, nu: f64) -> (f64, f64) {
     let s = c.b.len();
-    // (1 + ν²AÃ) Q = q0 + νA1 p0 by elimination with pivots.
+    // (1 + ν²AÃ) Q = q0 + νA1 p0 by elimination with pivoting.
     let mut rows: Vec<Vec<f64>> = (0..s)
         .map(|i| {
             let mut row: Vec<f64> = (0..s)
@@ -526,7 +526,7 @@ fn trace_and_radius(c: &Coefficients<f64>, nu: f64) -> (f64, f64) {
 #[test]
 fn the_catalogue_agrees_with_floating_point_arithmetic() {
     let (mut inside, mut outside) = (0, 0);
-    // As far as files have it.
+    // The methods whose stable steps are in the catalogue files.
     let entries = catalogue::entries().filter(|entry| entry.stages <= MOST_STAGES);
     for entry in entries {
         let tableau = entry.derive().expect("derived");
@@ -553,7 +553,7 @@ fn the_catalogue_agrees_with_floating_point_arithmetic() {
             }
             let (trace, radius) = trace_and_radius(&coefficients, x);
             let stable = stability.contains(&nu);
-            // Close to a touching trace the radius is 1 up to the root of the rounding errors.
+            // Close to a touching trace the radius is 1 up to the square root of the round-off.
             assert_eq!(
                 stable,
                 radius < 1.0 + 1e-5,
@@ -566,7 +566,7 @@ fn the_catalogue_agrees_with_floating_point_arithmetic() {
             if tableau.stages() > 8 && exact.abs() > 1e6 {
                 continue;
             }
-            // With more than 30 stages doubles lose half of them.
+            // With more than 30 stages doubles lose half of their digits.
             let tolerance = if tableau.stages() > 30 { 1e-4 } else { 1e-6 };
             assert!(
                 (trace - exact).abs() < tolerance * exact.abs().max(1.0),
@@ -584,7 +584,7 @@ fn splitting(kick: &str, drift: &str) -> Stability {
     tableau.expect("derived").stability()
 }
 
-/// Half of a kick and of a drift is moved by so little that the first stable steps do not change in 12 digits.
+/// Half a kick and half a drift are moved so little that the first stable steps do not change in 12 digits.
 #[test]
 fn tiny_kicks_move_no_end_far() {
     let near = splitting("pi, 1 - pi", "e, 1 - e").intervals[0]
@@ -602,12 +602,12 @@ fn tiny_kicks_move_no_end_far() {
             "{tiny}"
         );
         assert_eq!(found.intervals[0].high.decimal(12), near, "{tiny}");
-        // The leading coefficient of the trace is not zero: there are stable steps at the other end of it.
+        // The leading coefficient of the trace is nonzero: there are also stable steps at the other end.
         assert_eq!(found.intervals.len(), 2, "{tiny}");
     }
 }
 
-/// A number of digits that no fast algorithm for greatest common divisors is needed for.
+/// Numbers of so few digits that greatest common divisors need no fast algorithm.
 #[test]
 fn many_digits_are_proved_in_bounded_time() {
     let digits = |seed: u64, count: usize| -> String {
@@ -633,7 +633,7 @@ fn many_digits_are_proved_in_bounded_time() {
     }
 }
 
-/// The work that decides where steps are stable is bounded; what is printed of it afterwards is right to any number of digits.
+/// The work that decides stability is bounded; the printed end points are still correct to any number of digits.
 #[test]
 fn more_digits_do_not_change_the_first_ones() {
     for name in ["forest-ruth-1990", "triple-jump-6", "exponential-lobatto-2"] {
@@ -648,7 +648,7 @@ fn more_digits_do_not_change_the_first_ones() {
     }
 }
 
-/// What is left of large numbers that cancel is not zero.
+/// The difference of large numbers that cancel is not zero.
 #[test]
 fn large_numbers_that_cancel_leave_something() {
     for size in ["exp(1000)", "exp(2000)", "(10^200)^2*pi"] {
@@ -659,7 +659,7 @@ fn large_numbers_that_cancel_leave_something() {
         let found = splitting("e, 1 - e", &format!("{size}, 1 - {size}"));
         assert!(!found.intervals.is_empty() || !found.is_decided(), "{size}");
     }
-    // Rows of 1/2: the midpoint rule.
+    // Rows with the sum 1/2: the midpoint rule.
     for size in ["exp(900)", "exp(1450)"] {
         let text = format!("a: [[{size}, 1/2 - {size}], [pi, 1/2 - pi]], b: [1/2, 1/2]");
         let definition = crate::Definition::parse(&text).expect("text");
@@ -674,7 +674,7 @@ fn large_numbers_that_cancel_leave_something() {
     }
 }
 
-/// A third of a step is moved by 5e-701, which is the difference of large numbers: two ends are not one.
+/// A third of a step is moved by 5e-701, which is the difference of large numbers: two end points stay distinct.
 #[test]
 fn numbers_that_are_small_by_cancellation_are_seen() {
     let tiny = "(sqrt((10^350)^4 + 1) - (10^350)^2)";

@@ -1,4 +1,4 @@
-//! Closed forms, and digits of other lists than those that were certified.
+//! Closed forms, and digits from lists other than the certified ones.
 
 use num_bigint::BigInt;
 
@@ -8,7 +8,7 @@ use crate::catalogue;
 use crate::certify::{Printed, certify_composition};
 use crate::definition::{Definition, Key};
 
-/// Some more digits than are compared.
+/// A few more digits than are compared.
 const DIGITS: u32 = 600;
 const COMPARED: usize = 500;
 
@@ -55,7 +55,7 @@ fn digits_are_those_of_the_closed_forms() {
     assert_digits(&found, Coefficient::Kick(0), &k);
 }
 
-/// The list of a method of the catalogue, mirrored, with its last item once.
+/// The list of a method of the catalogue, mirrored, with its last item only once.
 fn mirrored(name: &str, key: Key) -> Vec<String> {
     let entry = catalogue::find(name).expect(name);
     let definition = Definition::parse(&entry.definition).expect(name);

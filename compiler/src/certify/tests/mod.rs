@@ -1,4 +1,4 @@
-//! Certificates of methods from the literature, and the twins that have none.
+//! Certificates of methods from the literature, and negative twins without certificates.
 
 mod literature;
 mod published;
@@ -86,8 +86,8 @@ fn method(name: &str) -> Method {
     found.expect(name)
 }
 
-/// The residuals of the coefficients of a certificate in all conditions of a claim, of even degrees too and
-/// whatever structure was used.
+/// The residuals of the coefficients of a certificate in all conditions of a claim, including even degrees, for
+/// any structure.
 fn residuals(certificate: &Certificate, claim: &Claim, bits: u32) -> Vec<Interval> {
     let mut targets = Vec::new();
     let mut unknowns = Vec::new();

@@ -20,7 +20,7 @@ fn all_methods_are_certified() {
         assert!(satisfies(&found, &separable), "{name}");
         let next = Claim::Separable(method.separable_order + 1);
         assert!(!satisfies(&found, &next), "{name}");
-        // Residuals are sums of at most some hundred products with a few coefficients of size 3.
+        // Residuals are sums of at most a few hundred products with a few coefficients of size 3.
         let distance = to_f64(found.distance());
         assert!(
             method.residual <= 1e4 * distance + 1e-90,
@@ -47,10 +47,10 @@ fn digits_that_are_wrong_in_print_are_told() {
         let found = certify(&method.splitting(), &method.claim()).expect(name);
         found.wrong_digits().len()
     };
-    // Printed with 20 decimals, of which those beyond the 13th are wrong.
+    // Printed with 20 decimals, which are wrong beyond the 13th.
     assert!(wrong("Yoshida1990Order8C") > 20);
     assert!(wrong("Yoshida1990Order8D") > 20);
-    // The last of 20 decimals of two weights is not the rounded one: they are 5.7e-21 and 5.8e-21 off.
+    // The last of 20 decimals of two weights is not rounded correctly: they are 5.7e-21 and 5.8e-21 off.
     assert_eq!(wrong("Yoshida1990Order6A"), 3);
     for name in ["Suzuki1990", "Ruth1983", "StormerVerlet"] {
         assert_eq!(wrong(name), 0, "{name}");
@@ -70,14 +70,14 @@ fn what_looks_exact_in_print_stays_exact() {
     assert_eq!(fixed("McLachlan1995SS17"), one("drift[0]", "25/194"));
     assert_eq!(fixed("McLachlan1995S4"), one("drift[1]", "-1/22"));
     assert_eq!(fixed("McLachlan1995S5"), one("drift[1]", "-1/10"));
-    // The sum of the drifts leaves 6/11 for the other.
+    // The sum of the drifts leaves 6/11 for the other drift.
     let method = method("McLachlan1995S4");
     let found = certify(&method.splitting(), &method.claim()).expect("certified");
     let drift = found.enclose(Coefficient::Drift(0), 2000).expect("a drift");
     assert!(drift.contains(&ratio(6, 11)) && drift.width_bits() < -1990);
 }
 
-/// Störmer–Verlet, Ruth's fractions, and two methods with one decimal that may have any value.
+/// Störmer–Verlet, Ruth's fractions, and two methods with one free decimal.
 #[test]
 fn rational_methods_are_exact() {
     for name in [

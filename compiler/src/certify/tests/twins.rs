@@ -1,4 +1,4 @@
-//! Lists that are wrong, and what is said of them.
+//! Lists with errors, and the diagnoses of them.
 
 use num_traits::Signed;
 
@@ -23,7 +23,7 @@ fn near_one_millionth(distance: &BigRational) -> bool {
     (low..high).contains(&distance.abs())
 }
 
-/// One digit in the sixth place breaks the sum of the weights; the exact method behind is still found.
+/// A wrong digit in the sixth place breaks the sum of the weights; the exact method behind it is still found.
 #[test]
 fn one_wrong_digit_is_found() {
     for name in [
@@ -47,7 +47,7 @@ fn one_wrong_digit_is_found() {
     }
 }
 
-/// Two wrong digits which leave the sum as it is.
+/// Two wrong digits that leave the sum unchanged.
 #[test]
 fn wrong_digits_with_the_right_sum_are_found() {
     for (name, other) in [

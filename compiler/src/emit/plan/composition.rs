@@ -1,4 +1,4 @@
-//! Steps of other methods one after another, each with stages of its own.
+//! Compositions of different methods, each with its own stages.
 
 use num_rational::BigRational;
 use proc_macro2::{Ident, TokenStream};
@@ -22,7 +22,7 @@ pub(super) struct Composed<'a> {
 }
 
 impl Composed<'_> {
-    /// The plans of the methods, and the list of the substeps, a type of this name.
+    /// The plans of the methods, and the list of the substeps as a type of this name.
     pub(super) fn code(&self, name: &Ident) -> TokenStream {
         let count = self.methods.len();
         let names: Vec<Ident> = (1..=count).map(|k| format_ident!("{name}{k}")).collect();
@@ -34,7 +34,7 @@ impl Composed<'_> {
         let names: Vec<&TokenStream> = plans.iter().map(|plan| &plan.name).collect();
         let codes = plans.iter().map(|plan| &plan.code);
         let class = class_name(self.class);
-        // Pairs of memories of pairs.
+        // Memories as nested pairs.
         let memory = names.iter().rev().fold(TokenStream::new(), |rest, plan| {
             let own = quote!(<#plan as ::symplectic::emitted::Plan>::Memory<V, S, N>);
             if rest.is_empty() {
@@ -54,7 +54,7 @@ impl Composed<'_> {
                 let own = steps.filter(move |(_, step)| step.method == method);
                 own.map(|(number, _)| literal::count(number))
             };
-            // The last plan takes what is left.
+            // The last plan is the default arm.
             let arms = (0..count).map(|method| {
                 let call = call(names[method], place(method));
                 if method + 1 == count {
@@ -130,7 +130,7 @@ impl Composed<'_> {
         let coefficient = |real: &Real| literal::coefficient(&Reals.number(real));
         let mut start = Real::rational(BigRational::default());
         let mut stages = 0;
-        // The last one of the step before comes before the first.
+        // Before the first substep comes the last one of the previous step.
         let mut before = self.substeps.last();
         let mut list = Vec::new();
         for substep in self.substeps {

@@ -1,4 +1,4 @@
-//! How the linear systems of a Newton iteration fall apart.
+//! How the linear systems of a Newton iteration decouple.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -11,10 +11,10 @@ use crate::arithmetic::fixed::Fixed;
 use crate::arithmetic::rounding::to_f64;
 use crate::schedule::{Class, StageValue, StepGraph};
 
-/// Binary places of the coefficients, as they have been enclosed to round them.
+/// Binary places of the coefficients: those of the enclosures that round them.
 const BITS: u32 = 192;
 
-/// The `DECOUPLING` of a `StageTableau`; nothing where there is none.
+/// The `DECOUPLING` constant of a `StageTableau`; empty if the systems do not decouple.
 pub(super) fn code(graph: &StepGraph<'_>, known: &Known) -> TokenStream {
     let Some(blocks) = blocks(graph, known) else {
         return TokenStream::new();
@@ -42,12 +42,12 @@ pub(super) fn code(graph: &StepGraph<'_>, known: &Known) -> TokenStream {
     }
 }
 
-/// The transformation of the stage matrix, which takes velocities to velocities: `Ã A` for a separable system, and
+/// The diagonal blocks of the stage matrix that maps velocities to velocities: `Ã A` for a separable system, and
 /// `A = Ã` for a general one.
 fn blocks(graph: &StepGraph<'_>, known: &Known) -> Option<Blocks> {
     let positions: Vec<usize> = graph.forces.iter().filter_map(|e| e.position).collect();
     let momenta: Vec<usize> = graph.velocities.iter().filter_map(|e| e.momentum).collect();
-    // So that the eigenvalues are about 1: those of A are about 1/(2s).
+    // Scaled to eigenvalues of about 1: those of A are about 1/(2s).
     let scale = Fixed::integer(2 * momenta.len() as i64);
     let rows = |values: &[StageValue<'_>], indices: &[usize]| -> Rows {
         let entry = |number: &Number<'_>| {
@@ -101,7 +101,7 @@ mod tests {
                 let blocks = blocks(&graph, &known);
                 assert_eq!(blocks.is_some(), expected, "{name} {class:?}");
                 let Some(blocks) = blocks else { continue };
-                // Of an even number of stages, all eigenvalues of a Gauss method are complex.
+                // With an even number of stages, all eigenvalues of a Gauss method are complex.
                 if name.starts_with("gauss") {
                     let stages = tableau.stages();
                     assert_eq!(blocks.values.len(), stages.div_ceil(2), "{name}");

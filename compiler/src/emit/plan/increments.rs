@@ -1,4 +1,4 @@
-//! What the evaluations of a step are multiplied by, and when.
+//! The factors of the evaluations of a step, and when they are applied.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -9,7 +9,7 @@ use crate::algebra::Number;
 use crate::schedule::{Evaluation, Node, StepGraph};
 use symplectic_rounding::Relative;
 
-/// The form of the sums that stages are.
+/// The form of the sums that give the stages.
 #[derive(Debug)]
 pub(super) enum Form {
     /// `Q_i = q0 + Σ_j μ_ij (h b_j velocity_j)`: every evaluation becomes an increment as soon as it is made, and the
@@ -20,13 +20,13 @@ pub(super) enum Form {
 }
 
 impl Form {
-    /// Increments where it can be.
+    /// The form with increments, if the method admits it.
     pub(super) fn new(graph: &StepGraph<'_>, known: &Known) -> Self {
         Relative::new(graph, known).map_or(Form::Weighted, Form::Increments)
     }
 
-    /// The factors and terms of a stage value as two arguments: `factors, [terms]`. Those terms that a sweep has `evaluated` may be
-    /// no increments yet.
+    /// The factors and terms of a stage value as two arguments: `factors, [terms]`. Terms `evaluated` in the sweeps may not have been
+    /// multiplied by their weights yet.
     pub(super) fn sum(
         &self,
         graph: &StepGraph<'_>,
@@ -47,7 +47,7 @@ impl Form {
                 };
                 let row = nonzero.iter().map(|&j| literal::rounded(row[j]));
                 if nonzero.iter().any(|&j| evaluated(term(j))) {
-                    // What came before the sweeps is an increment already.
+                    // Evaluations made before the sweeps are increments already.
                     let weights = nonzero.iter().map(|&j| match evaluated(term(j)) {
                         true => weight_slot(term(j)),
                         false => {
@@ -64,12 +64,12 @@ impl Form {
         quote!(#factors, [#(&#slots),*])
     }
 
-    /// What makes an increment of an evaluation that has just been written into its place; nothing in the other form.
+    /// The line that scales an evaluation, just written to its place, to an increment; empty in the other form.
     pub(super) fn increment(&self, evaluation: &Evaluation<'_>, node: Node) -> TokenStream {
         self.scaled(evaluation, node, &quote!(::symplectic::emitted::scale))
     }
 
-    /// [`increment`](Self::increment) in a sweep, where it may be left for later.
+    /// [`increment`](Self::increment) in a sweep, where it may be postponed.
     pub(super) fn increment_in_sweep(
         &self,
         evaluation: &Evaluation<'_>,
@@ -97,7 +97,7 @@ impl Form {
         }
     }
 
-    /// The weights that make increments of all evaluations of a kind, under the name that [`sum`](Self::sum) has for them; nothing
+    /// The weights that scale all evaluations of a kind to increments, under the name that [`sum`](Self::sum) uses; empty
     /// in the other form.
     pub(super) fn weights(&self, evaluations: &[Evaluation<'_>], kind: Node) -> TokenStream {
         match self {
@@ -112,7 +112,7 @@ impl Form {
         }
     }
 
-    /// The result of the step, written to `out`: from the start and those of the evaluations that are `included`.
+    /// The result of the step, written to `out`: the start plus the evaluations that are `included`.
     pub(super) fn total(
         &self,
         evaluations: &[Evaluation<'_>],
@@ -139,7 +139,7 @@ impl Form {
         }
     }
 
-    /// The line that adds one evaluation, as it is, to the result of the step.
+    /// The line that adds one evaluation, unscaled, to the result of the step.
     pub(super) fn late(evaluation: &Evaluation<'_>, node: Node) -> TokenStream {
         let out = match node {
             Node::Force(_) => quote!(p1, p1_low),

@@ -1,4 +1,4 @@
-//! Coupled stages all together, as the matrices of a `StageTableau`.
+//! Coupled stages as the matrices of a `StageTableau`.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -10,7 +10,7 @@ use super::nystrom::SecondOrder;
 use super::{decoupling, index, literal, predictor};
 use crate::schedule::{Evaluation, Node, StepGraph};
 
-/// How many stages go side by side.
+/// How many stages go into SIMD lanes.
 struct Lanes {
     name: &'static str,
     groups: usize,
@@ -18,7 +18,7 @@ struct Lanes {
 }
 
 impl Lanes {
-    /// For the larger number of evaluations of a kind.
+    /// Lanes for the larger of the numbers of forces and velocities.
     fn new(graph: &StepGraph<'_>) -> Self {
         let most = graph.forces.len().max(graph.velocities.len());
         let (name, width) = match most {
@@ -34,14 +34,14 @@ impl Lanes {
         }
     }
 
-    /// A value for each lane; that of the last stage is repeated to fill them.
+    /// A value for each lane; the value of the last stage is repeated to fill the lanes.
     fn fill(&self, count: usize, value: impl Fn(usize) -> f64) -> Vec<f64> {
         let lanes = 0..self.groups * self.width;
         lanes.map(|i| value(i.min(count - 1))).collect()
     }
 }
 
-/// The stages of one kind from the evaluations of another, with lanes for the stages.
+/// The stages of one kind from the evaluations of the other, with lanes for the stages.
 #[derive(Debug, PartialEq)]
 pub(in super::super) struct HalfTableau {
     count: usize,
@@ -49,7 +49,7 @@ pub(in super::super) struct HalfTableau {
     columns: Vec<Vec<f64>>,
     times: Vec<f64>,
     weights: Vec<f64>,
-    /// The columns of the matrix that takes the own evaluations to the next step.
+    /// The columns of the matrix that maps this half's evaluations to those of the next step.
     extrapolation: Vec<Vec<f64>>,
     polynomial: Option<Extension>,
 }
@@ -85,7 +85,7 @@ impl HalfTableau {
     }
 }
 
-/// What the matrices are computed from.
+/// The data that the matrices are computed from.
 pub(super) struct Matrices<'m, 'g, 'n, 'a> {
     pub(super) graph: &'m StepGraph<'g>,
     pub(super) form: &'m Form,
@@ -94,8 +94,8 @@ pub(super) struct Matrices<'m, 'g, 'n, 'a> {
 }
 
 impl Matrices<'_, '_, '_, '_> {
-    /// The implementation of `StageTableau` for the plan of a step, a type of this name, in the memory of which the
-    /// `carried` evaluations are as they are.
+    /// The implementation of `StageTableau` for the plan of a step, a type of this name. Its memory keeps the
+    /// `carried` evaluations unscaled.
     pub(super) fn code(&self, name: &Ident, carried: &[Node]) -> TokenStream {
         let lanes = Lanes::new(self.graph);
         let [positions, momenta] = self.halves(&lanes);
@@ -193,7 +193,7 @@ impl Matrices<'_, '_, '_, '_> {
         ]
     }
 
-    /// The half with these evaluations at its stages, the kind of which is that of a node.
+    /// The half with these evaluations at its stages; a node gives the kind of the stages.
     fn half(
         &self,
         lanes: &Lanes,
@@ -222,7 +222,7 @@ impl Matrices<'_, '_, '_, '_> {
         }
     }
 
-    /// The coefficients of a step of a second-order system, where there are some: of symplectic methods.
+    /// The coefficients of a step of a second-order system; only symplectic methods have them.
     fn second_order(&self, lanes: &Lanes) -> TokenStream {
         let coefficients = self.increments().then(|| SecondOrder::new(self.graph));
         let Some(SecondOrder { nodes, matrix }) = coefficients.flatten() else {

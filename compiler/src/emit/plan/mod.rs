@@ -25,20 +25,20 @@ pub(super) use matrices::HalfTableau;
 use splitting::Chain;
 use stages::Stored;
 
-/// What the functions of a plan consist of.
+/// The function bodies of a plan.
 struct Bodies {
-    /// Whether stages are solved for.
+    /// Whether the stages are coupled.
     coupling: &'static str,
     /// The type of the memory.
     stages: TokenStream,
     begin: TokenStream,
     sweep: TokenStream,
-    /// What comes after the last sweep where sums are plain, if anything.
+    /// The code after the last sweep if sums are plain (not compensated), if any.
     increments: Option<TokenStream>,
     finish: TokenStream,
     /// Evaluations in `begin`, for starting values, in a sweep and in `finish`.
     counts: [usize; 4],
-    /// How many of them the step before has made already.
+    /// How many of the evaluations in `begin` the previous step has made already.
     carried: usize,
 }
 
@@ -46,11 +46,11 @@ struct Bodies {
 pub(super) struct Plan {
     /// Its type.
     pub(super) name: TokenStream,
-    /// The code that the type is from.
+    /// The code that defines the type.
     pub(super) code: TokenStream,
 }
 
-/// The plans of a method, under these names. Where the stages of a composition are solved for, it is taken step by step: by
+/// The plans of a method, under these names. A composition with coupled stages is taken substep by substep: by
 /// its methods and substeps.
 pub(super) fn plans(
     tableau: &Tableau,
@@ -95,8 +95,8 @@ fn class_name(class: Class) -> Ident {
     })
 }
 
-/// A plan of stages: a type of this name and its implementation of `StagePlan`. Without polynomials there are no values
-/// inside its steps.
+/// A plan of stages: a type of this name and its implementation of `StagePlan`. Without polynomials there is no dense
+/// output.
 fn of_stages(
     graph: &StepGraph<'_>,
     name: &Ident,
@@ -206,7 +206,7 @@ fn start(node: Node) -> TokenStream {
     }
 }
 
-/// The start of the step and what it leaves out, as two arguments.
+/// The start of the step and its compensation, as two arguments.
 fn base(node: Node) -> TokenStream {
     match node {
         Node::Momentum(_) | Node::Force(_) => quote!(step.p, step.p_low),
@@ -214,7 +214,7 @@ fn base(node: Node) -> TokenStream {
     }
 }
 
-/// The evaluations that a stage value is a sum of.
+/// The evaluations whose sum gives a stage value.
 fn terms_of(node: Node) -> fn(usize) -> Node {
     match node {
         Node::Momentum(_) => Node::Force,

@@ -1,4 +1,4 @@
-//! Splittings: each evaluation is applied to the state as soon as it is made, so that no stage is stored.
+//! Splittings: each evaluation is applied to the state immediately, so that no stage is stored.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -19,9 +19,9 @@ impl<'g, 'a> Chain<'g, 'a> {
         Some(Chain { graph, evaluations })
     }
 
-    /// The plan, a type of this name.
+    /// The plan as a type of this name.
     pub(super) fn plan(&self, name: &Ident) -> Plan {
-        // The first evaluation, if any: it is left in its place by the last one of its kind.
+        // The first evaluation, if any, is carried over: the last one of its kind leaves it in its place.
         let carried = Phases::new(self.graph).carried().len();
         let lines = self.evaluations.iter().enumerate();
         let lines = lines.map(|(number, &node)| self.line(node, number == 0 && carried > 0));
@@ -66,7 +66,7 @@ impl<'g, 'a> Chain<'g, 'a> {
         }
     }
 
-    /// An evaluation, unless it is `carried`, and what it does to the state.
+    /// An evaluation, unless it is `carried`, and its update of the state.
     fn line(&self, node: Node, carried: bool) -> TokenStream {
         let evaluation = self.graph.evaluation(node);
         let time = literal::coefficient(&evaluation.time);

@@ -1,4 +1,4 @@
-//! Steps in which the stages are stored: explicit ones that are no splitting, and coupled ones.
+//! Steps whose stages are stored: coupled ones, and explicit ones that are not splittings.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -16,7 +16,7 @@ pub(super) struct Stored<'g, 'a> {
     form: Form,
     known: &'g Known,
     phases: Phases<'g, 'a>,
-    /// Evaluations at the start of the step that are the same as one at the end of the step before.
+    /// Evaluations at the start of the step that equal one at the end of the previous step.
     carried: Vec<(Node, Node)>,
 }
 
@@ -67,7 +67,7 @@ impl<'g, 'a> Stored<'g, 'a> {
         }
     }
 
-    /// The stages all together, as matrices of the type of this name, where they are coupled.
+    /// All stages as the matrices of the type of this name, if they are coupled.
     pub(super) fn matrices(
         &self,
         name: &Ident,
@@ -102,8 +102,8 @@ impl<'g, 'a> Stored<'g, 'a> {
         quote!(#(#explicit)* #start)
     }
 
-    /// Starting values from the start of the step alone: one velocity for all, the positions that follow from it, and the
-    /// other coupled stages there.
+    /// Starting approximations from the start of the step alone: one velocity for all stages, the positions that follow from it,
+    /// and the other coupled stages there.
     fn initial(&self) -> TokenStream {
         let momenta = self.coupled_of_kind(Node::Momentum(0)).into_iter();
         let momenta = momenta.filter(|&node| {
@@ -126,8 +126,8 @@ impl<'g, 'a> Stored<'g, 'a> {
         quote!(#(#momenta)* #evaluate #copies #(#increments)* #positions)
     }
 
-    /// Starting values from the increments that the step before has left: those of the velocities and, where forces see
-    /// the momenta, those of the forces too. `None` where there are none to be had.
+    /// Starting approximations from the increments of the previous step: those of the velocities and, if forces depend on
+    /// the momenta, those of the forces too. `None` if there is no extrapolation.
     fn extrapolated(&self) -> Option<TokenStream> {
         let Form::Increments(_) = self.form else {
             return None;
@@ -142,14 +142,14 @@ impl<'g, 'a> Stored<'g, 'a> {
         Some(quote!(#velocities #positions #forces #momenta))
     }
 
-    /// The lines that compute the coupled stages of one kind from the evaluations that there are.
+    /// The lines that compute the coupled stages of one kind from the current evaluations.
     fn stages_of_kind(&self, kind: Node) -> TokenStream {
         let nodes = self.coupled_of_kind(kind);
         let lines = nodes.iter().map(|&node| self.compute(node));
         quote!(#(#lines)*)
     }
 
-    /// The line that takes the increments of one kind to the next step.
+    /// The line that extrapolates the increments of one kind to the next step.
     fn transform(&self, kind: Node) -> Option<TokenStream> {
         let nodes = self.coupled_of_kind(kind);
         if nodes.is_empty() {
@@ -170,8 +170,8 @@ impl<'g, 'a> Stored<'g, 'a> {
         if self.phases.coupled.is_empty() {
             return quote!(::symplectic::emitted::StageChange::default());
         }
-        // Each kind sees the newest of the kind before it, which converges in fewer sweeps than all
-        // stage values from all old evaluations. The positions come last: how much they change says what
+        // Each kind uses the newest values of the previous kind (Gauss–Seidel), which converges in fewer sweeps than
+        // computing all stage values from old evaluations. The positions come last: their change measures what
         // the next sweep would gain.
         let rank = |node: &Node| match node {
             Node::Force(_) => 0,
@@ -213,7 +213,7 @@ impl<'g, 'a> Stored<'g, 'a> {
         }
     }
 
-    /// What makes increments of the evaluations of sweeps.
+    /// The lines that scale the evaluations of sweeps to increments.
     fn increments(&self) -> TokenStream {
         let nodes = self.phases.coupled.iter().copied();
         let lines = nodes.filter(|&node| self.is_swept(node));
@@ -221,7 +221,7 @@ impl<'g, 'a> Stored<'g, 'a> {
         quote!(#(#lines)*)
     }
 
-    /// Whether a node is an evaluation that sweeps make, and an increment in the end.
+    /// Whether a node is an evaluation that sweeps make and that becomes an increment at the end.
     fn is_swept(&self, node: Node) -> bool {
         let evaluation = self.graph.value(node).is_none();
         evaluation && self.phases.coupled.contains(&node) && !self.is_kept(node)
@@ -229,7 +229,7 @@ impl<'g, 'a> Stored<'g, 'a> {
 
     fn finish(&self) -> TokenStream {
         let mut lines: Vec<TokenStream> = Vec::new();
-        // A stage that is the result is computed as the result, once.
+        // A stage that equals the result is computed as the result, once.
         for &node in &self.phases.finish {
             lines.push(if self.phases.is_aliased(node) {
                 self.result(node)
@@ -287,7 +287,7 @@ impl<'g, 'a> Stored<'g, 'a> {
         let q = argument(evaluation.position, Node::Position);
         let p = argument(evaluation.momentum, Node::Momentum);
         if let Some(&(_, last)) = self.carried.iter().find(|(first, _)| *first == node) {
-            // It stays where the step before has left it, and its increment goes to its own place.
+            // The evaluation stays where the previous step left it, and its increment goes to its own place.
             let evaluate = self.evaluate_into(node, last, &q, &p);
             let array = evaluation_name(node);
             let [from, to] = [last, node].map(|node| literal::count(index(node)));
@@ -310,7 +310,7 @@ impl<'g, 'a> Stored<'g, 'a> {
         self.evaluate_into(node, node, q, p)
     }
 
-    /// The line that writes an evaluation into the place of another one of its kind.
+    /// The line that writes an evaluation into the place of another evaluation of its kind.
     fn evaluate_into(
         &self,
         node: Node,
@@ -338,7 +338,7 @@ impl<'g, 'a> Stored<'g, 'a> {
         }
     }
 
-    /// Whether an evaluation stays as it is, for the next step.
+    /// Whether an evaluation is kept unscaled for the next step.
     fn is_kept(&self, node: Node) -> bool {
         self.carried.iter().any(|(_, last)| *last == node)
     }

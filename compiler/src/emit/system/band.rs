@@ -11,7 +11,7 @@ use crate::formula::distance::{Distance, distance};
 use crate::formula::graph::Coordinate;
 
 impl Emitter<'_> {
-    /// The method `half_bandwidth` for second derivatives in these rows and columns; nothing if one of them can be anywhere.
+    /// The method `half_bandwidth` for second derivatives in these rows and columns; empty if an entry can be anywhere.
     pub(super) fn half_bandwidth<'p>(
         &self,
         places: impl Iterator<Item = [&'p Coordinate; 2]>,

@@ -1,4 +1,4 @@
-//! Operations as statements of Rust, in loops.
+//! Operations as Rust statements, in loops.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -12,22 +12,22 @@ use crate::formula::graph::{Base, LoopId, LoopRange};
 use crate::formula::operations::{Op, Operation, Operations};
 use crate::formula::syntax::Length;
 
-/// What is done with a value.
+/// A statement that uses a value.
 pub type Statement = Box<dyn Fn(&TokenStream) -> TokenStream>;
 
-/// A statement with a value in it, in some loops.
+/// A statement with a value in it, inside loops.
 pub struct Task {
-    /// The loops in which it stands, the outer ones first.
+    /// The loops around the statement, outermost first.
     pub loops: Vec<LoopId>,
     /// The value.
     pub value: Op,
-    /// What is done with it.
+    /// The statement for the value.
     pub write: Statement,
-    /// Whether a double is meant, whatever the scalar.
+    /// Whether the value is a double, whatever the scalar.
     pub fixed: bool,
 }
 
-/// An expression, and how strongly it holds together.
+/// An expression and its precedence.
 #[derive(Clone)]
 pub(super) struct Written {
     pub(super) tokens: TokenStream,
@@ -44,40 +44,40 @@ pub(super) enum Strength {
     Atom,
 }
 
-/// Names of the generated code.
+/// A writer of statements, with the names of the generated code.
 pub struct Writer<'a> {
     pub(super) system: &'a System,
     pub(super) operations: &'a Operations<'a>,
     /// The scalar.
     pub(super) scalar: Ident,
-    /// What names of values begin with.
+    /// Prefix of the names of values.
     pub(super) prefix: String,
-    /// How many names there are.
+    /// Number of names so far.
     pub(super) names: usize,
-    /// What is done where a pair is outside.
+    /// The code for a pair that is out of range.
     pub(super) outside: TokenStream,
-    /// What every coordinate is, in a function of one.
+    /// The argument that stands for every coordinate, in a function of one coordinate.
     pub(super) argument: Option<TokenStream>,
 }
 
-/// What is known in a block.
+/// The names known in a block.
 #[derive(Clone, Default)]
 pub(super) struct Scope {
     pub(super) bound: u64,
     pub(super) names: HashMap<Op, Written>,
 }
 
-/// The work of one block.
+/// The work of one block: its operations and statements.
 pub(super) struct Block {
     pub(super) scope: Scope,
     pub(super) statements: TokenStream,
-    /// How often results are used; those needed in inner blocks more than once.
+    /// How often each result is used; a result needed in inner blocks counts more than once.
     pub(super) uses: HashMap<Op, usize>,
     /// Operations of this block.
     pub(super) here: BTreeSet<Op>,
-    /// When their totals are there.
+    /// The phase at which the totals of each operation are available.
     pub(super) phases: HashMap<Op, usize>,
-    /// Sines and cosines that are made together.
+    /// Sines and cosines that are computed together.
     pub(super) angles: BTreeMap<(usize, usize), Vec<Op>>,
     pub(super) turns: HashMap<Op, (usize, usize)>,
 }
@@ -108,7 +108,7 @@ impl<'a> Writer<'a> {
         self.block(&Scope::default(), tasks)
     }
 
-    /// The statements of a task in which there is one coordinate, in a loop perhaps.
+    /// The statements of a task with one coordinate, possibly in a loop.
     pub fn function(
         &mut self,
         task: Task,
@@ -157,7 +157,7 @@ impl<'a> Writer<'a> {
                 } else {
                     quote!(#scalar::zero())
                 };
-                // Before all loops: what is summed there is not read sooner.
+                // Before all loops: the sum is read only after its loop.
                 block.statements.extend(quote!(let mut #name = #zero;));
                 let phase = block.phases[&op] - 1;
                 let sum = name.clone();
@@ -209,7 +209,7 @@ impl<'a> Writer<'a> {
             LoopRange::Between(start, end) => {
                 let start = index_tokens(start);
                 let end = match (&end.base, end.offset) {
-                    // None are there, where there are none.
+                    // The range is empty if the length is less than this.
                     (Base::End(length), ..0) => {
                         let length = length_tokens(length);
                         let less = Literal::usize_unsuffixed(end.offset.unsigned_abs() as usize);
@@ -278,7 +278,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// The totals of a block one after the other, and its sines.
+    /// Orders the totals of a block, and its sines.
     fn order(&self, block: &mut Block) {
         let here: Vec<Op> = block.here.iter().copied().collect();
         let mut levels: HashMap<Op, usize> = HashMap::new();
@@ -316,7 +316,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// The phase in which everything is there that an operation of an inner block needs from this one.
+    /// The phase after which everything is available that an operation of an inner block needs from this block.
     fn phase_below(&self, block: &Block, op: Op) -> usize {
         let mut seen = BTreeSet::new();
         let mut open = vec![op];

@@ -14,7 +14,7 @@ use crate::formula::syntax::Ends;
 use crate::formula::{Parameter, Shape};
 
 impl Emitter<'_> {
-    /// A chain: what the runtime asks of its bonds.
+    /// A chain: the functions of its bonds that the runtime calls.
     pub(super) fn chain(&mut self, parts: &ChainParts) -> TokenStream {
         let name = self.header.name.clone();
         let [generics, parameters, arguments] = self.generics();

@@ -1,4 +1,4 @@
-//! Constraints with their gradients or rows, and friction: methods of `Hamiltonian`.
+//! Constraints with their gradients or rows, and friction, as methods of `Hamiltonian`.
 
 use num_traits::One;
 use proc_macro2::{Literal, TokenStream};
@@ -13,7 +13,7 @@ use crate::formula::graph::{Half, Id, LoopId, LoopRange, Number};
 use crate::formula::operations::Operations;
 
 impl Emitter<'_> {
-    /// The methods that say what the constraints are, or the friction; nothing where there are neither.
+    /// The methods that give the constraints or the friction; empty if there are neither.
     pub(super) fn beside_energy(&mut self) -> TokenStream {
         let friction = self.friction();
         let constraints = self.constraints();
@@ -178,7 +178,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// Where the numbers of each family begin, and the number of all.
+    /// The first index of each family of constraints, and the total number.
     fn starts(&self, constraints: &[Constraint]) -> Vec<TokenStream> {
         let mut starts = vec![quote!(0)];
         for constraint in constraints {
@@ -218,7 +218,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// The number of a constraint of a family, in the loop of its indices.
+    /// The index of a constraint of a family, in the loop of the family's indices.
     fn number(&self, constraint: &Constraint, start: &TokenStream, part: usize) -> TokenStream {
         let mut terms = Vec::new();
         if start.to_string() != "0" {

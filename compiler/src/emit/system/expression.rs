@@ -1,4 +1,4 @@
-//! Operations as expressions of Rust, and the statements before them.
+//! Operations as Rust expressions, and the statements before them.
 
 use std::collections::BTreeSet;
 
@@ -26,7 +26,7 @@ impl Writer<'_> {
             self.turns(block, turn);
             return block.scope.names[&op].clone();
         }
-        // Long chains of operations are gone through from their beginning.
+        // Long chains of operations are written from their beginning.
         self.prepare(block, op);
         let written = self.expression(block, op);
         let leaf = self.operations.get(op).is_leaf();
@@ -95,7 +95,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Sines and cosines of all angles of a turn.
+    /// The sines and cosines of all angles of a group that is computed together.
     pub(super) fn turns(&mut self, block: &mut Block, turn: (usize, usize)) {
         let angles = block.angles.get(&turn).cloned().unwrap_or_default();
         let mut names = Vec::new();
@@ -148,7 +148,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A double as a number of the scalar.
+    /// A double, converted to the scalar.
     pub(super) fn free(&self, written: Written) -> Written {
         if !written.fixed {
             return written;
@@ -258,7 +258,7 @@ impl Writer<'_> {
                 let a = self.require(block, a).tokens;
                 (quote!(#name(#a)), Strength::Atom)
             }
-            // It has a name.
+            // A total has a name already.
             Operation::Total(..) => (quote!(), Strength::Atom),
         };
         Written {
@@ -322,7 +322,7 @@ impl Writer<'_> {
     }
 }
 
-/// Deepest nesting of an expression in the code.
+/// Greatest nesting depth of an expression in the code.
 const MOST_DEPTH: usize = 32;
 
 fn at_least(written: &Written, strength: Strength) -> TokenStream {

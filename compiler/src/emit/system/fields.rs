@@ -29,7 +29,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// The type, what makes one, and the default.
+    /// The type, its constructor, and the default.
     pub(super) fn fields(&self) -> TokenStream {
         let Header {
             attributes,

@@ -13,11 +13,11 @@ use crate::formula::graph::{Coordinate, Half, Id, LoopId, Node, Number};
 use crate::formula::operations::Operations;
 use crate::formula::structure::Split;
 
-/// Most second derivatives that are written out. With more, a Jacobian is left to dual numbers and differences.
+/// Greatest number of second derivatives that are written out. With more, the Jacobian is left to dual numbers and differences.
 const MOST_PARTS: usize = 2_000;
 
 impl Emitter<'_> {
-    /// The second derivatives and how far from the diagonal they are, for Newton's iteration: methods of the trait.
+    /// The second derivatives and their bandwidth, for Newton's iteration: methods of the trait.
     pub(super) fn jacobian(&mut self, split: Option<Split>) -> TokenStream {
         let scalar = self.scalar.clone();
         let over = self.vector(&quote!(#scalar));
@@ -111,7 +111,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// The number of a component among all.
+    /// The index of a component in the whole vector.
     pub(super) fn place(&self, coordinate: &Coordinate) -> TokenStream {
         let index = index_tokens(&coordinate.index);
         match self.system.layout {

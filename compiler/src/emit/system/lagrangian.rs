@@ -1,4 +1,4 @@
-//! A Lagrangian as it is.
+//! The Lagrangian itself.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -7,7 +7,7 @@ use super::{Derivative, Emitter};
 use crate::formula::graph::Half;
 
 impl Emitter<'_> {
-    /// The trait of a Lagrangian and its forces; nothing where there are constraints or friction, which it does not know.
+    /// The implementation of `Lagrangian` with its forces; empty with constraints or friction, which the trait does not cover.
     pub(super) fn lagrangian(&mut self) -> TokenStream {
         let Some(lagrangian) = self.system.lagrangian.clone() else {
             return TokenStream::new();

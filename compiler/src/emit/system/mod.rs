@@ -1,8 +1,8 @@
-//! From a system that was read from a formula to Rust code.
+//! Rust code for a system that was read from a formula.
 //!
-//! The type has a field for each parameter, and implements the trait of the class that was found: `SeparableHamiltonian`, `Hamiltonian`, or
-//! the parts of a chain; and `Lagrangian`, if it was given by one. The order of evaluation is that of [`operations`](crate::formula::operations). Sums over indices are
-//! loops, so the code is as long for a thousand bodies as for three.
+//! The type has a field for each parameter. It implements the trait of the class that was found: `SeparableHamiltonian`, `Hamiltonian`, or
+//! the parts of a chain; and `Lagrangian`, if the system was given by one. The order of evaluation is that of
+//! [`operations`](crate::formula::operations). Sums over indices are loops, so the code is as long for a thousand bodies as for three.
 
 mod band;
 mod block;
@@ -41,11 +41,11 @@ struct Emitter<'a> {
     header: &'a Header,
     /// The scalar of generic functions.
     scalar: Ident,
-    /// What names of values begin with.
+    /// Prefix of the names of values.
     prefix: String,
 }
 
-/// A derivative, where it is written to, and its sign.
+/// A derivative, the vector it is written to, and its sign.
 struct Derivative {
     /// The vector.
     into: &'static str,
@@ -118,7 +118,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// The generics of the type as declared, with their kinds only, and as arguments.
+    /// The generics of the type: as declared, with their kinds only, and as arguments.
     fn generics(&self) -> [TokenStream; 3] {
         let names: Vec<Ident> = self
             .system
@@ -159,7 +159,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// Names for the entries of the vectors of a function, and how many there are.
+    /// Names for the entries of a function's vectors, and the number of entries.
     fn views(&self, read: &[&str], written: &[&str]) -> TokenStream {
         let mut code = TokenStream::new();
         let runtime = matches!(self.system.layout, Layout::Numbered(Length::Runtime, _));
@@ -208,7 +208,7 @@ impl<'a> Emitter<'a> {
         code
     }
 
-    /// What is done where there are too few coordinates, or a pair is outside: the results are no numbers, which an integrator reports.
+    /// The code for too few coordinates or for a pair out of range: it sets the results to NaN, which an integrator reports.
     fn outside(&self, written: &[&str]) -> TokenStream {
         let scalar = &self.scalar;
         let fill = written.iter().map(|name| {
@@ -223,7 +223,7 @@ impl<'a> Emitter<'a> {
         quote!(#(#fill)* return;)
     }
 
-    /// The check that there are as many coordinates as the formula names.
+    /// The check that there are at least as many coordinates as the formula names.
     fn least(&self, outside: &TokenStream) -> TokenStream {
         let length = self.system.layout.length();
         if self.system.least == 0 || matches!(length, Length::Fixed(_)) {
@@ -259,7 +259,7 @@ impl<'a> Emitter<'a> {
         parts
     }
 
-    /// The statements that write some of the derivatives, with the operations for all: each has the same bits in every selection.
+    /// The statements that write some of the derivatives. All are known, so each derivative has the same bits in every selection.
     fn derivatives(
         &self,
         read: &[&str],
@@ -279,7 +279,7 @@ impl<'a> Emitter<'a> {
         for (into, parts) in parts.iter().filter(|(into, _)| written.contains(into)) {
             let vector = format_ident!("{into}");
             let vector = quote!(#vector);
-            // What is set once needs no zero before it.
+            // Entries that are set once need no zero first.
             let once = each_once(&self.system, parts);
             if !once {
                 let scalar = &self.scalar;
@@ -315,7 +315,7 @@ impl<'a> Emitter<'a> {
         quote!(#views #least #clear #statements)
     }
 
-    /// The expressions of some values, after the statements that they need.
+    /// The expressions of the given values, after the statements that they need.
     fn values(&self, read: &[&str], values: &[Id], outside: TokenStream) -> TokenStream {
         let scalar = &self.scalar;
         let views = self.views(read, &[]);
@@ -402,7 +402,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// H of any class, with constraints or friction perhaps; of a separable one with its two parts.
+    /// H of any class, with constraints or friction if any; a separable H with its two parts.
     fn general(&mut self, split: Option<Split>) -> TokenStream {
         let name = self.header.name.clone();
         let [generics, _, arguments] = self.generics();
@@ -447,7 +447,7 @@ impl<'a> Emitter<'a> {
         let mut parts = self.gradients(&[velocity, force]);
         self.system.add_applied(&mut parts[1].1);
         let halves = ["q", "p"];
-        // Where nothing is in common, one after the other.
+        // If velocity and force share nothing, they are computed one after the other.
         let both = (split.is_none() || forced).then(|| {
             let both = self.derivatives(&halves, &parts, &["velocity", "force"]);
             quote! {
@@ -460,7 +460,7 @@ impl<'a> Emitter<'a> {
         let velocity = self.derivatives(&halves, &parts, &["velocity"]);
         let force = self.derivatives(&halves, &parts, &["force"]);
         let energy = self.energy(energy);
-        // Newton's iteration is for stages without constraints.
+        // Newton's iteration is for systems without constraints.
         let jacobian = match (self.system.is_constrained(), self.system.friction) {
             (false, None) => self.jacobian(split),
             _ => TokenStream::new(),

@@ -1,4 +1,4 @@
-//! What is proved of a method, and the names of what is not.
+//! The proved claims about a method, and the names of those that are not proved.
 
 use num_rational::BigRational;
 
@@ -14,13 +14,13 @@ use Fact::{List, Literal, Table, Text};
 /// The significant digits of the ends of intervals.
 const DIGITS: usize = 40;
 
-/// The claims, and `not_covered` with the names of what is not among them.
+/// The claims, and `not_covered` with the names of the missing ones.
 pub(super) fn of(tableau: &Tableau, staircase: Option<Staircase>) -> Vec<(&'static str, Fact)> {
     let mut claims = Vec::new();
     let mut missing: Vec<String> = Vec::new();
     let properties = tableau.properties();
     if staircase.is_some() {
-        // Symplectic by its layout.
+        // Symplectic by the form of its matrices.
         let palindrome = tableau.separable_properties().symmetric;
         note(
             &mut claims,
@@ -39,7 +39,7 @@ pub(super) fn of(tableau: &Tableau, staircase: Option<Staircase>) -> Vec<(&'stat
             found.evidence,
         );
         let found = properties.symmetric;
-        // In a certificate it means: with the stages in reverse order. A witness is another order.
+        // In a certificate, symmetric means: with the stages in reverse order. A witness means another order.
         match found.holds && found.witness.is_some() {
             true => missing.push("symmetric".to_owned()),
             false => note(
@@ -89,7 +89,7 @@ fn is_proved(evidence: Evidence) -> bool {
     )
 }
 
-/// Notes a property that holds or does not as a claim if that is proved.
+/// Notes a property that holds or does not hold as a claim, if that is proved.
 fn note(
     claims: &mut Vec<(&'static str, Fact)>,
     missing: &mut Vec<String>,
@@ -103,7 +103,7 @@ fn note(
     }
 }
 
-/// The order and a condition of the next one that does not hold.
+/// The order, and a violated condition of the next order.
 fn class_order(found: &ClassOrder) -> Option<Fact> {
     let violated = found.refuted_by.as_ref()?;
     is_proved(found.evidence).then(|| {
@@ -115,7 +115,7 @@ fn class_order(found: &ClassOrder) -> Option<Fact> {
     })
 }
 
-/// The trace and all stable steps, of a method with rational functions that preserves areas.
+/// The trace and all stable steps, for an area-preserving method with rational functions.
 fn stability(tableau: &Tableau) -> Option<Fact> {
     let StableSteps::All(found) = tableau.stable_steps() else {
         return None;

@@ -1,7 +1,8 @@
-//! Certificates: what is claimed of a method, in a form that a program can check which shares no code with this one.
+//! Certificates: the claims about a method, in a form that an independent program can check.
 //!
-//! The format is in the chapter on file formats of the book; `tableaux/check_certificate.py` is such a program. It has
-//! what is proved, and names what is not. The program proves all of it anew but orders with very many trees, and says so.
+//! The format is described in the chapter on file formats of the book; `tableaux/check_certificate.py` is such a program. A certificate
+//! contains the proved claims, and names the others. The program proves all of them again, except orders with very many trees, which it
+//! reports.
 
 mod claims;
 mod numbers;
@@ -22,7 +23,7 @@ const VERSION: usize = 1;
 ///
 /// # Errors
 /// [`ErrorKind::NotCertified`] for a method whose coefficients are neither algebraic numbers of a known field nor the solution
-/// of order conditions: those with functions such as π, and long compositions of compositions.
+/// of order conditions: methods with functions such as π, and long compositions of compositions.
 ///
 /// ```
 /// use symplectic_compiler::{catalogue, export::certificate};
@@ -68,7 +69,7 @@ fn layout(staircase: Option<Staircase>) -> &'static str {
     }
 }
 
-/// The nearest doubles in hexadecimal; those of matrices only where the weights do not say them.
+/// The nearest doubles in hexadecimal; matrices only if the weights do not determine them.
 fn doubles(tableau: &Tableau, staircase: Option<Staircase>) -> Fact {
     let doubles = tableau.to_f64();
     let vector = |list: &Vec<f64>| List(list.iter().map(|x| Text(hexadecimal(*x))).collect());
@@ -86,7 +87,7 @@ fn doubles(tableau: &Tableau, staircase: Option<Staircase>) -> Fact {
     Fact::Table(members)
 }
 
-/// A member as JSON, with the entries of lists of lists and of tables on lines of their own.
+/// A member as JSON, with a separate line for each entry of lists of lists and of tables.
 fn lines(value: &Fact) -> String {
     match value {
         List(rows) if rows.iter().any(|row| matches!(row, List(_))) => {

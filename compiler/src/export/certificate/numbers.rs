@@ -16,14 +16,14 @@ use crate::tableau::Tableau;
 
 use Fact::{List, Literal, Table, Text};
 
-/// The significant digits that tell a root from the others, and the solution of order conditions from all near it.
+/// The significant digits that separate a root from the others, and the solution of order conditions from all nearby ones.
 const DIGITS: usize = 40;
 
 /// The coefficients of a method.
 pub(super) struct Numbers {
-    /// What the lists below are the coordinates in.
+    /// The basis of the coordinates in the lists below.
     pub kind: Fact,
-    /// What the matrices are, if the weights say it.
+    /// The form of the matrices, if the weights determine them.
     pub staircase: Option<Staircase>,
     pub b: Fact,
     pub b_tilde: Fact,
@@ -31,7 +31,7 @@ pub(super) struct Numbers {
 }
 
 impl Numbers {
-    /// `None` where there is no exact form.
+    /// The coefficients; `None` if there is no exact form.
     pub fn of(tableau: &Tableau) -> Option<Self> {
         match &tableau.exact {
             Exact::Nodes(pair) => Some(Numbers::of_nodes(pair)),
@@ -55,7 +55,7 @@ impl Numbers {
         }
     }
 
-    /// Elements of `Q(θ)`: polynomials in `θ`. There is no form for functions such as π.
+    /// Elements of `Q(θ)`: polynomials in `θ`. `None` for functions such as π, which have no such form.
     fn of_field(pair: &Pair<Dense<Constants>>) -> Option<Self> {
         let constants = pair.algebra.field();
         let field = constants.field();
@@ -131,7 +131,7 @@ fn coefficients(polynomial: &Polynomial) -> Fact {
     List(polynomial.coefficients().iter().map(text).collect())
 }
 
-/// What the order conditions are for, and up to which orders.
+/// The class of the order conditions, and their orders.
 fn claim(claim: &Claim) -> (&'static str, Vec<usize>) {
     match claim {
         Claim::Separable(order) => ("separable", vec![*order]),
@@ -151,7 +151,7 @@ fn coordinates(x: &Affine, unknowns: &BTreeSet<usize>) -> Fact {
 
 /// The unknowns, correctly rounded.
 fn decimals(certificate: &Certificate, unknowns: &BTreeSet<usize>) -> Option<Fact> {
-    /// Far more than the digits take.
+    /// Far more than the digits need.
     const BITS: u32 = 512;
     let all = certificate.enclosed_unknowns(BITS);
     let rounded = |index: &usize| {

@@ -10,12 +10,12 @@
 //!      "witness": string or null}
 //! ```
 //!
-//! `basis` and `nodes` are null where there are none; `definition` is there only where these two do not
-//! say everything, and holds all parts of the [`Definition`](crate::Definition). `tier` is the name of the
+//! `basis` and `nodes` are null if there are none. `definition` is present only if these two do not
+//! determine the tableau, and holds all parts of the [`Definition`](crate::Definition). `tier` is the name of the
 //! [`Tier`](crate::Tier).
 //!
-//! `exact` is an expression such as `1/2 - sqrt(3)/6` or `(pi - 4)/(4*pi)`, null where there is no readable
-//! one; `decimal` has the requested number of significant digits, correctly rounded (zero is `0`); `f64`
+//! `exact` is an expression such as `1/2 - sqrt(3)/6` or `(pi - 4)/(4*pi)`, null if there is no readable
+//! form; `decimal` has the requested number of significant digits, correctly rounded (zero is `0`); `f64`
 //! and `f32` are the shortest decimals that read back to the correctly rounded floating-point numbers.
 //! `name` and `source` are strings or null. The keys of `properties` are
 //! [`Properties::NAMES`](crate::Properties::NAMES).

@@ -1,4 +1,4 @@
-//! Reading JSON: a tableau is derived anew from basis and nodes, and everything else is checked.
+//! Reading JSON: a tableau is derived again from basis and nodes, and everything else is checked.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -23,14 +23,14 @@ use crate::tableau::Tableau;
 
 /// Reads a tableau from JSON.
 ///
-/// JSON exports hold no lossless data, so the tableau is derived from basis and nodes, its properties
-/// are decided, and every entry of the file is held against what is written of the result; the name
-/// and the source are taken as they are. The number of digits is that of most decimals in the file.
+/// JSON exports hold no lossless data. So the tableau is derived from basis and nodes, its properties
+/// are decided, and every entry of the file is compared with the export of the result. The name
+/// and the source are taken from the file. The number of digits is that of most decimals in the file.
 ///
 /// # Errors
-/// [`ErrorKind::Document`] where the text is no JSON or its keys or shapes are not those of a tableau;
-/// [`ErrorKind::Mismatch`] for the first entry that does not fit; everything that
-/// [`derive`](crate::derive()) refuses. Each with its place in the file.
+/// [`ErrorKind::Document`] if the text is not JSON or its keys or shapes are not those of a tableau;
+/// [`ErrorKind::Mismatch`] for the first entry that differs; every error of
+/// [`derive`](crate::derive()). Each with its place in the file.
 ///
 /// ```
 /// use symplectic_compiler::{Limits, derive, export::json};
@@ -62,7 +62,7 @@ pub fn read(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Err
     Ok(tableau)
 }
 
-/// A value as it stands in the text.
+/// A value as written in the text.
 #[derive(Deserialize)]
 #[serde(transparent)]
 struct Leaf<'a>(#[serde(borrow)] &'a RawValue);
@@ -113,7 +113,7 @@ struct PropertyEntry<'a> {
     witness: Leaf<'a>,
 }
 
-/// The properties, each of them once.
+/// The properties, each of them at most once.
 struct PropertyList<'a>(Vec<(&'static str, PropertyEntry<'a>)>);
 
 impl<'de: 'a, 'a> Deserialize<'de> for PropertyList<'a> {
@@ -151,7 +151,7 @@ impl<'de: 'a, 'a> Deserialize<'de> for PropertyList<'a> {
     }
 }
 
-/// What a value may be.
+/// The allowed types of a value.
 #[derive(Clone, Copy)]
 enum Types {
     Bool,
@@ -174,7 +174,7 @@ impl Types {
 }
 
 impl<'a> Leaf<'a> {
-    /// The bytes of the text that the value stands in.
+    /// The bytes of the value in the text.
     fn span(&self, text: &str) -> Range<usize> {
         // The value is borrowed from the text.
         let start = (self.0.get().as_ptr() as usize).saturating_sub(text.as_ptr() as usize);
@@ -182,12 +182,12 @@ impl<'a> Leaf<'a> {
     }
 
     fn value(&self) -> Value {
-        // It was read as JSON before; only a depth that no tableau has can be refused here, and what
-        // is as deep as that has no type that a tableau has.
+        // The value has been parsed as JSON before. Only an excessive depth can be rejected here, and
+        // values that deep have no type that occurs in a tableau.
         serde_json::from_str(self.0.get()).unwrap_or(Value::Array(Vec::new()))
     }
 
-    /// The value for comparison, which has to be of the type that its key has.
+    /// The value for comparison; it must have the type of its key.
     fn entry(
         &self,
         file: Input<'a>,
@@ -195,7 +195,7 @@ impl<'a> Leaf<'a> {
         types: Types,
     ) -> Result<Entry, Error> {
         let value = match (self.value(), types) {
-            // Not the same as no value.
+            // The string "null" differs from a missing value.
             (Value::String(text), Types::StringOrNull) if text == "null" => format!("{text:?}"),
             (Value::String(text), Types::String | Types::StringOrNull) => text,
             (value @ Value::Bool(_), Types::Bool) => value.to_string(),
@@ -231,7 +231,7 @@ impl<'a> Document<'a> {
             let start = offset(file.text, error.line(), error.column());
             let length = file.text[start..].chars().next();
             let end = start + length.filter(|c| *c != '\n').map_or(0, char::len_utf8);
-            // The place is told apart from the message.
+            // The place is separated from the message.
             let message = error.to_string();
             let message = message
                 .rsplit_once(" at line ")
@@ -257,7 +257,7 @@ impl<'a> Document<'a> {
     /// The parts of the definition, each with its place.
     fn parts(&self, file: Input<'_>) -> Result<Vec<Part>, Error> {
         if let Some(leaf) = &self.definition {
-            // One text holds all of them.
+            // One text contains all of them.
             let definition = Definition::parse(&leaf.string(file)?)
                 .map_err(|error| leaf.error(file, &error.kind.to_string()))?;
             let part = |(key, text): (Key, &str)| Part {
@@ -278,7 +278,7 @@ impl<'a> Document<'a> {
         leaves.into_iter().map(part).collect()
     }
 
-    /// The vectors and matrices with their names.
+    /// The named vectors and matrices.
     fn tables(&self) -> Vec<(&'static str, Table<'_, 'a>)> {
         let mut tables = vec![
             ("c", Table::Vector(&self.c)),
@@ -293,7 +293,7 @@ impl<'a> Document<'a> {
         tables
     }
 
-    /// All entries but the name and the source, which cannot be derived.
+    /// All entries except the name and the source, which cannot be derived.
     fn entries(&self, file: Input<'a>, limits: &Limits) -> Result<Vec<Entry>, Error> {
         let stages = self.stages.value().as_u64().map(|s| s as usize);
         let Some(stages) = stages.filter(|&s| s > 0) else {
@@ -413,7 +413,7 @@ enum Table<'d, 'a> {
     Matrix(&'d [Vec<Number<'a>>]),
 }
 
-/// The number of digits of a decimal from the first that is not zero.
+/// The number of digits of a decimal, starting with the first nonzero digit.
 fn significant_digits(decimal: &str) -> usize {
     let mantissa = decimal.split('e').next().unwrap_or_default();
     mantissa

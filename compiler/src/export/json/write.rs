@@ -12,7 +12,7 @@ type Forms = (Option<String>, (String, f64, f32));
 
 /// Writes a tableau as JSON with decimals of `digits ≥ 1` significant digits.
 ///
-/// The text is the same for the same tableau, one coefficient or property a line.
+/// The text is the same for the same tableau, with one coefficient or property per line.
 ///
 /// ```
 /// use symplectic_compiler::{derive, export::json};
@@ -41,7 +41,7 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
         ("basis", optional(definition.get(Key::Basis))),
         ("nodes", optional(definition.get(Key::Nodes))),
     ];
-    // Basis and nodes say everything, or one text does.
+    // Basis and nodes determine the tableau; otherwise one text does.
     let simple = |key| matches!(key, Key::Basis | Key::Nodes);
     if !definition.parts().all(|(key, _)| simple(key)) {
         members.push(("definition", string(&definition.to_string())));
@@ -102,7 +102,7 @@ fn vector(numbers: &[Forms], indent: &str) -> String {
     }
 }
 
-/// A matrix; null where it is left out, because the weights say it.
+/// A matrix; null if it is left out because the weights determine it.
 fn matrix(rows: &[Vec<Forms>]) -> String {
     if rows.is_empty() {
         return "null".to_owned();
@@ -110,7 +110,7 @@ fn matrix(rows: &[Vec<Forms>]) -> String {
     list(rows.iter().map(|row| vector(row, "    ")), "  ")
 }
 
-/// An array with one item a line.
+/// An array with one item per line.
 fn list(items: impl Iterator<Item = String>, indent: &str) -> String {
     let items: Vec<String> = items.map(|item| format!("{indent}  {item}")).collect();
     format!("[\n{}\n{indent}]", items.join(",\n"))
@@ -127,7 +127,7 @@ fn property_text(property: &Property) -> String {
     )
 }
 
-/// The name of a kind of evidence in files, and the width of its enclosures.
+/// The name of a kind of evidence in files, and the precision of its enclosures.
 pub(in crate::export) fn evidence(evidence: Evidence) -> (&'static str, Option<u32>) {
     match evidence {
         Evidence::Proved => ("proved", None),

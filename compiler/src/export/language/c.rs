@@ -33,7 +33,7 @@ fn array(name: &str, entries: &[Entry]) -> String {
     format!("\nstatic const double {name}[{length}] = {{\n{numbers}}};\n")
 }
 
-/// Numbers, one a line, each with its exact form or decimal beside it.
+/// Numbers, one per line, each with a comment: its exact form or decimal.
 pub(super) fn numbers(indent: &str, entries: &[Entry]) -> String {
     let line = |entry: &Entry| {
         format!(

@@ -13,9 +13,9 @@ use crate::pair::Pair;
 use crate::properties::{Property, images};
 use crate::tableau::left_out;
 
-/// Lists that are wider than this have one item a line.
+/// Wider lists have one item per line.
 const WIDEST: usize = 100;
-/// Trees, times the squares of the stages and of the degree of the field: beyond this number Coq would take minutes.
+/// The greatest number of trees times the squares of the stages and of the field's degree; beyond it Coq would take minutes.
 const MOST_WORK: usize = 6_000_000;
 
 pub(super) fn write(table: &Table<'_>) -> Result<String, Error> {
@@ -39,17 +39,17 @@ pub(super) fn write(table: &Table<'_>) -> Result<String, Error> {
     Ok(theorem.text(table))
 }
 
-/// What differs between tables in a number and tables in the nodes.
+/// The parts of a theorem that differ between tables in a number and tables in the nodes.
 struct Theorem {
-    /// The file of `tableaux/coq` that it needs.
+    /// The required file of `tableaux/coq`.
     library: &'static str,
     remark: String,
     record: &'static str,
-    /// The parts of the record with their values.
+    /// The fields of the record with their values.
     fields: Vec<(&'static str, String)>,
-    /// What the theorem supposes: `forall (K : Algebra) (x : K), is_root … x ->`.
+    /// The hypothesis of the theorem: `forall (K : Algebra) (x : K), is_root … x ->`.
     hypothesis: String,
-    /// The method that it is about.
+    /// The method of the theorem.
     method: String,
     claims: Vec<String>,
     tactic: String,
@@ -165,7 +165,7 @@ fn in_nodes(table: &Table<'_>, pair: &Pair<NodeAlgebra>) -> Theorem {
     }
 }
 
-/// Whether it is equal to its adjoint with the stages in reverse: `c` goes to `1 − c`.
+/// Whether the method equals its adjoint with the stages in reverse order: `c` goes to `1 − c`.
 fn is_mirrored(table: &Table<'_>, pair: &Pair<NodeAlgebra>) -> bool {
     let properties = table.tableau.properties();
     let (modulus, node) = (pair.algebra.modulus(), pair.algebra.variable());
@@ -180,8 +180,8 @@ fn is_proved(property: &Property) -> bool {
     property.holds && property.evidence == Evidence::Proved
 }
 
-/// The orders and whether it is symplectic, as far as proved. An order that a larger class has too is not repeated; one that Coq would
-/// take too long for is lowered, and a comment says so.
+/// The orders and symplecticity, as far as they are proved. An order that a larger class also has is not repeated. An order that would
+/// take Coq too long is lowered, and a comment says so.
 fn claims(table: &Table<'_>, lowered: impl Fn(HamiltonianClass, usize) -> usize) -> Vec<String> {
     let orders = table.tableau.orders();
     let mut claims = Vec::new();
@@ -207,7 +207,7 @@ fn claims(table: &Table<'_>, lowered: impl Fn(HamiltonianClass, usize) -> usize)
     claims
 }
 
-/// The highest order up to `order` whose trees Coq can check, where each tree takes this much work.
+/// The highest order up to `order` whose trees Coq can check, if each tree takes this much work.
 fn affordable(class: HamiltonianClass, order: usize, each: usize) -> usize {
     let mut trees = Trees::up_to(TreeRule::Class(class), 1);
     let mut number = trees.count(1);
@@ -224,7 +224,7 @@ fn affordable(class: HamiltonianClass, order: usize, each: usize) -> usize {
 
 /// Lines as a comment.
 fn comment(lines: &[String]) -> String {
-    // Coq reads texts in quotation marks and comments in comments.
+    // Within comments, Coq reads texts in quotation marks and nested comments.
     let plain = |line: &String| {
         line.replace("(*", "( *")
             .replace("*)", "* )")
@@ -242,7 +242,7 @@ fn halves(position: String, momentum: String) -> String {
     format!("match c with\n  | position => {position}\n  | momentum => {momentum}\n  end")
 }
 
-/// `r` of `x^d = r_0 + r_1 x + …`, where the modulus vanishes.
+/// `r` with `x^d = r_0 + r_1 x + …`, modulo the polynomial of degree `d`.
 fn reduction(modulus: &Polynomial) -> String {
     let degree = modulus.degree().unwrap_or(0);
     let coefficients =
@@ -250,7 +250,7 @@ fn reduction(modulus: &Polynomial) -> String {
     list(coefficients, 4)
 }
 
-/// The coefficients of `1, x, …`, this many of them.
+/// The first `count` coefficients, of `1, x, …`.
 fn polynomial(f: &Polynomial, count: usize) -> String {
     list((0..count).map(|k| rational(&f.coefficient(k))), 6)
 }
@@ -263,7 +263,7 @@ fn rational(value: &BigRational) -> String {
     }
 }
 
-/// A list, with one item a line if it is wide.
+/// A list, with one item per line if it is wide.
 fn list(items: impl Iterator<Item = String>, indent: usize) -> String {
     let items: Vec<String> = items.collect();
     let in_line = items.join("; ");

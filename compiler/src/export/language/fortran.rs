@@ -30,10 +30,10 @@ fn array(attributes: &str, name: &str, entries: &[Entry]) -> String {
     let last = entries.len().saturating_sub(1);
     let lines = entries.iter().enumerate().map(|(i, entry)| {
         let comma = if i < last { "," } else { "" };
-        // The bits of the double; a decimal need not be rounded correctly.
+        // The bits of the double, because a decimal need not be rounded correctly.
         let number = format!("real(z'{:016X}', real64){comma} &", entry.double.to_bits());
         let line = format!("    {number} ! {}", entry.remark());
-        // A line has 132 characters at most.
+        // A line has at most 132 characters.
         line.chars().take(132).collect::<String>() + "\n"
     });
     let lines: String = lines.collect();

@@ -45,16 +45,16 @@ pub(super) fn write(table: &Table<'_>) -> String {
     text
 }
 
-/// A whole number as a literal.
+/// An integer as a literal.
 fn whole(digits: &str) -> String {
-    // What fits into 64 bits for certain.
+    // Up to 18 digits always fit into 64 bits.
     match digits.len() {
         ..=18 => digits.to_owned(),
         _ => format!("big\"{digits}\""),
     }
 }
 
-/// How the packages of Julia take it.
+/// The constructors of Julia packages that take the table.
 fn constructors(table: &Table<'_>) -> String {
     let t = &table.name;
     if table.is_runge_kutta() {

@@ -3,9 +3,9 @@
 use super::table::{Entry, Table, comments};
 use crate::expression::{Expression, ExpressionKind, Input, Operator, parse_list};
 
-/// Exact forms that are longer than this give way to decimals.
+/// Longer exact forms are replaced by decimals.
 const LONGEST_EXACT: usize = 28;
-/// Drifts and kicks of methods with more stages stand in two columns, in place of the matrices.
+/// For methods with more stages, drifts and kicks in two columns replace the matrices.
 const MOST_COLUMNS: usize = 8;
 
 pub(super) fn write(table: &Table<'_>) -> String {
@@ -57,7 +57,7 @@ fn array(
     )
 }
 
-/// The drifts and kicks of a method that consists of them, two in a line.
+/// The drifts and kicks of a method that consists of them, two per line.
 fn flows(table: &Table<'_>) -> Option<String> {
     let drifts_first = table.begins_with_a_drift()?;
     let [drifts, kicks] = table.drifts_and_kicks(drifts_first)?;
@@ -76,7 +76,7 @@ fn flows(table: &Table<'_>) -> Option<String> {
     ))
 }
 
-/// The exact form if it is short, else the decimal.
+/// The exact form if it is short, otherwise the decimal.
 fn number(entry: &Entry) -> String {
     let short = entry.exact.as_deref();
     let short = short.filter(|exact| exact.len() <= LONGEST_EXACT);
@@ -85,7 +85,7 @@ fn number(entry: &Entry) -> String {
         .unwrap_or_else(|| entry.decimal.clone())
 }
 
-/// An exact form, unless something has no sign in LaTeX.
+/// An exact form; `None` if a part of it has no LaTeX notation.
 fn exact(text: &str) -> Option<String> {
     let input = Input {
         name: "entry",
@@ -98,18 +98,18 @@ fn exact(text: &str) -> Option<String> {
     rendered(expression, 0)
 }
 
-/// How tightly an operator binds its parts.
+/// The precedence of an operator.
 fn strength(operator: Operator) -> u8 {
     match operator {
         Operator::Add | Operator::Subtract => 1,
         Operator::Multiply => 2,
-        // A fraction holds its parts together by itself.
+        // A fraction needs no parentheses.
         Operator::Divide => 4,
         Operator::Power => 3,
     }
 }
 
-/// An expression, in parentheses where what is around it binds tighter.
+/// An expression, in parentheses if the surrounding operator binds tighter.
 fn rendered(expression: &Expression, around: u8) -> Option<String> {
     let (text, own) = match &expression.kind {
         ExpressionKind::Number(value) if value.is_integer() => (value.to_string(), 5),
@@ -141,7 +141,7 @@ fn rendered(expression: &Expression, around: u8) -> Option<String> {
             right,
         } => {
             if let (Operator::Divide, ExpressionKind::Negate(inner)) = (operator, &left.kind) {
-                // The sign stands before the fraction, which is a sum of one term then.
+                // The sign stands before the fraction, so the result binds like a sum.
                 let (above, below) = (rendered(inner, 0)?, rendered(right, 0)?);
                 return Some(parenthesised(
                     format!("-\\frac{{{above}}}{{{below}}}"),
@@ -172,7 +172,7 @@ fn rendered(expression: &Expression, around: u8) -> Option<String> {
     Some(parenthesised(text, own, around))
 }
 
-/// A text in parentheses, where what is around it binds tighter than its own operator.
+/// A text in parentheses, if the surrounding operator binds tighter than its own.
 fn parenthesised(text: String, own: u8, around: u8) -> String {
     if own < around {
         format!("\\left({text}\\right)")

@@ -1,4 +1,4 @@
-//! Tableaux in the notation of other programs, to be used there as they are.
+//! Tableaux in the notation of other programs, ready for use there.
 //!
 //! | language | holds | methods |
 //! |---|---|---|
@@ -29,7 +29,7 @@ use crate::error::{Error, ErrorKind};
 use crate::tableau::Tableau;
 use table::Table;
 
-/// A language or a library that tableaux are written for.
+/// A language or a library in whose notation tableaux are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Language {
     /// A table for a paper.
@@ -40,7 +40,7 @@ pub enum Language {
     Fortran,
     /// Julia: a named tuple.
     Julia,
-    /// Python: lists of strings that are numbers.
+    /// Python: lists of numeric strings.
     Python,
     /// C for ARKODE of SUNDIALS.
     Sundials,
@@ -53,7 +53,7 @@ pub enum Language {
 }
 
 impl Language {
-    /// All of them.
+    /// All languages.
     pub const ALL: [Language; 9] = [
         Language::Latex,
         Language::C,
@@ -66,7 +66,7 @@ impl Language {
         Language::Coq,
     ];
 
-    /// Writes a tableau. Decimals, where they are the numbers or stand beside them, have `digits ≥ 1` significant digits.
+    /// Writes a tableau. Decimals, as numbers or in comments, have `digits ≥ 1` significant digits.
     ///
     /// ```
     /// use symplectic_compiler::derive;
@@ -79,8 +79,8 @@ impl Language {
     /// ```
     ///
     /// # Errors
-    /// [`ErrorKind::NotExpressible`] for a method that the library cannot run, and [`ErrorKind::NoTheorem`] for one whose
-    /// coefficients are not algebraic numbers that are known exactly.
+    /// [`ErrorKind::NotExpressible`] for a method that the library cannot run, and [`ErrorKind::NoTheorem`] for a method whose
+    /// coefficients are not exactly known algebraic numbers.
     pub fn write(self, tableau: &Tableau, digits: usize) -> Result<String, Error> {
         let table = Table::new(tableau, digits);
         match self {
@@ -97,7 +97,7 @@ impl Language {
     }
 }
 
-/// A method that a library cannot run.
+/// The error for a method that a library cannot run.
 fn not_expressible(library: &'static str, reason: &'static str) -> Error {
     ErrorKind::NotExpressible { library, reason }.into()
 }

@@ -29,7 +29,7 @@ pub(super) fn write(table: &Table<'_>) -> Result<String, Error> {
     ))
 }
 
-/// Exact where SymPy reads the exact form.
+/// Exact if SymPy can read the exact form.
 fn number(entry: &Entry) -> String {
     let known = |exact: &&String| !exact.contains("root(");
     match entry.exact.as_ref().filter(known) {

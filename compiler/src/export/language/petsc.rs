@@ -30,7 +30,7 @@ pub(super) fn write(table: &Table<'_>) -> Result<String, Error> {
     Ok(implicit(table, &inverse))
 }
 
-/// A method of TSBASICSYMPLECTIC: a stage drifts, and then kicks.
+/// A method of TSBASICSYMPLECTIC: a stage drifts, then kicks.
 fn splitting(table: &Table<'_>, flows: &Stepped) -> String {
     let name = &table.name;
     let (c, d) = (flows.stepping.drift, flows.stepping.kick);

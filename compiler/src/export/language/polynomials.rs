@@ -18,13 +18,13 @@ pub(super) struct Halves<T> {
     pub b: [Vec<T>; 2],
 }
 
-/// How the coefficients are written.
+/// The representation of the coefficients.
 pub(super) enum Polynomials<'a> {
     /// In one number `x`, a root of a polynomial.
     InNumber {
-        /// A polynomial with the root `x`; `x` itself where all coefficients are rational.
+        /// A polynomial with the root `x`; `x` itself if all coefficients are rational.
         modulus: Polynomial,
-        /// Which number `x` is.
+        /// A description of `x`.
         number: String,
         coefficients: Halves<Polynomial>,
     },
@@ -36,7 +36,7 @@ impl<'a> Polynomials<'a> {
     /// The coefficients in the simplest form.
     ///
     /// # Errors
-    /// Why they have none.
+    /// The reason why there is none.
     pub fn of(tableau: &'a Tableau) -> Result<Self, &'static str> {
         match &tableau.exact {
             Exact::Nodes(pair) => Ok(quadratic(pair).unwrap_or(Polynomials::InNodes(pair))),
@@ -93,7 +93,7 @@ fn in_field<'a>(pair: &Pair<Dense<Constants>>) -> Option<Polynomials<'a>> {
 }
 
 impl<T> Halves<T> {
-    /// Something else for each coefficient, if there is one for all.
+    /// Applies `each` to every coefficient; `None` if it fails for one.
     fn map<U>(&self, each: impl Fn(&T) -> Option<U>) -> Option<Halves<U>> {
         let vector = |v: &Vec<T>| v.iter().map(&each).collect::<Option<Vec<U>>>();
         let matrix = |m: &Vec<Vec<T>>| m.iter().map(vector).collect::<Option<Vec<_>>>();

@@ -38,7 +38,7 @@ pub(super) fn write(table: &Table<'_>) -> Result<String, Error> {
     ))
 }
 
-/// A table of SPRKStep: a stage kicks with the first function, and then drifts with the second.
+/// A table of SPRKStep: a stage kicks with the first function, then drifts with the second.
 fn splitting(table: &Table<'_>, flows: &Stepped) -> String {
     let (stages, name) = (flows.drifts.len(), &table.name);
     let (a, ahat) = (flows.stepping.drift, flows.stepping.kick);
@@ -59,7 +59,7 @@ fn splitting(table: &Table<'_>, flows: &Stepped) -> String {
     )
 }
 
-/// A constant array. The functions take pointers to numbers that are not constant in some versions.
+/// A constant array. In some versions the functions take pointers to non-constant numbers.
 fn array(name: &str, entries: &[Entry]) -> String {
     let (length, numbers) = (entries.len(), numbers("    ", entries));
     format!("  static sunrealtype {name}[{length}] = {{\n{numbers}  }};\n")

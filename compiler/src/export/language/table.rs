@@ -1,4 +1,4 @@
-//! What all languages write.
+//! The data that all languages write.
 
 use crate::arithmetic::rational::ratio;
 use crate::coefficients::Coefficients;
@@ -11,17 +11,17 @@ use crate::schedule::{Class, Node, StepGraph};
 use crate::stability::evidence_text;
 use crate::tableau::{Tableau, left_out};
 
-/// Exact forms that are longer than this are left out where decimals stand beside them.
+/// Longer exact forms are left out where decimals stand beside them.
 const LONGEST_EXACT: usize = 60;
 
 /// A tableau with its coefficients in all forms.
 pub(in crate::export) struct Table<'a> {
     pub tableau: &'a Tableau,
-    /// Without the matrices of long splittings.
+    /// The coefficients, without the matrices of long splittings.
     pub entries: Coefficients<Entry>,
-    /// Drifts and kicks one after another, if the method consists of these for separable Hamiltonians.
+    /// The sequence of drifts and kicks, if the method consists of these for separable Hamiltonians.
     pub flows: Option<Vec<Flow>>,
-    /// A name that every language accepts: `gauss_2`.
+    /// A name that is valid in every language: `gauss_2`.
     pub name: String,
 }
 
@@ -38,13 +38,13 @@ pub(in crate::export) struct Entry {
 pub(in crate::export) struct Flow {
     pub is_drift: bool,
     pub weight: Entry,
-    /// When velocity or force are evaluated, as a fraction of the step.
+    /// The time at which the velocity or force is evaluated, as a fraction of the step.
     pub time: f64,
-    /// Whether it is the last evaluation of the step before.
+    /// Whether it reuses the last evaluation of the previous step.
     pub is_carried: bool,
 }
 
-/// Drifts and kicks in turn, as many of both, with a library's names for them.
+/// Alternating drifts and kicks, equal in number, with a library's names for them.
 pub(in crate::export) struct Stepped {
     pub stepping: Stepping,
     pub drifts: Vec<Entry>,
@@ -73,7 +73,7 @@ impl Entry {
         }
     }
 
-    /// What a comment beside the double says: `1/4`, `1/2 - sqrt(3)/6 = 0.2113…`.
+    /// The comment beside the double: `1/4`, `1/2 - sqrt(3)/6 = 0.2113…`.
     pub fn remark(&self) -> String {
         match &self.exact {
             Some(exact) if self.rational().is_some() => exact.clone(),
@@ -100,7 +100,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Whether it is a Runge–Kutta method, the same for positions and momenta.
+    /// Whether it is a Runge–Kutta method with the same coefficients for positions and momenta.
     pub fn is_runge_kutta(&self) -> bool {
         self.tableau.equal_halves() == (true, true)
     }
@@ -110,7 +110,7 @@ impl<'a> Table<'a> {
         self.tableau.orders().class(class).order
     }
 
-    /// The order for every H; of drifts and kicks the order for separable ones.
+    /// The order for every H; for drifts and kicks the order for separable H.
     pub fn main_order(&self) -> usize {
         match self.flows {
             Some(_) => self.order(HamiltonianClass::Separable),
@@ -118,7 +118,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Name, definition, sources, and what is proved; one line each.
+    /// Name, definition, sources, and proved properties; one line each.
     pub fn description(&self) -> Vec<String> {
         let provenance = self.tableau.provenance();
         let mut title: Vec<String> = self.tableau.name().map(one_line).into_iter().collect();
@@ -178,7 +178,7 @@ impl<'a> Table<'a> {
         lines
     }
 
-    /// How the weights make the matrices that are left out.
+    /// How the weights determine the matrices that are left out.
     fn left_out(&self) -> Option<&'static str> {
         Some(match left_out(self.tableau)? {
             Staircase::KicksFirst => {
@@ -190,7 +190,7 @@ impl<'a> Table<'a> {
         })
     }
 
-    /// Vectors by name, those for momenta only where they differ.
+    /// The named vectors; those for momenta only if they differ.
     pub fn vectors(&self) -> Vec<(&'static str, &[Entry])> {
         let Coefficients {
             c,
@@ -206,7 +206,7 @@ impl<'a> Table<'a> {
         vectors
     }
 
-    /// Matrices by name, as [`vectors`](Self::vectors), without those that are left out.
+    /// The named matrices, like [`vectors`](Self::vectors), without those that are left out.
     pub fn matrices(&self) -> Vec<(&'static str, &[Vec<Entry>])> {
         let Coefficients { a, a_tilde, .. } = &self.entries;
         if a.is_empty() {
@@ -219,7 +219,7 @@ impl<'a> Table<'a> {
         matrices
     }
 
-    /// The drifts and kicks as a library steps them.
+    /// The drifts and kicks in the order in which a library steps them.
     pub fn stepped_by(&self, library: Library) -> Option<Stepped> {
         let stepping = library.stepping()?;
         let [drifts, kicks] = self.drifts_and_kicks(stepping.drifts_first)?;
@@ -235,8 +235,8 @@ impl<'a> Table<'a> {
         self.flows.as_ref()?.first().map(|flow| flow.is_drift)
     }
 
-    /// The weights of drifts and kicks in turn, as many of both: the first ones are drifts if `drifts_first`. Where the method has none in
-    /// its turn there is one of size zero.
+    /// The weights of alternating drifts and kicks, equal in number; drifts come first if `drifts_first`. If the method has no flow at
+    /// some place, a flow of size zero is inserted.
     pub fn drifts_and_kicks(&self, drifts_first: bool) -> Option<[Vec<Entry>; 2]> {
         let (mut first, mut second): (Vec<Entry>, Vec<Entry>) = (Vec::new(), Vec::new());
         for Flow {
@@ -316,7 +316,7 @@ fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Letters, digits and single underscores, with a letter first.
+/// A name of letters, digits and single underscores that begins with a letter.
 fn identifier(name: &str) -> String {
     let mut found = String::new();
     for c in name.chars() {

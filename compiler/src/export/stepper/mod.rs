@@ -1,8 +1,8 @@
-//! Programs that take steps of a method: a file for each, in four languages, that needs nothing else.
+//! Programs that take steps of a method: a self-contained file for each of four languages.
 //!
-//! A method that consists of drifts and kicks is a straight line of them. Any other one solves for its stages, by fixed-point
-//! iteration until it stagnates, with coefficients that are [symplectic as rounded](crate::emit). Both carry the state as a sum of two
-//! numbers. What is the same for all methods is a template of the language; [`plan`] has what is not.
+//! A method that consists of drifts and kicks becomes straight-line code. Any other method solves for its stages, by fixed-point
+//! iteration until stagnation, with coefficients that are [symplectic as rounded](crate::emit). Both carry the state as a sum of two
+//! numbers (compensated summation). The parts common to all methods are a template of the language; [`plan`] has the others.
 
 mod languages;
 mod plan;
@@ -16,12 +16,12 @@ use crate::error::Error;
 use crate::order::HamiltonianClass;
 use crate::tableau::Tableau;
 
-/// A language that steppers are written in.
+/// A language of steppers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stepper {
-    /// C99; the dimension is an argument, the caller gives the memory.
+    /// C99; the dimension is an argument, and the caller provides the memory.
     C,
-    /// Rust without the standard library; the dimension is a constant that the type is generic in.
+    /// Rust without the standard library; the dimension is a generic constant of the type.
     Rust,
     /// Julia, with vectors.
     Julia,
@@ -29,26 +29,26 @@ pub enum Stepper {
     Python,
 }
 
-/// The Hamiltonians that a stepper is for.
+/// The class of Hamiltonians of a stepper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SteppedClass {
     /// Every `H(t, q, p)`.
     General,
-    /// `H = T(t, p) + U(t, q)`, for methods that consist of drifts and kicks then.
+    /// `H = T(t, p) + U(t, q)`, for methods that consist of drifts and kicks for this class.
     Separable,
 }
 
 /// Significant digits of decimals in comments.
 const DIGITS: usize = 17;
 
-/// The most sweeps over coupled stages.
+/// The largest number of sweeps over coupled stages.
 const MOST_SWEEPS: usize = 100;
 
 impl Stepper {
-    /// Writes a stepper. Without a class it is for separable Hamiltonians if the method then consists of drifts and kicks, else
-    /// for all.
+    /// Writes a stepper. Without a class, it is for separable Hamiltonians if the method then consists of drifts and kicks, and
+    /// otherwise for all.
     ///
-    /// All languages make the same operations in the same order: a test compares the bits of C, Rust and Python.
+    /// All languages do the same operations in the same order: a test compares the bits of C, Rust and Python.
     ///
     /// ```
     /// use symplectic_compiler::derive;
@@ -61,8 +61,9 @@ impl Stepper {
     /// ```
     ///
     /// # Errors
-    /// [`ErrorKind::NoStepper`](crate::ErrorKind::NoStepper) for a method that solves for its stages and is not symplectic or has a
-    /// weight of zero, for one that does not consist of drifts and kicks though the class demands it, and for one that is too long.
+    /// [`ErrorKind::NoStepper`](crate::ErrorKind::NoStepper) for a method with coupled stages that is not symplectic or has a
+    /// weight of zero, for a method that does not consist of drifts and kicks though the class requires it, and for a method that is too
+    /// long.
     pub fn write(self, tableau: &Tableau, class: Option<SteppedClass>) -> Result<String, Error> {
         let table = Table::new(tableau, DIGITS);
         let plan = Plan::new(&table, class, DIGITS)?;
@@ -119,7 +120,7 @@ fn about(table: &Table<'_>, plan: &Plan<'_>) -> Vec<String> {
     lines
 }
 
-/// Drifts and kicks, a straight line.
+/// Drifts and kicks as straight-line code.
 fn steps(notation: &Notation, flows: &[Flow], names: &[(&str, &str)]) -> String {
     let mut text = String::new();
     for flow in flows {
@@ -176,10 +177,10 @@ fn tables(notation: &Notation, coupled: &Coupled, names: &[(&str, &str)]) -> Str
     text
 }
 
-/// What is said of the matrices.
+/// The comment about the matrices.
 const SYMPLECTIC: &str = "mu_ij = a_ij / b_j and mu_tilde_ij = a_tilde_ij / b_tilde_j, rounded so that mu_ij + mu_tilde_ji is 1 exactly: symplectic as rounded.";
 
-/// `gauss_2` as the name of a module: `Gauss2`.
+/// The name of a module from a method's name, `Gauss2` from `gauss_2`.
 fn module(name: &str) -> String {
     let mut text = String::new();
     let mut capital = true;

@@ -1,4 +1,4 @@
-//! What a stepper of a method does, whatever the language.
+//! The plan of a stepper, independent of the language.
 
 use super::SteppedClass;
 use crate::emit::{Known, Relative, Rounded};
@@ -9,9 +9,9 @@ use crate::tableau::left_out;
 
 /// A step.
 pub(super) enum Plan<'t> {
-    /// Drifts and kicks one after another.
+    /// A sequence of drifts and kicks.
     Splitting(&'t [Flow]),
-    /// Stages that are solved for.
+    /// Coupled stages.
     Coupled(Box<Coupled>),
 }
 
@@ -24,7 +24,7 @@ pub(super) struct Coupled {
 }
 
 impl<'t> Plan<'t> {
-    /// The plan for a class of Hamiltonians: drifts and kicks where it can be, if there is no class.
+    /// The plan for a class of Hamiltonians. Without a class: drifts and kicks if possible.
     pub fn new(
         table: &'t Table<'_>,
         class: Option<SteppedClass>,
@@ -60,8 +60,8 @@ impl Coupled {
                 "its stages are solved for, and one has the weight zero: a_ij / b_j does not exist",
             )
         })?;
-        // Both evaluations are made at the same stages, and at one time: it is one more position. So a step is symplectic where H depends
-        // on time, too.
+        // Both evaluations use the same stages and the same time, as if time were a position. So a step is symplectic also if H depends
+        // on time.
         let nodes = |kind: fn(usize) -> Node| (0..graph.forces.len()).map(kind);
         let weights = |kind| -> Vec<Entry> {
             nodes(kind)

@@ -1,7 +1,7 @@
-//! Texts with places for values.
+//! Templates with placeholders for values.
 
-/// A template with values in their places: `@name@` stands for the value of that name. Other text stays as it is, and values are not
-/// looked at.
+/// A template with its placeholders filled: `@name@` stands for the value of that name. Other text stays as it is, and values are not
+/// searched for placeholders.
 pub(super) fn fill(template: &str, values: &[(&str, &str)]) -> String {
     let mut text = String::with_capacity(template.len());
     let mut rest = template;

@@ -22,11 +22,11 @@ use crate::tableau::Tableau;
 pub(super) type List = Spanned<Vec<Spanned<String>>>;
 pub(super) type Matrix = Spanned<Vec<List>>;
 
-/// A file whose keys and shapes are those of a tableau; what its entries say is not yet looked at.
+/// A file with the keys and shapes of a tableau; the entries are not checked yet.
 pub(crate) struct Document {
     name: Option<String>,
     provenance: Spanned<ProvenanceTable>,
-    /// What is derived from the definition; a file that a person writes has none of it.
+    /// The data derived from the definition; a file written by a person has none.
     pub(super) derived: Option<Derived>,
 }
 
@@ -44,7 +44,7 @@ struct Keys {
     stability: Option<toml::Table>,
 }
 
-/// The part of a file that can be derived anew.
+/// The part of a file that can be derived again.
 pub(super) struct Derived {
     stages: Spanned<usize>,
     pub(super) exact: Option<Exact>,
@@ -54,7 +54,7 @@ pub(super) struct Derived {
     facts: Vec<Entry>,
 }
 
-/// The parts of a definition, an entry for each [`Key`], and what is said of them.
+/// The parts of a definition, an entry for each [`Key`], with tier and source.
 #[derive(Default)]
 struct ProvenanceTable {
     parts: Vec<Part>,
@@ -165,15 +165,15 @@ struct PropertyEntry {
     witness: Option<Spanned<String>>,
 }
 
-/// What stands for a key that is not there.
+/// The text for an absent key.
 const ABSENT: &str = "nothing";
 
 impl Document {
     /// Reads the keys and shapes of a file.
     ///
     /// # Errors
-    /// [`ErrorKind::Document`] for a text that is no TOML, for keys that are missing or unknown, for
-    /// lists of a wrong length; [`ErrorKind::TooManyStages`].
+    /// [`ErrorKind::Document`] if the text is not TOML, if keys are missing or unknown, or if
+    /// lists have a wrong length; [`ErrorKind::TooManyStages`].
     pub fn parse(file: Input<'_>, limits: &Limits) -> Result<Self, Error> {
         let keys: Keys = toml::from_str(file.text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
@@ -240,15 +240,15 @@ impl Document {
         }
     }
 
-    /// Derives the tableau anew, with the name and the source of the file.
+    /// Derives the tableau again, with the name and the source of the file.
     ///
     /// # Errors
-    /// As [`Definition::derive`](crate::Definition::derive), with places in the file.
+    /// The errors of [`Definition::derive`](crate::Definition::derive), with places in the file.
     pub fn derive(&self, file: Input<'_>, limits: &Limits) -> Result<Tableau, Error> {
         self.origin().derive(file, limits)
     }
 
-    /// All entries but the name and the source, which cannot be derived.
+    /// All entries except the name and the source, which cannot be derived.
     pub fn entries(&self) -> Vec<Entry> {
         let Some(derived) = &self.derived else {
             return Vec::new();
@@ -266,10 +266,10 @@ impl Document {
     }
 }
 
-/// The entries of the sections that are read as they are.
+/// The entries of the sections that are kept as they are.
 fn facts(text: &str) -> Vec<Entry> {
     let mut entries = Vec::new();
-    // The text was read before.
+    // The text has been parsed before.
     if let Ok(table) = toml::de::DeTable::parse(text) {
         for section in ["order", "stability"] {
             if let Some(value) = table.get_ref().get(section) {
@@ -332,7 +332,7 @@ impl Derived {
             }
         }
         vectors.sort_by_key(|(_, list, _)| list.span().start);
-        // Those of a long splitting are left out.
+        // The matrices of a long splitting are left out.
         let written = matrices.into_iter();
         let written = written.filter_map(|(key, matrix)| Some((key, matrix.as_ref()?)));
         let mut matrices: Vec<(&str, &Matrix)> = written.collect();
@@ -374,7 +374,7 @@ impl Derived {
         *self.stages.get_ref()
     }
 
-    /// The entries of exact coefficients: of polynomials in the nodes where there is a node polynomial,
+    /// The entries of exact coefficients: of polynomials in the nodes if there is a node polynomial,
     /// and of the tableau itself otherwise.
     fn exact_entries(&self) -> Vec<Entry> {
         let mut entries = Vec::new();
@@ -440,7 +440,7 @@ impl Derived {
                 let optional =
                     |field: &str, entry: Option<Entry>| entry.unwrap_or_else(|| absent(field));
                 let label = |field: &str| format!("{name} ({field})");
-                // A witness that says so is not the same as none.
+                // A witness with this text differs from an absent witness.
                 let stated = |text: &Spanned<String>| match text.get_ref().as_str() {
                     ABSENT => Entry::new(label("witness"), format!("{ABSENT:?}"), text.span()),
                     _ => one(label("witness"), text),

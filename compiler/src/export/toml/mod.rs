@@ -25,13 +25,13 @@
 //! # … each of them
 //! ```
 //!
-//! All quantities with one index are polynomials in a node, all with two are polynomials in two nodes
-//! of them, so rational coefficients hold irrational tableaux exactly. Every list has as many
-//! entries as there are stages, the node polynomial has one more.
+//! All quantities with one index are polynomials in a node, and all with two indices are polynomials in two
+//! nodes, so rational coefficients represent irrational tableaux exactly. Every list has as many
+//! entries as there are stages; the node polynomial has one more.
 //!
-//! Where the tier is `constant field`, `[exact]` has no node polynomial, and its entries are expressions
-//! such as `"(pi - 4)/(4*pi)"`. Where it is `enclosure`, there is no `[exact]`: the definition is the
-//! lossless part. The matrices of a splitting with more than 36 stages are left out, as its weights are all that is in them.
+//! If the tier is `constant field`, `[exact]` has no node polynomial, and its entries are expressions
+//! such as `"(pi - 4)/(4*pi)"`. If it is `enclosure`, there is no `[exact]`: the definition is the
+//! lossless part. The matrices of a splitting with more than 36 stages are left out, because its weights determine them.
 //!
 //! A person writes the definition only, and [`check`](crate::check()), [`read`] and the macro derive the
 //! rest:

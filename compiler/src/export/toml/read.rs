@@ -20,13 +20,13 @@ use crate::tableau::Tableau;
 
 /// Reads a tableau from the exact data of a TOML file.
 ///
-/// Where the file has functions of the nodes, the result is what these say, whether or not it follows
-/// from the definition; decimals and properties are not looked at. Any other tableau is derived anew from
-/// its definition. [`check`](crate::check()) looks at everything.
+/// If the file has functions of the nodes, they give the result, whether or not it follows
+/// from the definition; decimals and properties are ignored. Any other tableau is derived again from
+/// its definition. [`check`](crate::check()) checks everything.
 ///
 /// # Errors
-/// [`ErrorKind::Document`] where the text is no TOML, a key is missing or unknown, a list has a wrong
-/// length or an entry is no rational; [`ErrorKind::TooManyStages`]; node polynomials whose roots are
+/// [`ErrorKind::Document`] if the text is not TOML, a key is missing or unknown, a list has a wrong
+/// length or an entry is not rational; [`ErrorKind::TooManyStages`]; node polynomials whose roots are
 /// not distinct reals in `[0, 1]`. Each with its place in the file.
 ///
 /// ```
@@ -86,7 +86,7 @@ fn algebra(modulus: &Polynomial, stages: usize) -> Result<NodeAlgebra, ErrorKind
     }
 }
 
-/// A matrix that is known to be there.
+/// A matrix that is known to be present.
 fn tensor(file: Input<'_>, rows: &Option<Matrix>) -> Result<Tensor, Error> {
     let rows = rows.iter().flat_map(Spanned::get_ref);
     let columns = rows.map(|row| polynomial(file, row));
@@ -101,7 +101,7 @@ fn polynomial(file: Input<'_>, list: &List) -> Result<Polynomial, Error> {
 
 fn number(file: Input<'_>, entry: &Spanned<String>) -> Result<BigRational, Error> {
     let text = entry.get_ref();
-    // A digit has more than three bits.
+    // A digit takes more than three bits.
     if text.len() > MAX_BITS / 3 {
         let message = format!("a number with {} characters is too long", text.len());
         return Err(document_error(file, entry.span(), message));

@@ -12,10 +12,10 @@ use crate::properties::Property;
 use crate::tableau::Tableau;
 use crate::tableau::left_out;
 
-/// Rows that are wider than this have one entry a line.
+/// Wider rows have one entry per line.
 const WIDEST: usize = 110;
 
-/// Exact forms that are longer together than this are left out: the definition, of which they are derived, is as exact
+/// Exact forms with a greater total length are left out: the definition from which they are derived is as exact
 /// and shorter.
 const LONGEST_EXPRESSIONS: usize = 50_000;
 
@@ -49,7 +49,7 @@ const DRIFTS_FIRST: &str = "\
 
 /// Writes a tableau as TOML with decimals of `digits ≥ 1` significant digits.
 ///
-/// The text is the same for the same tableau, and [`read`](super::read()) gives that tableau back.
+/// The text is the same for the same tableau, and [`read`](super::read()) returns that tableau.
 ///
 /// ```
 /// use symplectic_compiler::{Limits, derive, export::toml};
@@ -178,7 +178,7 @@ fn stage(row: usize) -> String {
     format!("i = {}", row + 1)
 }
 
-/// The coefficients of `1, x, x², …`, this many of them.
+/// The first `count` coefficients, of `1, x, x², …`.
 fn coefficients(polynomial: &Polynomial, count: usize) -> Vec<String> {
     (0..count)
         .map(|k| quoted(polynomial.coefficient(k)))
@@ -190,7 +190,7 @@ fn quoted(value: impl std::fmt::Display) -> String {
 }
 
 fn string(text: &str) -> String {
-    // A JSON string is a TOML basic string, but for this character, which TOML wants escaped.
+    // A JSON string is a TOML basic string, except for this character, which TOML requires to be escaped.
     serde_json::Value::from(text)
         .to_string()
         .replace('\u{7f}', "\\u007f")

@@ -8,13 +8,13 @@ use crate::formula::syntax::{self, Expression, Length};
 use crate::formula::system::Constraint;
 
 impl Elaborator<'_> {
-    /// The constraints, each a function of the positions that is zero.
+    /// The constraints: functions of the positions that vanish.
     pub(super) fn constraints(&mut self) -> Result<Vec<Constraint>, Error> {
         let definition = self.definition;
         self.families(&definition.constraints, &[], Self::zeros)
     }
 
-    /// Constraints, each with the indices for which there is one; `parts` reads what is zero. Their names differ from those of others.
+    /// Families of constraints, each with its indices; `parts` reads the vanishing functions. Names must differ from those of `others`.
     pub(super) fn families(
         &mut self,
         all: &[syntax::Constraint],

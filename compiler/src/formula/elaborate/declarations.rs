@@ -128,7 +128,7 @@ fn velocities(input: Input<'_>, definition: &Definition) -> Result<Vec<String>, 
     }
 }
 
-/// What a name of a coordinate is, in a message.
+/// A description of the coordinates, for messages.
 pub(super) fn coordinate(form: Form) -> &'static str {
     match form {
         Form::Hamiltonian => "a coordinate or momentum",
@@ -136,7 +136,7 @@ pub(super) fn coordinate(form: Form) -> &'static str {
     }
 }
 
-/// The names of the momenta in a Lagrangian system: `pa` for `a`, or `p_a`, `p__a`, … where that has a meaning.
+/// The names of the momenta in a Lagrangian system: `pa` for `a`, or `p_a`, `p__a`, … if that name is taken.
 fn momentum_names(
     definition: &Definition,
     positions: &[String],

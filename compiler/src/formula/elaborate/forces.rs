@@ -26,7 +26,7 @@ impl Elaborator<'_> {
         Ok(forces)
     }
 
-    /// The indices for each of which there is a force: those that are written, or all where the index of the coordinate is a new name.
+    /// The indices of a force: the written ones, or all if the index of the coordinate is a new name.
     fn indices(&self, written: &Force) -> Option<Over> {
         if written.over.is_some() {
             return written.over.clone();
@@ -87,7 +87,7 @@ impl Elaborator<'_> {
         }
     }
 
-    /// The rate of the friction, a number of parameters.
+    /// The rate of the friction, a function of parameters only.
     pub(super) fn friction(&mut self) -> Result<Option<Id>, Error> {
         let Some(written) = &self.definition.friction else {
             return Ok(None);

@@ -1,4 +1,4 @@
-//! Entries of arrays, and whether their indices are inside.
+//! Entries of arrays, and checks that their indices are in range.
 
 use num_traits::ToPrimitive;
 
@@ -190,7 +190,7 @@ impl Elaborator<'_> {
         }
     }
 
-    /// Checks that an index is inside an array, whatever the lengths of the system.
+    /// Checks that an index is in range for every length of the system.
     pub(super) fn inside(
         &mut self,
         index: &Index,
@@ -199,7 +199,7 @@ impl Elaborator<'_> {
         at: &Expression,
     ) -> Result<(), Error> {
         let outside = |this: &Self| this.outside(name, at, length);
-        // Whether a pair is inside is seen when the program runs.
+        // Whether a pair is in range is only known at run time.
         if let Base::Pair(id, slot) = index.base {
             let LoopRange::List(list) = self.graph.get_loop(id).range else {
                 return outside(self);
@@ -221,7 +221,7 @@ impl Elaborator<'_> {
         match (&end.base, length) {
             (Base::Start, Length::Fixed(n)) if end.offset <= *n as i64 => Ok(()),
             (Base::End(known), _) if known == length && end.offset <= 0 => Ok(()),
-            // There have to be so many.
+            // The system needs at least this many coordinates.
             (Base::Start, length)
                 if *length == self.layout.length() && !matches!(length, Length::Fixed(_)) =>
             {
@@ -238,7 +238,7 @@ impl Elaborator<'_> {
             Base::Start => Some(index.offset),
             Base::End(Length::Fixed(n)) => Some(*n as i64 + index.offset),
             Base::End(length) => {
-                // N − k is there where there are k.
+                // N − k is a valid index if there are at least k coordinates.
                 let own = *length == self.layout.length() && index.offset < 0;
                 own.then(|| {
                     self.least = self.least.max(usize::try_from(-index.offset).unwrap_or(0));
@@ -255,13 +255,13 @@ impl Elaborator<'_> {
         }
     }
 
-    /// What an index is always below.
+    /// An upper bound that the index never reaches.
     pub(super) fn end(&self, index: &Index) -> Index {
         let mut end = Index {
             base: index.base.clone(),
             offset: index.offset + 1,
         };
-        // The index of a loop is at most the end of its range, less one.
+        // The index of a loop is at most the end of its range minus one.
         while let Base::Loop(id) = &end.base
             && let LoopRange::Between(_, after) = &self.graph.get_loop(*id).range
         {
@@ -274,7 +274,7 @@ impl Elaborator<'_> {
     }
 }
 
-/// An end of a fixed length is a number.
+/// Replaces an end of fixed length by a number.
 pub(super) fn normal(index: Index) -> Index {
     match index.base {
         Base::End(Length::Fixed(n)) => Index::number(n as i64 + index.offset),

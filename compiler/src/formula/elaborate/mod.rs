@@ -1,4 +1,4 @@
-//! From a definition as written to a graph: what names mean, which shapes values have, which indices are inside.
+//! From a definition to a graph: the meanings of names, the shapes of values, the ranges of indices.
 
 mod arithmetic;
 mod constraints;
@@ -20,16 +20,16 @@ use super::system::{Bonds, Invariant, Lagrangian, Layout, Legendre, Parameter, S
 use crate::error::Error;
 use crate::expression::Input;
 
-/// The longest array that is written out where it is used as a whole.
+/// The longest array that is written out if it is used as a whole.
 const MOST_COMPONENTS: usize = 64;
-/// The largest exponent, and the largest denominator of one.
+/// The largest exponent, and the largest denominator of an exponent.
 const MOST_EXPONENT: i64 = 1000;
 /// The largest exponent of powers of powers.
 const MOST_JOINED_EXPONENT: i64 = 1_000_000;
-/// Most nodes of a graph.
+/// The largest number of nodes of a graph.
 const MOST_NODES: usize = 1_000_000;
 
-/// A value: a number, or several.
+/// A value: a number, or an array.
 #[derive(Debug, Clone)]
 enum Value {
     Scalar(Id),
@@ -45,10 +45,10 @@ enum Value {
     Abbreviation(usize),
 }
 
-/// Elaborates a definition; the energy of a Lagrangian system is not known yet, and its place holds L.
+/// Elaborates a definition. The energy of a Lagrangian system is not known yet; its field holds L.
 ///
 /// # Errors
-/// Unknown names, wrong shapes, indices outside, functions that are not smooth, each at its place.
+/// Unknown names, wrong shapes, indices out of range, functions that are not smooth, each at its place.
 pub fn elaborate(input: Input<'_>, definition: &Definition) -> Result<System, Error> {
     let (layout, velocities) = layout(input, definition)?;
     let parameters = parameters(input, definition, &layout, &velocities)?;
@@ -78,24 +78,24 @@ struct Elaborator<'a> {
     layout: Layout,
     /// The names of velocities.
     velocities: Vec<String>,
-    /// Whether momenta are not known here.
+    /// Whether the momenta are not available here.
     momenta_hidden: bool,
     parameters: Vec<Parameter>,
     graph: Graph,
-    /// What names mean.
+    /// The meanings of names.
     names: HashMap<String, Value>,
-    /// Those of them that have a meaning in a part of the formula only.
+    /// The names that are only valid in a part of the formula.
     locals: Vec<String>,
-    /// How many abbreviations with arguments were written out.
+    /// How many abbreviations with arguments have been written out.
     expansions: usize,
-    /// In how many of them the expression stands that is read.
+    /// The number of nested abbreviations around the current expression.
     nested: usize,
-    /// The loops in which the expression stands that is read.
+    /// The loops around the current expression.
     loops: Vec<LoopId>,
     bonds: Vec<Bonds>,
-    /// How many coordinates there have to be at least.
+    /// The smallest number of coordinates the formula needs.
     least: usize,
-    /// Where a node was read first.
+    /// Where a node was first read.
     places: HashMap<Id, Span>,
 }
 
@@ -240,7 +240,7 @@ impl Elaborator<'_> {
         })
     }
 
-    /// What a name is, in a message.
+    /// The meaning of a name, for messages.
     fn meaning(&self, name: &str) -> String {
         match self.names.get(name) {
             Some(Value::Half(Half::Q)) => "the positions".to_owned(),
@@ -267,7 +267,7 @@ impl Elaborator<'_> {
         }
     }
 
-    /// Every momentum, and every coordinate or its momentum, is in H.
+    /// Checks that every momentum, and every coordinate or its momentum, is in H.
     fn all_appear(&self, energy: Id) -> Result<(), Error> {
         let below = self.graph.below([energy]);
         let appears = |half: Half, k: Option<i64>| {

@@ -12,7 +12,7 @@ use crate::formula::structure::terms;
 use crate::formula::syntax::{Expression, Span};
 use crate::formula::system::Constraint;
 
-/// What a non-holonomic constraint is.
+/// The required form of a non-holonomic constraint.
 const FORM: &str = "a non-holonomic constraint is a sum of velocities times functions of the positions, which is zero: `edge = vx sin(a) - vy cos(a)`";
 
 impl Elaborator<'_> {
@@ -52,7 +52,7 @@ impl Elaborator<'_> {
         Err(self.input.error(span, kind.into()))
     }
 
-    /// A form, or a vector of them.
+    /// A form, or a vector of forms.
     fn forms(&mut self, written: &Expression) -> Result<Vec<Id>, Error> {
         let parts = self.one_or_more(written)?;
         for &part in &parts {
@@ -61,7 +61,7 @@ impl Elaborator<'_> {
         Ok(parts)
     }
 
-    /// Checks that a formula is linear in the velocities, with functions of the positions, and not zero.
+    /// Checks that a formula is nonzero and linear in the velocities, with functions of the positions as factors.
     fn form(&mut self, part: Id, written: &Expression) -> Result<(), Error> {
         let depends = self.graph.depends(part);
         let wrong = match (depends.p, depends.time, depends.v) {
@@ -100,7 +100,7 @@ impl Elaborator<'_> {
         Err(self.input.error(span, kind.into()))
     }
 
-    /// Checks that a formula does not contain a velocity that is named for the constraints.
+    /// Checks that a formula contains no velocity that is declared for the constraints.
     pub(super) fn no_velocity(&self, formula: Id, written: &Expression) -> Result<(), Error> {
         let below = self.graph.below([formula]);
         let found = below.into_iter().find(|&id| match self.graph.node(id) {

@@ -10,18 +10,18 @@ use crate::formula::graph::{Base, Coordinate, Half, Id, Index, Loop, LoopId, Loo
 use crate::formula::syntax::{Abbreviation, Ends, Expression, Kind, Name, Over};
 use crate::formula::system::{Bonds, Layout, Shape};
 
-/// Most different sums of a formula.
+/// The largest number of distinct sums in a formula.
 const MOST_SUMS: usize = 16;
-/// Deepest nesting of abbreviations with arguments.
+/// The deepest nesting of abbreviations with arguments.
 const MOST_NESTED: usize = 64;
-/// Most abbreviations with arguments that are written out.
+/// The largest number of abbreviations with arguments that are written out.
 const MOST_EXPANSIONS: usize = 10_000;
 
 impl Elaborator<'_> {
     pub(super) fn new_loop(&mut self, range: LoopRange, at: &Expression) -> Result<LoopId, Error> {
         let depth = self.loops.len();
         match self.graph.add_loop(Loop { range, depth }) {
-            // Derivatives need more of them.
+            // Derivatives need more loops.
             Some(id) if self.graph.count_loops() <= MOST_SUMS => {
                 self.loops.push(id);
                 Ok(id)
@@ -37,7 +37,7 @@ impl Elaborator<'_> {
         }
     }
 
-    /// Reads something with a name that has a meaning there only.
+    /// Reads an expression in which some names have a local meaning.
     pub(super) fn with<T>(
         &mut self,
         meanings: Vec<(&Name, Value)>,
@@ -58,7 +58,7 @@ impl Elaborator<'_> {
         result
     }
 
-    /// The value of an abbreviation at some arguments.
+    /// The value of an abbreviation for given arguments.
     pub(super) fn expand(
         &mut self,
         abbreviation: usize,
@@ -97,7 +97,7 @@ impl Elaborator<'_> {
             _ => self.value(argument),
         });
         let values = values.collect::<Result<Vec<_>, Error>>()?;
-        // Only its arguments, and what stands before it.
+        // Only its arguments and the names defined before it are visible.
         let locals = std::mem::take(&mut self.locals);
         let hidden: Vec<_> = locals.iter().map(|name| self.names.remove(name)).collect();
         self.nested += 1;
@@ -110,7 +110,7 @@ impl Elaborator<'_> {
         result
     }
 
-    /// Whether an argument is an index of a sum, or a length, with a number added.
+    /// Whether an argument is an index of a sum or a length, plus a number.
     fn is_index(&self, argument: &Expression) -> bool {
         match &argument.kind {
             Kind::Name(name) => matches!(self.names.get(name), Some(Value::Index(_))),
@@ -145,7 +145,7 @@ impl Elaborator<'_> {
         })
     }
 
-    /// Reads something in the loops that it goes over, which stay open.
+    /// Reads an expression in the loops of `over`, which stay open.
     pub(super) fn under<T>(
         &mut self,
         over: &Over,
@@ -168,7 +168,7 @@ impl Elaborator<'_> {
                     Some(written) => {
                         let [start, end] = written;
                         let range = (self.index(start)?, self.index(end)?);
-                        // An index is never negative.
+                        // An index must not be negative.
                         let numbers = [(&range.0, start), (&range.1, end)];
                         for (index, written) in numbers {
                             let lowest = match index.base {
@@ -321,7 +321,7 @@ impl Elaborator<'_> {
     }
 }
 
-/// The place of the stretch of a bond among the positions.
+/// The index that stands for the stretch of a bond among the positions.
 pub const STRETCH: Index = Index {
     base: Base::Start,
     offset: -1,

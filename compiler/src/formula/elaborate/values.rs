@@ -11,7 +11,7 @@ use crate::formula::syntax::{Expression, Kind, Length, Name};
 use crate::formula::system::{Layout, Shape};
 
 impl Elaborator<'_> {
-    /// The error where a name has a meaning already.
+    /// The error for a name that has a meaning already.
     pub(super) fn taken(&self, name: &Name) -> Error {
         let meaning = self.meaning(&name.text);
         let kind = FormulaError::Taken {
@@ -216,7 +216,7 @@ impl Elaborator<'_> {
     }
 }
 
-/// The known name that differs least, if by little.
+/// The known name with the smallest edit distance, if that is small.
 fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
     let distance = |other: &str| {
         let (a, b): (Vec<char>, Vec<char>) = (name.chars().collect(), other.chars().collect());

@@ -13,15 +13,15 @@ const MOST_BY_ADJUGATE: usize = 3;
 pub(super) struct Block {
     matrix: Vec<Vec<Id>>,
     residuals: Vec<Id>,
-    /// The entries of the diagonal before elimination.
+    /// The diagonal entries before elimination.
     scales: Vec<Id>,
 }
 
-/// Whether a number is zero; the last one is of the size of its terms.
+/// Whether a number is zero; the last argument has the size of its terms.
 type Zero<'a> = &'a dyn Fn(&Graph, Id, Id) -> bool;
 
 impl Block {
-    /// From its entries.
+    /// A block from its entries.
     pub fn new(matrix: Vec<Vec<Id>>, residuals: Vec<Id>) -> Self {
         let scales = (0..residuals.len()).map(|k| matrix[k][k]).collect();
         Block {
@@ -31,7 +31,7 @@ impl Block {
         }
     }
 
-    /// `r·M⁻¹ r/2`; for a singular matrix a row and the combination of r that has to be zero.
+    /// `r·M⁻¹ r/2`; for a singular matrix, the index of a row and the combination of r that must vanish.
     pub fn energy(self, graph: &mut Graph, zero: Zero<'_>) -> Result<Id, (usize, Id)> {
         let mut scratch = graph.clone();
         match self.clone().eliminated(&mut scratch, zero) {
@@ -43,7 +43,7 @@ impl Block {
         }
     }
 
-    /// By the adjugate: one divisor.
+    /// The energy by the adjugate, with one divisor.
     fn by_adjugate(&self, graph: &mut Graph) -> Id {
         let m = &self.matrix;
         let others = |k: usize| -> Vec<usize> { (0..m.len()).filter(|&l| l != k).collect() };
@@ -85,7 +85,7 @@ impl Block {
         )
     }
 
-    /// By elimination, of the velocity with the fewest partners first, of two at once where neither has a mass of its own.
+    /// The energy by elimination, starting with the velocity with the fewest partners; a 2×2 pivot if both diagonal entries vanish.
     fn eliminated(mut self, graph: &mut Graph, zero: Zero<'_>) -> Result<Id, (usize, Id)> {
         let mut left: Vec<usize> = (0..self.residuals.len()).collect();
         let mut terms = Vec::new();
@@ -100,7 +100,7 @@ impl Block {
         Ok(graph.sum(terms))
     }
 
-    /// What to eliminate next; `None` if the rest of the matrix is zero.
+    /// The next pivot; `None` if the rest of the matrix is zero.
     fn pivot(&self, graph: &mut Graph, left: &[usize], zero: Zero<'_>) -> Option<Vec<usize>> {
         let m = &self.matrix;
         let partners = |&k: &usize| left.iter().filter(|&&l| !graph.is_zero(m[k][l])).count();
@@ -122,7 +122,7 @@ impl Block {
         None
     }
 
-    /// Eliminates one velocity or two: the energy that they add.
+    /// Eliminates one velocity or two, and returns their contribution to the energy.
     fn eliminate(&mut self, graph: &mut Graph, pivot: &[usize], left: &[usize]) -> Id {
         let m = &mut self.matrix;
         let inverse = match *pivot {
@@ -195,7 +195,7 @@ fn determinant(graph: &mut Graph, [[a, b], [c, d]]: [[Id; 2]; 2]) -> Id {
     graph.sum([(Number::one(), plus), (-Number::one(), minus)])
 }
 
-/// A product; where the first two are equal, with their square.
+/// A product; if the first two factors are equal, it contains their square.
 fn product(graph: &mut Graph, factors: [Id; 3]) -> Id {
     graph.product(Number::one(), factors.map(|x| (x, Number::one())))
 }

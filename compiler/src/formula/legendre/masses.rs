@@ -10,19 +10,19 @@ use crate::formula::syntax::Length;
 use crate::formula::system::System;
 use crate::formula::trigonometry::shortened;
 
-/// Most velocities that are looked at one by one.
+/// The largest number of velocities that are examined one by one.
 const MOST_VELOCITIES: usize = 64;
 
-/// Most velocities that are coupled.
+/// The largest number of coupled velocities.
 const MOST_COUPLED: usize = 16;
 
-/// The mass matrix: of all velocities, or of those of each body of a sum.
+/// The mass matrix: of all velocities, or of the velocities of each body of a sum.
 pub(super) struct Masses {
-    /// The loop over all bodies in which everything stands.
+    /// The loop over all bodies, if there is one.
     pub over: Option<LoopId>,
     /// The velocities.
     pub velocities: Vec<Coordinate>,
-    /// Whether each of them is in L.
+    /// Whether each velocity is in L.
     pub appears: Vec<bool>,
     /// A
     pub shift: Vec<Id>,
@@ -30,12 +30,12 @@ pub(super) struct Masses {
     pub matrix: Vec<Vec<Id>>,
     /// Whether M consists of numbers.
     pub are_numbers: bool,
-    /// Whether entries of M are not zero.
+    /// Whether entries of M are nonzero.
     coupled: Vec<Vec<bool>>,
 }
 
 impl Masses {
-    /// Those of a Lagrangian; `None` where velocities are coupled in a way that is not known.
+    /// The masses of a Lagrangian; `None` if velocities are coupled in an unsupported way.
     pub fn of(system: &mut System, formula: Id) -> Option<Self> {
         let parts = momenta(&mut system.graph, formula);
         if let Some(bodies) = bodies(system, &parts) {
@@ -71,7 +71,7 @@ impl Masses {
         Masses::from(&mut system.graph, &parts, velocities.collect(), None)
     }
 
-    /// From the momenta, which all stand in one loop or in none.
+    /// The masses from the momenta, which all stand in one loop or in none.
     fn from(
         graph: &mut Graph,
         parts: &[Scatter],
@@ -126,7 +126,7 @@ impl Masses {
         (!blocks.iter().any(large)).then_some(masses)
     }
 
-    /// The velocities in groups: those that M couples, and those that are not coupled and have the same mass.
+    /// The velocities in groups: those that M couples, and uncoupled ones with the same mass.
     pub fn blocks(&self) -> Vec<Vec<usize>> {
         let mut blocks: Vec<Vec<usize>> = Vec::new();
         let mut seen = vec![false; self.velocities.len()];
@@ -168,7 +168,7 @@ fn momenta(graph: &mut Graph, formula: Id) -> Vec<Scatter> {
     gradient(graph, formula, &[], Number::one(), Half::V)
 }
 
-/// The masses of each body, where L is a sum over all of them.
+/// The masses of each body, if L is a sum over all bodies.
 fn bodies(system: &mut System, parts: &[Scatter]) -> Option<Masses> {
     let over = *parts.first()?.loops.first()?;
     let own = Index::of(Base::Loop(over));

@@ -1,9 +1,9 @@
 //! From a Lagrangian to the Hamiltonian: `L = v·M v/2 + A·v − U` gives `H = (p − A)·M⁻¹(p − A)/2 + U`, all functions of positions and time.
 //!
-//! M and A are derivatives of the graph of L, and H is a graph again, as if it had been written. M falls into blocks: a body of a sum over
-//! all bodies, and velocities that are not coupled. A block of up to three velocities is inverted by its adjugate, a larger one by
-//! elimination. M has to be regular; otherwise positions and momenta obey a primary constraint. Where L is not quadratic in the velocities,
-//! it is taken as it is ([`Legendre::None`]).
+//! M and A are derivatives of the graph of L, and H is again a graph, as if it had been written. M falls into blocks: the bodies of a sum
+//! over all bodies, and velocities that are not coupled. A block of up to three velocities is inverted by its adjugate, a larger block by
+//! elimination. M must be regular; otherwise positions and momenta obey a primary constraint. If L is not quadratic in the velocities,
+//! it is used directly ([`Legendre::None`]).
 
 mod inverse;
 mod masses;
@@ -27,10 +27,10 @@ use super::system::{Lagrangian, Layout, Legendre, System};
 use crate::error::Error;
 use crate::expression::Input;
 
-/// The Hamiltonian system of a Lagrangian, whose formula is where the energy will be.
+/// The Hamiltonian system of a Lagrangian. On input, `energy` holds L.
 ///
 /// # Errors
-/// L that is not quadratic in the velocities, or has a singular mass matrix.
+/// If L is not quadratic in the velocities, or has a singular mass matrix.
 pub(super) fn transform(
     mut system: System,
     definition: &Definition,
@@ -116,7 +116,7 @@ pub(super) fn transform(
             false => Legendre::RegularAtRandomPoints,
         },
     });
-    // Of nodes that have become one, the place of the first.
+    // If several nodes have become one, keep the place of the first.
     let old = std::mem::take(&mut system.places);
     let ordered: BTreeMap<Id, Span> = old.into_iter().collect();
     for (id, span) in ordered {
@@ -128,7 +128,7 @@ pub(super) fn transform(
     Ok(system)
 }
 
-/// A part of the definition that is about H.
+/// A part of the definition that needs H.
 fn needs_hamiltonian(system: &System) -> Option<&'static str> {
     let parts = [
         ("constraints", !system.constraints.is_empty()),
@@ -142,7 +142,7 @@ fn needs_hamiltonian(system: &System) -> Option<&'static str> {
         .find_map(|(what, there)| there.then_some(what))
 }
 
-/// The system of a Lagrangian by itself, if every velocity that has a name is in it.
+/// The system with L itself, if L contains every named velocity.
 fn every_velocity(
     mut system: System,
     definition: &Definition,
@@ -177,7 +177,7 @@ fn every_velocity(
     Ok(system)
 }
 
-/// Puts `∂H/∂p` for the velocities in applied forces.
+/// Substitutes `∂H/∂p` for the velocities in applied forces.
 fn forces_of_momenta(
     system: &mut System,
     definition: &Definition,
@@ -202,8 +202,8 @@ fn forces_of_momenta(
     Ok(())
 }
 
-/// The value of a part with velocities given by their parts of a derivative; `None` where these have sums with an index that has a meaning
-/// already, or where that is not seen.
+/// The value of a part with the given velocities (as parts of a derivative) substituted. `None` if these contain sums whose index is
+/// in use already, or if the parts do not show a velocity.
 fn with_velocities(system: &System, velocity: &[Scatter], part: &Scatter) -> Option<(Graph, Id)> {
     let mut graph = system.graph.clone();
     let mut around = part.loops.clone();
@@ -233,7 +233,7 @@ fn with_velocities(system: &System, velocity: &[Scatter], part: &Scatter) -> Opt
     seen.then_some((graph, value))
 }
 
-/// A part of L that has a third derivative by velocities, as far as it shows.
+/// A part of L with a nonzero third derivative with respect to velocities, as far as the formula shows.
 fn not_quadratic(graph: &mut Graph, formula: Id) -> Option<Id> {
     let fixed = |graph: &Graph, id: Id| !graph.depends(id).v;
     let Some(terms) = terms(graph, formula, fixed) else {
@@ -250,7 +250,7 @@ fn not_quadratic(graph: &mut Graph, formula: Id) -> Option<Id> {
     None
 }
 
-/// Where a velocity is declared.
+/// The place where a velocity is declared.
 fn velocity_span(definition: &Definition, velocity: usize) -> Option<Span> {
     let velocities = definition.coordinates[1].as_ref()?;
     Some(match &velocities.kind {
@@ -259,17 +259,17 @@ fn velocity_span(definition: &Definition, velocity: usize) -> Option<Span> {
     })
 }
 
-/// What follows from a singular mass matrix.
+/// The primary constraint of a singular mass matrix.
 struct Constraint {
-    /// The number of a velocity that the momenta do not determine.
+    /// The index of a velocity that the momenta do not determine.
     velocity: usize,
-    /// Its block, as rows of all velocities.
+    /// Its block, as indices of velocities.
     block: Vec<usize>,
     /// All velocities.
     velocities: Vec<Coordinate>,
-    /// What is zero.
+    /// The expression that vanishes.
     residual: Id,
-    /// Whether the velocity is in L at all.
+    /// Whether the velocity is in L.
     appears: bool,
 }
 
@@ -303,7 +303,7 @@ impl Constraint {
 }
 
 impl Masses {
-    /// The terms of the kinetic energy by momenta; the copy of masses comes after that of momenta.
+    /// The terms of the kinetic energy in the momenta; momenta are copied before masses.
     fn kinetic(
         &self,
         copier: &mut Copier,

@@ -4,7 +4,7 @@ use super::tokens::{Token, tokenize};
 use crate::expression::Input;
 use crate::formula::syntax::Form;
 
-/// What a text gives: H, if a statement begins with `H =` or `p:`; else L, if one begins with `L =` or `v:`; else H.
+/// The form of a text: H, if a statement begins with `H =` or `p:`; else L, if one begins with `L =` or `v:`; else H.
 pub fn form(input: Input<'_>) -> Form {
     let Ok(tokens) = tokenize(input) else {
         return Form::Hamiltonian;

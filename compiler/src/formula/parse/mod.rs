@@ -56,13 +56,13 @@ const KEYWORDS: [&str; 12] = [
     "require",
 ];
 
-/// Words with which a statement begins, if `:` follows, and which are names elsewhere.
+/// Words that begin a statement if `:` follows, and are names elsewhere.
 const STATEMENTS: [&str; 5] = ["constraints", "force", "nonholonomic", "friction", "v"];
 
 /// Reads a definition.
 ///
 /// # Errors
-/// Anything that does not follow the grammar, at its place.
+/// Any violation of the grammar, at its place.
 pub fn parse(input: Input<'_>, form: Form) -> Result<Definition, Error> {
     let tokens = tokenize(input)?;
     let mut parser = Parser {
@@ -83,7 +83,7 @@ struct Parser<'a> {
     tokens: Vec<(Token, Span)>,
     next: usize,
     depth: usize,
-    /// The functions of the user, and abbreviations with arguments.
+    /// The user's functions, and abbreviations with arguments.
     calls: Vec<String>,
     /// For every open bracket whether it is a bar.
     in_bars: Vec<bool>,
@@ -102,7 +102,7 @@ impl Parser<'_> {
         self.tokens[self.next.min(self.tokens.len() - 1)].1.clone()
     }
 
-    /// The end of the token before.
+    /// The end of the previous token.
     fn end(&self) -> usize {
         self.next
             .checked_sub(1)
@@ -126,7 +126,7 @@ impl Parser<'_> {
         }
     }
 
-    /// The end of what a bracket began.
+    /// Reads the closing partner of an open bracket.
     fn close(&mut self, open: &Span, [bracket, partner]: [char; 2]) -> Result<(), Error> {
         if self.accept(partner) {
             return Ok(());
@@ -206,7 +206,7 @@ impl Parser<'_> {
         Ok(items)
     }
 
-    /// Reads what stands one level deeper.
+    /// Reads an expression one nesting level deeper.
     fn deeper<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, Error>) -> Result<T, Error> {
         self.depth += 1;
         if self.depth > MAX_DEPTH {
@@ -248,7 +248,7 @@ impl Parser<'_> {
         })
     }
 
-    /// Whether something begins here that can be multiplied by what is before it.
+    /// Whether a factor begins here that multiplies the previous one.
     fn factor_follows(&self) -> bool {
         match self.peek() {
             Token::Number(_) | Token::Symbol('(') => true,
@@ -356,7 +356,7 @@ impl Parser<'_> {
         Ok(value)
     }
 
-    /// What stands in a bracket, with its end; `|` opens a length there.
+    /// Reads the contents of brackets, with their end; `|` opens a length there.
     fn within<T>(
         &mut self,
         brackets: [char; 2],
@@ -400,7 +400,7 @@ impl Parser<'_> {
             }
             Token::Symbol('(') => {
                 let inner = self.within(['(', ')'], Self::expression)?;
-                // A sum or product of its own.
+                // A sum or product in parentheses stays separate.
                 return Ok(Expression {
                     span: start..self.end(),
                     ..inner
@@ -422,7 +422,7 @@ impl Parser<'_> {
         Ok(Kind::Total(Box::new(over), Box::new(self.expression()?)))
     }
 
-    /// What a sum goes over, or a family of constraints.
+    /// The range of a sum or of a family of constraints.
     pub(super) fn over(&mut self) -> Result<Over, Error> {
         const OVER: &str =
             "what the sum goes over: `i`, `i in 0..N`, `i < j`, `bonds d` or `(i, j) in pairs`";
@@ -475,10 +475,10 @@ fn is_function(name: &str) -> bool {
 /// The functions of vectors, and of several numbers.
 pub const VECTOR_FUNCTIONS: [&str; 5] = ["norm", "dot", "cross", "hypot", "atan2"];
 
-/// Functions that are read, to be refused with the reason.
+/// Functions that are recognised, and rejected with a reason.
 pub const NOT_SMOOTH: [&str; 8] = ["abs", "min", "max", "sign", "floor", "ceil", "round", "mod"];
 
-/// The value of an expression of numbers.
+/// The value of a numeric expression.
 pub fn constant(expression: &Expression) -> Option<BigRational> {
     Some(match &expression.kind {
         Kind::Number(value) => value.clone(),

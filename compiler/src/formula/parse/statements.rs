@@ -68,7 +68,7 @@ impl Parser<'_> {
         Ok(definition)
     }
 
-    /// The name of a function in Rust, which is none of those that the code of a system has.
+    /// The name of a Rust function; it must differ from the names in the generated code of a system.
     fn function_name(&mut self, expected: &str) -> Result<Name, Error> {
         let name = self.new_name(expected)?;
         let letters = name.text.trim_end_matches(|c: char| c.is_ascii_digit());
@@ -336,7 +336,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// An error about a part that belongs to a formula of the other form.
+    /// The error for a part that belongs to a formula of the other form.
     fn other_form(&self, found: String, span: &Span) -> Error {
         let kind = FormulaError::OtherForm {
             found,
@@ -350,7 +350,7 @@ impl Parser<'_> {
         self.input.error(span, kind.into())
     }
 
-    /// What is zero, after the word; `form` says how it is written.
+    /// The constraints after the keyword; `form` shows their syntax.
     fn constraints(&mut self, form: &str) -> Result<Vec<Constraint>, Error> {
         self.expect(':', form)?;
         let open = self.span();
@@ -460,7 +460,7 @@ impl Parser<'_> {
     }
 }
 
-/// What a statement may begin with.
+/// The statements that a definition may contain.
 fn statement(form: Form) -> &'static str {
     match form {
         Form::Hamiltonian => {

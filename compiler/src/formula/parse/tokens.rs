@@ -1,4 +1,4 @@
-//! Text to tokens.
+//! The tokens of a text.
 
 use num_rational::BigRational;
 
@@ -51,7 +51,7 @@ pub(super) fn tokenize(input: Input<'_>) -> Result<Vec<(Token, Span)>, Error> {
             };
             Token::Number(number(input, start..position)?)
         } else if first.is_alphabetic() || first == '_' {
-            // A word of Rust as a name, `r#type`, is that name.
+            // A raw identifier, `r#type`, means the name `type`.
             let begin = start + if rest.starts_with("r#") { 2 } else { 0 };
             let end = text[begin..].find(|c: char| !(c.is_alphanumeric() || c == '_'));
             position = begin + end.unwrap_or(text.len() - begin);

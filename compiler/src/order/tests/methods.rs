@@ -1,4 +1,4 @@
-//! Methods that no derivation gives, for the tests of this folder.
+//! Methods that no derivation yields, for the tests of this folder.
 
 use std::sync::Arc;
 
@@ -52,7 +52,7 @@ pub(crate) fn explicit_runge_kutta(name: &str) -> RationalPair {
 }
 
 /// The composition, for `i = 1..n`, of the kick `p −= kick_i h ∂U/∂q` and the drift
-/// `q += drift_i h ∂T/∂p` as a partitioned Runge–Kutta method (MW 2.6.4): `Q_i` has the drifts before
+/// `q += drift_i h ∂T/∂p` as a partitioned Runge–Kutta method (MW 2.6.4): `Q_i` contains the drifts before
 /// the stage, `P_i` the kicks up to it.
 pub(crate) fn splitting(drift: &[BigRational], kick: &[BigRational]) -> RationalPair {
     let stages = drift.len();

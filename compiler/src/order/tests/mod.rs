@@ -72,7 +72,7 @@ fn the_violated_condition_is_named() {
         &explicit_runge_kutta("rk4"),
         &OrderOptions { limit: 4, ..QUICK },
     );
-    // Beyond the limit the quadrature refutes.
+    // Beyond the limit, the quadrature refutes the order.
     let violated = report.nystrom.refuted_by.expect("refuted");
     assert_eq!(
         violated.to_string(),
@@ -110,7 +110,7 @@ fn exchanged_and_misprinted_coefficients_are_refuted() {
         (2, "5/144")
     );
 
-    // Gauss 2 with √3 to ten digits is symplectic, and of order 2 only.
+    // Gauss 2 with √3 to ten digits is symplectic, but only of order 2.
     let root = decimal("1.732050808");
     let gauss = |root: &BigRational| -> RationalPair {
         let off = root / rational("6");
@@ -130,8 +130,8 @@ fn exchanged_and_misprinted_coefficients_are_refuted() {
     );
 }
 
-/// The order as far as the conditions hold to a tolerance, for coefficients that were printed as
-/// decimals, which satisfy them only about as well. The residuals of the next order have to be far
+/// The order up to which the conditions hold to a tolerance, for coefficients printed as
+/// decimals, which satisfy them only to that accuracy. The residuals of the next order must be far
 /// larger.
 fn approximate_order(pair: &RationalPair, class: HamiltonianClass) -> usize {
     let mut weights = Weights::new(pair, TreeRule::Class(class));
@@ -192,7 +192,7 @@ fn explicit_methods_have_the_orders_of_their_papers() {
     }
 }
 
-/// McLachlan & Atela 4, sold as order 4 for every separable `H`, is of order 4 for quadratic `T` only.
+/// McLachlan & Atela 4, published as order 4 for every separable `H`, is of order 4 only for quadratic `T`.
 #[test]
 fn only_trees_that_vanish_for_quadratic_kinetic_energy_refute_mclachlan_atela_4() {
     let drift = [
@@ -225,7 +225,7 @@ fn only_trees_that_vanish_for_quadratic_kinetic_energy_refute_mclachlan_atela_4(
     assert_eq!(violated, ["q[p,p,p]", "p[q[p,p]]"]);
 }
 
-/// One condition for each tree without a root is as good as all, and so is the theorem.
+/// One condition for each tree without a root gives the same as all conditions, and so does the theorem.
 #[test]
 fn all_conditions_agree_with_those_of_symplectic_methods() {
     for entry in catalogue::entries().filter(|entry| entry.stages <= 6) {
@@ -278,7 +278,7 @@ fn simplifying_assumptions_give_the_order_of_the_catalogue() {
     }
 }
 
-/// The theorem needs no symplecticity; without it, it may say less than enumeration.
+/// The theorem does not require symplecticity; without it, the theorem may give less than enumeration.
 #[test]
 fn simplifying_assumptions_say_nothing_wrong_about_other_methods() {
     let options = OrderOptions {
@@ -427,7 +427,7 @@ fn order_10_of_five_stages_by_full_enumeration() {
     assert_eq!(found.order, 10);
 }
 
-/// Yoshida's triple jump of Gauss with 4 stages has order 10. Its numbers are expressions, those for all trees of
+/// Yoshida's triple jump of Gauss with 4 stages has order 10. Its numbers are expressions; those for all trees of
 /// order 9 would take more than 10 GB.
 #[test]
 fn memory_is_bounded_where_numbers_are_expressions() {

@@ -9,11 +9,11 @@ use crate::arithmetic::rational::ratio;
 use crate::limits::Limits;
 use crate::quadrature::{FAMILIES, QuadratureRule};
 
-/// What is known of the nodes.
+/// The data about the nodes.
 pub(super) struct Nodes {
     /// The printed values.
     pub printed: Vec<BigRational>,
-    /// Those that are printed exactly.
+    /// The nodes that are printed exactly.
     pub exact: Vec<BigRational>,
     /// Whether they are symmetric.
     pub symmetric: bool,
@@ -21,7 +21,7 @@ pub(super) struct Nodes {
     pub order: usize,
 }
 
-/// All polynomials whose roots are nodes as wanted: the coefficients that are free determine the others.
+/// All polynomials whose roots are suitable nodes: the free coefficients determine the others.
 pub(super) struct Family {
     degree: usize,
     /// The reduced echelon form, with its pivots.
@@ -35,7 +35,7 @@ struct Equation {
 }
 
 impl Family {
-    /// `None` if the conditions contradict one another.
+    /// The family of polynomials; `None` if the conditions contradict one another.
     pub fn of(nodes: &Nodes) -> Option<Self> {
         let degree = nodes.printed.len();
         let rows = echelon(equations(nodes), degree)?;
@@ -48,7 +48,7 @@ impl Family {
         (0..self.degree).filter(|&power| !pivot(power)).collect()
     }
 
-    /// The polynomial with the free ones of some coefficients.
+    /// The polynomial whose free coefficients are taken from `coefficients`.
     pub fn polynomial(&self, coefficients: &[BigRational]) -> Polynomial {
         let mut all = coefficients.to_vec();
         for (pivot, row) in &self.rows {
@@ -61,7 +61,7 @@ impl Family {
     }
 }
 
-/// The coefficients of the polynomial of some nodes, apart from the first, which is 1.
+/// The coefficients of the polynomial with these nodes as roots, except the leading coefficient 1.
 pub(super) fn coefficients(nodes: &[BigRational]) -> Vec<BigRational> {
     let product = nodes.iter().fold(Polynomial::one(), |product, node| {
         let factor = Polynomial::from_rationals(&[-node, BigRational::one()]);
@@ -150,7 +150,7 @@ fn subtract(from: &mut Equation, row: &Equation, factor: &BigRational) {
     from.right -= factor * &row.right;
 }
 
-/// The rule with these nodes: that of a family, if it is one.
+/// The rule with these nodes, and whether it belongs to a known family.
 pub(super) fn rule(polynomial: &Polynomial) -> Result<(QuadratureRule, bool), String> {
     let stages = polynomial.degree().unwrap_or(0);
     let limits = Limits::default();
@@ -167,7 +167,7 @@ pub(super) fn rule(polynomial: &Polynomial) -> Result<(QuadratureRule, bool), St
     Ok((rule, false))
 }
 
-/// Whether numbers with their mirror images are the same, exactly.
+/// Whether the numbers are exactly symmetric, that is, equal to their mirror images.
 pub(super) fn symmetric(values: &[BigRational]) -> bool {
     let mut sorted = values.to_vec();
     sorted.sort_unstable();
@@ -176,7 +176,7 @@ pub(super) fn symmetric(values: &[BigRational]) -> bool {
     sums.all(|sum| sum.is_one())
 }
 
-/// How far values are from those of a polynomial collocation method: the largest `|Σ_j a_ij c_j^k − c_i^{k+1}/(k + 1)|`.
+/// The distance from a polynomial collocation method: the largest `|Σ_j a_ij c_j^k − c_i^{k+1}/(k + 1)|`.
 pub(super) fn off_collocation(
     stages: usize,
     a: impl Fn(usize, usize) -> BigRational,
@@ -230,10 +230,10 @@ mod tests {
             let (rule, named) = rule(&polynomial).expect(name);
             assert!(named && rule.name() == name, "{}", rule.name());
         }
-        // One order more is a contradiction.
+        // One order higher is a contradiction.
         assert!(found(&[0, 500, 1000], &[0, 1], false, 5).is_none());
         assert!(found(&[113, 500, 887], &[], false, 7).is_none());
-        // Three symmetric nodes have order 4, and one free number.
+        // Three symmetric nodes have order 4, and one free parameter.
         let (polynomial, free) = found(&[200, 500, 800], &[], true, 4).expect("free");
         assert_eq!(free, 1);
         let [low, high] = [ratio(1, 5), ratio(4, 5)].map(|x| polynomial.evaluate(&x));

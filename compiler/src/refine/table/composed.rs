@@ -1,4 +1,4 @@
-//! Steps of the implicit midpoint rule, and explicit symplectic pairs: what composes simple steps is certified.
+//! Steps of the implicit midpoint rule, and explicit symplectic pairs: compositions of simple steps, which are certified.
 
 use num_rational::BigRational;
 use num_traits::{One, Zero};
@@ -53,7 +53,7 @@ pub(super) fn steps_of_midpoint(file: Input<'_>, table: &Table) -> Result<Refine
     certified(file, table, certificate, method, terms)
 }
 
-/// Whether a pair is explicit: each stage of one half has the terms of all earlier ones, and of the other half its own too.
+/// Whether a pair is explicit: each stage of one half has the terms of all earlier stages; the other half also has its own term.
 pub(super) fn is_explicit(table: &Table, kicks_first: bool) -> bool {
     if !table.has(Array::ATilde) {
         return false;
@@ -144,7 +144,7 @@ fn certified(
     method: String,
     terms: impl Fn(&Cell) -> Terms,
 ) -> Result<RefinedTable, Error> {
-    // Both kinds are compositions of symplectic maps. Kicks and drifts are so for separable H.
+    // Both kinds are compositions of symplectic maps; kicks and drifts are symplectic for separable H.
     let symplectic = match certificate.structure() {
         structure if structure.composition() => "symplectic, by its structure",
         _ => "symplectic for separable H, by its structure",

@@ -1,4 +1,4 @@
-//! Tables of fractions and surds, whatever their construction: all claims are decided in exact arithmetic.
+//! Tables of fractions and surds of any construction: all claims are decided in exact arithmetic.
 
 use super::read::{Claimed, Table, not_certified};
 use super::surds::recognised;
@@ -12,10 +12,10 @@ use crate::expression::Input;
 use crate::limits::Limits;
 use crate::tableau::Tableau;
 
-/// The table of which the digits are the roundings; `None` if they are not those of fractions and surds with one root.
+/// The table that the digits round; `None` if the digits are not those of fractions and surds with one root.
 ///
 /// # Errors
-/// A claim that this table does not have.
+/// A claim that does not hold for this table.
 pub(super) fn by_numbers(file: Input<'_>, table: &Table) -> Option<Result<RefinedTable, Error>> {
     let texts = recognised(table)?;
     let tableau = tableau(table, &texts)?;
@@ -35,7 +35,7 @@ pub(super) fn by_numbers(file: Input<'_>, table: &Table) -> Option<Result<Refine
     }))
 }
 
-/// The same method in exact numbers, if those that were found are fractions and surds.
+/// The same method in exact numbers, if the numbers that were found are fractions and surds.
 pub(super) fn in_exact_numbers(
     file: Input<'_>,
     table: &Table,
@@ -93,7 +93,7 @@ fn tableau(table: &Table, texts: &[String]) -> Option<Tableau> {
     Definition::new(parts).derive(&Limits::default()).ok()
 }
 
-/// What is claimed and proved.
+/// The proved claims.
 fn facts(file: Input<'_>, table: &Table, tableau: &Tableau) -> Result<Vec<String>, Error> {
     let orders = tableau.orders();
     let (found, class) = (orders.class(table.class), table.class);
@@ -115,7 +115,7 @@ fn facts(file: Input<'_>, table: &Table, tableau: &Tableau) -> Result<Vec<String
         let (property, name) = match claimed {
             Claimed::Symplectic => (Some(&properties.symplectic), "symplectic"),
             Claimed::Symmetric => (Some(&properties.symmetric), "symmetric"),
-            // Such tables are known by their nodes.
+            // Collocation tables are recognised by their nodes.
             Claimed::Collocation => (None, "collocation"),
         };
         let evidence = property.map_or(Evidence::Refuted, |property| property.evidence);

@@ -1,4 +1,4 @@
-//! What kind of method printed arrays are.
+//! The kind of method of printed arrays.
 
 use num_rational::BigRational;
 use num_traits::Signed;
@@ -14,14 +14,14 @@ use crate::arithmetic::rounding::Decimal;
 use crate::error::Error;
 use crate::expression::Input;
 
-/// Digits up to which an array is taken for one of a kind. What it leads to is compared with all digits.
+/// Whether two numbers agree well enough to recognise a kind of array. The result is compared with all digits.
 pub(super) fn close(x: &BigRational, y: &BigRational) -> bool {
     (x - y).abs() <= ratio(1, 1000)
 }
 
 /// The exact method behind a table.
 ///
-/// A `c` that is not a row sum is an error, unless it is right, and what is wrong is in the row.
+/// A `c` that is not a row sum is an error, unless `c` is right and the error is in the row.
 pub(super) fn refine(file: Input<'_>, table: Table) -> Result<RefinedTable, Error> {
     let off = off_sums(&table);
     let fault = |off: &OffSum| not_certified(file, off.cell.span.clone(), off.message.clone());
@@ -79,7 +79,7 @@ fn claim_span(table: &Table, property: Claimed) -> std::ops::Range<usize> {
     found.map_or(table.order_span.clone(), |(_, span)| span.clone())
 }
 
-/// Refuses a method that is farther from the print than its digits or a computation in doubles explain.
+/// Rejects a method that is farther from the print than its digits or a computation in doubles explain.
 fn check_distance(file: Input<'_>, table: &Table, found: &RefinedTable) -> Result<(), Error> {
     const TOLERANCE_PLACES: std::ops::RangeInclusive<u32> = 3..=10;
     let places = table.cells.iter().filter_map(|cell| cell.printed.places());

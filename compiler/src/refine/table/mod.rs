@@ -1,4 +1,4 @@
-//! Butcher arrays as people have them: decimals of `a`, `b`, `c` and of `ã`, `b̃`, `c̃`.
+//! Butcher arrays in the usual form: decimals of `a`, `b`, `c` and of `ã`, `b̃`, `c̃`.
 //!
 //! ```toml
 //! [claim]
@@ -12,21 +12,21 @@
 //! c = ["0.211324865405", "0.788675134595"]
 //! ```
 //!
-//! Five kinds of arrays are refined, read off the digits; the first that fits is taken.
+//! Five kinds of arrays are recognised by their digits and refined; the first that fits is used.
 //!
 //! 1. **collocation** with polynomials, alone or with its symplectic partner, in either order of positions and momenta, or
 //!    the partner alone, such as Radau IA and Lobatto IIIB.
 //!    The method is determined by its nodes (MW 2.6.2), and these by their polynomial `M`. The order `p` of the quadrature
-//!    means `∫M x^k = 0` for `k < p − s`; nodes that are printed as 0 or 1 or as fractions are roots; symmetric nodes mean
-//!    `M(1 − x) = ±M(x)`: all of it is linear in the coefficients of `M`, and is solved in rational numbers. What is left
-//!    free moves until all entries round to their prints. The table is derived in the algebra of the roots, so that everything said of it is
-//!    proved.
+//!    means `∫M x^k = 0` for `k < p − s`; nodes printed as 0, 1 or fractions are roots; symmetric nodes mean
+//!    `M(1 − x) = ±M(x)`. All of this is linear in the coefficients of `M`, and is solved in rational numbers. The remaining
+//!    free coefficients move until all entries round to their prints. The table is derived in the algebra of the roots, so
+//!    all its properties are proved.
 //! 2. **steps of the implicit midpoint rule**, the symplectic diagonally implicit methods: `a_ij = b_j` for `j < i`,
 //!    `a_ii = b_i/2`. The `b_i` are the weights of a composition, which are [certified](crate::certify).
-//! 3. **explicit pairs**, `a_ij = b_j` and `ã_ij = b̃_j` below or on the diagonal: a splitting, certified too.
+//! 3. **explicit pairs**, `a_ij = b_j` and `ã_ij = b̃_j` below or on the diagonal: a splitting, also certified.
 //! 4. **fractions and surds**, if all digits are the roundings of short `(m + n√d)/k` with one `d`: Lobatto IIIC,
-//!    Crouzeix's methods, the classical explicit ones. What is said of them is decided in exact arithmetic.
-//! 5. **no particular construction**: the entries are unknowns, and what is claimed are equations, which are solved near
+//!    Crouzeix's methods, the classical explicit methods. Their properties are decided in exact arithmetic.
+//! 5. **no particular construction**: the entries are unknowns, and the claims are equations, which are solved near
 //!    the print. A solution is certified, or verified to some binary places if equations depend on one another.
 
 mod collocation;
@@ -51,10 +51,10 @@ use crate::error::Error;
 use crate::expression::Input;
 use crate::tableau::Tableau;
 
-/// The most stages of a table.
+/// The largest number of stages of a table.
 pub(super) const MAX_STAGES: usize = 16;
 
-/// Which array.
+/// The arrays of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Array {
     A,
@@ -119,7 +119,7 @@ pub(super) type Terms = Vec<(Coefficient, BigRational)>;
 /// The exact numbers behind the cells.
 #[derive(Debug, Clone)]
 pub(super) enum Exact {
-    /// A derived table, and which of its stages each printed one is.
+    /// A derived table, and the index of its stage for each printed stage.
     Derived {
         tableau: Box<Tableau>,
         stages: Vec<usize>,
@@ -129,7 +129,7 @@ pub(super) enum Exact {
         certificate: Box<Certificate>,
         terms: Vec<Terms>,
     },
-    /// Zeros of the equations that are claimed.
+    /// Zeros of the equations of the claims.
     Solved(general::Solved),
 }
 
@@ -140,15 +140,15 @@ pub struct RefinedTable {
     pub(super) source: Option<String>,
     pub(super) cells: Vec<Cell>,
     pub(super) exact: Exact,
-    /// What the method is, in words.
+    /// A description of the method.
     pub(super) method: String,
-    /// What was claimed and is proved.
+    /// The proved claims.
     pub(super) facts: Vec<String>,
-    /// Sums of printed rows that are not the printed `c`.
+    /// Sums of printed rows that differ from the printed `c`.
     pub(super) notes: Vec<String>,
-    /// Whether no other method of its kind satisfies the claim.
+    /// Whether the method is the only one of its kind that satisfies the claim.
     pub(super) only_one: bool,
-    /// Whether the printed numbers that the exact ones do not round to are known to be the wrong ones.
+    /// Whether printed numbers that differ from the rounded exact ones are known to be the wrong numbers.
     pub(super) are_wrong: bool,
 }
 
@@ -176,9 +176,9 @@ pub struct RefinedTable {
 /// ```
 ///
 /// # Errors
-/// [`ErrorKind::Document`](crate::ErrorKind::Document) for what is no such file, and
-/// [`ErrorKind::NotCertified`](crate::ErrorKind::NotCertified) for a `c` that is not a row sum, where no exact method is found,
-/// for a claim that the method does not have, and where the nearest method is too far away. Each with its place.
+/// [`ErrorKind::Document`](crate::ErrorKind::Document) for an invalid file, and
+/// [`ErrorKind::NotCertified`](crate::ErrorKind::NotCertified) if a `c` is not a row sum, if no exact method is found,
+/// if a claim does not hold, or if the nearest method is too far away. Each with its place.
 pub fn refine_table(file_name: &str, text: &str) -> Result<Option<RefinedTable>, Error> {
     let file = Input {
         name: file_name,
@@ -197,7 +197,7 @@ pub(super) struct Distance {
 }
 
 impl RefinedTable {
-    /// All numbers to some significant digits and what is proved, for people.
+    /// All numbers to `digits` significant digits and the proved facts, for people.
     ///
     /// # Errors
     /// [`ErrorKind::NotCertified`](crate::ErrorKind::NotCertified) for more digits than are computed.
@@ -205,7 +205,7 @@ impl RefinedTable {
         write::text(self, digits)
     }
 
-    /// All numbers to some significant digits and what is proved, as JSON.
+    /// All numbers to `digits` significant digits and the proved facts, as JSON.
     ///
     /// ```text
     /// {"name", "source", "evidence": "proved", "certified" or "verified", "method", "facts": [string], "distance": D,
@@ -215,12 +215,12 @@ impl RefinedTable {
     /// ```
     ///
     /// # Errors
-    /// As [`RefinedTable::text`].
+    /// The errors of [`RefinedTable::text`].
     pub fn json(&self, digits: usize) -> Result<String, Error> {
         write::json(self, digits)
     }
 
-    /// The printed numbers that the exact ones do not round to, with upper bounds on their distances.
+    /// The printed numbers that differ from the rounded exact ones, with upper bounds on their distances.
     pub fn wrong_digits(&self) -> Vec<(String, BigRational)> {
         let pairs = self.cells.iter().zip(self.distances());
         pairs
@@ -229,7 +229,7 @@ impl RefinedTable {
             .collect()
     }
 
-    /// Whether a method of this kind with what is claimed has all printed digits.
+    /// Whether a method of this kind that satisfies the claims has all printed digits.
     pub fn digits(&self) -> Digits {
         match (self.wrong_digits().is_empty(), self.only_one) {
             (true, _) => Digits::All,
@@ -238,7 +238,7 @@ impl RefinedTable {
         }
     }
 
-    /// The derived table, if the method is collocation or made of fractions and surds.
+    /// The derived table, if the method is a collocation method or consists of fractions and surds.
     pub fn tableau(&self) -> Option<&Tableau> {
         match &self.exact {
             Exact::Derived { tableau, .. } => Some(tableau),
@@ -273,7 +273,7 @@ fn distance(enclosure: &Interval, printed: &BigRational) -> Distance {
 }
 
 impl Exact {
-    /// Something of the number behind each cell.
+    /// Applies `of_number` to the number behind each cell.
     pub fn values<T>(
         &self,
         cells: &[Cell],

@@ -21,19 +21,19 @@ use crate::order::HamiltonianClass;
 use crate::quadrature::QuadratureRule;
 use crate::tableau::Tableau;
 
-/// Which array is that of a collocation method.
+/// Which array belongs to the collocation method.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
-    /// `a`, and `ã` is its partner or not printed.
+    /// `a`; `ã` is its partner or not printed.
     Positions,
-    /// `ã`, and `a` is its partner.
+    /// `ã`; `a` is its partner.
     Momenta,
-    /// The partner of `a`, which is not printed: `a` is that of Radau IA or Lobatto IIIB.
+    /// The partner of `a`, which is not printed: `a` belongs to Radau IA or Lobatto IIIB.
     Partner,
 }
 
 impl Role {
-    /// An entry of the collocation method; `None` where a weight vanishes, so that there is no partner.
+    /// An entry of the collocation method; `None` if a weight vanishes, so that there is no partner.
     fn entry(self, table: &Table, i: usize, j: usize) -> Option<BigRational> {
         let weight = |i: usize| table.value(Array::B, i, 0);
         match self {
@@ -56,7 +56,7 @@ impl Role {
         };
         let cell = table.cell(list, stage, 0);
         match (self, cell.map(|cell| cell.printed.value().clone())) {
-            // Its nodes need not be the sums of the rows that are printed.
+            // Its nodes need not be the sums of the printed rows.
             (Role::Partner, Some(printed)) if close(&printed, &sum) => near_end(printed),
             (Role::Partner, _) => near_end(sum),
             (_, Some(printed)) => printed,
@@ -87,7 +87,7 @@ impl Role {
     }
 }
 
-/// 0 or 1, if a number computed from rounded ones lies that near; otherwise the number.
+/// 0 or 1, if a number computed from rounded ones is that close to it; otherwise the number.
 fn near_end(value: BigRational) -> BigRational {
     let ends = [BigRational::zero(), BigRational::one()].into_iter();
     let mut near = ends.filter(|end| (&value - end).abs() <= ratio(1, 1_000_000));
@@ -123,7 +123,7 @@ pub(super) fn by_nodes(file: Input<'_>, table: &Table, role: Role) -> Result<Ref
         order: table.order,
         printed,
     };
-    // Nodes that are symmetric in print and not claimed to be are kept so, if anything is left to choose.
+    // Nodes that are symmetric in print, though this is not claimed, are kept symmetric if there is a choice.
     let mut family = Family::of(&nodes);
     let only_one = family
         .as_ref()
@@ -194,7 +194,7 @@ pub(super) fn by_nodes(file: Input<'_>, table: &Table, role: Role) -> Result<Ref
     })
 }
 
-/// That other numbers than the one that is marked may be the wrong one, or that none is wrong alone.
+/// Notes that numbers other than the marked one may be wrong, or that no single number is.
 fn notes(table: &Table, near: &Nearest, only_one: bool) -> Vec<String> {
     let names = near.suspects.iter().skip(1);
     let names: Vec<String> = names.map(|&cell| table.cells[cell].name()).collect();
@@ -209,18 +209,18 @@ fn notes(table: &Table, near: &Nearest, only_one: bool) -> Vec<String> {
     vec![message.to_owned()]
 }
 
-/// A method near the printed numbers, and which of these it does not have.
+/// A method near the printed numbers, with its wrong prints.
 struct Nearest {
     rule: QuadratureRule,
     exact: Exact,
-    /// The cells by whose change alone a method has all other digits, that of this method first.
+    /// The cells whose change alone gives a method with all other digits; the cell for this method comes first.
     suspects: Vec<usize>,
     /// Whether some numbers are not rounded to their prints.
     misses: bool,
 }
 
-/// The method whose numbers are nearest to their prints, each measured by its own last place: the free coefficients of the
-/// node polynomial are moved as in [`minimax`]. If none has all digits, one that has all but one, if there is such a method.
+/// The method whose numbers are nearest to their prints, each measured by its own last place. The free coefficients of the
+/// node polynomial are moved as in [`minimax`]. If no method has all digits, one that has all but one, if it exists.
 fn within_last_places(
     table: &Table,
     free: &[usize],
@@ -239,7 +239,7 @@ fn within_last_places(
     let Some((rows, best)) = near.last.filter(|_| !near.reached) else {
         return Ok(nearest);
     };
-    // Leaving out a number that holds nothing back changes nothing.
+    // Leaving out a number with multiplier zero changes nothing.
     let holds_back = |index: &usize| !best.multipliers[*index].is_zero();
     let reachable = |index: &usize| {
         let rest = without(&rows, *index);
@@ -260,7 +260,7 @@ fn within_last_places(
     Ok(nearest)
 }
 
-/// How many of the prints that could be the wrong one are looked at.
+/// The largest number of suspect prints that are examined.
 const MAX_SUSPECTS: usize = 8;
 
 /// The level up to which another shift may still reach all prints.
@@ -278,16 +278,16 @@ struct Search<'a, B> {
     table: &'a Table,
     free: &'a [usize],
     build: B,
-    /// The cells that are printed as decimals.
+    /// The indices of the cells printed as decimals.
     printed: Vec<usize>,
     bits: u32,
-    /// The step of difference quotients: as small as the digits.
+    /// The step of difference quotients, as small as the digits.
     step: BigRational,
-    /// Coefficients are rounded to its inverse.
+    /// The scale of rounded coefficients: they are multiples of its inverse.
     scale: BigRational,
 }
 
-/// Where shifts have led.
+/// The result of the shifts.
 struct Shifted {
     coefficients: Vec<BigRational>,
     method: (QuadratureRule, Exact),
@@ -326,7 +326,7 @@ impl<'a, B: Fn(&[BigRational]) -> Result<(QuadratureRule, Exact), String>> Searc
         printed.map(|&cell| middle(&all[cell])).collect()
     }
 
-    /// Shifts the free coefficients until all numbers round to their prints, apart from one.
+    /// Shifts the free coefficients until all numbers except `apart_from` round to their prints.
     fn shifted(
         &self,
         start: Vec<BigRational>,
@@ -382,7 +382,7 @@ impl<'a, B: Fn(&[BigRational]) -> Result<(QuadratureRule, Exact), String>> Searc
                 None => minimax(&rows),
                 Some(index) => minimax(&without(&rows, index)),
             };
-            // A level that does not fall is the nearest there is.
+            // If the level does not fall, the nearest point has been reached.
             let Some(best) = best else { break };
             let last = found.last.as_ref();
             if last.is_some_and(|(_, last)| best.level >= last.level) {
@@ -432,7 +432,7 @@ fn ranks(values: &[BigRational]) -> Vec<usize> {
     ranks
 }
 
-/// What is claimed and proved of a derived table.
+/// The proved claims of a derived table.
 fn proved(
     file: Input<'_>,
     table: &Table,
@@ -441,7 +441,7 @@ fn proved(
     role: Role,
 ) -> Result<Vec<String>, Error> {
     let properties = tableau.properties();
-    // A table alone stands for both halves.
+    // A single table stands for both halves.
     let pair = table.has(Array::ATilde) || properties.equal_matrices.holds;
     let quadrature = rule.degree_of_precision() + 1;
     let (order, class, why) = match pair {
@@ -487,7 +487,7 @@ fn proved(
     Ok(facts)
 }
 
-/// Whether the nodes are: the polynomial is, up to its sign, its own mirror image.
+/// Whether the nodes are symmetric: the polynomial equals its mirror image up to the sign.
 fn is_symmetric(rule: &QuadratureRule) -> bool {
     let modulus = rule.algebra().modulus();
     let mirror = crate::arithmetic::polynomial::Polynomial::from_integers(&[1, -1]);

@@ -18,12 +18,12 @@ use crate::order::HamiltonianClass;
 type List = Spanned<Vec<Spanned<String>>>;
 type Matrix = Spanned<Vec<List>>;
 
-/// The most decimal places of an entry.
+/// The largest number of decimal places of an entry.
 const MAX_PLACES: u32 = 400;
 /// The largest absolute value of an entry.
 const MAX_VALUE: u32 = 1000;
 
-/// What tells these files from others.
+/// The part of a file that distinguishes these files from others.
 #[derive(Deserialize)]
 struct Probe {
     printed: Option<toml::Table>,
@@ -72,7 +72,7 @@ const PROPERTIES: [(&str, Claimed); 3] = [
     ("collocation", Claimed::Collocation),
 ];
 
-/// A file that is read.
+/// A file that has been read.
 #[derive(Clone)]
 pub(super) struct Table {
     pub name: Option<String>,
@@ -99,13 +99,13 @@ impl Table {
         self.cells.iter().find(here)
     }
 
-    /// A printed value; zero where nothing is printed.
+    /// A printed value; zero if nothing is printed.
     pub fn value(&self, array: Array, row: usize, column: usize) -> BigRational {
         let cell = self.cell(array, row, column);
         cell.map_or_else(BigRational::default, |cell| cell.printed.value().clone())
     }
 
-    /// The sum of a row of a matrix, and how far rounding may have moved it.
+    /// The sum of a row of a matrix, and a bound on its rounding error.
     pub fn row_sum(&self, matrix: Array, row: usize) -> (BigRational, BigRational) {
         let cells = self.cells.iter();
         let cells = cells.filter(|cell| cell.array == matrix && cell.row == row);
@@ -272,7 +272,7 @@ fn read_list(
     Ok(())
 }
 
-/// A `c` that is not the sum of a row, by more than the digits explain.
+/// A `c` that differs from the sum of its row by more than the digits explain.
 pub(super) struct OffSum {
     pub cell: Cell,
     pub message: String,

@@ -1,6 +1,6 @@
-//! The numbers `(m + n√d)/k` of which decimals are the roundings.
+//! The numbers `(m + n√d)/k` that decimals round.
 //!
-//! They are a guess: the table that follows from them is proved or refuted afterwards.
+//! They are a guess: the resulting table is proved or refuted afterwards.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -12,12 +12,12 @@ use super::{Cell, read::Table};
 const MAX_RADICAND: i128 = 110;
 const MAX_DENOMINATOR: i128 = 5040;
 const MAX_MULTIPLE: i128 = 128;
-/// Binary places: with the bounds above and on entries nothing exceeds 127 bits.
+/// Binary places: with the bounds above and on entries, no number exceeds 127 bits.
 const PLACES: u32 = 96;
-/// Decimals with fewer places say too little.
+/// Decimals with fewer places are not reliable enough.
 const MIN_PLACES: u32 = 9;
 
-/// A decimal, scaled by `2^PLACES`, and how far the exact number may be from it.
+/// A decimal, scaled by `2^PLACES`, and a bound on its distance from the exact number.
 #[derive(Clone, Copy)]
 struct Scaled {
     value: i128,
@@ -43,12 +43,12 @@ impl Scaled {
     /// The number with the smallest denominator that rounds to this one, for a root `√d`.
     fn surd(self, radicand: i128, root: i128) -> Option<String> {
         let one = 1i128 << PLACES;
-        // Of all pairs of k and n one in a hundred decimals is near such a number by chance: the fewer digits, the fewer
+        // Pairs (k, n) are limited so that one in a hundred decimals is near such a number by chance: the fewer digits, the fewer
         // pairs.
         let pairs = one / (100 * 4 * MAX_MULTIPLE * self.half.max(1));
         for k in (1..=MAX_DENOMINATOR).take_while(|k| k * k <= pairs) {
             let value = self.value.checked_mul(k)?;
-            // The roundings of the value and of n roots.
+            // The round-off of the value and of n roots.
             let slack = self.half * k + k + MAX_MULTIPLE;
             let (mut up, mut down) = (value + slack, value + slack);
             for n in 1..=MAX_MULTIPLE {
@@ -66,7 +66,7 @@ impl Scaled {
     }
 }
 
-/// A text for each of the cells from which the table is derived: fractions, and surds with one and the same root.
+/// A text for each of the cells from which the table is derived: fractions, and surds with one common root.
 pub(super) fn recognised(table: &Table) -> Option<Vec<String>> {
     let simple = |cell: &Cell| cell.printed.simple();
     let rational = table.cells.iter().map(simple);
@@ -123,7 +123,7 @@ mod tests {
         // Lobatto IIIC with five stages.
         let lobatto = found(&["0.281309183323043", "-0.052836961100821"]).expect("surds");
         assert_eq!(lobatto[0], "(329 + (105)*sqrt(21))/2880");
-        // √2/2 is in another field, and 0.788675134605 is none of these.
+        // √2/2 is in another field, and 0.788675134605 is not a surd of this form.
         assert!(found(&["0.788675134594813", "0.707106781186548"]).is_none());
         assert!(found(&["0.788675134594913", "-0.577350269189626"]).is_none());
     }

@@ -1,4 +1,4 @@
-//! What is known of a refined table, as text and as JSON.
+//! The facts about a refined table, as text and as JSON.
 
 use std::collections::BTreeMap;
 
@@ -31,7 +31,7 @@ pub(super) fn decimals(table: &RefinedTable, digits: usize) -> Result<Vec<String
     ))
 }
 
-/// A number that is enclosed as narrowly as wanted, rounded.
+/// A number, given by enclosures of any precision, rounded.
 fn rounded(enclose: impl Fn(u32) -> Interval, digits: usize) -> String {
     let mut bits = u32::try_from(digits * 334 / 100)
         .unwrap_or(u32::MAX)
@@ -44,7 +44,7 @@ fn rounded(enclose: impl Fn(u32) -> Interval, digits: usize) -> String {
         }
         bits = bits.saturating_add(bits / 2);
     }
-    // A tie as far as can be told.
+    // Possibly a tie.
     let interval = enclose(bits);
     Decimal::round(&simplest_between(&interval.low(), &interval.high()), digits).to_string()
 }

@@ -7,7 +7,7 @@ mod rust;
 
 use super::Stepper;
 
-/// How a language writes a stepper: templates, and patterns of what is in them. Names in `@` stand for values.
+/// The templates of a language for a stepper, and of its parts. Names in `@` stand for values.
 pub(super) struct Notation {
     /// A file with drifts and kicks.
     pub splitting: &'static str,
@@ -15,21 +15,21 @@ pub(super) struct Notation {
     pub coupled: &'static str,
     /// The compensated sum.
     pub add: &'static str,
-    /// Whether the force at the end of the step is known at the start of the next: no, yes.
+    /// Whether the force at the end of a step is reused at the start of the next: no, yes.
     pub carries: [&'static str; 2],
     /// A force and its kick.
     pub kick: &'static str,
-    /// The same, of a force that the step before may have evaluated.
+    /// A kick whose force may have been evaluated in the previous step.
     pub carried_kick: &'static str,
     /// A velocity and its drift.
     pub drift: &'static str,
     /// A table of numbers.
     pub vector: &'static str,
-    /// A line of it.
+    /// A line of a table of numbers.
     pub entry: &'static str,
     /// A table of rows.
     pub matrix: &'static str,
-    /// A line of it.
+    /// A line of a table of rows.
     pub row: &'static str,
     /// A double, exactly.
     pub number: fn(f64) -> String,

@@ -1,4 +1,4 @@
-//! The equations of a table: order conditions tree by tree, and equations of degree two at most between its entries.
+//! The equations of a table: order conditions tree by tree, and equations of degree at most two between its entries.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -25,7 +25,7 @@ pub(super) struct Half {
     pub b: Vec<Entry>,
 }
 
-/// `Σ factor·Π unknowns = 0`, by the unknowns of each term, at most two.
+/// `Σ factor·Π unknowns = 0`; the keys are the unknowns of each term, at most two.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Quadratic(pub BTreeMap<Vec<usize>, BigRational>);
 
@@ -37,7 +37,7 @@ impl Quadratic {
         }
     }
 
-    /// With `factor` times a product of entries more.
+    /// The equation with `factor` times a product of entries added.
     #[must_use]
     pub fn plus(mut self, factor: i64, entries: &[&Entry]) -> Self {
         let (mut product, mut unknowns) = (BigRational::from_integer(factor.into()), Vec::new());
@@ -52,7 +52,7 @@ impl Quadratic {
         self
     }
 
-    /// Less a multiple of another one.
+    /// Subtracts a multiple of another equation.
     fn less(&mut self, factor: &BigRational, other: &Quadratic) {
         for (unknowns, own) in &other.0 {
             self.add_term(unknowns.clone(), -(factor * own));
@@ -73,7 +73,7 @@ impl Quadratic {
     }
 }
 
-/// Those that do not follow from others by adding multiples of them; `None` for a contradiction.
+/// A linearly independent subset of the equations; `None` for a contradiction.
 pub(super) fn independent(equations: Vec<Quadratic>) -> Option<Vec<Quadratic>> {
     let mut reduced: Vec<(Vec<usize>, Quadratic)> = Vec::new();
     let mut kept = Vec::new();
@@ -110,7 +110,7 @@ pub(super) struct TableSystem {
     pub momenta: Arc<Half>,
     pub plan: Arc<Plan>,
     pub quadratics: Arc<Vec<Quadratic>>,
-    /// The equations in use: first those of degree two, then the conditions.
+    /// The equations in use, by index: first those of degree two, then the conditions.
     pub kept: Vec<usize>,
 }
 
@@ -120,7 +120,7 @@ impl TableSystem {
         self.quadratics.len() + self.plan.conditions.len()
     }
 
-    /// With other equations in use.
+    /// The same system with other equations in use.
     pub fn keeping(&self, kept: Vec<usize>) -> Self {
         TableSystem {
             kept,
@@ -208,7 +208,7 @@ impl Equations for TableSystem {
     }
 }
 
-/// The unknowns in a box.
+/// The values of the unknowns, in a box.
 struct Numbers<'a> {
     x: &'a [Dual],
     slopes: usize,
@@ -233,7 +233,7 @@ impl Numbers<'_> {
     }
 }
 
-/// A number with its derivatives by some unknowns.
+/// A number with its derivatives with respect to some unknowns.
 #[derive(Debug, Clone)]
 struct Dual {
     value: Interval,
@@ -336,7 +336,7 @@ mod tests {
         {
             assert!((found - wanted) * ratio(1 << 50, 1) < ratio(1, 1));
         }
-        // b a², twice, and b a: derivatives by a are 1, 1, 1.
+        // b a², twice, and b a: derivatives with respect to a are 1, 1, 1.
         for row in system.derivatives(&at, &[0]) {
             assert!(row[0].contains(&ratio(1, 1)));
         }

@@ -1,11 +1,11 @@
-//! Tables of no particular construction: the entries are unknowns, and what is claimed are equations.
+//! Tables of no particular construction: the entries are unknowns, and the claims are equations.
 //!
 //! The equations are the order conditions of all trees, symplecticity `b_i ã_ij + b̃_j a_ji = b_i b̃_j` and symmetry
-//! `a_ij + a_{σi,σj} = b_j`, as far as they are claimed, and nodes that are printed exactly. Conditions that follow from
-//! others are left out where that is proved: of even orders in a symmetric method, and all but one for each tree without a
-//! root in a symplectic one (GNI VI.7). Independent equations are solved for as many unknowns, as in
-//! [`certify`](crate::certify); the other unknowns move within their last places. Equations that depend on these in the
-//! first order are evaluated at the solution: they are verified to some binary places, which is no proof.
+//! `a_ij + a_{σi,σj} = b_j`, as far as they are claimed, and nodes that are printed exactly. Conditions that provably follow
+//! from others are left out: those of even orders in a symmetric method, and all but one for each tree without a
+//! root in a symplectic method (GNI VI.7). Independent equations are solved for as many unknowns, as in
+//! [`certify`](crate::certify); the other unknowns move within their last places. Equations that depend on these to
+//! first order are evaluated at the solution: they are verified to some binary places, which is not a proof.
 
 mod equations;
 mod reading;
@@ -34,19 +34,19 @@ use crate::order::HamiltonianClass;
 const MAX_STAGES: usize = 6;
 const MAX_ORDER: usize = 8;
 const MAX_UNKNOWNS: usize = 60;
-/// The most products of two numbers with their derivatives, in one evaluation of all conditions.
+/// The largest number of products of two numbers with their derivatives in one evaluation of all conditions.
 const MAX_PRODUCTS: usize = 300_000;
-/// Derivatives that differ by less are taken for dependent: printed numbers have few digits.
+/// Pivots of derivatives below this count as zero, because printed numbers have few digits.
 const RANK_THRESHOLD: f64 = 1e-7;
-/// Binary places to which the equations left out hold at least.
+/// The smallest number of binary places to which the equations left out hold.
 const VERIFIED_BITS: i64 = 200;
 
-/// The entries behind a table, as zeros of equations.
+/// The numbers behind a table, as zeros of equations.
 #[derive(Debug, Clone)]
 pub(in crate::refine) struct Solved {
     enclosed: Arc<Enclosed<TableSystem>>,
     forms: Arc<Vec<Form>>,
-    /// The equations, how many of them are solved with proof, and to how many places the others hold.
+    /// The number of equations, the number solved with proof, and the places to which the others hold.
     equations: usize,
     proved: usize,
     verified_bits: Option<i64>,
@@ -76,14 +76,14 @@ impl Solved {
 /// An exact method near the print.
 struct Found {
     solved: Solved,
-    /// Whether all numbers round to their prints, or it is proved that they cannot in this reading.
+    /// Whether all numbers round to their prints, and whether it is proved that they cannot in this reading.
     right: bool,
     excluded: bool,
-    /// The cells apart from any one of which some method has all digits.
+    /// The cells, each of which is the only wrong one for some method.
     suspects: Vec<usize>,
 }
 
-/// The exact table near the digits with what is claimed.
+/// The exact table near the digits that satisfies the claims.
 pub(super) fn by_equations(file: Input<'_>, table: &Table) -> Result<RefinedTable, Error> {
     let refused = |message: String| not_certified(file, table.order_span.clone(), message);
     check(table).map_err(&refused)?;
@@ -107,7 +107,7 @@ pub(super) fn by_equations(file: Input<'_>, table: &Table) -> Result<RefinedTabl
         let Some(mut found) = solve(reading, table) else {
             continue;
         };
-        // Only the last way has all others in it.
+        // Only the last way contains all others.
         let last = readings
             .last()
             .filter(|last| !last.way.tied && !last.way.simple);
@@ -142,7 +142,7 @@ pub(super) fn by_equations(file: Input<'_>, table: &Table) -> Result<RefinedTabl
     })
 }
 
-/// That another number than the one that is marked may be the wrong one.
+/// The note that a number other than the marked one may be wrong.
 fn other_suspects(table: &Table, suspects: &[usize]) -> Option<String> {
     let cells = suspects
         .iter()
@@ -260,7 +260,7 @@ fn solve(reading: &Reading, table: &Table) -> Option<Found> {
     })
 }
 
-/// The solution, if it is proved to exist and the equations that are left hold as far as can be told.
+/// The solution, if it is proved to exist and the remaining equations hold as far as can be determined.
 fn solved(square: &Square<TableSystem>, left: &TableSystem, reading: &Reading) -> Option<Solved> {
     let start = square.free.iter().map(|&index| &reading.unknowns[index]);
     let start: Vec<BigRational> = start

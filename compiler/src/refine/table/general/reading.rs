@@ -1,4 +1,4 @@
-//! What the unknowns of a table are: ways to read the digits, and the equations that are claimed of each.
+//! The unknowns of a table: ways to read the digits, and the equations of the claims for each.
 
 use std::sync::Arc;
 
@@ -11,12 +11,12 @@ use super::equations::{Entry, Half, Quadratic, TableSystem, independent};
 use crate::certify::{Coefficient, Target, Unknown};
 use crate::order::{HamiltonianClass, Plan, TreeRule};
 
-/// How digits are read. Zeros, fractions and integers are exact in any case.
+/// How digits are read. Zeros, fractions and integers are always exact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Way {
-    /// Whether equal numbers are one unknown.
+    /// Whether equal numbers share one unknown.
     pub tied: bool,
-    /// Whether decimals that look like short fractions are these.
+    /// Whether decimals that look like short fractions are taken as these.
     pub simple: bool,
 }
 
@@ -46,7 +46,7 @@ pub(super) struct Reading {
     pub unknowns: Vec<Unknown>,
     /// The number behind each cell.
     pub forms: Vec<Form>,
-    /// The printed numbers as combinations of unknowns; they are numbered like weights.
+    /// The printed numbers as combinations of unknowns, with the indices of weights.
     pub targets: Vec<Target>,
     pub system: TableSystem,
 }
@@ -110,7 +110,7 @@ impl Reading {
             && own.quadratics == other.quadratics
     }
 
-    /// `None` if it contradicts the claim.
+    /// The reading of a table; `None` if it contradicts the claim.
     pub fn new(table: &Table, way: Way) -> Option<Self> {
         let mut reader = Reader {
             table,
@@ -121,7 +121,7 @@ impl Reading {
             a: reader.matrix(Array::A),
             b: reader.list(Array::B),
         };
-        // A symplectic method has the same weights twice, unless H is separable.
+        // The two weight vectors of a symplectic method are equal, unless H is separable.
         let general = table.class == HamiltonianClass::General;
         let same = general && table.claims(Claimed::Symplectic) || !table.has(Array::BTilde);
         let momenta = match table.has(Array::ATilde) {
@@ -209,7 +209,7 @@ fn weights(positions: &Half, momenta: &Half) -> impl Iterator<Item = Quadratic> 
     [sum(positions), sum(momenta)].into_iter()
 }
 
-/// `a_ij + a_{σi,σj} = b_j` and `b_j = b_{σj}` for the stages in reverse, `σ`.
+/// `a_ij + a_{σi,σj} = b_j` and `b_j = b_{σj}`, where `σ` reverses the stages.
 fn symmetric(half: &Half) -> Vec<Quadratic> {
     let stages = half.b.len();
     let mirror = |i: usize| stages - 1 - i;
@@ -232,8 +232,8 @@ fn pairs(stages: usize) -> impl Iterator<Item = (usize, usize)> {
 
 /// `N_ij = b_i ã_ij + b̃_j a_ji − b_i b̃_j = 0`.
 ///
-/// Where one tableau stands for both, `N_ji = N_ij`. In a symmetric method `N_{σi,σj} = −N_ij`, as symmetry gives by a line
-/// of algebra. So one of each set of indices is left, and none where the two are the same.
+/// If one tableau stands for both, `N_ji = N_ij`. In a symmetric method `N_{σi,σj} = −N_ij`, which follows from symmetry by a
+/// line of algebra. So one equation of each set of indices is kept, and none if the two are the same.
 fn symplectic(table: &Table, positions: &Half, momenta: &Half) -> Vec<Quadratic> {
     let mirror = |i: usize| table.stages - 1 - i;
     let one_tableau = positions == momenta;
@@ -256,18 +256,18 @@ fn symplectic(table: &Table, positions: &Half, momenta: &Half) -> Vec<Quadratic>
     pairs(table.stages).filter(is_left).map(equation).collect()
 }
 
-/// The order conditions that symmetry and symplecticity leave.
+/// The order conditions that remain after symmetry and symplecticity.
 fn plan(table: &Table, positions: &Half, momenta: &Half) -> Plan {
     let quadratic_kinetic = table.class == HamiltonianClass::Nystrom;
     let rule = match positions == momenta && !quadratic_kinetic {
         true => TreeRule::OneColour,
         false => TreeRule::Class(table.class),
     };
-    // A symmetric method has even order: what holds to an odd one holds to the next.
+    // A symmetric method has even order: if it has an odd order, it has the next.
     let needed = |order: &usize| !table.claims(Claimed::Symmetric) || order % 2 == 1;
     let orders: Vec<usize> = (2..=table.order).filter(needed).collect();
     let mut plan = Plan::new(rule, &orders, table.claims(Claimed::Symplectic));
-    // Of general H the colour of the root does not matter where the weights are the same.
+    // For general H the colour of the root does not matter if the weights are equal.
     if rule == TreeRule::Class(HamiltonianClass::General) && positions.b == momenta.b {
         let trees = &plan.trees;
         plan.conditions
