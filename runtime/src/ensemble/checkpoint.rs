@@ -117,6 +117,20 @@ where
     ///
     /// [`CheckpointError`]; the ensemble is then as it was.
     pub fn restore(&mut self, checkpoint: &EnsembleCheckpoint) -> Result<(), CheckpointError> {
+        self.check(checkpoint)?;
+        let end = self.starts.len();
+        self.first = checkpoint.next.saturating_sub(self.offset).min(end);
+        Ok(())
+    }
+
+    /// Whether a checkpoint is of an ensemble that was made in the same way; if not, the error says what differs.
+    ///
+    /// It evaluates the system at every start.
+    ///
+    /// # Errors
+    ///
+    /// [`CheckpointError`]
+    pub fn check(&self, checkpoint: &EnsembleCheckpoint) -> Result<(), CheckpointError> {
         if checkpoint.checksum != checkpoint.sum() {
             return Err(CheckpointError::Damaged {
                 reason: "its checksum is that of other contents",
@@ -147,7 +161,6 @@ where
                 expected: "this".to_string(),
             });
         }
-        self.first = own.next - self.offset;
         Ok(())
     }
 

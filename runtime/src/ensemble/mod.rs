@@ -9,7 +9,7 @@
 //! | Events, and everything else that an integrator can do | [`Ensemble::each`] |
 //! | What comes of a trajectory, with its error if it failed | [`Row`] |
 //! | Mean, variance, histogram over the trajectories | [`Moments`], [`Histogram`] |
-//! | Several machines, and runs that are interrupted | [`Ensemble::shard`], [`Ensemble::checkpoint`] |
+//! | Several machines, and runs that are interrupted | [`Ensemble::shard`], [`Ensemble::checkpoint`]; with MPI the package `symplectic-mpi` |
 //!
 //! # Lanes
 //!
@@ -46,13 +46,14 @@ pub use error::EnsembleError;
 pub use histogram::Histogram;
 pub use moments::Moments;
 #[cfg(feature = "npz")]
-pub use npz::Npz;
+pub use npz::{Npz, NpzArray, NpzValues};
 pub use row::Row;
 
-use alloc::boxed::Box;
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::fmt;
 use core::marker::PhantomData;
+use core::ops::Range;
 
 use crate::error::Error;
 use crate::integrator::validation::{check_kinetic, check_step_size};
@@ -108,7 +109,7 @@ where
     stopping: Stopping,
     retry: Retry,
     in_lanes: bool,
-    stop: Option<Box<dyn Fn() -> bool + Send + Sync>>,
+    stop: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
     /// The method, if it is known only when the program runs.
     tableau: Option<RunTimeTableau>,
     kind: PhantomData<Kind<M, R, N, L>>,
@@ -388,21 +389,71 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
     /// # }
     /// ```
     pub fn shard(mut self, part: usize, count: usize) -> Result<Self, EnsembleError> {
+        let Range { start, end } = self.places_of(part, count)?;
+        self.starts.truncate(end);
+        self.starts.drain(..start);
+        for (_, last) in &mut self.systems {
+            *last = (*last).min(end).saturating_sub(start);
+        }
+        self.offset += start;
+        self.first = self.first.clamp(start, end) - start;
+        Ok(self)
+    }
+
+    /// A copy of the part that [`shard`](Self::shard) gives: the ensemble stays, and only the starts of the part are copied.
+    ///
+    /// # Errors
+    ///
+    /// As for [`shard`](Self::shard).
+    ///
+    /// ```
+    /// # use symplectic::State;
+    /// # use symplectic::ensemble::{Ensemble, EnsembleError};
+    /// # symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
+    /// # symplectic::hamiltonian! { Pendulum q: [a], p: [pa]; H = pa^2/2 - cos(a) }
+    /// # let starts = (0..10).map(|k| State::from_arrays(0.0, [0.1 * f64::from(k)], [0.0])).collect();
+    /// let ensemble = Ensemble::new(VelocityVerlet, Pendulum, starts, 0.01)?;
+    /// let second = ensemble.to_shard(1, 2)?;
+    /// assert_eq!((second.trajectories(), ensemble.trajectories()), (5..10, 0..10));
+    /// # Ok::<(), EnsembleError>(())
+    /// ```
+    pub fn to_shard(&self, part: usize, count: usize) -> Result<Self, EnsembleError>
+    where
+        S: Clone,
+    {
+        let Range { start, end } = self.places_of(part, count)?;
+        // Only the systems of these starts: there may be one for each.
+        let first = self.systems.partition_point(|(_, last)| *last <= start);
+        let after = &self.systems[first..];
+        let count = after.partition_point(|(_, last)| *last < end) + 1;
+        let mut systems: Vec<_> = after.iter().take(count).cloned().collect();
+        for (_, last) in &mut systems {
+            *last = (*last).min(end) - start;
+        }
+        Ok(Self {
+            systems,
+            starts: self.starts[start..end].to_vec(),
+            step_size: self.step_size,
+            offset: self.offset + start,
+            first: self.first.clamp(start, end) - start,
+            stopping: self.stopping,
+            retry: self.retry,
+            in_lanes: self.in_lanes,
+            stop: self.stop.clone(),
+            tableau: self.tableau.clone(),
+            kind: PhantomData,
+        })
+    }
+
+    /// The places of the starts of a part.
+    fn places_of(&self, part: usize, count: usize) -> Result<Range<usize>, EnsembleError> {
         if part >= count {
             return Err(EnsembleError::Shard { part, count });
         }
         let total = self.starts.len();
         // The product may be larger than a word.
         let bound = |part: usize| (part as u128 * total as u128 / count as u128) as usize;
-        let (from, to) = (bound(part), bound(part + 1));
-        self.starts.truncate(to);
-        self.starts.drain(..from);
-        for (_, end) in &mut self.systems {
-            *end = (*end).min(to).saturating_sub(from);
-        }
-        self.offset += from;
-        self.first = self.first.clamp(from, to) - from;
-        Ok(self)
+        Ok(bound(part)..bound(part + 1))
     }
 
     /// What is done about a step that fails: see [`Integrator::set_retry`].
@@ -445,7 +496,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
     /// # }
     /// ```
     pub fn stop_if(&mut self, stop: impl Fn() -> bool + Send + Sync + 'static) {
-        self.stop = Some(Box::new(stop));
+        self.stop = Some(Arc::new(stop));
     }
 
     /// The starts, of this part if it is a [shard](Self::shard).
@@ -454,7 +505,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
     }
 
     /// The numbers of the trajectories: of this part if it is a [shard](Self::shard), and from where it was interrupted if it was.
-    pub const fn trajectories(&self) -> core::ops::Range<usize> {
+    pub const fn trajectories(&self) -> Range<usize> {
         self.offset + self.first..self.offset + self.starts.len()
     }
 }

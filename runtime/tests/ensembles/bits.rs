@@ -261,18 +261,29 @@ fn families_with_parameters_of_their_own() {
     // Parts that cut families, more of them than trajectories, and a part of a part.
     for count in [1, 2, 5, 7, 18, 25] {
         let mut rows = Vec::new();
+        let whole = ensemble();
         for part in 0..count {
             let shard = ensemble().shard(part, count).expect("a part");
             let first = rows.len();
             assert_eq!(shard.trajectories().start, first);
             let mut own = Vec::new();
             shard.take_steps(50, keep(&mut own, first));
+            // A copy of the part.
+            let copy = whole.to_shard(part, count).expect("a part");
+            assert_eq!(copy.trajectories(), shard.trajectories());
+            let mut copied = Vec::new();
+            copy.take_steps(50, keep(&mut copied, first));
+            assert_eq!(copied, own);
             rows.append(&mut own);
         }
         assert_eq!(rows, expected, "{count} parts");
     }
     let part = ensemble().shard(1, 3).expect("a part").shard(1, 2);
     let part = part.expect("a part of a part");
+    let copy = ensemble().to_shard(1, 3).expect("a part").to_shard(1, 2);
+    let copy = copy.expect("a part of a part");
+    assert_eq!(copy.trajectories(), part.trajectories());
+    assert_eq!(copy.starts(), part.starts());
     let mut rows = Vec::new();
     let range = part.trajectories();
     part.take_steps(50, keep(&mut rows, range.start));

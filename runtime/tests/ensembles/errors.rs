@@ -56,11 +56,13 @@ fn no_starts_no_step_size_no_part() {
     }
     for (part, count) in [(0, 0), (3, 3)] {
         let ensemble = Ensemble::new(StoermerVerlet, SYSTEM, starts(2, 100), 0.1);
-        let error = ensemble.expect("starts").shard(part, count);
-        assert_eq!(
-            error.expect_err("no part"),
-            EnsembleError::Shard { part, count }
-        );
+        let ensemble = ensemble.expect("starts");
+        for error in [ensemble.to_shard(part, count), ensemble.shard(part, count)] {
+            assert_eq!(
+                error.expect_err("no part"),
+                EnsembleError::Shard { part, count }
+            );
+        }
     }
 }
 

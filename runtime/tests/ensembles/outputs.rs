@@ -248,6 +248,99 @@ fn a_file_for_numpy() {
     assert_eq!(array("orders.npy").1, orders);
 }
 
+/// Each bit of a file that is changed is noticed, and so is each byte that is missing.
+#[cfg(feature = "npz")]
+#[test]
+fn arrays_are_read_as_they_were_written_or_not_at_all() {
+    use symplectic::ensemble::{Npz, NpzArray, NpzValues};
+
+    let mut file = Npz::new(Vec::new());
+    let doubles = [f64::NAN, -0.0, 5e-324, f64::INFINITY, 1.0, 1e9];
+    file.doubles("x", &[3, 1, 2], &doubles).expect("room");
+    file.integers("n", &[1], &[u64::MAX]).expect("room");
+    file.texts("ω", &["", "a longer one", "ω"]).expect("room");
+    file.text("one", "").expect("room");
+    file.doubles("none", &[0, 4], &[]).expect("room");
+    let file = file.finish().expect("room");
+    let arrays = NpzArray::read_all(&file).expect("arrays");
+    let found = |index: usize| (arrays[index].name.as_str(), arrays[index].shape.as_slice());
+    assert_eq!(
+        (0..5).map(found).collect::<Vec<_>>(),
+        [
+            ("x", &[3, 1, 2][..]),
+            ("n", &[1]),
+            ("ω", &[3]),
+            ("one", &[]),
+            ("none", &[0, 4]),
+        ]
+    );
+    let NpzValues::Doubles(read) = &arrays[0].values else {
+        panic!("{:?}", arrays[0]);
+    };
+    assert!(
+        read.iter()
+            .map(|x| x.to_bits())
+            .eq(doubles.map(f64::to_bits))
+    );
+    assert_eq!(arrays[1].values, NpzValues::Integers(vec![u64::MAX]));
+    let texts = ["", "a longer one", "ω"].map(str::to_owned);
+    assert_eq!(arrays[2].values, NpzValues::Texts(texts.to_vec()));
+
+    let mut again = Npz::new(Vec::new());
+    for array in &arrays {
+        again.array(array).expect("room");
+    }
+    assert!(again.finish().expect("room") == file);
+
+    for length in 0..file.len() {
+        let error = NpzArray::read_all(&file[..length]).expect_err("it is cut off");
+        assert_eq!(error.kind(), std::io::ErrorKind::InvalidData, "{error}");
+    }
+    let changed = (0..8 * file.len()).filter(|bit| {
+        let mut changed = file.clone();
+        changed[bit / 8] ^= 1 << (bit % 8);
+        // Not what is of no consequence: versions, times, attributes of the entries.
+        let read = NpzArray::read_all(&changed);
+        read.is_ok_and(|read| format!("{read:?}") != format!("{arrays:?}"))
+    });
+    assert_eq!(changed.collect::<Vec<_>>(), [0_usize; 0]);
+}
+
+#[cfg(feature = "npz")]
+#[test]
+fn arrays_are_joined_along_their_first_index() {
+    use symplectic::ensemble::{NpzArray, NpzValues};
+
+    let array = |name: &str, shape: &[usize], values: &[f64]| NpzArray {
+        name: name.into(),
+        shape: shape.into(),
+        values: NpzValues::Doubles(values.into()),
+    };
+    let mut all = array("q", &[1, 2], &[1.0, 2.0]);
+    all.append(array("q", &[0, 2], &[])).expect("the same kind");
+    all.append(array("q", &[2, 2], &[3.0, 4.0, 5.0, 6.0]))
+        .expect("the same kind");
+    assert_eq!(all, array("q", &[3, 2], &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
+    let before = all.clone();
+    let integers = NpzArray {
+        values: NpzValues::Integers(vec![1, 2]),
+        ..array("q", &[1, 2], &[])
+    };
+    for other in [
+        array("p", &[1, 2], &[1.0, 2.0]),
+        array("q", &[1, 3], &[1.0, 2.0, 3.0]),
+        array("q", &[2], &[1.0, 2.0]),
+        integers,
+    ] {
+        let error = all.append(other).expect_err("it does not go there");
+        assert_eq!(error.kind(), std::io::ErrorKind::InvalidInput, "{error}");
+        assert_eq!(all, before);
+    }
+    let mut one = array("end", &[], &[1.0]);
+    one.append(array("end", &[], &[1.0]))
+        .expect_err("single values");
+}
+
 #[cfg(feature = "npz")]
 #[test]
 fn nothing_comes_after_an_array_in_part() {

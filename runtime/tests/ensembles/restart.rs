@@ -37,6 +37,8 @@ fn a_resumed_ensemble_has_the_same_rows() {
     for stop in [0, 1, 6, 16, 39, 40] {
         let checkpoint = ensemble(40, 0.02, 0.1).checkpoint(stop).expect("f64");
         let mut resumed = ensemble(40, 0.02, 0.1);
+        resumed.check(&checkpoint).expect("the same run");
+        assert_eq!(resumed.trajectories(), 0..40);
         resumed.restore(&checkpoint).expect("the same run");
         assert_eq!(resumed.trajectories(), stop..40);
         assert_eq!(rows(&resumed, stop), whole[stop..], "{stop}");

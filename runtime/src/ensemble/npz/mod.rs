@@ -5,6 +5,10 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use std::io::{self, Error, ErrorKind, Write};
 
+mod array;
+
+pub use array::{NpzArray, NpzValues};
+
 use super::{Ensemble, Row};
 use crate::method::{Method, RunTimeTableau};
 use crate::number::Vector;
@@ -59,7 +63,7 @@ impl<W: Write> Npz<W> {
     /// ensemble to files of their own.
     pub fn doubles(&mut self, name: &str, shape: &[usize], values: &[f64]) -> io::Result<()> {
         let bytes = values.iter().flat_map(|value| value.to_le_bytes());
-        self.array(name, "<f8", shape, values.len(), bytes)
+        self.npy(name, "<f8", shape, values.len(), bytes)
     }
 
     /// Writes an array of whole numbers.
@@ -69,7 +73,7 @@ impl<W: Write> Npz<W> {
     /// As for [`doubles`](Self::doubles).
     pub fn integers(&mut self, name: &str, shape: &[usize], values: &[u64]) -> io::Result<()> {
         let bytes = values.iter().flat_map(|value| value.to_le_bytes());
-        self.array(name, "<u8", shape, values.len(), bytes)
+        self.npy(name, "<u8", shape, values.len(), bytes)
     }
 
     /// Writes a text, an array without an index.
@@ -88,6 +92,27 @@ impl<W: Write> Npz<W> {
     /// As for [`doubles`](Self::doubles).
     pub fn texts(&mut self, name: &str, texts: &[&str]) -> io::Result<()> {
         self.letters(name, &[texts.len()], texts)
+    }
+
+    /// Writes an array that was read: with the bytes that it had, if this library wrote it.
+    ///
+    /// # Errors
+    ///
+    /// As for [`doubles`](Self::doubles).
+    pub fn array(&mut self, array: &NpzArray) -> io::Result<()> {
+        let NpzArray {
+            name,
+            shape,
+            values,
+        } = array;
+        match values {
+            NpzValues::Doubles(values) => self.doubles(name, shape, values),
+            NpzValues::Integers(values) => self.integers(name, shape, values),
+            NpzValues::Texts(values) => {
+                let texts: Vec<&str> = values.iter().map(String::as_str).collect();
+                self.letters(name, shape, &texts)
+            }
+        }
     }
 
     /// Writes what is known of an ensemble: `method`, `definition`, `orders` (general, separable, with quadratic kinetic energy),
@@ -184,11 +209,11 @@ impl<W: Write> Npz<W> {
             letters.chain(core::iter::repeat(0)).take(longest)
         });
         let bytes = padded.flat_map(u32::to_le_bytes);
-        self.array(name, &format!("<U{longest}"), shape, texts.len(), bytes)
+        self.npy(name, &format!("<U{longest}"), shape, texts.len(), bytes)
     }
 
     /// Writes an array in the format NPY 1.0.
-    fn array(
+    fn npy(
         &mut self,
         name: &str,
         kind: &str,
