@@ -12,7 +12,7 @@ pub enum Library {
     Sundials,
     /// TS of PETSc: TSBASICSYMPLECTIC and TSIRK.
     Petsc,
-    /// TSBASICSYMPLECTIC of PETSc as it was when it began with the kick (commit 02477eb).
+    /// TSBASICSYMPLECTIC of PETSc before version 3.19.4, when it began with the kick.
     PetscKickFirst,
     /// RungeKutta.jl.
     RungeKuttaJl,

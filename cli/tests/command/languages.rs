@@ -59,6 +59,7 @@ fn programs_read_what_was_written() {
     c_has_the_doubles(&texts(&methods, Language::C));
     fortran_has_the_doubles(&texts(&methods, Language::Fortran));
     python_has_the_doubles(&texts(&methods, Language::Python));
+    latex_fits_the_page(&methods);
     functions_for_libraries_compile(&methods);
 }
 
@@ -175,8 +176,11 @@ fn fortran_has_the_doubles(methods: &[(&Tableau, String)]) {
     if printed("gfortran", &["--version"], &folder).is_none() {
         return;
     }
+    // The longest one needs more lines than a statement may have.
+    let longest = methods.iter().map(|(tableau, _)| tableau.stages()).max();
+    let some = |stages| stages <= 10 || Some(stages) == longest;
     let short: Vec<usize> = (0..methods.len())
-        .filter(|&k| methods[k].0.stages() <= 10)
+        .filter(|&k| some(methods[k].0.stages()))
         .collect();
     let mut program = String::new();
     let mut main = "program show\n  use, intrinsic :: iso_fortran_env, only: int64\n".to_owned();
@@ -226,6 +230,34 @@ fn python_has_the_doubles(methods: &[(&Tableau, String)]) {
     fs::write(folder.join("show.py"), program).expect("written");
     let lines = printed("python3", &["show.py"], &folder).expect("Python runs");
     assert!(compare(&lines, methods) > 10_000);
+}
+
+/// A document with every method compiles, and nothing stands out of the text: a number would lose digits.
+fn latex_fits_the_page(methods: &[Tableau]) {
+    let folder = folder("latex");
+    let mut document = "\\documentclass{article}\n\\usepackage{amsmath}\n\\usepackage{booktabs}\n\\usepackage{longtable}\n\\begin{document}\n".to_owned();
+    for tableau in methods {
+        let text = Language::Latex.write(tableau, 16).expect("every method");
+        let name = tableau.name().expect("a name");
+        document.push_str(&format!(
+            "\\clearpage\\noindent\\verb|{name}|\\typeout{{{name}}}\n{text}"
+        ));
+    }
+    document.push_str("\\end{document}\n");
+    fs::write(folder.join("all.tex"), document).expect("written");
+    let flags = ["-halt-on-error", "-interaction=nonstopmode", "all.tex"];
+    // Tables on several pages have their widths from the run before.
+    let runs = (0..3).map_while(|_| printed("pdflatex", &flags, &folder));
+    let Some(log) = runs.last() else {
+        return;
+    };
+    let mut name = "";
+    for line in log.lines() {
+        if catalogue::find(line).is_some() {
+            name = line;
+        }
+        assert!(!line.starts_with("Overfull"), "{name}: {line}");
+    }
 }
 
 /// Tables of SUNDIALS and PETSc, stepped as these libraries do, have the order that they state: on the pendulum, by halved steps.
@@ -325,7 +357,7 @@ fn functions_for_libraries_compile(methods: &[Tableau]) {
     let folder = folder("libraries");
     fs::create_dir_all(folder.join("arkode")).expect("a folder");
     let arkode = "#include <stddef.h>\ntypedef double sunrealtype;\ntypedef struct sprk *ARKodeSPRKTable;\ntypedef struct butcher *ARKodeButcherTable;\nARKodeSPRKTable ARKodeSPRKTable_Create(int s, int q, const sunrealtype *a, const sunrealtype *ahat);\nARKodeButcherTable ARKodeButcherTable_Create(int s, int q, int p, sunrealtype *c, sunrealtype *A, sunrealtype *b, sunrealtype *d);\n";
-    let petsc = "#include <stddef.h>\ntypedef double PetscReal;\ntypedef double PetscScalar;\ntypedef int PetscInt;\ntypedef int PetscErrorCode;\ntypedef struct ts *TS;\n#define PETSC_SUCCESS 0\n#define PetscFunctionBegin do { } while (0)\n#define PetscFunctionReturn(x) return x\n#define PetscCall(x) do { PetscErrorCode e = x; if (e) return e; } while (0)\nPetscErrorCode TSBasicSymplecticRegister(const char *name, PetscInt order, PetscInt s, PetscReal c[], PetscReal d[]);\nPetscErrorCode TSIRKTableauCreate(TS, PetscInt, const PetscReal *, const PetscReal *, const PetscReal *, const PetscReal *, const PetscScalar *, const PetscScalar *, const PetscScalar *);\n";
+    let petsc = "#include <stddef.h>\ntypedef double PetscReal;\ntypedef double PetscScalar;\ntypedef int PetscInt;\ntypedef int PetscErrorCode;\ntypedef struct ts *TS;\n#define PETSC_SUCCESS 0\n#define PETSC_VERSION_LT(major, minor, subminor) 0\n#define PetscFunctionBegin do { } while (0)\n#define PetscFunctionReturn(x) return x\n#define PetscCall(x) do { PetscErrorCode e = x; if (e) return e; } while (0)\nPetscErrorCode TSBasicSymplecticRegister(const char *name, PetscInt order, PetscInt s, PetscReal c[], PetscReal d[]);\nPetscErrorCode TSIRKTableauCreate(TS, PetscInt, const PetscReal *, const PetscReal *, const PetscReal *, const PetscReal *, const PetscScalar *, const PetscScalar *, const PetscScalar *);\n";
     for (path, text) in [
         ("arkode/arkode_sprk.h", arkode),
         (
@@ -350,5 +382,34 @@ fn functions_for_libraries_compile(methods: &[Tableau]) {
         if printed("cc", &arguments, &folder).is_none() {
             return;
         }
+    }
+    tsirk_has_the_inverse(&folder, methods);
+}
+
+/// TSIRK reads `A` row by row and `A_inv` column by column: so read they are inverse to one another, for every method.
+fn tsirk_has_the_inverse(folder: &Path, methods: &[Tableau]) {
+    let mut program = "#include \"petsc.c\"\n#include <math.h>\n#include <stdio.h>\nPetscErrorCode TSBasicSymplecticRegister(const char *name, PetscInt order, PetscInt s, PetscReal c[], PetscReal d[]) { (void)name; (void)order; (void)s; (void)c; (void)d; return 0; }\nPetscErrorCode TSIRKTableauCreate(TS ts, PetscInt n, const PetscReal *A, const PetscReal *b, const PetscReal *c, const PetscReal *binterp, const PetscScalar *A_inv, const PetscScalar *sums, const PetscScalar *I_s) {\n  (void)ts; (void)b; (void)c; (void)binterp; (void)sums; (void)I_s;\n  double distance = 0;\n  for (int i = 0; i < n; i++)\n    for (int k = 0; k < n; k++) {\n      double sum = i == k ? -1 : 0;\n      for (int j = 0; j < n; j++) sum += A[i * n + j] * A_inv[j + k * n];\n      distance = fmax(distance, fabs(sum));\n    }\n  printf(\"%d %g\\n\", n, distance);\n  return 0;\n}\nint main(void) {\n".to_owned();
+    let create = |text: &str| {
+        let start = text.find("PetscErrorCode ")? + "PetscErrorCode ".len();
+        let end = text[start..].find("_create(TS ts)")? + start;
+        Some(text[start..end].to_owned())
+    };
+    for (_, text) in texts(methods, Language::Petsc) {
+        if let Some(name) = create(&text) {
+            program.push_str(&format!("  {name}_create(NULL);\n"));
+        }
+    }
+    program.push_str("  return 0;\n}\n");
+    fs::write(folder.join("irk.c"), program).expect("written");
+    let flags = ["-std=c99", "-w", "-I.", "irk.c", "-lm", "-o", "irk"];
+    if printed("cc", &flags, folder).is_none() {
+        return;
+    }
+    let lines = printed(folder.join("irk").to_str().expect("text"), &[], folder);
+    let lines = lines.expect("a program");
+    assert!(lines.lines().count() > 10, "{lines}");
+    for line in lines.lines() {
+        let (_, distance) = line.split_once(' ').expect("two numbers");
+        assert!(distance.parse::<f64>().expect("a number") < 1e-10, "{line}");
     }
 }

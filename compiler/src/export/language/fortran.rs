@@ -2,6 +2,9 @@
 
 use super::table::{Entry, Table, comments};
 
+/// A statement has 255 continuation lines at most.
+const LONGEST_STATEMENT: usize = 250;
+
 pub(super) fn write(table: &Table<'_>) -> String {
     let stages = table.tableau.stages();
     let module = format!("{}_tableau", table.name);
@@ -10,20 +13,36 @@ pub(super) fn write(table: &Table<'_>) -> String {
         "module {module}\n  use, intrinsic :: iso_fortran_env, only: real64\n  implicit none\n"
     ));
     for (vector, entries) in table.vectors() {
-        text.push_str(&array("real(real64), parameter", vector, entries));
+        if entries.len() <= LONGEST_STATEMENT {
+            text.push_str(&array("real(real64), parameter", vector, entries));
+            continue;
+        }
+        let parts = entries.chunks(LONGEST_STATEMENT);
+        let names = joined(&mut text, vector, parts);
+        text.push_str(&format!(
+            "\n  real(real64), parameter :: {vector}({}) = [ &\n    {names} &\n  ]\n",
+            entries.len()
+        ));
     }
     for (matrix, rows) in table.matrices() {
-        let names: Vec<String> = (1..=stages).map(|i| format!("{matrix}_{i}")).collect();
-        for (name, row) in names.iter().zip(rows) {
-            text.push_str(&array("real(real64), parameter, private", name, row));
-        }
-        let names = names.join(", &\n    ");
+        let names = joined(&mut text, matrix, rows.iter().map(Vec::as_slice));
         text.push_str(&format!(
             "\n  real(real64), parameter :: {matrix}({stages}, {stages}) = reshape([ &\n    {names} &\n  ], [{stages}, {stages}], order=[2, 1])\n"
         ));
     }
     text.push_str(&format!("end module {module}\n"));
     text
+}
+
+/// Writes the parts of a vector or matrix as private arrays; returns their names as a list.
+fn joined<'a>(text: &mut String, name: &str, parts: impl Iterator<Item = &'a [Entry]>) -> String {
+    let mut names = Vec::new();
+    for (i, part) in (1..).zip(parts) {
+        let name = format!("{name}_{i}");
+        text.push_str(&array("real(real64), parameter, private", &name, part));
+        names.push(name);
+    }
+    names.join(", &\n    ")
 }
 
 fn array(attributes: &str, name: &str, entries: &[Entry]) -> String {

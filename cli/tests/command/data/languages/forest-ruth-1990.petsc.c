@@ -7,6 +7,10 @@
    written by symplectic VERSION */
 #include <petscts.h>
 
+#if PETSC_VERSION_LT(3, 19, 4)
+#error "before PETSc 3.19.4 a stage of TSBASICSYMPLECTIC begins with the kick, and this table with the drift"
+#endif
+
 /* After it: TSSetType(ts, TSBASICSYMPLECTIC), TSBasicSymplecticSetType(ts, "forest_ruth_1990"). */
 static PetscErrorCode forest_ruth_1990_register(void)
 {

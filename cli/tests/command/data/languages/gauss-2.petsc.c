@@ -9,7 +9,8 @@
    written by symplectic VERSION */
 #include <petscts.h>
 
-/* Order 4. After TSIRKRegister("gauss_2", gauss_2_create): TSSetType(ts, TSIRK), TSIRKSetNumStages(ts, 2), TSIRKSetType(ts, "gauss_2"). */
+/* Order 4. A is stored row by row, and A_inv column by column, as TSIRK reads it.
+   After TSIRKRegister("gauss_2", gauss_2_create): TSSetType(ts, TSIRK), TSIRKSetNumStages(ts, 2), TSIRKSetType(ts, "gauss_2"). */
 static PetscErrorCode gauss_2_create(TS ts)
 {
   PetscReal A[] = {
@@ -28,8 +29,8 @@ static PetscErrorCode gauss_2_create(TS ts)
   };
   const PetscScalar A_inv[] = {
     0x1.8p+1,
-    0x1.db3d742c26554p-2,
     -0x1.9db3d742c2655p+2,
+    0x1.db3d742c26554p-2,
     0x1.8p+1,
   };
   const PetscScalar A_inv_rowsum[] = {
