@@ -1,4 +1,4 @@
-//! Real numbers as floating-point enclosures of one length.
+//! Real numbers as floating-point enclosures with a fixed number of bits.
 
 use std::cmp::Ordering;
 use std::sync::atomic::{AtomicI64, Ordering as Memory};
@@ -13,15 +13,15 @@ use crate::symbolic::Constant;
 
 /// All numbers `(m + δ)·2ᵉ` with `|δ| ≤ r`.
 ///
-/// Unlike an [`Interval`], whose places are absolute, it is as narrow for tiny and for huge numbers, compared
-/// with their size.
+/// Unlike an [`Interval`], whose places are absolute, its width is relative to the size of the number, for tiny and huge
+/// numbers alike.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ball {
     middle: BigInt,
     radius: BigInt,
     exponent: i64,
-    /// The binary logarithm of the largest terms of the sum that this is, rounded up: what is meant by
-    /// small.
+    /// The binary logarithm of the largest terms of the sum that this number is, rounded up: smallness is
+    /// relative to it.
     scale: i64,
 }
 
@@ -57,7 +57,7 @@ impl Ball {
         ball
     }
 
-    /// A whole number.
+    /// An integer.
     pub fn whole(value: usize) -> Self {
         Ball::dyadic(BigInt::from(value), 0, u32::MAX)
     }
@@ -90,7 +90,7 @@ impl Ball {
         Ball::rounded(middle, BigInt::one(), -(up as i64), bits)
     }
 
-    /// An enclosure of a number that is narrow compared with the number, or with 1 if the number is not told from zero.
+    /// An enclosure that is narrow relative to the number, or relative to 1 if the number cannot be distinguished from zero.
     pub fn of(number: &Number<'_>, bits: u32) -> Self {
         match number {
             Number::Rational(value) => return Ball::quotient(value, bits),
@@ -102,7 +102,7 @@ impl Ball {
             Zero::Within(_) => return Ball::undecided(&number.enclose(bits)),
             Zero::No => {}
         }
-        // A few places tell how large it is, and so how many are needed.
+        // A few places give the size of the number, and so the places needed.
         let mut places = 64;
         loop {
             let interval = number.enclose(places);
@@ -120,7 +120,7 @@ impl Ball {
         }
     }
 
-    /// A number that enclosures do not tell from zero, which is small compared with 1.
+    /// A number that enclosures do not distinguish from zero, which is small relative to 1.
     fn undecided(interval: &Interval) -> Self {
         Ball {
             scale: 0,
@@ -134,7 +134,7 @@ impl Ball {
         Ball::rounded(middle, radius, -i64::from(interval.bits) - 1, bits)
     }
 
-    /// An enclosure with absolute places, at most as narrow as this one.
+    /// An enclosure with absolute places, at most as narrow as this ball.
     pub fn interval(&self, bits: u32) -> Interval {
         let shift = self.exponent + i64::from(bits);
         let [low, high] = [&self.middle - &self.radius, &self.middle + &self.radius];
@@ -163,7 +163,7 @@ impl Ball {
         }
     }
 
-    /// The sign, if it is the same for all the numbers.
+    /// The sign, if all numbers of the ball have the same sign.
     pub fn sign(&self) -> Option<Ordering> {
         if self.middle.abs() > self.radius {
             return Some(self.middle.cmp(&BigInt::zero()));
@@ -187,7 +187,7 @@ impl Ball {
         least.is_positive().then(exponent)
     }
 
-    /// A ball around zero with all these numbers.
+    /// A ball around zero that contains this one.
     #[must_use]
     pub fn size(&self) -> Self {
         Ball {
@@ -290,8 +290,8 @@ impl Ball {
         }
     }
 
-    /// The binary places to which a ball with zero in it is zero, compared with the terms of which it is
-    /// the sum.
+    /// The binary places to which a ball that contains zero vanishes, relative to the terms of the sum that
+    /// it is.
     fn zero_bits(&self) -> i64 {
         self.scale - self.magnitude()
     }
@@ -299,8 +299,8 @@ impl Ball {
 
 /// The real numbers, as enclosures with a number of bits.
 ///
-/// A number is taken for zero if zero is in its ball. How small it is then, compared with the terms of the
-/// sum that it is, is kept for all such numbers together.
+/// A number is taken to be zero if its ball contains zero. The worst precision of all these zeros, relative to the terms of
+/// their sums, is recorded.
 #[derive(Debug)]
 pub struct Balls {
     bits: u32,
@@ -316,7 +316,7 @@ impl Balls {
         }
     }
 
-    /// The binary places, at least, to which all numbers are zero that were taken for zero.
+    /// A lower bound on the binary places to which all numbers taken to be zero vanish.
     pub fn zero_bits(&self) -> u32 {
         self.verified
             .load(Memory::Relaxed)
@@ -440,7 +440,7 @@ mod tests {
         assert_eq!(balls.zero(&x), Zero::No);
         let difference = balls.subtract(&x, &x);
         assert!(matches!(balls.zero(&difference), Zero::Within(bits) if bits > 190));
-        // The same difference, of numbers known to fewer places.
+        // The same difference, for numbers known to fewer places.
         let coarse = Balls::new(40).rational(&tiny);
         assert!(balls.zero(&balls.subtract(&coarse, &x)).may_be());
         assert!((30..45).contains(&balls.zero_bits()));

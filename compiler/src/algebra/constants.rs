@@ -1,4 +1,4 @@
-//! The field that holds some given constants.
+//! The field of some given constants.
 
 use std::collections::{HashMap, HashSet};
 use std::num::NonZeroU32;
@@ -17,32 +17,32 @@ use crate::arithmetic::rational::{length, ratio};
 use crate::expression::{Input, parse_list};
 use crate::symbolic::{Constant, Tree};
 
-/// A [`ConstantField`] together with what the algebraic and transcendental parts of some constants are in
-/// it.
+/// A [`ConstantField`] together with the elements that represent the algebraic and transcendental parts of some
+/// constants.
 #[derive(Debug, Clone)]
 pub struct Constants {
     field: ConstantField,
     /// The radicals and roots.
     algebraic: HashMap<Constant, Polynomial>,
-    /// `cos(π/n)` with the `n` of which all angles are multiples.
+    /// `cos(π/n)`, where all angles are multiples of `π/n`.
     cosine: Option<(u32, Polynomial)>,
-    /// The constants that the field was made for.
+    /// The constants for which the field was constructed.
     known: HashMap<Constant, FieldElement>,
-    /// Homomorphisms to finite fields, once they were needed.
+    /// Homomorphisms to finite fields, computed on demand.
     images: OnceLock<Vec<Image>>,
 }
 
-/// One that takes something to zero that is not zero is met once in millions of times.
+/// The number of homomorphisms. Each maps a given nonzero element to zero about once in millions of cases.
 const IMAGES: usize = 3;
 
-/// Longer texts help nobody to read a number, and would not be read again.
+/// Longer texts are not readable for people, and would not be read again.
 const LONGEST_TEXT: usize = 2000;
-/// The largest product of the degree in `X` and the root of the number of constants: elimination among
+/// The largest product of the degree in `X` and the square root of the number of constants: the cost of elimination among
 /// rational functions grows with both.
 const MAX_DEGREES: f64 = 160.0;
-/// Rationals up to this many bits cost no more than short ones.
+/// Rationals with at most this many bits cost no more than short ones.
 const USUAL_BITS: u64 = 128;
-/// The largest product of the bits beyond that and the degrees in `X` and `θ`: exact arithmetic with long rationals takes
+/// The largest product of the bits beyond [`USUAL_BITS`] and the degrees in `X` and `θ`: with long rationals, exact arithmetic takes
 /// far longer than enclosures.
 const MAX_LENGTH: f64 = 2048.0;
 
@@ -53,7 +53,7 @@ impl PartialEq for Constants {
     }
 }
 
-/// The parts of constants from which a field is made.
+/// The parts of constants that determine a field.
 #[derive(Default)]
 struct Parts {
     pi: bool,
@@ -61,16 +61,16 @@ struct Parts {
     exponents: Option<u32>,
     radians: Option<u32>,
     angles: Option<u32>,
-    /// Radicals and roots; what stands inside one comes before it.
+    /// Radicals and roots; nested ones come first.
     radicals: Vec<Constant>,
     seen: HashSet<Constant>,
     /// All exponents and arguments in radians, and powers of π.
     arguments: Vec<BigRational>,
-    /// The most bits of a rational.
+    /// The largest number of bits of a rational.
     bits: u64,
 }
 
-/// The least common multiple of a denominator and those before; `None` where it is out of proportion.
+/// The least common multiple of a denominator and the previous ones; `None` if it is too large.
 fn common(known: Option<u32>, value: &BigRational) -> Option<Option<u32>> {
     let denominator = value.denom().to_u32()?;
     let all = u64::from(known.unwrap_or(1)).lcm(&u64::from(denominator));
@@ -78,7 +78,7 @@ fn common(known: Option<u32>, value: &BigRational) -> Option<Option<u32>> {
 }
 
 impl Parts {
-    /// Collects the parts of a constant; `None` where a part lies in no constant field.
+    /// Collects the parts of a constant; `None` if a part is in no constant field.
     fn collect(&mut self, constant: &Constant) -> Option<()> {
         if let Tree::Rational(value) = constant.tree() {
             self.note(value);
@@ -120,7 +120,7 @@ impl Parts {
                     let power = u64::from(exponent.unsigned_abs());
                     match x.tree() {
                         Tree::Pi => self.arguments.push(ratio(i64::from(exponent.abs()), 1)),
-                        // Written out, its powers are longer than it, and of a higher degree.
+                        // Written out, its powers would be longer and of a higher degree.
                         Tree::Sum(..) => {
                             let mut inside = Parts::default();
                             inside.collect(x)?;
@@ -148,7 +148,7 @@ impl Parts {
         Some(())
     }
 
-    /// Takes note of the length of a rational.
+    /// Records the length of a rational.
     fn note(&mut self, value: &BigRational) {
         let bits = length(value);
         self.bits = self.bits.max(bits);
@@ -170,7 +170,7 @@ impl Parts {
         (largest * BigRational::from_integer(denominator.into())).to_f64()
     }
 
-    /// The one transcendental number; `None` where there are several.
+    /// The transcendental number; `None` if there are several.
     fn transcendental(&self) -> Option<Option<Transcendental>> {
         let one = |n: Option<u32>| n.and_then(NonZeroU32::new);
         let kinds = [
@@ -190,9 +190,9 @@ impl Constants {
         &self.field
     }
 
-    /// The smallest field that is known to hold all constants; `None` where they are not algebraic over one
-    /// transcendental number, π, `e^{1/n}` or `tan(1/(2n))`, or where a degree exceeds the bounds of number
-    /// fields, or that of rational functions among as many constants.
+    /// The smallest field known to hold all constants. `None` if they are not algebraic over one
+    /// transcendental number, π, `e^{1/n}` or `tan(1/(2n))`, or if a degree exceeds the bounds of number
+    /// fields, or of rational functions for this number of constants.
     pub fn containing<'a>(constants: impl IntoIterator<Item = &'a Constant>) -> Option<Self> {
         let constants: Vec<&Constant> = constants.into_iter().collect();
         let mut parts = Parts::default();
@@ -200,7 +200,7 @@ impl Constants {
             parts.collect(constant)?;
         }
         let transcendental = parts.transcendental()?;
-        // The powers of X, of which there is at least the first.
+        // The first powers of X; there is at least one.
         let degree = parts.degree()?;
         let powers = transcendental.map_or(0.0, |_| degree.max(1.0));
         let size = (1.0 + degree) * (constants.len() as f64).sqrt();
@@ -331,7 +331,7 @@ impl Constants {
     /// `cos(q π)`.
     fn cosine_of(&self, turns: &BigRational) -> Option<FieldElement> {
         let Some((n, cosine)) = &self.cosine else {
-            // Whole multiples of π only.
+            // Integer multiples of π only.
             let whole = turns.is_integer().then(|| turns.to_integer());
             let value = match whole {
                 Some(whole) if whole.is_even() => 1,
@@ -350,7 +350,7 @@ impl Constants {
         Some(self.field.from_algebraic(&value))
     }
 
-    /// The field, if it is one of algebraic numbers.
+    /// The field, if it consists of algebraic numbers.
     pub fn number_field(&self) -> Option<&NumberField> {
         let algebraic = self.field.generator().is_none();
         algebraic.then(|| self.field.algebraic())
@@ -361,9 +361,9 @@ impl Constants {
         x.is_zero()
     }
 
-    /// An element as a constant; `None` where it is beyond the bounds of constants.
+    /// An element as a constant; `None` if it is beyond the bounds of constants.
     pub fn to_constant(&self, x: &FieldElement) -> Option<Constant> {
-        // What is printed is read again.
+        // The printed text is read again.
         let text = self.field.display(x);
         let input = Input {
             name: "constant",
@@ -418,7 +418,7 @@ impl Field for Constants {
         if x.is_zero() { Zero::Yes } else { Zero::No }
     }
 
-    /// The simplest, so that elements stay short.
+    /// The simplest candidate, so that elements stay short.
     fn pivot(&self, candidates: &[&FieldElement]) -> Option<usize> {
         let nonzero = candidates.iter().enumerate().filter(|(_, x)| !x.is_zero());
         let length =
@@ -462,7 +462,7 @@ impl Field for Constants {
         let polynomials = || lists.into_iter().flatten();
         let total: u64 = polynomials().map(words).sum();
         if !self.is_costly() {
-            // Products of algebraic numbers take less, and little where their coefficients are short.
+            // Products of algebraic numbers cost less, and little if their coefficients are short.
             return total / 8;
         }
         total

@@ -1,4 +1,4 @@
-//! Vectors and matrices that are lists of numbers in a field.
+//! Vectors and matrices as lists of numbers in a field.
 
 use std::borrow::Cow;
 use std::fmt::Debug;
@@ -11,8 +11,8 @@ use crate::symbolic::Constant;
 
 /// A field of real numbers.
 pub trait Field: Debug + PartialEq {
-    /// Its elements. Equal elements are equal numbers; where not all equal numbers are equal elements,
-    /// [`Field::zero`] says what is known.
+    /// Its elements. Equal elements are equal numbers. If equal numbers may be different elements,
+    /// [`Field::zero`] tells what is known.
     type Element: Clone + Debug + PartialEq;
 
     /// A rational number.
@@ -29,13 +29,13 @@ pub trait Field: Debug + PartialEq {
     fn subtract(&self, x: &Self::Element, y: &Self::Element) -> Self::Element;
     /// The product.
     fn multiply(&self, x: &Self::Element, y: &Self::Element) -> Self::Element;
-    /// The inverse; `None` for zero and for what cannot be told from it.
+    /// The inverse; `None` for zero and for numbers that cannot be distinguished from it.
     fn inverse(&self, x: &Self::Element) -> Option<Self::Element>;
-    /// The binary places to which equations are verified; `None` where they are decided.
+    /// The binary places to which equations are verified; `None` if they are decided.
     fn verified_bits(&self) -> Option<u32>;
     /// Whether an element is zero.
     fn zero(&self, x: &Self::Element) -> Zero;
-    /// The best divisor among elements: the index of one that is known not to be zero.
+    /// The best divisor among elements: the index of an element that is known to be nonzero.
     fn pivot(&self, candidates: &[&Self::Element]) -> Option<usize>;
     /// A positive rational whose products with these elements are cheaper to compute with: a common
     /// denominator. It may always be 1.
@@ -50,41 +50,41 @@ pub trait Field: Debug + PartialEq {
     }
     /// An element as a number.
     fn number(&self, x: &Self::Element) -> Number<'_>;
-    /// A readable exact form, where there is one.
+    /// A readable exact form, if there is one.
     fn exact(&self, x: &Self::Element) -> Option<String>;
     /// An enclosure with this many bits.
     fn enclose(&self, x: &Self::Element, bits: u32) -> Ball {
         Ball::of(&self.number(x), bits)
     }
-    /// Homomorphisms to finite fields, where there are any.
+    /// Homomorphisms to finite fields, if there are any.
     fn images(&self) -> &[Image] {
         &[]
     }
-    /// What a homomorphism takes an element to; `None` if a denominator goes to zero.
+    /// The image of an element under a homomorphism; `None` if a denominator is mapped to zero.
     fn image(&self, _x: &Self::Element, _image: &Image) -> Option<u64> {
         None
     }
-    /// Whether arithmetic brings long elements to lowest terms, so that its cost has to be bounded.
+    /// Whether arithmetic reduces long elements to lowest terms, so that its cost must be bounded.
     fn is_costly(&self) -> bool {
         false
     }
-    /// Whether arithmetic keeps its operands, in an expression that is evaluated later.
+    /// Whether arithmetic keeps its operands in an expression that is evaluated later.
     fn keeps_operands(&self) -> bool {
         false
     }
-    /// About how many machine words an element has, where arithmetic is costly.
+    /// The approximate number of machine words of an element, if arithmetic is costly.
     fn length(&self, _x: &Self::Element) -> u64 {
         0
     }
-    /// The bits beyond which enclosures get no narrower; `None` where numbers are enclosed as narrowly as wanted.
+    /// The bits beyond which enclosures do not get narrower; `None` if numbers can be enclosed to any precision.
     fn finest_bits(&self) -> Option<u32> {
         None
     }
-    /// Takes note that a question was left undecided.
+    /// Records that a question was left undecided.
     fn doubt(&self) {}
 }
 
-/// The algebra of functions of `stages` stages with values in a field, value by value.
+/// The algebra of functions of `stages` stages with values in a field, computed value by value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dense<F> {
     field: F,
@@ -201,7 +201,7 @@ impl<F: Field> StageAlgebra for Dense<F> {
         m.iter().zip(f).map(scaled).collect()
     }
 
-    /// A row that is the one before with a last entry more, as in a splitting, takes one product.
+    /// A row that extends the previous row by one entry, as in a splitting, takes one product.
     fn apply(&self, m: &Matrix<F>, f: &Vector<F>) -> Vector<F> {
         let zero = self.field.rational(&BigRational::default());
         let end = |row: &Vector<F>| row.iter().rposition(|x| *x != zero).map_or(0, |j| j + 1);
@@ -315,7 +315,7 @@ mod tests {
     use crate::algebra::Rationals;
     use crate::arithmetic::rational::ratio;
 
-    /// Rows that go on where the one before ends, one that repeats it, one that does not, and a row of zeros.
+    /// A row that extends the previous one, one that repeats it, one that does neither, and a row of zeros.
     #[test]
     fn rows_that_go_on_are_summed_from_where_they_do() {
         let algebra = Dense::new(Rationals, 6);

@@ -1,11 +1,11 @@
-//! Images of a field of constants in prime fields, which prove that something is not zero.
+//! Images of a field of constants in prime fields, which prove that an element is nonzero.
 
 use super::field::{ConstantField, FieldElement};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::prime_field::{PrimeField, large_primes};
 
-/// A homomorphism to the field of `p` elements from the elements of `Q(θ)(X)` whose denominators it does not
-/// take to zero: `θ` goes to a root of its equation modulo `p`, and `X` to some residue.
+/// A homomorphism to the field with `p` elements from the elements of `Q(θ)(X)` whose denominators it does not
+/// map to zero: `θ` is mapped to a root of its equation modulo `p`, and `X` to some residue.
 #[derive(Debug, Clone, Copy)]
 pub struct Image {
     /// The field of the images.
@@ -14,11 +14,11 @@ pub struct Image {
     x: u64,
 }
 
-/// Primes that are looked at: of a field of degree `n`, one in `n!` at least has a root.
+/// The number of primes that are tried: for a field of degree `n`, at least one prime in `n!` has a root.
 const PRIMES: usize = 200;
 
 impl Image {
-    /// Several images; none where there is no root modulo the first primes.
+    /// Several images; none if there is no root modulo the first primes.
     pub fn several(field: &ConstantField, count: usize) -> Vec<Image> {
         let modulus = field.algebraic().modulus();
         let primes = large_primes().take(PRIMES).map(PrimeField::new);
@@ -31,7 +31,7 @@ impl Image {
         let image = |(k, (field, theta)): (u64, (PrimeField, u64))| Image {
             field,
             theta,
-            // Some residue that is no small number.
+            // Some residue that is not a small number.
             x: (k + 1) * 1_234_567_891 % field.prime(),
         };
         (0..).zip(found).map(image).take(count).collect()

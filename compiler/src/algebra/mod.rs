@@ -1,13 +1,13 @@
 //! Exact and certified arithmetic on functions of the stages.
 //!
-//! A quantity with one index is a vector over the stages, one with two a matrix. Three algebras hold
-//! them, and everything that is said about a tableau is said once, over [`StageAlgebra`]:
+//! A quantity with one index is a vector over the stages, a quantity with two indices a matrix. Three algebras hold
+//! them, and all computations on tableaux are written once, over [`StageAlgebra`]:
 //!
 //! | tier | algebra | holds |
 //! |---|---|---|
 //! | 1 | [`NodeAlgebra`] | functions on the roots of a rational polynomial: sums are traces |
 //! | 2 | [`Dense`] over [`Constants`] | numbers in `Q(α)(X)`, `X` one transcendental |
-//! | 3 | [`Dense`] over [`Reals`] | expressions that are enclosed as narrowly as needed |
+//! | 3 | [`Dense`] over [`Reals`] | expressions that can be enclosed to any precision |
 
 mod ball;
 mod constants;

@@ -14,25 +14,25 @@ use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::{add, length, ratio};
 use crate::arithmetic::rounding::{self, Decimal, exact};
 
-/// What is known about whether a number is zero.
+/// The evidence whether a number is zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Zero {
-    /// It is, by exact arithmetic.
+    /// The number is zero, by exact arithmetic.
     Yes,
-    /// It is not: some enclosure excludes it.
+    /// The number is nonzero: some enclosure excludes zero.
     No,
-    /// It is at most `2⁻ᵇⁱᵗˢ` in size, which no exact argument decides.
+    /// The magnitude is at most `2⁻ᵇⁱᵗˢ`; no exact argument decides whether the number is zero.
     Within(u32),
 }
 
 impl Zero {
-    /// Whether the number is zero as far as is known.
+    /// Whether the number is zero, as far as is known.
     pub fn may_be(self) -> bool {
         self != Zero::No
     }
 }
 
-/// A real number: a coefficient of a tableau, or something computed from its coefficients.
+/// A real number: a coefficient of a tableau, or a number computed from coefficients.
 #[derive(Debug, Clone)]
 pub enum Number<'a> {
     /// A rational.
@@ -47,12 +47,12 @@ pub enum Number<'a> {
     Enclosed(Ball),
 }
 
-/// The fewest binary places of enclosures.
+/// The smallest number of binary places of enclosures.
 const FIRST_BITS: u32 = 192;
 
 impl Number<'_> {
-    /// An enclosure with this many binary places, 192 at least; its width tends to zero as `bits` grows, but
-    /// for a number that is only known by one enclosure.
+    /// An enclosure with at least this many binary places, and at least 192. Its width tends to zero as `bits` grows, except
+    /// for a number that is known by a single enclosure only.
     pub fn enclose(&self, bits: u32) -> Interval {
         let bits = bits.max(FIRST_BITS);
         let enclosure = match self {
@@ -65,7 +65,7 @@ impl Number<'_> {
         enclosure.with_bits(bits)
     }
 
-    /// About how many machine words the exact form has; 0 where there is none, or it is of no interest.
+    /// The approximate number of machine words of the exact form; 0 if there is none, or if it does not matter.
     pub(crate) fn words(&self) -> u64 {
         let words = |polynomial: &Polynomial| {
             let numerators = polynomial.numerators().iter();
@@ -82,7 +82,7 @@ impl Number<'_> {
         }
     }
 
-    /// The binary places beyond the usual ones that it takes to see the smallest of the numbers of which this one consists.
+    /// The binary places, beyond the usual number, needed to resolve the smallest number that occurs in this one.
     pub(crate) fn fineness(&self) -> u32 {
         match self {
             Number::Rational(value) => beyond_usual(length(value)),
@@ -100,12 +100,12 @@ impl Number<'_> {
         }
     }
 
-    /// A number `n` with `|x| < 2ⁿ`, if that is positive, and 0 otherwise.
+    /// A number `n` with `|x| < 2ⁿ` if it is positive, and 0 otherwise.
     pub(crate) fn largeness(&self) -> u64 {
         u64::try_from(self.enclose(0).magnitude_bits()).unwrap_or(0)
     }
 
-    /// Whether both are written in the same way, which is seen at once; numbers that are not may be equal.
+    /// Whether both have the same representation, which is decided immediately; different representations may be equal numbers.
     pub fn is_same(&self, other: &Self) -> bool {
         match (self, other) {
             (Number::Rational(x), Number::Rational(y)) => x == y,
@@ -126,8 +126,8 @@ impl Number<'_> {
         if equal { Zero::Yes } else { Zero::No }
     }
 
-    /// Whether the number equals a rational for the purpose of rounding: exactly, or as far as enclosures with this
-    /// many binary places tell.
+    /// Whether the number equals a rational for the purpose of rounding: exactly, or to the precision of enclosures with this
+    /// many binary places.
     fn is_surely(&self, value: &BigRational, bits: u32) -> bool {
         match self {
             Number::Real(number) => number.difference(value, bits).may_be(),
@@ -160,7 +160,7 @@ impl Number<'_> {
         (self.difference(&candidate) == Zero::Yes).then_some(candidate)
     }
 
-    /// [`Number::short_rational`] that the number equals as far as is known: an enclosed one too.
+    /// [`Number::short_rational`], but also for an enclosed number that equals the rational as far as is known.
     pub(crate) fn short_rational_as_far_as_known(&self) -> Option<BigRational> {
         if let Number::Rational(value) = self {
             return Some(value.clone());
@@ -168,7 +168,7 @@ impl Number<'_> {
         short_rational(&self.enclose(0)).filter(|candidate| self.equals(candidate))
     }
 
-    /// The sign of the number; equal to zero where it is not known to differ from it.
+    /// The sign of the number; `Equal` if the number is not known to differ from zero.
     pub fn sign(&self) -> Ordering {
         if self.is_zero() {
             return Ordering::Equal;
@@ -194,12 +194,12 @@ impl Number<'_> {
         self.round(0, rounding::to_f32, |&single| exact(single.into()))
     }
 
-    /// What [`Number::to_f64`] leaves out: the double nearest to the number minus `double`, ties to even.
+    /// The remainder of [`Number::to_f64`]: the double nearest to the number minus `double`, ties to even.
     ///
-    /// Together they are the number to 106 bits, where that is not below the smallest double.
+    /// Together they represent the number to 106 bits, if the remainder is not below the smallest double.
     pub fn low_double(&self, double: f64) -> f64 {
         let double = exact(double);
-        // Here the difference is zero, which no enclosure tells, or rounds to zero.
+        // The difference is zero, which no enclosure can prove, or rounds to zero.
         if self.is_surely(&double, ZERO_BITS) {
             return 0.0;
         }
@@ -212,17 +212,17 @@ impl Number<'_> {
 
     /// The number rounded to `digits` significant decimal digits, ties to even.
     pub fn decimal(&self, digits: usize) -> Decimal {
-        // A digit has less than 10/3 bits; numbers much smaller than 1 need more.
+        // A digit takes less than 10/3 bits; numbers much smaller than 1 need more.
         let bits = digits.min(1 << 24) as u32 * 10 / 3 + 64;
         let round = |value: &BigRational| Decimal::round(value, digits);
         self.round(bits, round, Decimal::value)
     }
 
-    /// Rounds by refining the enclosure, where there is more than one, with this many binary places at first, until both ends round to
-    /// the same.
+    /// Rounds by refining the enclosure, if it can be refined, starting with this many binary places, until both ends round to
+    /// the same value.
     ///
-    /// That ends unless the number is zero or the middle between two neighbours of the target format,
-    /// which is decided as far as it can be when an enclosure has become narrow and does not exclude it.
+    /// The refinement ends unless the number is zero or the midpoint of two neighbours of the target format.
+    /// This is decided, as far as possible, once an enclosure is narrow and does not exclude it.
     fn round<T: PartialEq>(
         &self,
         bits: u32,

@@ -1,4 +1,4 @@
-//! Compositions of one base method: `Φ_{γ_m h} ∘ … ∘ Φ_{γ_1 h}`, some steps perhaps of its adjoint (GNI II.4).
+//! Compositions of one base method: `Φ_{γ_m h} ∘ … ∘ Φ_{γ_1 h}`; some steps may be of its adjoint (GNI II.4).
 
 use std::ops::Range;
 
@@ -25,7 +25,7 @@ use crate::quadrature::check_stages;
 use crate::symbolic::Constant;
 use crate::tableau::Tableau;
 
-/// A base method, by itself or with the steps that are made with it.
+/// A base method, alone or with the steps of a composition.
 #[derive(Clone)]
 pub struct Based {
     base: Base,
@@ -48,11 +48,11 @@ struct Weights {
     /// Whether only the first half is written.
     symmetric: bool,
     components: Vec<Component>,
-    /// What is certified of printed weights, or known of a named composition.
+    /// The certificate of printed weights, or the known order of a named composition.
     given: Option<GivenOrder>,
-    /// Whether the order is claimed of printed weights.
+    /// Whether an order is claimed for printed weights.
     claimed: bool,
-    /// The printed weights that the exact ones do not round to.
+    /// The printed weights that differ from the rounded exact ones.
     wrong_digits: Vec<Error>,
 }
 
@@ -128,14 +128,14 @@ impl Based {
         parts
     }
 
-    /// The printed weights that the exact ones do not round to.
+    /// The printed weights that differ from the rounded exact ones.
     pub fn wrong_digits(&self) -> &[Error] {
         self.weights
             .as_ref()
             .map_or(&[], |weights| &weights.wrong_digits)
     }
 
-    /// The order that follows from the weights, or for a base by itself from how that is made.
+    /// The order that follows from the weights, or for a base alone from its construction.
     pub fn given(&self) -> Option<GivenOrder> {
         match &self.weights {
             Some(weights) => weights.given.clone(),
@@ -154,7 +154,7 @@ impl Based {
         }
     }
 
-    /// What the step does, if the base method is a splitting.
+    /// The sequence of kicks and drifts of the step, if the base method is a splitting.
     pub fn sequence(&self) -> Option<Sequence> {
         let sequence = self.base.method.sequence()?;
         let Some(weights) = &self.weights else {
@@ -171,7 +171,7 @@ impl Based {
         }))
     }
 
-    /// The steps, one if there are no weights; certified weights are no constants, but there the base is a splitting.
+    /// The steps, a single one without weights; `None` if weights are not constants (certified weights, whose base is a splitting).
     pub fn steps(&self) -> Option<Vec<Step>> {
         let Some(Weights { components, .. }) = &self.weights else {
             return Some(vec![Step {
@@ -224,7 +224,7 @@ impl Base {
         let Some(entry) = catalogue::find(name) else {
             return Err(vec![input.error(&whole, *catalogue::unknown(name).kind)]);
         };
-        // The catalogue is right by its tests; its methods may still have too many stages.
+        // The catalogue is tested; its methods may still have too many stages.
         let moved = |error: Error| input.error(&whole, *error.kind);
         let definition =
             Definition::parse(&entry.definition).map_err(|error| vec![moved(error)])?;
@@ -257,7 +257,7 @@ impl Base {
         })
     }
 
-    /// Proves what certified weights need: a symmetric base of kicks and drifts.
+    /// Proves the requirement of certified weights: a symmetric base of kicks and drifts.
     fn proved_symmetric_splitting(&self, definition: &Definition) -> Result<(), Error> {
         let refused = |message| Err(misfit_at(definition, Key::Base, message));
         if self.method.sequence().is_none() {
@@ -276,7 +276,7 @@ impl Base {
         }
     }
 
-    /// The tableau, which what a composition needs of its base is decided from, if it is symmetric.
+    /// The tableau of the base, from which the requirements of a composition are decided, if it is symmetric.
     fn symmetric(&self, what: &str, definition: &Definition) -> Result<Tableau, Error> {
         let at_base = |message: String| misfit_at(definition, Key::Base, message);
         let tableau = self
@@ -348,10 +348,10 @@ impl Weights {
         })
     }
 
-    /// Reads printed weights and certifies what is claimed of them.
+    /// Reads printed weights and certifies their claim.
     ///
-    /// What is proved holds for any symmetric base of order 2; that the base is one for separable Hamiltonians is
-    /// proved of it.
+    /// The proof holds for any symmetric base of order 2; the base is proved to be one for separable
+    /// Hamiltonians.
     fn certified(
         text: &str,
         symmetric: bool,
@@ -448,14 +448,14 @@ impl Weights {
     }
 }
 
-/// The order of a named composition, by the theorem of [`GivenOrder`], where that of its base and the symmetry of it are
-/// more than verified. Each level of the composition has its own root, with which its two equations are identities.
+/// The order of a named composition by the theorem of [`GivenOrder`], if the order and the symmetry of its base are
+/// proved or certified. Each level of the composition has its own root, with which its two equations are identities.
 fn raised(base: &Tableau, orders: &OrderReport, wanted: usize) -> Option<GivenOrder> {
     let separable = base.separable_properties().symmetric;
     let evidence = separable.evidence.and(orders.separable.evidence);
     let general = &orders.general;
     let symmetric = base.properties().symmetric;
-    // The fractions cancel the leading error of a base of this order, whatever the Hamiltonian.
+    // The fractions cancel the leading error of a base of this order for every Hamiltonian.
     let for_all = symmetric.holds
         && general.order == orders.separable.order
         && symmetric.evidence.and(general.evidence) == evidence;
@@ -467,7 +467,7 @@ fn raised(base: &Tableau, orders: &OrderReport, wanted: usize) -> Option<GivenOr
     })
 }
 
-/// Makes the first half of a list that reads the same from both ends the whole: its last item stands in the middle.
+/// Extends the first half of a palindromic list to the whole list; its last item is in the middle.
 /// The mirror image of a symmetric method is the method itself.
 fn mirror<T: Clone>(half: &mut Vec<T>) {
     let count = half.len();
@@ -475,7 +475,7 @@ fn mirror<T: Clone>(half: &mut Vec<T>) {
     half[count..].reverse();
 }
 
-/// Reads `1/2` or `adjoint(1/2)`: the fraction, and whether it is one of the adjoint.
+/// Reads `1/2` or `adjoint(1/2)`: the fraction, and whether it belongs to the adjoint.
 fn read_fraction(item: &Expression, input: Input<'_>) -> Result<(Constant, bool), Error> {
     if let ExpressionKind::Call {
         function,
@@ -505,7 +505,7 @@ fn read_fraction(item: &Expression, input: Input<'_>) -> Result<(Constant, bool)
     Ok((item.constant(input)?, false))
 }
 
-/// A fraction as it is written.
+/// A fraction as text.
 fn fraction_text((fraction, adjoint): &(Constant, bool)) -> String {
     match adjoint {
         true => format!("adjoint({fraction})"),

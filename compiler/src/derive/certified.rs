@@ -1,4 +1,4 @@
-//! Splittings from printed digits: what is derived is the exact method that is proved to be near them.
+//! Splittings from printed digits: the derived method is the exact one that is proved to be near them.
 
 use super::claim;
 use super::reading::{Errors, misfit};
@@ -34,7 +34,7 @@ impl Certified {
         let certificate = certify(&splitting, &claim?);
         let certificate = certificate.map_err(|error| claim::refused(definition, &error));
         let certificate = errors.note(certificate)?;
-        // The flows of a mirrored list come back after those that are written.
+        // The flows of a mirrored list come again after the written ones.
         let (mut kicks, mut drifts) = (0.., 0..);
         let written = flows.into_iter().filter_map(|(flow, name)| match flow {
             Flow::Kick => Some((Key::Kick, kicks.next()?, name)),
@@ -53,17 +53,17 @@ impl Certified {
         })
     }
 
-    /// What is proved of the method.
+    /// The proved claim of the method.
     pub fn claim(&self) -> &Claim {
         self.certificate.claim()
     }
 
-    /// The printed numbers that the exact method does not round to.
+    /// The printed numbers that differ from the rounded exact ones.
     pub fn wrong_digits(&self) -> &[Error] {
         &self.wrong_digits
     }
 
-    /// What the step does.
+    /// The sequence of kicks and drifts of the step.
     pub fn sequence(&self) -> Sequence {
         let mut factors = Factors::new(self.certificate.clone());
         let (_, flows) = whole(&self.printed);
@@ -74,7 +74,7 @@ impl Certified {
         )
     }
 
-    /// The number of stages, at most.
+    /// An upper bound on the number of stages.
     pub fn stages(&self) -> usize {
         self.sequence().stages()
     }
@@ -87,8 +87,8 @@ impl Certified {
     }
 }
 
-/// The splitting each kick of which comes before the drift of the same number, and what the flows that are written
-/// are called in it.
+/// The splitting in which each kick comes before the drift of the same index, and the names of the written flows
+/// in it.
 fn whole(printed: &Lists<Printed>) -> (Splitting, Vec<(Flow, Coefficient)>) {
     let (mut kick, mut drift): (Vec<Printed>, Vec<Printed>) = (Vec::new(), Vec::new());
     let mut names = Vec::new();
@@ -111,14 +111,14 @@ fn whole(printed: &Lists<Printed>) -> (Splitting, Vec<(Flow, Coefficient)>) {
     (Splitting { kick, drift }, names)
 }
 
-/// The coefficients of a certified method. Those that are equal by structure are the same expression.
+/// The coefficients of a certified method. Coefficients that are equal by structure share one expression.
 pub struct Factors {
     certificate: Certificate,
     known: Vec<(Coefficient, Real)>,
 }
 
 impl Factors {
-    /// Those of a certificate.
+    /// The coefficients of a certificate.
     pub fn new(certificate: Certificate) -> Self {
         Factors {
             certificate,
@@ -126,11 +126,11 @@ impl Factors {
         }
     }
 
-    /// The coefficient of a name that there is.
+    /// The coefficient of an existing name.
     pub fn get(&mut self, name: Coefficient) -> Factor {
         let Factors { certificate, known } = self;
         if let Some(value) = certificate.rational(name) {
-            // One that is too long for a constant is as exact as an expression.
+            // A rational that is too long for a constant becomes an equally exact expression.
             let constant = Constant::rational(value.clone());
             return constant.map_or_else(|_| Factor::Real(Real::rational(value)), Factor::Constant);
         }

@@ -1,4 +1,4 @@
-//! Printed digits and what is claimed of them.
+//! Printed digits and their claims.
 
 use std::ops::Range;
 
@@ -35,7 +35,7 @@ pub fn read(definition: &Definition) -> Result<Claim, Error> {
     })
 }
 
-/// The claim as it is written.
+/// The claim as text.
 pub fn text(claim: &Claim) -> String {
     match claim {
         Claim::Separable(order) | Claim::SymmetricBase(order) => format!("separable({order})"),
@@ -47,7 +47,7 @@ pub fn text(claim: &Claim) -> String {
     }
 }
 
-/// Reads a list of decimals, which may stand in brackets.
+/// Reads a list of decimals, optionally in brackets.
 pub fn read_printed(key: Key, text: &str) -> Result<Vec<Printed>, Error> {
     let read = |range: Range<usize>| {
         let number: String = text[range.clone()].split_whitespace().collect();
@@ -69,7 +69,7 @@ pub fn read_printed(key: Key, text: &str) -> Result<Vec<Printed>, Error> {
         .collect()
 }
 
-/// Why printed digits are not certified, at the part that it is about.
+/// The error for printed digits that are not certified, placed at the relevant part.
 pub fn refused(definition: &Definition, error: &CertifyError) -> Error {
     let message = error.to_string();
     let key = match error {
@@ -84,9 +84,9 @@ pub fn refused(definition: &Definition, error: &CertifyError) -> Error {
     at(definition, key, ErrorKind::NotCertified { message })
 }
 
-/// The printed numbers that the exact method does not round to, each at its place in the definition.
+/// The printed numbers that differ from the rounded exact ones, each at its place in the definition.
 ///
-/// `items` are the numbers as they are written: the key and the index in its list.
+/// `items` are the numbers as written: the key and the index in its list.
 pub fn wrong_digits(
     definition: &Definition,
     certificate: &Certificate,
@@ -111,7 +111,7 @@ pub fn wrong_digits(
         .collect()
 }
 
-/// What is wrong with one printed number.
+/// The message about one wrong printed number.
 fn wrong_number(certificate: &Certificate, name: Coefficient, text: &str) -> String {
     let number: String = text.split_whitespace().collect();
     let printed = Printed::parse(&number).ok();
@@ -137,7 +137,7 @@ fn wrong_number(certificate: &Certificate, name: Coefficient, text: &str) -> Str
     message
 }
 
-/// What stands in the brackets of a list, or the whole.
+/// The contents of the brackets of a list, or the whole text.
 fn list_inside(text: &str) -> Range<usize> {
     let whole = trimmed(text, 0..text.len());
     let inner = text[whole.clone()].strip_prefix('[');

@@ -15,14 +15,14 @@ use crate::symbolic::Constant;
 pub struct Step {
     /// The fraction `γ` of the whole step.
     pub fraction: Constant,
-    /// What the method `Φ` is derived from.
+    /// The definition of the method `Φ`.
     pub method: Problem,
 }
 
-/// The deepest brackets of a composition, which bound the recursion over compositions of compositions.
+/// The deepest nesting of brackets in a composition; it bounds the recursion over compositions of compositions.
 const MAX_DEPTH: usize = 64;
 
-/// An error where brackets are nested too deeply in the text of a composition.
+/// Returns an error if brackets are nested too deeply in the text of a composition.
 ///
 /// # Errors
 /// [`ErrorKind::ExpressionSize`]
@@ -49,8 +49,8 @@ pub fn check_depth(text: &str) -> Result<(), ErrorKind> {
 /// Reads the steps of a composition.
 ///
 /// # Errors
-/// What is wrong with the first step that is not right, at its place in the text of the composition;
-/// brackets that are too deep; more stages than the limit.
+/// The errors of the first wrong step, at their place in the text of the composition;
+/// brackets nested too deeply; more stages than the limit.
 pub fn read(text: &str, limits: &Limits) -> Result<Vec<Step>, Vec<Error>> {
     let input = Input {
         name: Key::Compose.name(),
@@ -64,27 +64,27 @@ pub fn read(text: &str, limits: &Limits) -> Result<Vec<Step>, Vec<Error>> {
     for range in items(text, whole.clone()) {
         let step = read_step(input, range, limits)?;
         stages += step.method.stages();
-        // Before the next one is read: an input bounds the work on it by the number of its stages.
+        // Checked before the next step is read, so that the work on an input is bounded by its number of stages.
         check_stages(&stages.into(), limits).map_err(at_whole)?;
         steps.push(step);
     }
     Ok(steps)
 }
 
-/// The items of a list with or without brackets around it, a comma after the last one or none.
+/// The items of a list with or without brackets and with or without a trailing comma.
 fn items(text: &str, range: Range<usize>) -> Vec<Range<usize>> {
     let list = inner(text, &range).map(|inner| trimmed(text, inner));
-    // The brackets are those around the list, and not those of its only item, if items begin in them.
+    // The brackets belong to the list, not to its only item, if items begin inside them.
     let list = list.filter(|inner| text[inner.clone()].starts_with('[') && is_one(text, &range));
     separated(text, list.unwrap_or(range))
 }
 
-/// Whether no comma outside brackets is in a range.
+/// Whether a range contains no comma outside brackets.
 fn is_one(text: &str, range: &Range<usize>) -> bool {
     pieces(text, range.clone()).len() == 1
 }
 
-/// What stands between commas, white space around it left out.
+/// The parts between commas, without surrounding white space.
 pub(super) fn separated(text: &str, range: Range<usize>) -> Vec<Range<usize>> {
     let pieces = pieces(text, range).into_iter();
     let mut pieces: Vec<_> = pieces.map(|piece| trimmed(text, piece)).collect();
@@ -94,7 +94,7 @@ pub(super) fn separated(text: &str, range: Range<usize>) -> Vec<Range<usize>> {
     pieces
 }
 
-/// What stands between brackets.
+/// The text between brackets.
 pub(super) fn inner(text: &str, range: &Range<usize>) -> Option<Range<usize>> {
     let part = &text[range.clone()];
     let bracketed = part.len() >= 2 && part.starts_with('[') && part.ends_with(']');
@@ -150,7 +150,7 @@ fn read_fraction(input: Input<'_>, range: Range<usize>) -> Result<Constant, Erro
     read.map_err(|error| shifted(input, &range, error))
 }
 
-/// Moves the place of an error about a part of a definition to the text that the definition stands in.
+/// Moves the place of an error in a part of a definition to the text that contains the definition.
 pub(super) fn in_text(
     input: Input<'_>,
     definition: &Range<usize>,

@@ -1,8 +1,8 @@
-//! Which construction the parts of a definition ask for.
+//! The construction that the parts of a definition select.
 
 use crate::definition::{Definition, Key};
 
-/// The ways to say what a method is.
+/// The kinds of definitions of a method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// Functions at nodes.
@@ -11,16 +11,16 @@ pub enum Kind {
     Given,
     /// Kicks and drifts.
     Splitting,
-    /// Printed kicks and drifts with what they claim.
+    /// Printed kicks and drifts with their claim.
     Certified,
-    /// A base method, perhaps with the steps made with it.
+    /// A base method, optionally with steps of it.
     Based,
     /// Steps of several methods.
     Composition,
 }
 
 impl Kind {
-    /// The construction of a definition; where the keys of several are there, one of them.
+    /// The construction of a definition; if it has keys of several constructions, one of them.
     pub fn of(definition: &Definition) -> Self {
         let telling = [
             Kind::Composition,
@@ -37,7 +37,7 @@ impl Kind {
         telling.into_iter().find(told).unwrap_or(Kind::Derived)
     }
 
-    /// The keys by which it is told from the others.
+    /// The keys that distinguish it from the others.
     fn telling(self) -> &'static [Key] {
         match self {
             Kind::Derived => &[Key::Basis, Key::Nodes, Key::Quadrature],
@@ -49,7 +49,7 @@ impl Kind {
         }
     }
 
-    /// Whether it takes a key.
+    /// Whether the construction accepts a key.
     pub fn takes(self, key: Key) -> bool {
         match key {
             Key::Exchange | Key::Adjoint => true,
@@ -62,7 +62,7 @@ impl Kind {
         }
     }
 
-    /// The message about a key that it does not take.
+    /// The message about a key that the construction does not accept.
     pub fn refuses(self, key: Key) -> String {
         let name = key.name();
         match (self, key) {

@@ -10,7 +10,7 @@ use crate::error::ErrorKind;
 use crate::pair::Pair;
 use crate::symbolic::{Constant, Function};
 
-/// What the constructions need of a basis `ψ_1, …, ψ_s` and nodes `c_1, …, c_r`.
+/// The data of a basis `ψ_1, …, ψ_s` and nodes `c_1, …, c_r` for the constructions.
 pub struct Samples<T> {
     /// `ψ_k(c_i)`, a row for each function.
     pub values: Vec<Vec<T>>,
@@ -24,7 +24,7 @@ impl Samples<Constant> {
     /// The values and integrals of functions.
     ///
     /// # Errors
-    /// Where a value is beyond the bounds of constants.
+    /// If a value is beyond the bounds of constants.
     pub fn new(functions: &[Function], nodes: &[Constant]) -> Result<Self, ErrorKind> {
         let (zero, one) = (Constant::zero(), Constant::one());
         let integrals = functions.iter().map(Function::antiderivative);
@@ -54,7 +54,7 @@ impl Samples<Constant> {
         rows.flatten().chain(&self.totals)
     }
 
-    /// The same in a field, if all are elements.
+    /// The same data in a field, if all constants are elements.
     pub fn in_field<F: Field>(&self, field: &F) -> Option<Samples<F::Element>> {
         let row = |row: &Vec<Constant>| -> Option<Vec<F::Element>> {
             row.iter().map(|c| field.constant(c)).collect()
@@ -68,11 +68,11 @@ impl Samples<Constant> {
     }
 }
 
-/// Why a construction fails.
+/// The reason why a construction fails.
 pub enum Failure<T> {
     /// The functions are dependent on the nodes.
     Singular(Singular<T>),
-    /// A weight vanishes, or cannot be told from zero.
+    /// A weight vanishes, or cannot be distinguished from zero.
     ZeroWeight(usize, Zero),
     /// Anything else.
     Kind(ErrorKind),
@@ -97,8 +97,8 @@ pub fn collocation<F: Field>(
     right.push(samples.totals.clone());
     let mut rows = solve(&field, &samples.values, &right).map_err(Failure::Singular)?;
     let b = rows.pop().unwrap_or_default();
-    // Where the integrals are those of the weights, the rows are one and the same: what vanishes in
-    // their difference vanishes without any computation.
+    // Where the integrals are those of the weights, the rows are identical: their difference
+    // vanishes without any computation.
     for (row, integrals) in rows.iter_mut().zip(&samples.integrals) {
         if *integrals == samples.totals {
             row.clone_from(&b);
@@ -156,7 +156,7 @@ fn algebra_columns<T: Clone>(rows: &[Vec<T>], length: usize) -> Vec<Vec<T>> {
 /// The weights of the interpolatory rule at nodes: `Σ_j c_j^k b_j = 1/(k + 1)` for `k < r`.
 ///
 /// # Errors
-/// [`Failure::Singular`] where nodes coincide.
+/// [`Failure::Singular`] if nodes coincide.
 pub fn interpolatory_weights<F: Field>(
     field: &F,
     samples: &Samples<F::Element>,

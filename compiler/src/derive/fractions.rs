@@ -1,4 +1,4 @@
-//! Whether fractions of a step make a whole one.
+//! Whether the fractions of a step sum to 1.
 
 use num_rational::BigRational;
 
@@ -7,7 +7,7 @@ use crate::symbolic::Constant;
 
 /// The sum of some constants for a message, if it is not 1.
 ///
-/// Where no field holds them, a sum that enclosures do not tell from 1 is taken for it.
+/// If no field holds the constants, a sum whose enclosure contains 1 is taken to be 1.
 pub fn off_one<'a>(values: impl Iterator<Item = &'a Constant>) -> Option<String> {
     let values: Vec<&Constant> = values.collect();
     match Constants::containing(values.iter().copied()) {
@@ -25,7 +25,7 @@ fn off_one_in<F: Field>(field: &F, values: &[&Constant]) -> Option<String> {
     (field.zero(&rest) == Zero::No).then(|| shown(&field.number(&sum), &field.number(&rest)))
 }
 
-/// A short fraction as it is; otherwise the first digits, and how far from 1 it is.
+/// A short fraction as it is; otherwise the first digits, and its distance from 1.
 fn shown(sum: &Number<'_>, rest: &Number<'_>) -> String {
     const SHORT: usize = 12;
     let exact = sum.short_rational().map(|value| value.to_string());

@@ -5,11 +5,11 @@ use num_traits::One;
 
 use crate::algebra::{Field, Zero};
 
-/// Why a system has no unique solution, or is not known to have one.
+/// The reason why a system has no unique solution, or is not known to have one.
 pub struct Singular<T> {
     /// Coefficients of a combination of the rows that vanishes.
     pub combination: Vec<T>,
-    /// Whether it is known to vanish, or only not known to be different from zero.
+    /// Whether the combination is proved to vanish, rather than just not known to be nonzero.
     pub proved: bool,
 }
 
@@ -18,7 +18,7 @@ pub struct Singular<T> {
 /// The right-hand sides and the solutions are the rows of `right` and of the result.
 ///
 /// # Errors
-/// Where the rows of the matrix are linearly dependent, or not known not to be: a combination.
+/// If the rows of the matrix are linearly dependent, or not known to be independent: a combination.
 pub fn solve<F: Field>(
     field: &F,
     matrix: &[Vec<F::Element>],
@@ -26,7 +26,7 @@ pub fn solve<F: Field>(
 ) -> Result<Vec<Vec<F::Element>>, Singular<F::Element>> {
     let size = matrix.len();
     let [zero, one] = [BigRational::default(), BigRational::one()].map(|q| field.rational(&q));
-    // Each row with the combination of the given rows that it is, and with its right-hand sides.
+    // Each row with its coefficients in terms of the given rows, and with its right-hand sides.
     let mut rows: Vec<Row<F>> = (0..size)
         .map(|i| Row {
             entries: matrix[i].clone(),
@@ -50,7 +50,7 @@ pub fn solve<F: Field>(
             });
         };
         rows.swap(column, column + pivot);
-        // Pivots are known not to be zero.
+        // Pivots are known to be nonzero.
         let Some(inverse) = field.inverse(&rows[column].entries[column]) else {
             continue;
         };

@@ -1,10 +1,10 @@
 //! From a definition to the tableau (LZ §4.4, steps 1–5; T §2.2).
 //!
-//! The tier follows from the definition: polynomial bases at all roots of one polynomial are derived in
+//! The tier follows from the definition. Polynomial bases at all roots of one polynomial are derived in
 //! the node algebra; anything else in a constant field, if one holds all values and integrals of the
-//! basis, and as certified enclosures otherwise. A splitting, and what is made of splittings only, is in the field of
-//! its fractions. What [operations](crate::Tableau::concatenate) on tableaux give
-//! is derived from the definitions of the operands by the same operations.
+//! basis, and as certified enclosures otherwise. Splittings and their compositions are derived in the field of
+//! their fractions. Results of [operations](crate::Tableau::concatenate) on tableaux
+//! are derived from the definitions of the operands by the same operations.
 
 mod base_method;
 mod certified;
@@ -37,7 +37,7 @@ use crate::tableau::Tableau;
 /// Derives the tableau of a basis at nodes, both given as text, within the default [`Limits`].
 ///
 /// # Errors
-/// As [`Definition::derive`].
+/// The errors of [`Definition::derive`].
 ///
 /// ```
 /// let tableau = symplectic_compiler::derive("polynomial(3)", "lobatto(3)")?;
@@ -52,10 +52,10 @@ pub fn derive(basis: &str, nodes: &str) -> Result<Tableau, Error> {
     derive_within(basis, nodes, &Limits::default())
 }
 
-/// As [`derive()`], within given limits.
+/// [`derive()`] within given limits.
 ///
 /// # Errors
-/// As [`Definition::derive`].
+/// The errors of [`Definition::derive`].
 pub fn derive_within(basis: &str, nodes: &str, limits: &Limits) -> Result<Tableau, Error> {
     Definition::new([(Key::Basis, basis), (Key::Nodes, nodes)]).derive(limits)
 }
@@ -64,24 +64,24 @@ impl Definition {
     /// Derives the tableau.
     ///
     /// # Errors
-    /// The first of [`Definition::derive_or_all_errors`].
+    /// The first error of [`Definition::derive_or_all_errors`].
     pub fn derive(&self, limits: &Limits) -> Result<Tableau, Error> {
         self.derive_or_all_errors(limits).map_err(first)
     }
 
-    /// Derives the tableau, or says everything that is wrong with the parts.
+    /// Derives the tableau, or returns all errors in the parts.
     ///
     /// # Errors
     /// Wrong expressions, unknown names, too many stages, nodes that are equal or outside `[0, 1]`,
     /// dependent functions, each at its place in the part; parts that do not go together;
-    /// [`ErrorKind::NotSquare`], [`ErrorKind::SingularBasis`], [`ErrorKind::ZeroWeight`] and what
-    /// cannot be told from the last two.
+    /// [`ErrorKind::NotSquare`], [`ErrorKind::SingularBasis`], [`ErrorKind::ZeroWeight`] and the undecided cases
+    /// of the last two.
     pub fn derive_or_all_errors(&self, limits: &Limits) -> Result<Tableau, Vec<Error>> {
         let problem = Problem::read(self, limits)?;
         problem.derive().map_err(|kind| vec![self.place(kind)])
     }
 
-    /// An error of the derivation at the part that it is about.
+    /// Places an error of the derivation at the relevant part.
     fn place(&self, kind: ErrorKind) -> Error {
         let keys: &[Key] = if kind.is_about_basis() {
             &[Key::Basis, Key::Compose]
@@ -128,19 +128,19 @@ pub fn derive_from(basis: &Basis, rule: &QuadratureRule) -> Result<Tableau, Erro
     problem.derive()
 }
 
-/// The coefficients of a definition of drifts and kicks one after another; `None` for one of anything else.
+/// The coefficients of a definition that is a sequence of drifts and kicks; `None` for any other definition.
 ///
 /// # Errors
-/// As [`Definition::derive`], without places.
+/// The errors of [`Definition::derive`], without places.
 pub(crate) fn splitting(definition: &Definition) -> Result<Option<Exact>, ErrorKind> {
     let sequence = read_again(definition)?.sequence();
     sequence.map(|sequence| sequence.exact()).transpose()
 }
 
-/// The number of functions of the basis, where the quadrature formula has more nodes.
+/// The number of functions of the basis, if the quadrature formula has more nodes.
 ///
 /// # Errors
-/// Those of reading the definition.
+/// The errors of reading the definition.
 pub(crate) fn fewer_functions(definition: &Definition) -> Result<Option<usize>, ErrorKind> {
     let problem = read_again(definition)?;
     Ok(match problem.construction {
@@ -153,7 +153,7 @@ pub(crate) fn fewer_functions(definition: &Definition) -> Result<Option<usize>, 
     })
 }
 
-/// A definition that has been derived before, read once more.
+/// Reads again a definition that has been derived before.
 fn read_again(definition: &Definition) -> Result<Problem, ErrorKind> {
     let unlimited = Limits { stages: usize::MAX };
     Problem::read(definition, &unlimited).map_err(|errors| *first(errors).kind)

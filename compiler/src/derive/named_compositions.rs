@@ -1,7 +1,7 @@
-//! Named compositions of a symmetric method, which raise its order by two at each level (GNI II.4).
+//! Named compositions of a symmetric method, each level of which raises its order by two (GNI II.4).
 //!
-//! From a symmetric method of order `p` they make one of order `p + 2`: the fractions `γ_i` have to satisfy
-//! `Σ γ_i = 1` and `Σ γ_i^{p+1} = 0`, and symmetry gives the second order.
+//! From a symmetric method of order `p` they form one of order `p + 2`. The fractions `γ_i` must satisfy
+//! `Σ γ_i = 1` and `Σ γ_i^{p+1} = 0`, which gives order `p + 1`; symmetry gives the other order.
 //!
 //! * triple jump (Creutz & Gocksch 1989; Forest 1989; Suzuki 1990; Yoshida 1990):
 //!   `γ_1 = γ_3 = 1/(2 − r)`, `γ_2 = −r/(2 − r)` with `r = 2^{1/(p+1)}`;
@@ -17,7 +17,7 @@ use crate::error::ErrorKind;
 use crate::expression::{Expression, ExpressionKind};
 use crate::symbolic::Constant;
 
-/// The highest order that is built.
+/// The highest order of a named composition.
 pub const MAX_ORDER: usize = 10;
 
 /// A named composition.
@@ -31,7 +31,7 @@ impl Scheme {
     /// The names in definitions.
     pub const NAMES: [&str; 2] = ["triple_jump", "suzuki"];
 
-    /// Reads `triple_jump(4)`; the expression is that of the order.
+    /// Reads `triple_jump(4)`; the returned expression is the order.
     pub fn find(item: &Expression) -> Option<(Self, &Expression)> {
         let ExpressionKind::Call {
             function,
@@ -56,13 +56,13 @@ impl Scheme {
         }
     }
 
-    /// The fractions that make a method of order `to` of a symmetric one of order `from`.
+    /// The fractions that turn a symmetric method of order `from` into one of order `to`.
     ///
-    /// All roots are powers of one number, `2^{1/n}` with the least common multiple `n` of the `p + 1`, where the
-    /// field that it generates is within the bounds of number fields; otherwise each is a number of its own.
+    /// All roots are powers of one number, `2^{1/n}` with the least common multiple `n` of the `p + 1`, if the
+    /// field that it generates is within the bounds of number fields; otherwise each root is a separate number.
     ///
     /// # Errors
-    /// None up to [`MAX_ORDER`]; [`ErrorKind::ExpressionSize`] where a constant were too long.
+    /// None up to [`MAX_ORDER`]; [`ErrorKind::ExpressionSize`] if a constant would be too long.
     pub fn fractions(self, from: usize, to: usize) -> Result<Vec<Constant>, ErrorKind> {
         let orders = || (from..to).step_by(2);
         let common = orders().fold(1, |n, p| n.lcm(&(p + 1)));
@@ -95,7 +95,7 @@ impl Scheme {
     }
 }
 
-/// Exponents are at most as large as degrees of number fields.
+/// Exponents are no larger than degrees of number fields.
 fn exponent(value: usize) -> i32 {
     i32::try_from(value).unwrap_or(i32::MAX)
 }

@@ -10,7 +10,7 @@ use crate::arithmetic::polynomial::Polynomial;
 use crate::pair::Pair;
 use crate::quadrature::QuadratureRule;
 
-/// Why a construction fails.
+/// The reason why a construction fails.
 pub enum Failure {
     /// Coefficients of a combination of the functions that vanishes at all nodes.
     Singular(Vec<BigRational>),

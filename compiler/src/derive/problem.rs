@@ -1,4 +1,4 @@
-//! The parts of a definition, read: what is to be derived.
+//! The parsed parts of a definition.
 
 use super::base_method::Based;
 use super::certified::Certified;
@@ -16,17 +16,17 @@ use crate::order::GivenOrder;
 use crate::quadrature::Nodes;
 use crate::symbolic::Constant;
 
-/// A definition whose texts are read.
+/// A definition whose texts have been parsed.
 #[derive(Clone)]
 pub struct Problem {
     pub construction: Construction,
-    /// Whether positions and momenta are exchanged in the end.
+    /// Whether positions and momenta are exchanged at the end.
     pub exchange: bool,
-    /// Whether the method is the adjoint of what is constructed.
+    /// Whether the method is the adjoint of the construction.
     pub adjoint: bool,
 }
 
-/// The constructions of [`super`], coefficients that are given, and what is made of other methods.
+/// The constructions of [`super`], given coefficients, and compositions of other methods.
 #[derive(Clone)]
 pub enum Construction {
     /// As many functions as nodes.
@@ -38,24 +38,24 @@ pub enum Construction {
         /// The weights, if they are not the interpolatory ones.
         weights: Option<Vec<Constant>>,
     },
-    /// Coefficients as they are.
+    /// Given coefficients.
     Given {
         a: Vec<Vec<Constant>>,
         b: Vec<Constant>,
         momenta: Momenta,
     },
-    /// Drifts and kicks one after another.
+    /// A sequence of drifts and kicks.
     Splitting(Splitting),
     /// The exact drifts and kicks behind printed ones.
     Certified(Certified),
-    /// Steps of one base method one after another.
+    /// A composition of steps of one base method.
     Based(Box<Based>),
-    /// Steps of other methods one after another.
+    /// A composition of steps of other methods.
     Composition { steps: Vec<Step> },
 }
 
 impl Construction {
-    /// What the step does, if it makes kicks and drifts.
+    /// The sequence of kicks and drifts of the step, if it consists of them.
     pub fn sequence(&self) -> Option<Sequence> {
         match self {
             Construction::Splitting(splitting) => Some(splitting.sequence()),
@@ -74,28 +74,28 @@ impl Construction {
     }
 }
 
-/// The coefficients for momenta beside given ones for positions.
+/// The coefficients for momenta, for given coefficients for positions.
 #[derive(Clone)]
 pub enum Momenta {
     /// `ã = a`, `b̃ = b`.
     Equal,
     /// `ã` such that the pair is symplectic, `b̃ = b`.
     SymplecticPartner,
-    /// Given ones.
+    /// Given coefficients.
     Given {
         a_tilde: Vec<Vec<Constant>>,
         b_tilde: Vec<Constant>,
     },
 }
 
-/// The word for [`Momenta::SymplecticPartner`].
+/// The keyword for [`Momenta::SymplecticPartner`].
 const SYMPLECTIC_PARTNER: &str = "symplectic_partner";
 
 impl Problem {
     /// Reads all parts.
     ///
     /// # Errors
-    /// Everything that is wrong with them, one error a part at most.
+    /// All errors in the parts, at most one per part.
     pub fn read(definition: &Definition, limits: &Limits) -> Result<Self, Vec<Error>> {
         let mut errors = Errors(Vec::new());
         let exchange = errors
@@ -197,7 +197,7 @@ impl Problem {
         Definition::new(parts)
     }
 
-    /// What the step does, if it makes kicks and drifts one after another: a splitting, or what is made of
+    /// The sequence of kicks and drifts of the step, if it consists of them: for a splitting, or a composition of
     /// splittings only.
     pub fn sequence(&self) -> Option<Sequence> {
         let mut sequence = self.construction.sequence()?;
@@ -211,7 +211,7 @@ impl Problem {
         })
     }
 
-    /// The order that follows from how the method is made.
+    /// The order that follows from the construction of the method.
     pub fn given(&self) -> Option<GivenOrder> {
         let given = match &self.construction {
             Construction::Certified(certified) => {
@@ -220,13 +220,13 @@ impl Problem {
             Construction::Based(based) => based.given(),
             _ => None,
         }?;
-        // With positions and momenta exchanged, it is U that is quadratic, or the perturbation of T.
+        // With positions and momenta exchanged, U is quadratic, or T is the perturbation.
         let separable = matches!(given.claim, Claim::Separable(_));
         (separable || !self.exchange).then_some(given)
     }
 
-    /// The printed numbers that the exact method does not round to: each at its place, or in steps of a composition
-    /// without one.
+    /// The printed numbers that differ from the rounded exact ones: each at its place, or without a place in steps of a
+    /// composition.
     pub fn wrong_digits(&self) -> Vec<Error> {
         match &self.construction {
             Construction::Certified(certified) => certified.wrong_digits().to_vec(),
@@ -242,7 +242,7 @@ impl Problem {
         }
     }
 
-    /// The number of stages of the method, or a bound for it.
+    /// The number of stages of the method, or a bound on it.
     pub fn stages(&self) -> usize {
         match &self.construction {
             Construction::Collocation { nodes, .. } | Construction::Galerkin { nodes, .. } => {
@@ -300,7 +300,7 @@ fn read_derived(
                 errors.push(misfit_at(definition, Key::Weights, message));
                 return None;
             }
-            // The nodes stand in ascending order now, and the weights go with them.
+            // The nodes are now in ascending order, and the weights are permuted with them.
             let weights = order.iter().map(|&i| weights[i].clone()).collect();
             Some(Construction::Galerkin {
                 basis,

@@ -1,4 +1,4 @@
-//! Parts of a definition as values, and what is wrong with them.
+//! Parts of a definition as values, and their errors.
 
 use crate::definition::{Definition, Key};
 use crate::error::{Error, ErrorKind};
@@ -24,7 +24,7 @@ impl Errors {
     }
 }
 
-/// An error about the parts together.
+/// An error about the combination of the parts.
 pub(super) fn misfit(message: String) -> Error {
     ErrorKind::Definition { message }.into()
 }
@@ -57,7 +57,7 @@ pub(super) fn switch(definition: &Definition, key: Key) -> Result<bool, Error> {
     }
 }
 
-/// A constant that the field that was made for it does not hold; there are none.
+/// The error for a constant outside the field constructed for it; it does not occur.
 pub(super) fn outside() -> ErrorKind {
     ErrorKind::Definition {
         message: "a constant lies outside the field of the coefficients".to_owned(),

@@ -1,4 +1,4 @@
-//! Kicks and drifts one after another as a partitioned Runge–Kutta method.
+//! Sequences of kicks and drifts as partitioned Runge–Kutta methods.
 
 use std::collections::HashMap;
 
@@ -16,21 +16,21 @@ use crate::symbolic::Constant;
 #[derive(Debug, Clone)]
 pub struct Substep {
     flow: Flow,
-    /// The fraction of the step is the product of these.
+    /// The factors of the fraction of the step.
     factors: Vec<Factor>,
 }
 
 /// A factor of a fraction of the step.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Factor {
-    /// One with a closed form.
+    /// A factor with a closed form.
     Constant(Constant),
-    /// One that is enclosed.
+    /// An enclosed factor.
     Real(Real),
 }
 
 impl Factor {
-    /// The constant, for one with a closed form.
+    /// The constant, if the factor has a closed form.
     pub fn constant(&self) -> Option<&Constant> {
         match self {
             Factor::Constant(constant) => Some(constant),
@@ -61,25 +61,25 @@ impl Substep {
     }
 }
 
-/// What a method does that makes kicks and drifts one after another: a splitting, its adjoint, and
-/// compositions of such methods.
+/// The sequence of kicks and drifts of a method: a splitting, its adjoint, or a composition of such
+/// methods.
 #[derive(Debug, Clone)]
 pub struct Sequence {
-    /// Which of the two is the first of each pair of the tableau, where that makes it no longer.
+    /// The flow that comes first in each pair of the tableau, unless the other choice makes the tableau shorter.
     first: Flow,
     substeps: Vec<Substep>,
 }
 
 impl Sequence {
-    /// These flows; those of no time at all are left out.
+    /// A sequence of these flows; flows of zero duration are left out.
     pub fn new(first: Flow, mut substeps: Vec<Substep>) -> Self {
         let zero = |factor: &Factor| factor.constant().is_some_and(Constant::is_trivially_zero);
         substeps.retain(|substep| !substep.factors.iter().any(zero));
         Sequence { first, substeps }
     }
 
-    /// The sequences of methods one after another, each with its fraction of the step; `None` where one of the
-    /// methods is no such sequence.
+    /// The concatenated sequences of methods, each with its fraction of the step; `None` if one of the
+    /// methods is not such a sequence.
     pub fn joined(parts: impl IntoIterator<Item = (Factor, Option<Sequence>)>) -> Option<Self> {
         let mut all: Option<Sequence> = None;
         for (fraction, part) in parts {
@@ -95,7 +95,7 @@ impl Sequence {
         all
     }
 
-    /// The sequence of the adjoint method: the flows are their own adjoints, so that only their order turns.
+    /// The sequence of the adjoint method: each flow is its own adjoint, so only the order is reversed.
     #[must_use]
     pub fn reversed(mut self) -> Self {
         self.substeps.reverse();
@@ -112,7 +112,7 @@ impl Sequence {
         self
     }
 
-    /// The number of stages, if no fraction vanishes; more than there are otherwise.
+    /// The number of stages if no fraction vanishes, and otherwise an upper bound.
     pub fn stages(&self) -> usize {
         let flows = self.runs();
         let first = flows.first().copied();
@@ -124,7 +124,7 @@ impl Sequence {
     /// The coefficients.
     ///
     /// # Errors
-    /// None; a constant that the field that was made for it does not hold.
+    /// None, except for a constant outside the field constructed for it.
     pub fn exact(&self) -> Result<Exact, ErrorKind> {
         let factors = self.substeps.iter().flat_map(|substep| &substep.factors);
         let constants: Option<Vec<&Constant>> = factors.map(Factor::constant).collect();
@@ -141,7 +141,7 @@ impl Sequence {
     /// a_ij = d_j for j < i     ã_ij = k_j for j ≤ i     b = d     b̃ = k
     /// ```
     ///
-    /// and the same exchanged where each drift comes before its kick.
+    /// and the same with the roles exchanged if each drift comes before its kick.
     fn pair<F: Field + Clone>(&self, field: &F) -> Option<Pair<Dense<F>>> {
         let flows = self.merged(field)?;
         let zero = field.rational(&BigRational::default());
@@ -155,7 +155,7 @@ impl Sequence {
         if start != layout {
             values.insert(0, zero.clone());
         }
-        // The step that does nothing has a stage too.
+        // The identity step also has a stage.
         if values.len() % 2 == 1 || values.is_empty() {
             values.resize(values.len().max(1).next_multiple_of(2), zero.clone());
         }
@@ -170,8 +170,8 @@ impl Sequence {
         })
     }
 
-    /// Alternating flows: neighbours of the same kind are one, and what is exactly zero is none. Equal fractions are
-    /// the same element, so that a sequence that reads the same from both ends is seen to.
+    /// Alternating flows: neighbours of the same kind are merged, and exact zeros are removed. Equal fractions are
+    /// the same element, so that a palindromic sequence is recognised.
     fn merged<F: Field>(&self, field: &F) -> Option<Vec<(Flow, F::Element)>> {
         let mut elements = Elements::new(field);
         let mut merged: Vec<(Flow, Vec<usize>)> = Vec::new();
@@ -192,7 +192,7 @@ impl Sequence {
         Some(merged.into_iter().map(value).collect())
     }
 
-    /// The flows, each once where several of a kind come one after another.
+    /// The flows, with repeated flows of the same kind merged.
     fn runs(&self) -> Vec<Flow> {
         let mut flows: Vec<Flow> = self.substeps.iter().map(|substep| substep.flow).collect();
         flows.dedup();
@@ -200,7 +200,7 @@ impl Sequence {
     }
 }
 
-/// Elements of a field for fractions of the step, one for all fractions that are written alike.
+/// Elements of a field for fractions of the step, shared by all fractions that are written alike.
 struct Elements<'a, F: Field> {
     field: &'a F,
     products: Vec<(&'a [Factor], F::Element)>,
@@ -217,7 +217,7 @@ impl<'a, F: Field> Elements<'a, F> {
         }
     }
 
-    /// The index of a product; `None` for one of a factor that the field does not hold.
+    /// The index of a product; `None` if the field does not hold a factor.
     fn product(&mut self, factors: &'a [Factor]) -> Option<usize> {
         let known = self.products.iter();
         if let Some(index) = known.clone().position(|(other, _)| *other == factors) {
@@ -231,7 +231,7 @@ impl<'a, F: Field> Elements<'a, F> {
         Some(self.products.len() - 1)
     }
 
-    /// The sum of products, whose indices it puts in ascending order.
+    /// The sum of products; sorts their indices.
     fn sum(&mut self, products: &mut [usize]) -> &F::Element {
         products.sort_unstable();
         let (field, values) = (self.field, &self.products);

@@ -1,7 +1,7 @@
-//! Splittings: what they are and how they are read.
+//! Splittings: their definition and parsing.
 //!
-//! For `H = T(p) + U(q)` the two parts can be integrated exactly, and a splitting makes fractions of their flows
-//! one after another (Ruth 1983; GNI II.5): for `i = 1, …, n`
+//! For `H = T(p) + U(q)` the two parts can be integrated exactly, and a splitting composes fractions of their flows
+//! (Ruth 1983; GNI II.5): for `i = 1, …, n`
 //!
 //! ```text
 //! kick    p −= kick_i h ∂U/∂q(q)
@@ -21,14 +21,14 @@ use crate::symbolic::Constant;
 /// The flow of one part of `H = T(p) + U(q)`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flow {
-    /// That of `U(q)`, which changes momenta.
+    /// The flow of `U(q)`, which changes momenta.
     Kick,
-    /// That of `T(p)`, which changes positions.
+    /// The flow of `T(p)`, which changes positions.
     Drift,
 }
 
 impl Flow {
-    /// The other one.
+    /// The other flow.
     pub fn other(self) -> Self {
         match self {
             Flow::Kick => Flow::Drift,
@@ -36,7 +36,7 @@ impl Flow {
         }
     }
 
-    /// The word for it, which is also the key of its list.
+    /// The key of its list.
     fn key(self) -> Key {
         match self {
             Flow::Kick => Key::Kick,
@@ -48,22 +48,22 @@ impl Flow {
 /// A splitting with exact coefficients.
 pub type Splitting = Lists<Constant>;
 
-/// A splitting as it is written, with coefficients of any kind.
+/// A splitting as written, with coefficients of any kind.
 #[derive(Clone)]
 pub struct Lists<T> {
     kick: Vec<T>,
     drift: Vec<T>,
-    /// Which of the two of the same number comes first.
+    /// The flow that comes first of the two with the same index.
     first: Flow,
-    /// Whether the lists are the first half of a sequence that reads the same from both ends.
+    /// Whether the lists are the first half of a palindromic sequence.
     symmetric: bool,
 }
 
 impl<T> Lists<T> {
     /// Reads `kick` and `drift`, each list by `read`, `first` and `symmetric`.
     ///
-    /// Both lists have the same length, but where they are mirrored, the first flow may come once more than the
-    /// other: it stands in the middle then.
+    /// Both lists have the same length. Only if they are mirrored, the first flow may occur once more than the
+    /// other: it is then in the middle.
     pub fn read(
         definition: &Definition,
         limits: &Limits,
@@ -94,7 +94,7 @@ impl<T> Lists<T> {
         Some(lists)
     }
 
-    /// The list of a flow, as it is written.
+    /// The list of a flow, as written.
     pub fn list(&self, flow: Flow) -> &[T] {
         match flow {
             Flow::Kick => &self.kick,
@@ -134,7 +134,7 @@ impl<T> Lists<T> {
             })
     }
 
-    /// Kicks and drifts in the order in which they are made.
+    /// Kicks and drifts in the order of the step.
     pub fn flows(&self) -> Vec<(Flow, &T)> {
         let second = self.first.other();
         let mut flows = Vec::new();
@@ -151,7 +151,7 @@ impl<T> Lists<T> {
         flows
     }
 
-    /// Which of the two of the same number comes first.
+    /// The flow that comes first of the two with the same index.
     pub fn first(&self) -> Flow {
         self.first
     }
@@ -188,7 +188,7 @@ impl Splitting {
         Some(splitting)
     }
 
-    /// Both have to sum to 1, or the method has order 0.
+    /// Checks that both lists sum to 1; otherwise the method has order 0.
     fn check_sums(&self, definition: &Definition) -> Result<(), Error> {
         let flows = self.flows();
         for flow in [Flow::Kick, Flow::Drift] {
@@ -205,7 +205,7 @@ impl Splitting {
         Ok(())
     }
 
-    /// What the step does.
+    /// The sequence of kicks and drifts of the step.
     pub fn sequence(&self) -> Sequence {
         let substep = |(flow, value): (Flow, &Constant)| Substep::new(flow, value.clone());
         Sequence::new(self.first, self.flows().into_iter().map(substep).collect())

@@ -12,15 +12,15 @@ use crate::tableau::Tableau;
 pub(crate) struct Substep {
     /// The fraction γ of the whole step.
     pub fraction: Constant,
-    /// The number of its method in the list of different ones.
+    /// The index of its method in the list of distinct methods.
     pub method: usize,
 }
 
-/// The different methods of a composition that is no splitting, and its steps in their order; none of both for a
-/// definition of anything else. Compositions in it are taken apart too.
+/// The distinct methods of a composition that is not a splitting, and its steps in order; both empty for
+/// other definitions. Nested compositions are expanded too.
 ///
 /// # Errors
-/// [`ErrorKind::ExpressionSize`] where a fraction of a fraction were too long.
+/// [`ErrorKind::ExpressionSize`] if a fraction of a fraction would be too long.
 pub(crate) fn substeps(definition: &Definition) -> Result<(Vec<Tableau>, Vec<Substep>), ErrorKind> {
     if definition.get(Key::Compose).is_none() && definition.get(Key::Base).is_none() {
         return Ok((Vec::new(), Vec::new()));
@@ -49,7 +49,7 @@ pub(crate) fn substeps(definition: &Definition) -> Result<(Vec<Tableau>, Vec<Sub
 }
 
 impl Problem {
-    /// The steps of a composition that is no splitting, down to those that are none.
+    /// The steps of a composition that is not a splitting, expanded down to methods that are not compositions.
     fn steps(&self) -> Result<Option<Vec<Step>>, ErrorKind> {
         if self.sequence().is_some() {
             return Ok(None);

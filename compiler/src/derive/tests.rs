@@ -17,7 +17,7 @@ fn basis_of(polynomials: &[Polynomial]) -> Result<Basis, ErrorKind> {
     Basis::new(functions.collect::<Result<_, _>>()?)
 }
 
-/// Whether a basis of polynomials spans the constants, on which consistency rests.
+/// Whether a basis of polynomials spans the constants, which consistency requires.
 fn spans_constants(polynomials: &[Polynomial]) -> bool {
     basis_of(&[polynomials, &[Polynomial::one()]].concat()).is_err()
 }
@@ -139,8 +139,8 @@ fn agree(exact: &Tableau, enclosed: &Tableau) {
         for bits in [200, 500] {
             let difference = x.enclose(bits).subtract(&y.enclose(bits));
             assert!(difference.contains(&ratio(0, 1)));
-            // Some units of the last place, times the coefficients of the polynomial that is evaluated at a node:
-            // 1/c⁴ at most for the nodes and functions here, that is 5⁴ < 2¹⁰.
+            // A few units of the last place, times the coefficients of the polynomial that is evaluated at a node:
+            // at most 1/c⁴ for the nodes and functions here, that is 5⁴ < 2¹⁰.
             assert!(difference.width_bits() < 18 - i64::from(bits));
         }
     }
@@ -206,7 +206,7 @@ fn tiers_agree_on_the_classical_rules() {
             agree(&pair[0], &pair[1]);
         }
     }
-    // A wrong digit shows.
+    // A wrong digit is detected.
     let wrong = derive("polynomial(2)", "1/5, 4/5").expect("derived");
     let right = derive("polynomial(2)", "gauss(2)").expect("derived");
     let difference = wrong.numbers().a[0][0]

@@ -1,4 +1,4 @@
-//! The algebra in which a problem is solved: the strongest that holds its numbers.
+//! The algebra in which a problem is solved: the strongest one that holds its numbers.
 
 use std::fmt;
 use std::sync::Arc;
@@ -26,7 +26,7 @@ impl Problem {
     /// Derives the tableau.
     ///
     /// # Errors
-    /// Everything but what is wrong with the texts.
+    /// All errors except those in the texts.
     pub fn derive(&self) -> Result<Tableau, ErrorKind> {
         let mut tableau = Tableau::new(self.definition(), self.exact()?);
         tableau.given = self.given().map(|given| GivenOrder {
@@ -127,7 +127,7 @@ fn galerkin(
             .map_err(|failure| in_node_algebra(failure, polynomials, rule.algebra(), true));
     }
     // All polynomials of degree less than the number of nodes: the weights of the square construction are
-    // the interpolatory ones, and so is everything else.
+    // the interpolatory ones, and everything else agrees too.
     let spans = |f: &[Polynomial]| f.iter().all(|f| f.degree() < Some(nodes.len()));
     if weights.is_none() && basis.len() == nodes.len() && basis.polynomials().is_some_and(spans) {
         return collocation(basis, nodes);
@@ -268,9 +268,9 @@ fn in_node_algebra(
     }
 }
 
-/// What messages about a derivation over a field name.
+/// The data that messages about a derivation over a field mention.
 struct Explanation<'a> {
-    /// Whether the matrix is that of the products of the functions.
+    /// Whether the matrix is the Gram matrix of the functions.
     gram: bool,
     functions: &'a [Function],
     nodes: &'a [Constant],
@@ -311,7 +311,7 @@ impl Explanation<'_> {
     }
 }
 
-/// A number in a message: exactly, or by its first digits.
+/// A number in a message: exact, or its first digits.
 struct Shown {
     text: String,
     rational: Option<BigRational>,

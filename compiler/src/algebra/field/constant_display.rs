@@ -1,4 +1,4 @@
-//! How the elements of a field of constants are written.
+//! Elements of a field of constants as text.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -10,9 +10,9 @@ use super::{ConstantField, FieldElement, Transcendental};
 use crate::arithmetic::polynomial::Polynomial;
 
 impl ConstantField {
-    /// An element as it is written: `1/2 - sqrt(3)/6`, `(pi - 4)/(4*pi)`, `exp(1/2) - 3*exp(-1/2)`.
+    /// An element as text: `1/2 - sqrt(3)/6`, `(pi - 4)/(4*pi)`, `exp(1/2) - 3*exp(-1/2)`.
     ///
-    /// The text means the same number where it is read as an expression.
+    /// Parsed as an expression, the text means the same number.
     pub fn display(&self, element: &FieldElement) -> String {
         if let Some(number) = element.as_algebraic() {
             return self.algebraic().display(&number);
@@ -20,7 +20,7 @@ impl ConstantField {
         let Some(x) = self.generator() else {
             return String::new();
         };
-        // A denominator that is a power of the exponential means negative exponents.
+        // A denominator that is a power of the exponential becomes negative exponents.
         let power = element.denominator().len() as i64 - 1;
         let rest = &element.denominator()[..power as usize];
         let is_power = rest.iter().all(Polynomial::is_zero);
@@ -56,7 +56,7 @@ impl ConstantField {
     }
 }
 
-/// Puts a positive term first where there is one at an end.
+/// Puts a positive term first if there is one at either end.
 fn in_order(mut terms: Vec<Term>) -> Vec<Term> {
     let positive = |term: Option<&Term>| term.is_some_and(|t| t.coefficient.is_positive());
     if !positive(terms.first()) && positive(terms.last()) {
@@ -76,7 +76,7 @@ fn fraction(mut numerator: Vec<Term>, mut denominator: Vec<Term>) -> String {
     for term in numerator.iter_mut().chain(&mut denominator) {
         term.coefficient *= &scale;
     }
-    // One minus sign is better than one at every term.
+    // One minus sign is better than one for every term.
     let negative = numerator.iter().all(|term| term.coefficient.is_negative());
     if negative {
         for term in &mut numerator {
@@ -90,7 +90,7 @@ fn fraction(mut numerator: Vec<Term>, mut denominator: Vec<Term>) -> String {
     } else {
         above
     };
-    // Only a name, a number or a power may follow a division sign as it is.
+    // Only a name, a number or a power needs no parentheses after a division sign.
     let is_factor = denominator.len() == 1 && !below.contains('*');
     let below = if is_factor {
         below

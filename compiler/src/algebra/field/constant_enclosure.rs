@@ -16,7 +16,7 @@ impl ConstantField {
         narrow(bits, |working| self.enclose_roughly(element, working))
     }
 
-    /// An enclosure with this number of binary places, whose width tends to zero as they grow.
+    /// An enclosure with this number of binary places, whose width tends to zero as `bits` grows.
     fn enclose_roughly(&self, element: &FieldElement, bits: u32) -> Interval {
         if let Some(number) = element.as_algebraic() {
             return self.algebraic().enclose_roughly(&number, bits);
@@ -48,7 +48,7 @@ impl ConstantField {
         if element.is_polynomial() {
             return numerator;
         }
-        // A denominator is not zero; more places will tell.
+        // A denominator is nonzero; more places will separate it from zero.
         let denominator = evaluate(&element.denominator);
         numerator.divide(&denominator).unwrap_or(unknown)
     }

@@ -7,7 +7,7 @@ use super::{Extension, FieldElement, NumberField, Transcendental};
 use crate::arithmetic::enclosure_cache::EnclosureCache;
 use crate::arithmetic::polynomial::Polynomial;
 
-/// The largest multiple of an angle, and power of an exponential, that is formed.
+/// The largest multiple of an angle, and the largest power of an exponential, that is formed.
 const MAX_MULTIPLE: u32 = 400;
 
 /// A field of constants: `Q(θ)` with real algebraic `θ`, or the rational functions of a transcendental
@@ -57,7 +57,7 @@ impl ConstantField {
         }
     }
 
-    /// An element of the field before an extension, as an element of the field after it.
+    /// An element of the field before an extension, as an element of the extended field.
     pub fn embed(extension: &Extension, element: &FieldElement) -> FieldElement {
         let embed = |list: &[Polynomial]| list.iter().map(|c| extension.embed(c)).collect();
         FieldElement {
@@ -97,7 +97,7 @@ impl ConstantField {
         })
     }
 
-    /// The number `X`; `None` if the field has no transcendental numbers.
+    /// The number `X`; `None` if the field has no transcendental number.
     pub fn transcendental(&self) -> Option<FieldElement> {
         self.transcendental
             .map(|_| FieldElement::new(vec![Polynomial::zero(), Polynomial::one()]))
@@ -137,14 +137,14 @@ impl ConstantField {
             let coefficients = p.coefficients().into_iter();
             coefficients.map(Polynomial::constant).collect()
         };
-        // |(1 + iX)²ᵏ| = (1 + X²)ᵏ: the parts have no common divisor with it but constants.
+        // |(1 + iX)²ᵏ| = (1 + X²)ᵏ: the parts have only constant common divisors with it.
         let fraction = |numerator: &Polynomial| {
             self.reduced(coefficients(numerator), coefficients(&denominator))
         };
         Some((fraction(&sine), fraction(&cosine)))
     }
 
-    /// A fraction in lowest terms; the denominator is not zero.
+    /// A fraction in lowest terms; the denominator is nonzero.
     fn reduced(&self, numerator: Vec<Polynomial>, denominator: Vec<Polynomial>) -> FieldElement {
         let ring = self.ring();
         let gcd = ring.gcd(&numerator, &denominator);
@@ -187,7 +187,7 @@ impl ConstantField {
             let sum = ring.add(&left.numerator, &right.numerator);
             return self.reduced(sum, left.denominator.clone());
         }
-        // Henrici: common divisors of the denominators are the only ones that can be left.
+        // Henrici: only common divisors of the denominators can remain.
         let gcd = ring.gcd(&left.denominator, &right.denominator);
         let [a, b] = [left, right].map(|x| ring.divide(&x.denominator, &gcd));
         let sum = ring.add(

@@ -17,7 +17,7 @@ impl NumberField {
     /// The field with `cos(π/n)`, and so with the cosines of all multiples of `π/n`.
     ///
     /// For `n` up to 6 and for 12 these are written with the square roots of 2, 3 and 5, for other `n` as
-    /// cosines. `None` for `n = 0`, and as for [`NumberField::adjoin`].
+    /// cosines. `None` for `n = 0`, and in the cases of [`NumberField::adjoin`].
     pub fn cosine(&self, n: u32) -> Option<Extension> {
         let quarter = |x: &Polynomial| x.scale(&ratio(1, 4));
         match n {
@@ -83,7 +83,7 @@ impl NumberField {
     }
 }
 
-/// Euler's function: how many numbers up to `n` are coprime to it.
+/// Euler's function: the number of integers up to `n` that are coprime to it.
 fn totient(n: u32) -> u32 {
     (1..=n).filter(|k| gcd(*k, n) == 1).count() as u32
 }

@@ -1,4 +1,4 @@
-//! Larger number fields: a field and one more real algebraic number.
+//! Larger number fields: a field extended by a real algebraic number.
 
 use num_bigint::BigInt;
 use num_integer::binomial;
@@ -17,19 +17,19 @@ use crate::arithmetic::power_sums::{from_power_sums, interpolate_traces, power_s
 /// The largest degree of the product of a field and the equation of a new number.
 const MAX_PRODUCT_DEGREE: usize = 160;
 
-/// A field that contains another one and a further number.
+/// A field that contains another field and an additional number.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Extension {
-    /// The field; the field before if that contains the number.
+    /// The extended field; the original field if that contains the number.
     pub field: NumberField,
-    /// The number that was asked for.
+    /// The additional number.
     pub number: Polynomial,
-    /// What was `θ` in the field before.
+    /// The image of `θ` of the original field.
     pub(super) previous: Polynomial,
 }
 
 impl Extension {
-    /// An element of the field before, as an element of this one.
+    /// An element of the original field, as an element of this one.
     pub fn embed(&self, element: &Polynomial) -> Polynomial {
         if let Some(constant) = element.as_constant() {
             return Polynomial::constant(constant);
@@ -56,8 +56,8 @@ impl NumberField {
 
     /// The smallest field that contains this one and a number.
     ///
-    /// `None` where its degree exceeds [`MAX_DEGREE`], where the product of the degrees of this field and
-    /// the number exceeds 160, and where factoring gives up
+    /// `None` if its degree exceeds [`MAX_DEGREE`], if the product of the degrees of this field and
+    /// the number exceeds 160, or if factoring gives up
     /// ([`irreducible_factors`](crate::arithmetic::factor::irreducible_factors)).
     pub fn adjoin(&self, number: &AlgebraicNumber, notation: Notation) -> Option<Extension> {
         if let Some(value) = number.root().rational() {
@@ -91,7 +91,7 @@ impl NumberField {
     /// The smallest field that contains this one and a real root `β` of a monic squarefree polynomial
     /// over this field, lowest degree first, given by enclosures that shrink as the places grow.
     ///
-    /// In `A = Q(θ)[y]/(q)`, which has as many embeddings `(θ_i, β_ij)` as dimensions, `u = θ + k y` takes
+    /// In `A = Q(θ)[y]/(q)`, whose dimension is the number of its embeddings `(θ_i, β_ij)`, `u = θ + k y` takes
     /// a different value in each, for some small `k`. The sums of its powers over all embeddings give the
     /// characteristic polynomial `R` of `u`, and `Q(θ, β) = Q(u)` is given by the irreducible factor of `R`
     /// that vanishes at the real number `θ + k β`. There `θ = g(u)/R'(u)`, where `g` interpolates the
@@ -113,7 +113,7 @@ impl NumberField {
             return self.adjoin(&number, notation);
         }
         let table = self.trace_table(monic, degree);
-        // As many sums as there are pairs of embeddings exclude one k each at most.
+        // Each pair of embeddings excludes at most one k.
         let multipliers = (1..=(degree * degree) as i64).flat_map(|k| [k, -k]);
         let (k, characteristic) = multipliers
             .map(|k| {

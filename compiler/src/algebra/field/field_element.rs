@@ -8,7 +8,7 @@ use crate::arithmetic::polynomial::Polynomial;
 /// Equal elements have equal representations.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct FieldElement {
-    /// The coefficients in `Q(θ)`, lowest degree first, the last one not zero.
+    /// The coefficients in `Q(θ)`, lowest degree first, the last one nonzero.
     pub(super) numerator: Vec<Polynomial>,
     pub(super) denominator: Vec<Polynomial>,
 }

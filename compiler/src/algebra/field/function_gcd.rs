@@ -1,9 +1,9 @@
-//! Greatest common divisors of polynomials over a number field, from those modulo primes.
+//! Greatest common divisors of polynomials over a number field, by modular computation.
 //!
 //! The Euclidean algorithm over `Q(θ)` has intermediate coefficients much longer than its result. Modulo
-//! `p` it runs over `F_p[t]/(m)`; a prime is passed over where that ring has no inverse for a leading
+//! `p` it runs over `F_p[t]/(m)`; a prime is skipped if that ring has no inverse for a leading
 //! coefficient. Common divisors modulo several primes are combined until the rational coefficients
-//! behind them divide both polynomials (Langemyr, McCallum 1989; Encarnación 1995).
+//! recovered from them divide both polynomials (Langemyr, McCallum 1989; Encarnación 1995).
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -108,7 +108,7 @@ struct Combination {
     /// One list of coefficients for each power of `X`.
     coefficients: Vec<Vec<BigInt>>,
     primes: usize,
-    /// The number of primes from which on rational coefficients are looked for again.
+    /// The number of primes at which rational coefficients are reconstructed again.
     attempt: usize,
 }
 
@@ -138,7 +138,7 @@ impl Combination {
         self.primes += 1;
     }
 
-    /// The rational coefficients behind the residues, if they all are short enough by now.
+    /// The rational coefficients recovered from the residues, if they are all short enough.
     fn rationals(&mut self) -> Option<Vec<Polynomial>> {
         if self.primes < self.attempt {
             return None;

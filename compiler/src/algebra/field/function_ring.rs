@@ -6,7 +6,7 @@ use super::NumberField;
 use crate::arithmetic::polynomial::Polynomial;
 
 /// The polynomials in `X` over a number field: lists of coefficients, lowest degree first, the last one
-/// not zero.
+/// nonzero.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FunctionRing<'a> {
     pub(super) field: &'a NumberField,
@@ -85,7 +85,7 @@ impl FunctionRing<'_> {
         product.iter().map(|c| self.field.reduce(c)).collect()
     }
 
-    /// Quotient and remainder of the division by a polynomial that is not zero.
+    /// Quotient and remainder of the division by a nonzero polynomial.
     pub(super) fn div_rem(
         &self,
         dividend: &[Polynomial],
@@ -120,7 +120,7 @@ impl FunctionRing<'_> {
         (trimmed(quotient), trimmed(remainder))
     }
 
-    /// The quotient of a division without remainder.
+    /// The quotient of an exact division.
     pub(super) fn divide(
         &self,
         dividend: &[Polynomial],

@@ -1,9 +1,9 @@
 //! The real fields in which coefficients live: `Q(θ)` for a real algebraic `θ`, and the rational
 //! functions of one transcendental number over it.
 //!
-//! Every element has one representation only, so equality is structural equality; no number is
-//! approximated to decide it. Enclosures serve the signs of numbers that are known not to vanish, and
-//! the choice between the roots of a polynomial.
+//! Every element has a unique representation, so equality is structural equality; no number is
+//! approximated to decide it. Enclosures are only used for the signs of numbers known to be nonzero, and
+//! to choose between the roots of a polynomial.
 
 mod constant_display;
 mod constant_enclosure;

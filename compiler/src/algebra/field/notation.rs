@@ -1,4 +1,4 @@
-//! How the elements of a number field are written.
+//! Elements of a number field as text.
 
 use std::fmt::Write;
 
@@ -10,7 +10,7 @@ use super::NumberField;
 use crate::arithmetic::linear_solver::LinearSolver;
 use crate::arithmetic::polynomial::Polynomial;
 
-/// How a number that generates a field is written, and with it a basis over the field before.
+/// The notation of a number that generates a field, and thereby a basis over the previous field.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Notation {
     /// Powers of a number with this name, such as `sqrt(2)` or `root(t^3 - t - 1, 1)`.
@@ -20,7 +20,7 @@ pub enum Notation {
 }
 
 impl Notation {
-    /// The name of the basis element with an index; the one with the index 0 is 1.
+    /// The name of the basis element with an index; the element with index 0 is 1.
     fn name(&self, index: usize) -> String {
         match (self, index) {
             (_, 0) => String::new(),
@@ -56,12 +56,12 @@ impl Notation {
     }
 }
 
-/// A number that made a field grow.
+/// A number by which a field was extended.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Generator {
     pub(super) notation: Notation,
     pub(super) value: Polynomial,
-    /// The degree over the field before.
+    /// The degree over the previous field.
     pub(super) degree: usize,
 }
 
@@ -132,7 +132,7 @@ pub(super) struct Term {
     pub(super) name: String,
 }
 
-/// A sum of terms, without those that vanish: `1/2 - 5*sqrt(3)/6`.
+/// The sum of the nonzero terms: `1/2 - 5*sqrt(3)/6`.
 pub(super) fn sum(terms: &[Term]) -> String {
     let mut text = String::new();
     for Term { coefficient, name } in terms.iter().filter(|t| !t.coefficient.is_zero()) {

@@ -23,13 +23,13 @@ pub const MAX_DEGREE: usize = 32;
 
 /// A field `Q(θ) ⊂ R` for a real algebraic number `θ`.
 ///
-/// Its elements are rational polynomials in `θ` of a degree less than that of the field, in one way
-/// only; a rational number is a constant. The methods take reduced elements.
+/// Its elements are represented uniquely as rational polynomials in `θ` of a degree less than that of the
+/// field; a rational number is a constant. The methods take reduced elements.
 #[derive(Debug, Clone)]
 pub struct NumberField {
     primitive: AlgebraicNumber,
     generators: Vec<Generator>,
-    /// The basis for printing, once it was needed.
+    /// The basis for printing, computed on demand.
     basis: OnceLock<Basis>,
 }
 
@@ -56,7 +56,7 @@ impl NumberField {
         &self.primitive
     }
 
-    /// The numbers that made the field grow, in order, with the notation for each.
+    /// The numbers by which the field was extended, in order, with the notation for each.
     pub fn generators(&self) -> impl Iterator<Item = (&Notation, &Polynomial)> {
         self.generators.iter().map(|g| (&g.notation, &g.value))
     }
@@ -109,7 +109,7 @@ impl NumberField {
 
     /// The inverse from its residues modulo a prime, by Newton's iteration modulo powers of the prime.
     ///
-    /// `None` where there is no inverse modulo the prime: it divides the norm of the element, or the
+    /// `None` if there is no inverse modulo the prime: it divides the norm of the element, or the
     /// leading coefficient of the modulus.
     fn lifted_inverse(&self, field: PrimeField, element: &Polynomial) -> Option<Polynomial> {
         let integral = element.scale(&BigRational::from_integer(element.denominator().clone()));
@@ -134,7 +134,7 @@ impl NumberField {
             let monic = ring.reduce(&monic);
             let multiply =
                 |a: &[BigInt], b: &[BigInt]| ring.div_rem(&ring.multiply(a, b), &monic).1;
-            // g(2 − a g) is right to twice as many digits as g.
+            // g(2 − a g) has twice as many correct digits as g.
             let product = multiply(&ring.reduce(integral.numerators()), &inverse);
             let correction = ring.subtract(&[BigInt::from(2)], &product);
             inverse = multiply(&inverse, &correction);
@@ -169,7 +169,7 @@ impl NumberField {
         narrow(bits, |working| self.enclose_roughly(element, working))
     }
 
-    /// An enclosure with this number of binary places, whose width tends to zero as they grow.
+    /// An enclosure with this number of binary places, whose width tends to zero as `bits` grows.
     pub(super) fn enclose_roughly(&self, element: &Polynomial, bits: u32) -> Interval {
         match element.as_constant() {
             Some(value) => Interval::enclosing(&value, bits),
@@ -196,7 +196,7 @@ impl NumberField {
             .get_or_init(|| Basis::new(self, &self.generators))
     }
 
-    /// The terms of an element in the basis in which it is written.
+    /// The terms of an element in the printing basis.
     pub(super) fn terms(&self, element: &Polynomial) -> Vec<Term> {
         let basis = self.basis();
         let term = |(coefficient, name): (BigRational, &String)| Term {
@@ -207,16 +207,16 @@ impl NumberField {
         coordinates.zip(basis.names()).map(term).collect()
     }
 
-    /// An element as it is written: `1/2 - sqrt(3)/6`.
+    /// An element as text: `1/2 - sqrt(3)/6`.
     ///
     /// The text is a sum of rational multiples of products of the generators, or of cosines of multiples
-    /// of an angle, and means the same number where it is read as an expression.
+    /// of an angle. Parsed as an expression, it means the same number.
     pub fn display(&self, element: &Polynomial) -> String {
         sum(&self.terms(element))
     }
 }
 
-/// Up to this degree the Euclidean algorithm is the faster way to an inverse.
+/// The largest degree for which the Euclidean algorithm is the faster way to an inverse.
 const EUCLIDEAN_DEGREE: usize = 4;
 
 /// `Tr f(θ)` from the traces of the powers of `θ`.

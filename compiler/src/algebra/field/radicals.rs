@@ -15,7 +15,7 @@ use crate::arithmetic::rational::ratio;
 impl NumberField {
     /// The field with the square root of an element.
     ///
-    /// `None` for a negative element, and as for [`NumberField::adjoin`].
+    /// `None` for a negative element, and in the cases of [`NumberField::adjoin`].
     pub fn square_root(&self, element: &Polynomial) -> Option<Extension> {
         match self.sign(element) {
             Ordering::Less => None,
@@ -26,7 +26,7 @@ impl NumberField {
 
     /// The field with the cube root of an element.
     ///
-    /// `None` as for [`NumberField::adjoin`].
+    /// `None` in the cases of [`NumberField::adjoin`].
     pub fn cube_root(&self, element: &Polynomial) -> Option<Extension> {
         match self.sign(element) {
             Ordering::Less => {
@@ -41,7 +41,7 @@ impl NumberField {
 
     /// The field with a root of a positive element.
     fn radical(&self, element: &Polynomial, degree: u32) -> Option<Extension> {
-        // Powers of rationals leave the root: ⁿ√(sⁿ x) = s ⁿ√x.
+        // Powers of rationals are taken out of the root: ⁿ√(sⁿ x) = s ⁿ√x.
         let content = content(self.terms(element).iter().map(|term| &term.coefficient));
         let (outside, inside) = split_power(&content, degree);
         let radicand = element.scale(&(BigRational::from_integer(inside) / content));
@@ -68,7 +68,7 @@ impl NumberField {
     /// The square root of a rational, if it is a rational multiple of a product of generators that are
     /// square roots of rationals.
     ///
-    /// [`NumberField::adjoin_root`] finds these too, but a field with many square roots makes it slow.
+    /// [`NumberField::adjoin_root`] also finds these, but slowly in a field with many square roots.
     fn known_square_root(&self, radicand: &BigRational) -> Option<Polynomial> {
         let mut products = vec![(Polynomial::one(), BigRational::one())];
         for (_, value) in self.generators() {
@@ -95,7 +95,7 @@ impl NumberField {
     }
 }
 
-/// The positive rational by which the quotients of these rationals are coprime integers.
+/// The positive rational such that the quotients of these rationals by it are coprime integers.
 fn content<'a>(values: impl Iterator<Item = &'a BigRational>) -> BigRational {
     let (numerator, denominator) = values.fold((BigInt::zero(), BigInt::one()), |(n, d), x| {
         (n.gcd(x.numer()), d.lcm(x.denom()))
@@ -126,7 +126,7 @@ fn split_power(value: &BigRational, degree: u32) -> (BigRational, BigInt) {
     (outside, inside)
 }
 
-/// The n-th roots of the numbers in an interval that are not negative.
+/// The n-th roots of the non-negative numbers in an interval.
 fn root(interval: &Interval, degree: u32) -> Interval {
     let scaled = |end: &BigInt| end.max(&BigInt::zero()) << (interval.bits * (degree - 1));
     Interval {
@@ -144,7 +144,7 @@ mod tests {
         Polynomial::from_integers(&[value])
     }
 
-    /// The field with the square roots of some integers, and these.
+    /// The field with the square roots of some integers, and these roots.
     fn with_square_roots(values: &[i64]) -> (NumberField, Vec<Polynomial>) {
         let mut field = NumberField::rationals();
         let mut roots: Vec<Polynomial> = Vec::new();

@@ -8,11 +8,11 @@ use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::ratio;
 
 impl NumberField {
-    /// The field with the real root of a polynomial with this index, the least root being the first
-    /// (index 1).
+    /// The field with the real root of a polynomial with this index; the smallest root has
+    /// index 1.
     ///
     /// Roots of quadratic factors are written with square roots, others as `root(t^3 - t - 1, 1)`.
-    /// `None` where there are fewer real roots, and as for [`NumberField::adjoin`].
+    /// `None` if there are fewer real roots, and in the cases of [`NumberField::adjoin`].
     pub fn real_root(&self, polynomial: &Polynomial, index: usize) -> Option<Extension> {
         let number = AlgebraicNumber::real_root(polynomial, index)?;
         if number.degree() == 2 {
@@ -27,7 +27,7 @@ impl NumberField {
         let [c, b, a] = [0, 1, 2].map(|k| number.polynomial().coefficient(k));
         let discriminant = &b * &b - ratio(4, 1) * &a * c;
         let mut extension = self.square_root(&Polynomial::constant(discriminant))?;
-        // The sign is that of 2ax + b, which is not zero.
+        // The sign is that of 2ax + b, which is nonzero.
         let derivative = number.polynomial().derivative();
         let mut bits = 64;
         let sign = loop {

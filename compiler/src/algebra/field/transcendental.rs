@@ -19,8 +19,8 @@ pub enum Transcendental {
         /// The number `n`.
         denominator: NonZeroU32,
     },
-    /// `X = tan(1/(2n))`, of which the sines and cosines of all multiples of `1/n` are rational
-    /// functions.
+    /// `X = tan(1/(2n))`; the sines and cosines of all multiples of `1/n` are rational
+    /// functions of it.
     HalfAngleTangent {
         /// The number `n`.
         denominator: NonZeroU32,
@@ -28,7 +28,7 @@ pub enum Transcendental {
 }
 
 impl Transcendental {
-    /// An enclosure with this number of binary places, whose width tends to zero as they grow.
+    /// An enclosure with this number of binary places, whose width tends to zero as `bits` grows.
     pub fn enclose(self, bits: u32) -> Interval {
         let unknown = || Interval {
             low: BigInt::zero(),
@@ -44,13 +44,13 @@ impl Transcendental {
             }
             Transcendental::HalfAngleTangent { denominator } => {
                 let angle = part(2 * i64::from(denominator.get()));
-                // The cosine is above 0.8: only with very few places its enclosure contains zero.
+                // The cosine is above 0.8: its enclosure contains zero only with very few places.
                 sin(&angle).divide(&cos(&angle)).unwrap_or_else(unknown)
             }
         }
     }
 
-    /// The powers `Xᵏ` as they are written; empty for `k = 0`.
+    /// The powers `Xᵏ` as text; empty for `k = 0`.
     pub(super) fn power(self, k: i64) -> String {
         if k == 0 {
             return String::new();

@@ -19,11 +19,11 @@ use crate::arithmetic::roots::compare;
 pub struct ClosedForm {
     rational: BigRational,
     factor: BigRational,
-    /// No perfect square; 1 where `factor` is zero.
+    /// Not a perfect square; 1 if `factor` is zero.
     radicand: BigInt,
 }
 
-/// Candidates with longer numerators or denominators than this are not called short.
+/// Candidates with longer numerators or denominators do not count as short.
 const SHORT_BITS: u64 = 60;
 
 impl ClosedForm {
@@ -36,7 +36,7 @@ impl ClosedForm {
         }
     }
 
-    /// The numbers `p` and `q` of `p + q√d`, if it is one with this `d`.
+    /// The numbers `p` and `q` if the form is `p + q√d` with this `d`.
     pub fn over(&self, radicand: &BigInt) -> Option<[BigRational; 2]> {
         let known = self.factor.is_zero() || self.radicand == *radicand;
         known.then(|| [self.rational.clone(), self.factor.clone()])
@@ -49,7 +49,7 @@ impl ClosedForm {
 
     /// `rational ± √square` for a positive `square`.
     fn surd(rational: BigRational, square: &BigRational, sign: Ordering) -> Self {
-        // √(n/d) = √(n·d)/d, and square factors leave the root.
+        // √(n/d) = √(n·d)/d, and square factors are taken out of the root.
         let mut radicand = square.numer() * square.denom();
         let mut factor = BigRational::new(BigInt::one(), square.denom().clone());
         let root = radicand.sqrt();
@@ -202,14 +202,14 @@ impl fmt::Display for ClosedForm {
     }
 }
 
-/// Short exact forms of the nodes, where there are any.
+/// Short exact forms of the nodes, if there are any.
 fn of_nodes(algebra: &NodeAlgebra) -> &[Option<ClosedForm>] {
     algebra
         .forms
         .get_or_init(|| search(algebra, &algebra.variable()))
 }
 
-/// Short exact forms of the values of an element at all nodes, where there are any.
+/// Short exact forms of the values of an element at all nodes, if there are any.
 pub fn of_element(algebra: &NodeAlgebra, element: &Polynomial) -> Vec<Option<ClosedForm>> {
     if *element == algebra.variable() {
         of_nodes(algebra).to_vec()
@@ -264,7 +264,7 @@ struct Quadratic {
 }
 
 impl Quadratic {
-    /// The one with these roots, if its coefficients are short.
+    /// The polynomial with these roots, if its coefficients are short.
     fn of_roots(a: &Interval, b: &Interval) -> Option<Self> {
         let found = Quadratic {
             sum: short_rational(&a.add(b))?,
@@ -277,12 +277,12 @@ impl Quadratic {
         &self.sum * &self.sum - &self.product * ratio(4, 1)
     }
 
-    /// Its value at an element.
+    /// The value of the polynomial at an element.
     fn at(&self, z: &Polynomial) -> Polynomial {
         &(&(z * z) - &z.scale(&self.sum)) + &Polynomial::constant(self.product.clone())
     }
 
-    /// The root that compares so with the other one.
+    /// The root that compares with the other root in this way.
     fn root(&self, sign: Ordering) -> ClosedForm {
         let two = ratio(2, 1);
         ClosedForm::surd(
@@ -295,14 +295,14 @@ impl Quadratic {
 
 /// The simplest rational in an interval, if it is short.
 pub fn short_rational(interval: &Interval) -> Option<BigRational> {
-    // There are no two short rationals as close as that.
+    // Two short rationals cannot be that close.
     let interval = interval.with_bits(interval.bits().min(2 * SHORT_BITS as u32 + 4));
     short_between(&interval.low(), &interval.high(), SHORT_BITS)
 }
 
-/// Short exact forms of the entries of a matrix, where there are any.
+/// Short exact forms of the entries of a matrix, if there are any.
 ///
-/// Found where both nodes lie in one quadratic field, on the diagonal, and where the nodes are mirror
+/// Found if both nodes lie in one quadratic field, on the diagonal, and if the nodes are mirror
 /// images, `c_i + c_j = 1`.
 pub fn of_tensor(algebra: &NodeAlgebra, tensor: &Tensor) -> Vec<Vec<Option<ClosedForm>>> {
     let size = algebra.dimension();

@@ -9,9 +9,9 @@ use crate::arithmetic::roots::Root;
 /// Over the field `Q(c_row)` the zeros of `T(c_row, y)` among the nodes are the roots of
 /// `g(y) = gcd(m(y), T(c_row, y))`. The Euclidean algorithm runs over `Q[x]/(M)` where `M` starts as
 /// the node polynomial; whenever a leading coefficient is neither zero nor a unit there, its common
-/// divisor with `M` splits `M`, and the factor that keeps `c_row` as a root goes on (dynamic
-/// evaluation: Della Dora, Dicrescenzo, Duval 1985). The degree of `g` says how many entries of the
-/// row vanish, and enclosures are refined until they have excluded all the others.
+/// divisor with `M` splits `M`, and the computation continues with the factor that has `c_row` as a root (dynamic
+/// evaluation: Della Dora, Dicrescenzo, Duval 1985). The degree of `g` is the number of vanishing entries of the
+/// row, and enclosures are refined until they exclude all the others.
 pub(super) fn vanishes(algebra: &NodeAlgebra, tensor: &Tensor, row: usize, column: usize) -> bool {
     let dimension = algebra.dimension();
     let zeros = zeros_in_row(algebra, tensor, &algebra.roots()[row]);
@@ -43,7 +43,7 @@ fn zeros_in_row(algebra: &NodeAlgebra, tensor: &Tensor, root: &Root) -> usize {
         .collect();
     let mut b = tensor.columns().to_vec();
     while field.make_monic(&mut b) {
-        // a modulo the monic b.
+        // a modulo the monic polynomial b.
         while a.len() >= b.len() {
             let Some(top) = a.pop() else { break };
             let shift = a.len() + 1 - b.len();
@@ -56,14 +56,14 @@ fn zeros_in_row(algebra: &NodeAlgebra, tensor: &Tensor, root: &Root) -> usize {
     a.len().saturating_sub(1)
 }
 
-/// `Q[x]/(M)`, which is made smaller until the elements met are zero or units at one root of `M`.
+/// `Q[x]/(M)`, where `M` is replaced by factors until all elements that occur are zero or units at one root of `M`.
 struct BranchingField<'a> {
     modulus: Polynomial,
     root: &'a Root,
 }
 
 impl BranchingField<'_> {
-    /// Drops leading coefficients that vanish at the root and divides by the first that does not.
+    /// Drops leading coefficients that vanish at the root and divides by the first one that does not.
     /// Returns false if all vanish.
     fn make_monic(&mut self, polynomial: &mut Vec<Polynomial>) -> bool {
         while let Some(leading) = polynomial.last() {

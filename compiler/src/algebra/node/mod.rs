@@ -31,22 +31,22 @@ pub(super) use closed_form::short_rational;
 pub use number::NodeNumber;
 pub use tensor::Tensor;
 
-/// Enclosures have multiples of this number of binary places, so that few are computed.
+/// Enclosures have a multiple of this number of binary places, so that few are computed.
 const ENCLOSURE_STEP: u32 = 64;
 
-/// The algebra `Q[x]/(m)` of functions on the roots of a squarefree polynomial with real roots only.
+/// The algebra `Q[x]/(m)` of functions on the roots of a squarefree polynomial with only real roots.
 ///
 /// Its elements are polynomials of degree less than the number of nodes.
 #[derive(Debug)]
 pub struct NodeAlgebra {
     modulus: Polynomial,
     roots: Vec<Root>,
-    /// `Tr xᵏ = Σ_i c_iᵏ` for `k < 2s − 1`, the powers in a product of two elements, as the coefficients
+    /// `Tr xᵏ = Σ_i c_iᵏ` for `k < 2s − 1`, the powers that occur in a product of two elements, as the coefficients
     /// of a polynomial.
     power_sums: Polynomial,
     /// The finest enclosures of the nodes so far.
     enclosures: Mutex<Option<Arc<Vec<Interval>>>>,
-    /// Short exact forms of the nodes, once they have been looked for.
+    /// Short exact forms of the nodes, computed on demand.
     forms: OnceLock<Vec<Option<ClosedForm>>>,
 }
 
@@ -54,7 +54,7 @@ impl NodeAlgebra {
     /// The algebra of functions on the roots of `polynomial`.
     ///
     /// # Errors
-    /// Where the roots are not distinct, not real, or there are none.
+    /// If the roots are not distinct, not real, or there are none.
     pub fn new(polynomial: &Polynomial) -> Result<Self, ErrorKind> {
         let modulus = polynomial.primitive();
         let degree = modulus.degree().unwrap_or(0);
@@ -85,7 +85,7 @@ impl NodeAlgebra {
         self.roots.len()
     }
 
-    /// The node polynomial, primitive: coprime integer coefficients, a positive leading one.
+    /// The node polynomial, primitive: coprime integer coefficients, with a positive leading coefficient.
     pub fn modulus(&self) -> &Polynomial {
         &self.modulus
     }
@@ -113,18 +113,18 @@ impl NodeAlgebra {
     /// The inverse, node by node.
     ///
     /// # Errors
-    /// Where the element is no unit: the common divisor of the element and the node polynomial, whose
+    /// If the element is not a unit: the common divisor of the element and the node polynomial, whose
     /// roots are the nodes at which the element vanishes.
     pub fn inverse(&self, element: &Polynomial) -> Result<Polynomial, Polynomial> {
         element.inverse_modulo(&self.modulus)
     }
 
-    /// Short exact forms of the values of an element at all nodes, where there are any.
+    /// Short exact forms of the values of an element at all nodes, if there are any.
     pub(crate) fn closed_values(&self, element: &Polynomial) -> Vec<Option<ClosedForm>> {
         closed_form::of_element(self, element)
     }
 
-    /// Short exact forms of the entries of a matrix, where there are any.
+    /// Short exact forms of the entries of a matrix, if there are any.
     pub(crate) fn closed_entries(&self, matrix: &Tensor) -> Vec<Vec<Option<ClosedForm>>> {
         closed_form::of_tensor(self, matrix)
     }
@@ -181,11 +181,11 @@ impl NodeAlgebra {
     /// The nodes as constants, in ascending order.
     ///
     /// # Errors
-    /// [`ErrorKind::ExpressionSize`] where the node polynomial is beyond the bounds of constants.
+    /// [`ErrorKind::ExpressionSize`] if the node polynomial is beyond the bounds of constants.
     pub fn node_constants(&self) -> Result<Vec<Constant>, ErrorKind> {
         let exact = self.exact_values(&self.variable());
         let node = |(index, text): (usize, &Option<String>)| match text {
-            // What is printed is read again.
+            // The printed text is read again.
             Some(text) => {
                 let input = Input {
                     name: "nodes",
@@ -201,7 +201,7 @@ impl NodeAlgebra {
 
     /// Enclosures of all nodes with at least this number of binary places.
     pub(crate) fn enclose_nodes(&self, bits: u32) -> Arc<Vec<Interval>> {
-        // What is asked for next often has a few more.
+        // The next request often has a few more places.
         let bits = bits.next_multiple_of(ENCLOSURE_STEP);
         let mut cache = self
             .enclosures

@@ -11,7 +11,7 @@ use super::{NodeAlgebra, Tensor, divisor};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::polynomial::Polynomial;
 
-/// The value of an element of `K` at a node, or of an element of `K ⊗ K` at two: an algebraic number.
+/// The value of an element of `K` at a node, or of an element of `K ⊗ K` at two nodes: an algebraic number.
 ///
 /// Questions about it are answered exactly: its sign, whether it equals a rational, its value rounded
 /// to a double or to any number of digits.
@@ -29,16 +29,16 @@ enum Source<'a> {
     Entry(&'a Tensor, usize, usize, Arc<Row>),
 }
 
-/// What is known of the entries of a row.
+/// The data known about the entries of a row.
 #[derive(Debug)]
 struct Row {
     /// The finest enclosures so far, which are computed together.
     finest: Mutex<Vec<Interval>>,
-    /// Which of them are zero, as far as that has been asked.
+    /// Which of them are zero, as far as this has been decided.
     zeros: Vec<OnceLock<bool>>,
 }
 
-/// Binary places of the first enclosure, beyond the cancellation that the coefficients suggest.
+/// Binary places of the first enclosure, in addition to the cancellation that the coefficients suggest.
 const FIRST_BITS: u32 = 192;
 
 impl<'a> NodeNumber<'a> {

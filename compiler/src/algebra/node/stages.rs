@@ -46,7 +46,7 @@ impl StageAlgebra for NodeAlgebra {
         &Rationals
     }
 
-    /// In the basis of the powers of `x`.
+    /// The coordinates in the basis of the powers of `x`.
     fn coordinates(&self, f: &Polynomial) -> Vec<BigRational> {
         let mut coordinates = f.coefficients();
         coordinates.resize(self.dimension(), BigRational::default());
@@ -140,7 +140,7 @@ impl StageAlgebra for NodeAlgebra {
             .map(text)
             .collect();
         if rows.iter().flatten().any(Option::is_none) {
-            // Rationals among the entries at two nodes of higher degree, zeros above all.
+            // Rational entries at two nodes of higher degree, especially zeros.
             let numbers = self.entries(m).into_iter().flatten();
             let missing = rows.iter_mut().flatten().zip(numbers);
             for (text, number) in missing.filter(|(text, _)| text.is_none()) {
@@ -154,7 +154,7 @@ impl StageAlgebra for NodeAlgebra {
         None
     }
 
-    /// Stages at irrational nodes stay alone, unless all rows are the same.
+    /// Stages at irrational nodes are not grouped, unless all rows are equal.
     fn equal_rows(&self, m: &Tensor, columns: &[Vec<usize>]) -> Vec<Vec<usize>> {
         if m.columns()
             .iter()

@@ -162,7 +162,7 @@ impl Tensor {
 
     /// Enclosures of the entries in one row, from enclosures of all nodes.
     pub(crate) fn enclose_row(&self, nodes: &[Interval], row: usize) -> Vec<Interval> {
-        // The powers of the node once for all columns, whose coefficients are short.
+        // The powers of the node are computed once for all columns, whose coefficients are short.
         let node = &nodes[row];
         let length = self.columns.iter().map(|c| c.numerators().len()).max();
         let mut powers = vec![Interval::enclosing(&BigRational::one(), node.bits())];
@@ -215,7 +215,7 @@ mod tests {
         })
     }
 
-    /// Nodes 0, 1/2, 1, at which everything can be checked by evaluation.
+    /// Nodes 0, 1/2, 1, where everything can be checked by evaluation.
     fn algebra() -> NodeAlgebra {
         NodeAlgebra::new(&Polynomial::from_integers(&[0, 1, -3, 2])).expect("nodes")
     }
