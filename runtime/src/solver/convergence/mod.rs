@@ -53,7 +53,8 @@ pub(crate) trait Sweeps {
     /// Numbers of evaluations that a step makes.
     fn evaluations(&self) -> EvaluationCounts;
 
-    /// Whether the momenta are tested for convergence too. They are not if the sweep computes them from its old positions.
+    /// Whether the momenta are tested for convergence too. In a separable system they are not: a sweep computes them from the old
+    /// positions.
     #[inline(always)]
     fn both<C: Class>() -> bool {
         !C::SEPARABLE
@@ -74,7 +75,7 @@ pub(crate) trait Sweeps {
     /// One sweep over all stages.
     fn sweep(&mut self) -> Self::Movement;
 
-    /// Number of sweeps at the start of a step with a warm start whose change need not be measured, because further sweeps follow.
+    /// Number of first sweeps after a warm start whose change need not be measured, because further sweeps follow.
     #[inline(always)]
     fn unseen(&self) -> u32 {
         0
@@ -195,7 +196,7 @@ pub(crate) struct Begun<M> {
     /// The change of the first sweep, if it was not examined but may be needed. It is not kept if that sweep was
     /// [unseen](Sweeps::unseen). A change then counts as noise if it is small compared with the examined changes.
     first: Option<M>,
-    /// The change of the last sweep but one.
+    /// The change of the sweep before the one that is examined next, if known.
     before: Option<M>,
     /// The smallest of the examined changes, and the number of its sweep.
     least: Option<(u32, M)>,

@@ -7,8 +7,8 @@ use super::{
     dither_last_sweep, dither_side, is_known, units,
 };
 
-/// Smallest tolerance, in units of EPSILON, that the [early](PATIENCE) sweeps wait for; if both halves must settle, the sweeps for
-/// which [one without progress suffices](STAGNATION). Rounding lets changes shrink to it unless the evaluations are noisy.
+/// Smallest tolerance, in units of EPSILON, that the [early](PATIENCE) sweeps wait for. If both halves must settle, all sweeps wait
+/// for which [one without progress suffices](STAGNATION). Rounding lets changes shrink to it unless the evaluations are noisy.
 const WITHIN_REACH: f64 = 8.0;
 
 /// The number of sweeps and the sizes of the stages if the iteration has settled; otherwise the state from which it can go on.
@@ -43,7 +43,7 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
     let near_by = if C::SEPARABLE { late } else { bound };
     if !W::STOPS_AT_ROUNDING {
         if !C::SEPARABLE && late == PATIENCE && dither_side(sweeps.time()) {
-            // Approach from the other side. An ordinary sweep comes first: it leaves mostly the slowest error component, to be reflected.
+            // Approach from the other side. An ordinary sweep comes first: it leaves mostly the slowest-decaying error, which is reflected.
             begun.first = Some(sweeps.sweep());
             sweeps.overrelaxed_sweep();
             begun.iterations += 2;

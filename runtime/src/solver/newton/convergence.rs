@@ -44,7 +44,8 @@ pub(super) struct Attempt {
 }
 
 /// The attempts of a step, in order. Starting values: the stages of the previous step, if they are kept, then the start of the step.
-/// Derivatives: at one point, then at every stage, if `available`; with `in_full`, at every stage only.
+/// Both use the derivatives at one point. A last attempt from the start of the step uses those at every stage, if `available`.
+/// With `in_full`, all attempts use the derivatives at every stage.
 fn attempts(kept: bool, in_full: bool, available: bool) -> impl Iterator<Item = Attempt> {
     let all = [(true, false), (true, true), (false, false), (false, true)];
     let attempts = all.into_iter().filter(move |&(from_kept, full)| {

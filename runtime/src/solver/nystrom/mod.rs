@@ -258,7 +258,7 @@ fn position<R: Summation, L: Lanes>(
     factor.fused(sum, (h * node).fused(velocity, base))
 }
 
-/// Does `work` in a separate function.
+/// Runs `work` in a separate function.
 #[inline(never)]
 fn apart<T>(work: impl FnOnce() -> T) -> T {
     work()

@@ -11,7 +11,7 @@ use crate::solver::simd::stages::SimdStages;
 #[derive(Debug)]
 pub struct NystromStages<V: Vector, P: StageTableau> {
     pub(crate) lanes: SimdStages<V, P>,
-    /// The velocity at the start of the step if the momenta are eliminated; unused with unit masses, where the momentum serves.
+    /// The velocity at the start of the step if the momenta are eliminated; unused with unit masses, where it is the momentum.
     pub(crate) start: V,
     /// Whether the forces, and `M⁻¹` times them, are stored as increments between steps: with compensated sums.
     pub(crate) of_increments: bool,

@@ -193,7 +193,7 @@ pub(super) fn compensated<P, R, V, S>(
 }
 
 /// With plain sums, from forces that are not yet scaled to increments. All forces of a component are multiplied by their weights
-/// before any single one is used.
+/// before lanes are read one by one.
 #[inline(always)]
 pub(super) fn plain<P, V, S>(
     step: &Step<'_, V>,
