@@ -26,6 +26,7 @@
 //!    `k ≤ n − η_y − 2 ≤ p − min(η, η̂) − 2 ≤ min(ζ, ζ̂) ≤ ζ_x`. In both cases `D` replaces
 //!    `Σ_i b_i c_i^(k−1) a_ij` by `b_j (1 − c_j^k)/k`: the root of the branch becomes the root, once with
 //!    order `n − k`, and once with `k` additional factors `c`, order `n` and one vertex less.
+//!
 //! The second case of step 3, for `y ≠ x`, is the difference from using Butcher's theorem with the smaller
 //! numbers of both matrices. Lobatto IIIA has `C(s)`, `D(s−2)`, IIIB `Ĉ(s−2)`, `D̂(s)`; the theorem gives
 //! `2s − 2`, the order of the quadrature (Jay 1996), whereas the smaller numbers give `2s − 3`. For a collocation
