@@ -30,11 +30,11 @@ where
     count: usize,
     /// What every block begins with, as a file: the checkpoint and the facts.
     head: Vec<u8>,
-    /// Its arrays.
+    /// The arrays of the head.
     head_arrays: Vec<NpzArray>,
 }
 
-/// What is in the place of a block.
+/// What was found where the file of a block belongs.
 pub(crate) enum Found {
     /// What `work` wrote.
     Complete(Vec<NpzArray>),
@@ -217,7 +217,7 @@ where
         write_whole(&path, &bytes).map_err(|error| Error::File { path, error })
     }
 
-    /// In what arrays do not begin as those of a block must.
+    /// The first difference between these arrays and the head of a block.
     pub(crate) fn difference(&self, arrays: &[NpzArray]) -> Option<String> {
         let mut others = arrays.iter();
         self.head_arrays.iter().find_map(|own| match others.next() {
@@ -231,7 +231,7 @@ where
         })
     }
 
-    /// In what another checkpoint differs.
+    /// How the checkpoint of another run differs from that of this ensemble.
     fn other_checkpoint(&self, other: &NpzArray) -> String {
         let checkpoint = match &other.values {
             NpzValues::Texts(texts) => texts

@@ -223,7 +223,7 @@ where
         }
     }
 
-    /// In what the blocks of another rank would differ.
+    /// The first difference between the blocks of another rank and those of this one.
     fn other_head(&self, head: &[u8]) -> Option<String> {
         if head == self.head() {
             return None;

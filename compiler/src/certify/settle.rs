@@ -1,9 +1,9 @@
 //! Chooses the values of the coefficients that the conditions leave free, within their last places, so that all others
 //! round to their prints too.
 //!
-//! The exact methods near the digits form a manifold. Let `F` be the conditions, `B` the free unknowns, as many as there
-//! are conditions, and `N` the other unknowns, which are fixed. A shift `y` of the fixed unknowns moves the printed number `i`, a linear
-//! form `L_i` of the unknowns, along the manifold by
+//! The exact methods near the digits form a manifold. Let `F` be the conditions. Newton's iteration solves them for the unknowns
+//! `B`, one for each condition, and keeps the other unknowns `N` fixed. A shift `y` of `N` moves the printed number `i`, a linear form
+//! `L_i` of the unknowns, along the manifold by
 //!
 //! ```text
 //! A_i y = (L_iN − L_iB F_B⁻¹ F_N) y.
