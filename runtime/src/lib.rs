@@ -154,6 +154,7 @@ pub mod emitted {
 
     pub use crate::method::*;
     pub use crate::number::*;
+    pub use crate::output::invariants;
     pub use crate::solver::*;
     pub use crate::system::chain::{Bonds, Chain};
     pub use crate::system::*;

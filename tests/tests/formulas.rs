@@ -8,6 +8,99 @@ use symplectic_tests::formulas;
 use symplectic_tests::scenes::{self, outer_solar_system as planets};
 use systems::{consistent, same, states, values};
 
+symplectic::hamiltonian! {
+    /// A bead on a surface of revolution: the momentum of the angle is conserved, and so is that of z, with its own drift.
+    Bead { g: 1 }
+    q: [r, angle, z], p: [pr, l, pz];
+    H = (pr^2 + l^2/r^2)/2 + r^2 + pz^2/2 + g z
+    invariants: { fall = pz + g t }
+}
+
+symplectic::hamiltonian! {
+    /// A driven oscillator: nothing of it is conserved.
+    Driven q: [x], p: [px]; H = (px^2 + x^2)/2 - x cos(2 t)
+}
+
+#[test]
+fn what_a_formula_conserves_is_ready_to_be_observed() {
+    let masses = [1.0, 0.5, 0.25];
+    let planets = formulas::Planets::<3>::new(masses);
+    let q = SMatrix::<f64, 3, 3>::from_fn(|i, j| (i * i + 2 * j) as f64 + 0.3);
+    let p = SMatrix::<f64, 3, 3>::from_fn(|i, j| (i + 3 * j) as f64 - 3.5);
+    let start = State::new(0.0, q, p);
+    let mut observers = planets.invariants(&start);
+    let by_hand = |state: &State<SMatrix<f64, 3, 3>>| {
+        let mut values =
+            vec![System::energy(&planets, 0.0, &state.q, &state.p).expect("H is known")];
+        for k in 0..3 {
+            values.push((0..3).map(|body| state.p[(k, body)]).sum());
+        }
+        for (a, b) in [(1, 2), (2, 0), (0, 1)] {
+            let turning = |body| {
+                state.q[(a, body)] * state.p[(b, body)] - state.q[(b, body)] * state.p[(a, body)]
+            };
+            values.push((0..3).map(turning).sum());
+        }
+        values
+    };
+    let near = |values: [f64; 7], by_hand: Vec<f64>| {
+        for (value, by_hand) in values.iter().zip(by_hand) {
+            assert!((value - by_hand).abs() < 1e-13, "{value} {by_hand}");
+        }
+    };
+    let names = [
+        "energy",
+        "momentum[0]",
+        "momentum[1]",
+        "momentum[2]",
+        "angular_momentum[0]",
+        "angular_momentum[1]",
+        "angular_momentum[2]",
+    ];
+    assert_eq!(observers.each_ref().map(|(name, _)| *name), names);
+    near(
+        observers.each_ref().map(|(_, observer)| observer.initial()),
+        by_hand(&start),
+    );
+    // Another state has other values, which are the last ones.
+    let other = State::new(1.0, q * 2.0, p * 0.75);
+    for (_, observer) in &mut observers {
+        observer.observe(&other);
+        assert!(observer.deviation() > 0.1);
+    }
+    near(
+        observers.each_ref().map(|(_, observer)| observer.last()),
+        by_hand(&other),
+    );
+}
+
+#[test]
+fn cyclic_momenta_and_invariants_of_the_time_are_observed() {
+    let start = State::from_arrays(2.0, [1.0, 0.5, 3.0], [0.1, 0.7, -0.2]);
+    let observers = Bead::default().invariants(&start);
+    let values = observers
+        .each_ref()
+        .map(|(name, observer)| (*name, observer.initial()));
+    let energy = (0.01_f64 + 0.49) / 2.0 + 1.0 + 0.02 + 3.0;
+    assert_eq!(values.map(|(name, _)| name), ["energy", "l", "fall"]);
+    assert!((values[0].1 - energy).abs() < 1e-15);
+    assert_eq!((values[1].1, values[2].1), (0.7, -0.2 + 2.0));
+}
+
+/// Systems without anything that is conserved have no method `invariants`: this one is taken.
+trait NoInvariants {
+    fn invariants(&self) -> usize {
+        0
+    }
+}
+
+impl NoInvariants for Driven {}
+
+#[test]
+fn a_driven_system_conserves_nothing() {
+    assert_eq!(Driven.invariants(), 0);
+}
+
 #[test]
 fn formulas_give_what_systems_by_hand_give() {
     same::<SVector<f64, 1>, SVector<f64, 1>>(

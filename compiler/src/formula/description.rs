@@ -121,6 +121,16 @@ impl System {
     }
 }
 
+/// Whether no force takes energy out or puts it in.
+fn is_conservative(system: &System) -> bool {
+    system.friction.is_none() && system.applied.is_empty()
+}
+
+/// Whether the exact flow conserves H, and there is one.
+pub fn conserves_energy(system: &System, structure: &Structure) -> bool {
+    !structure.time_dependent && is_conservative(system) && system.without_hamiltonian().is_none()
+}
+
 /// The documentation of the type of a system.
 pub fn page(system: &System, structure: &Structure) -> String {
     if let Some(page) = lagrangian_form::page(system) {
@@ -375,11 +385,10 @@ pub fn facts(system: &System, structure: &Structure) -> Vec<String> {
         }
         (Ok(_), Kinetic::General) => "separable".to_owned(),
     });
-    let conservative = system.friction.is_none() && system.applied.is_empty();
-    facts.push(match (structure.time_dependent, conservative) {
-        (true, _) => "dependent on time".to_owned(),
-        (false, true) => "independent of time, so H is conserved".to_owned(),
-        (false, false) => "independent of time".to_owned(),
+    facts.push(match structure.time_dependent {
+        true => "dependent on time".to_owned(),
+        false if is_conservative(system) => "independent of time, so H is conserved".to_owned(),
+        false => "independent of time".to_owned(),
     });
     if !system.applied.is_empty() {
         facts.push(match system.force_of_momenta() {

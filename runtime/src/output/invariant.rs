@@ -115,3 +115,24 @@ impl Invariant<()> {
         Invariant::new(energy, start)
     }
 }
+
+/// An observer with the name of what it watches.
+type Named<F> = (&'static str, Invariant<F>);
+
+/// Observers of what a system conserves, each with its name: `value` gives a function of the state by its number.
+///
+/// The method `invariants` of a system from a formula is this.
+#[doc(hidden)]
+pub fn invariants<S: Clone, V, const COUNT: usize>(
+    names: [&'static str; COUNT],
+    system: &S,
+    value: fn(&S, usize, &State<V>) -> f64,
+    start: &State<V>,
+) -> [Named<impl Fn(&State<V>) -> f64 + use<S, V, COUNT>>; COUNT] {
+    let mut numbers = 0..;
+    names.map(|name| {
+        let (system, number) = (system.clone(), numbers.next().unwrap_or(COUNT));
+        let function = move |state: &State<V>| value(&system, number, state);
+        (name, Invariant::new(function, start))
+    })
+}

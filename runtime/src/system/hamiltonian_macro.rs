@@ -106,9 +106,11 @@
 /// A momentum is conserved where H has a symmetry that shows in its form: where all positions can be moved together there is a method
 /// `total_momentum`, where they can be turned `angular_momentum`. `invariants: { name = …, }` adds methods of your own. One that belongs
 /// to a symmetry of the formula is proved; of any other the Poisson bracket with H is computed at a few states, and what is not zero there
-/// does not compile. The page of the method says which.
+/// does not compile. The page of the method says which. `invariants(&start)` makes an [`Invariant`](crate::Invariant) of each of these
+/// numbers, and of the energy, with its name: `observe` the states of a run, and they know the largest deviation.
 ///
 /// ```
+/// use symplectic::State;
 /// use symplectic::nalgebra::SMatrix;
 ///
 /// symplectic::hamiltonian! {
@@ -124,6 +126,11 @@
 /// let p = SMatrix::from([[0.0, -7e-6, 0.0], [0.0, 7e-6, 0.0]]);
 /// assert_eq!(planets.total_momentum(&q, &p), [0.0; 3]);
 /// assert_eq!(planets.angular_momentum(&q, &p), [0.0, 0.0, 5.2 * 7e-6]);
+///
+/// let observers = planets.invariants(&State::new(0.0, q, p));
+/// let names = observers.each_ref().map(|(name, _)| *name);
+/// assert_eq!(names[..3], ["energy", "total_momentum[0]", "total_momentum[1]"]);
+/// assert_eq!((names[6], observers[6].1.initial()), ("angular_momentum[2]", 5.2 * 7e-6));
 /// ```
 ///
 /// # Requirements

@@ -75,4 +75,38 @@ const _: () = {
     ::symplectic::emitted::chain_system!(
         () (Fput), | bonds : & Self | * bonds, between_walls
     );
+    #[allow(unused_variables, non_snake_case, clippy::all)]
+    impl Fput {
+        /// Observers of what the exact flow conserves, from a first state: `energy`.
+        #[inline]
+        pub fn invariants(
+            &self,
+            start: &::symplectic::State<::symplectic::nalgebra::DVector<f64>>,
+        ) -> [(
+            &'static str,
+            ::symplectic::Invariant<
+                impl Fn(
+                    &::symplectic::State<::symplectic::nalgebra::DVector<f64>>,
+                ) -> f64 + use<>,
+            >,
+        ); 1] {
+            ::symplectic::emitted::invariants(
+                ["energy"],
+                self,
+                |system: &Self, number, state| match number {
+                    0 => {
+                        ::symplectic::emitted::System::energy(
+                                system,
+                                state.time,
+                                &state.q,
+                                &state.p,
+                            )
+                            .unwrap_or(f64::NAN)
+                    }
+                    _ => f64::NAN,
+                },
+                start,
+            )
+        }
+    }
 };

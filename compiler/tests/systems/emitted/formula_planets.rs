@@ -220,5 +220,50 @@ const _: () = {
             let result_3 = x3;
             [result_1, result_2, result_3]
         }
+        /// Observers of what the exact flow conserves, from a first state: `energy`, `momentum[0]`, `momentum[1]`, `momentum[2]`, `angular_momentum[0]`, `angular_momentum[1]`, `angular_momentum[2]`.
+        #[inline]
+        pub fn invariants(
+            &self,
+            start: &::symplectic::State<::symplectic::nalgebra::SMatrix<f64, 3, N>>,
+        ) -> [(
+            &'static str,
+            ::symplectic::Invariant<
+                impl Fn(
+                    &::symplectic::State<::symplectic::nalgebra::SMatrix<f64, 3, N>>,
+                ) -> f64 + use<N>,
+            >,
+        ); 7] {
+            ::symplectic::emitted::invariants(
+                [
+                    "energy",
+                    "momentum[0]",
+                    "momentum[1]",
+                    "momentum[2]",
+                    "angular_momentum[0]",
+                    "angular_momentum[1]",
+                    "angular_momentum[2]",
+                ],
+                self,
+                |system: &Self, number, state| match number {
+                    0 => {
+                        ::symplectic::emitted::System::energy(
+                                system,
+                                state.time,
+                                &state.q,
+                                &state.p,
+                            )
+                            .unwrap_or(f64::NAN)
+                    }
+                    1 => system.momentum(&state.q, &state.p)[0],
+                    2 => system.momentum(&state.q, &state.p)[1],
+                    3 => system.momentum(&state.q, &state.p)[2],
+                    4 => system.angular_momentum(&state.q, &state.p)[0],
+                    5 => system.angular_momentum(&state.q, &state.p)[1],
+                    6 => system.angular_momentum(&state.q, &state.p)[2],
+                    _ => f64::NAN,
+                },
+                start,
+            )
+        }
     }
 };
