@@ -69,6 +69,7 @@
 //! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and Newton's iteration takes derivatives by dual numbers; implies `std`.
 //! * `parallel`: the trajectories of an [`ensemble`] are shared among threads; implies `std`.
 //! * `npz`: ensembles are written to files for NumPy; implies `std`.
+//! * `parquet`: ensembles are written to tables of Apache Parquet; implies `std`.
 //! * neither `std` nor `alloc`: `no_std` without an allocator; static vectors, the functions named under `std` from `libm`.
 
 #![no_std]
@@ -80,7 +81,7 @@ extern crate self as symplectic;
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
-#[cfg(any(feature = "npz", feature = "parallel"))]
+#[cfg(any(feature = "npz", feature = "parallel", feature = "parquet"))]
 extern crate std;
 
 mod error;

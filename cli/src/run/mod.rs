@@ -7,6 +7,7 @@ mod random;
 mod setup;
 mod starts;
 mod system;
+mod table;
 mod tape;
 mod unroll;
 mod values;

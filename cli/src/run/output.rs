@@ -1,4 +1,4 @@
-//! What a run writes: a `.npz` file for NumPy, or a `.csv` file.
+//! What a run writes: arrays for NumPy, `.npz`, or a table, `.parquet` or `.csv`.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -50,19 +50,27 @@ pub(super) struct Target {
     path: PathBuf,
     part: PathBuf,
     file: File,
-    is_csv: bool,
+    format: Format,
+}
+
+/// The formats of files.
+enum Format {
+    Npz,
+    Parquet,
+    Csv,
 }
 
 impl Target {
     /// Opens the file, before the run: so a run is not lost where nothing can be written.
     pub(super) fn open(path: PathBuf) -> Result<Self, Error> {
         let extension = path.extension().and_then(|extension| extension.to_str());
-        let is_csv = match extension {
-            Some("csv") => true,
-            Some("npz") => false,
+        let format = match extension {
+            Some("csv") => Format::Csv,
+            Some("npz") => Format::Npz,
+            Some("parquet") => Format::Parquet,
             _ => {
                 let message = format!(
-                    "the output is called `{}`: its name must end in .npz or .csv",
+                    "the output is called `{}`: its name must end in .npz, .parquet or .csv",
                     path.display()
                 );
                 return Err(ErrorKind::Document { message }.into());
@@ -89,7 +97,7 @@ impl Target {
             path,
             part,
             file,
-            is_csv,
+            format,
         })
     }
 
@@ -101,9 +109,10 @@ impl Target {
     /// Writes the results, and gives the file its name.
     pub(super) fn write(self, results: &Results<'_>) -> Result<(), Error> {
         let mut out = BufWriter::new(&self.file);
-        let written = match self.is_csv {
-            true => results.write_csv(&mut out),
-            false => results.write_npz(&mut out),
+        let written = match self.format {
+            Format::Csv => results.write_csv(&mut out),
+            Format::Npz => results.write_npz(&mut out),
+            Format::Parquet => results.write_parquet(&mut out),
         };
         let written = written
             .and_then(|()| out.flush())
@@ -128,7 +137,7 @@ impl Drop for Target {
 
 impl Results<'_> {
     /// `(H − H₀)/|H₀|`; the difference, where the energy at the start is zero.
-    fn energy_errors(&self) -> Vec<Vec<f64>> {
+    pub(super) fn energy_errors(&self) -> Vec<Vec<f64>> {
         let pairs = self.rows.iter().zip(self.starts);
         let errors = pairs.map(|(row, start)| {
             let first = self.tapes.energy_at(start);
@@ -206,47 +215,6 @@ impl Results<'_> {
         }
         file.doubles("energy_error", &[count, steps], &all)?;
         file.finish().map(|_| ())
-    }
-
-    /// A line for each trajectory, or for each trajectory and time. A trajectory that failed has its last good state and its error.
-    fn write_csv(&self, out: &mut impl Write) -> io::Result<()> {
-        let mut file = csv::Writer::from_writer(out);
-        let starts = self.coordinates.all().map(|name| format!("{name}_start"));
-        let names = ["trajectory".to_owned()].into_iter().chain(starts);
-        let names = names
-            .chain(["time".to_owned()])
-            .chain(self.coordinates.all().cloned());
-        let last = ["energy_error", "steps", "error"].map(str::to_owned);
-        file.write_record(names.chain(last))?;
-        for ((row, start), errors) in self.rows.iter().zip(self.starts).zip(self.energy_errors()) {
-            let failure = row.outcome.as_ref().err().map(ToString::to_string);
-            let mut line =
-                |state: &State<DVector<f64>>, error: Option<&f64>, failure: Option<&String>| {
-                    let numbers = |state: &State<DVector<f64>>| -> Vec<String> {
-                        let (q, p) = state.as_slices();
-                        q.iter().chain(p).map(f64::to_string).collect()
-                    };
-                    let mut cells = vec![row.trajectory.to_string()];
-                    cells.extend(numbers(start));
-                    cells.push(state.time.to_string());
-                    cells.extend(numbers(state));
-                    cells.push(error.map(|error| format!("{error:e}")).unwrap_or_default());
-                    cells.push(row.statistics.steps.to_string());
-                    cells.push(failure.cloned().unwrap_or_default());
-                    file.write_record(cells)
-                };
-            if self.times.is_none() {
-                line(&row.state, errors.first(), failure.as_ref())?;
-                continue;
-            }
-            for (seen, error) in row.output.iter().zip(&errors) {
-                line(&seen.state, Some(error), None)?;
-            }
-            if failure.is_some() {
-                line(&row.state, None, failure.as_ref())?;
-            }
-        }
-        file.flush()
     }
 }
 

@@ -74,7 +74,7 @@ pub(super) struct Random {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Output {
-    /// A file named `.npz` or `.csv`.
+    /// A file named `.npz`, `.parquet` or `.csv`.
     pub(super) file: Spanned<PathBuf>,
 }
 

@@ -1,19 +1,17 @@
 //! The starts of the trajectories.
 
-use std::path::Path;
-
 use symplectic::State;
 use symplectic::nalgebra::DVector;
+use symplectic_compiler::Error;
 use symplectic_compiler::formula::graph::Half;
 use symplectic_compiler::formula::syntax::Length;
 use symplectic_compiler::formula::{Layout, System};
-use symplectic_compiler::{Error, ErrorKind};
 use toml::{Spanned, Value};
 
 use super::random;
 use super::setup::{Evenly, File, Grid, Random, Setup, Starts, number};
 
-/// The most starts of a run.
+/// The largest number of starts of a run.
 pub(super) const MOST: usize = 1 << 22;
 
 const EXPECTED: &str = "expected a number, { from, to, count } with a count up to 4194304, { values = [...] }, { uniform = [low, high] } or { normal = [mean, deviation] }";
@@ -51,7 +49,7 @@ impl Coordinates {
     }
 
     /// Their names, the first ones if there are many.
-    fn listed(&self) -> String {
+    pub(super) fn listed(&self) -> String {
         let mut names = self.all().map(String::as_str);
         let first: Vec<&str> = names.by_ref().take(20).collect();
         let rest = if names.next().is_some() { ", …" } else { "" };
@@ -114,7 +112,7 @@ impl Reader<'_> {
         let rows = match self.setup.starts.get_ref() {
             Starts::File(name) => {
                 self.refuse_needless_random(false)?;
-                self.of_csv(&self.file.beside(name))?
+                self.of_table(&self.file.beside(name))?
             }
             Starts::Grids(grids) => self.of_grids(grids)?,
         };
@@ -147,7 +145,7 @@ impl Reader<'_> {
     }
 
     /// The number of bodies, if the layout does not say it: that of a list.
-    fn bodies(&self, listed: Option<usize>) -> Result<usize, Error> {
+    pub(super) fn bodies(&self, listed: Option<usize>) -> Result<usize, Error> {
         let bodies = match self.system.layout.length() {
             Length::Fixed(n) => n,
             _ => listed.ok_or_else(|| {
@@ -324,64 +322,5 @@ impl Reader<'_> {
             }
         }
         Ok(())
-    }
-
-    /// The rows of a CSV file, whose first line has the names of the coordinates.
-    fn of_csv(&self, path: &Path) -> Result<(Coordinates, Vec<Vec<f64>>), Error> {
-        let refused = |message: String| {
-            Error::from(ErrorKind::Document {
-                message: format!("{}: {message}", path.display()),
-            })
-        };
-        let mut reader = csv::ReaderBuilder::new()
-            .trim(csv::Trim::All)
-            .from_path(path)
-            .map_err(|error| refused(error.to_string()))?;
-        let header = reader
-            .headers()
-            .map_err(|error| refused(error.to_string()))?
-            .clone();
-        let components = self.system.layout.components();
-        let listed =
-            header.iter().filter(|name| name.starts_with("q[")).count() / components.max(1);
-        let coordinates = Coordinates::new(self.system, self.bodies(Some(listed))?);
-        let mut places = Vec::new();
-        for name in &header {
-            let place = coordinates.all().position(|known| known == name);
-            let place = place.filter(|place| !places.contains(place)).ok_or_else(|| {
-                refused(format!(
-                    "line 1: the column `{name}` is no coordinate, or is there twice; there are {}",
-                    coordinates.listed()
-                ))
-            })?;
-            places.push(place);
-        }
-        if let Some((_, name)) = coordinates
-            .all()
-            .enumerate()
-            .find(|(k, _)| !places.contains(k))
-        {
-            return Err(refused(format!("line 1: the column `{name}` is missing")));
-        }
-        let mut rows = Vec::new();
-        for (number, record) in reader.records().enumerate() {
-            let record = record.map_err(|error| refused(error.to_string()))?;
-            if number == MOST {
-                return Err(refused(format!(
-                    "more than {MOST} starts: split it into several files"
-                )));
-            }
-            let mut row = vec![0.0; places.len()];
-            for ((place, text), name) in places.iter().zip(&record).zip(&header) {
-                let value: Option<f64> = text.parse().ok().filter(|value: &f64| value.is_finite());
-                row[*place] = value.ok_or_else(|| {
-                    refused(format!(
-                        "start {number}, column `{name}`: expected a finite number, found `{text}`"
-                    ))
-                })?;
-            }
-            rows.push(row);
-        }
-        Ok((coordinates, rows))
     }
 }

@@ -5,9 +5,12 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use ::symplectic::ensemble::Ensemble;
+use ::symplectic::ensemble::{Ensemble, Parquet, ParquetColumn};
 use ::symplectic::nalgebra::DVector;
 use ::symplectic::{Method, ProvedFor, State, System, Vector};
+
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
 
 use crate::run;
 
@@ -462,7 +465,7 @@ fn wrong_files_are_refused_at_their_place() {
     }
     for (file, message) in [
         ("nowhere/out.csv", "nothing was computed"),
-        ("out.txt", "must end in .npz or .csv"),
+        ("out.txt", "must end in .npz, .parquet or .csv"),
     ] {
         let output = call(&folder, &replaced("out.csv", file), &[]);
         let error = String::from_utf8_lossy(&output.stderr);
@@ -480,7 +483,7 @@ fn wrong_files_are_refused_at_their_place() {
             "a,pa\n0,1\n0,nan\n",
             "column `pa`: expected a finite number, found `nan`",
         ),
-        ("a,pb\n0,1\n", "line 1: the column `pb` is no coordinate"),
+        ("a,pb\n0,1\n", "line 1: the column `pb` is not a coordinate"),
         ("a\n0\n", "line 1: the column `pa` is missing"),
     ] {
         fs::write(folder.join(table), text).expect("a file");
@@ -622,4 +625,121 @@ fn the_example_of_the_book_runs() {
         errors.len() == 64 && errors.iter().all(|error| error.abs() < 1e-6),
         "{errors:?}"
     );
+}
+
+/// Every number of a table in Parquet is that of the table in CSV, with the facts beside it.
+#[test]
+fn tables_are_the_same_as_parquet_and_as_csv() {
+    let folder = folder("parquet");
+    // Of these the last escapes to infinity.
+    let setup = r#"
+        system = "Cubic q: [x], p: [px]; H = px^2/2 + x^2/2 - x^3/3"
+        method = "forest-ruth-1990"
+        step_size = 0.1
+        times = { from = 0, to = 20, count = 5 }
+        starts = { x = { values = [0.1, 0.5, 1.5] }, px = 0.0 }
+        output.file = "out.csv"
+    "#;
+    let table = csv(&folder, setup);
+    call(&folder, &setup.replace("out.csv", "out.parquet"), &[]);
+    let file = fs::File::open(folder.join("out.parquet")).expect("the output");
+    let reader = SerializedFileReader::new(file).expect("a table");
+    let about = reader.metadata().file_metadata();
+    let notes = about.key_value_metadata().expect("notes");
+    let method = notes.iter().find(|note| note.key == "method");
+    let method = method.and_then(|note| note.value.as_deref());
+    assert_eq!(method, Some("forest-ruth-1990"));
+    let mut lines = csv::Reader::from_reader(table.as_bytes());
+    let fields = about.schema().get_fields().iter();
+    let names: Vec<&str> = fields.map(|field| field.name()).collect();
+    assert_eq!(lines.headers().expect("a header"), names);
+    let lines: Vec<csv::StringRecord> = lines.records().map(|line| line.expect("a line")).collect();
+    let mut count = 0;
+    for (row, line) in reader.get_row_iter(None).expect("rows").zip(&lines) {
+        let row = row.expect("a row");
+        for ((_, field), cell) in row.get_column_iter().zip(line) {
+            let same = match field {
+                Field::Double(value) => {
+                    value.is_nan() && cell.is_empty() || cell.parse() == Ok(*value)
+                }
+                Field::ULong(value) => cell.parse() == Ok(*value),
+                Field::Str(text) => cell == text && !cell.is_empty(),
+                Field::Null => cell.is_empty(),
+                _ => false,
+            };
+            assert!(same, "{field:?} {cell}");
+        }
+        count += 1;
+    }
+    // Two trajectories at five times; of the third what it reached, and its end.
+    assert!(count > 11 && count == lines.len(), "{count}");
+}
+
+#[test]
+fn starts_are_read_from_parquet() {
+    let folder = folder("starts-parquet");
+    let write = |name: &str, columns: &[(&str, ParquetColumn)]| {
+        let mut file = Parquet::new(fs::File::create(folder.join(name)).expect("a file"));
+        file.group(columns).expect("room");
+        file.finish().expect("room");
+    };
+    let setup = &PENDULUM[..PENDULUM.find("[starts]").expect("a table")];
+    let setup = |name: &str| format!("starts = '{name}'\noutput.file = 'out.csv'\n{setup}");
+    let doubles = |values: &[f64]| ParquetColumn::Doubles(values.to_vec());
+    let angles = [0.1, -0.25, 1.0 / 3.0];
+    write(
+        "starts.parquet",
+        &[
+            ("pa", ParquetColumn::Integers(vec![0, 1, 2])),
+            ("a", doubles(&angles)),
+        ],
+    );
+    let table = csv(&folder, &setup("starts.parquet"));
+    fs::write(
+        folder.join("starts.csv"),
+        format!("a,pa\n{},0\n{},1\n{},2\n", angles[0], angles[1], angles[2]),
+    )
+    .expect("a file");
+    assert_eq!(table, csv(&folder, &setup("starts.csv")));
+
+    let texts = |values: &[Option<&str>]| {
+        ParquetColumn::Texts(values.iter().map(|text| text.map(str::to_owned)).collect())
+    };
+    let a = || ("a", doubles(&[0.5]));
+    write("nan.parquet", &[a(), ("pa", doubles(&[f64::NAN]))]);
+    write("missing.parquet", &[a()]);
+    write("other.parquet", &[a(), ("b", doubles(&[0.5]))]);
+    write("text.parquet", &[a(), ("pa", texts(&[Some("half")]))]);
+    write("null.parquet", &[a(), ("pa", texts(&[None]))]);
+    write(
+        "large.parquet",
+        &[a(), ("pa", ParquetColumn::Integers(vec![(1 << 53) + 1]))],
+    );
+    fs::write(folder.join("no.parquet"), "PAR1").expect("a file");
+    for (name, message) in [
+        (
+            "nan",
+            "start 0, column `pa`: expected a finite number, found `NaN`",
+        ),
+        ("missing", "the column `pa` is missing"),
+        ("other", "the column `b` is not a coordinate"),
+        (
+            "text",
+            "start 0, column `pa`: expected a finite number, found `\"half\"`",
+        ),
+        (
+            "null",
+            "start 0, column `pa`: expected a finite number, found `null`",
+        ),
+        ("large", "found `9007199254740993`"),
+        ("no", "no.parquet: "),
+        ("absent", "absent.parquet: "),
+    ] {
+        let output = call(&folder, &setup(&format!("{name}.parquet")), &[]);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert!(
+            output.status.code() == Some(2) && error.contains(message),
+            "{name}: {error}"
+        );
+    }
 }

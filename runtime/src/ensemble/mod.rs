@@ -31,11 +31,15 @@
 mod as_bits;
 mod checkpoint;
 mod error;
+#[cfg(any(feature = "npz", feature = "parquet"))]
+mod facts;
 mod group;
 mod histogram;
 mod moments;
 #[cfg(feature = "npz")]
 mod npz;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod pool;
 mod row;
 mod run;
@@ -47,6 +51,8 @@ pub use histogram::Histogram;
 pub use moments::Moments;
 #[cfg(feature = "npz")]
 pub use npz::{Npz, NpzArray, NpzValues};
+#[cfg(feature = "parquet")]
+pub use parquet::{Parquet, ParquetColumn};
 pub use row::Row;
 
 use alloc::sync::Arc;

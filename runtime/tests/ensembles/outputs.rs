@@ -373,3 +373,109 @@ fn nothing_comes_after_an_array_in_part() {
         .expect_err("the second is there in part");
     assert!(file.finish().is_err());
 }
+
+/// Two groups with a trajectory that fails: what is read is what was written, with the facts.
+#[cfg(feature = "parquet")]
+#[test]
+fn a_table_for_databases() {
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::RowAccessor;
+    use symplectic::ensemble::{Parquet, ParquetColumn, Row};
+
+    let starts = [0.1, 1e200, 0.3].map(|x| State::from_arrays(0.0, [x], [-0.5]));
+    let oscillator = Oscillator { omega: 1e150 };
+    let ensemble = Ensemble::new(Yoshida6, oscillator, starts.to_vec(), 1e-152).expect("starts");
+    let mut rows: Vec<Row<Vector1<f64>>> = Vec::new();
+    ensemble.take_steps(3, |row| {
+        rows.push(row);
+        ControlFlow::Continue(())
+    });
+    assert!(rows[1].outcome.is_err() && rows[2].outcome.is_ok());
+    let write = || {
+        let mut file = Parquet::new(Vec::new());
+        file.facts(&ensemble);
+        file.note("ω", "1e150");
+        file.rows(&rows[..2])?;
+        // Columns of other names, kinds and lengths: the file goes on.
+        let x = |values: &[f64]| ParquetColumn::Doubles(values.to_vec());
+        for wrong in [
+            &[][..],
+            &[("x", x(&[1.0]))],
+            &[("x", x(&[1.0])), ("x", x(&[2.0]))],
+            &[("x", x(&[1.0])), ("y", x(&[]))],
+        ] {
+            let error = file.group(wrong).expect_err("it is refused");
+            assert_eq!(error.kind(), std::io::ErrorKind::InvalidInput, "{error}");
+        }
+        file.rows(&rows[2..])?;
+        file.finish()
+    };
+    let bytes = write().expect("room");
+    assert!(bytes == write().expect("room"));
+    // By hand: duckdb, polars, pyarrow.
+    if let Some(path) = std::env::var_os("SYMPLECTIC_PARQUET") {
+        std::fs::write(path, &bytes).expect("a file");
+    }
+
+    let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).expect("a table");
+    assert_eq!(reader.num_row_groups(), 2);
+    let about = reader.metadata().file_metadata();
+    let notes = about.key_value_metadata().expect("notes");
+    let note = |name: &str| {
+        let note = notes.iter().find(|note| note.key == name);
+        note.and_then(|note| note.value.as_deref())
+    };
+    assert_eq!(note("orders"), Some("[6, 6, 6]"));
+    assert_eq!(note("step_size"), Some("1e-152"));
+    assert_eq!(note("ω"), Some("1e150"));
+    let names = about.schema().get_fields().iter();
+    let names: Vec<&str> = names.map(|field| field.name()).collect();
+    assert_eq!(
+        names,
+        ["trajectory", "time", "q[0]", "p[0]", "steps", "error"]
+    );
+    let mut count = 0;
+    for (read, row) in reader.get_row_iter(None).expect("rows").zip(&rows) {
+        let read = read.expect("a row");
+        let integers = [read.get_ulong(0), read.get_ulong(4)].map(|x| x.expect("a number"));
+        assert_eq!(
+            integers,
+            [row.trajectory as u64, row.statistics.steps],
+            "{row:?}"
+        );
+        let doubles = [1, 2, 3].map(|k| read.get_double(k).expect("a number").to_bits());
+        let expected = [row.state.time, row.state.q[0], row.state.p[0]].map(f64::to_bits);
+        assert_eq!(doubles, expected);
+        let error = row.outcome.as_ref().err().map(ToString::to_string);
+        assert_eq!(read.get_string(5).ok(), error.as_ref());
+        count += 1;
+    }
+    assert_eq!(count, 3);
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn a_table_on_a_full_disk_is_an_error_of_the_disk() {
+    use std::io::{self, ErrorKind, Write};
+    use symplectic::ensemble::{Parquet, ParquetColumn};
+
+    struct Full;
+    impl Write for Full {
+        fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+            Err(ErrorKind::StorageFull.into())
+        }
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+    let mut file = Parquet::new(Full);
+    let column = || ParquetColumn::Doubles((0..100_000).map(f64::from).collect());
+    let error = file.group(&[("x", column())]).expect_err("no room");
+    assert_eq!(error.kind(), ErrorKind::StorageFull, "{error}");
+    let again = file.group(&[("x", column())]).expect_err("a broken file");
+    assert_eq!(again.kind(), ErrorKind::InvalidInput, "{again}");
+    file.finish().map(drop).expect_err("a broken file");
+    Parquet::new(Vec::new())
+        .finish()
+        .expect_err("no columns are no table");
+}

@@ -71,7 +71,7 @@ symplectic::hamiltonian! {
     pub ArgonCrystal { depth: 119.8, sigma: 0.341, m }
     q: [7; 2], p: [7; 2];
     let s(i, j) = sigma^2/|q[i] - q[j]|^2;
-    H = sum(i: |p[i]|^2)/(2 m) + sum(i < j: 4 depth s(i, j)^3 (s(i, j)^3 - 1))
+    H = sum(i: |p[i]|^2)/(2 m) + sum(i < j: 4 depth (s(i, j)^6 - s(i, j)^3))
 }
 
 symplectic::hamiltonian! {

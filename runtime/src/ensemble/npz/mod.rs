@@ -10,7 +10,7 @@ mod array;
 pub use array::{NpzArray, NpzValues};
 
 use super::{Ensemble, Row};
-use crate::method::{Method, RunTimeTableau};
+use crate::method::Method;
 use crate::number::Vector;
 use crate::system::System;
 
@@ -130,13 +130,11 @@ impl<W: Write> Npz<W> {
         S: System<V>,
         V: Vector,
     {
-        let tableau = ensemble.tableau.as_ref();
-        self.text("method", tableau.map_or(M::NAME, RunTimeTableau::name))?;
-        self.text("definition", M::DEFINITION)?;
-        let orders = tableau.map_or(M::ORDERS, RunTimeTableau::orders);
-        let orders = [orders.general, orders.separable, orders.nystrom].map(u64::from);
-        self.integers("orders", &[3], &orders)?;
-        self.doubles("step_size", &[], &[ensemble.step_size])?;
+        let facts = ensemble.method_facts();
+        self.text("method", facts.method)?;
+        self.text("definition", facts.definition)?;
+        self.integers("orders", &[3], &facts.orders)?;
+        self.doubles("step_size", &[], &[facts.step_size])?;
         self.text("version", env!("CARGO_PKG_VERSION"))
     }
 

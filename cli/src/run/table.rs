@@ -1,0 +1,296 @@
+//! Tables, as CSV or Parquet: results with a line for each state, and starts with a line for each trajectory.
+
+use std::fmt::Display;
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::Path;
+
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
+use symplectic::State;
+use symplectic::ensemble::{Parquet, ParquetColumn};
+use symplectic::nalgebra::DVector;
+use symplectic_compiler::{Error, ErrorKind};
+
+use super::output::{Facts, Results, Trajectory};
+use super::starts::{Coordinates, MOST, Reader};
+
+/// Lines that are written to a Parquet file at once.
+const GROUP: usize = 1 << 16;
+
+/// A line of a table of results: a state of a trajectory.
+struct Line<'a> {
+    row: &'a Trajectory,
+    start: &'a State<DVector<f64>>,
+    state: &'a State<DVector<f64>>,
+    energy_error: Option<f64>,
+    /// Why the trajectory ended there.
+    failure: Option<String>,
+}
+
+impl Results<'_> {
+    /// A line for each trajectory, or for each trajectory and time. A trajectory that failed ends with its last good state and its error.
+    fn lines(&self) -> impl Iterator<Item = Line<'_>> {
+        let rows = self.rows.iter().zip(self.starts).zip(self.energy_errors());
+        rows.flat_map(|((row, start), errors)| {
+            let failure = row.outcome.as_ref().err().map(ToString::to_string);
+            let line = |state, energy_error, failure| Line {
+                row,
+                start,
+                state,
+                energy_error,
+                failure,
+            };
+            let mut lines = Vec::new();
+            if self.times.is_none() {
+                lines.push(line(&row.state, errors.first().copied(), failure));
+                return lines;
+            }
+            let seen = row.output.iter().zip(errors);
+            lines.extend(seen.map(|(seen, error)| line(&seen.state, Some(error), None)));
+            if failure.is_some() {
+                lines.push(line(&row.state, None, failure));
+            }
+            lines
+        })
+    }
+
+    /// The names of the coordinates at the start, and of the coordinates.
+    fn names(&self) -> [Vec<String>; 2] {
+        let names: Vec<String> = self.coordinates.all().cloned().collect();
+        [
+            names.iter().map(|name| format!("{name}_start")).collect(),
+            names,
+        ]
+    }
+
+    pub(super) fn write_csv(&self, out: &mut impl Write) -> io::Result<()> {
+        let mut file = csv::Writer::from_writer(out);
+        let [starts, names] = self.names();
+        let one = |name: &str| vec![name.to_owned()];
+        let last = ["energy_error", "steps", "error"].map(str::to_owned);
+        let header = [one("trajectory"), starts, one("time"), names, last.to_vec()];
+        file.write_record(header.concat())?;
+        for line in self.lines() {
+            let numbers = |state| coordinates(state).map(|x| x.to_string());
+            let energy_error = line.energy_error.map(|error| format!("{error:e}"));
+            let mut cells = vec![line.row.trajectory.to_string()];
+            cells.extend(numbers(line.start));
+            cells.push(line.state.time.to_string());
+            cells.extend(numbers(line.state));
+            cells.push(energy_error.unwrap_or_default());
+            cells.push(line.row.statistics.steps.to_string());
+            cells.push(line.failure.unwrap_or_default());
+            file.write_record(cells)?;
+        }
+        file.flush()
+    }
+
+    /// As [`write_csv`](Self::write_csv); where there is no energy error it is NaN, where there is no error it is null.
+    pub(super) fn write_parquet(&self, out: &mut (impl Write + Send)) -> io::Result<()> {
+        let mut file = Parquet::new(out);
+        let Facts {
+            method,
+            definition,
+            orders,
+            step_size,
+            sums,
+            formula,
+            setup,
+        } = self.facts;
+        for (name, text) in [
+            ("method", method),
+            ("definition", definition),
+            ("orders", &format!("{orders:?}")),
+            ("step_size", &format!("{step_size:?}")),
+            ("sums", sums),
+            ("formula", formula),
+            ("setup", setup),
+            ("version", env!("CARGO_PKG_VERSION")),
+        ] {
+            file.note(name, text);
+        }
+        let names = self.names();
+        let mut lines = self.lines();
+        loop {
+            let group: Vec<Line<'_>> = lines.by_ref().take(GROUP).collect();
+            file.group(&columns(&group, &names))?;
+            if group.len() < GROUP {
+                return file.finish().map(|_| ());
+            }
+        }
+    }
+}
+
+/// Positions, then momenta.
+fn coordinates(state: &State<DVector<f64>>) -> impl Iterator<Item = &f64> {
+    let (q, p) = state.as_slices();
+    q.iter().chain(p)
+}
+
+fn columns<'a>(
+    lines: &[Line<'_>],
+    [starts, names]: &'a [Vec<String>; 2],
+) -> Vec<(&'a str, ParquetColumn)> {
+    let integers =
+        |of: fn(&Line<'_>) -> u64| ParquetColumn::Integers(lines.iter().map(of).collect());
+    let doubles =
+        |of: &dyn Fn(&Line<'_>) -> f64| ParquetColumn::Doubles(lines.iter().map(of).collect());
+    let coordinate = |of: for<'l> fn(&'l Line<'_>) -> &'l State<DVector<f64>>, k: usize| {
+        doubles(&|line| coordinates(of(line)).nth(k).copied().unwrap_or(f64::NAN))
+    };
+    let mut columns = vec![("trajectory", integers(|line| line.row.trajectory as u64))];
+    for (k, name) in starts.iter().enumerate() {
+        columns.push((name, coordinate(|line| line.start, k)));
+    }
+    columns.push(("time", doubles(&|line| line.state.time)));
+    for (k, name) in names.iter().enumerate() {
+        columns.push((name, coordinate(|line| line.state, k)));
+    }
+    let energy_errors = doubles(&|line| line.energy_error.unwrap_or(f64::NAN));
+    let failures = lines.iter().map(|line| line.failure.clone()).collect();
+    columns.extend([
+        ("energy_error", energy_errors),
+        ("steps", integers(|line| line.row.statistics.steps)),
+        ("error", ParquetColumn::Texts(failures)),
+    ]);
+    columns
+}
+
+/// The coordinates of a system, and a value for each of them in each row.
+type Rows = (Coordinates, Vec<Vec<f64>>);
+
+impl Reader<'_> {
+    /// The rows of a file whose columns have the names of the coordinates.
+    pub(super) fn of_table(&self, path: &Path) -> Result<Rows, Error> {
+        match path.extension().and_then(|extension| extension.to_str()) {
+            Some("parquet") => self.of_parquet(path),
+            _ => self.of_csv(path),
+        }
+    }
+
+    fn of_csv(&self, path: &Path) -> Result<Rows, Error> {
+        let mut reader = csv::ReaderBuilder::new()
+            .trim(csv::Trim::All)
+            .from_path(path)
+            .map_err(|error| refused(path, error))?;
+        let header = reader.headers().map_err(|error| refused(path, error))?;
+        let header = header.clone();
+        let names: Vec<&str> = header.iter().collect();
+        let coordinates = self.coordinates(&names)?;
+        let places = places(&coordinates, &names)
+            .map_err(|message| refused(path, format!("line 1: {message}")))?;
+        let mut rows = Vec::new();
+        for (number, record) in reader.records().enumerate() {
+            let record = record.map_err(|error| refused(path, error))?;
+            if number == MOST {
+                return Err(refused(path, too_many()));
+            }
+            let cells = record
+                .iter()
+                .map(|text| (text.to_owned(), text.parse().ok()));
+            let row = row(number, &places, &names, cells);
+            rows.push(row.map_err(|message| refused(path, message))?);
+        }
+        Ok((coordinates, rows))
+    }
+
+    fn of_parquet(&self, path: &Path) -> Result<Rows, Error> {
+        let file = File::open(path).map_err(|error| refused(path, error))?;
+        let reader = SerializedFileReader::new(file).map_err(|error| refused(path, error))?;
+        let about = reader.metadata().file_metadata();
+        if about.num_rows() > MOST as i64 {
+            return Err(refused(path, too_many()));
+        }
+        let fields = about.schema().get_fields();
+        let names: Vec<&str> = fields.iter().map(|field| field.name()).collect();
+        let coordinates = self.coordinates(&names)?;
+        let places = places(&coordinates, &names).map_err(|message| refused(path, message))?;
+        let unread = |error| {
+            refused(
+                path,
+                format!("{error}; files are read without compression and with Snappy"),
+            )
+        };
+        let records = reader.get_row_iter(None).map_err(unread)?;
+        let mut rows = Vec::new();
+        for (number, record) in records.enumerate() {
+            let record = record.map_err(unread)?;
+            let fields = record.get_column_iter().map(|(_, field)| field);
+            let cells = fields.map(|field| (field.to_string(), double(field)));
+            let row = row(number, &places, &names, cells);
+            rows.push(row.map_err(|message| refused(path, message))?);
+        }
+        Ok((coordinates, rows))
+    }
+
+    /// The coordinates, as many as a table has if the formula does not say it.
+    fn coordinates(&self, names: &[&str]) -> Result<Coordinates, Error> {
+        let components = self.system.layout.components();
+        let listed = names.iter().filter(|name| name.starts_with("q[")).count();
+        let bodies = self.bodies(Some(listed / components.max(1)))?;
+        Ok(Coordinates::new(self.system, bodies))
+    }
+}
+
+fn refused(path: &Path, message: impl Display) -> Error {
+    let message = format!("{}: {message}", path.display());
+    ErrorKind::Document { message }.into()
+}
+
+/// The place of each column among the coordinates.
+fn places(coordinates: &Coordinates, names: &[&str]) -> Result<Vec<usize>, String> {
+    let mut places = Vec::new();
+    for name in names {
+        let place = coordinates.all().position(|known| known == name);
+        let place = place.filter(|place| !places.contains(place)).ok_or_else(|| {
+            format!(
+                "the column `{name}` is not a coordinate, or there are two of it; the coordinates are {}",
+                coordinates.listed()
+            )
+        })?;
+        places.push(place);
+    }
+    let mut missing = coordinates.all().enumerate();
+    match missing.find(|(k, _)| !places.contains(k)) {
+        Some((_, name)) => Err(format!("the column `{name}` is missing")),
+        None => Ok(places),
+    }
+}
+
+/// A row by the places of its columns; a cell is its text and its value.
+fn row(
+    number: usize,
+    places: &[usize],
+    names: &[&str],
+    cells: impl Iterator<Item = (String, Option<f64>)>,
+) -> Result<Vec<f64>, String> {
+    let mut row = vec![0.0; places.len()];
+    for ((place, (text, value)), name) in places.iter().zip(cells).zip(names) {
+        row[*place] = value.filter(|value| value.is_finite()).ok_or_else(|| {
+            format!("start {number}, column `{name}`: expected a finite number, found `{text}`")
+        })?;
+    }
+    Ok(row)
+}
+
+fn too_many() -> String {
+    format!("more than {MOST} starts: split it into several files")
+}
+
+/// The number in a cell of a Parquet file, if it is exact in double precision.
+fn double(field: &Field) -> Option<f64> {
+    match *field {
+        Field::Double(value) => Some(value),
+        Field::Float(value) => Some(value.into()),
+        Field::Byte(value) => Some(value.into()),
+        Field::Short(value) => Some(value.into()),
+        Field::Int(value) => Some(value.into()),
+        Field::UByte(value) => Some(value.into()),
+        Field::UShort(value) => Some(value.into()),
+        Field::UInt(value) => Some(value.into()),
+        Field::Long(value) if value.unsigned_abs() <= 1 << 53 => Some(value as f64),
+        Field::ULong(value) if value <= 1 << 53 => Some(value as f64),
+        _ => None,
+    }
+}

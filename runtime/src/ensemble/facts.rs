@@ -1,0 +1,29 @@
+//! What a file of results says of its method.
+
+use super::Ensemble;
+use crate::method::{Method, RunTimeTableau};
+use crate::number::Vector;
+use crate::system::System;
+
+/// Where the numbers of a file come from.
+pub(super) struct Facts<'a> {
+    pub(super) method: &'a str,
+    /// Of a tableau at run time: `at run time`.
+    pub(super) definition: &'static str,
+    /// Proved, for general H, for separable H and for those with quadratic kinetic energy.
+    pub(super) orders: [u64; 3],
+    pub(super) step_size: f64,
+}
+
+impl<M: Method, S: System<V>, V: Vector, R, N, L> Ensemble<M, S, V, R, N, L> {
+    pub(super) fn method_facts(&self) -> Facts<'_> {
+        let tableau = self.tableau.as_ref();
+        let orders = tableau.map_or(M::ORDERS, RunTimeTableau::orders);
+        Facts {
+            method: tableau.map_or(M::NAME, RunTimeTableau::name),
+            definition: M::DEFINITION,
+            orders: [orders.general, orders.separable, orders.nystrom].map(u64::from),
+            step_size: self.step_size,
+        }
+    }
+}
