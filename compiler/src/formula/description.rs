@@ -28,15 +28,14 @@ impl System {
     /// Hamilton's equations, a line for each part.
     pub fn equations_of_motion(&self, notation: Notation) -> Vec<String> {
         let mut copy = self.clone();
-        let mut lines = Vec::new();
-        for (half, dotted, sign) in HALVES {
+        let halves = HALVES.map(|(half, dotted, sign)| {
             let mut parts = gradient(&mut copy.graph, self.energy, &[], integer(sign), half);
             if half == Half::Q {
                 copy.add_applied(&mut parts);
             }
-            lines.extend(copy.equations(dotted, &parts, notation));
-        }
-        lines
+            (dotted, parts)
+        });
+        copy.equations(&halves, notation)
     }
 
     /// The Lagrangian that H was derived from.
@@ -58,14 +57,16 @@ impl System {
             Number::one(),
             Half::V,
         );
-        copy.lines(&parts, notation, |target| {
+        let values = parts.iter().map(|part| copy.formula(part.value, notation));
+        copy.lines(&parts, values, notation, |target| {
             copy.coordinate_name(&target.of(Half::P), notation)
         })
     }
 
     /// The applied forces, a line for each.
     pub fn applied_forces(&self, notation: Notation) -> Vec<String> {
-        self.lines(&self.applied, notation, |target| {
+        let values = (self.applied.iter()).map(|part| self.formula(part.value, notation));
+        self.lines(&self.applied, values, notation, |target| {
             let target = self.coordinate_name(target, notation);
             match notation {
                 Notation::Text => format!("force on {target}"),
@@ -87,36 +88,38 @@ impl System {
         lines.collect()
     }
 
-    /// The second derivatives of H, a line for each part of one that is not zero.
+    /// The second derivatives of H, a line for each part of one that is not zero; then the parts in common.
     pub fn second_derivatives(&self, notation: Notation) -> Vec<String> {
         let mut copy = self.clone();
-        let mut lines = Vec::new();
-        for (row, column) in [(Half::P, Half::P), (Half::P, Half::Q), (Half::Q, Half::Q)] {
+        let mut parts = Vec::new();
+        let halves = [(Half::P, Half::P), (Half::P, Half::Q), (Half::Q, Half::Q)];
+        'all: for (row, column) in halves {
             for first in gradient(&mut copy.graph, self.energy, &[], Number::one(), row) {
-                if lines.len() > MOST_LINES {
-                    lines.push("…".to_owned());
-                    return lines;
-                }
-                for second in gradient(
-                    &mut copy.graph,
-                    first.value,
-                    &first.loops,
-                    Number::one(),
-                    column,
-                ) {
-                    let [row, column] = [&first.target, &second.target]
-                        .map(|target| copy.coordinate_name(target, notation));
-                    let value = copy.formula(second.value, notation);
-                    lines.push(match notation {
-                        Notation::Text => format!("∂²H/∂{row}∂{column} += {value}{}", copy.ranges(&second.loops, notation)),
-                        Notation::Latex => format!(
-                            "\\frac{{\\partial^2 H}}{{\\partial {row}\\,\\partial {column}}} \\mathrel{{+}}= {value}{}",
-                            copy.ranges(&second.loops, notation)
-                        ),
-                    });
+                let (value, loops) = (first.value, &first.loops);
+                for second in gradient(&mut copy.graph, value, loops, Number::one(), column) {
+                    if parts.len() == MOST_LINES {
+                        break 'all;
+                    }
+                    parts.push((first.target.clone(), second));
                 }
             }
         }
+        let is_cut_off = parts.len() == MOST_LINES;
+        let values: Vec<Id> = parts.iter().map(|(_, second)| second.value).collect();
+        let (values, common) = copy.formulas(&values, 'u', notation);
+        let lines = parts.iter().zip(values).map(|((row, second), value)| {
+            let [row, column] = [row, &second.target].map(|target| copy.coordinate_name(target, notation));
+            let ranges = copy.ranges(&second.loops, notation);
+            match notation {
+                Notation::Text => format!("∂²H/∂{row}∂{column} += {value}{ranges}"),
+                Notation::Latex => format!(
+                    "\\frac{{\\partial^2 H}}{{\\partial {row}\\,\\partial {column}}} \\mathrel{{+}}= {value}{ranges}"
+                ),
+            }
+        });
+        let mut lines: Vec<String> = lines.collect();
+        lines.extend(is_cut_off.then(|| "…".to_owned()));
+        lines.extend(common);
         lines
     }
 }

@@ -20,8 +20,9 @@ pub enum Notation {
     Latex,
 }
 
+/// How strongly a formula holds together: what is weaker than its surroundings needs brackets.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Strength {
+pub(super) enum Strength {
     Sum,
     Product,
     Power,
@@ -29,10 +30,10 @@ enum Strength {
 }
 
 /// The texts of nodes written so far.
-type Texts = HashMap<Id, (String, Strength)>;
+pub(super) type Texts = HashMap<Id, (String, Strength)>;
 
 /// Longest formula that is written out.
-const MOST_CHARACTERS: usize = 20_000;
+pub(super) const MOST_CHARACTERS: usize = 20_000;
 
 impl System {
     /// A node as a formula.
@@ -48,10 +49,10 @@ impl System {
         texts.remove(&id).map_or_else(String::new, |(text, _)| text)
     }
 
-    /// A derivative, one line for each part: `q'[i] = …`, or `+=` where several are added.
-    pub fn equations(&self, dotted: Half, parts: &[Scatter], notation: Notation) -> Vec<String> {
-        self.lines(parts, notation, |target| {
-            let name = self.coordinate_name(&target.of(dotted), notation);
+    /// Derivatives, one line for each part: `q'[i] = …`, or `+=` where several are added; then the [parts in common](Self::formulas).
+    pub fn equations(&self, halves: &[(Half, Vec<Scatter>)], notation: Notation) -> Vec<String> {
+        let dotted = |half: Half, target: &Coordinate| {
+            let name = self.coordinate_name(&target.of(half), notation);
             match notation {
                 Notation::Text => match name.split_once('[') {
                     Some((head, rest)) => format!("{head}'[{rest}"),
@@ -59,27 +60,38 @@ impl System {
                 },
                 Notation::Latex => format!("\\dot{{{name}}}"),
             }
-        })
+        };
+        let parts = halves.iter().flat_map(|(_, parts)| parts);
+        let values: Vec<Id> = parts.map(|part| part.value).collect();
+        let (values, common) = self.formulas(&values, 's', notation);
+        let mut values = values.into_iter();
+        let mut lines = Vec::new();
+        for (half, parts) in halves {
+            let own = values.by_ref().take(parts.len());
+            lines.extend(self.lines(parts, own, notation, |target| dotted(*half, target)));
+        }
+        lines.extend(common);
+        lines
     }
 
-    /// A derivative, one line for each part; `name` gives the left side.
+    /// A derivative, one line for each part with its value; `name` gives the left side.
     pub(super) fn lines(
         &self,
         parts: &[Scatter],
+        values: impl Iterator<Item = String>,
         notation: Notation,
         name: impl Fn(&Coordinate) -> String,
     ) -> Vec<String> {
         // Whether each line is the whole of a derivative.
         let single = parts.iter().all(|part| part.loops.is_empty());
         let alone = single || each_once(self, parts);
-        let lines = parts.iter().map(|part| {
+        let lines = parts.iter().zip(values).map(|(part, value)| {
             let name = name(&part.target);
             let sign = match (alone, notation) {
                 (true, _) => "=",
                 (false, Notation::Text) => "+=",
                 (false, Notation::Latex) => "\\mathrel{+}=",
             };
-            let value = self.formula(part.value, notation);
             let ranges = self.ranges(&part.loops, notation);
             format!("{name} {sign} {value}{ranges}")
         });
@@ -140,7 +152,8 @@ impl System {
         }
     }
 
-    fn write(&self, id: Id, notation: Notation, known: &Texts) -> (String, Strength) {
+    /// A node, from the texts of its parts.
+    pub(super) fn write(&self, id: Id, notation: Notation, known: &Texts) -> (String, Strength) {
         let plain = |id: &Id| known[id].0.clone();
         let held = |id: &Id, strength: Strength| {
             let (text, own) = &known[id];
@@ -408,30 +421,37 @@ fn superscript(digits: &str) -> String {
     raised.collect()
 }
 
-/// A number.
+/// The value of a parameter: a decimal if it is one, else a fraction.
 pub fn number_text(value: &Number) -> String {
-    number(value, Notation::Text).0
+    decimal(value).unwrap_or_else(|| number(value, Notation::Text).0)
+}
+
+/// A number with a finite decimal expansion, if doubles print it in a few digits.
+fn decimal(value: &Number) -> Option<String> {
+    let mut rest = value.denom().clone();
+    for prime in [2, 5] {
+        while (&rest % num_bigint::BigInt::from(prime)).is_zero() {
+            rest /= prime;
+        }
+    }
+    let double = crate::arithmetic::rounding::to_f64(value);
+    let is_short =
+        || crate::arithmetic::rounding::exact(double) == *value || double.to_string().len() < 25;
+    (rest.is_one() && is_short()).then(|| double.to_string())
 }
 
 fn number(value: &Number, notation: Notation) -> (String, Strength) {
     let (numerator, denominator) = (value.numer(), value.denom());
-    let mut twos_and_fives = denominator.clone();
-    for prime in [2, 5] {
-        while (&twos_and_fives % num_bigint::BigInt::from(prime)).is_zero() {
-            twos_and_fives /= prime;
-        }
-    }
     let strength = if value.is_negative() {
         Strength::Sum
     } else {
         Strength::Atom
     };
-    // Decimals as decimals.
-    if denominator.bits() > 4 && twos_and_fives.is_one() {
-        let double = crate::arithmetic::rounding::to_f64(value);
-        if crate::arithmetic::rounding::exact(double) == *value || double.to_string().len() < 25 {
-            return (double.to_string(), strength);
-        }
+    // Fractions of small numbers stay fractions.
+    if denominator.bits() > 4
+        && let Some(decimal) = decimal(value)
+    {
+        return (decimal, strength);
     }
     if denominator.is_one() {
         return (numerator.to_string(), strength);
@@ -442,7 +462,8 @@ fn number(value: &Number, notation: Notation) -> (String, Strength) {
     }
 }
 
-fn index_letter(over: LoopId) -> String {
+/// The letter of the index of a loop.
+pub(super) fn index_letter(over: LoopId) -> String {
     match ["i", "j", "k", "l", "m"].get(over.0) {
         Some(letter) => (*letter).to_owned(),
         None => format!("i{}", over.0),

@@ -25,6 +25,7 @@
 //! | as Rust | [`emit::system`](crate::emit::system()) |
 
 mod check;
+mod common_parts;
 pub mod degree;
 pub mod derivative;
 pub mod description;

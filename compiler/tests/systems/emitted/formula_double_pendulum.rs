@@ -5,15 +5,17 @@ H = (1/2) (pa² + 2 pb² − 2 pa pb cos(a − b))/(sin(a − b)² + 1) − g (2
 
 a' = pa/(sin(a − b)² + 1) − pb cos(a − b)/(sin(a − b)² + 1)
 b' = 2 pb/(sin(a − b)² + 1) − pa cos(a − b)/(sin(a − b)² + 1)
-pa' = (cos(a − b) (sin(a − b) ((pa² + 2 pb² − 2 pa pb cos(a − b))/(sin(a − b)² + 1)²)) − sin(a − b) (pa pb/(sin(a − b)² + 1))) − 2 g sin(a)
-pb' = −g sin(b) − (cos(a − b) (sin(a − b) ((pa² + 2 pb² − 2 pa pb cos(a − b))/(sin(a − b)² + 1)²)) − sin(a − b) (pa pb/(sin(a − b)² + 1)))
+pa' = s1 − 2 g sin(a)
+pb' = −g sin(b) − s1
+s1 = cos(a − b) (sin(a − b) ((pa² + 2 pb² − 2 pa pb cos(a − b))/(sin(a − b)² + 1)²)) − sin(a − b) (pa pb/(sin(a − b)² + 1))
 ```
 
 $$H = \\tfrac{1}{2}\\,\\frac{\\left({\\mathrm{pa}}^{2} + 2\\,{\\mathrm{pb}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right)\\right)}{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)} - g\\,\\left(2\\,\\cos\\left(a\\right) + \\cos\\left(b\\right)\\right)$$
 $$\\dot{a} = \\frac{\\mathrm{pa}}{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)} - \\frac{\\mathrm{pb}\\,\\cos\\left(a - b\\right)}{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)}$$
 $$\\dot{b} = 2\\,\\frac{\\mathrm{pb}}{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)} - \\frac{\\mathrm{pa}\\,\\cos\\left(a - b\\right)}{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)}$$
-$$\\dot{\\mathrm{pa}} = \\left(\\cos\\left(a - b\\right)\\,\\left(\\sin\\left(a - b\\right)\\,\\left(\\frac{\\left({\\mathrm{pa}}^{2} + 2\\,{\\mathrm{pb}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right)\\right)}{{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)}^{2}}\\right)\\right) - \\sin\\left(a - b\\right)\\,\\left(\\frac{\\mathrm{pa}\\,\\mathrm{pb}}{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)}\\right)\\right) - 2\\,g\\,\\sin\\left(a\\right)$$
-$$\\dot{\\mathrm{pb}} = -g\\,\\sin\\left(b\\right) - \\left(\\cos\\left(a - b\\right)\\,\\left(\\sin\\left(a - b\\right)\\,\\left(\\frac{\\left({\\mathrm{pa}}^{2} + 2\\,{\\mathrm{pb}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right)\\right)}{{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)}^{2}}\\right)\\right) - \\sin\\left(a - b\\right)\\,\\left(\\frac{\\mathrm{pa}\\,\\mathrm{pb}}{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)}\\right)\\right)$$
+$$\\dot{\\mathrm{pa}} = s\_{1} - 2\\,g\\,\\sin\\left(a\\right)$$
+$$\\dot{\\mathrm{pb}} = -g\\,\\sin\\left(b\\right) - s\_{1}$$
+$$s\_{1} = \\cos\\left(a - b\\right)\\,\\left(\\sin\\left(a - b\\right)\\,\\left(\\frac{\\left({\\mathrm{pa}}^{2} + 2\\,{\\mathrm{pb}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right)\\right)}{{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)}^{2}}\\right)\\right) - \\sin\\left(a - b\\right)\\,\\left(\\frac{\\mathrm{pa}\\,\\mathrm{pb}}{\\left({\\sin\\left(a - b\\right)}^{2} + 1\\right)}\\right)$$
 
 Found in the formula: not separable; independent of time, so H is conserved.
 */

@@ -20,7 +20,7 @@ Found in the formula: separable, with the kinetic energy |p|²/2; dependent on t
 #[allow(non_snake_case)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drone {
-    /// The parameter `c`, (1/10) unless it is set.
+    /// The parameter `c`, 0.1 unless it is set.
     pub c: f64,
     /// The parameter `g`, 9.81 unless it is set.
     pub g: f64,

@@ -5,17 +5,19 @@ H = (1/2) Σ(0 ≤ i < n) p[i]² + (Σ(0 ≤ j < n-1) ((1/2) (q[j] − q[j+1])²
 
 q'[i] = p[i]    (0 ≤ i < n)
 p'[j] += −(q[j] − q[j+1]) − beta (q[j] − q[j+1])³    (0 ≤ j < n-1)
-p'[j+1] += (q[j] − q[j+1]) + beta (q[j] − q[j+1])³    (0 ≤ j < n-1)
+p'[j+1] += s1(j)    (0 ≤ j < n-1)
 p'[0] += −q[0] − beta q[0]³
 p'[n-1] += −q[n-1] − beta q[n-1]³
+s1(j) = (q[j] − q[j+1]) + beta (q[j] − q[j+1])³
 ```
 
 $$H = \\tfrac{1}{2}\\,\\sum\_{0 \\le i \< n} {p\_{i}}^{2} + \\left(\\sum\_{0 \\le j \< n-1} \\left(\\tfrac{1}{2}\\,{\\left(q\_{j} - q\_{j+1}\\right)}^{2} + \\tfrac{1}{4}\\,\\mathrm{beta}\\,{\\left(q\_{j} - q\_{j+1}\\right)}^{4}\\right) + \\left(\\tfrac{1}{2}\\,{q\_{0}}^{2} + \\tfrac{1}{4}\\,\\mathrm{beta}\\,{q\_{0}}^{4}\\right) + \\left(\\tfrac{1}{2}\\,{q\_{n-1}}^{2} + \\tfrac{1}{4}\\,\\mathrm{beta}\\,{q\_{n-1}}^{4}\\right)\\right)$$
 $$\\dot{q\_{i}} = p\_{i}\\quad (0 \\le i \< n)$$
 $$\\dot{p\_{j}} \\mathrel{+}= -\\left(q\_{j} - q\_{j+1}\\right) - \\mathrm{beta}\\,{\\left(q\_{j} - q\_{j+1}\\right)}^{3}\\quad (0 \\le j \< n-1)$$
-$$\\dot{p\_{j+1}} \\mathrel{+}= \\left(q\_{j} - q\_{j+1}\\right) + \\mathrm{beta}\\,{\\left(q\_{j} - q\_{j+1}\\right)}^{3}\\quad (0 \\le j \< n-1)$$
+$$\\dot{p\_{j+1}} \\mathrel{+}= s\_{1}(j)\\quad (0 \\le j \< n-1)$$
 $$\\dot{p\_{0}} \\mathrel{+}= -q\_{0} - \\mathrm{beta}\\,{q\_{0}}^{3}$$
 $$\\dot{p\_{n-1}} \\mathrel{+}= -q\_{n-1} - \\mathrm{beta}\\,{q\_{n-1}}^{3}$$
+$$s\_{1}(j) = \\left(q\_{j} - q\_{j+1}\\right) + \\mathrm{beta}\\,{\\left(q\_{j} - q\_{j+1}\\right)}^{3}$$
 
 Found in the formula: separable, with the kinetic energy |p|²/2; independent of time, so H is conserved; a polynomial of degree 4 in positions and momenta; a chain of neighbours.
 */

@@ -6,13 +6,26 @@ H = (1/2) Σ(0 ≤ i < N) (p[i][0]² + p[i][1]² + p[i][2]²)/m[i] − Σ(0 ≤ 
 q'[i][0] = p[i][0]/m[i]    (0 ≤ i < N)
 q'[i][1] = p[i][1]/m[i]    (0 ≤ i < N)
 q'[i][2] = p[i][2]/m[i]    (0 ≤ i < N)
-p'[i][0] += −Σ(i+1 ≤ j < N) (q[i][0] − q[j][0]) (G m[i] m[j]/((q[i][0] − q[j][0])² + (q[i][1] − q[j][1])² + (q[i][2] − q[j][2])²)^(3/2))    (0 ≤ i < N)
-p'[i][1] += −Σ(i+1 ≤ j < N) (q[i][1] − q[j][1]) (G m[i] m[j]/((q[i][0] − q[j][0])² + (q[i][1] − q[j][1])² + (q[i][2] − q[j][2])²)^(3/2))    (0 ≤ i < N)
-p'[i][2] += −Σ(i+1 ≤ j < N) (q[i][2] − q[j][2]) (G m[i] m[j]/((q[i][0] − q[j][0])² + (q[i][1] − q[j][1])² + (q[i][2] − q[j][2])²)^(3/2))    (0 ≤ i < N)
-p'[j][0] += (q[i][0] − q[j][0]) (G m[i] m[j]/((q[i][0] − q[j][0])² + (q[i][1] − q[j][1])² + (q[i][2] − q[j][2])²)^(3/2))    (0 ≤ i < N, i+1 ≤ j < N)
-p'[j][1] += (q[i][1] − q[j][1]) (G m[i] m[j]/((q[i][0] − q[j][0])² + (q[i][1] − q[j][1])² + (q[i][2] − q[j][2])²)^(3/2))    (0 ≤ i < N, i+1 ≤ j < N)
-p'[j][2] += (q[i][2] − q[j][2]) (G m[i] m[j]/((q[i][0] − q[j][0])² + (q[i][1] − q[j][1])² + (q[i][2] − q[j][2])²)^(3/2))    (0 ≤ i < N, i+1 ≤ j < N)
+p'[i][0] += −Σ(i+1 ≤ j < N) (q[i][0] − q[j][0]) s1(i, j)    (0 ≤ i < N)
+p'[i][1] += −Σ(i+1 ≤ j < N) (q[i][1] − q[j][1]) s1(i, j)    (0 ≤ i < N)
+p'[i][2] += −Σ(i+1 ≤ j < N) (q[i][2] − q[j][2]) s1(i, j)    (0 ≤ i < N)
+p'[j][0] += (q[i][0] − q[j][0]) s1(i, j)    (0 ≤ i < N, i+1 ≤ j < N)
+p'[j][1] += (q[i][1] − q[j][1]) s1(i, j)    (0 ≤ i < N, i+1 ≤ j < N)
+p'[j][2] += (q[i][2] − q[j][2]) s1(i, j)    (0 ≤ i < N, i+1 ≤ j < N)
+s1(i, j) = G m[i] m[j]/((q[i][0] − q[j][0])² + (q[i][1] − q[j][1])² + (q[i][2] − q[j][2])²)^(3/2)
 ```
+
+$$H = \\tfrac{1}{2}\\,\\sum\_{0 \\le i \< N} \\frac{\\left({p\_{i,0}}^{2} + {p\_{i,1}}^{2} + {p\_{i,2}}^{2}\\right)}{m\_{i}} - \\sum\_{0 \\le i \< N} \\sum\_{i+1 \\le j \< N} \\frac{G\\,m\_{i}\\,m\_{j}}{\\sqrt{{\\left(q\_{i,0} - q\_{j,0}\\right)}^{2} + {\\left(q\_{i,1} - q\_{j,1}\\right)}^{2} + {\\left(q\_{i,2} - q\_{j,2}\\right)}^{2}}}$$
+$$\\dot{q\_{i,0}} = \\frac{p\_{i,0}}{m\_{i}}\\quad (0 \\le i \< N)$$
+$$\\dot{q\_{i,1}} = \\frac{p\_{i,1}}{m\_{i}}\\quad (0 \\le i \< N)$$
+$$\\dot{q\_{i,2}} = \\frac{p\_{i,2}}{m\_{i}}\\quad (0 \\le i \< N)$$
+$$\\dot{p\_{i,0}} \\mathrel{+}= -\\sum\_{i+1 \\le j \< N} \\left(q\_{i,0} - q\_{j,0}\\right)\\,s\_{1}(i, j)\\quad (0 \\le i \< N)$$
+$$\\dot{p\_{i,1}} \\mathrel{+}= -\\sum\_{i+1 \\le j \< N} \\left(q\_{i,1} - q\_{j,1}\\right)\\,s\_{1}(i, j)\\quad (0 \\le i \< N)$$
+$$\\dot{p\_{i,2}} \\mathrel{+}= -\\sum\_{i+1 \\le j \< N} \\left(q\_{i,2} - q\_{j,2}\\right)\\,s\_{1}(i, j)\\quad (0 \\le i \< N)$$
+$$\\dot{p\_{j,0}} \\mathrel{+}= \\left(q\_{i,0} - q\_{j,0}\\right)\\,s\_{1}(i, j)\\quad (0 \\le i \< N,\\; i+1 \\le j \< N)$$
+$$\\dot{p\_{j,1}} \\mathrel{+}= \\left(q\_{i,1} - q\_{j,1}\\right)\\,s\_{1}(i, j)\\quad (0 \\le i \< N,\\; i+1 \\le j \< N)$$
+$$\\dot{p\_{j,2}} \\mathrel{+}= \\left(q\_{i,2} - q\_{j,2}\\right)\\,s\_{1}(i, j)\\quad (0 \\le i \< N,\\; i+1 \\le j \< N)$$
+$$s\_{1}(i, j) = \\frac{G\\,m\_{i}\\,m\_{j}}{{\\left({\\left(q\_{i,0} - q\_{j,0}\\right)}^{2} + {\\left(q\_{i,1} - q\_{j,1}\\right)}^{2} + {\\left(q\_{i,2} - q\_{j,2}\\right)}^{2}\\right)}^{3/2}}$$
 
 Found in the formula: separable, with a kinetic energy of constant masses; independent of time, so H is conserved; `total_momentum` is conserved; `angular_momentum` is conserved.
 */

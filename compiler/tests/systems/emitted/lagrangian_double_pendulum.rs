@@ -10,15 +10,17 @@ H = (1/2) (pa² − 2 pa pb cos(a − b) + 2 pb²)/(2 − cos(a − b)²) − g 
 
 a' = pa/(2 − cos(a − b)²) − pb cos(a − b)/(2 − cos(a − b)²)
 b' = 2 pb/(2 − cos(a − b)²) − pa cos(a − b)/(2 − cos(a − b)²)
-pa' = −2 g sin(a) − sin(a − b) (pa pb/(2 − cos(a − b)²) − cos(a − b) ((pa² − 2 pa pb cos(a − b) + 2 pb²)/(2 − cos(a − b)²)²))
-pb' = sin(a − b) (pa pb/(2 − cos(a − b)²) − cos(a − b) ((pa² − 2 pa pb cos(a − b) + 2 pb²)/(2 − cos(a − b)²)²)) − g sin(b)
+pa' = −2 g sin(a) − s1
+pb' = s1 − g sin(b)
+s1 = sin(a − b) (pa pb/(2 − cos(a − b)²) − cos(a − b) ((pa² − 2 pa pb cos(a − b) + 2 pb²)/(2 − cos(a − b)²)²))
 ```
 
 $$H = \\tfrac{1}{2}\\,\\frac{\\left({\\mathrm{pa}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right) + 2\\,{\\mathrm{pb}}^{2}\\right)}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)} - g\\,\\left(2\\,\\cos\\left(a\\right) + \\cos\\left(b\\right)\\right)$$
 $$\\dot{a} = \\frac{\\mathrm{pa}}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)} - \\frac{\\mathrm{pb}\\,\\cos\\left(a - b\\right)}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)}$$
 $$\\dot{b} = 2\\,\\frac{\\mathrm{pb}}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)} - \\frac{\\mathrm{pa}\\,\\cos\\left(a - b\\right)}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)}$$
-$$\\dot{\\mathrm{pa}} = -2\\,g\\,\\sin\\left(a\\right) - \\sin\\left(a - b\\right)\\,\\left(\\frac{\\mathrm{pa}\\,\\mathrm{pb}}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)} - \\cos\\left(a - b\\right)\\,\\left(\\frac{\\left({\\mathrm{pa}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right) + 2\\,{\\mathrm{pb}}^{2}\\right)}{{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)}^{2}}\\right)\\right)$$
-$$\\dot{\\mathrm{pb}} = \\sin\\left(a - b\\right)\\,\\left(\\frac{\\mathrm{pa}\\,\\mathrm{pb}}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)} - \\cos\\left(a - b\\right)\\,\\left(\\frac{\\left({\\mathrm{pa}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right) + 2\\,{\\mathrm{pb}}^{2}\\right)}{{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)}^{2}}\\right)\\right) - g\\,\\sin\\left(b\\right)$$
+$$\\dot{\\mathrm{pa}} = -2\\,g\\,\\sin\\left(a\\right) - s\_{1}$$
+$$\\dot{\\mathrm{pb}} = s\_{1} - g\\,\\sin\\left(b\\right)$$
+$$s\_{1} = \\sin\\left(a - b\\right)\\,\\left(\\frac{\\mathrm{pa}\\,\\mathrm{pb}}{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)} - \\cos\\left(a - b\\right)\\,\\left(\\frac{\\left({\\mathrm{pa}}^{2} - 2\\,\\mathrm{pa}\\,\\mathrm{pb}\\,\\cos\\left(a - b\\right) + 2\\,{\\mathrm{pb}}^{2}\\right)}{{\\left(2 - {\\cos\\left(a - b\\right)}^{2}\\right)}^{2}}\\right)\\right)$$
 
 Found in the formula: not separable; independent of time, so H is conserved; the mass matrix is regular at random points.
 */
