@@ -122,7 +122,7 @@ impl Constant {
     }
 
     /// The bounds; the lower bound by refinement if the tree gives none. A number that is not separated from zero
-    /// counts as 2^(−[`MAX_MAGNITUDE`]).
+    /// counts as `2^−MAX_MAGNITUDE`.
     fn refined_bounds(&self) -> Magnitude {
         let bounds = self.bounds();
         let refined = || match self.separation() {
