@@ -19,12 +19,13 @@ use crate::output;
 /// Digits are wrong if no exact method rounds to all of them. Coefficients that the conditions leave free may vary
 /// within their last place. Fractions and integers are exact.
 ///
-/// Butcher arrays: `[printed]` with `a` and `b`, optionally `c`, `a_tilde`, `b_tilde`, `c_tilde`; `[claim]` with `class
-/// = "general"`, `"separable"` or `"nystrom"`, `order = 6`, and optionally `properties = ["symplectic", "symmetric",
-/// "collocation"]`. These can be refined: polynomial collocation methods, alone or with their symplectic partner, or
-/// the partner alone (Radau IA, Lobatto IIIB); compositions of implicit midpoint steps; explicit symplectic pairs; all
-/// with at most 16 stages. Also tables of short fractions and surds (Lobatto IIIC, Crouzeix's methods, RK4), and any
-/// other table of at most 6 stages and order 8 by its order conditions. A `c` that is not the row sum is an error.
+/// Butcher arrays: `[printed]` with `a` and `b`, optionally `c`, `a_tilde`, `b_tilde`, `c_tilde`; `[claim]` with
+/// `class = "general"`, `"separable"` or `"nystrom"`, `order = 6`, and optionally
+/// `properties = ["symplectic", "symmetric", "collocation"]`. These can be refined: polynomial collocation methods,
+/// alone or with their symplectic partner, or the partner alone (Radau IA, Lobatto IIIB); compositions of implicit
+/// midpoint steps; explicit symplectic pairs; all with at most 16 stages. Also tables of short fractions and surds
+/// (Lobatto IIIC, Crouzeix's methods, RK4), and any other table of at most 6 stages and order 8 by its order
+/// conditions. A `c` that is not the row sum is an error.
 #[derive(Args)]
 pub(crate) struct Arguments {
     /// Input file.

@@ -114,8 +114,8 @@ pub fn product(a: &Rows, b: &Rows) -> Rows {
     a.iter().map(row).collect()
 }
 
-/// The coefficients of `det(λ − B)`, the constant term first, and the matrices `M_1`, `M_2`, … of `adj(λ − B) = Σ_k
-/// λ^(s−k) M_k` (Faddeev & LeVerrier).
+/// The coefficients of `det(λ − B)`, the constant term first, and the matrices `M_1`, `M_2`, … of
+/// `adj(λ − B) = Σ_k λ^(s−k) M_k` (Faddeev & LeVerrier).
 fn characteristic(matrix: &Rows) -> (Vec<Fixed>, Vec<Rows>) {
     let size = matrix.len();
     let mut coefficients = vec![Fixed::one(); size + 1];

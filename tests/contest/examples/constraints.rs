@@ -1,5 +1,5 @@
-//! Constrained steps against hand-written code, and the cost of a chain of links: `cargo run --release -p
-//! symplectic-contest --example constraints`.
+//! Constrained steps against hand-written code, and the cost of a chain of links:
+//! `cargo run --release -p symplectic-contest --example constraints`.
 //!
 //! Rigid triangles in a plane trap: RATTLE of the library against SHAKE and RATTLE as usually written, bond by bond
 //! until the error of every bond is below a tolerance. Chains of links: time per link and step. The double pendulum in

@@ -1,6 +1,6 @@
-//! A charged particle in a magnetic field that increases with the distance from an axis, and in a potential: `H = |p −
-//! A(q)|²/2 + U(q)` with `A = (−q_2, q_1, 0) r/3`, `r² = q_1² + q_2²`, so that `B = rot A = (0, 0, r)`, and `U = q_1³ −
-//! q_2³ + q_1⁴/5 + q_2⁴ + q_3⁴`.
+//! A charged particle in a magnetic field that increases with the distance from an axis, and in a potential:
+//! `H = |p − A(q)|²/2 + U(q)` with `A = (−q_2, q_1, 0) r/3`, `r² = q_1² + q_2²`, so that `B = rot A = (0, 0, r)`, and
+//! `U = q_1³ − q_2³ + q_1⁴/5 + q_2⁴ + q_3⁴`.
 //!
 //! The momentum is canonical, `p = q' + A(q)`.
 //!

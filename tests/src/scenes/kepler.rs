@@ -58,8 +58,8 @@ pub fn angular_momentum<T: Scalar>(state: &State<SVector<T, 2>>) -> T {
 ///
 /// It is the orbit through the doubles of [`start`], not through their exact values: rounding changes the period by
 /// about 1e-16, a phase of 3e-12 after 1000 periods. The mean anomaly has an error of one rounding for up to 2⁵⁰
-/// periods, the eccentric anomaly of `4 ε/(1 − e)` radians with `ε = 2⁻⁵³`. So the position is accurate to `4 ε/(1 −
-/// e)` and the momentum to `4 ε/(1 − e)²`; away from the pericentre both are more accurate.
+/// periods, the eccentric anomaly of `4 ε/(1 − e)` radians with `ε = 2⁻⁵³`. So the position is accurate to
+/// `4 ε/(1 − e)` and the momentum to `4 ε/(1 − e)²`; away from the pericentre both are more accurate.
 pub fn exact(eccentricity: f64, time: f64) -> State<SVector<f64, 2>> {
     let orbit = Orbit::new(pericentre(eccentricity));
     let anomaly = orbit.eccentric_anomaly(orbit.mean_anomaly(time));

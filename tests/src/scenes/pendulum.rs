@@ -43,9 +43,9 @@ pub fn start<T: Scalar>(momentum: f64) -> State<SVector<T, 1>> {
 
 /// The solution from [`start`] with a positive momentum, at `time`.
 ///
-/// With `k = p_0/2` it is `sin(q/2) = k sn(t, k)`, `p = 2k cn(t, k)` below the separatrix, `q = 2 am(kt, 1/k)`, `p = 2k
-/// dn(kt, 1/k)` above it, and `sin(q/2) = tanh t`, `p = 2 sech t` on it. The phase error is a few rounding errors of
-/// the time; near the separatrix, where orbits diverge, it grows with the time from the lowest point.
+/// With `k = p_0/2` it is `sin(q/2) = k sn(t, k)`, `p = 2k cn(t, k)` below the separatrix, `q = 2 am(kt, 1/k)`,
+/// `p = 2k dn(kt, 1/k)` above it, and `sin(q/2) = tanh t`, `p = 2 sech t` on it. The phase error is a few rounding
+/// errors of the time; near the separatrix, where orbits diverge, it grows with the time from the lowest point.
 pub fn exact(momentum: f64, time: f64) -> State<SVector<f64, 1>> {
     let k = momentum / 2.0;
     let (q, p) = if k < 1.0 {

@@ -1,5 +1,5 @@
-//! Point vortices in the plane with the strengths Γ_i in units of 2π: `H = −Σ_{i<j} Γ_i Γ_j ln |z_i − z_j|`, where `Γ_i
-//! x_i' = ∂H/∂y_i` and `Γ_i y_i' = −∂H/∂x_i`.
+//! Point vortices in the plane with the strengths Γ_i in units of 2π: `H = −Σ_{i<j} Γ_i Γ_j ln |z_i − z_j|`, where
+//! `Γ_i x_i' = ∂H/∂y_i` and `Γ_i y_i' = −∂H/∂x_i`.
 //!
 //! The coordinates x_i are the positions and `p_i = Γ_i y_i` the momenta.
 //!

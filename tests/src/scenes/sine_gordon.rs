@@ -3,8 +3,8 @@
 //!
 //! *Needs:* nothing. Separable, quadratic kinetic energy; no frequency exceeds `√(1 + 4/d²)`, about 8. The number of
 //! pendulums is the dimension of the vector. *Source:* Duncan, Symplectic finite difference approximations of the
-//! nonlinear Klein–Gordon equation, SIAM J. Numer. Anal. 34 (1997); the start is a breather of the equation `q_tt =
-//! q_xx − sin q` at its zero. *Reference:* recorded, [`recorded`].
+//! nonlinear Klein–Gordon equation, SIAM J. Numer. Anal. 34 (1997); the start is a breather of the equation
+//! `q_tt = q_xx − sin q` at its zero. *Reference:* recorded, [`recorded`].
 
 use symplectic::emitted::{Bonds, Chain};
 use symplectic::nalgebra::SVector;

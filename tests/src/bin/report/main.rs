@@ -1,5 +1,5 @@
-//! The report of all methods on all scenes, error against run time: `cargo run --release -p symplectic-tests --bin
-//! report`
+//! The report of all methods on all scenes, error against run time:
+//! `cargo run --release -p symplectic-tests --bin report`
 //!
 //! Writes a page, plots, CSV, JSON and the table of the book to a folder.
 
