@@ -9,23 +9,23 @@ use symplectic_compiler::{Error, ErrorKind, export};
 
 use crate::output;
 
-/// Hold what libraries claim of their tables against what is proved.
+/// Compare the claims of libraries about their tables with proofs.
 ///
-/// A file names the library, its version and source, and the `convention` by which its numbers are stepped, and has its tables with
-/// their claims; `tableaux/libraries/` has those of several libraries. Beside each proved order stands the order that is seen in a
-/// step of the pendulum. The exit status is 1 if a proved order is not the one that is seen.
+/// A file contains the library, its version and source, the `convention` by which it steps its numbers, and its tables
+/// with their claims; `tableaux/libraries/` contains such files. Next to each proved order the output shows the order
+/// observed in steps of the pendulum. The exit status is 1 if a proved order differs from the observed order.
 #[derive(Args)]
 pub(crate) struct Arguments {
     /// Files, or folders with files named .toml.
     #[arg(required = true, value_name = "FILE")]
     paths: Vec<PathBuf>,
-    /// Writes all of it as JSON.
+    /// Write the results as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Writes all of it as one page.
+    /// Write the results as an HTML page.
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// The most stages that a table may have [default: 36].
+    /// Largest number of stages of a table [default: 36].
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=1000))]
     max_stages: Option<u16>,
 }
@@ -74,7 +74,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     Ok(ExitCode::from(u8::from(unexplained > 0)))
 }
 
-/// The files of a list of files and folders.
+/// All files in a list of files and folders.
 fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
     let mut files = Vec::new();
     for path in paths {
@@ -110,7 +110,7 @@ fn document(message: String) -> Error {
     ErrorKind::Document { message }.into()
 }
 
-/// A name without the characters that move the cursor or change colours.
+/// A name without control characters, which could move the cursor or change colours.
 fn shown(name: &str) -> String {
     name.replace(|c: char| c.is_control(), "\u{fffd}")
 }

@@ -8,18 +8,18 @@ use symplectic_compiler::{Error, Tableau, catalogue, check, export};
 
 use crate::output;
 
-/// Write the certificate of a method: all that is proved of it, for a program that shares no code with this one.
+/// Write the certificate of a method: everything proved of it, for an independent checker.
 ///
-/// `python3 tableaux/check_certificate.py FILE` checks a certificate with nothing but Python's standard library.
+/// `python3 tableaux/check_certificate.py FILE` checks a certificate using Python's standard library only.
 #[derive(Args)]
 pub(crate) struct Arguments {
-    /// A name, as in `symplectic list`, or a file named .toml or .json, as `symplectic derive` writes it.
+    /// A name from `symplectic list`, or a .toml or .json file written by `symplectic derive`.
     #[arg(value_name = "NAME|FILE")]
     method: PathBuf,
-    /// The file to write [default: standard output].
+    /// Output file [default: standard output].
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// The most stages that a file may have [default: 36].
+    /// Largest number of stages of a file [default: 36].
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=1000))]
     max_stages: Option<u16>,
 }
@@ -36,7 +36,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     }
 }
 
-/// The method of the catalogue with this name, or that of a file.
+/// The method of the catalogue with this name, or the method of a file.
 fn tableau(method: &Path, max_stages: Option<u16>) -> Result<Tableau, Error> {
     let name = method.display().to_string();
     let is_file = ["toml", "json"]

@@ -12,19 +12,19 @@ use symplectic_compiler::{Error, Limits, Tableau, check, export};
 use crate::output;
 use crate::report;
 
-/// Derive the tableaux of files anew, prove their properties and compare every entry.
+/// Derive the tableaux of files again, prove their properties and compare every entry.
 ///
-/// The printed numbers of a `claim` are held against the exact method: a warning shows each one that is not the exact
-/// coefficient, rounded to as many places, and the verdict counts them.
+/// The printed numbers of a `claim` are compared with the exact method. A warning shows each number that is not the
+/// correctly rounded exact coefficient, and the verdict counts them.
 #[derive(Args)]
 pub(crate) struct Arguments {
     /// Files written by `derive` or `show` with `--format toml` or `--format json`.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// How to report: a line for each file, or JSON with the whole tableau of each.
+    /// Format of the report: a line per file, or JSON with the tableau of each file.
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
-    /// The most stages that a file may have.
+    /// Largest number of stages of a file [default: 36].
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=1000))]
     max_stages: Option<u16>,
 }
@@ -36,7 +36,7 @@ enum Format {
     Json,
 }
 
-/// Checks every file; the exit status is that of the worst.
+/// Checks every file; the exit status is the largest of all files.
 pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let limits = output::limits(arguments.max_stages);
     let mut status = 0;
@@ -59,7 +59,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
             Ok(tableau) => format!("{}, {}", verdict(tableau), facts(tableau)),
             Err(error) => format!("FAILED, {}", error.kind),
         };
-        // A name may hold anything, a line break that makes it two lines too.
+        // File names may contain control characters, such as line breaks.
         let line: String = format!("{name}: {verdict}")
             .chars()
             .map(|c| {
@@ -79,12 +79,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     Ok(ExitCode::from(status))
 }
 
-/// Whether a character changes the direction of writing.
+/// Whether a character changes the text direction.
 fn is_direction(c: char) -> bool {
     matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// What JSON says of a file: its tableau, as `derive` writes it, or the error.
+/// The JSON entry of a file: its tableau as written by `derive`, or the error.
 fn entry(name: &str, outcome: &Result<Tableau, Error>) -> Value {
     match outcome {
         Ok(tableau) => {
@@ -104,7 +104,7 @@ fn check_file(path: &Path, limits: &Limits) -> Result<Tableau, Error> {
     check(&name, &text, limits)
 }
 
-/// Whether the file is right, how many of the numbers of its claim are not, and whether the method is of no use alone.
+/// The verdict on a file: the number of wrong digits in its claim, and whether the method is consistent.
 fn verdict(tableau: &Tableau) -> String {
     let verdict = match tableau.wrong_digits().len() {
         0 => "ok".to_owned(),
@@ -118,7 +118,7 @@ fn verdict(tableau: &Tableau) -> String {
     }
 }
 
-/// The name, the orders and the stability of a tableau, in a line.
+/// The name, the orders and the stability of a tableau, in one line.
 fn facts(tableau: &Tableau) -> String {
     let called = tableau.name().unwrap_or("a tableau without a name");
     let stages = match tableau.stages() {

@@ -1,4 +1,4 @@
-//! Choosing among the methods of the catalogue: `symplectic list --class separable --min-order 4 --sort efficiency`.
+//! Selection of methods from the catalogue: `symplectic list --class separable --min-order 4 --sort efficiency`.
 
 use std::cmp::Ordering;
 
@@ -8,45 +8,45 @@ use symplectic_compiler::{Error, ErrorKind, Evidence, Tableau, catalogue};
 
 use crate::output::aligned;
 
-/// Which methods are listed, and in what order.
+/// Selection and sort order of methods.
 #[derive(Args)]
 pub(crate) struct Choice {
-    /// The Hamiltonians that orders and errors are for [default: separable].
+    /// Class of Hamiltonians for orders and errors [default: separable].
     #[arg(long, value_enum)]
     class: Option<Class>,
-    /// Methods of at least this order; with `--class perturbed` of at least these orders in ε, ε², …: `8,4`, where the
-    /// last one is for all higher powers too.
+    /// Smallest order; with `--class perturbed` the smallest orders in ε, ε², …, such as `8,4`. The last one applies to
+    /// all higher powers.
     #[arg(long, value_name = "P", value_parser = orders)]
     min_order: Option<Orders>,
-    /// Methods of at most this order, or these orders.
+    /// Largest order, or orders.
     #[arg(long, value_name = "P", value_parser = orders)]
     max_order: Option<Orders>,
-    /// Explicit methods with at most so many force evaluations a step.
+    /// Explicit methods with at most N force evaluations per step.
     #[arg(long, value_name = "N")]
     max_evaluations: Option<usize>,
-    /// The order of the methods. Efficiency is n (C/E)^(1/p), the force evaluations in a unit of time for an error of E
-    /// (`--tolerance`) from n evaluations a step, the error constant C and the order p: few are good.
+    /// Sort order. Efficiency is n (C/E)^(1/p): the force evaluations per unit of time for an error E (`--tolerance`),
+    /// with n evaluations per step, the error constant C and the order p; fewer are better.
     #[arg(long, value_enum, value_name = "BY")]
     sort: Option<Sort>,
-    /// The error at which efficiency is compared [default: 1e-8].
+    /// Error for the comparison of efficiency [default: 1e-8].
     #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = tolerance)]
     tolerance: Option<f64>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Class {
-    /// Every H(q, p).
+    /// Any H(q, p).
     General,
     /// H = T(p) + U(q).
     Separable,
     /// H = p²/2m + U(q).
     Nystrom,
-    /// H = H_A + εH_B: splittings, with drifts for H_A and kicks for εH_B.
+    /// H = H_A + εH_B: splittings with drifts for H_A and kicks for εH_B.
     Perturbed,
 }
 
 impl Class {
-    /// The class of Hamiltonians, if orders for it are single numbers.
+    /// The class of Hamiltonians, if its order is a single number.
     fn hamiltonians(self) -> Option<HamiltonianClass> {
         match self {
             Class::General => Some(HamiltonianClass::General),
@@ -57,12 +57,12 @@ impl Class {
     }
 }
 
-/// An order, or those in ε, ε², …; the last one is for all higher powers too.
+/// An order, or the orders in ε, ε², …; the last one applies to all higher powers.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct Orders(Vec<usize>);
 
 impl Orders {
-    /// Whether none of them is less than that of the others.
+    /// Whether each order is at least the corresponding order of `others`.
     fn reach(&self, others: &Orders) -> bool {
         let at = |orders: &Orders, power: usize| {
             let order = orders.0.get(power).or(orders.0.last());
@@ -83,13 +83,13 @@ fn orders(text: &str) -> Result<Orders, String> {
 enum Sort {
     /// By name.
     Name,
-    /// The highest order first.
+    /// By order, the highest first.
     Order,
-    /// The fewest evaluations first.
+    /// By force evaluations per step, the fewest first.
     Evaluations,
-    /// The smallest error constant first.
+    /// By error constant, the smallest first.
     Error,
-    /// The fewest evaluations for the tolerance first.
+    /// By evaluations for the tolerance, the fewest first.
     Efficiency,
 }
 
@@ -102,7 +102,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
 }
 
 impl Choice {
-    /// Whether anything is asked for.
+    /// Whether any option is given.
     pub(crate) fn is_made(&self) -> bool {
         self.class.is_some()
             || self.sort.is_some()
@@ -112,7 +112,7 @@ impl Choice {
             || self.max_order.is_some()
     }
 
-    /// Refuses what the class does not have.
+    /// Refuses options that do not apply to the class.
     fn check(&self) -> Result<(), Error> {
         let refused = |message: &str| {
             let message = message.to_owned();
@@ -133,7 +133,7 @@ impl Choice {
         Ok(())
     }
 
-    /// Whether a method evaluates seldom enough; the first question, because orders take longer.
+    /// Whether the number of force evaluations is allowed; tested first, because orders are slower to compute.
     fn takes_evaluations(&self, forces: Option<usize>) -> bool {
         let forces = forces.unwrap_or(usize::MAX);
         self.max_evaluations.is_none_or(|most| forces <= most)
@@ -154,16 +154,16 @@ fn words(evidence: Evidence) -> &'static str {
     }
 }
 
-/// What methods are compared by.
+/// The data for the comparison of methods.
 struct Method {
     name: String,
     title: String,
     order: Orders,
-    /// The order as it is printed.
+    /// The order as printed.
     shown: String,
-    /// What is known of the order: proved, or verified; of that order or more.
+    /// Evidence for the order: proved or verified; "≥" if only a lower bound is known.
     evidence: String,
-    /// Force evaluations a step; `None` for methods that solve for their stages.
+    /// Force evaluations per step; `None` for implicit methods.
     forces: Option<usize>,
     error_constant: Option<f64>,
     cost: Option<f64>,
@@ -184,7 +184,7 @@ impl Method {
         } else {
             ""
         };
-        // A decimal in the notation of doubles.
+        // The decimal parses as a double.
         let constant = found.error_constant.as_ref().map(ToString::to_string);
         Method {
             name: entry.name,
@@ -232,7 +232,7 @@ impl Method {
     }
 }
 
-/// The methods that are asked for, with what they are compared by.
+/// The table of the selected methods.
 pub(crate) fn table(choice: &Choice) -> Result<String, Error> {
     choice.check()?;
     let class = choice.class.unwrap_or(Class::Separable).hamiltonians();
@@ -249,7 +249,7 @@ pub(crate) fn table(choice: &Choice) -> Result<String, Error> {
             methods.extend(method.filter(|method| choice.takes_order(&method.order)));
         }
     }
-    // What is not known comes last.
+    // Unknown values come last.
     let smaller = |x: Option<f64>, y: Option<f64>| {
         let [x, y] = [x, y].map(|value| value.unwrap_or(f64::INFINITY));
         x.total_cmp(&y)
@@ -262,7 +262,7 @@ pub(crate) fn table(choice: &Choice) -> Result<String, Error> {
             methods.sort_by_key(|method| method.forces.unwrap_or(usize::MAX));
         }
         Some(Sort::Error) => methods.sort_by(|x, y| {
-            // Error constants compare within one order.
+            // Error constants are comparable only for equal orders.
             let orders: Ordering = y.order.cmp(&x.order);
             orders.then(smaller(x.error_constant, y.error_constant))
         }),

@@ -8,10 +8,10 @@ use symplectic_compiler::{Definition, Error, Key, check, export};
 
 use crate::output::{self, OutputOptions};
 
-/// Derive a tableau, with proofs: from a basis at nodes, from a basis and a quadrature formula, from given
-/// coefficients, from kicks and drifts, or as a composition of methods.
+/// Derive a tableau with proofs: from a basis and nodes, a basis and a quadrature formula, coefficients, kicks and
+/// drifts, or as a composition of methods.
 ///
-/// Expressions have numbers, t, pi, e, + - * / ^, sqrt, cbrt, sin, cos, tan, exp, cosh, sinh and root(p, k), the
+/// Expressions contain numbers, t, pi, e, + - * / ^, sqrt, cbrt, sin, cos, tan, exp, cosh, sinh and root(p, k), the
 /// k-th real root of a polynomial p in t.
 #[derive(Args)]
 pub(crate) struct Arguments {
@@ -20,7 +20,7 @@ pub(crate) struct Arguments {
     file: Option<PathBuf>,
     #[command(flatten)]
     definition: Parts,
-    /// A name to put into the output.
+    /// Name for the output.
     #[arg(long)]
     name: Option<String>,
     #[command(flatten)]
@@ -45,7 +45,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     output::print(&arguments.output.write(&tableau)?)
 }
 
-/// The parts of a definition, an option for each [`Key`].
+/// The parts of a definition, one option per [`Key`].
 struct Parts(Definition);
 
 impl Args for Parts {
@@ -71,7 +71,7 @@ impl FromArgMatches for Parts {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
         let text = |key: Key| match key.is_switch() {
             true => matches.get_flag(key.name()).then_some("true"),
-            // A text may be that of a file: `--weights "$(cat weights.txt)"`.
+            // The text may come from a file with a byte-order mark: `--weights "$(cat weights.txt)"`.
             false => matches
                 .get_one::<String>(key.name())
                 .map(|text| export::without_mark(text)),

@@ -12,26 +12,27 @@ use crate::output;
 
 /// Derive the equations of motion from the formula of a Hamiltonian or a Lagrangian.
 ///
-/// The formula is written as in `hamiltonian!` or `lagrangian!`. Shown are the equations of motion, the second derivatives, and what was found:
-/// whether H is separable, how the kinetic energy depends on the momenta, what is conserved.
+/// The formula has the syntax of `hamiltonian!` or `lagrangian!`. The output contains the equations of motion, the
+/// second derivatives, and the structure found: whether H is separable, how the kinetic energy depends on the momenta,
+/// and the conserved quantities.
 #[derive(Args)]
 pub(crate) struct Arguments {
-    /// A file with the formula, or a TOML file with the key `hamiltonian` or `lagrangian`.
+    /// File with the formula, or TOML file with the key `hamiltonian` or `lagrangian`.
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// The form of the output.
+    /// Format of the output.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
 
-/// The formats of a system.
+/// Formats of a system.
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Format {
-    /// For people.
+    /// Readable text.
     Text,
-    /// An `aligned` environment with the equations.
+    /// The equations in an `aligned` environment.
     Latex,
-    /// For other programs.
+    /// JSON for other programs.
     Json,
 }
 

@@ -9,22 +9,23 @@ use symplectic_compiler::{Error, ImportOrigin, Library, export, import_with_orig
 use crate::output::{self, OutputOptions};
 use crate::report;
 
-/// Read a table of another library, with the order in which that library steps its numbers.
+/// Import a table of another library, with the convention by which that library steps its numbers.
 ///
-/// The file holds one table, in the language of the library: Julia's `1//2` and `big"0.5"`, C's `0x1.8p-1`, Fortran's `1.0d0` and
-/// `0.5_real64`, Mathematica's "1.5`20", Python's `Fraction(1, 2)`, Matlab's `[1 2; 3 4]`. Splittings have the library's letters for
-/// drifts and kicks, Runge–Kutta methods `A` or `a`, `b`, perhaps `c`, `a_tilde`, `b_tilde`. Where decimals are rounded, the result
-/// is the exact method that is proved to be near them, and standard error says how far away it is.
+/// The file contains one table, in the language of the library: Julia's `1//2` and `big"0.5"`, C's `0x1.8p-1`,
+/// Fortran's `1.0d0` and `0.5_real64`, Mathematica's "1.5`20", Python's `Fraction(1, 2)`, Matlab's `[1 2; 3 4]`.
+/// Splittings use the library's letters for drifts and kicks; Runge–Kutta methods use `A` or `a`, `b`, and optionally
+/// `c`, `a_tilde`, `b_tilde`. For rounded decimals the result is an exact method proved to be near them; standard error
+/// shows the distance.
 #[derive(Args)]
 pub(crate) struct Arguments {
-    /// The library: sciml, sundials, petsc, petsc-kick-first, rungekutta.jl, odeint, nodepy, mathematica, principia, rebound,
-    /// pyhamsys or pyhamsys-drift-first.
+    /// Library: sciml, sundials, petsc, petsc-kick-first, rungekutta.jl, odeint, nodepy, mathematica, principia,
+    /// rebound, pyhamsys or pyhamsys-drift-first.
     #[arg(long, value_name = "LIBRARY")]
     from: String,
     /// The file.
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// A name to put into the output.
+    /// Name for the output.
     #[arg(long)]
     name: Option<String>,
     #[command(flatten)]

@@ -13,7 +13,7 @@ use crate::output;
 /// List the methods of the catalogue and the quadrature rules.
 #[derive(Args)]
 pub(crate) struct Arguments {
-    /// What is proved of every method: order per class, properties, stability, as a table in Markdown.
+    /// Show the proved facts about every method, as a Markdown table: order per class, properties, stability.
     #[arg(long)]
     facts: bool,
     #[command(flatten)]
@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         [
             entry.name,
             entry.stages.to_string(),
-            // The longest definition has 800 characters: in a column of its own it would push all others out of sight.
+            // Not a separate column: the longest definition has 800 characters.
             format!("{title}; {}", entry.definition),
         ]
     }));
@@ -59,7 +59,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     output::print(&text)
 }
 
-/// The facts about every method.
+/// The table of facts about every method.
 fn facts() -> Result<String, Error> {
     let mut text = String::from(
         "| method | order: general, separable, Nyström | perturbed | | stable for hω in |\n|---|---|---|---|---|\n",
@@ -101,7 +101,7 @@ fn facts() -> Result<String, Error> {
     Ok(text)
 }
 
-/// The word for orders that are not all proved of exact coefficients.
+/// The evidence for the orders, unless all are proved for exact coefficients.
 fn less_than_proved(report: &OrderReport) -> Option<&'static str> {
     let mut evidence = HamiltonianClass::ALL
         .map(|class| report.class(class).evidence)

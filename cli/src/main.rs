@@ -1,8 +1,9 @@
-//! The command line: derive a tableau or the equations of a Hamiltonian, show and list known methods, write programs that take
-//! their steps, check files, write certificates, refine printed coefficients, read tables of other libraries and hold their claims
-//! against proofs, run ensembles of a formula.
+//! The command line: derive a tableau or the equations of a Hamiltonian, show and list known methods, emit integrators
+//! as source code, check files, write certificates, refine printed coefficients, import tables of other libraries and
+//! audit their claims, run ensembles of a formula.
 //!
-//! Exit status: 0; 1 where a file's entries do not fit, or its digits are not those of a method as claimed; 2 for bad input.
+//! Exit status: 0 for success; 1 if the entries of a file do not match, its digits are not certified, an audit finds an
+//! unexplained difference or all trajectories of a run fail; 2 for invalid input.
 
 mod audit;
 mod certify;
@@ -23,7 +24,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-/// Derives symplectic partitioned Runge–Kutta methods exactly and proves what they are.
+/// Derives symplectic partitioned Runge–Kutta methods exactly and proves their properties.
 #[derive(Parser)]
 #[command(name = "symplectic", version, about, long_about = None)]
 struct Cli {

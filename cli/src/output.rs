@@ -1,4 +1,4 @@
-//! What is written, and how it gets out.
+//! Formats and output.
 
 use std::io::{ErrorKind as IoErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -11,16 +11,16 @@ use symplectic_compiler::{Error, ErrorKind, Limits, Tableau};
 
 use crate::report;
 
-/// The formats of a tableau.
+/// Formats of a tableau.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
-    /// A table for people.
+    /// A readable table.
     Text,
     /// The lossless exchange format.
     Toml,
-    /// For other programs.
+    /// JSON for other programs.
     Json,
-    /// A table for a paper, with booktabs.
+    /// A LaTeX table with booktabs.
     Latex,
     /// C99: static constants.
     C,
@@ -28,31 +28,31 @@ pub(crate) enum Format {
     Fortran,
     /// Julia: a named tuple, for RungeKutta.jl, DiffEqBase.jl and RootedTrees.jl.
     Julia,
-    /// Python: exact or long numbers for fractions, mpmath and numpy.
+    /// Python: exact or long numbers, for fractions, mpmath and numpy.
     Python,
-    /// C: a table of ARKODE.
+    /// C: a table for ARKODE.
     Sundials,
-    /// C: a method of TS.
+    /// C: a method for TS.
     Petsc,
-    /// Python: a RungeKuttaMethod with entries of SymPy.
+    /// Python: a RungeKuttaMethod with SymPy entries.
     Nodepy,
     /// A theorem for the proof assistant Coq.
     Coq,
 }
 
-/// Significant digits that tell doubles apart.
+/// Significant digits that identify a double.
 const DOUBLE_DIGITS: usize = 17;
 
 /// The options of `derive` and `show`.
 #[derive(Args)]
 pub(crate) struct OutputOptions {
-    /// The form of the output.
+    /// Format of the output.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     /// Significant digits of decimals [default: 40, in text and LaTeX 16, in C and Fortran 17].
     #[arg(long, value_name = "D", value_parser = digits)]
     digits: Option<usize>,
-    /// The most stages that are derived [default: 36].
+    /// Largest number of stages to derive [default: 36].
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=1000))]
     max_stages: Option<u16>,
 }
@@ -62,7 +62,7 @@ impl OutputOptions {
         limits(self.max_stages)
     }
 
-    /// The limits for a method of the catalogue, which is not too long unless the user says so.
+    /// The limits for a method of the catalogue: its own, unless the user sets a limit.
     pub(crate) fn limits_of(&self, entry: &Entry) -> Limits {
         match self.max_stages {
             None => entry.limits(),
@@ -73,7 +73,7 @@ impl OutputOptions {
     /// Writes a tableau.
     ///
     /// # Errors
-    /// More digits than can be computed in bounded time.
+    /// If the digits cannot be computed in bounded time.
     pub(crate) fn write(&self, tableau: &Tableau) -> Result<String, Error> {
         let digits = |default| self.digits.unwrap_or(default);
         let most = export::most_digits(tableau);
@@ -120,7 +120,7 @@ pub(crate) fn digits(text: &str) -> Result<usize, String> {
         .ok_or_else(|| format!("expected a whole number from 1 to {MAX_DIGITS}"))
 }
 
-/// Says on standard error that a method is not consistent: a person hardly wants that.
+/// Warns on standard error if a method is not consistent, which is hardly intended.
 pub(crate) fn warn_if_inconsistent(tableau: &Tableau) {
     let consistent = tableau.properties().consistent;
     if !consistent.holds {
@@ -131,12 +131,12 @@ pub(crate) fn warn_if_inconsistent(tableau: &Tableau) {
     }
 }
 
-/// Says on standard error which printed numbers of a claim the exact method does not round to.
+/// Warns on standard error about each printed number of a claim that the exact coefficient does not round to.
 pub(crate) fn warn_of_wrong_digits(tableau: &Tableau) {
     tableau.wrong_digits().iter().for_each(report::warning_at);
 }
 
-/// Prints to standard output. A reader that has gone away is no error.
+/// Prints to standard output. A closed pipe is not an error.
 pub(crate) fn print(text: &str) -> Result<ExitCode, Error> {
     let mut stdout = std::io::stdout().lock();
     match stdout
@@ -155,12 +155,12 @@ pub(crate) fn write_file(path: &Path, text: &str) -> Result<(), Error> {
         .map_err(|error| document(format!("cannot write `{}`: {error}", path.display())))
 }
 
-/// Refuses results that would replace an input or one another.
+/// Refuses results that would overwrite an input or another result.
 pub(crate) fn refuse_overwriting<'a>(
     inputs: impl IntoIterator<Item = &'a Path>,
     results: &[&Path],
 ) -> Result<(), Error> {
-    // A file that does not exist yet is known by its folder and name.
+    // A file that does not exist yet is identified by its folder and name.
     let known = |path: &Path| -> Option<PathBuf> {
         path.canonicalize().ok().or_else(|| {
             let folder = path

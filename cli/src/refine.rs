@@ -9,40 +9,42 @@ use symplectic_compiler::{Error, refine, refine_table};
 
 use crate::output;
 
-/// Prove that an exact method is near the printed coefficients of a file, and print it to any number of digits.
+/// Prove that an exact method exists near the printed coefficients of a file, and print it to any number of digits.
 ///
 /// The file is TOML: `name` and `source`; `[claim]` with `class = "separable"` or `"nystrom"` and `order = 6`, or with
-/// `perturbed = [8, 4]`; `[printed]` with `kick` and `drift`, lists of decimals as texts, or with `weights`, those of a
-/// composition of any symmetric method of order 2, which claims an `order` without a class.
+/// `perturbed = [8, 4]`; `[printed]` with `kick` and `drift`, lists of decimals in quotes. Alternatively `[printed]`
+/// contains the `weights` of a composition of any symmetric method of order 2; the claim is then an `order` without a
+/// class.
 ///
-/// Digits are wrong if no exact method was found that rounds to all of them: coefficients that the conditions leave free
-/// may move within their last place. What is printed as a fraction or an integer is exact.
+/// Digits are wrong if no exact method rounds to all of them. Coefficients that the conditions leave free may vary
+/// within their last place. Fractions and integers are exact.
 ///
-/// Butcher arrays: `[printed]` with `a` and `b`, perhaps `c`, `a_tilde`, `b_tilde`, `c_tilde`; `[claim]` with `class =
-/// "general"`, `"separable"` or `"nystrom"`, `order = 6`, and perhaps `properties = ["symplectic", "symmetric",
-/// "collocation"]`. Refined are collocation methods with polynomials, alone or with their symplectic partner, or the
-/// partner alone (Radau IA, Lobatto IIIB); steps of the implicit midpoint rule; explicit symplectic pairs, all of at most 16
-/// stages; short fractions and surds (Lobatto IIIC, Crouzeix's methods, RK4); and any other table of at most 6 stages and
-/// order 8 by its equations. A `c` that is not the row sum is an error.
+/// Butcher arrays: `[printed]` with `a` and `b`, optionally `c`, `a_tilde`, `b_tilde`, `c_tilde`; `[claim]` with
+/// `class = "general"`, `"separable"` or `"nystrom"`, `order = 6`, and optionally
+/// `properties = ["symplectic", "symmetric", "collocation"]`. These can be refined: polynomial collocation methods,
+/// alone or with their symplectic partner, or the partner alone (Radau IA, Lobatto IIIB); compositions of implicit
+/// midpoint steps; explicit symplectic pairs; all with at most 16 stages. Also tables of short fractions and surds
+/// (Lobatto IIIC, Crouzeix's methods, RK4), and any other table of at most 6 stages and order 8 by its order
+/// conditions. A `c` that is not the row sum is an error.
 #[derive(Args)]
 pub(crate) struct Arguments {
-    /// The file.
+    /// Input file.
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Significant digits of the coefficients [default: 40].
     #[arg(long, value_name = "D", value_parser = output::digits)]
     digits: Option<usize>,
-    /// The form of the output.
+    /// Format of the output.
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
 
-/// The formats of a refined method.
+/// Formats of a refined method.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// For people.
+    /// Readable text.
     Text,
-    /// For other programs.
+    /// JSON for other programs.
     Json,
 }
 

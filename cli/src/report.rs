@@ -1,11 +1,11 @@
-//! Errors for people: the message, the line of the input and carets under the place.
+//! Readable errors: the message, the line of the input, and carets under the position.
 
 use std::io::{IsTerminal, Write};
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use symplectic_compiler::{Error, ErrorKind};
 
-/// The exit status for an error: 1 where a file does not fit or is not certified, 2 for bad input.
+/// The exit status for an error: 1 if a file does not match or is not certified, 2 for invalid input.
 pub(crate) fn status(error: &Error) -> u8 {
     match *error.kind {
         ErrorKind::Mismatch { .. } | ErrorKind::NotCertified { .. } => 1,
@@ -15,7 +15,7 @@ pub(crate) fn status(error: &Error) -> u8 {
 
 /// Writes an error to standard error, in colour if that is a terminal.
 pub(crate) fn to_stderr(error: &Error) {
-    // There is nobody left to tell where this fails.
+    // A failure to write an error cannot be reported.
     let _ = writeln!(std::io::stderr().lock(), "{}", render(error, in_colour()));
 }
 

@@ -10,7 +10,7 @@ use crate::output::{self, OutputOptions};
 /// Show a method of the catalogue.
 #[derive(Args)]
 pub(crate) struct Arguments {
-    /// Its name, as in `symplectic list`.
+    /// Name from `symplectic list`.
     name: String,
     #[command(flatten)]
     output: OutputOptions,

@@ -1,4 +1,4 @@
-//! What is written in `tableau! { … }` and the other macros.
+//! The syntax of `tableau! { … }` and the other macros of methods.
 
 use proc_macro2::{Ident, TokenStream, TokenTree};
 use syn::parse::{Parse, ParseStream};
@@ -12,7 +12,7 @@ pub struct Definitions(pub Vec<Definition>);
 
 /// `/// Docs. pub Name { key: value, … }`
 pub struct Definition {
-    /// Attributes, doc comments among them.
+    /// Attributes, including doc comments.
     pub attributes: Vec<Attribute>,
     /// The visibility of the type.
     pub visibility: Visibility,
@@ -22,8 +22,8 @@ pub struct Definition {
     pub fields: Punctuated<Field, Token![,]>,
 }
 
-/// `key: value`; what a value may be depends on the key and is looked at later, so that all errors
-/// come together.
+/// `key: value`. The syntax of the value depends on the key and is checked later, so that all errors are reported
+/// together.
 pub struct Field {
     /// The key.
     pub key: Ident,

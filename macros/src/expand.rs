@@ -1,4 +1,4 @@
-//! From a definition to code, with all errors collected.
+//! From a definition to code; all errors are collected.
 
 use std::path::PathBuf;
 
@@ -101,7 +101,7 @@ fn expand_one(definition: &Definition, form: Form) -> syn::Result<TokenStream> {
         )),
         (None, _) => derive(definition, form, &limits),
     };
-    // What is missing is said already.
+    // A missing key is already reported.
     let tableau = if complete { errors.note(tableau) } else { None };
     if let Some(tableau) = tableau {
         errors.note(prove(&tableau, &requirements, accepted));
@@ -122,7 +122,7 @@ fn expand_one(definition: &Definition, form: Form) -> syn::Result<TokenStream> {
     errors.0.map_or(Ok(TokenStream::new()), Err)
 }
 
-/// The error where a definition has none of the sets of keys that it needs.
+/// Checks that a definition contains one of the required sets of keys.
 fn missing(definition: &Definition, form: Form) -> syn::Result<()> {
     let has = |key: &Key| {
         definition
@@ -134,7 +134,7 @@ fn missing(definition: &Definition, form: Form) -> syn::Result<()> {
     if needed.is_empty() || needed.iter().any(|set| set.iter().all(has)) {
         return Ok(());
     }
-    // The set of which most is there, the first of equal ones.
+    // The set with most keys present; the first of equal sets.
     let there = |set: &&&[Key]| set.iter().filter(|key| has(key)).count();
     let nearest = needed
         .iter()
@@ -159,9 +159,9 @@ fn missing(definition: &Definition, form: Form) -> syn::Result<()> {
     Err(syn::Error::new(definition.name.span(), message))
 }
 
-/// A warning at the name of a method that is not consistent: a person hardly wants one.
+/// A warning at the name of a method that is not consistent, which is hardly intended.
 ///
-/// A use of something deprecated is the only warning that a macro can make.
+/// The only warning that a macro can emit is the use of a deprecated item.
 fn inconsistent(tableau: &Tableau, name: &Ident) -> Option<TokenStream> {
     let consistent = tableau.properties().consistent;
     let witness = consistent.witness.as_deref().unwrap_or_default();
@@ -177,7 +177,7 @@ fn inconsistent(tableau: &Tableau, name: &Ident) -> Option<TokenStream> {
     })
 }
 
-/// A warning at each printed number of a claim that the exact method does not round to.
+/// A warning at each printed number of a claim that the exact coefficient does not round to.
 fn wrong_digits(tableau: &Tableau, definition: &Definition) -> TokenStream {
     let warning = |error: &symplectic_compiler::Error| {
         let about = error.place.as_ref().map(|place| &*place.input);
@@ -200,14 +200,14 @@ fn wrong_digits(tableau: &Tableau, definition: &Definition) -> TokenStream {
     tableau.wrong_digits().iter().map(warning).collect()
 }
 
-/// Derives the tableau of the parts of a definition, with errors at the tokens of each.
+/// Derives the tableau from the parts of a definition, with errors at the tokens of each part.
 fn derive(definition: &Definition, form: Form, limits: &Limits) -> syn::Result<Tableau> {
     let parts: Vec<(Key, Source)> = definition
         .fields
         .iter()
         .filter_map(|field| {
             let key = Key::find(&field.key.to_string())?;
-            // The others are refused already.
+            // Other keys are already refused.
             let taken = form.keys().contains(&key);
             taken.then(|| (key, Source::new(field.value.clone())))
         })
@@ -231,7 +231,7 @@ fn derive(definition: &Definition, form: Form, limits: &Limits) -> syn::Result<T
     })
 }
 
-/// Reads and re-proves a table file, and makes the crate depend on it.
+/// Reads and re-proves a tableau file, and makes the crate depend on it.
 fn read(file: &Field, limits: &Limits) -> syn::Result<(Tableau, TokenStream)> {
     let literal: LitStr = syn::parse2(file.value.clone()).map_err(|error| {
         syn::Error::new(
@@ -258,10 +258,10 @@ fn read(file: &Field, limits: &Limits) -> syn::Result<(Tableau, TokenStream)> {
     ))
 }
 
-/// A requirement with the tokens that it was read from.
+/// A requirement with its tokens.
 type Required = (Requirement, Source);
 
-/// `require: [symplectic, order >= 4]`: the requirements that exist; the others are errors.
+/// `require: [symplectic, order >= 4]`: the valid requirements; invalid ones are recorded as errors.
 fn requirements(field: &Field, errors: &mut Errors) -> Vec<Required> {
     let list = |input: ParseStream<'_>| {
         let content;
@@ -332,7 +332,7 @@ fn accepted(field: &Field) -> syn::Result<u32> {
     })
 }
 
-/// Every requirement has to be proved, or verified to as many binary places as are accepted.
+/// Every requirement must be proved, or verified to the accepted number of binary places.
 fn prove(tableau: &Tableau, requirements: &[Required], accepted: Option<u32>) -> syn::Result<()> {
     let mut errors = Errors(None);
     for (requirement, source) in requirements {

@@ -1,8 +1,8 @@
-//! What the three macros expect.
+//! The keys of the three macros of methods.
 
 use symplectic_compiler::Key;
 
-/// A macro: any definition, or those of one kind.
+/// A macro, for any definition or for one kind of definition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
     /// `tableau!`, which takes all keys.
@@ -39,7 +39,7 @@ impl Form {
         }
     }
 
-    /// Sets of keys one of which a definition needs; none where the compiler says what is missing.
+    /// The sets of keys, of which a definition needs one. Empty if the compiler reports missing keys.
     pub fn needed(self) -> &'static [&'static [Key]] {
         match self {
             Form::Tableau => &[],
@@ -48,7 +48,7 @@ impl Form {
         }
     }
 
-    /// The keys beside the parts of a definition.
+    /// The keys that are not parts of a definition.
     pub fn others(self) -> &'static [&'static str] {
         match self {
             Form::Tableau => &["file", "require", "accept", "max_stages"],
@@ -56,7 +56,7 @@ impl Form {
         }
     }
 
-    /// A definition as it looks.
+    /// An example of a definition, for error messages.
     pub fn shape(self) -> &'static str {
         match self {
             Form::Tableau => "expected `pub Name { basis: polynomial(3), nodes: lobatto(3) }`",

@@ -1,8 +1,8 @@
 //! The macros `tableau!`, `splitting!`, `composition!`, `hamiltonian!` and `lagrangian!` of the crate `symplectic`, which re-exports and
 //! documents them.
 //!
-//! They hold no mathematics: they read the definition, call the compiler, and hand back the generated
-//! code or errors at the offending tokens.
+//! They contain no mathematics: they parse the definition, call the compiler, and return the generated code or errors
+//! at the offending tokens.
 
 mod definition;
 mod expand;
@@ -14,37 +14,38 @@ use proc_macro::TokenStream;
 
 use symplectic_compiler::formula::Form;
 
-/// Derives, proves and emits the integrator of a basis and nodes, or of anything else that defines a method.
+/// Derives, proves and emits the integrator of a basis and nodes, or of any other definition of a method.
 #[proc_macro]
 pub fn tableau(input: TokenStream) -> TokenStream {
     methods(input, form::Form::Tableau)
 }
 
-/// Proves and emits the integrator of drifts and kicks.
+/// Proves and emits the integrator of a splitting into drifts and kicks.
 #[proc_macro]
 pub fn splitting(input: TokenStream) -> TokenStream {
     methods(input, form::Form::Splitting)
 }
 
-/// Proves and emits the integrator of steps of other methods.
+/// Proves and emits the integrator of a composition of other methods.
 #[proc_macro]
 pub fn composition(input: TokenStream) -> TokenStream {
     methods(input, form::Form::Composition)
 }
 
-/// Reads the formula of a Hamiltonian, derives what an integrator needs, and emits the system.
+/// Parses the formula of a Hamiltonian, derives the equations of motion and their structure, and emits the system.
 #[proc_macro]
 pub fn hamiltonian(input: TokenStream) -> TokenStream {
     formula(input, Form::Hamiltonian)
 }
 
-/// Reads the formula of a Lagrangian, derives its Hamiltonian and what an integrator needs, and emits the system.
+/// Parses the formula of a Lagrangian, derives its Hamiltonian, the equations of motion and their structure, and emits
+/// the system.
 #[proc_macro]
 pub fn lagrangian(input: TokenStream) -> TokenStream {
     formula(input, Form::Lagrangian)
 }
 
-/// The two macros of systems are one; they differ in what the formula is.
+/// The common implementation of the macros of systems.
 fn formula(input: TokenStream, form: Form) -> TokenStream {
     let parse = |input: syn::parse::ParseStream<'_>| system::Definition::parse(input, form);
     let definition = syn::parse_macro_input!(input with parse);
@@ -53,7 +54,7 @@ fn formula(input: TokenStream, form: Form) -> TokenStream {
         .into()
 }
 
-/// The three macros of methods are one; they differ in the keys that they expect.
+/// The common implementation of the macros of methods.
 fn methods(input: TokenStream, form: form::Form) -> TokenStream {
     let parse = |input: syn::parse::ParseStream<'_>| definition::Definitions::parse(input, form);
     let definitions = syn::parse_macro_input!(input with parse);

@@ -1,11 +1,11 @@
-//! Tokens as text for the compiler, and places in that text as tokens again.
+//! Tokens as text for the compiler, and positions in that text as tokens.
 
 use std::ops::Range;
 
 use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
 use symplectic_compiler::Error;
 
-/// A value of the definition as the text that the compiler reads, with the span of each part.
+/// A value of a definition as text for the compiler, with the span of each token.
 pub struct Source {
     /// The text.
     pub text: String,
@@ -13,7 +13,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// The text of some tokens.
+    /// The text of a token stream.
     pub fn new(tokens: TokenStream) -> Self {
         let mut source = Source {
             text: String::new(),
@@ -27,7 +27,7 @@ impl Source {
         for token in tokens {
             let TokenTree::Group(group) = &token else {
                 let word = !matches!(token, TokenTree::Punct(_));
-                // Words need a space between them; hyphens in names must not get one.
+                // Adjacent words need a space; hyphens in names must not get one.
                 if word
                     && self
                         .text
@@ -42,7 +42,7 @@ impl Source {
                 Delimiter::Parenthesis => ["(", ")"],
                 Delimiter::Bracket => ["[", "]"],
                 Delimiter::Brace => ["{", "}"],
-                // What another macro put in is one operand, whatever stands around it.
+                // A group inserted by another macro is a single operand.
                 Delimiter::None => ["(", ")"],
             };
             self.push(open, group.span_open());
@@ -57,7 +57,7 @@ impl Source {
         self.spans.push((start..self.text.len(), span));
     }
 
-    /// An error of the compiler at the tokens that it is about.
+    /// A compiler error at the tokens that it concerns.
     pub fn locate(&self, error: &Error) -> syn::Error {
         let span = error
             .place
@@ -74,7 +74,7 @@ impl Source {
             // The end of the text.
             spans.extend(self.spans.last().map(|(_, span)| *span));
         }
-        // An error over several tokens spans from the first to the last; what they are does not matter.
+        // An error over several tokens spans from the first to the last; the tokens themselves do not matter.
         let about: TokenStream = spans
             .into_iter()
             .map(|span| TokenTree::Ident(Ident::new("part", span)))
@@ -83,7 +83,7 @@ impl Source {
     }
 }
 
-/// The tokens without the invisible group that another macro put around all of them.
+/// The tokens without an invisible group around all of them, inserted by another macro.
 fn unwrapped(tokens: TokenStream) -> TokenStream {
     let mut trees = tokens.clone().into_iter();
     match (trees.next(), trees.next()) {

@@ -9,18 +9,18 @@ use syn::{Attribute, Visibility};
 
 use crate::source::Source;
 
-/// What is written in `hamiltonian! { … }` or `lagrangian! { … }`.
+/// The input of `hamiltonian! { … }` or `lagrangian! { … }`.
 pub struct Definition {
     form: Form,
     attributes: Vec<Attribute>,
     visibility: Visibility,
     name: Ident,
-    /// The name, and everything after it.
+    /// The name and all tokens after it.
     text: TokenStream,
 }
 
 impl Definition {
-    /// Reads the name; the rest is for the compiler.
+    /// Parses attributes, visibility and name; the compiler parses the rest.
     pub fn parse(input: ParseStream<'_>, form: Form) -> syn::Result<Self> {
         let shape = match form {
             Form::Hamiltonian => {
@@ -47,7 +47,7 @@ impl Definition {
     }
 }
 
-/// The code of a system, or what is wrong with its definition.
+/// The code of a system, or the errors in its definition.
 pub fn expand(definition: Definition) -> syn::Result<TokenStream> {
     let source = Source::new(definition.text);
     let located = |error| source.locate(&error);

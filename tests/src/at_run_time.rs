@@ -1,13 +1,13 @@
-//! Tableaux that the compiler derives while the program runs, for the runtime.
+//! Conversion of derived tableaux to tableaux at run time.
 
 use symplectic::{Orders, RunTimeCoefficients, RunTimeTableau, TableauError};
 use symplectic_compiler::Tableau;
 
-/// A derived tableau as a method of the runtime: correctly rounded coefficients, and the orders that are proved.
+/// A derived tableau as a tableau at run time, with correctly rounded coefficients and the proved orders.
 ///
 /// # Errors
 ///
-/// [`TableauError`], where it is not symplectic.
+/// [`TableauError`] if it is not symplectic.
 pub fn tableau(name: &str, exact: &Tableau) -> Result<RunTimeTableau, TableauError> {
     let symplectic_compiler::Coefficients {
         a,
@@ -41,7 +41,7 @@ mod tests {
 
     use super::*;
 
-    /// As many stages as the macros take.
+    /// The limit on stages of the macros.
     const STAGES: usize = 36;
 
     #[test]

@@ -1,4 +1,4 @@
-//! Numbers that count the operations on them.
+//! Scalars that count their operations.
 
 use std::cell::Cell;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -10,11 +10,11 @@ thread_local! {
     static OPERATIONS: Cell<u64> = const { Cell::new(0) };
 }
 
-/// A double; its operations are counted.
+/// A double whose operations are counted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Counted(pub f64);
 
-/// The operations that a function makes in this thread.
+/// The number of operations of a function on this thread.
 pub fn operations(function: impl FnOnce()) -> u64 {
     let before = OPERATIONS.get();
     function();

@@ -29,7 +29,7 @@ impl Counts {
     }
 }
 
-/// A system that counts what is asked of it; its stages are found one by one.
+/// A system that counts its evaluations. Its solver is the fixed-point iteration.
 #[derive(Debug)]
 pub struct Counting<'a, S> {
     system: S,
@@ -37,7 +37,7 @@ pub struct Counting<'a, S> {
 }
 
 impl<'a, S> Counting<'a, S> {
-    /// `system`, counted in `counts`.
+    /// Wraps `system`; evaluations are counted in `counts`.
     pub const fn new(system: S, counts: &'a Counts) -> Self {
         Self { system, counts }
     }

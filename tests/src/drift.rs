@@ -1,8 +1,8 @@
-//! What rounding errors do to the energy in the long run, as a statistic over many orbits.
+//! Statistics over many orbits of the effect of rounding errors on the energy.
 //!
 //! With an ideal integrator the energy error of an orbit is a random walk: its mean over an ensemble is zero, and its
-//! spread grows like the square root of the number of steps (Brouwer's law). A drift is a mean that is many of its own
-//! standard errors away from zero, and that grows with the number of steps itself.
+//! spread grows like the square root of the number of steps (Brouwer's law). A drift is a mean that differs from zero
+//! by many standard errors and grows linearly with the number of steps.
 
 use symplectic::solver::Solver;
 use symplectic::{Error, Integrator, Method, ProvedFor, State, Summation, System, Vector};
@@ -20,8 +20,8 @@ pub struct Sample {
     pub significance: f64,
 }
 
-/// Integrates every orbit by the integrator that is made of its start, and takes a sample after each of the numbers of
-/// steps, which ascend.
+/// Integrates every orbit with the integrator that `integrator` creates from its start, and samples after each number
+/// of `steps`, in ascending order.
 ///
 /// # Errors
 ///
@@ -69,8 +69,7 @@ fn sample(steps: u64, errors: &[f64]) -> Sample {
     }
 }
 
-/// The exponent `k` of a quantity that grows like `stepsᵏ`, from the slope of the line of least squares through its
-/// logarithms.
+/// The exponent `k` of a quantity that grows like `stepsᵏ`, by a least-squares fit of the logarithms.
 pub fn exponent(samples: &[Sample], quantity: impl Fn(&Sample) -> f64) -> f64 {
     let points = samples
         .iter()

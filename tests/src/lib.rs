@@ -1,6 +1,5 @@
-//! What the integration tests, the examples and the report share: [`scenes`] to integrate, [`methods`] to
-//! integrate them with, how results are measured ([`measure`], [`counting`], [`counted`], [`order`]), and what they are measured
-//! against ([`references`], [`peers`]).
+//! Shared code of the integration tests, the examples and the report: [`scenes`], [`methods`], measurements
+//! ([`measure`], [`counting`], [`counted`], [`order`]), and comparisons ([`references`], [`peers`]).
 
 pub mod at_run_time;
 pub mod counted;

@@ -1,6 +1,6 @@
-//! The stability of the methods of the catalogue on the oscillator: what is proved, and what is measured.
+//! The stability of the methods of the catalogue on the oscillator, proved and measured.
 //!
-//! The files of the catalogue hold the coefficients and the stability sets, and a test of the compiler proves them anew.
+//! The files of the catalogue contain the coefficients and the stability sets; a test of the compiler re-proves them.
 
 use std::collections::HashMap;
 use std::fs;
@@ -16,13 +16,13 @@ use symplectic_report::Fact;
 /// A method of the catalogue.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// The intervals of step sizes `hω > 0` for which it is stable, from below to above.
+    /// The intervals of `hω > 0` for which it is stable, in ascending order.
     pub stable: Vec<[f64; 2]>,
     /// Whether it is proved to be explicit for separable systems.
     pub is_explicit: bool,
-    /// What is proved of its order for separable systems, and for quadratic kinetic energy if that is another.
+    /// The order for separable systems and its evidence, and the order for quadratic kinetic energy if it differs.
     pub order: String,
     a: Vec<Vec<f64>>,
     a_tilde: Vec<Vec<f64>>,
@@ -30,7 +30,7 @@ pub struct Entry {
     b_tilde: Vec<f64>,
 }
 
-/// The parts of a file that are read.
+/// The relevant parts of a file.
 #[derive(Deserialize)]
 struct File {
     name: String,
@@ -90,11 +90,11 @@ struct Stability {
     decimal: Option<Vec<[String; 2]>>,
 }
 
-/// The methods of the catalogue whose stability is known, by name: all but the longest compositions.
+/// The methods of the catalogue with known stability, by name: all except the longest compositions.
 ///
 /// # Errors
 ///
-/// Where the files cannot be read.
+/// If the files cannot be read.
 pub fn catalogue() -> io::Result<HashMap<String, Entry>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tableaux");
     let mut entries = HashMap::new();
@@ -141,7 +141,7 @@ impl Entry {
     ///
     /// # Errors
     ///
-    /// Where the compiler does not take the definition.
+    /// If the compiler rejects the definition.
     pub fn derived(name: &str, definition: &str) -> io::Result<Self> {
         let definition = Definition::parse(definition).map_err(io::Error::other)?;
         let tableau = definition
@@ -175,7 +175,7 @@ impl Entry {
         })
     }
 
-    /// What is proved, in a few words.
+    /// The proved facts.
     pub fn facts(&self) -> Vec<Fact> {
         let end = |end: f64| match end {
             0.0 => "0".to_owned(),
@@ -195,7 +195,7 @@ impl Entry {
         ]
     }
 
-    /// The end of the first interval of stability, if that begins at zero.
+    /// The end of the first interval of stability, if it begins at zero.
     pub fn proved_limit(&self) -> Option<f64> {
         let [low, high] = *self.stable.first()?;
         (low == 0.0).then_some(high)
@@ -207,7 +207,8 @@ impl Entry {
         intervals.any(|&[low, high]| low < nu && nu < high)
     }
 
-    /// The stages in an order in which each is made of earlier ones; `None` if there is none, for a separable system.
+    /// The stages for a separable system in an order in which each depends on earlier stages only; `None` for an
+    /// implicit method.
     pub fn explicit(&self) -> Option<ExplicitStep<'_>> {
         let stages = self.b.len();
         let mut known = [vec![false; stages], vec![false; stages]];
@@ -253,7 +254,7 @@ struct Stage {
 }
 
 impl ExplicitStep<'_> {
-    /// The matrix that takes `(q, p/ω)` through a step with `hω = ν`.
+    /// The matrix that maps `(q, p/ω)` over a step with `hω = ν`.
     pub fn matrix(&self, nu: f64) -> Matrix2<f64> {
         // Q_i = q + ν Σ a_ij P_j and P_i = p − ν Σ ã_ij Q_j, for (q, p) = (1, 0) and (0, 1) together.
         let sign = [nu, -nu];
@@ -280,10 +281,10 @@ impl ExplicitStep<'_> {
         Matrix2::new(a, b, c, d)
     }
 
-    /// The smallest `hω` at which the powers of the matrix are seen to grow; infinite if they do not up to [`FARTHEST`].
+    /// The smallest `hω` at which the powers of the matrix grow; infinite if they do not up to [`FARTHEST`].
     ///
-    /// It is searched at points [`SEARCH`] apart, and where the eigenvalues come to ±1 between them: gaps of instability
-    /// can be very narrow there.
+    /// The search tests points [`SEARCH`] apart, and points between them where the eigenvalues approach ±1, because
+    /// gaps of instability can be very narrow there.
     pub fn measured_limit(&self) -> f64 {
         let half_trace = |nu: f64| self.matrix(nu).trace().abs() / 2.0;
         let mut before = [0.0, half_trace(0.0)];
@@ -302,7 +303,7 @@ impl ExplicitStep<'_> {
         f64::INFINITY
     }
 
-    /// Between a stable and an unstable step, by bisection.
+    /// The boundary between a stable and an unstable step, by bisection.
     fn border(&self, mut stable: f64, mut unstable: f64) -> f64 {
         for _ in 0..20 {
             let middle = 0.5 * (stable + unstable);
@@ -316,7 +317,7 @@ impl ExplicitStep<'_> {
     }
 }
 
-/// How something is known, in a word.
+/// The word for the evidence.
 pub const fn evidence(evidence: Evidence) -> &'static str {
     match evidence {
         Evidence::Certified => "certified",
@@ -325,19 +326,19 @@ pub const fn evidence(evidence: Evidence) -> &'static str {
     }
 }
 
-/// Intervals of stability that are listed.
+/// Number of intervals of stability in the facts.
 const SHOWN: usize = 3;
 
-/// The distance of the points at which a limit is searched.
+/// The distance of the points in the search for a limit.
 pub const SEARCH: f64 = 1.0 / 64.0;
 
-/// Where the search for a limit ends.
+/// The end of the search for a limit.
 pub const FARTHEST: f64 = 8.0;
 
-/// Half the trace from which a maximum may hide a gap.
+/// Half-trace from which a maximum may hide a gap.
 const NEAR_ONE: f64 = 0.99;
 
-/// Where a function with one maximum between `low` and `high` has it.
+/// The position of the only maximum of a function between `low` and `high`.
 fn maximum(mut low: f64, mut high: f64, function: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..60 {
         let [left, right] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
@@ -350,10 +351,10 @@ fn maximum(mut low: f64, mut high: f64, function: impl Fn(f64) -> f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Whether the power 2²⁴ of a matrix, by squaring, is below a thousand.
+/// Whether the norm of the 2²⁴-th power of a matrix, by squaring, is below a thousand.
 ///
-/// An eigenvalue off the circle by 10⁻⁶ is seen; with all of them on it the powers are bounded by the condition number of
-/// the eigenvectors.
+/// This detects an eigenvalue outside the unit circle by 10⁻⁶. With all eigenvalues on it, the powers are bounded by
+/// the condition number of the eigenvectors.
 fn powers_are_bounded(mut matrix: Matrix2<f64>) -> bool {
     for _ in 0..24 {
         matrix = matrix * matrix;

@@ -1,4 +1,4 @@
-//! Runs, and what is measured of them.
+//! Runs and their measurements.
 
 use std::time::{Duration, Instant};
 
@@ -28,13 +28,13 @@ where
     Ok(integrator.into_state())
 }
 
-/// The distance of two positions, in the 2-norm and in their unit.
+/// The distance of two positions in the 2-norm.
 pub fn position_error<V: Vector<Scalar = f64>>(found: &State<V>, reference: &State<V>) -> f64 {
     let pairs = found.q.as_slice().iter().zip(reference.q.as_slice());
     pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
-/// What a run was like.
+/// The measurements of a run.
 #[derive(Clone, Debug)]
 pub struct Measurement<V> {
     /// The state at the end.
@@ -49,7 +49,7 @@ pub struct Measurement<V> {
     pub sweeps: u64,
     /// The largest relative error of the energy in each quarter of the time.
     pub energy_errors: [f64; 4],
-    /// The wall-clock time of the run, with neither energies nor evaluations looked at: the best of three.
+    /// The wall-clock time of the run without observation, the best of three.
     pub time: Duration,
 }
 
@@ -60,9 +60,9 @@ impl<V> Measurement<V> {
     }
 }
 
-/// Integrates `system` from `start` to `end` in equal steps of at most `step_size`, and measures everything.
+/// Integrates `system` from `start` to `end` in equal steps of at most `step_size`, with all measurements.
 ///
-/// A system without an energy has NaN for its error.
+/// The energy error of a system without an energy is NaN.
 ///
 /// # Errors
 ///
@@ -90,7 +90,7 @@ where
     Ok(measurement)
 }
 
-/// [`measure`] without the time, which is zero; shows `visit` every state, the first one included.
+/// [`measure`] without the time, which is zero; calls `visit` with every state, including the first.
 ///
 /// # Errors
 ///
@@ -124,7 +124,7 @@ where
     )?;
     visit(start);
     integrator.integrate_with(end, |state| {
-        // A state on the border belongs to the quarter that it ends.
+        // A state at a boundary belongs to the quarter that it ends.
         let quarter = (4.0 * (state.time - start.time) / (end - start.time)).ceil() as usize;
         let error = &mut energy_errors[quarter.clamp(1, 4) - 1];
         *error = largest(*error, ((energy(state) - before) / before).abs());
@@ -141,7 +141,7 @@ where
     })
 }
 
-/// The larger one; NaN if one is.
+/// The larger number; NaN if either is NaN.
 pub fn largest(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }

@@ -1,4 +1,4 @@
-//! Methods from the macro.
+//! The methods of the tests.
 
 symplectic::tableau! {
     /// Symplectic Euler: implicit in the position, explicit in the momentum; explicit for separable systems.
@@ -43,10 +43,10 @@ symplectic::tableau! {
     /// The implicit midpoint rule, which is the variational Newmark method with γ = 1/2 in other variables, order 2.
     pub Midpoint { basis: polynomial(1), nodes: gauss(1), require: [order == 2, p_stable] }
 
-    /// Radau with two stages, the end of the step one of them.
+    /// Radau with two stages, with a node at the end of the step.
     pub RadauRight2 { basis: polynomial(2), nodes: radau-right(2), require: [symplectic] }
 
-    /// Radau with three stages, the end of the step one of them.
+    /// Radau with three stages, with a node at the end of the step.
     pub RadauRight3 { basis: polynomial(3), nodes: radau-right(3), require: [symplectic] }
 
     /// Clenshaw–Curtis with four stages.
@@ -55,7 +55,7 @@ symplectic::tableau! {
     /// Galerkin: polynomials of degree two and Gauss quadrature with three nodes.
     pub GalerkinGauss3 { basis: legendre(2), quadrature: gauss(3), require: [symplectic, symmetric] }
 
-    /// A trigonometric basis on the nodes of Gauss: symplectic and symmetric, which is verified and not proved.
+    /// A trigonometric basis on the nodes of Gauss: symplectic and symmetric, verified but not proved.
     pub TrigonometricGauss4 { basis: [1, t, cos(t), sin(t)], nodes: gauss(4) }
 }
 
@@ -75,7 +75,7 @@ symplectic::composition! {
     /// Ruth, order 3.
     pub Ruth3 { base: ruth-1983 }
 
-    /// McLachlan & Atela, order 4 with the smallest error constant of its kind.
+    /// McLachlan & Atela, order 4 with the smallest error constant among such methods.
     pub McLachlanAtela4 { base: mclachlan-atela-1992-order-4-optimal }
 
     /// Blanes & Moan S6, order 4.

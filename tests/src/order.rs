@@ -1,4 +1,4 @@
-//! The order of a method, observed.
+//! The observed order of a method.
 
 use std::fmt;
 
@@ -9,16 +9,16 @@ pub struct ObservedOrder {
     pub slope: f64,
     /// The correlation coefficient of the points, 1 on a straight line.
     pub correlation: f64,
-    /// The largest distance of a point from the line, as a factor of the error: 1 on the line.
+    /// The largest distance of a point from the line, as a factor of the error; 1 on the line.
     pub residual: f64,
-    /// The slope between each run and the next.
+    /// The slopes between consecutive runs.
     pub pairs: Vec<f64>,
 }
 
 impl ObservedOrder {
-    /// The order that runs show, given as `(step size, error)` in any order of falling or rising step sizes.
+    /// The observed order of runs `(step size, error)`, with monotone step sizes.
     ///
-    /// NaN where there are fewer than two different step sizes, or where an error is not positive.
+    /// NaN for fewer than two different step sizes, or if an error is not positive.
     pub fn of(runs: &[(f64, f64)]) -> Self {
         let points: Vec<(f64, f64)> = runs.iter().map(|(h, error)| (h.ln(), error.ln())).collect();
         let count = points.len() as f64;
@@ -46,10 +46,10 @@ impl ObservedOrder {
         }
     }
 
-    /// Whether the runs show `order` and nothing else: the slope and that of *every* pair of neighbours within
-    /// `tolerance` of it, so that of every pair of runs, and points on a line to a correlation of 0.9999.
+    /// Whether the runs show exactly `order`: the fitted slope and the slope of *every* pair of neighbours (hence of
+    /// every pair of runs) are within `tolerance` of it, and the correlation is at least 0.9999.
     ///
-    /// An order that is higher than expected does not pass.
+    /// A higher order than expected does not pass, either.
     pub fn shows(&self, order: f64, tolerance: f64) -> bool {
         let near = |slope: &f64| (slope - order).abs() <= tolerance;
         !self.pairs.is_empty()

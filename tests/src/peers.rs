@@ -1,10 +1,10 @@
-//! Systems as the crates `ode_solvers` and `differential-equations` take them.
+//! Adapters of systems for the crates `ode_solvers` and `differential-equations`.
 
 use differential_equations::prelude::ODE;
 use ode_solvers::{Dop853, OutputType, SVector as PeerVector, System};
 use symplectic::nalgebra::SVector;
 
-/// A system of `N` components as first-order equations for `M = 2N`.
+/// A system with `N` components as `M = 2N` first-order equations.
 pub struct Equations<S, const N: usize>(pub S);
 
 impl<S: symplectic::System<SVector<f64, N>>, const N: usize> Equations<S, N> {
@@ -40,7 +40,7 @@ where
     }
 }
 
-/// Their Hamiltonian systems have positions and momenta in vectors as long as the state.
+/// In this trait position and momentum are vectors with the length of the state.
 impl<S, const N: usize, const M: usize> differential_equations::ode::Hamiltonian<f64, [f64; M]>
     for Equations<S, N>
 where
@@ -61,7 +61,7 @@ where
     }
 }
 
-/// `ode_solvers`: DOP853 from time 0, with one tolerance, relative and absolute.
+/// DOP853 from `ode_solvers`, from time 0, with the same relative and absolute tolerance.
 pub fn dop853<S, const N: usize, const M: usize>(
     equations: &Equations<S, N>,
     start: [f64; M],
@@ -80,7 +80,7 @@ where
         PeerVector::<f64, M>::from(start),
         tolerance,
         tolerance,
-        // The defaults, except for the bound on the steps and no output on the way.
+        // The defaults, except for the limit on the steps and without intermediate output.
         0.9,
         0.0,
         0.333,

@@ -1,4 +1,4 @@
-//! Tables to read on a terminal.
+//! Tables for a terminal.
 
 use std::fmt;
 use std::time::Duration;
@@ -27,7 +27,7 @@ const HEADER: [&str; COLUMNS] = [
 ];
 
 impl Table {
-    /// Adds the runs of one method, as `(step size, measurement, position error)` from large steps to small.
+    /// Adds the runs of a method, as `(step size, measurement, position error)` with decreasing step size.
     pub fn add<V>(&mut self, method: &str, runs: &[(f64, Measurement<V>, f64)]) {
         let mut rows = Vec::new();
         for (index, (step_size, run, error)) in runs.iter().enumerate() {
@@ -80,7 +80,7 @@ impl fmt::Display for Table {
     }
 }
 
-/// Names to the left, numbers to the right.
+/// Names are left-aligned, numbers right-aligned.
 fn line(
     f: &mut fmt::Formatter<'_>,
     widths: &[usize; COLUMNS],
@@ -93,7 +93,7 @@ fn line(
     writeln!(f)
 }
 
-/// Thousands apart: 12 345.
+/// Grouped digits: 12 345.
 fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();

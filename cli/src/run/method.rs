@@ -10,14 +10,14 @@ use toml::Value;
 
 use super::setup::{File, Setup};
 
-/// A method, and how it is defined.
+/// A method and its definition.
 pub(super) struct Method {
     pub(super) tableau: RunTimeTableau,
     pub(super) definition: String,
 }
 
 impl Method {
-    /// Derives the method that a setup names.
+    /// Derives the method of a setup.
     pub(super) fn read(file: &File<'_>, setup: &Setup) -> Result<Self, Error> {
         let span = setup.method.span();
         let placed = |error: Error| match error.place {

@@ -35,23 +35,24 @@ use self::system::{GeneralFormula, SeparableFormula, Tapes};
 use self::unroll::{MOST_STEPS, Refusal};
 use crate::output::print;
 
-/// Integrate many trajectories of a system from its formula, with a method by name.
+/// Integrate an ensemble of trajectories of a system given by its formula.
 ///
-/// A TOML file has the formula, the method, the step size, the starts and the name of the output. The book describes it in "Runs from a file".
+/// A TOML file contains the formula, the method, the step size, the starts and the output file; see "Runs from a file"
+/// in the book.
 #[derive(Args)]
 pub(crate) struct Arguments {
     /// The TOML file.
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Run part I of N only, from 0: `--shard 0/4`. The part is in the name of the output.
+    /// Run only part I of N, from 0: `--shard 0/4`. The name of the output contains the part.
     #[arg(long, value_name = "I/N", value_parser = shard)]
     shard: Option<Shard>,
-    /// How many threads [default: one for each core]. No bit of the results depends on it.
+    /// Number of threads [default: one per core]. The results do not depend on it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
 }
 
-/// The most numbers of states that are kept.
+/// Largest number of components of all stored states.
 const MOST_NUMBERS: u128 = 1 << 28;
 
 /// One of several parts.
@@ -73,7 +74,7 @@ fn shard(text: &str) -> Result<Shard, String> {
 type Vector = DVector<f64>;
 type States = Vec<State<Vector>>;
 
-/// What is run, apart from the types that the formula chooses.
+/// A run, except for the types that depend on the formula.
 struct Run<'a> {
     file: &'a File<'a>,
     setup: &'a Setup,
@@ -113,7 +114,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         file.error(setup.system.span(), message)
     })?;
     if let Some(threads) = arguments.threads {
-        // It is set once in a process: the first time there is nothing to fail.
+        // The global pool can be set only once per process, and this is the only call.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
         pool.build_global()
             .map_err(|error| document(format!("no threads: {error}")))?;
@@ -144,7 +145,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     }
 }
 
-/// Refuses to write results over the starts.
+/// Refuses an output that would overwrite the starts.
 fn refuse_overwriting(file: &File<'_>, setup: &Setup, output: &Path) -> Result<(), Error> {
     let Starts::File(name) = setup.starts.get_ref() else {
         return Ok(());
@@ -159,7 +160,7 @@ fn refuse_overwriting(file: &File<'_>, setup: &Setup, output: &Path) -> Result<(
     }
 }
 
-/// The name of the output, of a part if it is one: `orbits.0-of-4.npz`.
+/// The name of the output, with the part if there is one: `orbits.0-of-4.npz`.
 fn named(path: PathBuf, shard: Option<Shard>) -> PathBuf {
     match (
         shard,
@@ -172,7 +173,7 @@ fn named(path: PathBuf, shard: Option<Shard>) -> PathBuf {
     }
 }
 
-/// The system of the formula, which has to be a free one.
+/// The system of the formula, which must have no constraints, friction or applied forces.
 fn read_system(file: &File<'_>, setup: &Setup) -> Result<(System, Structure), Error> {
     let (span, text) = (setup.system.span(), setup.system.get_ref());
     let name = format!("`system` in {}", file.path.display());
@@ -198,10 +199,10 @@ fn read_system(file: &File<'_>, setup: &Setup) -> Result<(System, Structure), Er
     }
 }
 
-/// The most steps that can be counted.
+/// Largest exact number of steps.
 const MOST_STEPS_OF_A_RUN: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
 
-/// The times at which states are written; none if it is the end.
+/// The output times; `None` for the end only.
 fn times(file: &File<'_>, setup: &Setup) -> Result<Option<Vec<f64>>, Error> {
     let (size, start) = (*setup.step_size.get_ref(), setup.start_time);
     if !size.is_finite() || size == 0.0 {
@@ -379,7 +380,7 @@ impl Run<'_> {
         })
     }
 
-    /// Why there is no ensemble, in the words of the file.
+    /// Translates an error of the ensemble into the terms of the file.
     fn refused(&self, error: &EnsembleError) -> Error {
         let accept = "take another method (`symplectic list --class …`), or write `accept_lower_order = true`";
         let span = self.setup.method.span();
@@ -401,7 +402,7 @@ impl Run<'_> {
     }
 }
 
-/// A bar on a terminal, and nothing elsewhere.
+/// A progress bar, hidden unless standard error is a terminal.
 fn progress(count: usize) -> ProgressBar {
     if !std::io::stderr().is_terminal() {
         return ProgressBar::hidden();

@@ -12,17 +12,17 @@ use symplectic_compiler::{Error, ErrorKind};
 use super::starts::Coordinates;
 use super::system::Tapes;
 
-/// A state that is written, with the energy there.
+/// An output state with its energy.
 #[derive(Debug, Clone)]
 pub(super) struct Seen {
     pub(super) state: State<DVector<f64>>,
     pub(super) energy: f64,
 }
 
-/// A trajectory with what was seen of it at times.
+/// A trajectory with its states at the output times.
 pub(super) type Trajectory = Row<DVector<f64>, Vec<Seen>>;
 
-/// What stands in the file beside the trajectories.
+/// The metadata in the file.
 pub(super) struct Facts<'a> {
     pub(super) method: &'a str,
     pub(super) definition: &'a str,
@@ -39,13 +39,13 @@ pub(super) struct Results<'a> {
     pub(super) facts: Facts<'a>,
     pub(super) tapes: &'a Tapes,
     pub(super) rows: &'a [Trajectory],
-    /// The start of each of them.
+    /// The start of each trajectory.
     pub(super) starts: &'a [State<DVector<f64>>],
-    /// The times at which states are written; none where it is the end.
+    /// The output times; `None` for the end only.
     pub(super) times: Option<&'a [f64]>,
 }
 
-/// A file that is there in full or not at all: it is written beside its place, under another name.
+/// An output file that is complete or absent: it is written under a temporary name in the same folder and then renamed.
 pub(super) struct Target {
     path: PathBuf,
     part: PathBuf,
@@ -61,7 +61,7 @@ enum Format {
 }
 
 impl Target {
-    /// Opens the file, before the run: so a run is not lost where nothing can be written.
+    /// Opens the file before the run, so that an unwritable output is detected before anything is computed.
     pub(super) fn open(path: PathBuf) -> Result<Self, Error> {
         let extension = path.extension().and_then(|extension| extension.to_str());
         let format = match extension {
@@ -101,12 +101,12 @@ impl Target {
         })
     }
 
-    /// Where the results go.
+    /// The path of the output.
     pub(super) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Writes the results, and gives the file its name.
+    /// Writes the results and renames the file.
     pub(super) fn write(self, results: &Results<'_>) -> Result<(), Error> {
         let mut out = BufWriter::new(&self.file);
         let written = match self.format {
@@ -130,13 +130,13 @@ impl Target {
 
 impl Drop for Target {
     fn drop(&mut self) {
-        // It is there where the run or the writing has failed.
+        // The temporary file still exists if the run or the writing failed.
         let _ = fs::remove_file(&self.part);
     }
 }
 
 impl Results<'_> {
-    /// `(H − H₀)/|H₀|`; the difference, where the energy at the start is zero.
+    /// `(H − H₀)/|H₀|`, or `H − H₀` if the energy at the start is zero.
     pub(super) fn energy_errors(&self) -> Vec<Vec<f64>> {
         let pairs = self.rows.iter().zip(self.starts);
         let errors = pairs.map(|(row, start)| {
@@ -193,7 +193,7 @@ impl Results<'_> {
             file.doubles("energy_error", &[count], &errors.concat())?;
             return file.finish().map(|_| ());
         };
-        // What a trajectory that failed did not reach is NaN.
+        // NaN for the times that a failed trajectory did not reach.
         let steps = times.len();
         file.doubles("times", &[steps], times)?;
         for (name, half) in [("q_at_times", 0), ("p_at_times", 1)] {

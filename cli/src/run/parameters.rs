@@ -9,7 +9,7 @@ use toml::Value;
 use super::setup::{self, File, Setup};
 use super::values::Values;
 
-/// Reads all parameters, and with them the lengths that the formula leaves open.
+/// Reads all parameters; their lengths determine the lengths that the formula leaves open.
 pub(super) fn read(
     file: &File<'_>,
     setup: &Setup,
@@ -36,7 +36,7 @@ pub(super) fn read(
         let message = format!("there is no parameter `{name}`; {there}");
         return Err(file.error(value.span(), message));
     }
-    // Lists of pairs first: arrays may be as long as they are.
+    // Lists of pairs first, because they may determine the lengths of arrays.
     for (place, Parameter { name, shape }) in system.parameters.iter().enumerate() {
         if let Shape::Pairs = shape {
             let (value, span) = given(file, setup, name, "a list of pairs of indices")?;
@@ -108,7 +108,7 @@ fn number(value: &Value) -> Option<f64> {
     setup::number(value).filter(|number| number.is_finite())
 }
 
-/// The value of a parameter that the formula gives none.
+/// The value of a parameter without a default.
 fn given<'a>(
     file: &File<'_>,
     setup: &'a Setup,

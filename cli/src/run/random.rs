@@ -1,9 +1,9 @@
-//! Random numbers that are the same on every machine.
+//! Reproducible random numbers, identical on every machine.
 
 use symplectic::Scalar;
 
-/// The word `number` of the sequence of a seed: SplitMix64 (Steele, Lea & Flood, *Fast splittable pseudorandom number generators*,
-/// OOPSLA 2014), whose state is a counter.
+/// Word `number` of the sequence of a seed, by SplitMix64 (Steele, Lea & Flood, *Fast splittable pseudorandom number
+/// generators*, OOPSLA 2014); its state is a counter.
 fn word(seed: u64, number: u64) -> u64 {
     let state = seed.wrapping_add(number.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
     let word = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -11,17 +11,17 @@ fn word(seed: u64, number: u64) -> u64 {
     word ^ (word >> 31)
 }
 
-/// A number of 53 bits, from 0 exclusive to 1 inclusive.
+/// A 53-bit number in (0, 1].
 fn unit(seed: u64, number: u64) -> f64 {
     ((word(seed, number) >> 11) + 1) as f64 * (f64::EPSILON / 2.0)
 }
 
-/// Draw `draw` of the uniform distribution from 0 to 1.
+/// Draw number `draw` from the uniform distribution on (0, 1].
 pub(super) fn uniform(seed: u64, draw: u64) -> f64 {
     unit(seed, 2 * draw)
 }
 
-/// Draw `draw` of the standard normal distribution, by the method of Box & Muller.
+/// Draw number `draw` from the standard normal distribution (Box–Muller).
 pub(super) fn normal(seed: u64, draw: u64) -> f64 {
     let radius = Scalar::sqrt(-2.0 * Scalar::ln(unit(seed, 2 * draw)));
     radius * Scalar::cos(std::f64::consts::TAU * unit(seed, 2 * draw + 1))

@@ -1,4 +1,4 @@
-//! The file of a run.
+//! The setup file of a run.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -9,7 +9,7 @@ use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor, value::MapAccessDes
 use symplectic_compiler::{Error, ErrorKind, Place};
 use toml::{Spanned, Value};
 
-/// What a file says.
+/// The contents of a setup file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Setup {
@@ -33,7 +33,7 @@ pub(super) struct Setup {
     pub(super) output: Output,
 }
 
-/// How steps are added up.
+/// The summation of steps.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Sums {
@@ -42,7 +42,7 @@ pub(super) enum Sums {
     Plain,
 }
 
-/// The times that states are written at.
+/// The output times.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(
     untagged,
@@ -53,7 +53,7 @@ pub(super) enum Times {
     Range(Evenly),
 }
 
-/// Numbers at equal distances, both ends among them.
+/// Equidistant numbers, including both ends.
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Evenly {
@@ -62,7 +62,7 @@ pub(super) struct Evenly {
     pub(super) count: usize,
 }
 
-/// How many random starts there are at each point of the grid of the other coordinates.
+/// The number of random starts at each point of the grid of the other coordinates.
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Random {
@@ -70,7 +70,7 @@ pub(super) struct Random {
     pub(super) count: usize,
 }
 
-/// Where the results go.
+/// The destination of the results.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Output {
@@ -78,15 +78,15 @@ pub(super) struct Output {
     pub(super) file: Spanned<PathBuf>,
 }
 
-/// Coordinates with what each starts at.
+/// Start values by coordinate.
 pub(super) type Grid = BTreeMap<String, Spanned<Value>>;
 
-/// The starts as they are written.
+/// The starts as given.
 #[derive(Debug)]
 pub(super) enum Starts {
     /// A CSV file.
     File(PathBuf),
-    /// Grids, one after another.
+    /// A sequence of grids.
     Grids(Vec<Grid>),
 }
 
@@ -135,7 +135,7 @@ impl Evenly {
 }
 
 impl Times {
-    /// The times in their order.
+    /// The times in order.
     pub(super) fn list(&self) -> Vec<f64> {
         match self {
             Times::List(times) => times.clone(),
@@ -144,7 +144,7 @@ impl Times {
     }
 }
 
-/// A file with its text: it says where errors are.
+/// A file with its text, for the positions of errors.
 pub(super) struct File<'a> {
     pub(super) path: &'a Path,
     pub(super) text: &'a str,
@@ -162,7 +162,7 @@ impl File<'_> {
         })
     }
 
-    /// What is wrong at a place.
+    /// An error at a position.
     pub(super) fn error(&self, span: Range<usize>, message: impl Into<String>) -> Error {
         let kind = ErrorKind::Document {
             message: message.into(),
@@ -170,7 +170,7 @@ impl File<'_> {
         self.at(span, kind)
     }
 
-    /// The same, of any kind.
+    /// An error of any kind at a position.
     pub(super) fn at(&self, span: Range<usize>, kind: ErrorKind) -> Error {
         let place = Place {
             input: self.path.display().to_string(),
@@ -180,7 +180,7 @@ impl File<'_> {
         Error::at(kind, place)
     }
 
-    /// An error in a text of this file, with its place in the file where the text stands there letter by letter.
+    /// An error in a string of this file; its position refers to the file if the string occurs there literally.
     pub(super) fn inside(&self, span: Range<usize>, text: &str, error: Error) -> Error {
         let written = self
             .text
@@ -197,13 +197,13 @@ impl File<'_> {
         }
     }
 
-    /// A file that this one names: beside it, unless the name begins at the root.
+    /// The path of a file named in this file, relative to its folder unless absolute.
     pub(super) fn beside(&self, name: &Path) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(name)
     }
 }
 
-/// A number, also one without a point.
+/// A float or an integer.
 pub(super) fn number(value: &Value) -> Option<f64> {
     value
         .as_float()

@@ -11,12 +11,12 @@ use toml::{Spanned, Value};
 use super::random;
 use super::setup::{Evenly, File, Grid, Random, Setup, Starts, number};
 
-/// The largest number of starts of a run.
+/// Largest number of starts of a run.
 pub(super) const MOST: usize = 1 << 22;
 
 const EXPECTED: &str = "expected a number, { from, to, count } with a count up to 4194304, { values = [...] }, { uniform = [low, high] } or { normal = [mean, deviation] }";
 
-/// The names of all components of positions and of momenta.
+/// The names of all components of the position and the momentum.
 #[derive(Debug, Clone)]
 pub(super) struct Coordinates(pub(super) [Vec<String>; 2]);
 
@@ -38,17 +38,17 @@ impl Coordinates {
         Coordinates([names(Half::Q), names(Half::P)])
     }
 
-    /// How many positions there are.
+    /// The dimension of the position.
     pub(super) fn dimension(&self) -> usize {
         self.0[0].len()
     }
 
-    /// All of them, positions first.
+    /// All names, positions first.
     pub(super) fn all(&self) -> impl Iterator<Item = &String> {
         self.0.iter().flatten()
     }
 
-    /// Their names, the first ones if there are many.
+    /// The list of names, truncated if there are many.
     pub(super) fn listed(&self) -> String {
         let mut names = self.all().map(String::as_str);
         let first: Vec<&str> = names.by_ref().take(20).collect();
@@ -57,7 +57,7 @@ impl Coordinates {
     }
 }
 
-/// What a coordinate starts at.
+/// The start values of a coordinate.
 #[derive(Debug, Clone)]
 enum Spec {
     Values(Vec<f64>),
@@ -96,10 +96,10 @@ impl Spec {
     }
 }
 
-/// A start, of any number of bodies.
+/// A start with any number of bodies.
 type Start = State<DVector<f64>>;
 
-/// The starts of a system, before it is known how many bodies it has.
+/// Reads the starts of a system, whose number of bodies is not yet known.
 pub(super) struct Reader<'a> {
     pub(super) file: &'a File<'a>,
     pub(super) system: &'a System,
@@ -188,7 +188,7 @@ impl Reader<'_> {
         Ok((coordinates, rows))
     }
 
-    /// The places of all coordinates with what they start at, in the order of the file.
+    /// The indices of all coordinates with their start values, in the order of the file.
     fn axes(&self, grid: &Grid, coordinates: &Coordinates) -> Result<Vec<(usize, Spec)>, Error> {
         let mut entries: Vec<(&String, &Spanned<Value>)> = grid.iter().collect();
         entries.sort_by_key(|(_, value)| value.span().start);
@@ -224,7 +224,7 @@ impl Reader<'_> {
         Ok(axes)
     }
 
-    /// The coordinates that a key names: one, or the entries of the lists `q` and `p`.
+    /// The coordinates of a key: a single coordinate, or the entries of the lists `q` and `p`.
     fn leaves<'v>(
         &self,
         key: &str,
@@ -275,7 +275,7 @@ impl Reader<'_> {
             .collect())
     }
 
-    /// All combinations, of which the last coordinate changes fastest, and `count` draws of each.
+    /// Appends all combinations, the last coordinate fastest, with `count` draws of each.
     fn product(
         &self,
         axes: &[(usize, Spec)],
@@ -305,7 +305,7 @@ impl Reader<'_> {
                 for ((place, spec), length) in axes.iter().zip(&lengths).rev() {
                     let choice = rest % length;
                     rest /= length;
-                    // A number of its own for every start and coordinate, whatever the order of the keys.
+                    // A separate draw for every start and coordinate, independent of the order of the keys.
                     let draw = *draws * axes.len() as u64 + *place as u64;
                     row[*place] = match spec {
                         Spec::Values(values) => values[choice],

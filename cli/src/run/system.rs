@@ -1,4 +1,4 @@
-//! A formula as a system that integrators take.
+//! A formula as a system for integrators.
 
 use std::sync::Arc;
 
@@ -17,13 +17,13 @@ use super::values::Values;
 pub(super) struct Tapes {
     velocity: Tape,
     force: Tape,
-    /// Velocity, then force.
+    /// Velocity followed by force.
     slopes: Tape,
     energy: Tape,
 }
 
 impl Tapes {
-    /// Differentiates a system, and unrolls its loops.
+    /// Differentiates a system and unrolls its loops.
     pub(super) fn new(
         system: &mut System,
         structure: &Structure,
@@ -91,12 +91,12 @@ impl SeparableHamiltonian for SeparableFormula {
     type Vector<T: Scalar> = DVector<T>;
 
     fn velocity<T: Scalar>(&self, time: T, p: &DVector<T>, velocity: &mut DVector<T>) {
-        // It reads no position.
+        // The tape of the velocity reads no position.
         fill(&self.0.velocity, at(time, p, p), velocity);
     }
 
     fn force<T: Scalar>(&self, time: T, q: &DVector<T>, force: &mut DVector<T>) {
-        // It reads no momentum.
+        // The tape of the force reads no momentum.
         fill(&self.0.force, at(time, q, q), force);
     }
 

@@ -1,11 +1,11 @@
 //! A formula as a list of operations on registers, and its interpreter over any scalar.
 //!
-//! A tape runs over whole lanes: each operation is done on all trajectories side by side before the next one is read. Its operations
-//! are those that the macro emits for the same formula.
+//! A tape runs on SIMD lanes: each operation is applied to all trajectories in the lanes before the next one is read.
+//! It has the operations that the macro emits for the same formula.
 
 use symplectic::Scalar;
 
-/// What a step computes from its operands.
+/// The operation of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Code {
     /// `a + b`
@@ -56,10 +56,10 @@ pub(super) enum Code {
     Atan2,
 }
 
-/// A register, by its number.
+/// The number of a register.
 pub(super) type Register = u16;
 
-/// One operation: reads three registers at most, writes one.
+/// An operation that reads at most three registers and writes one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Step {
     pub(super) code: Code,
@@ -67,7 +67,7 @@ pub(super) struct Step {
     pub(super) operands: [Register; 3],
 }
 
-/// What a register holds at the beginning.
+/// The initial value of a register.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Input {
     Constant(f64),
@@ -76,19 +76,19 @@ pub(super) enum Input {
     Momentum(usize),
 }
 
-/// The operations for some results.
+/// The operations that compute a list of results.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Tape {
-    /// The registers from the first one on.
+    /// The initial values of the first registers.
     pub(super) inputs: Vec<Input>,
     pub(super) steps: Vec<Step>,
-    /// Where each result is at the end.
+    /// The register of each result at the end.
     pub(super) results: Vec<Register>,
-    /// How many registers there are.
+    /// Number of registers.
     pub(super) registers: usize,
 }
 
-/// Where results are evaluated.
+/// The point of evaluation.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct At<'a, T> {
     pub(super) time: T,
@@ -97,7 +97,7 @@ pub(super) struct At<'a, T> {
 }
 
 impl<T: Scalar> At<'_, T> {
-    /// What a register begins with.
+    /// The value of an input.
     #[inline(always)]
     fn value(&self, input: Input) -> T {
         let entry = |half: &[T], k: usize| match half.get(k) {
@@ -114,9 +114,10 @@ impl<T: Scalar> At<'_, T> {
 }
 
 impl Tape {
-    /// Gives `write` each result and its number.
+    /// Evaluates the tape and calls `write` with the number and the value of each result.
     ///
-    /// Up to 256 registers are an array on the stack, of the next of a few sizes; more are allocated in every evaluation.
+    /// Up to 256 registers are an array on the stack, of the next larger of five sizes; more are allocated in every
+    /// evaluation.
     #[inline]
     pub(super) fn run<T: Scalar>(&self, at: At<'_, T>, write: impl FnMut(usize, T)) {
         if self.steps.is_empty() {
@@ -135,7 +136,7 @@ impl Tape {
         }
     }
 
-    /// Results that are inputs, as the velocity is with unit masses.
+    /// Copies results that are inputs, such as the velocity with unit masses.
     #[inline]
     fn copy<T: Scalar>(&self, at: At<'_, T>, mut write: impl FnMut(usize, T)) {
         for (number, &register) in self.results.iter().enumerate() {
@@ -148,7 +149,7 @@ impl Tape {
     #[inline(never)]
     fn on_stack<T: Scalar, const N: usize>(&self, at: At<'_, T>, write: impl FnMut(usize, T)) {
         let mut registers = [T::zero(); N];
-        // N is a power of two: no place is outside, and none is checked.
+        // N is a power of two: the mask makes every index valid, so that no bound is checked.
         let place = |register: Register| usize::from(register) & (N - 1);
         self.execute(&mut registers, place, at, write);
     }
@@ -175,7 +176,7 @@ impl Tape {
     }
 }
 
-/// An operation; it reads the operands that it has.
+/// Applies an operation; it reads only the operands it needs.
 #[inline(always)]
 pub(super) fn apply<T: Scalar>(
     code: Code,

@@ -1,4 +1,4 @@
-//! From a formula to a tape: loops are unrolled, parameters are numbers, equal operations are done once.
+//! From a formula to a tape: unrolls loops, substitutes parameters, and shares common subexpressions.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
@@ -13,9 +13,9 @@ use symplectic_compiler::formula::operations::{Op, Operation, Operations};
 use super::tape::{Code, Input, Register, Step, Tape, apply};
 use super::values::{Indices, Values};
 
-/// The most operations of a formula with its loops unrolled.
+/// Largest number of operations of a formula with unrolled loops.
 pub(super) const MOST_STEPS: usize = 60_000;
-/// The most values that are looked at on the way.
+/// Largest number of values to visit while unrolling.
 const MOST_VALUES: usize = 4_000_000;
 
 /// Why a formula has no tape.
@@ -23,14 +23,14 @@ const MOST_VALUES: usize = 4_000_000;
 pub(super) enum Refusal {
     /// It has more than [`MOST_STEPS`] operations.
     TooLong,
-    /// It asks for a coordinate, or an entry of a parameter, that does not exist.
+    /// It refers to a coordinate, or an entry of a parameter, that does not exist.
     Outside,
 }
 
-/// A value in a formula, by its number.
+/// The number of a value.
 type Number = u32;
 
-/// What a value is.
+/// A value of an unrolled formula.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum Value {
     /// A constant, by its bits.
@@ -41,18 +41,18 @@ enum Value {
     Step(Code, [Number; 3]),
 }
 
-/// The values of some formulas, each once.
+/// The unrolled values of several formulas, without duplicates.
 pub(super) struct Unrolled<'a> {
     system: &'a System,
     values: &'a Values,
     operations: Operations<'a>,
-    /// The operations that change in each loop, in their order.
+    /// The operations that vary in each loop, in order.
     changing: HashMap<LoopId, Rc<[Op]>>,
-    /// The operations below one in a loop that change in the loop.
+    /// For an operation in a loop, the operations below it that vary in the loop.
     needed: HashMap<(LoopId, Op), Rc<[Op]>>,
     indices: Indices,
     bound: u64,
-    /// What operations are at these indices.
+    /// The values of operations at the present indices.
     known: HashMap<Op, Number>,
     list: Vec<Value>,
     numbers: HashMap<Value, Number>,
@@ -60,7 +60,7 @@ pub(super) struct Unrolled<'a> {
 }
 
 impl<'a> Unrolled<'a> {
-    /// For some nodes of the graph of a system.
+    /// Unrolls the operations of some nodes of the graph of a system.
     pub(super) fn new(
         system: &'a System,
         values: &'a Values,
@@ -96,7 +96,7 @@ impl<'a> Unrolled<'a> {
         found.copied().ok_or(Refusal::Outside)
     }
 
-    /// The components of a derivative of which these are the parts.
+    /// The components of a derivative, as sums of its parts.
     pub(super) fn gradient(&mut self, parts: &[Scatter]) -> Result<Vec<Number>, Refusal> {
         let components = self.system.layout.components();
         let mut sums = vec![None; self.values.bodies * components];
@@ -136,8 +136,8 @@ impl<'a> Unrolled<'a> {
         Ok(())
     }
 
-    /// The operations below `wanted` that change in a loop, operands first. Others are not computed: of a sum in a sum each would open
-    /// the other one without end.
+    /// The operations below `wanted` that vary in a loop, operands first. Restricting to these avoids an infinite
+    /// recursion between nested sums.
     fn needed(&mut self, over: LoopId, wanted: Op) -> Rc<[Op]> {
         if let Some(needed) = self.needed.get(&(over, wanted)) {
             return Rc::clone(needed);
@@ -155,7 +155,7 @@ impl<'a> Unrolled<'a> {
         needed
     }
 
-    /// Does `work` for every index of a loop, when `wanted` is known at it.
+    /// Calls `work` for every index of a loop, with the value of `wanted` computed.
     fn each(
         &mut self,
         over: LoopId,
@@ -168,7 +168,7 @@ impl<'a> Unrolled<'a> {
             .range(system, &self.indices, system.graph.get_loop(over));
         let needed = self.needed(over, wanted);
         let changing = self.changing.get(&over).cloned().unwrap_or_default();
-        // The loop may be one that is run already, around this one.
+        // The same loop may already be running outside this call.
         let before = self.indices.get(&over).copied();
         let kept: Vec<(Op, Number)> = changing
             .iter()
@@ -199,7 +199,7 @@ impl<'a> Unrolled<'a> {
         outcome
     }
 
-    /// Computes all of these operations that are fixed by the present indices, operands first.
+    /// Computes those operations that the present indices determine, operands first.
     fn compute_all(&mut self, operations: &[Op]) -> Result<(), Refusal> {
         for &op in operations {
             let is_ready = self.operations.depends(op).loops & !self.bound == 0;
@@ -213,7 +213,8 @@ impl<'a> Unrolled<'a> {
         Ok(())
     }
 
-    /// An operation; `None` where it asks for something that does not exist: only a result that needs it is refused.
+    /// Computes an operation; `None` if it refers to something that does not exist. Only results that need it are
+    /// refused.
     fn compute(&mut self, op: Op) -> Result<Option<Number>, Refusal> {
         self.look_at(1)?;
         let operation = self.operations.get(op).clone();
@@ -268,7 +269,7 @@ impl<'a> Unrolled<'a> {
                     sum => sum.map(Some),
                 };
             }
-            // Refused before.
+            // User-defined functions were refused before.
             Operation::User(..) => return Ok(None),
             Operation::Multiply(a, b) if self.operations.is_division(b) => {
                 let Operation::Reciprocal(divisor) = *self.operations.get(b) else {
@@ -293,7 +294,7 @@ impl<'a> Unrolled<'a> {
         self.step(code, &operands).map(Some)
     }
 
-    /// Counts values, so that none of this is endless.
+    /// Counts visited values, to bound the work.
     fn look_at(&mut self, count: usize) -> Result<(), Refusal> {
         self.looked_at += count;
         match self.looked_at > MOST_VALUES {
@@ -322,7 +323,7 @@ impl<'a> Unrolled<'a> {
         self.add(Value::Constant(value.to_bits()))
     }
 
-    /// An operation; one of constants is a constant.
+    /// Adds an operation, with constant folding.
     fn step(&mut self, code: Code, operands: &[Number]) -> Result<Number, Refusal> {
         let mut numbers = [operands[0]; 3];
         numbers[..operands.len()].copy_from_slice(operands);
@@ -347,7 +348,7 @@ impl<'a> Unrolled<'a> {
         Ok(number)
     }
 
-    /// The tape that computes some values, and nothing else.
+    /// The tape that computes exactly the given values.
     pub(super) fn tape(&self, results: &[Number]) -> Result<Tape, Refusal> {
         let mut list = self.list.clone();
         let used = join_products(&mut list, results);
@@ -371,7 +372,7 @@ fn elementary(function: Elementary) -> Code {
     }
 }
 
-/// How often each value is needed for some results.
+/// The number of uses of each value for the given results.
 fn uses(list: &[Value], results: &[Number]) -> Vec<usize> {
     let mut uses = vec![0; list.len()];
     for &result in results {
@@ -389,7 +390,8 @@ fn uses(list: &[Value], results: &[Number]) -> Vec<usize> {
     uses
 }
 
-/// Joins a sum and a product that is needed in it only into one operation, with the same bits; returns how often values are needed then.
+/// Fuses a sum and a product that only this sum uses into one operation, with the same rounding; returns the new number
+/// of uses.
 fn join_products(list: &mut [Value], results: &[Number]) -> Vec<usize> {
     let before = uses(list, results);
     for number in 0..list.len() {
@@ -415,7 +417,7 @@ fn join_products(list: &mut [Value], results: &[Number]) -> Vec<usize> {
     uses(list, results)
 }
 
-/// How many operands an operation has.
+/// The number of operands of an operation.
 fn arity(code: Code) -> usize {
     match code {
         Code::MultiplyAdd | Code::MultiplySubtract | Code::SubtractProduct => 3,
@@ -424,11 +426,11 @@ fn arity(code: Code) -> usize {
     }
 }
 
-/// Values on their way into registers.
+/// Register allocation.
 struct Assembly<'a> {
     list: &'a [Value],
     results: &'a [Number],
-    /// How often each value is still needed.
+    /// The number of remaining uses of each value.
     left: Vec<usize>,
     registers: BTreeMap<Number, Register>,
     free: Vec<Register>,
@@ -495,7 +497,7 @@ impl<'a> Assembly<'a> {
         Ok(self.tape)
     }
 
-    /// A register that is needed no longer takes the next value.
+    /// Counts a use of an operand; after its last use its register is free.
     fn release(&mut self, operand: Number) {
         let left = &mut self.left[operand as usize];
         *left -= 1;

@@ -1,4 +1,4 @@
-//! The numbers that a formula needs beside the state: parameters, and how many bodies there are.
+//! The numbers that a formula needs in addition to the state: parameters and lengths.
 
 use std::collections::HashMap;
 
@@ -9,21 +9,21 @@ use symplectic_compiler::formula::syntax::Length;
 /// The values of parameters and lengths.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Values {
-    /// How many coordinates, or bodies, there are.
+    /// The number of coordinates, or of bodies.
     pub(super) bodies: usize,
     /// The values of lengths that the formula leaves open.
     pub(super) lengths: HashMap<Length, usize>,
-    /// Each parameter by rows; a number is one row of one column, and an array in one dimension has rows of one column.
+    /// The rows of each parameter. A number has one row of one column; a one-dimensional array has rows of one column.
     pub(super) parameters: Vec<Vec<Vec<f64>>>,
-    /// The pairs of parameters that are lists.
+    /// The pairs of each parameter that is a list of pairs.
     pub(super) pairs: Vec<Vec<[usize; 2]>>,
 }
 
-/// The loops that are unrolled, with their indices; of a list it is the number of the pair.
+/// The index of each loop being unrolled; for a list of pairs, the number of the pair.
 pub(super) type Indices = HashMap<LoopId, usize>;
 
 impl Values {
-    /// A length, where it is known.
+    /// A length, if known.
     pub(super) fn length(&self, system: &System, length: &Length) -> Option<usize> {
         match length {
             Length::Fixed(n) => Some(*n),
@@ -37,7 +37,7 @@ impl Values {
         }
     }
 
-    /// An index; `None` where it does not exist.
+    /// An index; `None` if it does not exist.
     pub(super) fn index(&self, system: &System, indices: &Indices, index: &Index) -> Option<usize> {
         let base = match &index.base {
             Base::Start => 0,
@@ -55,7 +55,7 @@ impl Values {
         usize::try_from(i64::try_from(base).ok()? + index.offset).ok()
     }
 
-    /// The indices that a loop goes through.
+    /// The range of indices of a loop.
     pub(super) fn range(
         &self,
         system: &System,
@@ -66,7 +66,7 @@ impl Values {
             LoopRange::List(parameter) => Some(0..self.pairs.get(*parameter)?.len()),
             LoopRange::Between(start, end) => {
                 let start = self.index(system, indices, start)?;
-                // Before the first body there is none.
+                // An end before the first body makes the range empty.
                 Some(start..self.index(system, indices, end).unwrap_or(0).max(start))
             }
         }

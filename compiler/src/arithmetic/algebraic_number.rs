@@ -9,8 +9,7 @@ use super::interval::Interval;
 use super::polynomial::Polynomial;
 use super::roots::{Root, enclose, real_roots};
 
-/// The places at which the search for an isolating interval ends: no number that meets its polynomial
-/// needs as many.
+/// Largest number of binary places in the search for an isolating interval; a root of the polynomial needs fewer.
 const MAX_BITS: u32 = 1 << 17;
 
 /// A real algebraic number.
@@ -37,10 +36,9 @@ impl AlgebraicNumber {
         AlgebraicNumber::new(linear.primitive(), Root::Rational(value))
     }
 
-    /// The real root of a polynomial with this index, the least root being the first (index 1).
+    /// The real root of a polynomial with this index, in ascending order from 1.
     ///
-    /// `None` where there are fewer real roots, and where factoring gives up
-    /// ([`irreducible_factors`]).
+    /// `None` if there are fewer real roots, or if factoring exceeds its limit ([`irreducible_factors`]).
     pub fn real_root(polynomial: &Polynomial, index: usize) -> Option<Self> {
         polynomial.degree().filter(|degree| *degree > 0)?;
         let squarefree = squarefree_part(polynomial);
@@ -51,10 +49,9 @@ impl AlgebraicNumber {
         Some(AlgebraicNumber::new(factor, root))
     }
 
-    /// The root of a polynomial that lies in all of a sequence of enclosures, which shrink as the binary
-    /// places grow.
+    /// The root of a polynomial in a nested sequence of enclosures, given by the number of binary places.
     ///
-    /// `None` where factoring gives up ([`irreducible_factors`]), and where the number is no root.
+    /// `None` if factoring exceeds its limit ([`irreducible_factors`]), or if the enclosures exclude every root.
     pub fn identify(polynomial: &Polynomial, enclose: &dyn Fn(u32) -> Interval) -> Option<Self> {
         let mut factors = irreducible_factors(polynomial)?;
         let mut bits = 64;
@@ -73,7 +70,7 @@ impl AlgebraicNumber {
                     return Some(AlgebraicNumber::rational(value));
                 }
                 [factor] => {
-                    // Where the derivative does not vanish, a change of sign means exactly one root.
+                    // If the derivative does not vanish, a sign change implies exactly one root.
                     let monotone = interval
                         .evaluate(&factor.derivative())
                         .sign()
@@ -124,7 +121,8 @@ impl PartialEq for AlgebraicNumber {
         let Root::Irrational(isolated) = &self.root else {
             return true;
         };
-        // The other root is the only one in our interval, or it will be found outside.
+        // `isolated` contains exactly one root of the polynomial: the other number lies inside if it is equal, else
+        // outside.
         let mut bits = isolated.bits();
         loop {
             let (low, high) = (isolated.low(), isolated.high());

@@ -1,7 +1,7 @@
 //! Greatest common divisors of rational polynomials, from their images modulo primes (Brown).
 //!
 //! Modulo a prime that divides neither leading coefficient, the degree of the common divisor is at least the true one.
-//! So a constant modulo one prime proves that there is no common divisor, without any arithmetic of long numbers.
+//! So a constant image modulo one prime proves coprimality, without arithmetic of long numbers.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -49,7 +49,7 @@ fn first_prime() -> PrimeField {
     PrimeField::new(large_primes().next().unwrap_or(3))
 }
 
-/// The monic common divisor modulo a prime that divides no leading coefficient.
+/// The monic common divisor modulo a prime; `None` if the prime divides a leading coefficient.
 fn image(a: &Polynomial, b: &Polynomial, prime: PrimeField) -> Option<Vec<u64>> {
     let reduced = |p: &Polynomial| {
         let residues = p.numerators().iter().map(|n| prime.integer(n));
@@ -62,7 +62,7 @@ fn image(a: &Polynomial, b: &Polynomial, prime: PrimeField) -> Option<Vec<u64>> 
     Some(prime.gcd(&reduced(a)?, &reduced(b)?))
 }
 
-/// A common divisor modulo the product of primes.
+/// A common divisor modulo a product of primes.
 struct Candidate {
     residues: Vec<BigInt>,
     modulus: BigInt,
@@ -78,7 +78,7 @@ impl Default for Candidate {
 }
 
 impl Candidate {
-    /// Takes the image modulo another prime. Whether it is what the primes before say.
+    /// Combines the image modulo another prime; returns whether it agrees with the previous residues.
     fn takes(&mut self, prime: PrimeField, image: &[u64]) -> bool {
         let p = BigInt::from(prime.prime());
         if self.residues.is_empty() || image.len() < self.residues.len() {
@@ -86,7 +86,7 @@ impl Candidate {
             self.modulus = p;
             return false;
         }
-        // An unlucky prime.
+        // An unlucky prime: the degree of its image is too large.
         if image.len() > self.residues.len() {
             return false;
         }
@@ -105,7 +105,7 @@ impl Candidate {
         same
     }
 
-    /// The primitive polynomial with the residues of the least absolute values.
+    /// The primitive polynomial with the residues of least absolute value.
     fn polynomial(&self) -> Polynomial {
         let ring = Residues::new(self.modulus.clone());
         let numerators = self.residues.iter().map(|c| ring.symmetric(c)).collect();
@@ -113,7 +113,8 @@ impl Candidate {
     }
 }
 
-/// Whether a primitive polynomial divides another one with integer coefficients: the quotient is whole then (Gauss).
+/// Whether a primitive polynomial divides a polynomial with integer coefficients; by Gauss's lemma the quotient is
+/// integral.
 fn divides(divisor: &Polynomial, polynomial: &Polynomial) -> bool {
     let Some((leading, rest)) = divisor.numerators().split_last() else {
         return false;
@@ -156,7 +157,7 @@ mod tests {
             power in 0u32..4,
         ) {
             let [a, b, common] = [a, b, common].map(|c| Polynomial::from_integers(&c));
-            // Long coefficients, which take several primes.
+            // Long coefficients need several primes.
             let common = common.power(power);
             let (a, b) = (&a * &common, &b * &common);
             prop_assert_eq!(gcd(&a, &b), by_euclid(&a, &b));

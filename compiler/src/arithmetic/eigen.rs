@@ -1,4 +1,4 @@
-//! Eigenvalues and eigenvectors of small matrices, to some hundred binary places and without a proof.
+//! Eigenvalues and eigenvectors of small matrices, to some hundred binary places, without proof.
 
 use super::fixed::{Complex, Fixed};
 use super::rounding::{exact, to_f64};
@@ -6,10 +6,10 @@ use super::rounding::{exact, to_f64};
 /// A matrix by its rows.
 pub type Rows = Vec<Vec<Fixed>>;
 
-/// A similarity `X⁻¹ B X` of a real matrix `B` to blocks on the diagonal.
+/// A similarity transformation `X⁻¹ B X` of a real matrix `B` to block diagonal form.
 #[derive(Debug, Clone)]
 pub struct Blocks {
-    /// An eigenvalue `(α, ω)` a block: `α` where `ω` is zero, otherwise `[[α, −ω], [ω, α]]` with `ω > 0`.
+    /// One eigenvalue `(α, ω)` per block: the block is `α` if `ω` is zero, otherwise `[[α, −ω], [ω, α]]` with `ω > 0`.
     pub values: Vec<(Fixed, Fixed)>,
     /// `X`
     pub vectors: Rows,
@@ -18,7 +18,7 @@ pub struct Blocks {
 }
 
 impl Blocks {
-    /// Those of the square of the matrix.
+    /// The block diagonal form of the square of the matrix.
     #[must_use]
     pub fn squared(mut self) -> Self {
         let mut values = Vec::new();
@@ -33,11 +33,11 @@ impl Blocks {
             let product = re.multiply(im);
             let double = product.add(&product);
             if double.vanishes() {
-                // −ω² twice.
+                // α = 0: the block of the square is −ω² times the identity.
                 values.extend([(square.clone(), Fixed::zero()), (square, Fixed::zero())]);
             } else {
                 if double < Fixed::zero() {
-                    // With −ω it is the block of the other one of the two conjugate vectors.
+                    // A negative ω belongs to the conjugate eigenvector.
                     for row in &mut self.vectors {
                         row[column + 1] = row[column + 1].negate();
                     }
@@ -53,11 +53,11 @@ impl Blocks {
     }
 }
 
-/// Sweeps over the roots of a polynomial, beyond which they are not looked for.
+/// Maximum number of sweeps of the root iteration.
 const SWEEPS: usize = 200;
 
-/// Diagonalises a matrix; `None` where it cannot be, as far as is known, or where an eigenvalue that is not zero is a
-/// multiple one.
+/// Block-diagonalises a matrix; `None` if it is not diagonalisable, to working precision, or has a multiple nonzero
+/// eigenvalue.
 pub fn diagonalise(matrix: &Rows) -> Option<Blocks> {
     let size = matrix.len();
     let (polynomial, adjugate) = characteristic(matrix);
@@ -114,7 +114,7 @@ pub fn product(a: &Rows, b: &Rows) -> Rows {
     a.iter().map(row).collect()
 }
 
-/// The coefficients of `det(λ − B)`, the constant one first, and the matrices `M_1`, `M_2`, … of
+/// The coefficients of `det(λ − B)`, the constant term first, and the matrices `M_1`, `M_2`, … of
 /// `adj(λ − B) = Σ_k λ^(s−k) M_k` (Faddeev & LeVerrier).
 fn characteristic(matrix: &Rows) -> (Vec<Fixed>, Vec<Rows>) {
     let size = matrix.len();
@@ -134,7 +134,7 @@ fn characteristic(matrix: &Rows) -> (Vec<Fixed>, Vec<Rows>) {
     (coefficients, adjugate)
 }
 
-/// The eigenvector of a simple eigenvalue, with the entry 1 where it is largest: a column of `adj(λ − B)` that is not zero.
+/// The eigenvector of a simple eigenvalue, a nonzero column of `adj(λ − B)`, scaled so that its largest entry is 1.
 fn eigenvector(adjugate: &[Rows], value: &Complex) -> Option<Vec<Complex>> {
     let size = adjugate.len();
     let entry = |i: usize, j: usize| {
@@ -155,7 +155,7 @@ fn eigenvector(adjugate: &[Rows], value: &Complex) -> Option<Vec<Complex>> {
     })
 }
 
-/// The roots of a polynomial with leading coefficient 1, which have to be simple (Ehrlich & Aberth).
+/// The simple roots of a monic polynomial (Ehrlich & Aberth); `None` if two roots are close or the iteration fails.
 fn roots(polynomial: &[Fixed]) -> Option<Vec<Complex>> {
     let degree = polynomial.len() - 1;
     let part = |x: f64| Fixed::new(&exact(if x.is_finite() { x } else { 0.0 }));
@@ -170,12 +170,12 @@ fn roots(polynomial: &[Fixed]) -> Option<Vec<Complex>> {
         let mut settled = true;
         for k in 0..degree {
             let step = aberth(polynomial, &roots, k);
-            // The next one would be as small as its cube.
+            // The iteration converges cubically: the next step would be negligible.
             settled &= step.size().is_below(60);
             roots[k] = roots[k].subtract(&step);
         }
         if settled {
-            // Steps to a multiple root become small before they are right.
+            // At a multiple root the steps become small before the root is accurate.
             let apart =
                 |i: usize| (0..i).all(|j| !roots[i].subtract(&roots[j]).size().is_below(30));
             return (0..degree).all(apart).then_some(roots);
@@ -184,7 +184,7 @@ fn roots(polynomial: &[Fixed]) -> Option<Vec<Complex>> {
     None
 }
 
-/// The same in doubles, where the first digits are cheaper.
+/// The roots in double precision, as starting values.
 fn approximate_roots(polynomial: &[Fixed]) -> Vec<(f64, f64)> {
     type Double = (f64, f64);
     let minus = |a: Double, b: Double| (a.0 - b.0, a.1 - b.1);
@@ -196,7 +196,7 @@ fn approximate_roots(polynomial: &[Fixed]) -> Vec<(f64, f64)> {
     };
     let coefficients: Vec<f64> = polynomial.iter().map(|c| to_f64(&c.rational())).collect();
     let degree = coefficients.len() - 1;
-    // Around the unit circle, none on the real axis, and no two conjugate.
+    // Starting points on the unit circle, none on the real axis and no two conjugate.
     let angle = |k: usize| 0.4 + std::f64::consts::TAU * k as f64 / degree as f64;
     let mut roots: Vec<Double> = (0..degree)
         .map(|k| (angle(k).cos(), angle(k).sin()))
@@ -228,7 +228,7 @@ fn approximate_roots(polynomial: &[Fixed]) -> Vec<(f64, f64)> {
     roots
 }
 
-/// The correction `w/(1 − w Σ_j 1/(z − z_j))` with `w = f/f′`, in which the other roots are divided out.
+/// Aberth's correction `w/(1 − w Σ_j 1/(z − z_j))` with `w = f/f′`; the sum removes the other roots.
 fn aberth(polynomial: &[Fixed], roots: &[Complex], k: usize) -> Complex {
     let z = &roots[k];
     let mut value = Complex::real(Fixed::zero());
@@ -242,7 +242,7 @@ fn aberth(polynomial: &[Fixed], roots: &[Complex], k: usize) -> Complex {
     let sum = others.fold(Complex::real(Fixed::zero()), |sum, (_, other)| {
         sum.add(&one.divide(&z.subtract(other)))
     });
-    // f/(f′ − f Σ …): without a quotient by a slope that may be small.
+    // f/(f′ − f Σ …) avoids a division by f′, which may be small.
     value.divide(&slope.subtract(&value.multiply(&sum)))
 }
 
@@ -250,7 +250,7 @@ fn aberth(polynomial: &[Fixed], roots: &[Complex], k: usize) -> Complex {
 fn kernel(matrix: &Rows) -> Rows {
     let size = matrix.len();
     let mut rows = matrix.clone();
-    // The column of each pivot; the others are free.
+    // The column of each pivot; the other columns are free.
     let mut pivots = Vec::new();
     for column in 0..size {
         let rank = pivots.len();
@@ -275,7 +275,7 @@ fn kernel(matrix: &Rows) -> Rows {
     .collect()
 }
 
-/// Makes the entry of a row in a column 1, and those of all other rows 0.
+/// Gauss–Jordan step: scales the pivot to 1 and eliminates its column from all other rows.
 fn eliminate(rows: &mut Rows, row: usize, column: usize) {
     let pivot = rows[row][column].clone();
     rows[row].iter_mut().for_each(|x| *x = x.divide(&pivot));
@@ -287,7 +287,7 @@ fn eliminate(rows: &mut Rows, row: usize, column: usize) {
     }
 }
 
-/// The inverse of a matrix; `None` where it has none, as far as is known.
+/// The inverse of a matrix; `None` if it is singular to working precision.
 fn inverse(matrix: &Rows) -> Option<Rows> {
     let size = matrix.len();
     let unit = |i: usize, j: usize| if i == j { Fixed::one() } else { Fixed::zero() };
@@ -326,7 +326,7 @@ mod tests {
         entries.iter().map(row).collect()
     }
 
-    /// `B X = X Λ`, `X⁻¹ X = 1` and the blocks.
+    /// Checks `B X = X Λ`, `X⁻¹ X = 1` and the blocks.
     fn check(entries: &[&[i64]], expected: &[(i64, i64)]) {
         let matrix = matrix(entries);
         let blocks = diagonalise(&matrix).expect("diagonalisable");
@@ -380,7 +380,7 @@ mod tests {
         check(&[&[0, -1], &[1, 0]], &[(0, 1)]);
         check(&[&[1, 1], &[0, 3]], &[(1, 0), (3, 0)]);
         check(&[&[3, -2, 0], &[4, -1, 0], &[7, 5, 9]], &[(1, 2), (9, 0)]);
-        // Zero twice, with two eigenvectors.
+        // A double eigenvalue 0 with two eigenvectors.
         check(
             &[&[1, 1, 1], &[1, 1, 1], &[1, 1, 1]],
             &[(0, 0), (0, 0), (3, 0)],

@@ -1,10 +1,11 @@
 //! Enclosures of π and of the elementary functions.
 //!
-//! A function of an interval is computed at its ends, and between them where it is not monotone. At an
-//! end, the argument is reduced exactly or with a certified error, a series is summed with more binary
-//! places (the remainder and the roundings are bounded where they arise), and the result is rounded
-//! outward: its ends are within two units in the last place of the tight ones, apart from the units
-//! that the operand is wide.
+//! A function is evaluated at the ends of its interval; interior extrema are added if it is not monotone. At an end,
+//! the argument is reduced exactly or with a certified error. A series is summed with additional binary places; its
+//! remainder and its rounding errors are bounded where they arise.
+//!
+//! Results are rounded outward. Their ends are within two units in the last place of the exact range, plus the width of
+//! the operand in units.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -20,10 +21,10 @@ pub const LARGEST_EXPONENT: u32 = 1 << 16;
 
 /// An enclosure of π, at most two units wide.
 pub fn pi(bits: u32) -> Interval {
-    /// The finest so far: every wave reduces its argument by it.
+    /// The finest enclosure so far; every evaluation of `wave` needs π.
     static FINEST: Mutex<Option<Interval>> = Mutex::new(None);
     let mut finest = FINEST.lock().unwrap_or_else(PoisonError::into_inner);
-    // With more places, so that what is left of them does not depend on how many there were.
+    // With 64 extra places, so that the rounded result does not depend on the precision of the stored value.
     let known = match finest.take().filter(|known| known.bits >= bits + 64) {
         Some(known) => known,
         None => compute_pi(bits + 64),
@@ -49,8 +50,8 @@ fn compute_pi(bits: u32) -> Interval {
     .with_bits(bits)
 }
 
-/// The terms from `from` to before `to` of Chudnovsky's series, as `t/q`, and the factor `p/q` by which
-/// they are multiplied in front of the next terms.
+/// The terms `from..to` of Chudnovsky's series as `(p, q, t)`: their sum is `t/q`, and `p/q` is the factor of the terms
+/// that follow.
 fn chudnovsky(from: u32, to: u32) -> (BigInt, BigInt, BigInt) {
     if from + 1 < to {
         let middle = from.midpoint(to);
@@ -124,12 +125,11 @@ fn exp_of_point(point: &BigInt, bits: u32) -> Interval {
         term = ((term * &r) >> fine) / n;
         sum += &term;
     }
-    // The two roundings of a term lower it by less than 2 units, the half of the error before it adds
-    // up to 4 in all; the terms that are left out are each less than half of the one before, which is
-    // less than 5 units.
+    // The two roundings of a term lower it by less than 2 units; with half of the error of the previous term this adds
+    // up to less than 4. Each omitted term is less than half of its predecessor; together they are less than 5 units.
     let mut error = BigInt::from(4 * n + 10);
     for _ in 0..halvings {
-        // (p + e)² − p² = 2pe + e², and less than one unit of rounding each.
+        // (p + e)² − p² = 2pe + e², and each of the two shifts rounds by less than one unit.
         error = ((&error * (&error + (&sum << 1u32))) >> fine) + 2;
         sum = (&sum * &sum) >> fine;
     }
@@ -161,7 +161,7 @@ pub fn ln(x: &Interval) -> Option<Interval> {
     let high = if width.is_zero() {
         low.high
     } else if excess >= i64::from(x.bits) {
-        // ln(x + w) ≤ ln x + w/x, and no more than a unit less.
+        // ln(x + w) ≤ ln x + w/x; this bound is at most one unit too large.
         &low.high + (width << x.bits).div_ceil(&x.low)
     } else {
         ln_of_point(&x.high, x.bits).high
@@ -175,7 +175,7 @@ pub fn ln(x: &Interval) -> Option<Interval> {
 
 /// `ln(point·2⁻ᵇⁱᵗˢ)` for a positive point.
 fn ln_of_point(point: &BigInt, bits: u32) -> Interval {
-    // x = m·2ᵏ with 1 ≤ m < 2, and ln m = 2ʰ·ln z for the root z of m of order 2ʰ.
+    // x = m·2ᵏ with 1 ≤ m < 2, and ln m = 2ʰ·ln z for the 2ʰ-th root z of m.
     let k = point.bits() as i64 - 1 - i64::from(bits);
     let halvings = bits.isqrt() / 2 + 2;
     let length = |n: u64| 64 - n.leading_zeros();
@@ -200,8 +200,8 @@ fn ln_of_point(point: &BigInt, bits: u32) -> Interval {
         power = (power * &square) >> fine;
         n += 1;
     }
-    // u is less than 2 units too small, artanh' ≤ 9/8; every term is less than 3 too small, and what is
-    // left out is less than 4.
+    // u is less than 2 units too small, and artanh' ≤ 9/8. Every term is less than 3 units too small, and the remainder
+    // is less than 4.
     let artanh = Interval {
         low: sum.clone(),
         high: sum + (3 * n + 7),
@@ -226,8 +226,7 @@ fn ln_2(bits: u32) -> Interval {
             power /= reciprocal * reciprocal;
             n += 1;
         }
-        // Every power is less than 2 too small and its quotient less than 3; what is left out is less
-        // than 4.
+        // Every power is less than 2 units too small, and its quotient less than 3; the remainder is less than 4.
         let high = &sum + (3 * n + 4);
         Interval {
             low: sum,
@@ -263,14 +262,14 @@ fn wave(x: &Interval, quarter: u32) -> Interval {
             bits,
         };
     }
-    // π/2 with as many more binary places as the arguments have before the binary point.
+    // π/2, with additional binary places for the bits of the argument before the binary point.
     let fine = bits + x.magnitude_bits().max(0) as u32 + 8;
     let half_pi = Interval {
         bits: fine + 1,
         ..pi(fine)
     };
     let [low, high] = [&x.low, &x.high].map(|end| end << (half_pi.bits - bits));
-    // The slope is at most 1, so that one point of a narrow interval is enough.
+    // |cos'| ≤ 1: one evaluation is enough for a narrow interval.
     if width <= BigInt::from(256) {
         let start = wave_of_point(&low, quarter, &half_pi, bits);
         return Interval {
@@ -279,8 +278,8 @@ fn wave(x: &Interval, quarter: u32) -> Interval {
             bits,
         };
     }
-    // The multiples n·π/2 in the interval; one outside by less than a rounding error does no harm, for
-    // there the wave is within a rounding error of its extremum.
+    // The multiples n·π/2 in the interval. A multiple that lies outside by less than a rounding error is harmless: the
+    // function is within a rounding error of its extremum.
     let over = |end: &BigInt, outer: &BigInt, inner: &BigInt| {
         end.div_floor(if end.is_negative() { inner } else { outer })
     };
@@ -307,7 +306,7 @@ fn wave(x: &Interval, quarter: u32) -> Interval {
     }
 }
 
-/// The cosine of `point − quarter·π/2` with `bits` binary places; the point has as many as π/2.
+/// The cosine of `point − quarter·π/2` with `bits` binary places; `point` has as many binary places as π/2.
 fn wave_of_point(point: &BigInt, quarter: u32, half_pi: &Interval, bits: u32) -> Interval {
     let turn: BigInt = &half_pi.low << 2u32;
     let shifted = point - &half_pi.low * quarter;
@@ -328,7 +327,7 @@ fn wave_of_point(point: &BigInt, quarter: u32, half_pi: &Interval, bits: u32) ->
 
 /// The cosine of `y·2⁻ᵇⁱᵗˢ` for `0 ≤ y·2⁻ᵇⁱᵗˢ ≤ 4`.
 fn cos_of_reduced(y: &BigInt, bits: u32) -> Interval {
-    // cos 2θ = 2cos²θ − 1, which multiplies the error by 4, and θ = y/2ʰ ≤ 1/2.
+    // cos 2θ = 2cos²θ − 1 multiplies the error by 4; θ = y/2ʰ ≤ 1/2.
     let halvings = bits.isqrt() / 2 + 3;
     let fine = bits + 2 * halvings + 2 * (32 - bits.leading_zeros()) + 6;
     let theta = y << (fine - bits - halvings);
@@ -344,10 +343,10 @@ fn cos_of_reduced(y: &BigInt, bits: u32) -> Interval {
         term = ((term * &square) >> fine) / ((2 * n + 1) * (2 * n + 2));
         n += 1;
     }
-    // Every term is less than 3 units too small, and so is the sum of those that are left out.
+    // Every term is less than 3 units too small, and so is the remainder.
     let mut error = BigInt::from(3 * n + 5);
     for _ in 0..halvings {
-        // 2(c + e)² − 2c² = 4ce + 2e² with |c| ≤ 1, and less than one unit of rounding each.
+        // 2(c + e)² − 2c² = 4ce + 2e² with |c| ≤ 1, and each of the two shifts rounds by less than one unit.
         sum = ((&sum * &sum) >> (fine - 1)) - &one;
         error = (&error << 2u32) + ((&error * &error) >> (fine - 1)) + 2;
     }
@@ -361,8 +360,7 @@ fn cos_of_reduced(y: &BigInt, bits: u32) -> Interval {
 
 /// The square root; `None` if the lower end is negative.
 ///
-/// A caller who knows that the number is not negative cuts the interval first with
-/// [`Interval::nonnegative`].
+/// If the number is known to be nonnegative, restrict the interval first by [`Interval::nonnegative`].
 pub fn sqrt(x: &Interval) -> Option<Interval> {
     root(x, 2)
 }
@@ -372,7 +370,7 @@ pub fn root(x: &Interval, n: u32) -> Option<Interval> {
     if n == 0 || n.is_multiple_of(2) && x.low.is_negative() {
         return None;
     }
-    // Rounded towards zero, or away from it by a step.
+    // `nth_root` truncates towards zero; `step` corrects the end that must be rounded outward.
     let rooted = |end: &BigInt, step: i32| {
         let scaled = end << (u64::from(x.bits) * u64::from(n - 1));
         let root = scaled.nth_root(n);
@@ -445,7 +443,7 @@ mod tests {
 
     #[test]
     fn huge_arguments_are_reduced() {
-        // sin² + cos² = 1 and the double-angle formula hold only for the right remainder.
+        // sin² + cos² = 1 and the double-angle formula hold only for the correct reduced argument.
         let x = point(&BigRational::from_integer(BigInt::from(10).pow(300)), 200);
         let twice = point(
             &BigRational::from_integer(BigInt::from(10).pow(300) * 2),

@@ -1,10 +1,10 @@
-//! The finest enclosure of a number so far.
+//! A cache for the finest enclosure of a number.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::interval::Interval;
 
-/// Remembers the finest enclosure of one number.
+/// Stores the finest enclosure of a number so far.
 #[derive(Debug, Default)]
 pub struct EnclosureCache(Mutex<Option<Interval>>);
 
@@ -13,7 +13,7 @@ impl EnclosureCache {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// An enclosure with this number of binary places, computed only if none as fine is known.
+    /// An enclosure with this number of binary places, computed only if the stored one is coarser.
     pub fn enclose(&self, bits: u32, compute: impl FnOnce(u32) -> Interval) -> Interval {
         let mut known = self.lock();
         match &*known {

@@ -1,16 +1,16 @@
-//! Complex numbers with a fixed number of binary places, for what needs no proof.
+//! Fixed-point real and complex numbers, for computations that need no proof.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 
-/// Binary places.
+/// Number of binary places.
 const PLACES: u32 = 320;
 
-/// Binary places that errors leave alone: what vanishes to them is taken for zero.
+/// Binary places that are free of errors: smaller numbers count as zero.
 const SURE_PLACES: u32 = 150;
 
-/// A real number in units of 2^−320, with rounding errors of some of them.
+/// A real number in units of 2^−320; operations round by about a unit.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Fixed(BigInt);
 
@@ -25,33 +25,33 @@ impl Fixed {
         Self::integer(1)
     }
 
-    /// A whole number.
+    /// An integer.
     pub fn integer(value: i64) -> Self {
         Fixed(BigInt::from(value) << PLACES)
     }
 
-    /// The nearest one below a rational number.
+    /// A rational number, truncated towards zero.
     pub fn new(value: &BigRational) -> Self {
         Fixed((value.numer() << PLACES) / value.denom())
     }
 
-    /// As a rational number; what is taken for zero is zero.
+    /// The value as a rational number; 0 if it [`vanishes`](Self::vanishes).
     pub fn rational(&self) -> BigRational {
         if self.vanishes() {
             return BigRational::zero();
         }
-        // The fraction is in lowest terms without its powers of two, and there is no divisor to look for.
+        // Only powers of two can cancel; no greatest common divisor is needed.
         let twos = self.0.trailing_zeros().unwrap_or(0).min(PLACES.into());
         let denominator = BigInt::from(1) << (u64::from(PLACES) - twos);
         BigRational::new_raw(&self.0 >> twos, denominator)
     }
 
-    /// Whether it is taken for zero.
+    /// Whether it counts as zero.
     pub fn vanishes(&self) -> bool {
         self.is_below(SURE_PLACES)
     }
 
-    /// Whether it is below 2 to the power of −`places`.
+    /// Whether its absolute value is below 2 to the power of −`places`.
     pub fn is_below(&self, places: u32) -> bool {
         self.0.bits() <= u64::from(PLACES.saturating_sub(places))
     }
@@ -81,7 +81,7 @@ impl Fixed {
         Fixed((&self.0 * &other.0) >> PLACES)
     }
 
-    /// x / y; zero where y is zero.
+    /// x / y; zero if y is zero.
     pub fn divide(&self, other: &Self) -> Self {
         if other.0.is_zero() {
             return Self::zero();
@@ -90,7 +90,7 @@ impl Fixed {
     }
 }
 
-/// A complex number of two [`Fixed`] parts.
+/// A complex number with [`Fixed`] parts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Complex {
     /// Real part.
@@ -138,7 +138,7 @@ impl Complex {
         }
     }
 
-    /// z / w; zero where w is zero.
+    /// z / w; zero if w is zero.
     pub fn divide(&self, other: &Self) -> Self {
         let conjugate = Complex {
             re: other.re.clone(),

@@ -1,18 +1,18 @@
-//! Greatest common divisors of long whole numbers (Lehmer).
+//! Greatest common divisors of long integers (Lehmer).
 
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{Signed, ToPrimitive, Zero};
 
-/// Shorter numbers are left to the binary algorithm, whose time grows with the square of the length, too, but which is
-/// slower by a factor of ten.
+/// Length in bits below which the binary algorithm is used. Both are quadratic in the length; on long numbers Lehmer's
+/// is ten times faster.
 const SHORT: u64 = 1024;
-/// The leading bits by which quotients are found.
+/// Number of leading bits that determine the quotients.
 const LEADING: u64 = 126;
-/// Cofactors are below this, so that they are machine words.
+/// Bound on the cofactors, so that they fit machine words.
 const LARGEST: i128 = 1 << 62;
 
-/// The greatest common divisor, not negative.
+/// The nonnegative greatest common divisor.
 pub(crate) fn gcd(a: &BigInt, b: &BigInt) -> BigInt {
     if a.bits().min(b.bits()) < SHORT {
         return short(a, b);
@@ -33,7 +33,7 @@ pub(crate) fn gcd(a: &BigInt, b: &BigInt) -> BigInt {
     short(&x, &y)
 }
 
-/// One division, so that both are as short as the shorter one.
+/// One division first, so that both operands have the length of the shorter one.
 fn short(a: &BigInt, b: &BigInt) -> BigInt {
     let (long, short) = if a.bits() < b.bits() { (b, a) } else { (a, b) };
     if short.is_zero() {
@@ -42,8 +42,8 @@ fn short(a: &BigInt, b: &BigInt) -> BigInt {
     short.gcd(&(long % short))
 }
 
-/// The product of the matrices of as many steps of Euclid's algorithm as the leading bits of `x ≥ y` decide (Knuth, *The
-/// Art of Computer Programming* 2, 4.5.2, Algorithm L).
+/// The product of the matrices of all steps of Euclid's algorithm that the leading bits of `x ≥ y` determine (Knuth,
+/// *The Art of Computer Programming* 2, 4.5.2, Algorithm L).
 fn cofactors(x: &BigInt, y: &BigInt) -> Option<[[i64; 2]; 2]> {
     let excess = x.bits() - LEADING;
     let (mut high, mut low) = ((x >> excess).to_i128()?, (y >> excess).to_i128()?);
@@ -61,7 +61,7 @@ fn cofactors(x: &BigInt, y: &BigInt) -> Option<[[i64; 2]; 2]> {
         (high, low) = (low, high - quotient * low);
     }
     let small = |x: i128| i64::try_from(x).ok();
-    // Without a step it would not end.
+    // `None` without progress; the caller then divides.
     (b != 0).then_some([[small(a)?, small(b)?], [small(c)?, small(d)?]])
 }
 
@@ -90,7 +90,7 @@ mod tests {
         }
     }
 
-    /// The longest run of quotients 1, and quotients that are as large as they can be.
+    /// Fibonacci numbers, whose quotients are all 1, and extremely large quotients.
     #[test]
     fn extreme_quotients() {
         let (mut a, mut b) = (BigInt::one(), BigInt::one());

@@ -1,4 +1,4 @@
-//! Enclosures: intervals whose ends are dyadic rationals.
+//! Enclosures: intervals with dyadic rational ends.
 
 use std::cmp::Ordering;
 
@@ -12,8 +12,8 @@ use super::rational::dyadic;
 
 /// The closed interval `[low, high]·2⁻ᵇⁱᵗˢ`: a certified enclosure of a real number.
 ///
-/// Every operation rounds outward, so the result encloses the exact result for all numbers in the
-/// operands. The operands of an operation have the same `bits`.
+/// Every operation rounds outward: its result encloses the exact results for all numbers in the operands. The operands
+/// of an operation have the same `bits`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Interval {
     pub(crate) low: BigInt,
@@ -21,7 +21,8 @@ pub struct Interval {
     pub(crate) bits: u32,
 }
 
-/// More places beyond those asked for, from an enclosure with too few of them: as many as its width tells, or twice as many.
+/// New number of guard places after an enclosure that is too wide: the width determines it; if it does not, `guard` is
+/// doubled.
 pub(crate) fn more_places(guard: u32, bits: u32, found: Option<&Interval>) -> u32 {
     let width = found.map(Interval::width_bits).filter(|&width| width < 0);
     let missing = width.and_then(|width| u32::try_from(width + i64::from(bits)).ok());
@@ -30,8 +31,8 @@ pub(crate) fn more_places(guard: u32, bits: u32, found: Option<&Interval>) -> u3
     })
 }
 
-/// `(ac, bd)` for `0 ≤ a ≤ b` and `0 ≤ c ≤ d`. Where the intervals are narrow, the second product is the first one and
-/// products of long numbers with short ones.
+/// `(ac, bd)` for `0 ≤ a ≤ b` and `0 ≤ c ≤ d`. For narrow intervals the second product is the first plus products of
+/// long with short numbers.
 fn products(a: &BigInt, b: &BigInt, c: &BigInt, d: &BigInt) -> (BigInt, BigInt) {
     const SHORT: u64 = 4;
     let low = a * c;
@@ -85,7 +86,7 @@ impl Interval {
         dyadic(&(&self.low + &self.high), self.bits + 1)
     }
 
-    /// The sign of all numbers in the interval, if they have the same.
+    /// The common sign of all numbers in the interval; `None` if they differ.
     pub fn sign(&self) -> Option<Ordering> {
         match (
             self.low.cmp(&BigInt::zero()),
@@ -191,8 +192,8 @@ impl Interval {
             Ordering::Equal => None,
             Ordering::Less => self.negate().divide(&other.negate()),
             Ordering::Greater => {
-                // A negative numerator is lowest over the smallest divisor, a positive one over the
-                // largest.
+                // The quotient of a negative numerator is least for the smallest divisor, that of a positive one for
+                // the largest.
                 let over = |end: &BigInt, negative: &BigInt, positive: &BigInt, up: bool| {
                     let divisor = if end.is_negative() {
                         negative
@@ -218,8 +219,8 @@ impl Interval {
     /// The power `xⁿ`.
     #[must_use]
     pub fn power(&self, exponent: u32) -> Interval {
-        // A rounding error in a partial power is multiplied by the rest of the power, at most |x|ⁿ⁻¹,
-        // and there are at most 2·log₂ n of them.
+        // A rounding error in a partial power is multiplied by the remaining power, at most |x|ⁿ⁻¹; there are at most
+        // 2·log₂ n rounding errors.
         let guard = (self.magnitude_bits().max(0) as u32)
             .saturating_mul(exponent)
             .saturating_add(2 * (32 - exponent.leading_zeros()) + 2);
@@ -254,12 +255,12 @@ impl Interval {
         Interval { low, high, bits }.with_bits(self.bits)
     }
 
-    /// The distance of the ends.
+    /// The width `high − low`.
     pub fn width(&self) -> BigRational {
         BigRational::new(&self.high - &self.low, BigInt::one() << self.bits)
     }
 
-    /// A number `n` with a width below `2ⁿ`, which is at most two too large for a width above zero.
+    /// A number `n` with a width below `2ⁿ`, the smallest for a positive width.
     pub fn width_bits(&self) -> i64 {
         (&self.high - &self.low).bits() as i64 - i64::from(self.bits)
     }
@@ -269,7 +270,7 @@ impl Interval {
         self.low.bits().max(self.high.bits()) as i64 - i64::from(self.bits)
     }
 
-    /// The same numbers with other binary places, rounded outward where these are fewer.
+    /// The interval with another number of binary places, rounded outward if it is smaller.
     #[must_use]
     pub fn with_bits(&self, bits: u32) -> Interval {
         let excess = self.bits.saturating_sub(bits);
@@ -283,7 +284,7 @@ impl Interval {
         }
     }
 
-    /// The numbers that are not negative; `None` if there are none.
+    /// The nonnegative numbers of the interval; `None` if there are none.
     pub fn nonnegative(&self) -> Option<Interval> {
         (!self.high.is_negative()).then(|| Interval {
             low: self.low.clone().max(BigInt::zero()),
@@ -292,7 +293,7 @@ impl Interval {
         })
     }
 
-    /// The value of a polynomial at a number, from enclosures of the powers of the number: 0, 1, …, one for each coefficient.
+    /// The value of a polynomial at a number, from enclosures of the powers of the number from 0 up to the degree.
     pub(crate) fn combination(powers: &[Interval], polynomial: &Polynomial) -> Interval {
         let bits = powers[0].bits;
         let (mut low, mut high) = (BigInt::zero(), BigInt::zero());

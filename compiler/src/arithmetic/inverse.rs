@@ -1,4 +1,4 @@
-//! The inverse of a matrix in enclosures.
+//! The inverse of a matrix of enclosures.
 
 use std::cmp::Ordering;
 
@@ -6,17 +6,17 @@ use super::interval::Interval;
 use super::rational::ratio;
 use super::rounding::to_f64;
 
-/// Binary places of the enclosures that tell a determinant from zero.
+/// Binary places to try until the enclosure of the determinant excludes zero.
 pub const BITS: [u32; 4] = [192, 384, 1024, 4096];
 
-/// An inverse matrix, and the determinant of the matrix.
+/// The inverse of a matrix, and its determinant.
 pub struct Inverse {
     pub rows: Vec<Vec<Interval>>,
     pub determinant: Interval,
 }
 
 impl Inverse {
-    /// That of a matrix; `None` where the enclosures do not tell the determinant from zero.
+    /// Inverts a matrix; `None` if the enclosure of the determinant contains zero.
     pub fn of(mut rows: Vec<Vec<Interval>>) -> Option<Self> {
         let size = rows.len();
         let bits = rows.first()?.first()?.bits();
@@ -48,16 +48,17 @@ impl Inverse {
                 }
             }
         }
-        // The product of small pivots may be too small for its binary places.
+        // The product of small pivots may underflow its binary places.
         determinant.sign().filter(|sign| sign.is_ne())?;
         let rows = rows.into_iter().map(|row| row[size..].to_vec()).collect();
         Some(Inverse { rows, determinant })
     }
 }
 
-/// The inverse of a matrix, correctly rounded; `None` where it is not known to be regular. `matrix` encloses it with a number of binary places.
+/// The inverse of a matrix, rounded to doubles: correctly if [`BITS`] suffice. `None` if no enclosure proves the matrix
+/// regular. `matrix(bits)` encloses the matrix with this number of binary places.
 ///
-/// An entry that no enclosure tells from zero is zero.
+/// An entry whose enclosures all contain zero becomes zero.
 pub fn rounded(matrix: impl Fn(u32) -> Vec<Vec<Interval>>) -> Option<Vec<Vec<f64>>> {
     let mut finest = None;
     for bits in BITS {

@@ -9,11 +9,11 @@ use super::polynomial::Polynomial;
 use super::prime_field::{PrimeField, large_primes};
 use super::residues::Residues;
 
-/// Solves `Σ_k x_k r_k = v` for linearly independent rows `r_k`, as many as they are long.
+/// Solves `Σ_k x_k r_k = v` for `n` linearly independent rows `r_k` of length `n`.
 ///
-/// Rows and right-hand sides are the coefficients of polynomials. The matrix is inverted modulo a prime
-/// only; a solution is then found digit by digit in base `p`, so the time depends on the length of the
-/// solution and not on that of the inverse matrix.
+/// Rows and right-hand sides are the coefficients of polynomials. The matrix is inverted modulo a prime `p` only. A
+/// solution is then computed digit by digit in base `p`, so the time depends on the length of the solution, not on that
+/// of the inverse matrix.
 #[derive(Debug, Clone)]
 pub struct LinearSolver {
     /// The rows without their denominators.
@@ -36,8 +36,8 @@ impl LinearSolver {
                 row
             })
             .collect();
-        // A regular matrix is singular modulo few primes. Hadamard's bound on the determinant has fewer
-        // prime factors of 30 bits than this.
+        // A regular matrix is singular only modulo divisors of its determinant. By Hadamard's bound there are fewer
+        // 30-bit prime divisors than `attempts`.
         let bits: u64 = numerators
             .iter()
             .flatten()
@@ -61,7 +61,7 @@ impl LinearSolver {
         })
     }
 
-    /// The solution for a right-hand side that is not longer than the rows.
+    /// The solution for a right-hand side of at most the length of the rows.
     pub fn solve(&self, right: &Polynomial) -> Vec<BigRational> {
         let size = self.rows.len();
         let mut goal = right.numerators().to_vec();
@@ -126,7 +126,7 @@ impl LinearSolver {
     }
 }
 
-/// The inverse of a matrix over a field of primes, if there is one.
+/// The inverse of a matrix over a prime field; `None` if it is singular.
 fn inverse_modulo(field: PrimeField, mut rows: Vec<Vec<u64>>) -> Option<Vec<Vec<u64>>> {
     let size = rows.len();
     for (i, row) in rows.iter_mut().enumerate() {

@@ -9,8 +9,8 @@ pub type Rows = Vec<Vec<BigRational>>;
 /// A vector `v ≠ 0` with `vᵀ M = 0`, if the rows of `M` are linearly dependent.
 pub fn left_kernel(matrix: &[Vec<BigRational>]) -> Option<Vec<BigRational>> {
     let width = matrix.iter().map(Vec::len).max().unwrap_or(0);
-    // Elimination on [M | 1]: the right half records the row operations, so where the left half of a
-    // row has vanished, the right half is a combination of rows that vanishes.
+    // Elimination on [M | 1]: the right half records the row operations. If the left half of a row vanishes, the right
+    // half contains the coefficients of a vanishing combination of rows.
     let mut rows = augmented(matrix, width);
     let mut done = 0;
     for column in 0..width {
@@ -60,7 +60,7 @@ pub fn inverse(matrix: &[Vec<BigRational>]) -> Result<Rows, Vec<BigRational>> {
     Ok(rows.into_iter().map(|row| row[size..].to_vec()).collect())
 }
 
-/// `[M | 1]` with `M` filled up to a width with zeros.
+/// `[M | 1]` with `M` padded with zeros to a width.
 fn augmented(matrix: &[Vec<BigRational>], width: usize) -> Rows {
     let identity = |i: usize| {
         (0..matrix.len()).map(move |j| {

@@ -1,5 +1,5 @@
-//! Exact arithmetic: rational polynomials and matrices, factors and real roots, enclosures, elementary
-//! functions, correct rounding.
+//! Exact arithmetic: rational polynomials and matrices, factorisation, real roots, enclosures, elementary functions,
+//! correct rounding.
 
 pub mod algebraic_number;
 mod common_divisor;

@@ -13,12 +13,11 @@ use super::gcd::gcd;
 
 /// A polynomial over the rationals, lowest degree first.
 ///
-/// It is held as integer coefficients over one common denominator, in lowest terms, which is what
-/// keeps products of long polynomials free of a greatest common divisor per term. Equal polynomials
-/// have equal representations.
+/// It is stored as integer coefficients over a common denominator, in lowest terms. So products of long polynomials
+/// need no greatest common divisor per term. Equal polynomials have equal representations.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Polynomial {
-    /// The last one is not zero.
+    /// The last numerator is not zero.
     numerators: Vec<BigInt>,
     /// Positive.
     denominator: BigInt,
@@ -171,8 +170,8 @@ impl Polynomial {
         }
     }
 
-    /// The multiple by the common denominator or its negative: whole coefficients, which need not be coprime, and a positive
-    /// leading one.
+    /// The multiple by the common denominator or its negative: integer coefficients, not necessarily coprime, with a
+    /// positive leading coefficient.
     pub(crate) fn whole_multiple(&self) -> Self {
         let whole = Polynomial {
             numerators: self.numerators.clone(),
@@ -215,7 +214,7 @@ impl Polynomial {
             value = value * x.numer() + numerator * &power;
             power *= x.denom();
         }
-        // `power` has one factor too many, and so has nothing else.
+        // `power` has one factor `x.denom()` too many.
         BigRational::new(value * x.denom(), &self.denominator * power)
     }
 
@@ -324,7 +323,7 @@ impl Polynomial {
     /// The inverse modulo another polynomial.
     ///
     /// # Errors
-    /// Where there is none: the common divisor of both, primitive.
+    /// If there is no inverse: the primitive common divisor of both.
     pub fn inverse_modulo(&self, modulus: &Polynomial) -> Result<Self, Self> {
         // Extended Euclidean algorithm; invariant: r ≡ t·self modulo the modulus.
         let (mut r0, mut t0) = (modulus.clone(), Polynomial::zero());
@@ -381,7 +380,7 @@ impl fmt::Debug for Polynomial {
     }
 }
 
-/// `a·left + b·right` coefficient by coefficient, over the least common denominator.
+/// `left + sign·right`, over the least common denominator.
 fn combine(left: &Polynomial, right: &Polynomial, sign: i32) -> Polynomial {
     let common = gcd(&left.denominator, &right.denominator);
     let denominator = &left.denominator / common * &right.denominator;

@@ -1,4 +1,4 @@
-//! Sums of powers of the roots of a polynomial, which are traces.
+//! Power sums of the roots of a polynomial, which are traces.
 
 use num_rational::BigRational;
 use num_traits::{One, Zero};
@@ -9,7 +9,8 @@ use super::polynomial::Polynomial;
 pub fn power_sums(polynomial: &Polynomial, count: usize) -> Vec<BigRational> {
     let degree = polynomial.degree().unwrap_or(0);
     let leading = polynomial.leading();
-    // e_k with sign: the coefficient of x^(degree − k) of the monic polynomial.
+    // (−1)ᵏ e_k, with the elementary symmetric polynomial e_k: the coefficient of x^(degree − k) of the monic
+    // polynomial.
     let e: Vec<BigRational> = (0..=degree)
         .map(|k| polynomial.coefficient(degree - k) / &leading)
         .collect();
@@ -23,7 +24,7 @@ pub fn power_sums(polynomial: &Polynomial, count: usize) -> Vec<BigRational> {
     sums
 }
 
-/// The monic polynomial of a degree whose roots have these sums of powers, from the power 0 on.
+/// The monic polynomial of a degree whose roots have these power sums, from the exponent 0 on.
 pub fn from_power_sums(sums: &[BigRational], degree: usize) -> Polynomial {
     let mut e = vec![BigRational::one()];
     for k in 1..=degree {
@@ -34,8 +35,8 @@ pub fn from_power_sums(sums: &[BigRational], degree: usize) -> Polynomial {
     Polynomial::from_rationals(&e)
 }
 
-/// The polynomial `Σ_i v_i Π_{j≠i} (x − c_j)` from the roots `c_i` of a monic polynomial and the traces
-/// `Σ_i v_i c_iᵏ`. Its value at `c_i` is `v_i` times that of the derivative.
+/// The polynomial `Σ_i v_i Π_{j≠i} (x − c_j)` from the roots `c_i` of a monic polynomial and the traces `Σ_i v_i c_iᵏ`.
+/// Its value at `c_i` is `v_i` times the derivative of the monic polynomial.
 pub fn interpolate_traces(monic: &Polynomial, traces: &[BigRational]) -> Polynomial {
     // Π_{j≠i} (x − c_j) = m(x)/(x − c_i) = Σ_{l<k} m_k c_iᵏ⁻¹⁻ˡ xˡ.
     let m = monic.coefficients();

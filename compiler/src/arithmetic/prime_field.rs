@@ -6,8 +6,8 @@ use num_traits::ToPrimitive;
 
 use super::polynomial::Polynomial;
 
-/// The field of `p` elements. Its polynomials are residues below `p`, lowest degree first, the last one
-/// not zero.
+/// The field of `p` elements. Its polynomials are lists of residues below `p`, lowest degree first, the last one not
+/// zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PrimeField {
     /// Below 2³¹, so that a product and a sum fit a machine word.
@@ -19,7 +19,7 @@ pub fn small_primes() -> impl Iterator<Item = u64> {
     (3..1 << 31).step_by(2).filter(|&n| is_prime(n))
 }
 
-/// The largest primes below 2³¹; one of them is almost always enough.
+/// The largest primes below 2³¹; these are almost always enough.
 const LARGEST: [u64; 8] = [
     2_147_483_647,
     2_147_483_629,
@@ -31,7 +31,7 @@ const LARGEST: [u64; 8] = [
     2_147_483_497,
 ];
 
-/// The primes below 2³¹ in descending order: moduli that are hardly ever unlucky.
+/// The primes below 2³¹ in descending order: large moduli are rarely unlucky.
 pub fn large_primes() -> impl Iterator<Item = u64> {
     let below = (3..LARGEST[7]).rev().skip(1).step_by(2);
     LARGEST.into_iter().chain(below.filter(|&n| is_prime(n)))

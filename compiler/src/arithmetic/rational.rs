@@ -17,7 +17,7 @@ pub(crate) fn length(value: &BigRational) -> u64 {
     value.numer().bits().max(value.denom().bits())
 }
 
-/// `numerator·2⁻ᵇⁱᵗˢ` in lowest terms, for which no greatest common divisor is needed.
+/// `numerator·2⁻ᵇⁱᵗˢ` in lowest terms, without a greatest common divisor.
 pub(crate) fn dyadic(numerator: &BigInt, bits: u32) -> BigRational {
     match numerator.trailing_zeros() {
         None => BigRational::zero(),
@@ -28,13 +28,13 @@ pub(crate) fn dyadic(numerator: &BigInt, bits: u32) -> BigRational {
     }
 }
 
-/// The binary places of a dyadic number: 0 for a whole one.
+/// The number of binary places of a dyadic rational, 0 for an integer; `None` for other rationals.
 fn places(value: &BigRational) -> Option<u32> {
     let places = value.denom().bits() - 1;
     (value.denom().trailing_zeros() == Some(places)).then_some(u32::try_from(places).ok()?)
 }
 
-/// The sum. Dyadic numbers are added without a greatest common divisor, which is slow for long ones.
+/// The sum. Dyadic rationals are added without a greatest common divisor, which is slow for long numbers.
 pub(crate) fn add(a: &BigRational, b: &BigRational) -> BigRational {
     if let (Some(m), Some(n)) = (places(a), places(b)) {
         let most = m.max(n);
@@ -46,7 +46,7 @@ pub(crate) fn add(a: &BigRational, b: &BigRational) -> BigRational {
     if a.denom().bits().min(b.denom().bits()) < LONG {
         return a + b;
     }
-    // What the sum may have in common with its denominator divides the common divisor of the two.
+    // A common divisor of the sum and its denominator divides the common divisor of both denominators.
     let common = gcd(a.denom(), b.denom());
     let (left, right) = (a.denom() / &common, b.denom() / &common);
     let numerator = a.numer() * &right + b.numer() * &left;
@@ -57,10 +57,10 @@ pub(crate) fn add(a: &BigRational, b: &BigRational) -> BigRational {
     BigRational::new_raw(numerator / &excess, left * (b.denom() / excess))
 }
 
-/// Longer numbers have a greatest common divisor sooner by Lehmer's algorithm.
+/// Length in bits from which Lehmer's algorithm is faster.
 const LONG: u64 = 1024;
 
-/// The product. Whole numbers are multiplied without a greatest common divisor.
+/// The product. Integers are multiplied without a greatest common divisor.
 pub(crate) fn multiply(a: &BigRational, b: &BigRational) -> BigRational {
     if a.is_integer() && b.is_integer() {
         BigRational::from_integer(a.numer() * b.numer())
@@ -79,9 +79,9 @@ pub(crate) fn multiply(a: &BigRational, b: &BigRational) -> BigRational {
     }
 }
 
-/// Reads `3`, `-3/4`: the form in which rationals are written in files.
+/// Parses `3` or `-3/4`, the format of rationals in files.
 ///
-/// Returns `None` for anything else, a zero denominator included.
+/// Returns `None` for anything else, including a zero denominator.
 pub fn parse(text: &str) -> Option<BigRational> {
     let integer = |digits: &str, signed: bool| -> Option<BigInt> {
         let bare = if signed {
@@ -109,13 +109,13 @@ pub fn simplest_between(low: &BigRational, high: &BigRational) -> BigRational {
     simplest_until(low, high, u64::MAX)
 }
 
-/// [`simplest_between`], if its numerator and denominator have no more than these `bits`.
+/// [`simplest_between`], if its numerator and denominator have at most `bits` bits.
 pub fn short_between(low: &BigRational, high: &BigRational, bits: u64) -> Option<BigRational> {
     let found = simplest_until(low, high, bits);
     (found.numer().bits() <= bits && found.denom().bits() <= bits).then_some(found)
 }
 
-/// The simplest rational between two, or the first convergent towards it with more than these `bits`.
+/// The simplest rational in an interval, or the first convergent towards it with more than `bits` bits.
 fn simplest_until(low: &BigRational, high: &BigRational, bits: u64) -> BigRational {
     if !low.is_positive() && !high.is_negative() {
         return BigRational::zero();
@@ -123,7 +123,7 @@ fn simplest_until(low: &BigRational, high: &BigRational, bits: u64) -> BigRation
     if high.is_negative() {
         return -simplest_until(&-high, &-low, bits);
     }
-    // Where all is short, without allocations, and with room for the sum of two.
+    // Short numbers: without allocation, with room for the sum of two.
     let ends = [low.numer(), low.denom(), high.numer(), high.denom()];
     let short = |end: &BigInt| (end.bits() < 126).then(|| end.to_u128()).flatten();
     if let [Some(a), Some(b), Some(c), Some(d)] = ends.map(short) {
@@ -137,7 +137,8 @@ fn simplest_until(low: &BigRational, high: &BigRational, bits: u64) -> BigRation
     BigRational::new_raw(p, q)
 }
 
-/// The simplest fraction between two that are positive, or the first convergent towards it with a part that is too long.
+/// The simplest fraction between two positive fractions, or the first convergent towards it with a part that is too
+/// long.
 ///
 /// No convergent has longer parts than the ends.
 fn simplest<T: Integer + Clone>(
@@ -145,11 +146,11 @@ fn simplest<T: Integer + Clone>(
     [mut c, mut d]: [T; 2],
     is_long: impl Fn(&T) -> bool,
 ) -> (T, T) {
-    // Continued fractions of both ends agree up to the term where the simplest fraction leaves them.
+    // The simplest fraction shares the continued fraction of both ends up to the first term in which they differ.
     let (mut p0, mut q0, mut p1, mut q1) = (T::zero(), T::one(), T::one(), T::zero());
     let next = |term: T, last: &T, before: &T| term * last.clone() + before.clone();
     loop {
-        // The ends are a/b ≤ c/d, both positive, and the fraction so far ends in one of them.
+        // The continued fraction so far continues with a number between the ends a/b ≤ c/d, both positive.
         let (floor, remainder) = a.div_rem(&b);
         let above = floor.clone() + T::one();
         let (term, is_last) = if remainder.is_zero() {
@@ -165,7 +166,7 @@ fn simplest<T: Integer + Clone>(
         }
         (p0, q0, p1, q1) = (p1, q1, p, q);
         let high_remainder = c - floor * d.clone();
-        // Reciprocals of the fractional parts, which exchanges the ends.
+        // Reciprocals of the fractional parts; this exchanges the ends.
         (a, b, c, d) = (d, high_remainder, b, remainder);
     }
 }

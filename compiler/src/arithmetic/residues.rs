@@ -1,12 +1,12 @@
-//! Polynomials over the integers modulo a large number, and the rationals behind residues.
+//! Polynomials over the integers modulo a large number, and rational reconstruction.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-/// The integers modulo a number. Its polynomials have coefficients from 0 to the modulus, lowest degree
-/// first, the last one not zero.
+/// The integers modulo a number. Polynomials have coefficients from 0 to below the modulus, lowest degree first, the
+/// last one not zero.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Residues {
     modulus: BigInt,
@@ -72,7 +72,7 @@ impl Residues {
                 *x += a * b;
             }
         }
-        // Reduced once, at the end: the sums are hardly longer than the products.
+        // Reduced once at the end: the sums are hardly longer than the products.
         self.reduce(&result)
     }
 
@@ -104,7 +104,7 @@ impl Residues {
         }
     }
 
-    /// The rational `n/d` with this residue and `2n², 2d² ≤` modulus, of which there is one at most.
+    /// The rational `n/d` with this residue and `2n², 2d² ≤` modulus, which is unique if it exists.
     pub fn rational(&self, residue: &BigInt) -> Option<BigRational> {
         let bound = (&self.modulus / 2u32).sqrt();
         // Euclidean algorithm; invariant: r ≡ t·residue.

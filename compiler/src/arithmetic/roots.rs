@@ -11,12 +11,12 @@ use super::polynomial::Polynomial;
 use super::prime_field::{PrimeField, large_primes};
 use super::rational::simplest_between;
 
-/// A real root of a squarefree polynomial, exactly.
+/// An exact real root of a squarefree polynomial.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Root {
     /// A rational root.
     Rational(BigRational),
-    /// An irrational root: the only one in an interval, whose ends are not roots.
+    /// An irrational root: the only root in an interval, whose ends are not roots.
     Irrational(Interval),
 }
 
@@ -31,8 +31,8 @@ impl Root {
 
     /// Whether a divisor of the root's polynomial vanishes at this root.
     ///
-    /// The divisor has no root in the isolating interval but possibly this one, which is simple:
-    /// it vanishes there iff it changes its sign.
+    /// In the isolating interval the divisor has at most this simple root: it vanishes there if and only if its sign
+    /// changes.
     pub fn is_root_of_divisor(&self, divisor: &Polynomial) -> bool {
         match self {
             Root::Rational(value) => divisor.evaluate(value).is_zero(),
@@ -44,8 +44,8 @@ impl Root {
     }
 }
 
-/// The real roots of a squarefree polynomial in ascending order, each isolated and known to be
-/// rational or not.
+/// The real roots of a squarefree polynomial in ascending order, each isolated and classified as rational or
+/// irrational.
 pub fn real_roots(polynomial: &Polynomial) -> Vec<Root> {
     let polynomial = &polynomial.primitive();
     let chain = SturmChain::new(polynomial);
@@ -71,7 +71,7 @@ pub fn real_roots(polynomial: &Polynomial) -> Vec<Root> {
     roots
 }
 
-/// A whole number that is larger than the modulus of every root (Cauchy).
+/// An integer above the absolute value of every root (Cauchy).
 fn root_bound(polynomial: &Polynomial) -> BigInt {
     let Some((leading, rest)) = polynomial.numerators().split_last() else {
         return BigInt::one();
@@ -85,7 +85,7 @@ fn sign_at(polynomial: &Polynomial, point: &BigInt, bits: u32) -> Sign {
     value_at(polynomial, point, bits).sign()
 }
 
-/// The value of a polynomial of degree `n` at `point·2⁻ᵇⁱᵗˢ`, times its denominator and `2ⁿᵇⁱᵗˢ`.
+/// The value of a polynomial of degree `n` at `point·2⁻ᵇⁱᵗˢ`, times its denominator and `2^(n·bits)`.
 fn value_at(polynomial: &Polynomial, point: &BigInt, bits: u32) -> BigInt {
     let mut scale = 0;
     let mut value = BigInt::zero();
@@ -129,18 +129,18 @@ impl SturmChain {
     }
 }
 
-/// The only root of a polynomial in `(low, high]·2⁻ᵇⁱᵗˢ`, which is known to be rational or not.
+/// Classifies the only root of a polynomial in `(low, high]·2⁻ᵇⁱᵗˢ` as rational or irrational.
 pub(crate) fn classified(polynomial: &Polynomial, interval: &Interval) -> Root {
     let Interval { low, high, bits } = interval.clone();
     classify(&polynomial.whole_multiple(), low, high, bits)
 }
 
-/// Leading coefficients with more bits make it long to look at a rational candidate.
+/// Length in bits of leading coefficients above which testing a rational candidate is slow.
 const LONG: u64 = 1024;
-/// The primes by which rational roots are excluded.
+/// Number of primes to try for the exclusion of rational roots.
 const PRIMES: usize = 64;
 
-/// Whether some prime proves that a polynomial with whole coefficients has no rational root: it has none modulo that
+/// Whether a prime proves that a polynomial with integer coefficients has no rational root: it has no root modulo the
 /// prime, which does not divide the leading coefficient.
 fn surely_has_no_rational_root(polynomial: &Polynomial) -> bool {
     let proves = |field: PrimeField| {
@@ -167,7 +167,7 @@ fn classify(polynomial: &Polynomial, low: BigInt, high: BigInt, bits: u32) -> Ro
     if sign_at(polynomial, &high, bits) == Sign::NoSign {
         return rational(&high, bits);
     }
-    // The lower end may be another root, which the half-open interval leaves out.
+    // The lower end may be another root, which the half-open interval excludes.
     let (mut low, mut high, mut bits) = (low, high, bits);
     while sign_at(polynomial, &low, bits) == Sign::NoSign {
         (low, high, bits) = (low << 1, high << 1, bits + 1);
@@ -193,10 +193,10 @@ fn is_long(polynomial: &Polynomial) -> bool {
     polynomial.leading().numer().bits() > LONG
 }
 
-/// The rational root of a polynomial with whole coefficients in an interval with one root.
+/// The rational root of a polynomial with integer coefficients in an interval with one root.
 ///
-/// It is `k/leading` for a whole `k`: in an interval shorter than `1/(2·leading)` it is the simplest rational, or there is
-/// none.
+/// It is `k/leading` with an integer `k`. The interval is shorter than `1/(2·leading)`, so the simplest rational in the
+/// scaled interval is the only candidate for `k`.
 fn rational_root(polynomial: &Polynomial, interval: &Interval) -> Option<BigRational> {
     let leading = BigRational::from_integer(polynomial.leading().to_integer());
     let scaled = |end: BigRational| end * &leading;
@@ -207,7 +207,7 @@ fn rational_root(polynomial: &Polynomial, interval: &Interval) -> Option<BigRati
 
 /// The outcome of a refinement.
 enum Refined {
-    /// The root was met.
+    /// The root was hit exactly.
     Exactly(BigRational),
     /// An interval with a sign change.
     Within(Interval),
@@ -215,12 +215,12 @@ enum Refined {
 
 /// An interval around a root with this number of binary places, at most two units wide.
 ///
-/// `polynomial` is the squarefree polynomial that the root was isolated for.
+/// `polynomial` is the squarefree polynomial whose root was isolated.
 pub fn enclose(polynomial: &Polynomial, root: &Root, bits: u32) -> Interval {
     enclose_from(polynomial, root, None, bits)
 }
 
-/// [`enclose`], beginning with a `known` enclosure.
+/// [`enclose`], starting from a `known` enclosure.
 pub fn enclose_from(
     polynomial: &Polynomial,
     root: &Root,
@@ -232,7 +232,7 @@ pub fn enclose_from(
         Root::Irrational(interval) => match refine(polynomial, narrower(interval, known), bits) {
             Refined::Exactly(value) => Interval::enclosing(&value, bits),
             Refined::Within(fine) => {
-                // Give back exactly the binary places that were asked for, rounded outward.
+                // Return exactly the requested binary places, rounded outward.
                 let excess = fine.bits.saturating_sub(bits);
                 let low: BigInt = &fine.low >> excess;
                 let high: BigInt = -((-&fine.high) >> excess);
@@ -247,7 +247,8 @@ pub fn enclose_from(
     }
 }
 
-/// A known enclosure of the root in an isolating interval, if it is inside of that: then it has a sign change too.
+/// The known enclosure of the root if it lies inside the isolating interval, where it also has a sign change; otherwise
+/// the isolating interval.
 fn narrower<'i>(isolating: &'i Interval, known: Option<&'i Interval>) -> &'i Interval {
     let inside = |known: &&Interval| {
         known.bits >= isolating.bits && {
@@ -260,9 +261,9 @@ fn narrower<'i>(isolating: &'i Interval, known: Option<&'i Interval>) -> &'i Int
 
 /// Narrows an interval with a sign change to a width of at most `2⁻ᵗᵃʳᵍᵉᵗ`.
 ///
-/// The interval is cut into `2ⁿ` parts, and the root is sought in the one in which the chord vanishes. Where it is there, `n`
-/// is doubled, otherwise halved (Abbott, *Quadratic interval refinement for real roots*). Only a sign change at exact ends is
-/// believed.
+/// The interval is divided into `2ⁿ` parts, and the part in which the chord vanishes is tested. If it contains the
+/// root, `n` is doubled, otherwise halved (Abbott, *Quadratic interval refinement for real roots*). Only certified
+/// signs decide.
 fn refine(polynomial: &Polynomial, interval: &Interval, target: u32) -> Refined {
     let Interval {
         mut low,
@@ -283,13 +284,13 @@ fn refine(polynomial: &Polynomial, interval: &Interval, target: u32) -> Refined 
         (low, high, bits) = (low << count, high << count, bits + count);
         let (start, last) = (low.clone(), (BigInt::one() << count) - BigInt::one());
         let mut part = chord(&below, &above, count).clamp(BigInt::one(), last.clone());
-        // The ends of the part in which the root should be.
+        // Test the ends of this part.
         for _ in 0..2 {
             if !part.is_positive() || part > last {
                 break;
             }
             let point = &start + &width * &part;
-            // As many places as the next chord may be cut into parts.
+            // Enough places for the next, finer division.
             let wanted = bits.saturating_add(2 * count).min(target.max(bits));
             let value = value(&point, bits, wanted);
             if value.mantissa.is_zero() {
@@ -311,21 +312,20 @@ fn refine(polynomial: &Polynomial, interval: &Interval, target: u32) -> Refined 
     }
 }
 
-/// The value of a polynomial at a point: about `m·2ᵉ`, with the sign of the value, and zero only where the value is.
+/// The value of a polynomial at a point: approximately `m·2ᵉ`, with the exact sign, and zero only if the value is zero.
 struct Value {
     mantissa: BigInt,
     exponent: i64,
 }
 
 impl Value {
-    /// The value at `point·2⁻ᵇⁱᵗˢ`: with about as many places as are wanted, where these tell the sign, and exactly
-    /// otherwise.
+    /// The value at `point·2⁻ᵇⁱᵗˢ`: with approximately `wanted` places if these determine the sign, exactly otherwise.
     fn at(polynomial: &Polynomial, point: &BigInt, bits: u32, wanted: u32) -> Self {
         let degree = polynomial.degree().unwrap_or(0);
         let exact = degree as u64 * u64::from(bits);
         for guard in GUARDS {
             let places = wanted.saturating_add(guard);
-            // Exact arithmetic takes no longer.
+            // Exact arithmetic is no slower.
             if exact <= 2 * u64::from(places) {
                 break;
             }
@@ -344,7 +344,7 @@ impl Value {
     }
 }
 
-/// Places beyond those of a point with which values near a root are computed.
+/// Guard places to try for values near a root.
 const GUARDS: [u32; 3] = [128, 512, 4096];
 
 /// The value at `point·2⁻ᵇⁱᵗˢ` in units of `2⁻ᵖˡᵃᶜᵉˢ`, and a bound on its error, by Horner's scheme.
@@ -358,14 +358,14 @@ fn rounded_value_at(
     let size: BigInt = (point.abs() >> bits) + 1;
     let (mut value, mut error) = (BigInt::zero(), BigInt::zero());
     for numerator in polynomial.numerators().iter().rev() {
-        // The shift rounds by less than one unit.
+        // The shift rounds down by less than one unit.
         value = ((value * point) >> bits) + (numerator << places);
         error = error * &size + 1;
     }
     (value, error)
 }
 
-/// About where the chord between values at the ends of an interval vanishes, in `2ⁿ` parts of it.
+/// The approximate zero of the chord through the values at the ends of an interval, in units of 1/2ⁿ of its width.
 fn chord(below: &Value, above: &Value, parts: u32) -> BigInt {
     let top = |value: &Value| value.mantissa.bits() as i64 + value.exponent;
     let least = top(below).max(top(above)) - i64::from(parts) - 64;
@@ -385,7 +385,7 @@ fn chord(below: &Value, above: &Value, parts: u32) -> BigInt {
     (below << parts) / sum
 }
 
-/// Compares two reals given by enclosures, if these decide.
+/// Compares two real numbers by their enclosures; `None` if these overlap.
 pub fn compare(a: &Interval, b: &Interval) -> Option<Ordering> {
     debug_assert_eq!(a.bits, b.bits);
     if a.high < b.low {
@@ -417,7 +417,7 @@ mod tests {
         assert!((&narrow.high - &narrow.low) <= BigInt::from(2));
         let square = narrow.multiply(&narrow);
         assert!(square.contains(&ratio(2, 1)));
-        // From there, or from what is not narrower than the interval it was isolated in.
+        // Starting from this enclosure, or from one that is wider than the isolating interval.
         let wide = narrow.with_bits(1);
         for known in [&narrow, &wide] {
             let finer = enclose_from(&p, &roots[3], Some(known), 400);
@@ -428,7 +428,7 @@ mod tests {
         }
     }
 
-    /// Most values on the way are rounded; the ends have different signs exactly.
+    /// Intermediate values are rounded; the signs at the ends differ exactly.
     #[test]
     fn many_places_of_a_root_are_those_of_the_root() {
         // Legendre's polynomial of degree 6, and one with roots that are 2⁻⁴⁰ apart.

@@ -7,17 +7,16 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-/// The double nearest to a rational, ties to even; infinite beyond the largest double.
+/// The double nearest to a rational, ties to even; infinite on overflow.
 pub fn to_f64(value: &BigRational) -> f64 {
     DOUBLE.nearest(value)
 }
 
-/// The single nearest to a rational, ties to even; infinite beyond the largest single.
+/// The single nearest to a rational, ties to even; infinite on overflow.
 ///
-/// Not the single nearest to its double, which may be the middle of two singles where the rational is
-/// none.
+/// Rounding via a double would be wrong: the double may be a midpoint of two singles although the rational is not.
 pub fn to_f32(value: &BigRational) -> f32 {
-    // A single already, or 2¹²⁸ or infinite, which both become infinite.
+    // The argument is a single, 2¹²⁸ or infinite; the latter two become infinite.
     SINGLE.nearest(value) as f32
 }
 
@@ -44,14 +43,14 @@ const SINGLE: Format = Format {
 };
 
 impl Format {
-    /// The nearest number of the format, ties to even. One that rounds up past the largest becomes the power of
-    /// two above it, as far as a double holds that, and everything beyond is infinite.
+    /// The nearest number of the format, ties to even. If the result exceeds the largest number by rounding up, it is
+    /// the next power of two, which for doubles is infinite. Larger numbers are infinite.
     fn nearest(&self, value: &BigRational) -> f64 {
         if value.is_zero() {
             return 0.0;
         }
         let (numerator, denominator) = (value.numer().abs(), value.denom());
-        // value = mantissa·2^exponent with a mantissa of all digits, or the least exponent for subnormals.
+        // value ≈ mantissa·2^exponent with a mantissa of full length, or with the least exponent for subnormals.
         let scaled = |exponent: i64| {
             if exponent >= 0 {
                 numerator.div_rem(&(denominator << exponent))
@@ -100,12 +99,12 @@ fn rounds_up(quotient: &BigInt, remainder: &BigInt, unit: &BigInt) -> bool {
     }
 }
 
-/// The shortest decimal that reads back to a double: `0.25`, `1e-20`.
+/// The shortest decimal that parses to the double: `0.25`, `1e-20`.
 pub fn shortest(value: f64) -> String {
     without_fraction(format!("{value:?}"))
 }
 
-/// The shortest decimal that reads back to a single.
+/// The shortest decimal that parses to the single.
 pub fn shortest_single(value: f32) -> String {
     without_fraction(format!("{value:?}"))
 }
@@ -117,7 +116,7 @@ fn without_fraction(text: String) -> String {
 /// A number rounded to a number of significant decimal digits: `±digits·10^exponent`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Decimal {
-    /// Signed; zero or with exactly the digits that were asked for.
+    /// Signed; zero, or with exactly the requested number of digits.
     digits: BigInt,
     exponent: i64,
 }
@@ -134,7 +133,7 @@ impl Decimal {
         let digits = digits.max(1);
         let (numerator, denominator) = (value.numer().abs(), value.denom());
         let ten = |power: i64| BigInt::from(10u32).pow(power.unsigned_abs() as u32);
-        // 10^(place) ≤ value < 10^(place + 1), from the binary lengths first and corrected exactly.
+        // 10^place ≤ |value| < 10^(place + 1): estimated from the binary lengths, then corrected exactly.
         let mut place = ((numerator.bits() as f64 - denominator.bits() as f64)
             * std::f64::consts::LOG10_2)
             .floor() as i64;
@@ -191,7 +190,7 @@ impl Decimal {
 }
 
 impl fmt::Display for Decimal {
-    /// All digits, in positional notation down to 10⁻⁶ and with an exponent otherwise.
+    /// All digits, in positional notation down to 10⁻⁶, otherwise in scientific notation.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.digits.is_zero() {
             return f.write_str("0");
@@ -201,7 +200,7 @@ impl fmt::Display for Decimal {
         if self.digits.is_negative() {
             f.write_str("-")?;
         }
-        // The decimal point stands after this many digits.
+        // Number of digits before the decimal point.
         let point = count + self.exponent;
         match point {
             _ if point > 0 && point < count => {
@@ -219,7 +218,7 @@ impl fmt::Display for Decimal {
     }
 }
 
-/// The exact value of a finite double.
+/// The exact value of a finite double; 2¹⁰²⁴ for infinities and NaN.
 pub fn exact(value: f64) -> BigRational {
     BigRational::from_float(value)
         .unwrap_or_else(|| BigRational::from_integer(BigInt::one() << 1024u32))
@@ -232,7 +231,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// The standard library reads decimals correctly rounded: an independent route.
+        /// An independent check: the standard library parses decimals with correct rounding.
         #[test]
         fn doubles_agree_with_the_decimal_reader(n in any::<i64>(), scale in -330i64..320) {
             let ten = BigInt::from(10).pow(scale.unsigned_abs() as u32);
@@ -242,8 +241,8 @@ mod tests {
             prop_assert_eq!(to_f64(&value).abs().to_bits(), read.abs().to_bits());
         }
 
-        /// Likewise: it reads singles without a double in between. The short numerators make near-ties, where the
-        /// double in between would be the middle of two singles.
+        /// The same for singles, which the standard library parses without an intermediate double. Short numerators
+        /// produce near ties, where an intermediate double would be a midpoint of two singles.
         #[test]
         fn singles_agree_with_the_decimal_reader(n in any::<i64>(), short in 0u32..40, scale in -65i64..40) {
             let n = BigInt::from(n >> short);
@@ -260,7 +259,7 @@ mod tests {
             let middle = (exact(low.into()) + exact(high.into())) / ratio(2, 1);
             let even = if bits % 2 == 0 { low } else { high };
             prop_assert_eq!(to_f32(&middle), even);
-            // Less than a double can tell from the middle: rounding twice would take both for the tie.
+            // Closer to the midpoint than doubles resolve: double rounding would treat both as ties.
             let nudge = &middle / BigRational::from_integer(BigInt::one() << 200u32);
             prop_assert_eq!(to_f32(&(&middle - &nudge)), low);
             prop_assert_eq!(to_f32(&(&middle + &nudge)), high);
@@ -321,7 +320,7 @@ mod tests {
         assert_eq!(to_f64(&(exact(5e-324) * ratio(3, 4))), 5e-324);
         let largest = exact(f32::MAX.into());
         assert_eq!(to_f32(&largest), f32::MAX);
-        // The middle between it and 2^128 is a tie, and 2^128 the even one.
+        // The midpoint between it and 2^128 is a tie, and 2^128 is even.
         let beyond = &largest + exact(2f64.powi(103));
         assert_eq!(to_f32(&beyond), f32::INFINITY);
         assert_eq!(to_f32(&-(&beyond)), f32::NEG_INFINITY);

@@ -20,8 +20,7 @@ use crate::arithmetic::rounding::Decimal;
 
 /// A proof that an exact method has the claimed order, with all its digits.
 ///
-/// Copies share the digits that have been computed. The same question always has the same answer, whatever was
-/// asked before.
+/// Copies share the digits that have been computed. The results do not depend on the order of the calls.
 #[derive(Debug, Clone)]
 pub struct Certificate(Arc<Facts>);
 
@@ -145,8 +144,8 @@ impl<S: Equations> Enclosed<S> {
 
     /// Enclosures of the free unknowns with a width of at most `2^(−bits)`.
     ///
-    /// The binary places that are computed grow by half from level to level, so that the answer depends on
-    /// `bits` only.
+    /// Each level has 3/2 times the binary places of the level before, for any `bits`. So the result depends on `bits`
+    /// only.
     fn free(&self, bits: u32) -> Arc<Vec<Interval>> {
         let needed = bits.saturating_add(LOST_BITS);
         let mut levels = self.levels.lock().unwrap_or_else(PoisonError::into_inner);
@@ -324,8 +323,9 @@ impl Certificate {
         self.0.targets.iter().find(|t| t.name == coefficient)
     }
 
-    /// The value of a coefficient, if it is known to be rational: a fixed coefficient, the remainder of 1 after
-    /// fixed ones, or any coefficient of a method that is rational throughout.
+    /// The value of a coefficient, if it is known to be rational: a fixed coefficient, one that a linear condition
+    /// determines from such coefficients, or any coefficient of a method whose coefficients are all known to be
+    /// rational.
     pub fn rational(&self, coefficient: Coefficient) -> Option<BigRational> {
         self.target(coefficient)?.rational(&self.0.solution)
     }
@@ -356,7 +356,7 @@ impl Certificate {
             .ok()?
     }
 
-    /// A coefficient, correctly rounded to some significant digits; `None` if there is no coefficient of that name.
+    /// A coefficient, correctly rounded to `digits` significant digits; `None` if there is no coefficient of that name.
     ///
     /// # Errors
     /// [`CertifyError::Digits`] for more than [`MAX_DIGITS`].

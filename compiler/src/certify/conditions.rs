@@ -109,7 +109,7 @@ impl Claim {
         }
     }
 
-    /// The same claim one order higher, if that is a single claim.
+    /// The same claim with an order higher by `step`; `None` for perturbed systems, whose claims have several orders.
     pub(super) fn next(&self, step: usize) -> Option<Claim> {
         match self {
             Claim::Separable(order) => Some(Claim::Separable(order + step)),

@@ -51,7 +51,7 @@ pub(super) fn distances(targets: &[Target], solution: &Solution, bits: u32) -> V
     targets.iter().map(distance).collect()
 }
 
-/// A lower bound on the absolute values in an interval, in units of `2⁻ᵇⁱᵗˢ`.
+/// The smallest absolute value in an interval, in units of `2⁻ᵇⁱᵗˢ`.
 pub(super) fn smallest(interval: &Interval) -> BigInt {
     let straddles = !interval.low.is_positive() && !interval.high.is_negative();
     match straddles {

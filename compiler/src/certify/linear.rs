@@ -31,7 +31,7 @@ pub fn ball(value: &BigInt, radius: &BigInt, bits: u32) -> Interval {
     }
 }
 
-/// A bound on the absolute values in an interval, in units of `2⁻ᵇⁱᵗˢ`.
+/// The largest absolute value in an interval, in units of `2⁻ᵇⁱᵗˢ`.
 pub fn magnitude(interval: &Interval) -> BigInt {
     interval.low.abs().max(interval.high.abs())
 }

@@ -108,7 +108,7 @@ impl<S: Equations> Square<S> {
         (moved, largest)
     }
 
-    /// The limit of Newton's iteration, to all but some of the last binary places.
+    /// The limit of Newton's iteration, to all but some of the last binary places; `None` if it does not converge.
     pub fn solve(&self, start: &[BigRational], bits: u32) -> Option<Vec<BigInt>> {
         let enclosed = start.iter().map(|x| middle(&Interval::enclosing(x, bits)));
         let mut at: Vec<BigInt> = enclosed.collect();
@@ -127,8 +127,8 @@ impl<S: Equations> Square<S> {
         None
     }
 
-    /// Refines an approximation from `from` to `bits` correct binary places, as far as the doubling of
-    /// Newton's iteration goes.
+    /// Refines an approximation with `from` correct binary places towards `bits` places, by at most three simplified
+    /// Newton iterations, which share one derivative.
     pub fn polish(&self, at: &[BigInt], from: u32, bits: u32) -> Vec<BigInt> {
         let mut at: Vec<BigInt> = at.iter().map(|x| rescaled(x, from, bits)).collect();
         // The derivative only needs as many places as each iteration adds.

@@ -171,7 +171,8 @@ fn subtract(row: &mut Combination, factor: &BigRational, other: &Combination) {
     }
 }
 
-/// Adds a vector to a basis in reduced echelon form, unless it is dependent on it.
+/// Adds a vector to a basis in reduced echelon form, unless it is linearly dependent on it. Returns whether it was
+/// added.
 fn insert(basis: &mut Vec<Combination>, mut vector: Combination) -> bool {
     for row in basis.iter() {
         let factor = first(row).and_then(|pivot| vector.get(pivot)).cloned();

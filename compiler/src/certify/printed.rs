@@ -7,7 +7,8 @@ use num_traits::{One, Signed, Zero};
 use super::CertifyError;
 use crate::arithmetic::rational::{ratio, simplest_between};
 
-/// The largest number of characters of a printed number, and the largest magnitude of its exponent.
+/// The largest number of characters of a printed number, the largest magnitude of its exponent, and the largest number
+/// of digits that are computed.
 pub const MAX_DIGITS: usize = 10_000;
 
 /// Decimals with at most this many significant digits are assumed to be exact: `0.28`, `-0.5`, `0.1867`.
@@ -103,7 +104,7 @@ impl Printed {
         }
     }
 
-    /// The digits from the first nonzero one to the last place; a fixed number of digits for an exact fraction.
+    /// The number of digits from the first nonzero one to the last decimal place; 20 for a fraction or an integer.
     pub fn significant_digits(&self) -> usize {
         const OF_FRACTIONS: usize = 20;
         let digits = self.places.map(|places| {

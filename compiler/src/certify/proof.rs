@@ -18,7 +18,7 @@
 //!
 //! **Refinement.** In the same way the zero `x*` and another point `z` of `X` satisfy `C F(z) = CM(z − x*)`, so
 //! `‖z − x*‖_∞ ≤ ‖C F(z)‖_∞/(1 − ε)`: after any approximate iteration, one evaluation of `F` at `z`, rounded outward,
-//! encloses the solution anew. Newton's iteration doubles the digits from one such `z` to the next.
+//! encloses the solution anew. Simplified Newton iterations lead from one such `z` to the next, with more digits.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -32,7 +32,7 @@ use crate::arithmetic::interval::Interval;
 /// A proof fails if evaluating the conditions loses more binary places than this, whatever the precision. Conditions of
 /// degree 20 are divided by 20!, which is 62 places.
 const ROUNDING_BITS: u64 = 128;
-/// The number of binary places of a refined solution that are unknown.
+/// The largest number of binary places of a refined solution that are unknown.
 pub const LOST_BITS: u32 = 160;
 
 /// The radius `2⁻⁶⁴` of the cube that is tried first.
@@ -130,8 +130,8 @@ impl<S: Equations> Proof<S> {
         sums.max().unwrap_or_else(BigInt::zero)
     }
 
-    /// The largest power of two such that the solution is unique in the cube of that radius around a
-    /// point; `None` if the point is not near enough for a proof.
+    /// The largest power of two for which it is proved that the solution is unique in the cube with that radius around
+    /// a point; `None` if the point is not near enough for a proof.
     pub fn unique_around(&self, start: &[BigRational]) -> Option<BigRational> {
         let enclosed: Vec<Interval> = {
             let enclose = |x| Interval::enclosing(x, self.bits);
@@ -190,8 +190,8 @@ impl<S: Equations> Proof<S> {
     }
 }
 
-/// The largest exponent of a radius `2ⁿ` in units of the last place, below 1, for which a monotone predicate
-/// holds.
+/// The largest exponent `n` with `bits/2 ≤ n < bits` for which a monotone predicate holds for the radius `2ⁿ` in units
+/// of the last place; `None` if there is none.
 fn largest_power(bits: u32, holds: impl Fn(&BigInt) -> bool) -> Option<u32> {
     let at = |exponent: u32| holds(&(BigInt::one() << exponent));
     // Radii below 2^(−bits/2) are of no use.

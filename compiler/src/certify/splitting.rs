@@ -90,7 +90,7 @@ pub(super) fn tolerance<'a>(all: impl Iterator<Item = &'a Printed>) -> BigRation
     BigRational::new(BigInt::one(), power_of_ten(places))
 }
 
-/// The sum of the printed values, if it differs from 1 by more than the rounding of each value explains.
+/// The sum of the printed values, if it differs from 1 by more than the tolerance times the number of values.
 pub(super) fn wrong_sum(list: &[Printed], tolerance: &BigRational) -> Option<BigRational> {
     let sum: BigRational = list.iter().map(Printed::value).sum();
     let bound = tolerance * ratio(list.len().try_into().unwrap_or(i64::MAX), 1);

@@ -182,7 +182,8 @@ fn close(x: &BigRational, y: &BigRational) -> bool {
     (x - y).abs() <= ratio(1, 1000)
 }
 
-/// Each factor with its own argument, up to symmetry and equal digits; then without either.
+/// The readings in which each factor is a step: symmetric or not, with equal digits as one unknown or as several. Those
+/// with more structure come first.
 fn plain(factors: &[Factor<'_>], [symmetric, asymmetric]: [Structure; 2]) -> Vec<Reading> {
     let partner = |index: usize| factors.len() - 1 - index;
     let pairs = || (0..factors.len()).map(|i| (&factors[i], &factors[partner(i)]));

@@ -97,7 +97,7 @@ struct Nodes<'n, 'a> {
 }
 
 impl<'n, 'a> Nodes<'n, 'a> {
-    /// The row sums of a, or else those of ã, if they are distinct and both weights are those of interpolation.
+    /// The nodes c, or otherwise c̃, if they are distinct and both b and b̃ are interpolatory.
     fn new(numbers: &'n Coefficients<Number<'a>>) -> Option<Self> {
         let nodes = |times: &'n [Number<'a>]| {
             let first = Enclosed::new(times, 0);

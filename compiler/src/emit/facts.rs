@@ -95,7 +95,7 @@ impl Known {
         known.or_insert_with(|| compute().map(Rc::new)).clone()
     }
 
-    /// The code of half a tableau at `place` in the code. If the same half has been written already, the place of that one.
+    /// The code of a half tableau at `place`; if an equal half has been written already, the place of that half.
     pub(super) fn written(
         &self,
         place: TokenStream,

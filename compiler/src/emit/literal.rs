@@ -11,8 +11,8 @@ pub(super) fn identifier(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
 }
 
-/// A double as its shortest literal that reads back to it. Negative numbers are in parentheses, so that a
-/// method call applies to the negative number.
+/// A double as the shortest literal that parses to it. Negative numbers are in parentheses, so that a method call
+/// applies to the negative number.
 pub(super) fn double(value: f64) -> TokenStream {
     // `{:?}` always reads as a floating-point literal: 1.0, never the integer 1.
     let size = format!("{:?}", value.abs());

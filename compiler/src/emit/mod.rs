@@ -37,7 +37,7 @@ use crate::tableau::left_out;
 /// What the user writes before the braces: attributes, visibility and the name of the type.
 #[derive(Debug, Clone)]
 pub struct Header {
-    /// Attributes, doc comments among them.
+    /// Attributes, including doc comments.
     pub attributes: TokenStream,
     /// The visibility.
     pub visibility: TokenStream,

@@ -1,4 +1,4 @@
-//! Which stages coincide, which stages each needs, and the order in which they can be computed.
+//! Coinciding stages, the dependencies between stages, and the order of computation.
 
 mod phases;
 mod splitting;
@@ -62,9 +62,9 @@ impl StageValue<'_> {
 /// A distinct evaluation of a velocity or a force.
 #[derive(Debug)]
 pub struct Evaluation<'a> {
-    /// The position stage that it is evaluated at, by index; `None` where it does not depend on it.
+    /// The index of the position stage at which it is evaluated; `None` if it does not depend on one.
     pub position: Option<usize>,
-    /// The momentum stage that it is evaluated at, by index; `None` where it does not depend on it.
+    /// The index of the momentum stage at which it is evaluated; `None` if it does not depend on one.
     pub momentum: Option<usize>,
     /// Its time as a fraction of the step: `c` for a force, `c̃` for a velocity.
     pub time: Number<'a>,
@@ -219,7 +219,7 @@ impl<'a> StepGraph<'a> {
             ),
         };
         match class {
-            // There, evaluations of both kinds use each stage.
+            // For general H, evaluations of both kinds use every stage.
             Class::General => graph,
             Class::Separable => graph.without_what_is_not_used(),
         }
@@ -305,7 +305,7 @@ impl<'a> StepGraph<'a> {
     /// The names of the stages in an order in which each can be computed from the earlier ones.
     ///
     /// # Errors
-    /// If there is no such order: the names of stages that each need the next, and the last the first.
+    /// If there is no such order: the names of the stages of a cycle, each of which needs the next.
     pub fn order(&self) -> Result<Vec<String>, Vec<String>> {
         let schedule = self.schedule();
         let Some(&start) = schedule.coupled.first() else {

@@ -8,11 +8,11 @@ use crate::tableau::Tableau;
 #[derive(Debug)]
 pub struct Phases<'g, 'a> {
     graph: &'g StepGraph<'a>,
-    /// What is computed first.
+    /// The nodes computed first.
     pub begin: Vec<Node>,
-    /// What is solved for.
+    /// The nodes to be solved for.
     pub coupled: Vec<Node>,
-    /// What is computed last, starting with the first stage that is the result of the step.
+    /// The nodes computed last, starting with the first stage that is the result of the step.
     pub finish: Vec<Node>,
 }
 
@@ -111,7 +111,7 @@ impl<'a> StepGraph<'a> {
     }
 }
 
-/// How often one step within a long run evaluates the two halves of a separable Hamiltonian.
+/// Evaluations per step of a long run, for a separable Hamiltonian.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Evaluations {
     /// Evaluations of the force `−∂U/∂q`.
@@ -121,8 +121,8 @@ pub struct Evaluations {
 }
 
 impl Tableau {
-    /// How often a step evaluates force and velocity, for separable Hamiltonians and a method that is explicit for
-    /// them; `None` for a method with coupled stages.
+    /// The numbers of evaluations of force and velocity per step, for separable Hamiltonians and a method that is
+    /// explicit for them; `None` for a method with coupled stages.
     ///
     /// Evaluations of the previous step that are reused (first same as last) do not count: only the very first step
     /// makes them.

@@ -57,7 +57,7 @@ impl<'a> StepGraph<'a> {
         })
     }
 
-    /// The one stage value that an evaluation depends on, for separable Hamiltonians.
+    /// The only stage value that an evaluation depends on, for separable Hamiltonians.
     pub(crate) fn argument(&self, node: Node) -> Option<&StageValue<'a>> {
         let evaluation = self.evaluation(node);
         match node {

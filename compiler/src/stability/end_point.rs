@@ -129,7 +129,7 @@ impl EndPoint {
         }
     }
 
-    /// How the end point compares with a rational.
+    /// How the end point compares with a rational; `Equal` also if enclosures cannot distinguish them.
     pub fn compare(&self, value: &BigRational) -> Ordering {
         let Value::SquareRoot { square, .. } = &self.0 else {
             return match self.is_zero() {

@@ -1,4 +1,4 @@
-//! Polynomials over the field of constants of an algebra, with Sturm's theorem.
+//! Polynomials over the field of constants of an algebra, with roots from enclosures of the coefficients.
 
 use std::cmp::Ordering;
 use std::sync::{Arc, OnceLock};
@@ -369,8 +369,9 @@ impl<A: StageAlgebra + 'static> RealPolynomial for FieldPolynomial<A> {
         self.euclid(other)
     }
 
-    /// If zeros are only known from enclosures, those of Euclid's algorithm lose all their places when numbers differ
-    /// much in size. So Euclid's algorithm runs only if enclosures do not separate the roots, where it must explain why.
+    /// If zeros are known only from enclosures, the enclosures in Euclid's algorithm lose all their places when numbers
+    /// differ much in size. So Euclid's algorithm runs only if enclosures do not separate the roots, and then the
+    /// remaining factors must have separate roots.
     fn common_factor(&self, other: &Self) -> Self {
         let constant = [self, other].iter().any(|p| p.degree() == Some(0));
         if self.is_exact() || constant {

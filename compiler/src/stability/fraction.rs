@@ -75,7 +75,7 @@ impl<P: RealPolynomial> Fraction<P> {
     }
 }
 
-/// A real number for people: exact if the exact form is readable, and as a double.
+/// A real number as text, in the exact form if that is readable, and as a double.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coefficient {
     /// The exact form, or the first digits and `…`.
@@ -105,7 +105,7 @@ impl Coefficient {
         if number.is_zero() {
             return Coefficient::rational(BigRational::default());
         }
-        // If numbers are only enclosed, as far as is known.
+        // A number that is only enclosed is rational as far as its enclosure tells.
         if let Some(value) = number.short_rational_as_far_as_known() {
             return Coefficient::rational(value);
         }
@@ -134,7 +134,7 @@ pub enum Variable {
     Z,
 }
 
-/// A rational function in lowest terms, for people and for exports.
+/// A rational function in lowest terms, for display and export.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RationalFunction {
     /// The variable.
@@ -233,7 +233,7 @@ impl fmt::Display for RationalFunction {
     }
 }
 
-/// A power with raised digits.
+/// An exponent in superscript digits.
 pub(crate) fn superscript(power: usize) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let digits = power.to_string();

@@ -67,11 +67,10 @@ struct Vanishing<P> {
 
 /// The step sizes `ν > 0` for which the powers of the matrix are bounded.
 ///
-/// The powers are bounded where the eigenvalues are in the closed unit disc ([`Step::conditions`]) and those on the circle
-/// are semisimple. A real matrix can only fail the latter with a double eigenvalue ±1, that is with
-/// `det M = 1` and `tr M = ±2`, unless `M = ±1`. Where the stages have no unique solution there is no
-/// step, and so no stability. Returns `None` if roots cannot be separated.
-/// step, and so no stability. `None` if that is not decided.
+/// The powers are bounded where the eigenvalues are in the closed unit disc ([`Step::conditions`]) and those on the
+/// circle are semisimple. A real matrix can only fail the latter with a double eigenvalue ±1, that is with `det M = 1`
+/// and `tr M = ±2`, unless `M = ±1`. Where the stages have no unique solution there is no step, and so no stability.
+/// Returns `None` if the roots cannot be separated.
 pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Option<Vec<StabilityInterval>> {
     let conditions = step.conditions();
     let scalar = step.scalar();

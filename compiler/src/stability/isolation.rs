@@ -275,9 +275,8 @@ const OVERHEAD: u32 = 32;
 /// until a sign is not known.
 ///
 /// The interval is cut into `2ⁿ` parts, and the root is sought in the part in which the chord vanishes. If it is there,
-/// `n` is doubled, otherwise halved (Abbott, *Quadratic interval refinement for real roots*). `value_at` returns a value whose
-/// sign is known.
-/// sign is known.
+/// `n` is doubled, otherwise halved (Abbott, *Quadratic interval refinement for real roots*). `value_at` returns a
+/// value whose sign is known.
 pub(super) fn narrow(
     interval: &Interval,
     bits: u32,

@@ -1,10 +1,11 @@
 //! Linear stability as exact algebra (Hairer, Lubich & Wanner, *Geometric Numerical
 //! Integration*, §I.5 and §IX.9; Hairer & Wanner, *Solving Ordinary Differential Equations II*, §IV.3).
 //!
-//! For the oscillator `q' = p`, `p' = −ω²q` one step is a 2×2 matrix whose entries are rational functions of
-//! `ν = hω`. Their coefficients are found without rounding, so that every statement about them is decided:
-//! signs by Sturm's theorem, equalities by arithmetic. Over the node algebra all of this is rational, because the
-//! coefficients of the functions are traces.
+//! For the oscillator `q' = p`, `p' = −ω²q` one step is a 2×2 matrix whose entries are rational functions of `ν = hω`.
+//! Their coefficients are computed without rounding, so that statements about them can be decided: equalities by exact
+//! arithmetic, signs and roots by enclosures or Sturm's theorem. If exact arithmetic is not available or takes too
+//! long, enclosures of the coefficients decide, or the stability stays undecided. Over the node algebra all of this is
+//! rational, because the coefficients of the functions are traces.
 
 mod budget;
 mod cascade;
@@ -69,7 +70,8 @@ pub struct Stability {
     pub dispersion: Option<Dispersion>,
     /// The stability function, for methods with `ã = a` and `b̃ = b`.
     pub runge_kutta: Option<RungeKuttaStability>,
-    /// The evidence: proved, or verified if numbers are only known by enclosures.
+    /// The evidence: proved, verified if zeros are known only from enclosures, or undecided. If it is undecided, the
+    /// other fields need not be correct.
     pub evidence: Evidence,
 }
 
@@ -386,7 +388,7 @@ pub struct StabilitySummary {
     pub trace: String,
     /// The determinant as text.
     pub determinant: String,
-    /// The exact ends of the intervals, where they are short.
+    /// The exact ends of the intervals, if they are short.
     pub intervals: Vec<[Option<String>; 2]>,
     /// The ends of the intervals as decimals.
     pub decimal: Vec<[String; 2]>,

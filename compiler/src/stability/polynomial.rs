@@ -53,11 +53,11 @@ pub(super) trait RealPolynomial: Clone + Debug + 'static {
     fn leading_sign(&self) -> Ordering;
     /// The sign of the value at a rational point.
     fn sign_at(&self, point: &BigRational) -> Ordering;
-    /// The positive roots in ascending order, if they can be separated; the polynomial is squarefree.
+    /// The positive roots of a squarefree polynomial in ascending order, if they can be separated.
     fn positive_roots(&self) -> Option<Vec<Root>>;
     /// An enclosure of a root with this number of binary places, whose width tends to zero as `bits` grows.
     fn enclose_root(&self, root: &Root, bits: u32) -> Interval;
-    /// The square root of a positive root, if it is short.
+    /// The exact form of the square root of a positive root, if it is short.
     fn square_root_text(&self, root: &Root) -> Option<String>;
     /// The coefficients, the constant first.
     fn coefficients(&self) -> Vec<Coefficient>;

@@ -25,7 +25,8 @@ pub enum StableSteps {
         /// The bits of the enclosures.
         bits: u32,
     },
-    /// Not computed: the method has more stages and is not a palindromic splitting.
+    /// Not computed: the method has more than [`MOST_STAGES`] stages, and is not a palindromic splitting, or enclosures
+    /// do not decide where its first interval ends.
     NotComputed,
 }
 

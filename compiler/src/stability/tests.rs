@@ -143,7 +143,7 @@ fn implicit_runge_kutta_methods() {
         &["1/6", "2/3", "1/6"],
     );
     assert!(lobatto.l_stable && lobatto.imaginary.is_infinite());
-    // Of order 3 with γ = 1/6: nowhere bounded by 1 on the axis near 0, or with poles on the left.
+    // R(z) = (1 + 3z/2)/(1 + z/2): |R| > 1 on the axis, and a pole on the left.
     let (_, negative) = runge_kutta(&[&["-1/2"]], &["1"]);
     assert!(!negative.a_stable && !negative.imaginary.is_infinite());
     // R(z) = 1/(1 + z) is bounded on the axis by 1, and has a pole on the left.
@@ -336,7 +336,8 @@ fn the_budget_decides_the_evidence_and_nothing_else() {
 proptest::proptest! {
     #![proptest_config(proptest::prelude::ProptestConfig::with_cases(24))]
 
-    /// A step divided by `1 − Kz`, with a rational number for `K`: the set is the same, however large or small `K` is.
+    /// Methods whose stability function has the denominator `1 − Kz`, for a multiple `K` of π and for a rational number
+    /// near it: the sets are the same, however large or small `K` is.
     #[test]
     fn enclosures_do_not_depend_on_the_scale(n in 1i64..50, exponent in -400i32..400, second in -40i32..40) {
         let ten = ratio(10, 1);
@@ -397,8 +398,7 @@ fn a_number_whose_double_is_zero_is_not_zero() {
     assert_eq!(stability.intervals[0].high.decimal(9), "3.54490770e-200");
 }
 
-/// A pair that is not symplectic, with `det M = 1 − x²/4` and `tr M = 2 − x + x²/4`, and a pair whose stages have no solution
-/// at a point where the matrix is defined.
+/// Pairs that are not symplectic, and a pair whose stages have no solution at a point where the matrix is defined.
 #[test]
 fn pairs_that_are_not_symplectic() {
     // Two stages: Heun's method for both q and p.
@@ -406,7 +406,7 @@ fn pairs_that_are_not_symplectic() {
     // det = (1 − x/2)² + x = 1 + x²/4: unstable for all steps.
     assert_eq!(heun.determinant.to_string(), "(ν⁴ + 4)/4");
     assert!(heun.intervals.is_empty());
-    // Explicit for q, implicit for p with weights that are too small: damped.
+    // Implicit, with too small a weight of the force: damped.
     let algebra = Arc::new(Dense::new(Rationals, 1));
     let damped = Pair {
         a: matrix(&[&["1"]]),
@@ -584,7 +584,7 @@ fn splitting(kick: &str, drift: &str) -> Stability {
     tableau.expect("derived").stability()
 }
 
-/// Half a kick and half a drift are moved so little that the first stable steps do not change in 12 digits.
+/// A kick and a drift are inserted that are so small that the first stable steps do not change in 12 digits.
 #[test]
 fn tiny_kicks_move_no_end_far() {
     let near = splitting("pi, 1 - pi", "e, 1 - e").intervals[0]

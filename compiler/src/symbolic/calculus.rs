@@ -15,7 +15,7 @@ impl Function {
     /// The derivative.
     ///
     /// # Errors
-    /// [`ErrorKind::FunctionClass`] for tangents, and see [`Function`].
+    /// [`ErrorKind::FunctionClass`] for tangents; also those of [`Function`].
     pub fn derivative(&self) -> Result<Function, ErrorKind> {
         let mut derivative = Function::zero();
         for (term, coefficient) in self.terms() {
@@ -67,8 +67,7 @@ impl Function {
     /// The antiderivative that vanishes at 0.
     ///
     /// # Errors
-    /// [`ErrorKind::FunctionClass`] for `ln(cos(ω·t))`, whose integral is not elementary, and see
-    /// [`Function`].
+    /// [`ErrorKind::FunctionClass`] for `ln(cos(ω·t))`, whose integral is not elementary; also those of [`Function`].
     pub fn antiderivative(&self) -> Result<Function, ErrorKind> {
         let mut integral = Function::zero();
         for (term, coefficient) in self.terms() {
@@ -99,10 +98,10 @@ impl Function {
         integral.subtract(&Function::constant(start))
     }
 
-    /// The value at a number.
+    /// The value at `t`.
     ///
     /// # Errors
-    /// See [`Function`].
+    /// Those of [`Function`].
     pub fn evaluate(&self, t: &Constant) -> Result<Constant, ErrorKind> {
         if let (Some(polynomial), Some(t)) = (self.as_polynomial(), t.as_rational()) {
             let degree = polynomial.degree().unwrap_or(0);
@@ -136,10 +135,10 @@ impl Function {
     }
 }
 
-/// Adds the integral of `coefficient·tᵏ·e^(α·t)·wave`, where growth and wave are not both absent.
+/// Adds the integral of `coefficient·tᵏ·e^(α·t)·wave`, where `α ≠ 0` or the wave is not `None`.
 ///
-/// With `z = α + iβ`, whose real and imaginary parts belong to the cosine and the sine:
-/// `∫ tᵏ·e^(zt) = e^(zt)·Σⱼ (−1)ʲ·k!/(k−j)!·t^(k−j)/z^(j+1)`.
+/// With `z = α + iβ`, `∫ tᵏ·e^(zt) = e^(zt)·Σⱼ (−1)ʲ·k!/(k−j)!·t^(k−j)/z^(j+1)`; the real part is the integral with the
+/// cosine, the imaginary part that with the sine.
 fn integrate(
     integral: &mut Function,
     coefficient: &Constant,
@@ -178,7 +177,7 @@ fn integrate(
 
 /// The powers `z⁻¹, z⁻², …` of `z = α + iβ ≠ 0`.
 ///
-/// Numerators and the norm `α² + β²` are polynomials in π, which keeps them expanded and so short.
+/// The numerators and the norm `α² + β²` are polynomials in π, so that they stay expanded and short.
 struct InversePowers {
     conjugate: (Polynomial, Polynomial),
     /// `(α − iβ)ᵐ`
@@ -187,11 +186,11 @@ struct InversePowers {
     exponent: i32,
 }
 
-/// Real and imaginary numbers have simpler inverses.
+/// Whether z is real, purely imaginary or general; the former two have simpler inverses.
 enum Kind {
     Real(Constant),
     Imaginary(Constant),
-    /// With the norm.
+    /// The norm `α² + β²`.
     Complex(Constant),
 }
 
@@ -256,7 +255,7 @@ mod tests {
     use num_traits::Zero;
     use proptest::prelude::*;
 
-    /// Whether all coefficients are zero as far as 200 binary places tell.
+    /// Whether all coefficients are zero to 200 binary places.
     fn vanishes(function: &Function) -> bool {
         function.terms().all(|(_, coefficient)| {
             let interval = coefficient.enclose(200).expect("can be enclosed");

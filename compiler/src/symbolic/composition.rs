@@ -14,7 +14,7 @@ impl Function {
     /// `exp(α·t + c) = e^c·e^(α·t)`.
     ///
     /// # Errors
-    /// [`ErrorKind::FunctionClass`] for other arguments, and see [`Function`].
+    /// [`ErrorKind::FunctionClass`] for other arguments; also those of [`Function`].
     pub fn exp(&self) -> Result<Function, ErrorKind> {
         let (growth, constant) = self.argument("exp")?;
         let term = Term::Product {
@@ -28,7 +28,7 @@ impl Function {
     /// `cos(β·t + c) = cos c·cos(β·t) − sin c·sin(β·t)`.
     ///
     /// # Errors
-    /// [`ErrorKind::FunctionClass`] for other arguments, and see [`Function`].
+    /// [`ErrorKind::FunctionClass`] for other arguments; also those of [`Function`].
     pub fn cos(&self) -> Result<Function, ErrorKind> {
         let (frequency, phase) = self.argument("cos")?;
         let cosine = Self::wave(Wave::cos(BigRational::one(), &frequency), &phase.cos()?)?;
@@ -39,7 +39,7 @@ impl Function {
     /// `sin(β·t + c) = cos c·sin(β·t) + sin c·cos(β·t)`.
     ///
     /// # Errors
-    /// [`ErrorKind::FunctionClass`] for other arguments, and see [`Function`].
+    /// [`ErrorKind::FunctionClass`] for other arguments; also those of [`Function`].
     pub fn sin(&self) -> Result<Function, ErrorKind> {
         let (frequency, phase) = self.argument("sin")?;
         let sine = Self::wave(Wave::sin(BigRational::one(), &frequency), &phase.cos()?)?;
@@ -50,7 +50,7 @@ impl Function {
     /// `cosh f = (e^f + e^−f)/2`.
     ///
     /// # Errors
-    /// [`ErrorKind::FunctionClass`] unless `f = α·t + c`, and see [`Function`].
+    /// [`ErrorKind::FunctionClass`] unless `f = α·t + c`; also those of [`Function`].
     pub fn cosh(&self) -> Result<Function, ErrorKind> {
         self.argument("cosh")?;
         let sum = self.exp()?.add(&self.negate()?.exp()?)?;
@@ -60,7 +60,7 @@ impl Function {
     /// `sinh f = (e^f − e^−f)/2`.
     ///
     /// # Errors
-    /// [`ErrorKind::FunctionClass`] unless `f = α·t + c`, and see [`Function`].
+    /// [`ErrorKind::FunctionClass`] unless `f = α·t + c`; also those of [`Function`].
     pub fn sinh(&self) -> Result<Function, ErrorKind> {
         self.argument("sinh")?;
         let difference = self.exp()?.subtract(&self.negate()?.exp()?)?;
@@ -70,7 +70,7 @@ impl Function {
     /// `tan(ω·t)` with `|ω| < π/2`, or the tangent of a constant.
     ///
     /// # Errors
-    /// [`ErrorKind::FunctionClass`] for other arguments, and see [`Function`].
+    /// [`ErrorKind::FunctionClass`] for other arguments; also those of [`Function`].
     pub fn tan(&self) -> Result<Function, ErrorKind> {
         if let Some(constant) = self.as_constant() {
             return Ok(Self::constant(constant.tan()?));
@@ -90,7 +90,7 @@ impl Function {
     /// `ln(cos(ω·t))` with `|ω| < π/2`, or the logarithm of a constant.
     ///
     /// # Errors
-    /// [`ErrorKind::FunctionClass`] for other arguments, and see [`Function`].
+    /// [`ErrorKind::FunctionClass`] for other arguments; also those of [`Function`].
     pub fn ln(&self) -> Result<Function, ErrorKind> {
         if let Some(constant) = self.as_constant() {
             return Ok(Self::constant(constant.ln()?));
@@ -123,7 +123,7 @@ impl Function {
         }
     }
 
-    /// The parts of `self = q·t + c`.
+    /// The frequency q and the constant c of `self = q·t + c`.
     fn argument(&self, name: &'static str) -> Result<(Frequency, Constant), ErrorKind> {
         self.linear().ok_or_else(|| {
             self.refused(

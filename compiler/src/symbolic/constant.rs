@@ -17,13 +17,13 @@ use crate::expression::shown;
 
 /// A real number as an expression: `1/2 - sqrt(2)/4`.
 ///
-/// The tree is immutable and shared. It is canonical as far as rational arithmetic, powers of equal
-/// bases and the symmetries of the functions go: constants that are equal for these reasons have equal
-/// trees, and [`Eq`] compares trees. Different trees may have the same value.
+/// The tree is immutable and shared. It is canonical with respect to rational arithmetic, powers of equal bases and the
+/// symmetries of the functions: constants that are equal for these reasons have equal trees. [`Eq`] compares trees;
+/// different trees may have the same value.
 ///
-/// Every operation gives an [`ErrorKind::ExpressionSize`] where its result would exceed a limit of
-/// [`crate::symbolic`], and an [`ErrorKind::Undecided`] where it depends on whether a constant is zero,
-/// which could not be found out, and an [`ErrorKind::Magnitude`] where it would be too large or too small.
+/// Every operation can return three errors: [`ErrorKind::ExpressionSize`] if its result would exceed a limit of
+/// [`crate::symbolic`], [`ErrorKind::Undecided`] if it depends on whether a constant is zero and this could not be
+/// decided, and [`ErrorKind::Magnitude`] if its result would be too large or too small.
 #[derive(Clone)]
 pub struct Constant(Arc<Node>);
 
@@ -32,11 +32,11 @@ struct Node {
     size: usize,
     height: usize,
     magnitude: Magnitude,
-    /// The sign and a lower bound of log₂|x|, once found by refinement.
+    /// The sign and a lower bound of log₂|x|, computed once by refinement.
     separation: OnceLock<Option<(Ordering, i64)>>,
 }
 
-/// What a constant is made of.
+/// The expression of a constant.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) enum Tree {
     /// A rational number.
@@ -45,9 +45,9 @@ pub(crate) enum Tree {
     Pi,
     /// An irrational real root of a polynomial.
     Root(AlgebraicRoot),
-    /// `√x` with `x > 0`; rational radicands are whole.
+    /// `√x` with `x > 0`; rational radicands are integers.
     Sqrt(Constant),
-    /// `∛x`; rational radicands are whole and positive.
+    /// `∛x`; rational radicands are positive integers.
     Cbrt(Constant),
     /// `eˣ` with `x ≠ 0`.
     Exp(Constant),
@@ -57,9 +57,9 @@ pub(crate) enum Tree {
     Cos(Constant),
     /// `sin x`
     Sin(Constant),
-    /// `Π xⁿ` in ascending order of the distinct bases, which are neither rational nor products, and whose
-    /// exponents are not 0. A sum among them has coprime integer coefficients and a positive first term.
-    /// The base of a negative exponent is known not to be zero.
+    /// `Π xⁿ` in ascending order of the distinct bases, which are neither rational nor products, and whose exponents
+    /// are not 0. A base that is a sum has coprime integer coefficients and a positive first term. The base of a
+    /// negative exponent is proved nonzero.
     Product(Vec<(Constant, i32)>),
     /// `c + Σ q·x` in ascending order of the distinct terms, which are neither rational nor sums, and whose
     /// coefficients are not zero. It is not a single term with `c = 0, q = 1`.
@@ -67,7 +67,7 @@ pub(crate) enum Tree {
 }
 
 impl Constant {
-    /// A constant of a canonical tree, if it keeps within the limits.
+    /// Builds a constant from a canonical tree and checks the limits.
     pub(super) fn build(tree: Tree) -> Result<Self, ErrorKind> {
         let (size, below) = size(&tree);
         check("the size of a constant", size, MAX_SIZE)?;
@@ -88,15 +88,14 @@ impl Constant {
     /// A rational number.
     ///
     /// # Errors
-    /// [`ErrorKind::ExpressionSize`] for a whole number of more than
-    /// [`MAX_BITS`](crate::expression::MAX_BITS) bits, and for a fraction with more than
-    /// [`MAX_FRACTION_BITS`](super::MAX_FRACTION_BITS).
+    /// [`ErrorKind::ExpressionSize`] for an integer of more than [`MAX_BITS`](crate::expression::MAX_BITS) bits, and
+    /// for a fraction of more than [`MAX_FRACTION_BITS`](super::MAX_FRACTION_BITS).
     pub fn rational(value: BigRational) -> Result<Self, ErrorKind> {
         check_rational(&value)?;
         Self::build(Tree::Rational(value))
     }
 
-    /// A whole number.
+    /// An integer.
     pub fn whole(value: i64) -> Self {
         let value = BigRational::from_integer(value.into());
         Constant(Arc::new(Node {
@@ -132,33 +131,33 @@ impl Constant {
         }))
     }
 
-    /// What the constant is made of.
+    /// The expression tree.
     pub(crate) fn tree(&self) -> &Tree {
         &self.0.tree
     }
 
-    /// The size, at most `MAX_SIZE` and bounded by it alone: operations, and words of rationals.
+    /// The size, at most `MAX_SIZE`: the number of operations plus the words of rationals.
     pub fn size(&self) -> usize {
         self.0.size
     }
 
-    /// How many binary places there are before the smallest of the numbers of which the constant consists begins, beside
-    /// others of about 1.
+    /// The number of binary places that an enclosure needs to resolve every part of the constant next to numbers of
+    /// order 1.
     pub(crate) fn fineness(&self) -> u64 {
         fineness(self)
     }
 
-    /// The height of the tree, which bounds every recursion over it.
+    /// The height of the tree; it bounds the depth of every recursion.
     pub(super) fn height(&self) -> usize {
         self.0.height
     }
 
-    /// A number `n` with `|x| ≤ 2ⁿ`, known without an enclosure.
+    /// A number `n` with `|x| ≤ 2ⁿ`, from the tree without an enclosure.
     pub fn magnitude(&self) -> i64 {
         self.0.magnitude.most
     }
 
-    /// The bounds of the binary logarithm that the form tells.
+    /// The bounds of the binary logarithm that follow from the tree.
     pub(super) fn bounds(&self) -> Magnitude {
         self.0.magnitude
     }
@@ -167,7 +166,7 @@ impl Constant {
         &self.0.separation
     }
 
-    /// A key of this very tree in memory, for tables of what was computed for it.
+    /// The address of the tree, as a key for tables of computed values.
     pub(super) fn identity(&self) -> usize {
         Arc::as_ptr(&self.0) as usize
     }
@@ -180,12 +179,12 @@ impl Constant {
         }
     }
 
-    /// Whether this is the number 0 by its form. A constant that is zero for other reasons is not.
+    /// Whether the tree is the number 0. Other trees can also have the value 0.
     pub fn is_trivially_zero(&self) -> bool {
         self.as_rational().is_some_and(Zero::is_zero)
     }
 
-    /// Whether this is the number 1 by its form.
+    /// Whether the tree is the number 1.
     pub(super) fn is_trivially_one(&self) -> bool {
         self.as_rational().is_some_and(One::is_one)
     }
@@ -203,7 +202,7 @@ impl Constant {
         }
     }
 
-    /// The error that it could not be found out whether this constant is zero.
+    /// The error for a constant that could not be proved zero or nonzero.
     pub(crate) fn undecided(&self) -> ErrorKind {
         ErrorKind::Undecided {
             constant: shown(&self.to_string()),
@@ -255,7 +254,7 @@ pub(crate) mod tests {
     use crate::arithmetic::rounding::to_f64;
     use crate::expression::{Input, parse_list};
 
-    /// The constant that a text stands for.
+    /// Parses a constant.
     pub(crate) fn constant(text: &str) -> Constant {
         let input = Input { name: "test", text };
         parse_list(input)

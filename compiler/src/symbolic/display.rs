@@ -1,4 +1,4 @@
-//! Constants and functions as text that the grammar of expressions reads back.
+//! Constants and functions as text, in the grammar of expressions.
 
 use std::fmt;
 
@@ -47,7 +47,7 @@ fn join(terms: Vec<(bool, String)>) -> String {
     text
 }
 
-/// `3*pi^2*t/(4*e)`: the product of the size of a rational, of powers, and of a last factor unless empty.
+/// `3*pi^2*t/(4*e)`: the product of the absolute value of a rational, of powers, and of a last factor unless empty.
 fn monomial(coefficient: &BigRational, factors: &[(Constant, i32)], last: &str) -> String {
     let (mut above, mut below) = (Vec::new(), Vec::new());
     if !coefficient.denom().is_one() {

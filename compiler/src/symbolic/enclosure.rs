@@ -11,23 +11,23 @@ use super::{Constant, MAX_MAGNITUDE, MAX_SIGN_BITS, Tree};
 use crate::arithmetic::elementary;
 use crate::arithmetic::interval::{Interval, more_places};
 
-/// The most binary places that are spent beyond those asked for on an argument of a function: a product of the largest
-/// numbers, and the inverse of the smallest that can be told from zero.
+/// Largest number of guard places for an argument of a function: enough for a product of the largest numbers and the
+/// inverse of the smallest number that can be separated from zero.
 pub(super) const ARGUMENT_GUARD: u32 = 3 * MAX_MAGNITUDE as u32;
-/// The most on any constant: those that its arguments lose, and as many for a product of functions and as many for its
+/// Largest number of guard places for any constant: for its arguments, for a product of functions and for its
 /// coefficient in a sum.
 const MAX_GUARD: u32 = 4 * ARGUMENT_GUARD;
 
 impl Constant {
     /// An enclosure with this number of binary places, at most two units wide.
     ///
-    /// `None` if a part that must not be zero or negative cannot be told from that, or if more than
-    /// 49152 binary places are lost on the way, which does not happen within the limits of constants.
+    /// `None` if a part that must be nonzero or positive cannot be proved so, or if the evaluation loses more than
+    /// 49152 binary places; the limits on constants exclude the latter.
     pub fn enclose(&self, bits: u32) -> Option<Interval> {
         self.enclose_with(bits, MAX_GUARD)
     }
 
-    /// The enclosure, if no more than `most` places are lost on the way.
+    /// The enclosure, if its evaluation loses at most `most` places.
     pub(super) fn enclose_with(&self, bits: u32, most: u32) -> Option<Interval> {
         if let Tree::Rational(value) = self.tree() {
             return Some(Interval::enclosing(value, bits));
@@ -47,8 +47,8 @@ impl Constant {
         }
     }
 
-    /// The sign; `None` if it cannot be told from enclosures with 4096 binary places that the constant is
-    /// not zero, nor exactly that it is.
+    /// The sign; `None` if the constant cannot be proved zero exactly, nor nonzero by enclosures with 4096 binary
+    /// places.
     pub fn sign(&self) -> Option<Ordering> {
         match self.tree() {
             Tree::Rational(value) => Some(value.cmp(&BigRational::zero())),
@@ -96,8 +96,8 @@ impl Constant {
             };
             Some((sign, nearest.bits() as i64 - 1 - i64::from(interval.bits())))
         };
-        // A value that is not zero is mostly found not to be at once; what is zero is decided exactly
-        // before many places are spent on it.
+        // Most nonzero values are separated from zero immediately. Zero is decided exactly before high precision is
+        // used.
         let mut bits = 64;
         while bits < MAX_SIGN_BITS {
             if let Some(found) = self.evaluate(bits).as_ref().and_then(decide) {
@@ -111,7 +111,7 @@ impl Constant {
         decide(&self.enclose(MAX_SIGN_BITS + 2)?)
     }
 
-    /// An enclosure computed with this number of binary places throughout, of any width.
+    /// An enclosure of any width, evaluated with this number of binary places throughout.
     fn evaluate(&self, bits: u32) -> Option<Interval> {
         Evaluation {
             bits,
@@ -121,7 +121,7 @@ impl Constant {
     }
 }
 
-/// The enclosures of the parts of a constant; equal parts mostly share memory.
+/// The enclosures of the parts of a constant, by address: equal parts mostly share memory.
 struct Evaluation {
     bits: u32,
     known: HashMap<usize, Interval>,
@@ -140,7 +140,7 @@ impl Evaluation {
             Tree::Rational(value) => Interval::enclosing(value, bits),
             Tree::Pi => elementary::pi(bits),
             Tree::Root(root) => root.enclose(bits),
-            // A radicand is not negative, whatever its enclosure says.
+            // A radicand is nonnegative even if its enclosure extends below zero.
             Tree::Sqrt(x) => elementary::sqrt(&self.of(x)?.nonnegative()?)?,
             Tree::Cbrt(x) => elementary::root(&self.of(x)?, 3)?,
             Tree::Exp(x) => elementary::exp(&self.of(x)?)?,

@@ -8,7 +8,7 @@ use super::{Constant, Wave};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::error::ErrorKind;
 
-/// The number `rational + pi·π`. Since π is irrational, equal numbers have equal parts.
+/// The number `rational + pi·π`. As π is irrational, equal numbers have equal parts.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Frequency {
     /// The rational part.
@@ -31,7 +31,7 @@ impl Frequency {
         }
     }
 
-    /// The frequency with the value of a constant, if that has the form `q₀ + q₁·π`.
+    /// The frequency equal to a constant of the form `q₀ + q₁·π`; `None` for other constants.
     pub fn from_constant(constant: &Constant) -> Option<Self> {
         constant
             .linear_in_pi()
@@ -41,7 +41,7 @@ impl Frequency {
     /// The value.
     ///
     /// # Errors
-    /// [`ErrorKind::ExpressionSize`]
+    /// [`ErrorKind::ExpressionSize`] for rationals that are too long.
     pub fn to_constant(&self) -> Result<Constant, ErrorKind> {
         Constant::pi()
             .scale(&self.pi)?
@@ -82,14 +82,14 @@ impl Frequency {
         }
     }
 
-    /// The words of its rationals.
+    /// The number of words of its rationals.
     pub(super) fn size(&self) -> usize {
         words(&self.rational) + words(&self.pi)
     }
 
-    /// The one of `±self` whose first part that is not zero is positive, and whether it is `−self`.
+    /// Of `±self` the one whose first nonzero part is positive, and whether it is `−self`.
     ///
-    /// The parts decide, not the value: a choice that is the same for both signs is all that is needed.
+    /// The parts decide, not the value: it suffices that both signs lead to the same choice.
     pub(super) fn normalise(&self) -> (Self, bool) {
         let first = if self.pi.is_zero() {
             &self.rational
@@ -129,7 +129,7 @@ impl Wave {
         }
     }
 
-    /// The product as a sum of waves, some of which may have the factor 0.
+    /// The product as a sum of waves; some factors may be 0.
     pub(super) fn multiply(&self, other: &Wave) -> Vec<Scaled> {
         let half = || BigRational::new(1.into(), 2.into());
         match (self, other) {

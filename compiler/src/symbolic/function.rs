@@ -18,7 +18,7 @@ use crate::expression::{MAX_DEGREE, shown};
 
 /// A factor `cos(β·t)` or `sin(β·t)`, or none.
 ///
-/// The first part of `β` that is not zero, that of π before the rational one, is positive.
+/// The first nonzero part of `β`, the coefficient of π before the rational part, is positive.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Wave {
     /// No wave: the factor 1.
@@ -29,7 +29,7 @@ pub enum Wave {
     Sin(Frequency),
 }
 
-/// A function of which others are linear combinations. Distinct terms are linearly independent.
+/// A basis function of [`Function`]s. Distinct terms are linearly independent.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Term {
     /// `tᵏ·e^(α·t)·wave`
@@ -105,11 +105,11 @@ impl Term {
 
 /// A linear combination of [`Term`]s with constant coefficients: `t^2*exp(-t/2) - cos(pi*t)`.
 ///
-/// Products of waves are written as sums of waves, so equal functions have the same terms, and are equal
-/// if their coefficients have equal trees. A coefficient may be zero in a form that is not recognised.
+/// Products of waves are expanded into sums of waves, so equal functions have the same terms. [`Eq`] compares the trees
+/// of the coefficients; a coefficient may be an unrecognised zero.
 ///
-/// Every operation gives an [`ErrorKind::ExpressionSize`] where its result would exceed a limit of
-/// [`crate::symbolic`], and the errors of its operations on [`Constant`]s.
+/// Every operation returns [`ErrorKind::ExpressionSize`] if its result would exceed a limit of [`crate::symbolic`], and
+/// the errors of its operations on [`Constant`]s.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Function {
     terms: BTreeMap<Term, Constant>,
@@ -138,7 +138,7 @@ impl Function {
     /// A polynomial in `t`.
     ///
     /// # Errors
-    /// [`ErrorKind::ExpressionSize`]
+    /// [`ErrorKind::ExpressionSize`] for a degree or coefficients beyond the limits.
     pub fn polynomial(polynomial: &Polynomial) -> Result<Self, ErrorKind> {
         let mut function = Self::zero();
         for (power, q) in (0..).zip(polynomial.coefficients()) {
@@ -198,8 +198,8 @@ impl Function {
         }
     }
 
-    /// The polynomial in `t`, if the function is one with rational coefficients, whose common denominator
-    /// has at most [`MAX_FRACTION_BITS`] bits.
+    /// The polynomial in `t`, if the function is a polynomial with rational coefficients whose common denominator has
+    /// at most [`MAX_FRACTION_BITS`] bits.
     pub fn as_polynomial(&self) -> Option<Polynomial> {
         let mut denominator = BigInt::one();
         for (term, coefficient) in &self.terms {
@@ -244,7 +244,7 @@ impl Function {
     /// The sum.
     ///
     /// # Errors
-    /// See [`Function`].
+    /// Those of [`Function`].
     pub fn add(&self, other: &Function) -> Result<Function, ErrorKind> {
         let mut sum = self.clone();
         for (term, coefficient) in &other.terms {
@@ -256,7 +256,7 @@ impl Function {
     /// The difference.
     ///
     /// # Errors
-    /// See [`Function`].
+    /// Those of [`Function`].
     pub fn subtract(&self, other: &Function) -> Result<Function, ErrorKind> {
         self.add(&other.negate()?)
     }
@@ -264,7 +264,7 @@ impl Function {
     /// The negated function.
     ///
     /// # Errors
-    /// See [`Function`].
+    /// Those of [`Function`].
     pub fn negate(&self) -> Result<Function, ErrorKind> {
         self.scale(&Constant::whole(-1))
     }
@@ -272,7 +272,7 @@ impl Function {
     /// The product with a constant.
     ///
     /// # Errors
-    /// See [`Function`].
+    /// Those of [`Function`].
     pub fn scale(&self, factor: &Constant) -> Result<Function, ErrorKind> {
         let mut scaled = Self::zero();
         for (term, coefficient) in &self.terms {
@@ -284,7 +284,7 @@ impl Function {
     /// The product.
     ///
     /// # Errors
-    /// [`ErrorKind::FunctionClass`] for products with a tangent or its integral, and see [`Function`].
+    /// [`ErrorKind::FunctionClass`] for products with a tangent or its integral; also those of [`Function`].
     pub fn multiply(&self, other: &Function) -> Result<Function, ErrorKind> {
         if let Some(factor) = other.as_constant() {
             return self.scale(&factor);
@@ -328,7 +328,7 @@ impl Function {
     /// The power `fⁿ`; `f⁰ = 1`.
     ///
     /// # Errors
-    /// See [`Self::multiply`].
+    /// Those of [`Self::multiply`].
     pub fn power(&self, exponent: u32) -> Result<Function, ErrorKind> {
         if exponent == 0 {
             return Ok(Self::constant(Constant::one()));
@@ -359,7 +359,7 @@ impl Function {
     }
 }
 
-/// The length of the longest number in a polynomial.
+/// The length in bits of the longest number in a polynomial.
 fn bits(polynomial: &Polynomial) -> usize {
     let numbers = polynomial.numerators().iter();
     let longest = numbers
@@ -394,7 +394,7 @@ pub(crate) mod tests {
     use crate::symbolic::constant::tests::{constant, value};
     use proptest::prelude::*;
 
-    /// The function that a text stands for.
+    /// Parses a function.
     pub(crate) fn function(text: &str) -> Function {
         let input = Input { name: "test", text };
         parse_list(input)
@@ -502,7 +502,7 @@ pub(crate) mod tests {
             let close = |x: f64, y: f64| (x - y).abs() <= 1e-9 * (1.0 + x.abs());
             prop_assert!(close(at(&f.add(&g).expect("small")), at(&f) + at(&g)));
             prop_assert!(close(at(&f.subtract(&g).expect("small")), at(&f) - at(&g)));
-            // The value of a product of long sums may be too large to be written as one constant.
+            // The value of a product of long sums may exceed the size of a constant.
             let product = f.multiply(&g).expect("small");
             match product.evaluate(&node) {
                 Ok(product) => prop_assert!(close(value(&product), at(&f) * at(&g))),
@@ -511,7 +511,7 @@ pub(crate) mod tests {
                     prop_assert!(large && product.terms().count() > 30, "{}", kind);
                 }
             }
-            // What is printed reads back to the same function.
+            // The printed function parses to the same function.
             prop_assert_eq!(function(&f.to_string()), f);
         }
     }

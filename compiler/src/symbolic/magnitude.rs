@@ -1,4 +1,4 @@
-//! How large and how small constants are: what bounds the binary places that enclosures of them need.
+//! Bounds on the magnitude of constants; they limit the binary places of enclosures.
 
 use std::cmp::Ordering;
 
@@ -16,7 +16,7 @@ use crate::expression::shown;
 /// Bounds of the binary logarithm of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Magnitude {
-    /// A number `n` with `2ⁿ ≤ |x|`; `None` where the form does not tell, and for zero.
+    /// A number `n` with `2ⁿ ≤ |x|`; `None` if unknown, and for zero.
     pub least: Option<i64>,
     /// A number `n` with `|x| ≤ 2ⁿ`.
     pub most: i64,
@@ -30,12 +30,12 @@ impl Magnitude {
         }
     }
 
-    /// That of a number of which only an upper bound is known.
+    /// The magnitude of a number with an upper bound only.
     fn below(most: i64) -> Self {
         Magnitude { least: None, most }
     }
 
-    /// That of a rational number.
+    /// The magnitude of a rational number.
     pub fn of_rational(value: &BigRational) -> Self {
         if value.is_zero() {
             return Magnitude::below(-i64::from(u32::MAX));
@@ -44,7 +44,7 @@ impl Magnitude {
         Magnitude::new(lengths - 1, lengths + 1)
     }
 
-    /// That of a product.
+    /// The magnitude of a product.
     fn times(self, other: Magnitude) -> Self {
         let least = self.least.zip(other.least);
         Magnitude {
@@ -53,7 +53,7 @@ impl Magnitude {
         }
     }
 
-    /// That of a power with a positive exponent.
+    /// The magnitude of a power with a positive exponent.
     fn power(self, exponent: u32) -> Self {
         let exponent = i64::from(exponent);
         Magnitude {
@@ -62,7 +62,7 @@ impl Magnitude {
         }
     }
 
-    /// That of the real root of this order.
+    /// The magnitude of the real root of this order.
     fn root(self, order: i64) -> Self {
         Magnitude {
             least: self.least.map(|n| n.div_euclid(order)),
@@ -70,7 +70,7 @@ impl Magnitude {
         }
     }
 
-    /// The logarithm that exceeds the limit, if one does.
+    /// The logarithm that exceeds the limit, if any.
     fn excess(self) -> Option<i64> {
         let smallest = self.least.unwrap_or(self.most).min(self.most);
         let too_small = (smallest < -MAX_MAGNITUDE).then_some(smallest);
@@ -81,7 +81,7 @@ impl Magnitude {
 }
 
 impl Constant {
-    /// The error that this constant, or a part of it, is too large or too small.
+    /// The error for a constant with a part that is too large or too small.
     fn out_of_bounds(&self, logarithm: i64) -> ErrorKind {
         ErrorKind::Magnitude {
             constant: shown(&self.to_string()),
@@ -90,7 +90,7 @@ impl Constant {
         }
     }
 
-    /// An error if a number that is not rational may be too large or is too small.
+    /// Checks that an irrational constant and its parts are within the limits.
     pub(super) fn check_magnitude(&self) -> Result<(), ErrorKind> {
         let mut parts = vec![self.bounds()];
         if let Tree::Product(factors) = self.tree() {
@@ -108,10 +108,10 @@ impl Constant {
         }
     }
 
-    /// The enclosure with a few binary places of an argument of a function.
+    /// A coarse enclosure of an argument of a function.
     ///
     /// # Errors
-    /// Where it is too large, or loses too many places: the places that are lost add up in functions of functions.
+    /// If it is too large, or loses too many places: these losses add up in nested functions.
     fn enclose_argument(&self) -> Result<Interval, ErrorKind> {
         let most = self.magnitude();
         if most > MAX_MAGNITUDE {
@@ -121,8 +121,8 @@ impl Constant {
         interval.ok_or_else(|| self.undecided())
     }
 
-    /// The bounds, the lower one by refinement where the form does not tell: what is not told from zero is as small as the
-    /// smallest that is.
+    /// The bounds; the lower bound by refinement if the tree gives none. A number that is not separated from zero
+    /// counts as `2^−MAX_MAGNITUDE`.
     fn refined_bounds(&self) -> Magnitude {
         let bounds = self.bounds();
         let refined = || match self.separation() {
@@ -137,7 +137,7 @@ impl Constant {
     }
 }
 
-/// The bounds of a number from those of its parts.
+/// The bounds of a number from the bounds of its parts.
 pub(super) fn magnitude(tree: &Tree) -> Result<Magnitude, ErrorKind> {
     let length = |n: u64| 64 - i64::from(n.leading_zeros());
     Ok(match tree {

@@ -17,7 +17,7 @@ impl Constant {
     /// The sum.
     ///
     /// # Errors
-    /// See [`Constant`].
+    /// Those of [`Constant`].
     pub fn add(&self, other: &Constant) -> Result<Constant, ErrorKind> {
         if let (Some(a), Some(b)) = (self.as_rational(), other.as_rational()) {
             return Self::rational(rational::add(a, b));
@@ -31,7 +31,7 @@ impl Constant {
     /// The difference.
     ///
     /// # Errors
-    /// See [`Constant`].
+    /// Those of [`Constant`].
     pub fn subtract(&self, other: &Constant) -> Result<Constant, ErrorKind> {
         self.add(&other.negate()?)
     }
@@ -39,7 +39,7 @@ impl Constant {
     /// The negated constant.
     ///
     /// # Errors
-    /// See [`Constant`].
+    /// Those of [`Constant`].
     pub fn negate(&self) -> Result<Constant, ErrorKind> {
         self.scale(&-BigRational::one())
     }
@@ -47,7 +47,7 @@ impl Constant {
     /// The product with a rational.
     ///
     /// # Errors
-    /// See [`Constant`].
+    /// Those of [`Constant`].
     pub fn scale(&self, factor: &BigRational) -> Result<Constant, ErrorKind> {
         let (constant, mut terms) = self.summands();
         for (_, q) in &mut terms {
@@ -59,7 +59,7 @@ impl Constant {
     /// The product.
     ///
     /// # Errors
-    /// See [`Constant`].
+    /// Those of [`Constant`].
     pub fn multiply(&self, other: &Constant) -> Result<Constant, ErrorKind> {
         if let Some(factor) = self.as_rational() {
             return other.scale(factor);
@@ -76,7 +76,7 @@ impl Constant {
     /// The inverse.
     ///
     /// # Errors
-    /// [`ErrorKind::DivisionByZero`], [`ErrorKind::Undecided`], and see [`Constant`].
+    /// [`ErrorKind::DivisionByZero`], [`ErrorKind::Undecided`]; also those of [`Constant`].
     pub fn inverse(&self) -> Result<Constant, ErrorKind> {
         self.power(-1)
     }
@@ -84,15 +84,15 @@ impl Constant {
     /// The quotient.
     ///
     /// # Errors
-    /// See [`Self::inverse`].
+    /// Those of [`Self::inverse`].
     pub fn divide(&self, other: &Constant) -> Result<Constant, ErrorKind> {
         self.multiply(&other.inverse()?)
     }
 
-    /// The power with a whole exponent; `x⁰ = 1`.
+    /// The power with an integer exponent; `x⁰ = 1`.
     ///
     /// # Errors
-    /// See [`Self::inverse`] for negative exponents.
+    /// Those of [`Self::inverse`] for negative exponents.
     pub fn power(&self, exponent: i32) -> Result<Constant, ErrorKind> {
         if exponent == 0 {
             return Ok(Constant::one());
@@ -111,7 +111,7 @@ impl Constant {
             };
         }
         for (base, power) in &mut factors {
-            // Bases with negative exponents are known not to be zero, and an exponential is not.
+            // Bases with negative exponents are already proved nonzero, and exponentials are nonzero.
             if exponent < 0 && *power > 0 && !matches!(base.tree(), Tree::Exp(_)) {
                 match base.separation() {
                     None => return Err(base.undecided()),
@@ -124,7 +124,7 @@ impl Constant {
         product(rational_power(&q, exponent)?, factors)
     }
 
-    /// The rational part and the terms with their coefficients, of which the constant is the sum.
+    /// The constant as a sum: the rational part, and the terms with their coefficients.
     pub(super) fn summands(&self) -> (BigRational, Vec<(Constant, BigRational)>) {
         match self.tree() {
             Tree::Rational(value) => (value.clone(), Vec::new()),
@@ -136,7 +136,7 @@ impl Constant {
         }
     }
 
-    /// The rational factor and the bases with their exponents, of which the constant is the product.
+    /// The constant as a product: the rational factor, and the bases with their exponents.
     pub(super) fn factors(&self) -> Result<(BigRational, Vec<(Constant, i32)>), ErrorKind> {
         Ok(match self.tree() {
             Tree::Rational(value) => (value.clone(), Vec::new()),
@@ -164,7 +164,7 @@ pub(super) fn at_pi(polynomial: &Polynomial) -> Result<Constant, ErrorKind> {
     linear_combination(polynomial.coefficient(0), terms)
 }
 
-/// The power of a rational that is not zero.
+/// The power of a nonzero rational.
 fn rational_power(base: &BigRational, exponent: i32) -> Result<BigRational, ErrorKind> {
     let bits = rational::length(base) as usize;
     if bits > 1 {
@@ -174,7 +174,7 @@ fn rational_power(base: &BigRational, exponent: i32) -> Result<BigRational, Erro
     Ok(base.pow(exponent))
 }
 
-/// The number by which a sum is divided to have coprime integer coefficients and a positive first term.
+/// The content of a sum: divided by it, the sum has coprime integer coefficients and a positive first term.
 fn content(constant: &BigRational, terms: &[(Constant, BigRational)]) -> BigRational {
     let mut numerator = BigInt::zero();
     let mut denominator = BigInt::one();
@@ -215,7 +215,7 @@ fn linear_combination(
     }
 }
 
-/// `q·Π xⁿ`, where the bases are as in [`Tree::Product`] but for their order and repetitions.
+/// `q·Π xⁿ`, with bases as in [`Tree::Product`] except that they may be unordered and repeated.
 fn product(mut q: BigRational, mut factors: Vec<(Constant, i32)>) -> Result<Constant, ErrorKind> {
     if q.is_zero() {
         return Ok(Constant::zero());
@@ -228,7 +228,7 @@ fn product(mut q: BigRational, mut factors: Vec<(Constant, i32)>) -> Result<Cons
             _ => merged.push((x, n)),
         }
     }
-    // What is left of the factors, and what their powers were replaced by.
+    // The remaining factors, and the replacements of their powers.
     let mut kept: Vec<(Constant, i32)> = Vec::with_capacity(merged.len());
     let mut replaced: Vec<Constant> = Vec::new();
     let mut exponent = Constant::zero();
@@ -278,7 +278,7 @@ fn product(mut q: BigRational, mut factors: Vec<(Constant, i32)>) -> Result<Cons
         [(x, 1)] => x.clone(),
         _ => Constant::build(Tree::Product(kept))?,
     };
-    // The replacements have smaller trees, so this ends.
+    // The replacements have smaller trees, so the recursion terminates.
     let mut result = rest;
     for part in &replaced {
         result = result.multiply(part)?;
@@ -333,7 +333,7 @@ mod tests {
         let zero = constant("(e - pi)*(e + pi) - e^2 + pi^2");
         assert!(matches!(zero.inverse(), Err(ErrorKind::Undecided { .. })));
         assert!(matches!(pi.divide(&zero), Err(ErrorKind::Undecided { .. })));
-        // However long a computation goes on, it ends with an error of size.
+        // A growing computation ends with an error of size.
         let mut x = pi;
         let ended = (0..20_000).find_map(|k| {
             match x.add(
@@ -375,7 +375,7 @@ mod tests {
                 };
             }
             prop_assert!((value(&x) - expected).abs() <= 1e-9 * (1.0 + expected.abs()));
-            // What is printed reads back to the same tree.
+            // The printed constant parses to the same tree.
             prop_assert_eq!(constant(&x.to_string()), x);
         }
     }

@@ -1,4 +1,4 @@
-//! Syntax trees to functions and constants.
+//! Conversion of syntax trees to functions and constants.
 
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive};
@@ -14,8 +14,8 @@ impl Expression {
     /// `cbrt`, and `root(p, k)`: the k-th real root of a polynomial in `t`.
     ///
     /// # Errors
-    /// Unknown names and functions, divisions by zero or by functions of `t`, functions outside the class
-    /// of [`Function`], values that are not real or exceed a limit, each at its place.
+    /// Unknown names and functions, divisions by zero or by functions of `t`, functions outside the class of
+    /// [`Function`], values that are not real or exceed a limit; each with its position in the text.
     ///
     /// ```
     /// use symplectic_compiler::expression::{Input, parse_list};
@@ -82,7 +82,7 @@ impl Expression {
     /// The value as a constant.
     ///
     /// # Errors
-    /// As [`Self::function`], and where the value depends on `t`.
+    /// Those of [`Self::function`], and [`ErrorKind::Type`] if the value depends on `t`.
     pub fn constant(&self, input: Input<'_>) -> Result<Constant, Error> {
         self.function(input)?.as_constant().ok_or_else(|| {
             let kind = ErrorKind::Type {
@@ -130,7 +130,7 @@ impl Expression {
         }
     }
 
-    /// The value of a function `name` at arguments.
+    /// The value of the function `name` at arguments.
     fn call(
         &self,
         input: Input<'_>,
@@ -174,7 +174,7 @@ impl Expression {
     }
 }
 
-/// A wrong number of arguments.
+/// The error for a wrong number of arguments.
 fn count(name: &str, expected: &str, found: usize) -> ErrorKind {
     ErrorKind::Arguments {
         function: name.to_owned(),
@@ -183,7 +183,7 @@ fn count(name: &str, expected: &str, found: usize) -> ErrorKind {
     }
 }
 
-/// `root(polynomial, index)`; the inner error is about the pair.
+/// `root(polynomial, index)`; the inner error concerns both arguments together.
 fn root(
     input: Input<'_>,
     polynomial: &Expression,
@@ -428,8 +428,8 @@ mod tests {
     }
 
     proptest::proptest! {
-        /// Whatever is written, there is an answer, soon, which reads back, and an error stands at a part
-        /// of the text.
+        /// Any text gives a result or an error quickly; the result parses back, and the error points to a part of the
+        /// text.
         #[test]
         fn any_text_has_an_answer(
             tokens in proptest::collection::vec(

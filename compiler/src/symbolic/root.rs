@@ -23,12 +23,12 @@ pub(crate) struct AlgebraicRoot {
     pub(crate) index: usize,
     /// Its isolating interval.
     pub(crate) root: Root,
-    /// The finest enclosure so far: a root is a part of many constants.
+    /// The finest enclosure so far, shared because a root is part of many constants.
     finest: Arc<Mutex<Option<Interval>>>,
 }
 
 impl AlgebraicRoot {
-    /// What determines the root.
+    /// The data that identify the root.
     fn key(&self) -> (&[BigInt], usize) {
         (self.polynomial.numerators(), self.index)
     }
@@ -72,11 +72,11 @@ impl Ord for AlgebraicRoot {
 }
 
 impl Constant {
-    /// The real root of a polynomial with a number, counted from 1 in ascending order; repeated roots
-    /// count once.
+    /// The real root of a polynomial with this index, counted from 1 in ascending order; multiple roots count once.
     ///
     /// # Errors
-    /// [`ErrorKind::RootIndex`] if there is no such root, [`ErrorKind::Type`] for a constant polynomial.
+    /// [`ErrorKind::RootIndex`] if there is no such root, [`ErrorKind::Type`] for a constant polynomial,
+    /// [`ErrorKind::ExpressionSize`] for a degree or coefficients beyond the limits.
     pub fn root(polynomial: &Polynomial, index: &BigInt) -> Result<Self, ErrorKind> {
         let degree = polynomial.degree().unwrap_or(0);
         if degree == 0 {

@@ -1,4 +1,4 @@
-//! How large constants are: what bounds the work on them.
+//! The size of constants, which bounds the work on them.
 
 use num_rational::BigRational;
 
@@ -7,7 +7,7 @@ use crate::arithmetic::rational::length;
 use crate::error::ErrorKind;
 use crate::expression::MAX_BITS;
 
-/// An error if a size exceeds its limit.
+/// Checks a size against its limit.
 pub(super) fn check(what: &'static str, size: usize, limit: usize) -> Result<(), ErrorKind> {
     if size > limit {
         return Err(ErrorKind::ExpressionSize { what, size, limit });
@@ -15,28 +15,27 @@ pub(super) fn check(what: &'static str, size: usize, limit: usize) -> Result<(),
     Ok(())
 }
 
-/// An error if a rational with this many bits is too long.
+/// Checks the number of bits of an integer or a fraction.
 pub(super) fn check_bits(bits: usize, whole: bool) -> Result<(), ErrorKind> {
     let limit = if whole { MAX_BITS } else { MAX_FRACTION_BITS };
     check("the size of the coefficients in bits", bits, limit)
 }
 
-/// An error if a rational is too long.
+/// Checks the length of a rational.
 pub(super) fn check_rational(value: &BigRational) -> Result<(), ErrorKind> {
     check_bits(length(value) as usize, value.is_integer())
 }
 
-/// The words of a rational.
+/// The number of 64-bit words of a rational.
 pub(super) fn words(value: &BigRational) -> usize {
     ((value.numer().bits() + value.denom().bits()) / 64) as usize
 }
 
-/// How many binary places there are before the smallest of the numbers of which a constant consists begins, beside
-/// others of about 1: what enclosures have to have to see all of them.
+/// The number of binary places that an enclosure needs to resolve every part of a constant next to numbers of order 1.
 ///
-/// Large numbers count like their inverses: where they cancel, as in `√(n² + 1) − n`, that is what is left.
+/// Large numbers count like their inverses: cancellation, as in `√(n² + 1) − n`, leaves a number of that size.
 pub(super) fn fineness(constant: &Constant) -> u64 {
-    // That of a number which is large, or small because its parts are or because they cancel.
+    // For a number that is large, or small because of its parts or by cancellation.
     let extent = || {
         let separated = constant.separation().map_or(0, |(_, least)| -least);
         u64::try_from(separated.max(constant.magnitude())).unwrap_or(0)
@@ -45,7 +44,7 @@ pub(super) fn fineness(constant: &Constant) -> u64 {
         Tree::Rational(value) => return length(value),
         Tree::Pi | Tree::Root(_) => 0,
         Tree::Sqrt(x) | Tree::Cbrt(x) | Tree::Exp(x) | Tree::Ln(x) => fineness(x),
-        // Those of small arguments differ from 0 or 1 by a square.
+        // The cosine of a small argument differs from 1 by about its square.
         Tree::Cos(x) | Tree::Sin(x) => fineness(x).saturating_mul(2),
         Tree::Product(factors) => {
             let power =
@@ -62,9 +61,9 @@ pub(super) fn fineness(constant: &Constant) -> u64 {
     of_parts.max(extent())
 }
 
-/// The size of a tree and the largest height in it.
+/// The size of a tree and the largest height of its parts.
 pub(super) fn size(tree: &Tree) -> (usize, usize) {
-    // What is costly to enclose counts more.
+    // The weight of operations that are costly to enclose.
     const TRANSCENDENTAL: usize = 8;
     match tree {
         Tree::Rational(value) => (1 + words(value), 0),
@@ -91,7 +90,7 @@ pub(super) fn size(tree: &Tree) -> (usize, usize) {
     }
 }
 
-/// The sum of a size and those of the parts, and the largest height of a part.
+/// The sum of a size and the sizes of the parts, and the largest height of a part.
 fn above<'a>(size: usize, parts: impl Iterator<Item = &'a Constant>) -> (usize, usize) {
     parts.fold((size, 0), |(size, height), part| {
         (size.saturating_add(part.size()), height.max(part.height()))

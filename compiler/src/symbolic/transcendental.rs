@@ -16,7 +16,7 @@ impl Constant {
     /// The square root, in lowest terms `q·√n` for rationals.
     ///
     /// # Errors
-    /// [`ErrorKind::Domain`] for negative constants, [`ErrorKind::Undecided`], and see [`Constant`].
+    /// [`ErrorKind::Domain`] for negative constants, [`ErrorKind::Undecided`]; also those of [`Constant`].
     pub fn sqrt(&self) -> Result<Constant, ErrorKind> {
         match self.sign() {
             None => return Err(self.undecided()),
@@ -43,7 +43,7 @@ impl Constant {
     /// The real cube root, in lowest terms `q·∛n` for rationals.
     ///
     /// # Errors
-    /// See [`Constant`].
+    /// Those of [`Constant`].
     pub fn cbrt(&self) -> Result<Constant, ErrorKind> {
         match self.tree() {
             Tree::Rational(value) => {
@@ -54,7 +54,7 @@ impl Constant {
             Tree::Exp(x) => x.scale(&ratio(1, 3))?.exp(),
             _ => match self.sign() {
                 Some(Ordering::Equal) => Ok(Constant::zero()),
-                // The third power of a root must not be inverted unless this is known.
+                // A cube root may be inverted later, so it must be known whether it is zero.
                 None => Err(self.undecided()),
                 Some(_) => Constant::build(Tree::Cbrt(self.clone())),
             },
@@ -64,7 +64,7 @@ impl Constant {
     /// The exponential.
     ///
     /// # Errors
-    /// See [`Constant`].
+    /// Those of [`Constant`].
     pub fn exp(&self) -> Result<Constant, ErrorKind> {
         match self.tree() {
             Tree::Rational(value) if value.is_zero() => Ok(Constant::one()),
@@ -76,8 +76,7 @@ impl Constant {
     /// The natural logarithm.
     ///
     /// # Errors
-    /// [`ErrorKind::Domain`] for constants that are not positive, [`ErrorKind::Undecided`], and see
-    /// [`Constant`].
+    /// [`ErrorKind::Domain`] for constants that are not positive, [`ErrorKind::Undecided`]; also those of [`Constant`].
     pub fn ln(&self) -> Result<Constant, ErrorKind> {
         match self.sign() {
             None => return Err(self.undecided()),
@@ -100,7 +99,7 @@ impl Constant {
     /// The cosine.
     ///
     /// # Errors
-    /// See [`Constant`].
+    /// Those of [`Constant`].
     pub fn cos(&self) -> Result<Constant, ErrorKind> {
         self.wave(0)
     }
@@ -108,7 +107,7 @@ impl Constant {
     /// The sine.
     ///
     /// # Errors
-    /// See [`Constant`].
+    /// Those of [`Constant`].
     pub fn sin(&self) -> Result<Constant, ErrorKind> {
         self.wave(3)
     }
@@ -116,7 +115,7 @@ impl Constant {
     /// The tangent.
     ///
     /// # Errors
-    /// [`ErrorKind::Domain`] where the cosine is zero, [`ErrorKind::Undecided`], and see [`Constant`].
+    /// [`ErrorKind::Domain`] if the cosine is zero, [`ErrorKind::Undecided`]; also those of [`Constant`].
     pub fn tan(&self) -> Result<Constant, ErrorKind> {
         self.sin()?.divide(&self.cos()?).map_err(|kind| match kind {
             ErrorKind::DivisionByZero => ErrorKind::Domain {
@@ -131,7 +130,7 @@ impl Constant {
     /// The hyperbolic cosine `(eˣ + e⁻ˣ)/2`.
     ///
     /// # Errors
-    /// See [`Constant`].
+    /// Those of [`Constant`].
     pub fn cosh(&self) -> Result<Constant, ErrorKind> {
         let sum = self.exp()?.add(&self.negate()?.exp()?)?;
         sum.scale(&ratio(1, 2))
@@ -140,7 +139,7 @@ impl Constant {
     /// The hyperbolic sine `(eˣ − e⁻ˣ)/2`.
     ///
     /// # Errors
-    /// See [`Constant`].
+    /// Those of [`Constant`].
     pub fn sinh(&self) -> Result<Constant, ErrorKind> {
         let difference = self.exp()?.subtract(&self.negate()?.exp()?)?;
         difference.scale(&ratio(1, 2))
@@ -148,7 +147,7 @@ impl Constant {
 
     /// `cos(x + quarters·π/2)`, reduced by the symmetries of the cosine.
     fn wave(&self, quarters: u32) -> Result<Constant, ErrorKind> {
-        // x = rest + turn·π, where the rest has no rational multiple of π.
+        // x = rest + turn·π, where the rest contains no rational multiple of π.
         let (rational, terms) = self.summands();
         let turn = terms
             .iter()
@@ -160,7 +159,7 @@ impl Constant {
         if rest.is_trivially_zero() {
             return cos_of_pi(&turn);
         }
-        // Even: the first coefficient of the rest is made positive.
+        // The cosine is even: make the first coefficient of the rest positive.
         let negative = leading.map_or(rational.is_negative(), |(_, q)| q.is_negative());
         let rest = if negative {
             turn = -turn;
@@ -168,7 +167,7 @@ impl Constant {
         } else {
             rest
         };
-        // cos(x + n·π/2) with |turn| ≤ 1/4 for what is left of it.
+        // cos(x + n·π/2), with a remaining |turn| ≤ 1/4 in x.
         let steps = (&turn * ratio(2, 1) - ratio(1, 2)).ceil();
         let turn = turn - &steps * ratio(1, 2);
         let argument = rest.add(&Constant::pi().scale(&turn)?)?;
@@ -218,8 +217,8 @@ fn radical(
     Constant::build(tree(radicand))?.scale(&factor)
 }
 
-/// `ᵏ√value = factor·ᵏ√radicand` for a rational that is not negative; the radicand is whole, is not
-/// divisible by the k-th power of a prime below 1000, and is 1 for every k-th power.
+/// `ᵏ√value = factor·ᵏ√radicand` for a nonnegative rational. The radicand is an integer, not divisible by the k-th
+/// power of a prime below 1000, and 1 if the rational is a k-th power.
 fn root_of_rational(value: &BigRational, order: u32) -> (BigRational, BigInt) {
     // ᵏ√(p/q) = ᵏ√(p·q^(k−1))/q
     let mut radicand = value.numer() * value.denom().pow(order - 1);

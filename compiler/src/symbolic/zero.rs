@@ -5,7 +5,7 @@ use num_traits::Zero;
 use super::Constant;
 use crate::algebra::{Constants, Field};
 
-/// Whether a constant is zero, if it lies in a field in which that is decided.
+/// Whether a constant is zero; `None` if it lies in no number field where this can be decided.
 pub(crate) fn is_zero(constant: &Constant) -> Option<bool> {
     if let Some(value) = constant.as_rational() {
         return Some(value.is_zero());

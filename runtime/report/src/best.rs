@@ -1,34 +1,35 @@
-//! The time that a method takes for an error.
+//! The CPU time of a method for a given error.
 
 use std::vec::Vec;
 
 use super::{Curve, Kind, Measured, Measurements, Outcome, ProblemRecord};
 
-/// How long a method takes for an error on a problem.
+/// The CPU time of a method for a given error on a problem.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cost {
-    /// Interpolated between two runs, one with a larger error and one with a smaller one: a straight line between the
-    /// logarithms of times and errors.
+    /// Interpolated between a run with a larger error and a run with a smaller error, linearly in the logarithms of
+    /// times and errors.
     Between {
         /// Seconds of CPU time.
         seconds: f64,
     },
-    /// That of the first run that reaches it: there is none with a larger error next to it, and nothing is extrapolated.
+    /// The time of the first run that reaches the error. No less accurate run precedes it, and times are not
+    /// extrapolated.
     AtMost {
         /// Seconds of CPU time.
         seconds: f64,
     },
-    /// No run reaches it; the best error is this one.
+    /// No run reaches the error.
     NotReached {
         /// The smallest error of all runs.
         best: f64,
     },
-    /// No run came to the end.
+    /// No run reached the end.
     NoRun,
 }
 
 impl Cost {
-    /// Seconds of CPU time, where the error is reached.
+    /// Seconds of CPU time, if the error is reached.
     pub const fn seconds(&self) -> Option<f64> {
         match self {
             Self::Between { seconds } | Self::AtMost { seconds } => Some(*seconds),
@@ -38,10 +39,10 @@ impl Cost {
 }
 
 impl Curve {
-    /// The time for an error of `target`.
+    /// The CPU time for an error of `target`.
     ///
-    /// What reaches it is a run whose error is no larger, and that of the next finer run neither, so that a zero of the error
-    /// that a curve happens to pass does not count.
+    /// A run reaches the target if neither its error nor that of the next finer run is larger. So an accidental zero of
+    /// the error does not count.
     pub fn cost(&self, target: f64) -> Cost {
         let reaches = |run: &Measured| run.error <= target;
         let measured: Vec<&Measured> = self.measured().map(|(_, run)| run).collect();
@@ -78,7 +79,7 @@ impl Curve {
     }
 }
 
-/// The value at `x` on the straight line through the logarithms of two points.
+/// Log-log interpolation between two points.
 fn interpolate((x0, y0): (f64, f64), (x1, y1): (f64, f64), x: f64) -> f64 {
     if x1 <= 0.0 || y0 <= 0.0 || y1 <= 0.0 {
         return y1;
@@ -88,7 +89,7 @@ fn interpolate((x0, y0): (f64, f64), (x1, y1): (f64, f64), x: f64) -> f64 {
 }
 
 impl ProblemRecord {
-    /// The fastest methods for an error, with their times: all that reach it, the fastest first.
+    /// All methods that reach an error, with their times, the fastest first.
     pub fn fastest(&self, target: f64) -> Vec<(&Curve, Cost)> {
         let mut found: Vec<_> = self
             .curves
@@ -103,7 +104,7 @@ impl ProblemRecord {
 }
 
 impl Measurements {
-    /// The fastest method of one kind on a problem for an error.
+    /// The fastest method of a kind on a problem for a given error.
     pub fn fastest_of<'a>(
         &self,
         kind: Kind,
@@ -129,7 +130,7 @@ mod tests {
             panic!("{:?}", curve.cost(1e-4));
         };
         assert!((seconds / 100.0 - 1.0).abs() < 1e-14);
-        // At a run it is that run.
+        // Exact at a run.
         assert_eq!(curve.cost(1e-6), Cost::Between { seconds: 1e3 });
     }
 
@@ -148,7 +149,7 @@ mod tests {
             panic!("{:?}", curve.cost(3e-4));
         };
         assert!(seconds > 3.0 && seconds < 10.0);
-        // The last run has none after it.
+        // No run follows the last run.
         assert_eq!(curve.cost(1e-4).seconds(), Some(10.0));
     }
 

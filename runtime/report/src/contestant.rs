@@ -1,4 +1,4 @@
-//! Whatever can be run on a problem, whatever its types.
+//! Methods on a problem, with their types erased.
 
 use core::hint::black_box;
 use core::ops::ControlFlow;
@@ -8,7 +8,7 @@ use super::{Kind, Ladder, MethodRecord};
 use symplectic::solver::Solver;
 use symplectic::{Error, Integrator, Method, State, Statistics, Summation, System, Vector};
 
-/// Who is shown the states of a run.
+/// A callback for the states of a run.
 pub type Observe<'a, V> = &'a mut dyn FnMut(&State<V>);
 
 /// The end of a run.
@@ -16,13 +16,13 @@ pub type Observe<'a, V> = &'a mut dyn FnMut(&State<V>);
 pub struct Finish<V> {
     /// The state at the end.
     pub state: State<V>,
-    /// Steps taken, where they are known.
+    /// Number of steps, if known.
     pub steps: Option<u64>,
-    /// Evaluations of a velocity or a force, each counted for itself: two for each evaluation of a first-order system.
+    /// Number of evaluations of velocity and force, counted separately: two per evaluation of a first-order system.
     pub evaluations: u64,
-    /// Iterations of all steps; 0 for an explicit method.
+    /// Total number of iterations; 0 for an explicit method.
     pub iterations: u64,
-    /// The most iterations that one step took.
+    /// Largest number of iterations of a step.
     pub most_iterations: u32,
 }
 
@@ -49,7 +49,7 @@ impl<V> Finish<V> {
     }
 }
 
-/// Why a run did not come to its end.
+/// Why a run did not reach the end.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Stop {
     /// It failed with this error.
@@ -90,7 +90,7 @@ impl<V: Vector> Contestant<V> {
         };
         let bare = move |step_size| {
             let run = || make_bare(step_size)?.integrate_to(end).cloned();
-            // What fails here has failed before, and was told.
+            // A failure here was already reported by the observed run.
             let _end = black_box(run());
         };
         Self {
@@ -128,7 +128,7 @@ impl<V: Vector> Contestant<V> {
         }
     }
 
-    /// A run that shows its states. One of an integrator is given up after `limit`.
+    /// A run that passes its states to `observe`. A run of an integrator is stopped after `limit`.
     pub fn run_observed(
         &self,
         parameter: f64,
@@ -138,12 +138,12 @@ impl<V: Vector> Contestant<V> {
         (self.observed)(parameter, limit, observe)
     }
 
-    /// The same run with nothing looked at.
+    /// The same run without observation, for timing.
     pub fn run_bare(&self, parameter: f64) {
         (self.bare)(parameter);
     }
 
-    /// What is known of the method before it was run.
+    /// The record of the method before any run.
     pub fn record(&self) -> MethodRecord {
         MethodRecord {
             name: self.name.clone(),
@@ -159,7 +159,7 @@ impl<V: Vector> Contestant<V> {
     }
 }
 
-/// Steps between two looks at the clock.
+/// Number of steps between checks of the time limit.
 const WATCH: u64 = 64;
 
 fn run_observed<M, S, V, R, N>(

@@ -1,10 +1,10 @@
-//! One row for each run, each verdict, each limit.
+//! CSV output: a row per run, per verdict, per limit.
 
 use serde::Serialize;
 
 use super::{Curve, Measured, Measurements, Outcome, Parameter, Point, ProblemRecord, Verdict};
 
-/// The columns; what a run does not have is left empty.
+/// The columns of a run; missing values are empty.
 #[derive(Default, Serialize)]
 struct Row<'a> {
     problem: &'a str,
@@ -77,7 +77,7 @@ impl<'a> Row<'a> {
 }
 
 impl Measurements {
-    /// The runs as comma-separated values, one a row, with a header.
+    /// The runs as comma-separated values, a row per run, with a header.
     ///
     /// # Errors
     ///
@@ -94,7 +94,7 @@ impl Measurements {
         finish(writer)
     }
 
-    /// The [verdicts](Self::verdicts) as comma-separated values, one a row, with a header.
+    /// The [verdicts](Self::verdicts) as comma-separated values, a row per verdict, with a header.
     ///
     /// # Errors
     ///
@@ -119,7 +119,7 @@ impl Measurements {
         finish(writer)
     }
 
-    /// The [limits](Self::limits) of stability as comma-separated values, one a row, with a header.
+    /// The [limits](Self::limits) of stability as comma-separated values, a row per method, with a header.
     ///
     /// # Errors
     ///
@@ -135,11 +135,11 @@ impl Measurements {
 
 fn finish(writer: csv::Writer<Vec<u8>>) -> Result<String, csv::Error> {
     let bytes = writer.into_inner().map_err(|error| error.into_error())?;
-    // Rust strings and digits went in.
+    // The input consists of Rust strings and digits, so this is lossless.
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// The columns of a verdict; what it does not have is left empty.
+/// The columns of a verdict; missing values are empty.
 #[derive(Default, Serialize)]
 struct VerdictRow<'a> {
     table: &'a str,

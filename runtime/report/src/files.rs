@@ -1,4 +1,4 @@
-//! Everything into one folder.
+//! Writing a report to a folder.
 
 use std::fs;
 use std::io;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Measurements, Scheme};
 
-/// Why a report was not written.
+/// The error of writing a report.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteError {
@@ -15,7 +15,7 @@ pub enum WriteError {
     File {
         /// Its path.
         path: PathBuf,
-        /// What the system says.
+        /// The I/O error.
         source: io::Error,
     },
     /// The measurements cannot be written as JSON.
@@ -27,14 +27,14 @@ pub enum WriteError {
 }
 
 impl Measurements {
-    /// Writes `index.html`, `measurements.json`, `measurements.csv`, `verdicts.csv`, `limits.csv`, `table.md` and the plots,
-    /// `plots/*.svg`, into `folder`, which is made where there is none; returns the path of the page.
+    /// Writes `index.html`, `measurements.json`, `measurements.csv`, `verdicts.csv`, `limits.csv`, `table.md` and the
+    /// plots, `plots/*.svg`, into `folder`, which is created if necessary; returns the path of the page.
     ///
-    /// A table without rows is not written, and one of an earlier report is removed: no file is empty.
+    /// Tables without rows are not written, and the file of an earlier report is removed.
     ///
     /// # Errors
     ///
-    /// [`WriteError`], with what was written before it left as it is.
+    /// [`WriteError`]; files written before the error remain.
     pub fn write(&self, folder: impl AsRef<Path>) -> Result<PathBuf, WriteError> {
         let folder = folder.as_ref();
         let plots = folder.join("plots");
@@ -65,7 +65,7 @@ fn write(path: PathBuf, text: &str) -> Result<(), WriteError> {
     fs::write(&path, text).map_err(|source| WriteError::File { path, source })
 }
 
-/// Writes a text; without one, removes what an earlier report wrote.
+/// Writes a text; removes the file of an earlier report if the text is empty.
 fn write_or_remove(path: PathBuf, text: &str) -> Result<(), WriteError> {
     if !text.is_empty() {
         return write(path, text);

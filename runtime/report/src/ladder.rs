@@ -1,24 +1,24 @@
-//! Which step sizes are tried.
+//! The sequence of step sizes of a method.
 
 use super::Parameter;
 
-/// The step sizes, or the tolerances, at which a method is run.
+/// The step sizes or tolerances of the runs of a method.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ladder {
-    /// Step sizes from `first` downward, about a factor of ten in the error apart: until the error is smaller than the finest
-    /// target, until it no longer gets smaller, or until a run would take longer than the budget.
+    /// Decreasing step sizes from `first`, each for about a tenth of the previous error. The sequence ends when the
+    /// error is below the finest target, when it no longer decreases, or when a run would exceed the budget.
     Descend {
-        /// The first one.
+        /// The first step size.
         first: f64,
     },
-    /// `first`, `first/2`, `first/4`, … with so many halvings.
+    /// `first`, `first/2`, `first/4`, …, with `halvings` halvings.
     Halve {
         /// The first step size.
         first: f64,
         /// Number of halvings.
         halvings: u32,
     },
-    /// These tolerances, from coarse to fine.
+    /// The given tolerances, from coarse to fine.
     Tolerances(Vec<f64>),
 }
 
@@ -31,7 +31,7 @@ impl Ladder {
     /// assert_eq!(Ladder::decades(2, 4), Ladder::Tolerances(vec![1e-2, 1e-3, 1e-4]));
     /// ```
     pub fn decades(coarse: u32, fine: u32) -> Self {
-        // Parsed, so that they are the nearest doubles.
+        // Parsing yields the nearest doubles.
         let power = |exponent| format!("1e-{exponent}").parse().unwrap_or(f64::NAN);
         Self::Tolerances((coarse..=fine).map(power).collect())
     }
@@ -43,7 +43,7 @@ impl Ladder {
         }
     }
 
-    /// A way down, to errors below `target`.
+    /// Starts a descent to errors below `target`.
     pub(super) fn descent(&self, target: f64) -> Descent {
         let listed = match self {
             Self::Descend { .. } => Vec::new(),
@@ -70,25 +70,25 @@ impl Ladder {
     }
 }
 
-/// On the way down a [`Ladder`].
+/// The state of a descent along a [`Ladder`].
 #[derive(Clone, Debug)]
 pub(super) struct Descent {
     listed: Option<Vec<f64>>,
     target: f64,
     next: Option<f64>,
     tried: usize,
-    /// Failures one after another.
+    /// Number of consecutive failures.
     failures: u32,
-    /// The last parameter that led to an error, and that error.
+    /// The parameter and the error of the last successful run.
     last: Option<(f64, f64)>,
     best: f64,
-    /// Errors one after another that were no smaller than the best before them.
+    /// Number of consecutive runs that did not improve the best error.
     in_vain: u32,
 }
 
-/// Points of a curve at most.
+/// Largest number of points of a curve.
 const POINTS: usize = 48;
-/// An error from here on says nothing about the order.
+/// Errors from here on carry no information about the order.
 const LOST: f64 = 0.1;
 
 impl Descent {
@@ -97,7 +97,7 @@ impl Descent {
         self.next
     }
 
-    /// Goes down, after the run with the parameter [`next`](Self::next) has failed, or ended with this error.
+    /// Records the result of the run with the parameter [`next`](Self::next): its error, or `None` if it failed.
     pub fn take(&mut self, error: Option<f64>) {
         let Some(present) = self.next else { return };
         self.tried += 1;
@@ -129,16 +129,17 @@ impl Descent {
         } else {
             self.in_vain + 1
         };
-        // Small errors that stay the same are rounding; large ones may only be on their way.
+        // Small errors that stagnate are rounding errors; large errors may still decrease.
         let patience = if self.best < 1e-8 { 2 } else { 5 };
-        // Beyond the target the curve is to show that it goes on.
+        // Continue beyond the target, so that the plot shows the trend.
         if error < self.target / 3.0 || self.in_vain == patience {
             return None;
         }
         let order = self
             .last
             .map(|(size, before)| (before / error).ln() / (size / present).ln());
-        // The step to a tenth of the error; one half where nothing is known of the order, and no more in vain.
+        // Aim at a tenth of the error. Halve the step size if the order is unknown; reduce by at most 2 without
+        // progress.
         let factor = match order {
             Some(order) if order > 0.0 => 10_f64.powf(order.recip()).clamp(1.1, 4.0),
             _ => 2.0,
@@ -174,7 +175,7 @@ mod tests {
         for order in [2, 4, 8, 16] {
             let points = walk(|h| Some(0.05 * h.powi(order)));
             let errors: Vec<f64> = points.iter().filter_map(|point| point.1).collect();
-            // Ratios but for the first two, where the order is not known, and within the limits of a step.
+            // Error ratios, except for the first two, where the order is unknown; limited by the clamp on a step.
             let limits = (
                 9.9_f64.min(4_f64.powi(order)),
                 10.1_f64.max(1.1_f64.powi(order)),
@@ -214,7 +215,7 @@ mod tests {
                 .1
                 .is_some_and(|error| error < 1e-12 / 3.0)
         );
-        // What always fails ends too.
+        // The descent also ends if every run fails.
         assert_eq!(walk(|_| None).len(), 12);
         assert_eq!(walk(|_| Some(5.0)).len(), POINTS);
     }

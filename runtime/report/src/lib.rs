@@ -1,18 +1,18 @@
-//! Error against run time: which method gives an accuracy for the least time, on a problem of yours.
+//! Work-precision diagrams: which method reaches a given accuracy in the least time on your problem.
 //!
-//! A [`Study`] runs methods on [problems](Problem) with smaller and smaller step sizes. What it measures is plain data,
-//! [`Measurements`], from which a page, plots, tables and files are [written](Measurements::write):
+//! A [`Study`] runs methods on [problems](Problem) with decreasing step sizes. Its result is plain data,
+//! [`Measurements`], which [`write`](Measurements::write) turns into a page, plots, tables and files:
 //!
 //! * the global error at the end, against a [`Reference`];
-//! * the largest error of the energy and of other invariants along the run, in a run of its own, whose time is not taken;
-//! * the CPU time of the whole integration, the median of several, for which the methods take turns: a machine that becomes
-//!   slower or faster meanwhile does so for all of them;
-//! * evaluations of velocities and forces, iterations, and what went wrong: a run that failed is shown with its error, one
-//!   that would take too long is said to be skipped.
+//! * the largest error of the energy and of other invariants, in a separate, untimed run;
+//! * the CPU time of the whole integration: the median of several runs in which the methods take turns, so that changes
+//!   in the speed of the machine affect all methods alike;
+//! * evaluations of velocities and forces, iterations, and failures: a failed run is shown with its error, and a run
+//!   that would exceed the budget is reported as skipped.
 //!
-//! How long steps may be before a method breaks is another question: a [`Verdict`] says what became of a run, accurate,
-//! bounded, unstable or stopped, and [`Verdicts`] are a table of them, problems by methods, which
-//! [`Measurements::verdicts`] takes to the page and the files.
+//! A separate question is how large the steps of a method can be. A [`Verdict`] classifies a run as accurate, bounded,
+//! unstable or stopped. [`Verdicts`] is a table of problems by methods, which [`Measurements::verdicts`] adds to the
+//! page and the files.
 //!
 //! ```
 //! use symplectic::nalgebra::Vector1;

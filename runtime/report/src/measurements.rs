@@ -1,19 +1,18 @@
-//! What a study has found, as plain data: everything that is written or drawn comes from here alone.
+//! The results of a study as plain data, the only input of all writers and plots.
 
 use serde::{Deserialize, Serialize};
 
 use super::{StabilityLimit, Verdicts};
 
-/// All that was measured.
+/// The measurements of a study.
 ///
-/// The writers are methods of it, and give the same bytes for the same measurements: [`csv`](Self::csv),
-/// [`json`](Self::json), [`plots`](Self::plots), [`page`](Self::page), [`table`](Self::table); [`write`](Self::write) is all of
-/// them.
+/// Its writers produce the same bytes for the same measurements: [`csv`](Self::csv), [`json`](Self::json),
+/// [`plots`](Self::plots), [`page`](Self::page), [`table`](Self::table); [`write`](Self::write) calls all of them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Measurements {
-    /// What the study is called.
+    /// Title of the study.
     pub title: String,
-    /// Where and how it was measured: the machine, the compiler, the date.
+    /// Circumstances of the measurement: machine, compiler, date.
     pub circumstances: Vec<Fact>,
     /// The errors for which methods are compared.
     pub targets: Vec<f64>,
@@ -21,8 +20,8 @@ pub struct Measurements {
     pub methods: Vec<MethodRecord>,
     /// The problems.
     pub problems: Vec<ProblemRecord>,
-    /// Tables of what becomes of methods, where they do not converge or steps are too long. No study fills them; they are
-    /// drawn and written with all the rest.
+    /// Tables of verdicts, for large step sizes and failures to converge. A study leaves them empty; they are drawn and
+    /// written with the other results.
     #[serde(default)]
     pub verdicts: Vec<Verdicts>,
     /// Limits of stability of methods, proved and measured.
@@ -30,12 +29,12 @@ pub struct Measurements {
     pub limits: Vec<StabilityLimit>,
 }
 
-/// Something to know, with its name.
+/// A named fact.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fact {
-    /// What it is about.
+    /// Name of the fact.
     pub name: String,
-    /// What there is to say.
+    /// Value of the fact.
     pub value: String,
 }
 
@@ -49,56 +48,57 @@ impl Fact {
     }
 }
 
-/// A method, whatever the problem.
+/// A method, independent of the problem.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MethodRecord {
-    /// What it is called, and its curves are.
+    /// Name of the method and of its curves.
     pub name: String,
-    /// What it is, as far as that was seen.
+    /// The kind of method, as observed.
     pub kind: Kind,
-    /// What it was derived from: [`Method::DEFINITION`](symplectic::Method::DEFINITION).
+    /// Its definition: [`Method::DEFINITION`](symplectic::Method::DEFINITION).
     pub definition: Option<String>,
     /// Number of stages.
     pub stages: Option<usize>,
-    /// What is proved of it. The harness leaves it empty: the compiler knows, from the definition.
+    /// Proved facts. A study leaves them empty; the compiler can derive them from the definition
+    /// ([`Measurements::add_facts`]).
     pub facts: Vec<Fact>,
 }
 
-/// What kind of method a curve belongs to.
+/// The kind of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Kind {
-    /// One of the library that has solved no equations in any problem.
+    /// A method of the library that did not iterate on any problem.
     Explicit,
-    /// One of the library that has iterated.
+    /// A method of the library that iterated.
     Implicit,
-    /// One that is not of the library.
+    /// A method from elsewhere.
     Peer,
 }
 
-/// A problem, and how the methods did on it.
+/// A problem, with the results of the methods.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProblemRecord {
-    /// What it is called.
+    /// Name of the problem.
     pub name: String,
-    /// The Hamiltonian and where the data are from.
+    /// The Hamiltonian and the source of the data.
     pub description: String,
-    /// What it asks of a method.
+    /// Its requirements on a method.
     pub needs: String,
-    /// Number of positions.
+    /// Dimension of the position.
     pub dimension: usize,
     /// Time at the start.
     pub start: f64,
     /// Time at the end.
     pub end: f64,
-    /// Where the state at the end is known from.
+    /// Source of the reference state at the end.
     pub reference: String,
-    /// How well it is known, as an error of [`Measured::error`].
+    /// Uncertainty of the reference, as an error like [`Measured::error`].
     pub uncertainty: f64,
-    /// The step size whose energy over time is compared, if the problem asks for one.
+    /// The step size for the comparison of the energy over time, if given.
     pub traced_at: Option<f64>,
-    /// The names of the functions in [`Measured::drifts`].
+    /// Names of the invariants in [`Measured::drifts`].
     pub invariants: Vec<String>,
-    /// The methods on it.
+    /// The curves of the methods.
     pub curves: Vec<Curve>,
 }
 
@@ -107,16 +107,16 @@ pub struct ProblemRecord {
 pub struct Curve {
     /// The name of the method.
     pub method: String,
-    /// What the [`Point::parameter`] is.
+    /// Meaning of [`Point::parameter`].
     pub parameter: Parameter,
     /// The runs, from coarse to fine.
     pub points: Vec<Point>,
-    /// The energy over time in one of them, chosen so that the curves of a problem can be compared.
+    /// The energy over time in one of the runs, chosen so that the curves of a problem are comparable.
     pub trace: Option<Trace>,
 }
 
 impl Curve {
-    /// The runs that came to the end, with their parameters.
+    /// The runs that reached the end, with their parameters.
     pub fn measured(&self) -> impl Iterator<Item = (f64, &Measured)> {
         self.points.iter().filter_map(|point| match &point.outcome {
             Outcome::Measured(measured) => Some((point.parameter, measured)),
@@ -125,7 +125,7 @@ impl Curve {
     }
 }
 
-/// What is made smaller from run to run.
+/// The parameter that decreases from run to run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Parameter {
     /// The step size.
@@ -134,71 +134,72 @@ pub enum Parameter {
     Tolerance,
 }
 
-/// One run.
+/// A run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
-    /// The step size or the tolerance that was asked for.
+    /// The requested step size or tolerance.
     pub parameter: f64,
-    /// What came of it.
+    /// The outcome.
     pub outcome: Outcome,
 }
 
-/// What came of a run.
+/// The outcome of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Outcome {
-    /// It came to the end.
+    /// It reached the end.
     Measured(Measured),
     /// It failed.
     Failed {
-        /// With this error.
+        /// The error message.
         error: String,
     },
-    /// It was not made, or not to its end.
+    /// It was not started, or not completed.
     Skipped {
-        /// For this reason.
+        /// The reason.
         reason: String,
     },
 }
 
-/// A run that came to the end.
+/// A run that reached the end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
-    /// The global error at the end: the larger one of `|q − q*|/|q*|` and `|p − p*|/|p*|` in 2-norms, absolute where the
+    /// The global error at the end: the larger of `|q − q*|/|q*|` and `|p − p*|/|p*|` in the 2-norm, absolute if the
     /// reference is zero.
     pub error: f64,
-    /// The largest error of the energy along the run, relative to that at the start, absolute where it is zero there; `None`
-    /// where the system does not know its energy.
+    /// The largest error of the energy along the run, relative to its initial value, absolute if that is zero; `None`
+    /// if the system has no energy or the error is not finite.
     pub energy_error: Option<f64>,
-    /// The largest deviations of the invariants of the problem, in the same sense; `None` where one is not finite.
+    /// The largest deviations of the invariants of the problem, in the same sense; `None` if a deviation is not finite.
     pub drifts: Vec<Option<f64>>,
-    /// Seconds of CPU time: the median of the repetitions.
+    /// Seconds of CPU time, the median of the repetitions.
     pub seconds: f64,
-    /// How often the time was taken.
+    /// Number of timed repetitions.
     pub repetitions: usize,
-    /// Steps taken, where they are known.
+    /// Number of steps, if known.
     pub steps: Option<u64>,
-    /// Evaluations of a velocity or a force, each counted for itself.
+    /// Number of evaluations of velocity and force, counted separately.
     pub evaluations: u64,
-    /// Iterations a step; 0 for an explicit method.
+    /// Mean number of iterations per step; 0 for an explicit method.
     pub mean_iterations: f64,
-    /// The most iterations that one step took.
+    /// Largest number of iterations of a step.
     pub most_iterations: u32,
 }
 
-/// The error of the energy over time: its range in equal parts of the time.
+/// The error of the energy over time: its range in equal time intervals.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trace {
-    /// The parameter of the run.
+    /// Parameter of the run.
     pub parameter: f64,
-    /// The smallest and the largest relative error of the energy, with their signs, in each part of the time; `None` where the
-    /// run shows no state.
+    /// The smallest and the largest signed relative error of the energy in each time interval; `None` if it contains no
+    /// observed state.
     pub ranges: Vec<Option<(f64, f64)>>,
 }
 
 impl Measurements {
-    /// Adds what `facts` knows of each definition of a method.
+    /// Adds the facts that `facts` returns for the definition of each method.
     ///
-    /// The exact engine is no part of this crate; with it, `facts` proves the order and whatever else again.
+    /// This crate does not contain the exact engine; with it, `facts` can prove orders and other properties from the
+    /// definition.
     pub fn add_facts(&mut self, mut facts: impl FnMut(&str) -> Vec<Fact>) {
         for method in &mut self.methods {
             if let Some(definition) = &method.definition {
@@ -212,22 +213,23 @@ impl Measurements {
         self.methods.iter().find(|method| method.name == name)
     }
 
-    /// The measurements as JSON; [`from_json`](Self::from_json) reads them again, to the last bit.
+    /// The measurements as JSON; [`from_json`](Self::from_json) restores them bit for bit.
     ///
     /// # Errors
     ///
-    /// Where a number is not finite, which no study writes: it is null in JSON and cannot be read again.
+    /// Errors of the serializer. A number that is not finite becomes null, which [`from_json`](Self::from_json)
+    /// refuses; a study writes none.
     pub fn json(&self) -> Result<String, serde_json::Error> {
         let mut text = serde_json::to_string_pretty(self)?;
         text.push('\n');
         Ok(text)
     }
 
-    /// Reads [`json`](Self::json).
+    /// Parses the output of [`json`](Self::json).
     ///
     /// # Errors
     ///
-    /// Where the text is something else.
+    /// If the text has another format.
     pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {
         serde_json::from_str(text)
     }

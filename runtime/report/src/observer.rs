@@ -1,15 +1,15 @@
-//! What is looked at along a run.
+//! Observation of the energy and of invariants along a run.
 
 use super::Trace;
 use symplectic::{State, Vector};
 
-/// Parts of the time in a [`Trace`].
+/// Number of time intervals in a [`Trace`].
 const PARTS: usize = 240;
 
 /// A function of the state.
 pub(super) type Function<'a, V> = dyn Fn(&State<V>) -> f64 + 'a;
 
-/// Keeps the largest deviations of invariants from their values at the start, and those of the energy over time.
+/// Records the largest deviations of invariants from their initial values, and the error of the energy over time.
 pub(super) struct Observer<'a, V> {
     energy: Option<(&'a Function<'a, V>, Deviation)>,
     invariants: Vec<(&'a Function<'a, V>, Deviation)>,
@@ -18,16 +18,16 @@ pub(super) struct Observer<'a, V> {
     ranges: Vec<Option<(f64, f64)>>,
 }
 
-/// How far a value comes from its first one.
+/// The largest deviation of a value from its initial value.
 pub(super) struct Deviation {
     initial: f64,
-    /// What deviations are relative to.
+    /// The scale of deviations.
     unit: f64,
     largest: f64,
 }
 
 impl Deviation {
-    /// Relative to a first value, absolute where that is zero.
+    /// Deviations relative to an initial value, absolute if it is zero.
     pub fn new(initial: f64) -> Self {
         let unit = if initial == 0.0 { 1.0 } else { initial.abs() };
         Self {
@@ -37,17 +37,17 @@ impl Deviation {
         }
     }
 
-    /// The deviation of `value`, with its sign.
+    /// Observes `value` and returns its signed deviation.
     pub fn observe(&mut self, value: f64) -> f64 {
         let deviation = (value - self.initial) / self.unit;
-        // Not a number once and for all.
+        // A NaN stays.
         if !(deviation.abs() <= self.largest || self.largest.is_nan()) {
             self.largest = deviation.abs();
         }
         deviation
     }
 
-    /// The largest one; not a number if one was not.
+    /// The largest absolute deviation; NaN if any was NaN.
     pub const fn largest(&self) -> f64 {
         self.largest
     }
@@ -72,7 +72,7 @@ impl<'a, V: Vector> Observer<'a, V> {
         }
     }
 
-    /// Looks at a state.
+    /// Observes a state.
     pub fn observe(&mut self, state: &State<V>) {
         for (function, deviation) in &mut self.invariants {
             deviation.observe(function(state));
@@ -81,7 +81,7 @@ impl<'a, V: Vector> Observer<'a, V> {
             return;
         };
         let error = deviation.observe(function(state));
-        // A state on the border belongs to the part that it ends.
+        // A state at a boundary belongs to the interval that it ends.
         let part = (PARTS as f64 * (state.time - self.start) / (self.end - self.start)).ceil();
         let range = &mut self.ranges[(part as usize).clamp(1, PARTS) - 1];
         let (low, high) = range.get_or_insert((error, error));
@@ -95,7 +95,7 @@ impl<'a, V: Vector> Observer<'a, V> {
         deviation.largest.is_finite().then_some(deviation.largest)
     }
 
-    /// The largest deviations of the invariants, where they are finite.
+    /// The largest deviations of the invariants, if finite.
     pub fn drifts(&self) -> Vec<Option<f64>> {
         let largest = self
             .invariants
@@ -106,7 +106,7 @@ impl<'a, V: Vector> Observer<'a, V> {
             .collect()
     }
 
-    /// The energy over time in the run with `parameter`, if it showed states on the way.
+    /// The energy over time in the run with `parameter`; `None` if too few states were observed or it is not finite.
     pub fn trace(self, parameter: f64) -> Option<Trace> {
         let finite = |range: &Option<(f64, f64)>| {
             range.is_none_or(|(low, high)| low.is_finite() && high.is_finite())

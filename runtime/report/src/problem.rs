@@ -1,4 +1,4 @@
-//! A problem, and the methods that are to try it.
+//! A problem and its methods.
 
 use super::contestant::{Contestant, Finish, Observe};
 use super::text;
@@ -6,7 +6,7 @@ use super::{Ladder, Measured};
 use symplectic::solver::Solver;
 use symplectic::{Error, Integrator, Method, ProvedFor, State, Summation, System, Vector};
 
-/// A system with a start, the state at the end, and the methods that are run on it.
+/// A system with a start, a reference state at the end, and the methods to run.
 ///
 /// See the [module](super) for an example.
 pub struct Problem<V, S> {
@@ -29,10 +29,10 @@ where
     V: Vector<Scalar = f64>,
     S: System<V> + Clone + 'static,
 {
-    /// The problem of getting from `start` to the end of `reference`, with steps of about `step_size` and smaller.
+    /// The integration from `start` to the time of `reference`, with step sizes from `step_size` downward.
     ///
-    /// `step_size` is the first step size of every method, better too large than too small: what a method cannot do with it is
-    /// seen in the report.
+    /// `step_size` is the first step size of every method. Choose it rather too large than too small: failures appear
+    /// in the report.
     pub fn new(
         name: impl Into<String>,
         system: S,
@@ -54,36 +54,36 @@ where
         }
     }
 
-    /// Says what the Hamiltonian is and where the data are from.
+    /// Describes the Hamiltonian and the source of the data.
     #[must_use]
     pub fn described(mut self, description: impl Into<String>) -> Self {
         self.description = description.into();
         self
     }
 
-    /// Says what the problem asks of a method.
+    /// Describes the requirements of the problem on a method.
     #[must_use]
     pub fn needing(mut self, needs: impl Into<String>) -> Self {
         self.needs = needs.into();
         self
     }
 
-    /// Takes other step sizes than those [down](Ladder::Descend) from the first one.
+    /// Replaces the default ladder, [`Ladder::Descend`], for methods added afterwards.
     #[must_use]
     pub fn on_ladder(mut self, ladder: Ladder) -> Self {
         self.ladder = ladder;
         self
     }
 
-    /// Shows the energy over time in the runs with the step size nearest to this one. Without it, they are those with about
-    /// as many evaluations as half of the methods need for an error of 10⁻⁶.
+    /// Plots the energy over time in the runs with the step size nearest to this one. By default these are the runs
+    /// whose number of evaluations is nearest to the median of the methods for an error of 10⁻⁶.
     #[must_use]
     pub const fn traced_at(mut self, step_size: f64) -> Self {
         self.trace_at = Some(step_size);
         self
     }
 
-    /// Watches a function of the state that the exact flow conserves: a momentum map.
+    /// Observes a function of the state that the exact flow conserves, such as a momentum map.
     #[must_use]
     pub fn conserving(
         mut self,
@@ -94,7 +94,7 @@ where
         self
     }
 
-    /// Runs a method with the fixed-point iteration where it needs one, and with compensated sums.
+    /// Adds a method with the default solver and compensated sums.
     #[must_use]
     pub fn method<M: Method + ProvedFor<S::Class>>(self, method: M) -> Self {
         self.run(M::NAME, move |system, start, step_size| {
@@ -102,10 +102,10 @@ where
         })
     }
 
-    /// Runs an integrator that `build` makes from the system, the start and the step size: in lanes, by Newton's iteration,
-    /// with plain sums, ….
+    /// Adds an integrator that `build` creates from the system, the start and the step size: in lanes, with Newton's
+    /// iteration, with plain sums, ….
     ///
-    /// A method that is called the same is the same method in the whole report, even where it is run in another way.
+    /// In the report, methods with the same name are the same method, even if they are built differently.
     #[must_use]
     pub fn run<M, R, N, F>(mut self, name: impl Into<String>, build: F) -> Self
     where
@@ -123,10 +123,10 @@ where
         self
     }
 
-    /// Runs something that is not of this library, with its own step sizes or tolerances.
+    /// Adds a method from elsewhere, with its own step sizes or tolerances.
     ///
-    /// `integrate` goes from the start to the end with the parameter that it is given. It shows the states on the way where it
-    /// is given something to show them to, and when it is not, its time is taken. The error is in words.
+    /// `integrate` integrates from the start to the end with the given parameter. It passes its states to the observer
+    /// if there is one; runs without an observer are timed. Its error is a message.
     #[must_use]
     pub fn peer<F>(mut self, name: impl Into<String>, ladder: Ladder, integrate: F) -> Self
     where
@@ -137,7 +137,7 @@ where
         self
     }
 
-    /// The methods so far.
+    /// The names of the methods added so far.
     pub fn methods(&self) -> impl Iterator<Item = &str> {
         self.contestants
             .iter()
@@ -145,19 +145,19 @@ where
     }
 }
 
-/// The state at the end, and how it is known.
+/// The reference state at the end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference<V> {
     /// The state.
     pub end: State<V>,
-    /// Where it is from.
+    /// Its source.
     pub origin: String,
-    /// How well it is known, as a relative error: that of [`Measured::error`](super::Measured::error).
+    /// Its uncertainty, a relative error like [`Measured::error`](super::Measured::error).
     pub uncertainty: f64,
 }
 
 impl<V: Vector<Scalar = f64>> Reference<V> {
-    /// A state from a closed form, or from a computation with more digits, that is known to this relative error.
+    /// A state from a closed form or from a computation with more digits, known to the relative error `uncertainty`.
     pub fn known(end: State<V>, origin: impl Into<String>, uncertainty: f64) -> Self {
         Self {
             end,
@@ -166,8 +166,8 @@ impl<V: Vector<Scalar = f64>> Reference<V> {
         }
     }
 
-    /// The state that a method finds in steps of `step_size`; the distance from what it finds in steps of 3/2 the size is how
-    /// well it is known.
+    /// The state that a method computes with steps of `step_size`. Its uncertainty is the distance from the state with
+    /// steps of 3/2 that size.
     ///
     /// # Errors
     ///
@@ -220,12 +220,12 @@ impl<V: Vector<Scalar = f64>> Reference<V> {
 }
 
 impl Measured {
-    /// The larger one of the relative errors of q and p in 2-norms, absolute where the reference is zero.
+    /// The larger of the relative errors of q and p in the 2-norm, absolute if the reference is zero.
     pub(super) fn error_of<V: Vector<Scalar = f64>>(found: &State<V>, reference: &State<V>) -> f64 {
         let relative = |found: &V, reference: &V| {
             let (found, reference) = (found.as_slice(), reference.as_slice());
             let largest = reference.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-            // Scaled, for the squares of 1e300 and of 1e-300 are no doubles.
+            // Scaled, so that squares neither overflow nor underflow.
             let unit = if largest == 0.0 { 1.0 } else { largest };
             let norm = |components: &mut dyn Iterator<Item = f64>| {
                 let squares = components.map(|x| (x / unit) * (x / unit));
@@ -243,7 +243,7 @@ impl Measured {
             relative(&found.q, &reference.q),
             relative(&found.p, &reference.p),
         );
-        // Not a number if one is.
+        // NaN if either is NaN.
         if q.is_nan() || q > p { q } else { p }
     }
 }

@@ -1,19 +1,19 @@
-//! Which curves of a problem are drawn in colour.
+//! The roles of methods, which determine the coloured curves.
 
 use super::{Curve, Kind, Measurements, ProblemRecord};
 
-/// What a method is compared as. The plots draw methods with a role in colour, all others in pale grey.
+/// The role of a method in a comparison. Plots show methods with a role in colour, all others in pale grey.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Role {
-    /// The implicit method that is the fastest at the smallest error that one of them reaches.
+    /// The implicit method that is fastest at the smallest target that any implicit method reaches.
     BestImplicit,
-    /// The explicit method that is the fastest at the smallest error that one of them reaches.
+    /// The explicit method that is fastest at the smallest target that any explicit method reaches.
     BestExplicit,
-    /// Störmer–Verlet: the first explicit method with “Verlet” in its name.
+    /// Störmer–Verlet: the first explicit method whose name contains “Verlet”.
     Verlet,
-    /// The classical Runge–Kutta method: the peer called “RK4”.
+    /// The classical Runge–Kutta method: the peer named “RK4”.
     Rk4,
-    /// The peer, other than RK4, that is the fastest at the smallest error that one of them reaches.
+    /// The peer other than RK4 that is fastest at the smallest target that any of them reaches.
     BestPeer,
 }
 
@@ -27,7 +27,7 @@ impl Role {
         Self::BestPeer,
     ];
 
-    /// What the role is called.
+    /// The name of the role.
     pub const fn name(self) -> &'static str {
         match self {
             Self::BestImplicit => "best implicit",
@@ -38,7 +38,7 @@ impl Role {
         }
     }
 
-    /// The role that the name of a method gives it, whatever it measures.
+    /// The role that a method has by its name, independent of measurements.
     fn by_name(kind: Kind, name: &str) -> Option<Self> {
         match kind {
             Kind::Explicit => name.contains("Verlet").then_some(Self::Verlet),
@@ -49,8 +49,8 @@ impl Role {
 }
 
 impl Measurements {
-    /// The methods of a problem that have a role, in the order of [`Role::ALL`]. A method may have two: Verlet may also be the
-    /// best explicit one.
+    /// The methods of a problem that have a role, in the order of [`Role::ALL`]. A method may have two roles: Verlet
+    /// may also be the best explicit method.
     pub fn roles<'a>(&self, problem: &'a ProblemRecord) -> Vec<(Role, &'a Curve)> {
         let ranked = self.ranked(problem);
         let kind = |curve: &Curve| self.method(&curve.method).map(|method| method.kind);
@@ -73,7 +73,7 @@ impl Measurements {
         found.into_iter().flatten().collect()
     }
 
-    /// The curves of a problem: those first that are the fastest at the smallest target that they reach.
+    /// The curves of a problem, ordered by the smallest target that they reach, then by their time for it.
     pub(super) fn ranked<'a>(&self, problem: &'a ProblemRecord) -> Vec<&'a Curve> {
         let key = |curve: &Curve| {
             let targets = self.targets.iter().rev();
@@ -116,7 +116,8 @@ mod tests {
             (Role::BestPeer, "DOP853"),
         ];
         assert_eq!(names(&found), expected);
-        // A faster explicit method takes one role of Verlet, not the other; RK4 is not the best peer, however fast.
+        // A faster explicit method takes only the role of the best explicit method from Verlet; RK4 is never the best
+        // peer.
         for (name, kind) in [("Fast", Kind::Explicit), ("RK4", Kind::Peer)] {
             let mut record = found.methods[0].clone();
             record.name = name.into();

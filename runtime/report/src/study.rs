@@ -1,4 +1,4 @@
-//! Running all methods on all problems.
+//! Studies: all methods on all problems.
 
 use std::time::Duration;
 
@@ -11,14 +11,14 @@ use super::{
 };
 use symplectic::{State, System, Vector};
 
-/// How much is measured.
+/// The extent of the measurements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// The errors for which methods are compared, from coarse to fine.
     pub targets: Vec<f64>,
-    /// No run takes longer: points beyond are skipped, and said to be.
+    /// Time limit of a run; runs that would exceed it are reported as skipped.
     pub budget: Duration,
-    /// How often the time of each point is taken.
+    /// Number of timed repetitions of each run.
     pub repetitions: Repetitions,
 }
 
@@ -32,18 +32,18 @@ impl Default for Settings {
     }
 }
 
-/// How far a study has come.
+/// Progress of a study.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Advance<'a> {
-    /// The problem at work.
+    /// The current problem.
     pub problem: &'a str,
-    /// The method at work; none while times are taken, where methods take turns.
+    /// The current method; `None` during timing, when methods take turns.
     pub method: Option<&'a str>,
-    /// The part of all problems that is done, from 0 to 1, as if all took the same time.
+    /// Fraction of the study that is done, from 0 to 1, with equal weight for all problems.
     pub fraction: f64,
 }
 
-/// Problems with the methods that are run on them.
+/// A collection of problems with their methods.
 ///
 /// See the [module](super) for an example.
 pub struct Study {
@@ -71,19 +71,19 @@ impl Study {
         self
     }
 
-    /// Leaves out the methods of whose names `keep` does not think so.
+    /// Removes the methods for whose names `keep` returns false.
     pub fn retain_methods(&mut self, mut keep: impl FnMut(&str) -> bool) {
         for problem in &mut self.problems {
             problem.retain_methods(&mut keep);
         }
     }
 
-    /// [`run`](Self::run) with the defaults.
+    /// [`run`](Self::run) with the default settings.
     pub fn measure(&self) -> Measurements {
         self.run(&Settings::default(), |_| {})
     }
 
-    /// Runs all methods on all problems, and reports the progress. What fails is part of the result.
+    /// Runs all methods on all problems and reports the progress. Failures are part of the result.
     pub fn run(&self, settings: &Settings, mut progress: impl FnMut(Advance<'_>)) -> Measurements {
         let mut methods: Vec<MethodRecord> = Vec::new();
         let mut problems = Vec::new();
@@ -123,7 +123,7 @@ impl Study {
     }
 }
 
-/// A problem whose types are forgotten.
+/// A problem with its types erased.
 trait Contest {
     fn retain_methods(&mut self, keep: &mut dyn FnMut(&str) -> bool);
     fn records(&self) -> Vec<MethodRecord>;
@@ -145,7 +145,7 @@ where
 
     fn run(&self, settings: &Settings, progress: &mut dyn FnMut(Advance<'_>)) -> ProblemRecord {
         let count = self.contestants.len() as f64;
-        // Times take about as long as all the rest.
+        // Timing takes about as long as everything else.
         let mut explored = Vec::new();
         for (number, contestant) in self.contestants.iter().enumerate() {
             progress(Advance {
@@ -189,16 +189,16 @@ where
     }
 }
 
-/// What is known of the runs of a method before their times are taken.
+/// The runs of a method before timing.
 struct Explored {
     points: Vec<Point>,
-    /// For each point.
+    /// The trace of each point.
     traces: Vec<Option<Trace>>,
-    /// For each measured point, its place among all.
+    /// The index and the samples of each measured point.
     samples: Vec<(usize, Samples)>,
 }
 
-/// A run that is looked at may take so many times the budget: energies and invariants cost time too.
+/// Time limit of an observed run in units of the budget, because energies and invariants also take time.
 const OBSERVED: u32 = 4;
 
 impl<V, S> Problem<V, S>
@@ -206,7 +206,7 @@ where
     V: Vector<Scalar = f64>,
     S: System<V> + Clone + 'static,
 {
-    /// Runs a method down its ladder.
+    /// Runs a method along its ladder.
     fn explore(&self, contestant: &Contestant<V>, settings: &Settings) -> Explored {
         let mut explored = Explored {
             points: Vec::new(),
@@ -220,7 +220,7 @@ where
             .fold(f64::INFINITY, f64::min);
         let mut descent = contestant.ladder.descent(finest);
         let budget = settings.budget.as_secs_f64();
-        // The last run: its parameter and the seconds that it took.
+        // The parameter and the time in seconds of the last run.
         let mut last: Option<(f64, f64)> = None;
         while let Some(parameter) = descent.next() {
             let expected = last.map_or(0.0, |(before, seconds)| {
@@ -268,7 +268,7 @@ where
         explored
     }
 
-    /// A run in which everything is looked at but the time.
+    /// An observed run, without timing.
     fn observe(
         &self,
         contestant: &Contestant<V>,
@@ -330,7 +330,7 @@ where
         (Outcome::Measured(measured), observer.trace(parameter))
     }
 
-    /// Takes the times of all points, the methods in turn, round after round.
+    /// Times all points in rounds in which the methods take turns.
     fn take_times(
         &self,
         explored: &mut [Explored],
@@ -379,17 +379,17 @@ where
     }
 }
 
-/// How many times longer a run takes when its parameter is divided by `factor`.
+/// The ratio of run times if the parameter is divided by `factor`.
 fn longer(parameter: Parameter, factor: f64) -> f64 {
     match parameter {
         Parameter::StepSize => factor,
-        // As if of order 8.
+        // Assumes order 8.
         Parameter::Tolerance => factor.powf(0.125),
     }
 }
 
-/// Gives each curve the trace of one of its points: with the step size nearest to `at`, or with about as many evaluations as
-/// all others.
+/// Selects the trace of a point for each curve: the one whose step size is nearest to `at`, or whose number of
+/// evaluations is nearest to the typical number.
 fn choose_traces(curves: &mut [Curve], traces: Vec<Vec<Option<Trace>>>, at: Option<f64>) {
     let typical = typical_evaluations(curves);
     for (curve, traces) in curves.iter_mut().zip(traces) {
@@ -408,7 +408,7 @@ fn choose_traces(curves: &mut [Curve], traces: Vec<Vec<Option<Trace>>>, at: Opti
     }
 }
 
-/// The median over the curves of the evaluations of the first run with an error below 10⁻⁶, or of the best one.
+/// The median over the curves of the evaluations of the first run with an error of at most 10⁻⁶, or of the best run.
 fn typical_evaluations(curves: &[Curve]) -> f64 {
     let mut evaluations: Vec<u64> = curves
         .iter()

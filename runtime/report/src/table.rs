@@ -1,13 +1,14 @@
-//! The table of a README.
+//! The Markdown table, for example for a README.
 
 use super::text;
 use super::{Cost, Curve, Kind, Measurements, ProblemRecord};
 
 impl Measurements {
-    /// The times for the [targets](Self::targets) as a table in Markdown: for each problem the fastest implicit and explicit
-    /// method, and every peer.
+    /// The times for the [targets](Self::targets) as a Markdown table: for each problem the fastest implicit method,
+    /// the fastest explicit method, and every peer.
     ///
-    /// A time is interpolated between two runs, or that of the first run that is good enough (≤); `–` where no run is.
+    /// A time is interpolated between two runs, or that of the first run if it is already accurate enough (≤); `–` if
+    /// no run is.
     pub fn table(&self) -> String {
         let errors = self.targets.iter().map(|target| error(*target));
         let mut lines = vec![row(["problem".into(), "method".into()]
@@ -28,7 +29,7 @@ impl Measurements {
         lines.join("\n") + "\n"
     }
 
-    /// The rows of a problem: what they are of, and a time for each target.
+    /// The rows of a problem: a label, and a time for each target.
     fn rows(&self, problem: &ProblemRecord) -> Vec<(String, Vec<String>)> {
         let mut rows = Vec::new();
         for (kind, label) in [
@@ -66,7 +67,7 @@ fn row(cells: impl Iterator<Item = String>) -> String {
     format!("| {} |", cells.join(" | "))
 }
 
-/// A target: 10⁻⁶ where it is a power of ten.
+/// A target error, as 10⁻⁶ if it is a power of ten.
 pub(super) fn error(target: f64) -> String {
     let exponent = target.log10().round();
     if (target / 10_f64.powf(exponent) - 1.0).abs() < 1e-9 {
@@ -76,7 +77,7 @@ pub(super) fn error(target: f64) -> String {
     }
 }
 
-/// A time, or why there is none.
+/// A time, or a dash.
 pub(super) fn cost(cost: &Cost) -> String {
     match cost {
         Cost::Between { seconds } => text::seconds(*seconds),

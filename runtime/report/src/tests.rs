@@ -1,4 +1,4 @@
-//! Small measurements to write, and small studies.
+//! Small measurements for the writers, and small studies.
 
 use std::time::Duration;
 use std::vec::Vec;
@@ -13,7 +13,7 @@ symplectic::tableau! {
     Gauss4 { basis: polynomial(4), nodes: gauss(4) }
 }
 
-/// A curve of errors and seconds.
+/// A curve from errors and seconds.
 pub(super) fn curve(method: &str, runs: &[(f64, f64)]) -> Curve {
     let measured = |error, seconds| Measured {
         error,
@@ -41,7 +41,7 @@ pub(super) fn curve(method: &str, runs: &[(f64, f64)]) -> Curve {
     }
 }
 
-/// One problem, three methods, a failure and a skipped run.
+/// A problem with three methods, a failed run and a skipped run.
 pub(super) fn measurements() -> Measurements {
     let method = |name: &str, kind, stages| MethodRecord {
         name: name.into(),
@@ -101,7 +101,7 @@ pub(super) fn measurements() -> Measurements {
     }
 }
 
-/// A table with each kind of verdict, a wrong proof and a method that was not run.
+/// A table with each kind of verdict, one that contradicts the proof, and a method that was not run.
 fn verdicts() -> Verdicts {
     let mut table = Verdicts::new("Stiff & extreme", "Longer steps than anyone would take.");
     table.add_column("Verlet", vec![Fact::new("stable for hω in", "(0, 2)")]);
@@ -141,7 +141,7 @@ fn verdicts() -> Verdicts {
 fn settings() -> Settings {
     Settings {
         targets: vec![1e-3, 1e-6],
-        // What is measured must not depend on the speed of the machine.
+        // The result must not depend on the speed of the machine.
         budget: Duration::from_secs(60),
         repetitions: Repetitions {
             least: 1,
@@ -151,7 +151,7 @@ fn settings() -> Settings {
     }
 }
 
-/// The oscillator from (1, 0) to the time 10.
+/// The oscillator from (1, 0) to time 10.
 fn oscillator() -> Problem<Vector1<f64>, impl System<Vector1<f64>, Class = Separable> + Clone> {
     let system = acceleration::<Vector1<f64>, _>(|_, q, acceleration| *acceleration = -q)
         .with_energy(|_, q, p| (q[0] * q[0] + p[0] * p[0]) / 2.0);
@@ -189,8 +189,8 @@ fn a_study_of_an_oscillator() {
     let [verlet, gauss] = &found.problems[0].curves[..] else {
         panic!("{found:?}");
     };
-    // The frequency of Verlet is 1 + h²/24: with q = cos 10 and p = −sin 10 the error of p, relative, is h²/24·10·cot 10, and
-    // that of q with the tangent.
+    // The frequency of Verlet is 1 + h²/24. With q = cos 10 and p = −sin 10 the relative error of p is h²/24·10·cot 10;
+    // that of q contains the tangent instead.
     let (step_size, run) = verlet.measured().last().expect("Verlet has runs");
     let h = 10.0 / run.steps.expect("they are counted") as f64;
     assert!(h <= step_size * (1.0 + 1e-12));
@@ -253,7 +253,7 @@ fn what_fails_is_kept_with_its_error() {
     assert_eq!(failed(moody, 1), "the state at the end is not finite");
     assert_eq!(moody.measured().count(), 1);
     assert_eq!(moody.parameter, Parameter::Tolerance);
-    // A peer that shows nothing has no energy over time.
+    // A peer without observed states has no energy over time.
     assert!(moody.trace.is_none());
 }
 
@@ -293,7 +293,7 @@ fn json_comes_back_as_it_was() {
         before
     );
     assert!(Measurements::from_json("{}").is_err());
-    // What was written without verdicts and limits is read too.
+    // Files without verdicts and limits can be read.
     let older = json
         .split_once(",\n  \"verdicts\"")
         .map(|(older, _)| format!("{older}}}"))

@@ -1,4 +1,4 @@
-//! Numbers as people read them.
+//! Formatting of numbers.
 
 /// An integer in superscripts: ⁻¹².
 pub(super) fn superscript(exponent: i32) -> String {
@@ -54,7 +54,7 @@ pub(super) fn seconds(seconds: f64) -> String {
     format!("{value:.decimals$} {unit}")
 }
 
-/// Thousands apart: 12 345, with narrow spaces that do not break.
+/// Grouped digits: 12 345, with narrow no-break spaces.
 pub(super) fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();

@@ -1,27 +1,27 @@
-//! CPU times of many runs, taken in turn.
+//! CPU times of many runs, measured in turn.
 
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
 
-/// A run that takes less is made several times between two looks at the clock, which itself takes a microsecond.
+/// Shorter runs are repeated between readings of the clock, which itself takes a microsecond.
 const SHORTEST: f64 = 2e-3;
 
-/// Seconds of CPU time that this thread takes for `work`.
+/// CPU time of `work` on this thread, in seconds.
 pub(super) fn clock(work: impl FnOnce()) -> f64 {
     let start = ThreadTime::now();
     work();
     start.elapsed().as_secs_f64()
 }
 
-/// How often times are taken.
+/// Number of timed repetitions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Repetitions {
-    /// At least so often.
+    /// Smallest number of repetitions.
     pub least: usize,
-    /// At most so often.
+    /// Largest number of repetitions.
     pub most: usize,
-    /// No more once so much time was spent on a point.
+    /// Total time per point after which no further repetition is made.
     pub enough: Duration,
 }
 
@@ -35,16 +35,16 @@ impl Default for Repetitions {
     }
 }
 
-/// The times of the runs of one point.
+/// The times of the runs of a point.
 #[derive(Clone, Debug)]
 pub(super) struct Samples {
-    /// Runs between two looks at the clock.
+    /// Number of runs between readings of the clock.
     batch: u32,
     seconds: Vec<f64>,
 }
 
 impl Samples {
-    /// None yet, of a run that takes about this many seconds.
+    /// An empty sample of a run that takes about `estimate` seconds.
     pub fn new(estimate: f64) -> Self {
         let batch = (SHORTEST / estimate.max(1e-9)).ceil();
         Self {
@@ -57,20 +57,20 @@ impl Samples {
         self.seconds.len()
     }
 
-    /// Whether there are enough of them.
+    /// Whether there are enough samples.
     pub fn suffice(&self, wanted: &Repetitions) -> bool {
         let spent: f64 = self.seconds.iter().sum::<f64>() * f64::from(self.batch);
         self.count() >= wanted.most.max(wanted.least)
             || self.count() >= wanted.least && spent >= wanted.enough.as_secs_f64()
     }
 
-    /// Takes one more.
+    /// Takes another sample.
     pub fn take(&mut self, run: &mut dyn FnMut()) {
         let seconds = clock(|| (0..self.batch).for_each(|_| run()));
         self.seconds.push(seconds / f64::from(self.batch));
     }
 
-    /// The median; of an even number the mean of the two in the middle.
+    /// The median; for an even number of samples the mean of the middle two.
     pub fn median(&self) -> Option<f64> {
         median(&self.seconds)
     }
@@ -88,8 +88,9 @@ fn median(values: &[f64]) -> Option<f64> {
     })
 }
 
-/// The order of one round over the points of several curves, as `(curve, point)`: the first points of all curves, then the
-/// second ones, and so on. Neighbours belong to different methods, so that a machine that becomes slower hits all alike.
+/// The order of one round over the points of several curves, as `(curve, point)`: the first points of all curves, then
+/// the second ones, and so on. Neighbours belong to different methods, so that changes in the speed of the machine
+/// affect all alike.
 pub(super) fn round(lengths: &[usize]) -> Vec<(usize, usize)> {
     let longest = lengths.iter().copied().max().unwrap_or(0);
     let turn = |point| {

@@ -1,4 +1,4 @@
-//! What becomes of a method on a problem: one of a few kinds, each a finite answer.
+//! Classification of runs: accurate, bounded, unstable or stopped.
 
 use core::fmt;
 
@@ -10,7 +10,7 @@ use super::{Fact, Measured};
 use symplectic::solver::Solver;
 use symplectic::{Error, Integrator, Method, State, Summation, System, Vector};
 
-/// What became of a run of equal steps.
+/// The verdict on a run with a constant step size.
 ///
 /// ```
 /// use symplectic::nalgebra::Vector1;
@@ -32,37 +32,37 @@ use symplectic::{Error, Integrator, Method, State, Summation, System, Vector};
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Verdict {
-    /// All steps were taken and the error is at most [`ACCURATE`](Self::ACCURATE): that of the state at the end where a
-    /// reference is known, that of the energy elsewhere.
+    /// All steps were taken and the error is at most [`ACCURATE`](Self::ACCURATE). It is the error of the state at the
+    /// end if there is a reference, otherwise the error of the energy.
     Accurate {
-        /// That error, relative.
+        /// The relative error.
         error: f64,
     },
     /// All steps were taken and the error of the energy stays within [`GROWTH`](Self::GROWTH), but the error is larger.
     Bounded {
         /// The largest relative error of the energy.
         energy: f64,
-        /// The relative error of the state at the end, or that of the energy.
+        /// The relative error of the state at the end, or of the energy.
         error: f64,
     },
-    /// The energy left these bounds.
+    /// The error of the energy exceeded [`GROWTH`](Self::GROWTH) or became NaN.
     Unstable {
-        /// The steps until then.
+        /// Number of steps until then.
         steps: u64,
     },
-    /// A step was refused, and the state left as it was.
+    /// A step failed; the state is untouched.
     Stopped {
-        /// What kind of error it is.
+        /// The kind of error.
         cause: Cause,
-        /// The error in words.
+        /// The error message.
         error: String,
     },
 }
 
-/// Why a step was refused.
+/// Why a step failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Cause {
-    /// [`Error::NoConvergence`].
+    /// [`Error::NoConvergence`] or [`Error::Stagnation`].
     NoConvergence,
     /// [`Error::NonFinite`].
     NonFinite,
@@ -73,16 +73,17 @@ pub enum Cause {
 }
 
 impl Verdict {
-    /// The largest error that is accurate.
+    /// Largest relative error that counts as accurate.
     pub const ACCURATE: f64 = 1e-3;
 
-    /// The relative error of the energy that is out of bounds. Inside of a stability interval the energy of the oscillator
-    /// oscillates by a factor, which is large near the end.
+    /// Largest relative error of the energy that counts as bounded. Inside a stability interval the energy of the
+    /// oscillator oscillates by a factor, which is large near the end of the interval.
     pub const GROWTH: f64 = 1e4;
 
-    /// Takes so many steps, or as many as go well, and says what became of it. The system has to give its energy.
+    /// Takes `steps` steps, or fewer if a step fails or the energy grows, and returns the verdict. The system must have
+    /// an energy.
     ///
-    /// The integrator is taken as it was made, and an error of making it is a verdict too.
+    /// An error from the construction of the integrator also gives a verdict.
     pub fn of<M, S, V, R, N>(
         integrator: Result<Integrator<M, S, V, R, N>, Error>,
         steps: u64,
@@ -108,7 +109,7 @@ impl Verdict {
                 return Self::stopped(&error);
             }
             energy.observe(integrator.energy().unwrap_or(f64::NAN));
-            // Not a number is out of bounds too.
+            // NaN is out of bounds, too.
             if energy.largest().is_nan() || energy.largest() > Self::GROWTH {
                 return Self::Unstable { steps: count };
             }
@@ -137,8 +138,8 @@ impl Verdict {
         }
     }
 
-    /// The kind of verdict in one letter, as tables of expectations have it: a, b, u; n for an iteration that does not
-    /// converge, f for a number that is not finite, s for a singular matrix, x for another error.
+    /// The kind of verdict as a letter, for tables of expectations: a, b, u; n for no convergence, f for a number that
+    /// is not finite, s for a singular matrix, x for another error.
     pub const fn letter(&self) -> char {
         match self {
             Self::Accurate { .. } => 'a',
@@ -184,9 +185,9 @@ impl fmt::Display for Verdict {
 /// Verdicts as a table: its rows are problems and its columns methods.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Verdicts {
-    /// What the table is called.
+    /// Title of the table.
     pub title: String,
-    /// What there is to say about it.
+    /// Description of the table.
     pub description: String,
     /// The methods, in the order in which they first appear.
     pub columns: Vec<Column>,
@@ -197,27 +198,27 @@ pub struct Verdicts {
 /// A method in a table of verdicts.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Column {
-    /// What it is called.
+    /// Name of the method.
     pub method: String,
-    /// What is proved of it.
+    /// Proved facts.
     pub facts: Vec<Fact>,
 }
 
 /// A problem in a table of verdicts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// What it is called.
+    /// Name of the problem.
     pub problem: String,
-    /// In the order of the [columns](Verdicts::columns); shorter, or with `None`, where a method was not run.
+    /// Cells in the order of the [columns](Verdicts::columns); missing or `None` if a method was not run.
     pub cells: Vec<Option<Cell>>,
 }
 
-/// A verdict, and what is proved beforehand.
+/// A verdict, and the proved stability.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cell {
-    /// What became of the run.
+    /// The verdict on the run.
     pub verdict: Verdict,
-    /// Whether the step is in the proved stability set of the method; `None` where the problem is not the oscillator.
+    /// Whether the step is in the proved stability set of the method; `None` if the problem is not the oscillator.
     pub proved_stable: Option<bool>,
 }
 
@@ -231,8 +232,7 @@ impl From<Verdict> for Cell {
 }
 
 impl Cell {
-    /// Whether what is proved and what was found are the same; `None` where nothing is proved, or the run was stopped before
-    /// it could show.
+    /// Whether the verdict agrees with the proof; `None` if nothing is proved or the run stopped.
     pub const fn is_as_proved(&self) -> Option<bool> {
         match (&self.verdict, self.proved_stable) {
             (_, None) | (Verdict::Stopped { .. }, _) => None,
@@ -243,7 +243,7 @@ impl Cell {
 }
 
 impl Verdicts {
-    /// A table without rows and columns.
+    /// An empty table.
     pub fn new(title: impl Into<String>, description: impl Into<String>) -> Self {
         Self {
             title: title.into(),
@@ -252,7 +252,7 @@ impl Verdicts {
         }
     }
 
-    /// Adds a method with what is proved of it, behind the others.
+    /// Appends a method with its proved facts.
     pub fn add_column(&mut self, method: impl Into<String>, facts: Vec<Fact>) {
         self.columns.push(Column {
             method: method.into(),
@@ -260,7 +260,7 @@ impl Verdicts {
         });
     }
 
-    /// Writes a cell, in a new row or a new column where there is none of that name.
+    /// Sets a cell; adds a row or a column if the name is new.
     pub fn set(&mut self, problem: &str, method: &str, cell: impl Into<Cell>) {
         let column = self.columns.iter().position(|c| c.method == method);
         let column = column.unwrap_or_else(|| {
@@ -293,16 +293,16 @@ impl Verdicts {
 /// The end of the first stability interval of a method on the oscillator, proved and measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StabilityLimit {
-    /// The method.
+    /// Name of the method.
     pub method: String,
-    /// The largest `hω`, as it is proved.
+    /// The proved limit of `hω`.
     pub proved: f64,
-    /// The smallest `hω` at which growth was seen.
+    /// The smallest `hω` with observed growth.
     pub measured: f64,
 }
 
 impl StabilityLimit {
-    /// How far the measured one is from the proved one, relative to that.
+    /// The relative deviation of the measured limit from the proved limit.
     pub const fn deviation(&self) -> f64 {
         (self.measured / self.proved - 1.0).abs()
     }
@@ -332,7 +332,8 @@ mod tests {
 
     #[test]
     fn each_kind_is_told_from_the_others() {
-        // Störmer–Verlet is off by ν²/8 and a phase of ν³/24 a step, unstable from ν = 2 on.
+        // Störmer–Verlet has an amplitude error of ν²/8 and a phase error of ν³/24 per step; it is unstable from ν = 2
+        // on.
         let found = [0.01, 1.0, 2.5].map(|nu| oscillator(Verlet, nu));
         assert!(matches!(found[0], Verdict::Accurate { error } if error > 1e-6));
         assert!(

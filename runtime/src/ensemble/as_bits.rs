@@ -1,4 +1,5 @@
-//! Doubles in files, as their bits in sixteen hexadecimal digits: formats of text may round, and some have no whole numbers of 64 bits.
+//! Serializes `f64` as its bits in sixteen hexadecimal digits: text formats may round decimals, and some have no 64-bit
+//! integers.
 
 use alloc::format;
 use alloc::string::String;

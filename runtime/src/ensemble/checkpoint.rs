@@ -1,4 +1,4 @@
-//! Ensembles that are interrupted and go on with the same rows.
+//! Checkpoints of ensembles: an interrupted run resumes with the same rows.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -10,23 +10,25 @@ use crate::number::{Lanes, Scalar, Summation, Vector, scalar_words};
 use crate::state::State;
 use crate::system::System;
 
-/// How far the rows of an ensemble have come.
+/// Progress of an ensemble: which rows are complete.
 ///
-/// It holds no trajectory: those without a row are run again from their starts, and give the same bits. What was made of the rows
-/// before is kept beside it, [`Moments`](super::Moments) say. With the feature `serde` it can be written in any format.
+/// It contains no trajectories. Those without a row run again from their starts, with the same bits. Store what was
+/// computed from the earlier rows next to it, for example [`Moments`](super::Moments). With the feature `serde` it can
+/// be written in any format.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct EnsembleCheckpoint {
-    /// Of the first trajectory at its start, if there is one: method, sums, solver, step size and tolerance.
+    /// Checkpoint of the first trajectory at its start, if there is one: method, summation, solver, step size and
+    /// tolerance.
     run: Option<Checkpoint>,
-    /// Starts, velocities and forces in brief.
+    /// Hash of starts, velocities and forces.
     starts: String,
-    /// The first trajectory, and the one after the last.
+    /// The first trajectory, and one past the last.
     range: [usize; 2],
     /// The first trajectory without a row.
     next: usize,
-    /// Of all that is before it, except the run.
+    /// Checksum of the fields above except `run`.
     checksum: String,
 }
 
@@ -38,7 +40,8 @@ impl EnsembleCheckpoint {
     }
 }
 
-/// FNV-1a by words, with the upper half of each product folded onto the lower one: else the signs of two numbers could change unseen.
+/// FNV-1a on words. The upper half of each product is folded onto the lower half; otherwise two simultaneous changes of
+/// sign could cancel.
 fn brief(words: impl Iterator<Item = u64>) -> u64 {
     words.fold(0xcbf2_9ce4_8422_2325, |hash, word| {
         let product = (hash ^ word).wrapping_mul(0x0100_0000_01b3);
@@ -55,13 +58,15 @@ where
     N: Solver<V, S>,
     L: Lanes,
 {
-    /// What a run needs to [go on](Self::restore) at the trajectory `next`: the number after that of the last row that was shown.
+    /// Checkpoint from which a run can [resume](Self::restore) at the trajectory `next`, the number after that of the
+    /// last row passed to `show`.
     ///
-    /// It evaluates the system at every start, to know it again; make one now and then, not after every row.
+    /// It evaluates the system at every start, to identify it later. Take a checkpoint now and then, not after every
+    /// row.
     ///
     /// # Errors
     ///
-    /// [`CheckpointError::Scalar`]
+    /// [`CheckpointError::Scalar`] for a number type that checkpoints do not support.
     ///
     /// ```
     /// use core::ops::ControlFlow;
@@ -111,11 +116,11 @@ where
         Ok(checkpoint)
     }
 
-    /// Goes on from a checkpoint of an ensemble that was made in the same way: runs then begin at the first trajectory without a row.
+    /// Resumes from a checkpoint of an identical ensemble: runs begin at the first trajectory without a row.
     ///
     /// # Errors
     ///
-    /// [`CheckpointError`]; the ensemble is then as it was.
+    /// [`CheckpointError`] as for [`check`](Self::check); the ensemble is then unchanged.
     pub fn restore(&mut self, checkpoint: &EnsembleCheckpoint) -> Result<(), CheckpointError> {
         self.check(checkpoint)?;
         let end = self.starts.len();
@@ -123,9 +128,9 @@ where
         Ok(())
     }
 
-    /// Whether a checkpoint is of an ensemble that was made in the same way; if not, the error says what differs.
+    /// Checks that a checkpoint belongs to an identical ensemble; the error states the difference.
     ///
-    /// It evaluates the system at every start.
+    /// The system is evaluated at every start.
     ///
     /// # Errors
     ///
@@ -164,7 +169,7 @@ where
         Ok(())
     }
 
-    /// All starts, and velocity and force at each.
+    /// Hash of all starts and of the velocity and the force at each.
     fn starts_in_brief(&self) -> String {
         let mut hash = 0;
         let mut place = 0;

@@ -1,8 +1,8 @@
-//! What can be wrong with an ensemble.
+//! Errors of ensembles.
 
 use crate::error::Error;
 
-/// Why an ensemble was not made.
+/// The error type of ensembles and their statistics.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EnsembleError {
@@ -15,7 +15,7 @@ pub enum EnsembleError {
         "trajectory {trajectory} starts with {found} components, and trajectory 0 with {expected}: all must have the same number"
     )]
     Dimension {
-        /// The number of the trajectory, from 0.
+        /// Number of the trajectory, from 0.
         trajectory: usize,
         /// Its dimension.
         found: usize,
@@ -26,7 +26,7 @@ pub enum EnsembleError {
     /// A trajectory cannot start.
     #[error("trajectory {trajectory}: {error}")]
     Start {
-        /// The number of the trajectory, from 0.
+        /// Number of the trajectory, from 0.
         trajectory: usize,
         /// Why.
         error: Error,

@@ -1,4 +1,4 @@
-//! Trajectories that are run by one thread, side by side where that can be.
+//! Trajectories run by one thread, in lanes where possible.
 
 use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
@@ -14,13 +14,13 @@ use crate::output::steps::is_after;
 use crate::state::State;
 use crate::system::{LaneWork, System};
 
-/// What every trajectory does.
+/// What every trajectory computes.
 pub(super) enum Task<'a> {
-    /// It goes to a time.
+    /// Integrate to a time.
     To(f64),
-    /// It takes steps.
+    /// Take a number of steps.
     Steps(u64),
-    /// It is seen at times.
+    /// Observe at given times.
     At(&'a [f64]),
 }
 
@@ -38,13 +38,13 @@ struct Member<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>,
     outcome: Result<(), Error>,
 }
 
-/// What came of an attempt to go side by side.
+/// Outcome of an attempt to run in lanes.
 enum Attempt {
     /// All trajectories have ended.
     Ended,
     /// The ensemble was stopped.
     Stopped,
-    /// Nothing has been done.
+    /// Lanes are not possible; nothing was computed.
     Refused,
 }
 
@@ -58,7 +58,7 @@ where
     L: Lanes,
     A: Send,
 {
-    /// The trajectories from the starts in these places.
+    /// The trajectories whose starts have the indices `places`.
     pub(super) fn new(
         ensemble: &'a Ensemble<M, S, V, R, N, L>,
         places: Range<usize>,
@@ -79,7 +79,7 @@ where
         }
     }
 
-    /// Lets `work` have every integrator.
+    /// Calls `work` with every integrator.
     pub(super) fn each(
         &mut self,
         work: &impl Fn(&mut A, &mut Integrator<M, S, V, R, N>) -> Result<(), Error>,
@@ -89,7 +89,7 @@ where
         }
     }
 
-    /// Runs all trajectories; breaks if the ensemble was stopped.
+    /// Runs all trajectories; returns `Break` if the ensemble was stopped.
     pub(super) fn run(
         &mut self,
         task: &Task<'_>,
@@ -118,7 +118,7 @@ where
         }
     }
 
-    /// What came of all trajectories.
+    /// The rows of all trajectories.
     pub(super) fn rows(self) -> Vec<Row<V, A>> {
         let row = |member: Member<M, S, V, R, N, A>| Row {
             trajectory: member.trajectory,
@@ -145,7 +145,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, A>
     }
 }
 
-/// The trajectories of a group, side by side in lanes.
+/// The trajectories of a group, in lanes.
 struct SideBySide<
     'g,
     'a,
@@ -164,7 +164,7 @@ struct SideBySide<
     see: &'g F,
 }
 
-/// The integrator in whose lanes trajectories are.
+/// The integrator whose lanes hold the trajectories.
 type InLanes<M, S, W, R> = Integrator<M, S, W, R, <S as System<W>>::Solver>;
 
 impl<M, S, V, R, N, L, A, F> LaneWork<V, S, L> for SideBySide<'_, '_, '_, M, S, V, R, N, L, A, F>
@@ -213,7 +213,7 @@ where
     L: Lanes,
     F: Fn(&mut A, &State<V>),
 {
-    /// Puts the living trajectories into the lanes in turn: no lane is empty.
+    /// Copies the live trajectories into the lanes, cyclically, so that no lane is empty.
     fn put_in_lanes<W>(&self, lanes: &mut InLanes<M, S, W, R>, live: &[usize])
     where
         W: Vector<Scalar = L>,
@@ -224,7 +224,7 @@ where
         }
     }
 
-    /// Gives the living trajectories what is in their lanes.
+    /// Copies the lanes back to the live trajectories.
     fn take_from_lanes<W>(&mut self, lanes: &InLanes<M, S, W, R>, live: &[usize])
     where
         W: Vector<Scalar = L>,
@@ -235,8 +235,8 @@ where
         }
     }
 
-    /// Takes the steps of a leg. Where one fails in a lane, the block of steps in which it is is taken once more by the trajectories one
-    /// by one, and those that came through go on side by side.
+    /// Takes the steps of a leg. If a step fails in a lane, every trajectory repeats the current block of steps alone;
+    /// those that succeed continue in lanes.
     fn take_leg<W>(&mut self, lanes: &mut InLanes<M, S, W, R>, live: &mut Vec<usize>) -> Attempt
     where
         W: Vector<Scalar = L>,
@@ -268,7 +268,7 @@ where
                 member.outcome = member.run.take_block(block, &mut own);
                 let statistics = *member.run.statistics();
                 if member.outcome.is_ok() && *first.get_or_insert(statistics) != statistics {
-                    // Its steps are no longer those of the others: some were taken again.
+                    // A retry changed its steps, so that it no longer runs in lockstep with the others.
                     member.outcome = member.run.take_leg(&mut own);
                     return false;
                 }
@@ -286,7 +286,8 @@ where
         Attempt::Ended
     }
 
-    /// Shows the trajectories at times. Where something fails in a lane, all go on one by one from the last time that was seen.
+    /// Observes the trajectories at given times. If anything fails in a lane, all trajectories continue alone from the
+    /// last observed time.
     fn see_at<W>(
         &mut self,
         times: &[f64],
@@ -331,7 +332,7 @@ where
         Attempt::Ended
     }
 
-    /// Takes steps until the first of the times is behind, shows the states at all times in the last step, and returns their number.
+    /// Steps past the first of the times, observes the states at all times in the last step, and returns their number.
     fn see_next<W>(
         &mut self,
         times: &[f64],
@@ -365,7 +366,7 @@ where
                 }
                 _ => present,
             };
-            // A zero of the sign that a run alone shows.
+            // A time 0 has the same sign as in a run of one trajectory.
             shown.time = if time == present.time {
                 present.time
             } else {
@@ -382,7 +383,7 @@ where
     }
 }
 
-/// The vector in a lane.
+/// Copies the vector of a lane.
 fn copy_lane<V: Vector, W: Vector<Scalar: Lanes>>(lane: usize, from: &W, to: &mut V) {
     for (to, from) in to.as_mut_slice().iter_mut().zip(from.as_slice()) {
         *to = V::Scalar::from_f64(from.to_array().as_ref()[lane]);

@@ -1,11 +1,11 @@
-//! Numbers of trajectories in bins.
+//! Histograms.
 
 use alloc::vec;
 use alloc::vec::Vec;
 
 use super::EnsembleError;
 
-/// How many numbers are in each of a few bins of one width.
+/// A histogram with bins of equal width.
 ///
 /// Bin `k` holds `low + k w ≤ x < low + (k + 1) w` with `w = (high − low)/bins`, up to rounding at its ends.
 ///
@@ -27,18 +27,18 @@ use super::EnsembleError;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "Written"))]
 pub struct Histogram {
-    /// Low and high.
+    /// `low` and `high`.
     #[cfg_attr(feature = "serde", serde(with = "super::as_bits"))]
     range: Vec<f64>,
     counts: Vec<u64>,
-    /// Below, above, not a number.
+    /// Counts below, above and NaN.
     outside: [u64; 3],
 }
 
-/// The most bins.
+/// Largest number of bins.
 const MOST_BINS: usize = 1 << 24;
 
-/// A histogram as it is read, before it is looked at.
+/// A histogram as deserialized, before it is checked.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -83,7 +83,7 @@ impl Histogram {
     ///
     /// # Errors
     ///
-    /// [`EnsembleError::Histogram`] if there is no bin or more than 2²⁴, or if `low` is not below `high` or one of them not finite.
+    /// [`EnsembleError::Histogram`] for no bins or more than 2²⁴ bins, or if not `low < high` with a finite difference.
     pub fn new(low: f64, high: f64, bins: usize) -> Result<Self, EnsembleError> {
         check(low, high, bins)?;
         Ok(Self {
@@ -106,16 +106,16 @@ impl Histogram {
         } else {
             let last = self.counts.len() - 1;
             let bin = (x - low) / (high - low) * self.counts.len() as f64;
-            // Rounding may lift the largest numbers to the edge.
+            // Rounding may lift the largest numbers to the upper edge.
             &mut self.counts[(bin as usize).min(last)]
         } += 1;
     }
 
-    /// Counts what another one has counted: that of another part of an ensemble.
+    /// Adds the counts of another histogram, for example of another shard of an ensemble.
     ///
     /// # Errors
     ///
-    /// [`EnsembleError::OtherBins`] if its bins are others.
+    /// [`EnsembleError::OtherBins`] if its bins differ.
     pub fn merge(&mut self, other: &Self) -> Result<(), EnsembleError> {
         if (&self.range, self.counts.len()) != (&other.range, other.counts.len()) {
             return Err(EnsembleError::OtherBins);
@@ -131,23 +131,23 @@ impl Histogram {
         &self.counts
     }
 
-    /// The lower edge of a bin, from 0; with the number of bins the upper edge of the last one.
+    /// The lower edge of a bin, from 0; for `bin` equal to the number of bins, the upper edge of the last bin.
     pub fn edge(&self, bin: usize) -> f64 {
         let part = bin as f64 / self.counts.len() as f64;
         self.range[0] + part * (self.range[1] - self.range[0])
     }
 
-    /// How many numbers were below the first bin.
+    /// Number of values below the first bin.
     pub const fn below(&self) -> u64 {
         self.outside[0]
     }
 
-    /// How many numbers were above the last bin, or at its upper edge.
+    /// Number of values above the last bin or at its upper edge.
     pub const fn above(&self) -> u64 {
         self.outside[1]
     }
 
-    /// How many were NaN.
+    /// Number of NaNs.
     pub const fn nan(&self) -> u64 {
         self.outside[2]
     }

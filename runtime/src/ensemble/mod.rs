@@ -1,31 +1,35 @@
-//! Many trajectories at once: side by side in lanes, and on all cores.
+//! Ensembles: many trajectories at once, in SIMD lanes and on all cores.
 //!
-//! An [`Ensemble`] takes a method, a system and many starts. Every trajectory has the bits that it has alone in an
-//! [`Integrator`] with the same call, whatever the number of lanes and threads, and wherever the ensemble is split or resumed.
+//! An [`Ensemble`] consists of a method, a system and many starts. Every trajectory has the same bits as alone in an
+//! [`Integrator`], whatever the number of lanes and threads, and however the ensemble is split or resumed.
 //!
 //! | What | Where |
 //! |---|---|
 //! | Final states, states at given times | [`Ensemble::integrate_to`], [`Ensemble::take_steps`], [`Ensemble::integrate_at`] |
-//! | Events, and everything else that an integrator can do | [`Ensemble::each`] |
-//! | What comes of a trajectory, with its error if it failed | [`Row`] |
+//! | Events, and everything else that an integrator offers | [`Ensemble::each`] |
+//! | Result of a trajectory, or its error | [`Row`] |
 //! | Mean, variance, histogram over the trajectories | [`Moments`], [`Histogram`] |
-//! | Several machines, and runs that are interrupted | [`Ensemble::shard`], [`Ensemble::checkpoint`]; with MPI the package `symplectic-mpi` |
+//! | Several machines, and interrupted runs | [`Ensemble::shard`], [`Ensemble::checkpoint`]; with MPI the package
+//! `symplectic-mpi` |
 //!
 //! # Lanes
 //!
-//! Explicit methods take as many trajectories at once as there are [lanes](Ensemble::in_lanes), if the system is written for every
-//! [`Scalar`](crate::Scalar). Trajectories side by side have one system and one time at the start, and follow one another.
+//! Explicit methods advance as many trajectories at once as there are [lanes](Ensemble::in_lanes), if the system is
+//! written for every [`Scalar`](crate::Scalar). The trajectories in the lanes have the same system, the same start time
+//! and consecutive numbers.
 //!
-//! All others are taken one by one: those of implicit methods, the stages of which are in lanes already; of closures; and each that
-//! has a [system](Ensemble::of_families) of its own. A system has other bits in lanes where it asks for the type of its numbers, as
-//! products of large matrices in nalgebra do: velocity and force are compared at every start, and where they differ the trajectories are
-//! taken one by one. What is written for every scalar must not [decide by a value](crate::Scalar), by a magnitude say: in lanes it would
-//! decide for all of them at once, and only the starts are looked at.
+//! All other trajectories run one by one: those of implicit methods, whose stages already use the lanes; those of
+//! closures; and those with a [system](Ensemble::of_families) of their own.
+//!
+//! A system rounds differently in lanes if it depends on the number type, as products of large matrices in nalgebra do.
+//! So velocity and force are compared at every start, and trajectories run one by one where they differ. A system for
+//! every scalar must not [branch on a value](crate::Scalar), such as a magnitude: in lanes the branch would apply to
+//! all trajectories, and only the starts are compared.
 //!
 //! # Threads
 //!
-//! With the feature `parallel` the trajectories are shared among the threads of `rayon`. Without it there is one thread, and the same
-//! bits.
+//! With the feature `parallel` the threads of `rayon` share the trajectories. Without it there is one thread; the bits
+//! are the same.
 
 #[cfg(feature = "serde")]
 mod as_bits;
@@ -69,13 +73,13 @@ use crate::number::{Compensated, F64x8, Lanes, Plain, Summation, Vector};
 use crate::state::State;
 use crate::system::System;
 
-/// Type parameters of which an ensemble stores nothing: threads may share it.
+/// Type parameters without stored values; `fn()` keeps the ensemble `Send` and `Sync`.
 type Kind<M, R, N, L> = fn() -> (M, R, N, L);
 
-/// Many trajectories of one method and one step size.
+/// Many trajectories with the same method and the same step size.
 ///
-/// The starts are kept, and the trajectories are made from them when they are asked for, a few at a time: an ensemble takes the memory of
-/// its starts, whatever the number of steps.
+/// Trajectories are created from the stored starts a few at a time: an ensemble needs the memory of its starts,
+/// whatever the number of steps.
 ///
 /// ```
 /// use core::ops::ControlFlow;
@@ -104,31 +108,32 @@ where
     V: Vector,
     S: System<V>,
 {
-    /// Each with the place of the first start that is no longer its.
+    /// Each system with the end of its range of starts.
     systems: Vec<(S, usize)>,
     starts: Vec<State<V>>,
     step_size: f64,
-    /// The number of the first start.
+    /// Trajectory number of the first start.
     offset: usize,
-    /// The place of the first start that is run.
+    /// Index of the first start to run.
     first: usize,
     stopping: Stopping,
     retry: Retry,
     in_lanes: bool,
     stop: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
-    /// The method, if it is known only when the program runs.
+    /// The method, if its tableau is given at run time.
     tableau: Option<RunTimeTableau>,
     kind: PhantomData<Kind<M, R, N, L>>,
 }
 
 impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V> {
-    /// The trajectories of a system from these starts, with steps of size `step_size`, negative to go backward, and with [`Compensated`] sums.
-    /// The trajectories are numbered as the starts are, from 0.
+    /// The trajectories of a system from `starts`, with [`Compensated`] sums; a negative `step_size` goes backward.
+    /// Trajectories have the numbers of their starts, from 0.
     ///
     /// # Errors
     ///
-    /// [`EnsembleError::Empty`], [`EnsembleError::All`] for a step size that is zero or not finite, [`EnsembleError::Dimension`] for a start
-    /// of another dimension than the first, [`EnsembleError::Start`] for one that [`Integrator::new`] refuses.
+    /// [`EnsembleError::Empty`] without starts, [`EnsembleError::All`] for a step size that is zero or not finite,
+    /// [`EnsembleError::Dimension`] for a start with another dimension than the first, [`EnsembleError::Start`] for a
+    /// start that [`Integrator::new`] rejects.
     ///
     /// ```
     /// use symplectic::ensemble::{Ensemble, EnsembleError};
@@ -153,11 +158,12 @@ impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V> {
         Self::of_families(method, [(system, starts)], step_size)
     }
 
-    /// [`new`](Self::new) for several systems, one with other parameters say, each with its starts. The trajectories are numbered through.
+    /// [`new`](Self::new) for several systems, for example with different parameters, each with its starts. The
+    /// trajectories are numbered consecutively.
     ///
     /// # Errors
     ///
-    /// As for [`new`](Self::new).
+    /// Those of [`new`](Self::new).
     ///
     /// ```
     /// use core::ops::ControlFlow;
@@ -209,7 +215,7 @@ impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V, Plain> {
 }
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation> Ensemble<M, S, V, R> {
-    /// [`of_families`](Ensemble::of_families) with the sums that the type says.
+    /// [`of_families`](Ensemble::of_families) with the [`Summation`] of the type.
     ///
     /// # Errors
     ///
@@ -225,7 +231,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation> Ensemble<M, S, V, R> {
         Self::of(families, step_size, None)
     }
 
-    /// An ensemble of the method of the type, or of a tableau.
+    /// An ensemble with the method `M`, or with a tableau at run time.
     fn of(
         families: impl IntoIterator<Item = (S, Vec<State<V>>)>,
         step_size: f64,
@@ -259,7 +265,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation> Ensemble<M, S, V, R> {
     }
 }
 
-/// Checks the starts from `first` on, all of one system.
+/// Checks the starts from index `first`, which all belong to `system`.
 fn check_starts<M: Method, S: System<V>, V: Vector, R: Summation>(
     system: &S,
     starts: &[State<V>],
@@ -288,11 +294,11 @@ fn check_starts<M: Method, S: System<V>, V: Vector, R: Summation>(
 }
 
 impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>, L: Lanes> Ensemble<M, S, V, Plain, N, L> {
-    /// The tolerance of every trajectory: see [`Integrator::set_tolerance`].
+    /// Sets the tolerance of every trajectory: see [`Integrator::set_tolerance`].
     ///
     /// # Errors
     ///
-    /// [`Error::Tolerance`]
+    /// [`Error::Tolerance`] for a tolerance that is negative or not finite.
     pub const fn set_tolerance(&mut self, tolerance: f64) -> Result<(), Error> {
         if !(tolerance >= 0.0 && tolerance.is_finite()) {
             return Err(Error::Tolerance { value: tolerance });
@@ -315,9 +321,10 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         self.of_kind()
     }
 
-    /// The same ensemble with lanes of another width than [`F64x8`], for example [`F64x4`](crate::simd::F64x4). No bit depends on it.
+    /// The same ensemble with another lane width than [`F64x8`], for example [`F64x4`](crate::simd::F64x4). The results
+    /// do not depend on it.
     ///
-    /// Eight lanes are the fastest also where registers are narrower: the steps of several registers do not wait for one another.
+    /// Eight lanes are fastest even on narrower registers, because the dependency chains of several registers overlap.
     ///
     /// ```
     /// # use symplectic::State;
@@ -337,7 +344,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         }
     }
 
-    /// The same ensemble with its trajectories one by one. No bit depends on it.
+    /// The same ensemble without lanes, one trajectory after another. The results do not depend on it.
     #[must_use]
     pub fn one_by_one(self) -> Self {
         Self {
@@ -362,14 +369,14 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         }
     }
 
-    /// Part `part`, from 0, of `count` parts of about the same number of trajectories, which keep their numbers.
+    /// Part `part`, from 0, of `count` parts of almost equal size. The trajectories keep their numbers.
     ///
-    /// The parts are consecutive: on several machines, `--array` of Slurm say, each runs one of them, and the rows of all parts one after
-    /// another are those of the whole ensemble.
+    /// The parts are consecutive. On several machines, for example with `--array` of Slurm, each machine runs one part;
+    /// the rows of all parts in order are those of the whole ensemble.
     ///
     /// # Errors
     ///
-    /// [`EnsembleError::Shard`] if there is no such part.
+    /// [`EnsembleError::Shard`] unless `part < count`.
     ///
     /// ```
     /// use core::ops::ControlFlow;
@@ -406,11 +413,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         Ok(self)
     }
 
-    /// A copy of the part that [`shard`](Self::shard) gives: the ensemble stays, and only the starts of the part are copied.
+    /// A copy of the part that [`shard`](Self::shard) returns; only the starts of the part are copied.
     ///
     /// # Errors
     ///
-    /// As for [`shard`](Self::shard).
+    /// Those of [`shard`](Self::shard).
     ///
     /// ```
     /// # use symplectic::State;
@@ -428,7 +435,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         S: Clone,
     {
         let Range { start, end } = self.places_of(part, count)?;
-        // Only the systems of these starts: there may be one for each.
+        // Copy only the systems of these starts; every start may have its own system.
         let first = self.systems.partition_point(|(_, last)| *last <= start);
         let after = &self.systems[first..];
         let count = after.partition_point(|(_, last)| *last < end) + 1;
@@ -451,23 +458,23 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         })
     }
 
-    /// The places of the starts of a part.
+    /// The range of starts of a part.
     fn places_of(&self, part: usize, count: usize) -> Result<Range<usize>, EnsembleError> {
         if part >= count {
             return Err(EnsembleError::Shard { part, count });
         }
         let total = self.starts.len();
-        // The product may be larger than a word.
+        // The product may overflow `usize`.
         let bound = |part: usize| (part as u128 * total as u128 / count as u128) as usize;
         Ok(bound(part)..bound(part + 1))
     }
 
-    /// What is done about a step that fails: see [`Integrator::set_retry`].
+    /// Sets the retry policy for failed steps: see [`Integrator::set_retry`].
     pub const fn set_retry(&mut self, retry: Retry) {
         self.retry = retry;
     }
 
-    /// The bound on the sweeps of one step: see [`Integrator::set_max_iterations`].
+    /// Sets the maximum number of sweeps per step: see [`Integrator::set_max_iterations`].
     pub const fn set_max_iterations(&mut self, max_iterations: u32) {
         self.stopping.max_iterations = if max_iterations == 0 {
             1
@@ -476,10 +483,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         };
     }
 
-    /// Stops a run where `stop` says so: let it read a flag. Every thread asks it before each trajectory, and for trajectories side by side
-    /// before each block of 65 536 steps or fewer; a step of an implicit method asks nothing.
+    /// Stops a run as soon as `stop` returns true; typically it reads a flag. Every thread calls it before each
+    /// trajectory, and for trajectories in lanes before each block of at most 65 536 steps. The steps of an implicit
+    /// method do not call it.
     ///
-    /// Trajectories that are not finished then have no row.
+    /// Unfinished trajectories have no row.
     ///
     /// ```
     /// use std::sync::Arc;
@@ -505,12 +513,13 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         self.stop = Some(Arc::new(stop));
     }
 
-    /// The starts, of this part if it is a [shard](Self::shard).
+    /// The starts; of a [shard](Self::shard), those of its part.
     pub fn starts(&self) -> &[State<V>] {
         &self.starts
     }
 
-    /// The numbers of the trajectories: of this part if it is a [shard](Self::shard), and from where it was interrupted if it was.
+    /// The numbers of the trajectories that a run computes: those of a [shard](Self::shard) only, and after
+    /// [`restore`](Self::restore) those without a row.
     pub const fn trajectories(&self) -> Range<usize> {
         self.offset + self.first..self.offset + self.starts.len()
     }

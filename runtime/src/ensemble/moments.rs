@@ -5,15 +5,14 @@ use alloc::vec::Vec;
 
 use crate::error::Error;
 
-/// Mean and variance of the components of vectors, one vector after another, by the recurrence of Welford (Technometrics 4, 1962,
-/// 419–420):
+/// Running mean and variance of the components of vectors, by Welford's recurrence (Technometrics 4, 1962, 419–420):
 ///
 /// ```text
 /// m_k = m_{k−1} + (x_k − m_{k−1})/k      s_k = s_{k−1} + (x_k − m_{k−1})(x_k − m_k)      variance = s_n/(n − 1)
 /// ```
 ///
-/// The rows of an ensemble come in one order, so that the sums have the same bits for any number of threads. With the feature `serde`
-/// it can be written, its numbers as bits, and goes on where a run was interrupted.
+/// The rows of an ensemble arrive in a fixed order, so that the sums have the same bits for any number of threads. With
+/// the feature `serde` the moments can be stored, bit for bit, and resumed after an interruption.
 ///
 /// ```
 /// use symplectic::Error;
@@ -40,7 +39,7 @@ pub struct Moments {
     squares: Vec<f64>,
 }
 
-/// Moments as they are read, before they are looked at.
+/// Moments as deserialized, before they are checked.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -76,7 +75,7 @@ impl TryFrom<Written> for Moments {
 }
 
 impl Moments {
-    /// Those of no vectors of this dimension.
+    /// The moments of an empty set of vectors of this dimension.
     pub fn new(dimension: usize) -> Self {
         Self {
             count: 0,
@@ -85,11 +84,11 @@ impl Moments {
         }
     }
 
-    /// Takes one vector more.
+    /// Adds a vector.
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] if it has another dimension.
+    /// [`Error::Length`] if the vector has another dimension.
     pub fn add(&mut self, vector: &[f64]) -> Result<(), Error> {
         let (expected, found) = (self.mean.len(), vector.len());
         if expected != found {
@@ -105,17 +104,19 @@ impl Moments {
         Ok(())
     }
 
-    /// Takes what others have taken: those of another part of an ensemble (Chan, Golub & LeVeque, Am. Stat. 37, 1983, 242).
+    /// Adds other moments, for example of another shard of an ensemble (Chan, Golub & LeVeque, Am. Stat. 37, 1983,
+    /// 242).
     ///
     /// ```text
     /// m = m₁ + d n₂/n      s = s₁ + s₂ + d² n₁n₂/n      d = m₂ − m₁      n = n₁ + n₂
     /// ```
     ///
-    /// Rounding is another than that of one vector after another: for the same bits join the same parts in the same order.
+    /// The rounding differs from that of adding single vectors. For the same bits, merge the same parts in the same
+    /// order.
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] if they are of another dimension.
+    /// [`Error::Length`] if they have another dimension.
     pub fn merge(&mut self, other: &Self) -> Result<(), Error> {
         let (expected, found) = (self.mean.len(), other.mean.len());
         if expected != found {

@@ -1,8 +1,8 @@
-//! Threads.
+//! Distribution of trajectories over threads.
 
 use alloc::vec::Vec;
 
-/// How many groups of trajectories are taken before rows are shown: few where they take long.
+/// Number of groups of trajectories to run before their rows are shown; adapted so that a batch takes about a second.
 #[cfg(feature = "parallel")]
 pub(super) struct Batch {
     groups: usize,
@@ -10,12 +10,12 @@ pub(super) struct Batch {
 
 #[cfg(feature = "parallel")]
 impl Batch {
-    /// The most groups for each thread.
+    /// Largest number of groups per thread.
     const MOST: usize = 1 << 6;
-    /// Seconds after which rows should be shown.
+    /// Intended duration of a batch, in seconds.
     const SECONDS: f64 = 1.0;
 
-    /// A group for each thread.
+    /// Starts with one group per thread.
     pub(super) fn new() -> Self {
         Self {
             groups: rayon::current_num_threads(),
@@ -27,7 +27,7 @@ impl Batch {
         self.groups
     }
 
-    /// `work` of each item, in their order: by the threads of `rayon`. The next batch is larger if they were quick.
+    /// Maps the items by `work` on the threads of `rayon`, in order, and adapts the size of the next batch.
     pub(super) fn map<T: Send, U: Send>(
         &mut self,
         items: Vec<T>,
@@ -60,7 +60,7 @@ impl Batch {
         1
     }
 
-    /// `work` of each item, in their order.
+    /// Maps the items by `work`, in order.
     pub(super) fn map<T: Send, U: Send>(
         &mut self,
         items: Vec<T>,

@@ -1,20 +1,20 @@
-//! What comes of a trajectory.
+//! Result of a trajectory.
 
 use crate::error::Error;
 use crate::integrator::Statistics;
 use crate::state::State;
 
-/// What comes of one trajectory of an ensemble.
+/// The result of one trajectory of an ensemble.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row<V, A = ()> {
-    /// The number of the trajectory, from 0.
+    /// Number of the trajectory, from 0.
     pub trajectory: usize,
-    /// Whether it came to its end, or else why not: the error, with its time, that an [`Integrator`](crate::Integrator) gives.
+    /// Success, or the error that an [`Integrator`](crate::Integrator) returns, with its time.
     pub outcome: Result<(), Error>,
-    /// The state at its end, or after its last good step.
+    /// The state at the end, or after the last successful step.
     pub state: State<V>,
-    /// What its steps have taken.
+    /// Statistics of its steps.
     pub statistics: Statistics,
-    /// What was made of it on its way, up to where it came.
+    /// The output collected along the trajectory.
     pub output: A,
 }

@@ -13,7 +13,7 @@ use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::state::State;
 use crate::system::{LaneWork, System};
 
-/// Nothing, over lanes: it shows whether a system is known over them.
+/// Empty work over lanes, to test whether a system is defined over lanes.
 struct Known;
 
 impl<V: Vector, S: System<V>, L: Lanes> LaneWork<V, S, L> for Known {
@@ -35,24 +35,25 @@ where
     N: Solver<V, S>,
     L: Lanes,
 {
-    /// Takes every trajectory to the time `end`, as [`Integrator::integrate_to`] does.
+    /// Integrates every trajectory to the time `end`, like [`Integrator::integrate_to`].
     ///
-    /// `show` is shown a [`Row`] for each trajectory, in their order, on this thread, also for one that failed. Where it breaks, the
-    /// run ends. Returns the number of the first trajectory that has no row; the end of [`trajectories`](Self::trajectories) where the run was
-    /// not stopped.
+    /// `show` receives a [`Row`] for each trajectory, in order, on this thread, also for failed trajectories. The run
+    /// ends if `show` breaks. Returns the number of the first trajectory without a row, which is the end of
+    /// [`trajectories`](Self::trajectories) unless the run was stopped.
     pub fn integrate_to(&self, end: f64, show: impl FnMut(Row<V>) -> ControlFlow<()>) -> usize {
         self.run(&Task::To(end), |_| (), |(), _| (), show)
     }
 
-    /// Takes `count` steps of every trajectory, as [`Integrator::take_steps`] does. Else like [`integrate_to`](Self::integrate_to).
+    /// Takes `count` steps of every trajectory, like [`Integrator::take_steps`]. `show` and the result are as for
+    /// [`integrate_to`](Self::integrate_to).
     pub fn take_steps(&self, count: u64, show: impl FnMut(Row<V>) -> ControlFlow<()>) -> usize {
         self.run(&Task::Steps(count), |_| (), |(), _| (), show)
     }
 
-    /// Takes every trajectory until all `times` are behind, as [`Integrator::integrate_at`] does.
+    /// Steps every trajectory past the last of `times`, like [`Integrator::integrate_at`].
     ///
-    /// `output(k)` makes a value for the trajectory k, `see` changes it at each of the times, and it comes with the [`Row`]; both on any
-    /// thread. Else like [`integrate_to`](Self::integrate_to).
+    /// `output(k)` creates the output of trajectory k, `see` updates it at each of the times, and the [`Row`] contains
+    /// it. Both run on any thread. `show` and the result are as for [`integrate_to`](Self::integrate_to).
     ///
     /// ```
     /// use core::ops::ControlFlow;
@@ -86,10 +87,10 @@ where
         self.run(&Task::At(times), output, see, show)
     }
 
-    /// Lets `work` do with the integrator of every trajectory what it wants: find events, look at invariants, take steps.
+    /// Calls `work` with the integrator of every trajectory: to find events, observe invariants, take steps.
     ///
-    /// The trajectories are taken one by one on every thread. The first argument of `work` is what `output` has made. Else like
-    /// [`integrate_at`](Self::integrate_at).
+    /// Trajectories run one by one on every thread. The first argument of `work` is the value of `output`. `show` and
+    /// the result are as for [`integrate_at`](Self::integrate_at).
     ///
     /// ```
     /// use core::ops::ControlFlow;
@@ -159,7 +160,7 @@ where
         self.show_all(width, rows, show)
     }
 
-    /// Whether trajectories can be side by side.
+    /// Whether trajectories can run in lanes.
     pub(super) fn goes_in_lanes(&self) -> bool {
         self.in_lanes
             && V::Scalar::IS_DOUBLE
@@ -171,7 +172,7 @@ where
             && S::over_lanes::<L, _>(Known).is_some()
     }
 
-    /// Shows the rows of all groups of trajectories, at most `width` in each; a group that was stopped has none.
+    /// Runs all groups of at most `width` trajectories and passes their rows to `show`; a stopped group has no rows.
     fn show_all<A: Send>(
         &self,
         width: usize,
@@ -211,7 +212,7 @@ where
         self.stop.as_ref().is_some_and(|stop| stop())
     }
 
-    /// The end of a group of at most `width` trajectories with one system and one time.
+    /// The end of a group of at most `width` trajectories with the same system and the same start time.
     fn end_of_group(&self, first: usize, width: usize) -> usize {
         let systems_end = self.family_of(first).1;
         let most = (first + width).min(systems_end);
@@ -221,13 +222,13 @@ where
         first + 1 + other.count()
     }
 
-    /// The system of a start, and where its starts end.
+    /// The system of a start, with the end of its range of starts.
     fn family_of(&self, place: usize) -> &(S, usize) {
         let number = self.systems.partition_point(|(_, end)| *end <= place);
         &self.systems[number]
     }
 
-    /// The integrator of the trajectory from a start, and its number.
+    /// The number and the integrator of the trajectory from a start.
     pub(super) fn integrator(&self, place: usize) -> (usize, Integrator<M, S, V, R, N>) {
         let system = self.family_of(place).0.clone();
         let start = self.starts[place].clone();

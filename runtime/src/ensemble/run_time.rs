@@ -1,4 +1,4 @@
-//! Ensembles of methods that are known only when the program runs.
+//! Ensembles with a tableau at run time.
 
 use alloc::vec::Vec;
 
@@ -10,16 +10,18 @@ use crate::state::State;
 use crate::system::System;
 
 impl<S: System<V>, V: Vector> Ensemble<AtRunTime, S, V> {
-    /// [`new`](Ensemble::new) with a method that is known only when the program runs, and with [`Compensated`](crate::Compensated) sums.
+    /// [`new`](Ensemble::new) with a tableau at run time and with [`Compensated`](crate::Compensated) sums.
     ///
-    /// Trajectories of an explicit tableau of a separable system go side by side in lanes. Each trajectory has the bits that it has
-    /// alone in [`Integrator::at_run_time`](crate::Integrator::at_run_time).
+    /// Trajectories of an explicit tableau and a separable system run in lanes. Each has the same bits as alone in
+    /// [`Integrator::at_run_time`](crate::Integrator::at_run_time).
     ///
     /// # Errors
     ///
-    /// Those of [`new`](Ensemble::new); [`EnsembleError::All`] with [`Error::SeparableTableau`](crate::Error::SeparableTableau) where the
-    /// system is not separable and the tableau has a lower order there or is not symplectic, and [`EnsembleError::Start`] with
-    /// [`Error::NotQuadraticKinetic`](crate::Error::NotQuadraticKinetic) for a Nyström method where the velocity is not linear in the momentum.
+    /// Those of [`new`](Ensemble::new). [`EnsembleError::All`] with
+    /// [`Error::SeparableTableau`](crate::Error::SeparableTableau) if the system is not separable and the tableau has a
+    /// lower order for such systems or is not symplectic. [`EnsembleError::Start`] with
+    /// [`Error::NotQuadraticKinetic`](crate::Error::NotQuadraticKinetic) for a Nyström method if the velocity is not
+    /// linear in the momentum.
     ///
     /// ```
     /// use core::ops::ControlFlow;
@@ -65,7 +67,7 @@ impl<S: System<V>, V: Vector> Ensemble<AtRunTime, S, V, Plain> {
     ///
     /// # Errors
     ///
-    /// As for [`at_run_time`](Ensemble::at_run_time).
+    /// Those of [`at_run_time`](Ensemble::at_run_time).
     pub fn plain_at_run_time(
         tableau: &RunTimeTableau,
         system: S,

@@ -1,4 +1,4 @@
-//! What can go wrong.
+//! Errors.
 
 mod constraint_name;
 mod flow;
@@ -11,12 +11,12 @@ pub use quantity::Quantity;
 
 use phrases::{AtStage, Divergence, Named, Undetermined};
 
-/// Why a step was not taken, or an integration not begun. The state of the integrator is the last good one.
+/// The error type of integrators. After an error the state of the integrator is that of the last successful step.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The iteration for the coupled stages diverged, or converged too slowly: a smaller step helps, and for a stiff system
-    /// [`Newton`](crate::solver::Newton) in place of a fixed-point iteration.
+    /// The iteration for the coupled stages diverged, or converged too slowly. Take a smaller step, or for a stiff
+    /// system [`Newton`](crate::solver::Newton) instead of a fixed-point iteration.
     #[error(
         "step {step} of size {step_size} at time {time}: the stages {}; take a smaller step",
         Divergence { residual: *.residual, iterations: *.iterations }
@@ -28,14 +28,13 @@ pub enum Error {
         step_size: f64,
         /// Number of the step, from 1.
         step: u64,
-        /// Relative change of the stages in the last sweep in which it was finite; infinite where that was not
-        /// looked at.
+        /// Relative change of the stages in the last sweep in which it was finite; infinite if it was not computed.
         residual: f64,
         /// Sweeps made.
         iterations: u32,
     },
 
-    /// The iteration for the coupled stages came down, and then stood still far above rounding errors: evaluations are noisy.
+    /// The iteration for the coupled stages stagnates far above rounding errors, because evaluations are noisy.
     #[error(
         "step {step} of size {step_size} at time {time}: after {iterations} iterations the stages still change by {residual:e} and no \
          longer less; the velocity or the force has larger errors than rounding, or jumps: evaluate it more precisely, or take \
@@ -54,7 +53,7 @@ pub enum Error {
         iterations: u32,
     },
 
-    /// An evaluation of the system, or the result of the step, is infinite or not a number.
+    /// An evaluation of the system, or the result of the step, is not finite.
     #[error(
         "step {step} of size {step_size} at time {time}: the {what}{} is not finite; take a smaller step, or keep \
          the state where the system is defined",
@@ -69,12 +68,12 @@ pub enum Error {
         step: u64,
         /// What is not finite.
         what: Quantity,
-        /// For an evaluation the stage it belongs to, from 1, among those that the plan stores; none for the
-        /// result of the step.
+        /// The stage of the evaluation, from 1, among the stages that the plan stores; `None` for the result of the
+        /// step.
         stage: Option<usize>,
     },
 
-    /// A linear system of the Newton iteration for the coupled stages has a zero pivot, or one that is not finite.
+    /// A linear system of the Newton iteration for the coupled stages has a pivot that is zero or not finite.
     #[error(
         "step {step} of size {step_size} at time {time}: a matrix of the Newton iteration is singular; take another step size"
     )]
@@ -87,7 +86,7 @@ pub enum Error {
         step: u64,
     },
 
-    /// An evaluation of the system left a vector of another dimension than it was given.
+    /// An evaluation of the system changed the dimension of its output vector.
     #[error(
         "step {step} of size {step_size} at time {time}: the {what} at stage {stage} has dimension {found} instead \
          of {expected}; the system has to write into the vector it is given without resizing it"
@@ -99,9 +98,9 @@ pub enum Error {
         step_size: f64,
         /// Number of the step, from 1.
         step: u64,
-        /// What has the wrong dimension.
+        /// The quantity that has the wrong dimension.
         what: Quantity,
-        /// The stage it belongs to, from 1, among those that the plan stores.
+        /// Its stage, from 1, among the stages that the plan stores.
         stage: usize,
         /// Dimension of the state.
         expected: usize,
@@ -109,15 +108,15 @@ pub enum Error {
         found: usize,
     },
 
-    /// A state was given whose time, position or momentum is infinite or not a number.
+    /// Time, position or momentum of a given state is not finite.
     #[error("the {what} of the state is not finite; start from finite values")]
     NonFiniteState {
         /// What is not finite.
         what: Quantity,
     },
 
-    /// A state was given whose position and momentum differ in dimension, or that has another dimension than the
-    /// state it replaces.
+    /// Position and momentum of a given state differ in dimension, or the state differs in dimension from the state
+    /// that it replaces.
     #[error(
         "the position has dimension {position} and the momentum {momentum}; both must have the same, \
          and a new state that of the one it replaces"
@@ -129,21 +128,21 @@ pub enum Error {
         momentum: usize,
     },
 
-    /// The step size is zero, infinite or not a number.
+    /// The step size is zero or not finite.
     #[error("the step size is {value}; it must be finite and not zero")]
     StepSize {
         /// The step size given.
         value: f64,
     },
 
-    /// The tolerance of an iteration is negative, infinite or not a number.
+    /// The tolerance of an iteration is negative or not finite.
     #[error("the tolerance is {value}; it must be finite and not negative")]
     Tolerance {
         /// The tolerance given.
         value: f64,
     },
 
-    /// The end time is infinite or not a number, or too far away for the span to be finite.
+    /// The end time is not finite, or its distance from the present time overflows.
     #[error(
         "the end time is {value}; it must be finite, and so must its distance from the present time"
     )]
@@ -152,7 +151,7 @@ pub enum Error {
         value: f64,
     },
 
-    /// More steps would be needed than can be counted exactly, 2⁵³.
+    /// The integration needs more than 2⁵³ steps, the largest exact count.
     #[error(
         "from time {time} to {end} in steps of size {step_size}: this takes more than 2^53 steps; take larger ones"
     )]
@@ -165,16 +164,17 @@ pub enum Error {
         step_size: f64,
     },
 
-    /// A method whose order holds for quadratic kinetic energy only, and a system whose velocity is not linear in the momentum.
+    /// The order of the method holds for quadratic kinetic energy only, and the velocity of the system is not linear in
+    /// the momentum.
     #[error(
         "`{method}` has order {order} where the kinetic energy is pᵀM⁻¹p/2 with a constant M, and order {lower_order} for other separable systems; \
          component {component} of the velocity is {velocity} in size, and {linear} if it were linear in the momentum: take a \
          method for separable systems, or write `.accept_lower_order()` after the method"
     )]
     NotQuadraticKinetic {
-        /// The name of the method.
+        /// Name of the method.
         method: &'static str,
-        /// Its order where the kinetic energy is quadratic.
+        /// Its order for quadratic kinetic energy.
         order: u32,
         /// Its order for other separable systems.
         lower_order: u32,
@@ -186,7 +186,7 @@ pub enum Error {
         linear: f64,
     },
 
-    /// A tableau at run time whose order, or whose symplecticity, holds for separable Hamiltonians only, and a system that is not
+    /// A tableau at run time has its order, or is symplectic, for separable Hamiltonians only, and the system is not
     /// separable.
     #[error(
         "the tableau has order {order} for separable Hamiltonians and {lower_order} for others, or is symplectic for separable ones only; \
@@ -195,11 +195,11 @@ pub enum Error {
     SeparableTableau {
         /// Its order for separable Hamiltonians.
         order: u32,
-        /// Its order for others.
+        /// Its order for other Hamiltonians.
         lower_order: u32,
     },
 
-    /// A system says that the velocity is the momentum, and it is not.
+    /// A system declares unit masses, but its velocity differs from the momentum.
     #[error(
         "component {component} of the velocity is {velocity} in size where the momentum is {momentum}: leave out \
          `UNIT_MASSES = true`, or let `velocity` copy the momentum"
@@ -213,18 +213,18 @@ pub enum Error {
         momentum: f64,
     },
 
-    /// The system gives no energy, which the generating function is made of.
+    /// The system has no energy; the generating function needs it.
     #[error("the system gives no energy; implement `energy`, or add a closure by `with_energy`")]
     NoEnergy,
 
-    /// A displacement whose growth is asked for is zero.
+    /// The displacement whose growth is requested is zero.
     #[error(
         "the displacement is zero and stays so: take one in a general direction, of any length"
     )]
     NoDisplacement,
 
-    /// The energy depends on time, and the method reads two clocks: there is no one Hamiltonian whose generating
-    /// function could be given.
+    /// The energy depends on time and the nodes c and c̃ of the method differ: there is no single Hamiltonian for a
+    /// generating function.
     #[error(
         "the energy depends on time, and stage {stage} has the time {position_time} for the position and \
          {momentum_time} for the momentum; take a method with c = c̃"
@@ -238,11 +238,11 @@ pub enum Error {
         momentum_time: f64,
     },
 
-    /// There is no step whose inside could be looked at: none has been taken from the present state.
+    /// There is no last step for dense output: no step has led to the present state.
     #[error("there is no last step; take one first")]
     NoStep,
 
-    /// A time was asked for that is not in the last step.
+    /// The requested time is not in the last step.
     #[error("the time {time} is not in the last step, from {start} to {end}")]
     OutsideStep {
         /// The time given.
@@ -253,7 +253,7 @@ pub enum Error {
         end: f64,
     },
 
-    /// An output time is not finite, or comes before the one before it or before the last step.
+    /// An output time is not finite, precedes the previous output time or precedes the last step.
     #[error(
         "the output time {time} is not finite or comes before {before}; give times in the direction of the steps, none \
          before the last step"
@@ -261,7 +261,7 @@ pub enum Error {
     OutputTime {
         /// The time given.
         time: f64,
-        /// The output time before it, or the earliest time that there can be.
+        /// The previous output time, or the earliest possible time.
         before: f64,
     },
 
@@ -274,15 +274,15 @@ pub enum Error {
         end: f64,
     },
 
-    /// The function of an [`Event`](crate::Event) is not a number.
+    /// The function of an [`Event`](crate::Event) is NaN.
     #[error("the function whose zeros are events is not a number at time {time}")]
     EventValue {
         /// The time.
         time: f64,
     },
 
-    /// Events follow each other so soon that time or the state cannot resolve it: impacts accumulate, or the state is at
-    /// rest on a wall. The present state is that at the last event.
+    /// Events follow each other more closely than time or the state can resolve: impacts accumulate, or the state rests
+    /// on a wall. The present state is that at the last event.
     #[error(
         "events accumulate at time {time}: function {index} is zero there and cannot be seen to turn round, after {count} events \
          at this time; end there, or hold the state on the wall from there on"
@@ -290,13 +290,13 @@ pub enum Error {
     EventsAccumulate {
         /// The time.
         time: f64,
-        /// The number of the event in the list, from 0.
+        /// Index of the event in the list, from 0.
         index: usize,
-        /// How many events have been found at this time, of all functions.
+        /// Number of events of all functions at this time.
         count: u32,
     },
 
-    /// A slice is not as long as the vector that is to be made of it.
+    /// The length of a slice differs from the dimension of the vector to create.
     #[error("a vector with {expected} components cannot be made of {found} numbers")]
     Length {
         /// The dimension of the vector.
@@ -305,12 +305,12 @@ pub enum Error {
         found: usize,
     },
 
-    /// A system with constraints or friction whose class has none: its steps would leave them out.
+    /// A system has constraints or friction, but its class does not: steps would ignore them.
     #[error("the system has {what}, and its class does not: write `type Class = {class};`")]
     OtherClass {
-        /// What it has.
+        /// Constraints or friction.
         what: &'static str,
-        /// The class that it should have.
+        /// The class to declare.
         class: &'static str,
     },
 
@@ -326,7 +326,7 @@ pub enum Error {
         dimension: usize,
     },
 
-    /// An entry of a gradient was set for a constraint or a component that there is not.
+    /// An entry of a gradient was set for a constraint or a component that does not exist.
     #[error(
         "the gradient of constraint {constraint} by component {component} was set, and there are {constraints} constraints and \
          {dimension} components, counted from 0"
@@ -359,7 +359,7 @@ pub enum Error {
         found: f64,
     },
 
-    /// The gradients of the constraints were set in other places, or in another order, than before.
+    /// The entries of the gradients of the constraints were set at other indices, or in another order, than before.
     #[error(
         "at time {time} the gradients of the constraints were set in other places than at first; set the same entries in the same order, \
          also where they are zero"
@@ -369,7 +369,7 @@ pub enum Error {
         time: f64,
     },
 
-    /// The start is not on the constraints.
+    /// The start violates the constraints.
     #[error(
         "the state is not on the constraints: constraint {constraint}{} is {value:e} and changes at the rate {rate:e}, where both must \
          be 0; `consistent(&system, state)` gives a state that is",
@@ -380,13 +380,13 @@ pub enum Error {
         constraint: usize,
         /// Its name, if it has one.
         name: Option<ConstraintName>,
-        /// |φ| of it.
+        /// Its |φ|.
         value: f64,
-        /// |G ∂H/∂p| of it.
+        /// Its |G ∂H/∂p|.
         rate: f64,
     },
 
-    /// The velocity at the start does not obey the non-holonomic constraints.
+    /// The velocity at the start violates the non-holonomic constraints.
     #[error(
         "the velocity does not obey the constraints: w·q' of constraint {constraint}{} is {rate:e}, and must be 0; \
          `consistent_momentum(&system, state)` gives a state of a Hamiltonian system with a velocity that does, \
@@ -398,11 +398,11 @@ pub enum Error {
         constraint: usize,
         /// Its name, if it has one.
         name: Option<ConstraintName>,
-        /// |w ∂H/∂p| of it.
+        /// Its |w ∂H/∂p|.
         rate: f64,
     },
 
-    /// No state on the constraints was found near a state.
+    /// No state that satisfies the constraints was found near the given state.
     #[error(
         "no state on the constraints was found near this one: they are still {value:e}, and change at the rate {rate:e}; begin nearer"
     )]
@@ -413,8 +413,8 @@ pub enum Error {
         rate: f64,
     },
 
-    /// The gradient of a constraint vanishes or depends on those of the constraints before it, or `∂²H/∂p∂p` vanishes along it: there are no
-    /// unique multipliers.
+    /// The gradient of a constraint vanishes or depends on those of the previous constraints, or `∂²H/∂p∂p` vanishes
+    /// along it: the multipliers are not unique.
     #[error(
         "at time {time} constraint {constraint}{} depends on those before it, its gradient vanishes, or the velocity along it depends on no \
          momentum (pivot {pivot:e}); leave it out, or keep away from this configuration",
@@ -427,7 +427,7 @@ pub enum Error {
         constraint: usize,
         /// Its name, if it has one.
         name: Option<ConstraintName>,
-        /// What is left of its row of `G M⁻¹ Gᵀ`, relative to its diagonal entry.
+        /// Its pivot in the elimination of `G M⁻¹ Gᵀ`, relative to its diagonal entry.
         pivot: f64,
     },
 
@@ -449,7 +449,8 @@ pub enum Error {
         iterations: u32,
     },
 
-    /// A Lagrangian, discrete or not, is singular: the position at the end of the step does not follow from the momentum at its start.
+    /// A Lagrangian, discrete or continuous, is singular: the momentum at the start of the step does not determine the
+    /// position at its end.
     #[error(
         "step {step} of size {step_size} at time {time}: the Lagrangian does not determine component {component} at the end of the step \
          (pivot {pivot:e}); take a Lagrangian that determines every velocity, or keep away from this position"
@@ -467,7 +468,7 @@ pub enum Error {
         pivot: f64,
     },
 
-    /// A Galerkin method whose basis does not contain the constants, so that no path inside a step is uniform.
+    /// The basis of a Galerkin method does not contain the constants, so that it excludes uniform motion.
     #[error(
         "the basis of {method} does not contain the constants: add 1 to it, or take the tableau with `LagrangianIntegrator::new`"
     )]
@@ -476,19 +477,19 @@ pub enum Error {
         method: &'static str,
     },
 
-    /// The momentum at the start is none of the Lagrangian: it violates a primary constraint.
+    /// The momentum at the start violates a primary constraint of the Lagrangian.
     #[error(
         "no velocity has this momentum: component {component} is off a primary constraint by {value:e}; start from \
          `momentum_of_velocity(&system, time, &q, &v)`, `primary_constraints` tells what momenta obey"
     )]
     PrimaryConstraint {
-        /// The component of the momentum, from 0, that is off if the others are right.
+        /// The component of the momentum that violates it, from 0, given the other components.
         component: usize,
-        /// How far it is off.
+        /// Its deviation.
         value: f64,
     },
 
-    /// No velocity of a Lagrangian belongs to a momentum.
+    /// A Lagrangian has no velocity for the given momentum.
     #[error(
         "no velocity was found for this momentum at time {time}{}; take a Lagrangian whose ∂²L/∂v∂v is regular, and a momentum that it can have",
         Undetermined(*component)
@@ -496,7 +497,7 @@ pub enum Error {
     NoVelocity {
         /// The time.
         time: f64,
-        /// The component that ∂L/∂v does not determine, from 0; `None` where Newton's iteration does not converge.
+        /// The component that ∂L/∂v does not determine, from 0; `None` if Newton's iteration does not converge.
         component: Option<usize>,
     },
 
@@ -529,15 +530,15 @@ pub enum Error {
         step_size: f64,
         /// Number of the step, from 1.
         step: u64,
-        /// Whether it is the condition of a component of the momentum or of a constraint.
+        /// Whether the condition belongs to a component of the momentum or to a constraint.
         what: Quantity,
-        /// Which, from 0.
+        /// Its index, from 0.
         index: usize,
-        /// By how much.
+        /// The contradiction.
         value: f64,
     },
 
-    /// The derivative of a map of positions is singular: momenta have no image.
+    /// The derivative of a point transformation is singular: momenta have no image.
     #[error(
         "the derivative of the map is singular: its component {component} depends on those before it (pivot {pivot:e}); keep away from \
          this position, or take other coordinates there"
@@ -545,11 +546,11 @@ pub enum Error {
     SingularTransformation {
         /// The component of the image, from 0.
         component: usize,
-        /// What is left of its gradient, relative to the largest entry of that.
+        /// Its pivot in the elimination, relative to the largest entry of its gradient.
         pivot: f64,
     },
 
-    /// β of Newmark's method is negative, infinite or not a number.
+    /// β of Newmark's method is negative or not finite.
     #[error(
         "β of Newmark's method is {value}; it must be finite and not negative, and 1/4 or more for steps of any size"
     )]
@@ -558,7 +559,7 @@ pub enum Error {
         value: f64,
     },
 
-    /// The velocity is not `M⁻¹p` with a constant M, and the logarithmic Hamiltonian takes `T = p·M⁻¹p/2`.
+    /// The velocity is not `M⁻¹p` with a constant M; the logarithmic Hamiltonian requires `T = p·M⁻¹p/2`.
     #[error(
         "component {component} of the velocity is {velocity} in size, and {linear} if it were linear in the momentum and without time: \
          the logarithmic Hamiltonian is for H = pᵀM⁻¹p/2 + U(t, q) with a constant M; take `Poincare` or `Integrator::adaptive` for this \
@@ -573,7 +574,7 @@ pub enum Error {
         linear: f64,
     },
 
-    /// The velocity is not `M⁻¹p` with a constant M, and Newmark's method needs the acceleration `M⁻¹ force`.
+    /// The velocity is not `M⁻¹p` with a constant M; Newmark's method requires the acceleration `M⁻¹ force`.
     #[error(
         "component {component} of the velocity is {velocity} in size, and {linear} if it were linear in the momentum and without time: \
          Newmark's method is for H = pᵀM⁻¹p/2 + V(t, q) with a constant M; take Störmer–Verlet or Gauss for this system"
@@ -587,7 +588,7 @@ pub enum Error {
         linear: f64,
     },
 
-    /// No position was found that belongs to a shifted one of Newmark's method.
+    /// No position was found for a shifted position of Newmark's method.
     #[error(
         "at time {time} no position q with q − βh² a(q) = x was found (relative change {residual:e} in the last iteration); take a smaller \
          step"
@@ -595,11 +596,11 @@ pub enum Error {
     NewmarkPosition {
         /// The time.
         time: f64,
-        /// Relative change in the last iteration that had a matrix; NaN if none had.
+        /// Relative change in the last iteration with a regular matrix; NaN if there was none.
         residual: f64,
     },
 
-    /// A rigid body turns by π or more in a step, where the rotation of the step is no longer unique.
+    /// A rigid body turns by π or more in a step, so that the rotation of the step is not unique.
     #[error(
         "step {step} of size {step_size} at time {time}: the body turns by {angle} rad, and a step is for less than half a turn; take a \
          smaller step"
@@ -615,7 +616,7 @@ pub enum Error {
         angle: f64,
     },
 
-    /// A principal moment of inertia is not finite, or not above 0.
+    /// A principal moment of inertia is not finite and positive.
     #[error("moment of inertia {axis} is {value}; all three must be finite and positive")]
     MomentOfInertia {
         /// The principal axis, from 0.
@@ -624,7 +625,7 @@ pub enum Error {
         value: f64,
     },
 
-    /// A flow of a splitting could not be taken.
+    /// A flow of a splitting failed.
     #[error("step {step} of size {step_size} at time {time}: {failure}")]
     Flow {
         /// Time at the start of the step.
@@ -637,20 +638,21 @@ pub enum Error {
         failure: FlowError,
     },
 
-    /// A parameter of a flow is not finite, or out of its range.
+    /// A parameter of a flow is not finite or out of range.
     #[error("the {what} (index {index}) is {value}; it must be {range}")]
     FlowParameter {
-        /// What it is.
+        /// Name of the parameter.
         what: &'static str,
-        /// Which one, from 0.
+        /// Its index, from 0.
         index: usize,
         /// Its value.
         value: f64,
-        /// What it must be.
+        /// Its range.
         range: &'static str,
     },
 
-    /// No step near the size of the step before conserves the discrete energy: the curvature c of the orbit is about to change its sign.
+    /// No step size near the previous one conserves the discrete energy: the curvature c of the orbit is about to
+    /// change sign.
     #[error(
         "step {step} at time {time}: no step between half and twice the size {step_size} of the step before conserves the discrete energy \
          here (curvature {curvature:e}); go on with steps of one size, by `VariationalIntegrator`"
@@ -658,7 +660,7 @@ pub enum Error {
     NoEnergyStep {
         /// Time at the start of the step.
         time: f64,
-        /// Size of the step before.
+        /// Size of the previous step.
         step_size: f64,
         /// Number of the step, from 1.
         step: u64,
@@ -666,7 +668,7 @@ pub enum Error {
         curvature: f64,
     },
 
-    /// The monitor of variable steps, or its slope along the motion, is not finite, or the monitor is not positive.
+    /// The monitor of variable steps is not positive and finite, or its derivative along the motion is not finite.
     #[error(
         "the monitor of the step sizes is {value} at time {time}; it must be finite and positive wherever the motion goes, and so must \
          its slope be finite"
@@ -678,7 +680,8 @@ pub enum Error {
         value: f64,
     },
 
-    /// The density of variable steps, about 1 over the monitor, is no longer positive: the monitor changes too much within a step.
+    /// The density of variable steps, about 1/monitor, is no longer positive: the monitor changes too much within a
+    /// step.
     #[error(
         "step {step} at time {time}: the step density z is {density}, and there is no step of size ε/z; take a smaller ε, or a monitor \
          that changes less within a step"
@@ -692,7 +695,7 @@ pub enum Error {
         density: f64,
     },
 
-    /// The logarithm of a quantity that is not positive: the logarithmic Hamiltonian is for `U < 0` and `T + B > 0`.
+    /// An argument of a logarithm is not positive: the logarithmic Hamiltonian requires `U < 0` and `T + B > 0`.
     #[error(
         "step {step} from time {time}: {what} is {value}, and the logarithmic Hamiltonian needs it positive; take a smaller step, or \
          `Integrator::adaptive` where the potential is not negative everywhere"
@@ -700,7 +703,7 @@ pub enum Error {
     LogarithmicDomain {
         /// Physical time at the start of the step.
         time: f64,
-        /// Number of the step, from 1; 0 for a state that is to be extended.
+        /// Number of the step, from 1; 0 for the extension of a state.
         step: u64,
         /// `−U` or `T + B`.
         what: &'static str,
@@ -722,12 +725,12 @@ pub enum Error {
 }
 
 impl Error {
-    /// [`Error::Monitor`] at a time, for a value.
+    /// Makes [`Error::Monitor`] at a time from a value.
     pub(crate) const fn monitor_at(time: f64) -> impl Fn(f64) -> Self {
         move |value| Self::Monitor { time, value }
     }
 
-    /// The error with the name of the constraint that it is about.
+    /// Adds the name of the constraint to the error.
     pub(crate) fn named(mut self, of: impl Fn(usize) -> Option<ConstraintName>) -> Self {
         if let Self::GradientMismatch {
             constraint, name, ..

@@ -1,4 +1,4 @@
-//! Parts of the texts of errors.
+//! Parts of error messages.
 
 use core::fmt;
 
@@ -14,7 +14,7 @@ impl fmt::Display for Named {
     }
 }
 
-/// The component that is not determined, or nothing.
+/// The undetermined component, or nothing.
 pub(super) struct Undetermined(pub(super) Option<usize>);
 
 impl fmt::Display for Undetermined {

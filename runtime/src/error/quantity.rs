@@ -1,4 +1,4 @@
-//! What errors are about.
+//! Quantities in error messages.
 
 use core::fmt;
 

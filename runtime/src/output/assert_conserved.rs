@@ -1,10 +1,10 @@
-//! An assertion for tests: that a run conserves something.
+//! A test assertion: a run conserves a quantity.
 
 /// Takes steps and asserts that a function of the state stays within a bound of its first value.
 ///
-/// `assert_conserved!(run, steps, function, bound)` takes `steps` steps of the [`Integrator`](crate::Integrator) `run`. It panics where a
-/// step fails, or where the function, from `&State<V>` to `f64`, is farther than `bound` from its value at the start; the message says how
-/// far, and where.
+/// `assert_conserved!(run, steps, function, bound)` takes `steps` steps of the [`Integrator`](crate::Integrator) `run`;
+/// `function` maps `&State<V>` to `f64`. It panics if a step fails or if the function differs from its first value by
+/// more than `bound`; the message states the difference and the step.
 ///
 /// ```
 /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
@@ -19,7 +19,7 @@
 /// # }
 /// ```
 ///
-/// The energy is not conserved to that:
+/// The energy is not conserved to this bound:
 ///
 /// ```should_panic
 /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }

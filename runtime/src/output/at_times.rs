@@ -1,4 +1,4 @@
-//! States at given times, between the steps.
+//! Output at given times.
 
 use crate::error::Error;
 use crate::integrator::Integrator;
@@ -10,17 +10,16 @@ use crate::state::State;
 use crate::system::System;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// Takes steps until all `times` are behind, and shows `observe` the state at each of them, in their order.
+    /// Steps past the last of `times` and calls `observe` with the state at each of them, in order.
     ///
-    /// The steps are those that [`step`](Self::step) takes, of the step size whatever the times; states inside them are
-    /// [interpolated](Self::dense). The first time may be the present one or lie in the last step; with a
-    /// negative step size the times go down.
+    /// The step size does not depend on the output times; states inside a step are [interpolated](Self::dense). The
+    /// first time may be the present time or lie in the last step. With a negative step size the times decrease.
     ///
     /// # Errors
     ///
-    /// [`Error::OutputTime`] for the first time that is not finite, is before the one before it or before the last
-    /// step, and [`Error::StepCount`]: no step is taken then. Those of [`step`](Self::step) and of
-    /// [`dense`](Self::dense); the state is then that of the last good step.
+    /// [`Error::OutputTime`] for the first time that is not finite, precedes its predecessor or precedes the last step;
+    /// [`Error::StepCount`] for too many steps. Both are returned before any step is taken. Also the errors of
+    /// [`step`](Self::step) and of [`dense`](Self::dense); the state is then that of the last successful step.
     ///
     /// ```
     /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
@@ -49,7 +48,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 }
 
-/// [`Integrator::integrate_at`] for everything that takes steps.
+/// [`Integrator::integrate_at`] for constant and variable step sizes.
 pub(crate) fn integrate_at<M, S, V, R, N>(
     steps: &mut impl Steps<M, S, V, R, N>,
     times: &[f64],
@@ -93,7 +92,7 @@ where
     steps.check_count(check_times(steps.direction(), times, before)?)
 }
 
-/// The last of the times, which come one after the other from `before` on.
+/// Checks that the times are finite and ordered, starting from `before`, and returns the last of them.
 fn check_times(direction: f64, times: &[f64], mut before: f64) -> Result<f64, Error> {
     for &time in times {
         if !time.is_finite() || is_after(direction, before, time) {
@@ -104,7 +103,7 @@ fn check_times(direction: f64, times: &[f64], mut before: f64) -> Result<f64, Er
     Ok(before)
 }
 
-/// A state that is shown.
+/// Storage for interpolated output.
 struct Output<V> {
     ends: Ends<V>,
     state: State<V>,
@@ -113,7 +112,7 @@ struct Output<V> {
 }
 
 impl<V: Vector> Output<V> {
-    /// Shows the states at the times up to the present one, and takes them off the list.
+    /// Observes the states at the output times up to the present time and removes these times from the list.
     fn show<M, S, R, N>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,

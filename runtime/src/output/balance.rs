@@ -1,11 +1,11 @@
-//! Whether a quantity changes by what is supplied.
+//! Balance of a quantity and its supply.
 
 use crate::state::State;
 
-/// An observer of a balance: how far a function of the state is from its first value and all that was supplied since.
+/// Observes a balance: the deviation of a function of the state from its first value plus the total supply since.
 ///
-/// The energy with the [work](crate::variational::StagesOfStep::work) of an applied force, a momentum map with its
-/// [impulse](crate::variational::StagesOfStep::impulse); with nothing supplied it is an [`Invariant`](crate::Invariant).
+/// Examples: the energy and the [work](crate::variational::StagesOfStep::work) of an applied force; a momentum map and
+/// its [impulse](crate::variational::StagesOfStep::impulse). With no supply it is an [`Invariant`](crate::Invariant).
 ///
 /// ```
 /// use symplectic::State;
@@ -25,14 +25,14 @@ pub struct Balance<F> {
     function: F,
     initial: f64,
     supplied: f64,
-    /// What the sum of the supplies leaves out.
+    /// Rounding error of `supplied` (compensated summation).
     rest: f64,
     last: f64,
     largest: f64,
 }
 
 impl<F> Balance<F> {
-    /// A balance of `function`, beginning with a state.
+    /// A balance of `function` that begins at the state `start`.
     pub fn new<V>(function: F, start: &State<V>) -> Self
     where
         F: Fn(&State<V>) -> f64,
@@ -48,7 +48,7 @@ impl<F> Balance<F> {
         }
     }
 
-    /// Looks at a state, after so much was supplied since the one before.
+    /// Observes a state; `supplied` is the supply since the previous state.
     pub fn observe<V>(&mut self, state: &State<V>, supplied: f64)
     where
         F: Fn(&State<V>) -> f64,
@@ -58,7 +58,7 @@ impl<F> Balance<F> {
         self.rest = add - (sum - self.supplied);
         self.supplied = sum;
         self.last = (self.function)(state) - self.initial - self.supplied;
-        // NaN once and for all.
+        // A NaN stays.
         if !(self.last.abs() <= self.largest || self.largest.is_nan()) {
             self.largest = self.last.abs();
         }
@@ -69,17 +69,17 @@ impl<F> Balance<F> {
         self.initial
     }
 
-    /// All that was supplied.
+    /// The total supply.
     pub const fn supplied(&self) -> f64 {
         self.supplied
     }
 
-    /// At the latest state the value, less the first one and all that was supplied.
+    /// The value at the latest state, minus the first value and the total supply.
     pub const fn last(&self) -> f64 {
         self.last
     }
 
-    /// The largest absolute value of [that](Self::last) so far; NaN if one of the values was.
+    /// The largest absolute value of [`last`](Self::last) so far; NaN if any was NaN.
     pub const fn deviation(&self) -> f64 {
         self.largest
     }

@@ -1,16 +1,16 @@
-//! Zeros and minima of a function of time.
+//! Zeros and minima of a function of time, by Brent's methods (*Algorithms for Minimization without Derivatives*,
+//! 1973).
 
-/// The last time before a zero of a function between two times at which its signs differ, by Brent's method: inverse
-/// quadratic interpolation and secants where they are good, bisection where they are not (Brent, *Algorithms for
-/// Minimization without Derivatives*, 1973, ch. 4).
+/// The last time before a zero of a function with opposite signs at two times, by Brent's method (ch. 4): inverse
+/// quadratic interpolation and secants, with bisection where they converge badly.
 ///
-/// There the function is zero or has the sign that it has at the first of the two times, and it changes within two units in
-/// the last place of the time; `None` where the signs do not differ.
+/// The function at the returned time is zero or has the sign of its value at the first time; the sign change lies
+/// within two units in the last place of the time. Returns `None` if the signs agree.
 pub(crate) fn before_zero<E>(
     (mut a, mut b): (f64, f64),
     mut function: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<Option<f64>, E> {
-    // b is the best place so far, c is on the other side of the zero, a is the best one before.
+    // b is the best estimate, a the previous one; the zero lies between b and c.
     let (mut at_a, mut at_b) = (function(a)?, function(b)?);
     let (mut c, mut at_c) = (a, at_a);
     if at_a == 0.0 || at_b == 0.0 {
@@ -20,7 +20,7 @@ pub(crate) fn before_zero<E>(
         return Ok(None);
     }
     let first_is_positive = at_a > 0.0;
-    // b and c are on different sides of the zero.
+    // The one of b and c that lies on the side of the first time.
     let side_of_first = |b: f64, at_b: f64, c: f64| {
         let first = at_b == 0.0 || (at_b > 0.0) == first_is_positive;
         Ok(Some(if first { b } else { c }))
@@ -65,7 +65,7 @@ pub(crate) fn before_zero<E>(
         } else {
             tolerance.copysign(half)
         };
-        // Where b is zero, or so near that the tolerance underflows.
+        // At b = 0 or nearby the tolerance underflows.
         b = if moved == b { b + half } else { moved };
         if b == a {
             return side_of_first(b, at_b, c);
@@ -78,10 +78,11 @@ pub(crate) fn before_zero<E>(
     }
 }
 
-/// A time between two others at which a function is negative, looked for on the way to a minimum, by Brent's method: golden
-/// sections, and parabolas where they are good (ch. 5 of his book).
+/// A time between two others at which a function is negative. Brent's minimisation (ch. 5), by golden sections and
+/// parabolas, stops at the first negative value.
 ///
-/// The minimum is found to about 1e-8 of the distance of the times; `None` where the function is not negative there.
+/// The minimum is located to about 1e-8 of the distance between the times. Returns `None` if the function is not
+/// negative there.
 pub(crate) fn negative_near_minimum<E>(
     (from, to): (f64, f64),
     mut function: impl FnMut(f64) -> Result<f64, E>,
@@ -89,7 +90,7 @@ pub(crate) fn negative_near_minimum<E>(
     const GOLDEN: f64 = 0.381_966_011_250_105_1;
     let (mut low, mut high) = (from.min(to), from.max(to));
     let tolerance = 1e-8 * (high - low) + f64::EPSILON * low.abs().max(high.abs());
-    // x is the best place, w the second best, v the one before w.
+    // x is the best estimate, w the second best, v the previous w.
     let mut x = low + GOLDEN * (high - low);
     let mut at_x = function(x)?;
     let (mut w, mut v, mut at_w, mut at_v) = (x, x, at_x, at_x);
@@ -135,7 +136,7 @@ pub(crate) fn negative_near_minimum<E>(
     Ok(None)
 }
 
-/// Golden sections alone need 40.
+/// Golden sections alone need 40 steps.
 const MOST_STEPS_TO_MINIMUM: u32 = 100;
 
 #[cfg(test)]
@@ -158,17 +159,17 @@ mod tests {
             |found: f64, wanted: f64| (found - wanted).abs() <= 4.0 * f64::EPSILON * wanted.abs();
         let (root, count) = zero((1.0, 2.0), |t| t * t - 2.0);
         assert!(near(root, 2.0_f64.sqrt()) && count < 12, "{root} {count}");
-        // From the other side, and falling.
+        // Reversed interval, falling function.
         let (root, count) = zero((2.0, 1.0), |t| 2.0 - t * t);
         assert!(near(root, 2.0_f64.sqrt()) && count < 12, "{root} {count}");
         let (root, count) = zero((1e6, 1e6 + 1.0), |t| (t - 1e6 - 0.3).sin());
         assert!(near(root, 1e6 + 0.3) && count < 12, "{root} {count}");
-        // At the ends.
+        // Zeros at the ends of the interval.
         assert_eq!(zero((0.0, 1.0), |t| t).0, 0.0);
         assert_eq!(zero((0.0, 1.0), |t| t - 1.0).0, 1.0);
     }
 
-    /// Where interpolation is of no use it is bisection, and it ends.
+    /// Where interpolation fails, bisection takes over and the search terminates.
     #[test]
     fn ugly_functions_end() {
         let (root, count) = zero((-1.0, 2.0), |t| if t < 1.0 / 3.0 { -1.0 } else { 1.0 });

@@ -1,4 +1,4 @@
-//! The states inside the last step.
+//! Dense output: the state at any time inside the last step.
 
 use core::fmt;
 
@@ -11,10 +11,10 @@ use crate::solver::FixedPoint;
 use crate::state::State;
 use crate::system::System;
 
-/// The states at all times of the last step: what [`Integrator::dense`] returns.
+/// Dense output of the last step, returned by [`Integrator::dense`].
 ///
-/// They are polynomials in time that go through the states at both ends, to the last bit, with the order that
-/// [`Integrator::INTERPOLATION`] says. Nothing is computed before it is asked for.
+/// Position and momentum are polynomials in time. They interpolate the states at both ends exactly (bit for bit); their
+/// order is [`Integrator::INTERPOLATION`]. They are evaluated on demand.
 ///
 /// ```
 /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
@@ -49,8 +49,7 @@ pub struct DenseOutput<
     ends: Ends<V>,
 }
 
-/// The derivatives at the ends of a step, where values inside it depend on them; room for those of another step after
-/// that.
+/// Derivatives at both ends of a step, for Hermite interpolation only. The storage is reused for later steps.
 pub(crate) struct Ends<V>(Option<[Derivatives<V>; 2]>);
 
 struct Derivatives<V> {
@@ -63,7 +62,7 @@ impl<V: Vector> Ends<V> {
         Self(None)
     }
 
-    /// Evaluates them for the last step of an integrator.
+    /// Evaluates the derivatives for the last step of an integrator.
     pub(crate) fn evaluate<M, S, R, N>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -107,7 +106,7 @@ impl<V: Vector> Ends<V> {
         Ok(())
     }
 
-    /// Writes the state at a time of the last step, the ends of which these are.
+    /// Writes the state at a time inside the last step, for which `evaluate` was called.
     pub(crate) fn write<M, S, R, N>(
         &self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -157,15 +156,15 @@ impl<V: Vector> Ends<V> {
 }
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// The states inside the last step, between its start and the present state.
+    /// Dense output of the last step, from its start to the present state.
     ///
-    /// Where they are [`Interpolation::Hermite`], the system is evaluated at both ends. The step is the last one that was
-    /// taken: with [`Retry`](crate::Retry) perhaps a part of the one that was asked for.
+    /// With [`Interpolation::Hermite`] the system is evaluated at both ends. With [`Retry`](crate::Retry) the last step
+    /// may be a part of the requested step.
     ///
     /// # Errors
     ///
-    /// [`Error::NoStep`] before the first step and after everything that forgets it, such as a new state, another solver
-    /// or a step that failed; [`Error::NonFinite`] where a derivative at an end is not finite.
+    /// [`Error::NoStep`] before the first step and after every call that discards it, such as a new state, another
+    /// solver or a failed step. [`Error::NonFinite`] if a derivative at an end is not finite.
     pub fn dense(&self) -> Result<DenseOutput<'_, M, S, V, R, N>, Error> {
         let mut ends = Ends::new();
         ends.evaluate(self)?;
@@ -179,18 +178,19 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>>
     DenseOutput<'_, M, S, V, R, N>
 {
-    /// The times of the start and of the end of the step; the second is the smaller one where it went backward.
+    /// Start time and end time of the step; the end is smaller if the step went backward.
     pub fn span(&self) -> (f64, f64) {
         let span = self.integrator.last_step();
-        // Made only of a step, which nothing has changed since.
+        // `dense` checked that there is a last step, and the borrow keeps it.
         span.map_or((f64::NAN, f64::NAN), |last| (last.start, last.end))
     }
 
-    /// Writes position and momentum at `time` into vectors of their dimension.
+    /// Writes position and momentum at `time` into `q` and `p`, which have the dimension of the system.
     ///
     /// # Errors
     ///
-    /// [`Error::OutsideStep`], [`Error::Dimension`]; `q` and `p` are then untouched.
+    /// [`Error::OutsideStep`] if `time` is outside [`span`](Self::span), [`Error::Dimension`] if `q` or `p` has another
+    /// dimension; `q` and `p` are then untouched.
     pub fn write(&self, time: f64, q: &mut V, p: &mut V) -> Result<(), Error> {
         self.ends.write(self.integrator, time, q, p)
     }
@@ -199,7 +199,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>>
     ///
     /// # Errors
     ///
-    /// [`Error::OutsideStep`]
+    /// [`Error::OutsideStep`] if `time` is outside [`span`](Self::span).
     pub fn state(&self, time: f64) -> Result<State<V>, Error> {
         let State { q, p, .. } = self.integrator.state();
         let mut state = State::new(time, q.zeros_like(), p.zeros_like());

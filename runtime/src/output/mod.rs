@@ -1,4 +1,4 @@
-//! What is seen of a run: states, dense output, events, invariants, progress.
+//! Output of a run: states, dense output, events, invariants, progress.
 
 mod assert_conserved;
 pub(crate) mod at_times;

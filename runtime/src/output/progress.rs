@@ -1,4 +1,4 @@
-//! How far an integration has come.
+//! Progress of an integration.
 
 use core::ops::ControlFlow;
 
@@ -9,33 +9,33 @@ use crate::number::{Summation, Vector};
 use crate::state::State;
 use crate::system::System;
 
-/// How far an integration has come, as [`Integrator::integrate_while`] reports after every step.
+/// Progress of an integration, reported by [`Integrator::integrate_while`] after every step.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress<'a, V> {
     /// The present state.
     pub state: &'a State<V>,
-    /// Steps taken of this integration.
+    /// Number of steps taken in this integration.
     pub step: u64,
-    /// All steps of this integration.
+    /// Number of steps of the whole integration.
     pub steps: u64,
-    /// What the steps have taken since the integrator was made.
+    /// Statistics since the integrator was created.
     pub statistics: &'a Statistics,
 }
 
 impl<V> Progress<'_, V> {
-    /// The part of the integration that is done, from 0 to 1.
+    /// Fraction of the integration that is done, from 0 to 1.
     pub fn fraction(&self) -> f64 {
         self.step as f64 / self.steps as f64
     }
 }
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// [`integrate_to`](Self::integrate_to) that reports its progress after every step, and ends where the report breaks
-    /// it: with the value that it breaks with, otherwise with `None`.
+    /// [`integrate_to`](Self::integrate_to) that calls `report` after every step. If `report` breaks with a value, the
+    /// integration stops and returns that value; otherwise it returns `None` at `end`.
     ///
     /// # Errors
     ///
-    /// As for [`integrate_to`](Self::integrate_to).
+    /// Those of [`integrate_to`](Self::integrate_to).
     ///
     /// ```
     /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }

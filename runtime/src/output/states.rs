@@ -1,4 +1,4 @@
-//! The states of an integration, one after the other.
+//! Iterator over the states of an integration.
 
 use core::fmt;
 use core::iter::FusedIterator;
@@ -12,7 +12,7 @@ use crate::state::State;
 use crate::system::System;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// An endless iterator over the states after each step. [`Iterator::take`] what is needed.
+    /// An endless iterator over the states after each step; limit it by [`Iterator::take`].
     pub const fn states(&mut self) -> States<'_, M, S, V, R, N> {
         States::new(self)
     }
@@ -20,8 +20,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 
 /// The endless iterator that [`Integrator::states`] returns.
 ///
-/// Every item is the state after one more step, or after [some more](Self::every), cloned. After an error there are no
-/// more items.
+/// Each item is a clone of the state after one more step, or after [several](Self::every). It ends after an error.
 pub struct States<
     'a,
     M: Method,
@@ -31,7 +30,7 @@ pub struct States<
     N: Solver<V, S> = FixedPoint,
 > {
     integrator: &'a mut Integrator<M, S, V, R, N>,
-    /// Steps from one state to the next.
+    /// Number of steps between items.
     stride: u64,
     failed: bool,
 }
@@ -47,7 +46,7 @@ impl<'a, M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>>
         }
     }
 
-    /// Only the states after every `steps` steps, without a copy of those between; 0 counts as 1.
+    /// Yields the states after every `steps` steps only, without a copy of the states in between; 0 counts as 1.
     ///
     /// ```
     /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
@@ -69,7 +68,7 @@ impl<'a, M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>>
         self
     }
 
-    /// Takes the steps to the next state.
+    /// Steps to the next item.
     fn advance(&mut self) -> Result<State<V>, Error> {
         self.integrator.take_steps(self.stride).cloned()
     }

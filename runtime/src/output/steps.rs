@@ -1,4 +1,4 @@
-//! What takes the steps that are seen.
+//! Steps of constant or variable size, as dense output and events use them.
 
 use core::ops::ControlFlow;
 
@@ -11,7 +11,7 @@ use crate::number::{Summation, Vector};
 use crate::state::State;
 use crate::system::System;
 
-/// An integrator with steps of one size, or one that chooses their sizes.
+/// An integrator with constant or variable step size.
 pub(crate) trait Steps<M, S, V, R, N>
 where
     M: Method,
@@ -20,10 +20,10 @@ where
     R: Summation,
     N: Solver<V, S>,
 {
-    /// The integrator, for its state and its last step.
+    /// The underlying integrator, which holds the state and the last step.
     fn integrator(&self) -> &Integrator<M, S, V, R, N>;
 
-    /// About the size of the next step on the way to `end`.
+    /// Approximate size of the next step towards `end`.
     fn size_to(&self, end: f64) -> f64;
 
     /// The sign of the step size.
@@ -34,7 +34,7 @@ where
         is_after(self.direction(), time, other)
     }
 
-    /// The start of the last step, or the present time where there is none, or where the last step went the other way.
+    /// Start time of the last step; the present time if there is no last step or it went in the other direction.
     fn start_of_last_step(&self) -> f64 {
         let present = self.integrator().state().time;
         match self.integrator().last_step() {
@@ -43,29 +43,30 @@ where
         }
     }
 
-    /// The earliest output time of a run to an end: the present time, or the start of the last step where that may go beyond the end.
+    /// Earliest output time of a run to an end time: the start of the last step if a run may step beyond its end time,
+    /// otherwise the present time.
     fn first_output(&self) -> f64;
 
-    /// Checks that steps to `end` can be counted.
+    /// Checks that the number of steps to `end` is small enough to count.
     fn check_count(&self, end: f64) -> Result<(), Error>;
 
-    /// One step, the parts of which are shown to `see`.
+    /// Takes one step and calls `see` after each part of it.
     fn step_in_sight(
         &mut self,
         see: impl FnMut(&Integrator<M, S, V, R, N>) -> Result<(), Error>,
     ) -> Result<(), Error>;
 
-    /// The steps to `end`, the parts of which are shown to `see` until it breaks.
+    /// Steps to `end` and calls `see` after each part of a step, until `see` breaks.
     fn steps_in_sight<B>(
         &mut self,
         end: f64,
         see: impl FnMut(&Integrator<M, S, V, R, N>) -> Result<ControlFlow<B>, Error>,
     ) -> Result<ControlFlow<B>, Error>;
 
-    /// Puts another state in place of the present one, without an allocation.
+    /// Replaces the present state, without an allocation.
     fn replace_state(&mut self, state: &State<V>) -> Result<(), Error>;
 
-    /// Keeps the event that was found last.
+    /// Stores the last event found.
     fn keep_last_event(&mut self, event: Option<LastEvent>);
 }
 
@@ -120,7 +121,7 @@ where
     }
 }
 
-/// Whether `time` comes after `other` in a direction.
+/// Whether `time` comes after `other` in the direction whose sign `direction` has.
 pub(crate) fn is_after(direction: f64, time: f64, other: f64) -> bool {
     if direction > 0.0 {
         time > other

@@ -1,11 +1,11 @@
-//! An attitude that stays a rotation.
+//! The attitude as a normalized quaternion.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3, Vector4};
 
 use crate::number::Scalar;
 use crate::number::summation::{add_sum, fast_two_sum};
 
-/// A sum of two vectors, the second one what rounding leaves out of the first.
+/// A compensated vector `high + low`; `low` is the rounding error of `high`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Precise<const N: usize> {
     pub(super) high: [f64; N],
@@ -34,7 +34,7 @@ impl<const N: usize> Precise<N> {
 pub(super) struct Attitude(Precise<4>);
 
 impl Attitude {
-    /// The attitude with the direction of a quaternion.
+    /// The attitude of a quaternion, normalized.
     pub(super) fn new(attitude: &UnitQuaternion<f64>) -> Self {
         let q = attitude.quaternion();
         let norm: f64 = Scalar::sqrt(q.coords.dot(&q.coords));
@@ -49,10 +49,10 @@ impl Attitude {
         UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k))
     }
 
-    /// Turns the body by this vector along its axes: `R ← R exp(ŵ)`.
+    /// Rotates the body by the vector `w` in its frame: `R ← R exp(ŵ)`.
     ///
-    /// With `e = exp(ŵ) − 1` as a quaternion, `−2 sin²(θ/4) + w sin(θ/2)/θ`, the product is `q + q e`, so that its rounding errors are those of the
-    /// increment.
+    /// With the quaternion `e = exp(ŵ) − 1 = −2 sin²(θ/4) + w sin(θ/2)/θ` the product is `q + q e`. Its rounding errors
+    /// are relative to the increment.
     pub(super) fn turn(&mut self, rotation: &Vector3<f64>) {
         let angle = Scalar::sqrt(rotation.dot(rotation));
         let ratio = if angle == 0.0 {
@@ -72,8 +72,8 @@ impl Attitude {
         self.normalize();
     }
 
-    /// Takes the error of the norm, of the size of rounding errors, out of the part that is left out: along the quaternion, so that the
-    /// body does not turn by it.
+    /// Corrects the norm, whose error is of the size of rounding, in `low`. The correction is parallel to the
+    /// quaternion, so that it does not rotate the body.
     fn normalize(&mut self) {
         let Precise { high, low } = &mut self.0;
         let (q, rest) = (Vector4::from(*high), Vector4::from(*low));

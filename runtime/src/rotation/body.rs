@@ -1,8 +1,8 @@
-//! The bodies that turn.
+//! Rigid bodies.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-/// A rigid body with a fixed point, and the torque on it. Vectors are along its principal axes.
+/// A rigid body with a fixed point, and its torque. Vectors have components along the principal axes.
 ///
 /// ```
 /// use symplectic::nalgebra::{UnitQuaternion, Vector3};
@@ -34,13 +34,13 @@ use nalgebra::{UnitQuaternion, Vector3};
 /// # }
 /// ```
 pub trait RigidBody {
-    /// The principal moments of inertia, finite and positive. They are read once.
+    /// The principal moments of inertia, finite and positive. An integrator reads them once.
     fn moments(&self) -> Vector3<f64>;
 
-    /// The torque `τ(t, R)` about the fixed point, in the frame of the body: `δV = −τ·η` where the attitude changes by `δR = R η̂`.
+    /// The torque `τ(t, R)` about the fixed point, in the frame of the body: `δV = −τ·η` for a variation `δR = R η̂`.
     fn torque(&self, time: f64, attitude: &UnitQuaternion<f64>) -> Vector3<f64>;
 
-    /// The potential `V(t, R)`; `None`, unless it is written.
+    /// The potential `V(t, R)`; `None` by default.
     fn potential(&self, _time: f64, _attitude: &UnitQuaternion<f64>) -> Option<f64> {
         None
     }
@@ -96,9 +96,10 @@ impl RigidBody for FreeBody {
     }
 }
 
-/// A rigid body with a fixed point in gravity along −e3: `V = mg e3·Rχ`, `τ = mg (Rᵀe3) × χ`, with the centre of mass at `χ` from the fixed point.
+/// A rigid body with a fixed point in gravity along −e3: `V = mg e3·Rχ`, `τ = mg (Rᵀe3) × χ`; `χ` is the vector from
+/// the fixed point to the centre of mass.
 ///
-/// Lagrange's top if two moments are equal and `χ` is on the third axis.
+/// It is Lagrange's top if two moments are equal and `χ` lies on the third axis.
 ///
 /// ```
 /// use symplectic::nalgebra::{UnitQuaternion, Vector3};
@@ -115,7 +116,7 @@ pub struct HeavyTop {
     pub moments: Vector3<f64>,
     /// The weight mg.
     pub weight: f64,
-    /// The centre of mass χ, along the principal axes from the fixed point.
+    /// The centre of mass χ relative to the fixed point, in components along the principal axes.
     pub centre: Vector3<f64>,
 }
 

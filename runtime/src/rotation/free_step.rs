@@ -4,19 +4,19 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::number::Scalar;
 
-/// Why there is no free step.
+/// Why a free step failed.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum NoRotation {
-    /// Newton's iteration has not converged.
+    /// Newton's iteration did not converge.
     NotFound { residual: f64, iterations: u32 },
     /// The angle of the rotation is π or more.
     HalfTurn { angle: f64 },
 }
 
-/// Iterations after which Newton's iteration does not converge any more: it takes 3 to 6.
+/// Maximum number of Newton iterations; typical are 3 to 6.
 const MAX_ITERATIONS: u32 = 40;
 
-/// The relative change after which the next iterate is exact up to rounding, for the iteration converges quadratically.
+/// Relative change after which the iterate is exact to rounding, by quadratic convergence.
 const LAST_CHANGE: f64 = 1e-9;
 
 /// The rotation vector `w = hξ` of a free step, from the angular momentum at its start:
@@ -55,7 +55,7 @@ pub(super) fn rotation(
     })
 }
 
-/// The right-hand side of the equation of a step and its derivative by `w`.
+/// The right-hand side of the equation of a step and its derivative with respect to `w`.
 fn equation(moments: &Vector3<f64>, w: &Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
     let (kappa, slope) = kappa(w.dot(w));
     let momentum = moments.component_mul(w);
@@ -73,7 +73,7 @@ fn equation(moments: &Vector3<f64>, w: &Vector3<f64>) -> (Vector3<f64>, Matrix3<
     (value, Matrix3::from_columns(&[0, 1, 2].map(column)))
 }
 
-/// The coefficients `|B_2k|/(2k)!` of κ by powers of θ².
+/// The coefficients `|B_2k|/(2k)!` of the power series of κ in θ².
 const SERIES: [f64; 11] = [
     1.0 / 12.0,
     1.0 / 720.0,
@@ -88,7 +88,7 @@ const SERIES: [f64; 11] = [
     77683.0 / 14101100039391805440000.0,
 ];
 
-/// `κ = (1 − (θ/2) cot(θ/2))/θ²` and its derivative by θ², from θ².
+/// `κ = (1 − (θ/2) cot(θ/2))/θ²` and its derivative with respect to θ², as functions of θ².
 fn kappa(square: f64) -> (f64, f64) {
     if square < 1.0 {
         let step = |(value, slope): (f64, f64), &term: &f64| {
@@ -104,7 +104,7 @@ fn kappa(square: f64) -> (f64, f64) {
     (kappa, -(by_square + kappa) / square)
 }
 
-/// The solution of three linear equations, by Cramer's rule; not finite where there is none.
+/// Solves three linear equations by Cramer's rule; the result of a singular system is not finite.
 fn solved(matrix: &Matrix3<f64>, right: &Vector3<f64>) -> Vector3<f64> {
     let [a, b, c] = [0, 1, 2].map(|k| matrix.column(k).into_owned());
     let normal = b.cross(&c);
@@ -125,7 +125,7 @@ fn length(vector: &Vector3<f64>) -> f64 {
 mod tests {
     use super::*;
 
-    /// Both formulas of κ, and its derivative against differences.
+    /// Compares both formulas of κ, and its derivative with difference quotients.
     #[test]
     fn kappa_and_its_derivative() {
         let closed = |square: f64| {
@@ -142,7 +142,7 @@ mod tests {
         }
     }
 
-    /// The equation holds, and its derivative is that of its value.
+    /// The equation holds, and its derivative agrees with difference quotients.
     #[test]
     fn the_equation_of_a_step() {
         let moments = Vector3::new(1.0, 2.0, 0.7);

@@ -1,4 +1,4 @@
-//! Steps of a rigid body.
+//! The integrator of a rigid body.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -11,8 +11,9 @@ use crate::integrator::pace::{Pace, Stepper};
 use crate::method::Method;
 use crate::method::symmetric_steps::{Part, SymmetricSteps};
 
-/// Steps a [`RigidBody`] by the symplectic method on SO(3) that [`rotation`](crate::rotation) describes. A step allocates nothing, and evaluates
-/// the torque once, in a composition once for each of its steps. A step that fails leaves the state as it was.
+/// Integrates a [`RigidBody`] by the symplectic method on SO(3) described in [`rotation`](crate::rotation). A step
+/// allocates nothing and evaluates the torque once; a composition evaluates it once per substep. A failed step leaves
+/// the state untouched.
 ///
 /// ```
 /// symplectic::composition! { Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] } }
@@ -41,13 +42,13 @@ pub struct RotationIntegrator<B> {
     state: RotationState,
 }
 
-/// What a step changes.
+/// The variables that a step changes.
 #[derive(Clone, Copy, Debug)]
 struct Course {
     attitude: Attitude,
     /// The angular momentum in space.
     momentum: Precise<3>,
-    /// The torque in space, where it is known.
+    /// The torque in space at the current attitude, if known.
     torque: Option<Vector3<f64>>,
 }
 
@@ -67,21 +68,22 @@ impl Course {
 }
 
 impl<B: RigidBody> RotationIntegrator<B> {
-    /// An integrator of order 2 at `state`, with steps of size `step_size`, negative to go backward.
+    /// An integrator of order 2 from `state`; a negative `step_size` goes backward.
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`], [`Error::MomentOfInertia`], [`Error::NonFiniteState`].
+    /// [`Error::StepSize`] for a step size that is zero or not finite, [`Error::MomentOfInertia`] for a moment that is
+    /// not positive and finite, [`Error::NonFiniteState`].
     pub fn new(body: B, state: RotationState, step_size: f64) -> Result<Self, Error> {
         Self::by(SymmetricSteps::ONE, body, state, step_size)
     }
 
-    /// [`new`](Self::new) with the steps of a composition that [`composition!`](crate::composition) makes of Störmer–Verlet steps, and with the
-    /// order that it has for general Hamiltonians, `M::ORDERS.general`.
+    /// [`new`](Self::new) with a [`composition!`](crate::composition) of Störmer–Verlet steps, and with its order for
+    /// general Hamiltonians, `M::ORDERS.general`.
     ///
     /// # Errors
     ///
-    /// As for [`new`](Self::new). With another method it does not compile:
+    /// Those of [`new`](Self::new). Other methods do not compile:
     ///
     /// ```compile_fail,E0080
     /// symplectic::composition! { Sixth { base: lobatto-3, weights: triple_jump(6) } }
@@ -128,17 +130,20 @@ impl<B: RigidBody> RotationIntegrator<B> {
     ///
     /// # Errors
     ///
-    /// [`Error::HalfTurn`], [`Error::NoEndOfStep`], [`Error::NonFinite`] for a torque, [`Error::TimeResolution`]; the state is untouched.
+    /// [`Error::HalfTurn`] for a rotation by π or more, [`Error::NoEndOfStep`] if Newton's iteration does not converge,
+    /// [`Error::NonFinite`] for a torque, [`Error::TimeResolution`]; the state is then untouched.
     pub fn step(&mut self) -> Result<&RotationState, Error> {
         self.one_step()?;
         Ok(&self.state)
     }
 
-    /// Goes to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or backward.
+    /// Integrates to exactly the time `end`, forward or backward, in the smallest number of equal steps that do not
+    /// exceed the step size.
     ///
     /// # Errors
     ///
-    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last good step.
+    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last
+    /// successful step.
     pub fn integrate_to(&mut self, end: f64) -> Result<&RotationState, Error> {
         self.steps_to(end)?;
         Ok(&self.state)
@@ -149,12 +154,12 @@ impl<B: RigidBody> RotationIntegrator<B> {
         &self.state
     }
 
-    /// The angular momentum `RΠ`, along the axes of space: without torque the same number, to the last bit, after every step.
+    /// The angular momentum `RΠ` in the space frame. Without torque it is constant to the last bit.
     pub fn spatial_momentum(&self) -> Vector3<f64> {
         self.course.spatial()
     }
 
-    /// `Π·I⁻¹Π/2 + V(t, R)`; `None` if the body gives no potential.
+    /// The energy `Π·I⁻¹Π/2 + V(t, R)`; `None` if the body has no potential.
     pub fn energy(&self) -> Option<f64> {
         let RotationState {
             time,
@@ -175,21 +180,21 @@ impl<B: RigidBody> RotationIntegrator<B> {
         self.pace.step_size()
     }
 
-    /// Steps taken.
+    /// Number of steps taken.
     pub const fn steps(&self) -> u64 {
         self.pace.taken()
     }
 
-    /// Changes the step size; negative to go backward.
+    /// Changes the step size; a negative size goes backward.
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`]; the one before then holds.
+    /// [`Error::StepSize`]; the step size is then unchanged.
     pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
         self.pace.set_step_size(self.state.time, step_size)
     }
 
-    /// A step of order 2.
+    /// A step of order 2: half a kick, the free step, half a kick.
     fn kick_free_step_kick(&self, course: &mut Course, part: Part) -> Result<(), Failure> {
         let before = match course.torque {
             Some(torque) => torque,

@@ -1,4 +1,4 @@
-//! Where a rigid body is.
+//! State of a rigid body.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -17,9 +17,9 @@ use nalgebra::{UnitQuaternion, Vector3};
 pub struct RotationState {
     /// Time t.
     pub time: f64,
-    /// The attitude R, from the axes of the body to those of space.
+    /// The attitude R, from the frame of the body to the space frame.
     pub attitude: UnitQuaternion<f64>,
-    /// The angular momentum Π, along the axes of the body.
+    /// The angular momentum Π, in the frame of the body.
     pub momentum: Vector3<f64>,
 }
 
@@ -33,7 +33,7 @@ impl RotationState {
         }
     }
 
-    /// The angular momentum `RΠ`, along the axes of space.
+    /// The angular momentum `RΠ`, in the space frame.
     pub fn spatial_momentum(&self) -> Vector3<f64> {
         self.attitude * self.momentum
     }

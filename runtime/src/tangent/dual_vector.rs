@@ -1,4 +1,4 @@
-//! Vectors of dual numbers, and the vectors of both their parts.
+//! Vectors of dual numbers, and the vectors of their values and slopes.
 
 use alloc::vec;
 
@@ -13,13 +13,13 @@ pub(super) fn halves<T>(components: &[T]) -> (&[T], &[T]) {
     components.split_at(components.len() / 2)
 }
 
-/// [`halves`], to be written.
+/// [`halves`], mutable.
 #[inline(always)]
 pub(super) fn halves_mut<T>(components: &mut [T]) -> (&mut [T], &mut [T]) {
     components.split_at_mut(components.len() / 2)
 }
 
-/// The zero vector of a dimension; nothing where such vectors have another one.
+/// The zero vector of a dimension; `None` if the vector type has another fixed dimension.
 #[inline(always)]
 pub(super) fn zeros<V: Vector>(dimension: usize) -> Option<V> {
     let blank = V::blank();
@@ -29,7 +29,7 @@ pub(super) fn zeros<V: Vector>(dimension: usize) -> Option<V> {
     V::from_slice(&vec![V::Scalar::zero(); dimension]).ok()
 }
 
-/// The dual numbers of values and slopes; nothing where there are not as many of both as the vector has components.
+/// The dual vector of values and slopes; `None` unless both have the dimension of the vector.
 #[inline(always)]
 pub(super) fn joined<T: Copy, V: Vector<Scalar = Dual<T>>>(
     values: &[T],
@@ -43,7 +43,7 @@ pub(super) fn joined<T: Copy, V: Vector<Scalar = Dual<T>>>(
     Some(duals)
 }
 
-/// Writes values and slopes of dual numbers.
+/// Splits dual numbers into values and slopes.
 #[inline(always)]
 pub(super) fn part<T: Copy>(duals: &[Dual<T>], values: &mut [T], slopes: &mut [T]) {
     let places = values.iter_mut().zip(slopes);

@@ -7,7 +7,7 @@ use crate::integrator::validation::check_state;
 use crate::number::{Scalar, Vector};
 use crate::state::State;
 
-/// The mean exponential growth of nearby orbits, MEGNO, and the largest Lyapunov exponent, from the growth of a
+/// MEGNO, the mean exponential growth factor of nearby orbits, and the largest Lyapunov exponent, from the growth of a
 /// [displacement](super::Tangent) `δ(t)`:
 ///
 /// ```text
@@ -20,34 +20,35 @@ use crate::state::State;
 /// | of linear oscillators | 1 | 0 | 0 |
 /// | chaotic, or near an unstable periodic one | `e^{λt}` | `λt/2` | λ |
 ///
-/// Ȳ tends to 2 from below, slowly near stable periodic orbits. The integrals are those of straight lines between the states that it is
-/// shown: show it one state in a period or more, at any times.
+/// Ȳ tends to 2 from below, slowly near stable periodic orbits. The integrals use the trapezoidal rule between the
+/// observed states: observe at least one state per period, at any times.
 ///
-/// Source: Cincotta, Giordano & Simó, Physica D 182 (2003) 151; the second form of Y is the first one integrated by parts.
+/// Source: Cincotta, Giordano & Simó, Physica D 182 (2003) 151; the second form of Y follows by partial integration.
 ///
 /// See [`Tangent`](super::Tangent) for an example.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Megno {
     begin: f64,
-    /// Negative in a run backward.
+    /// Time since `begin`; negative in a backward run.
     elapsed: f64,
     /// ln|δ| at the start.
     first: f64,
     /// ln|δ| − `first`.
     growth: f64,
-    /// The integral of `growth`.
+    /// Integral of `growth` over |t|.
     area: f64,
     value: f64,
-    /// The integral of `value`.
+    /// Integral of `value` over |t|.
     sum: f64,
 }
 
 impl Megno {
-    /// From the start of a run of a [`Tangent`](super::Tangent).
+    /// An indicator that begins at `start`, a state of a [`Tangent`](super::Tangent).
     ///
     /// # Errors
     ///
-    /// [`Error::NonFiniteState`], [`Error::Dimension`], [`Error::Length`] where it is odd; [`Error::NoDisplacement`] where the displacement is zero.
+    /// [`Error::NonFiniteState`]; [`Error::Dimension`] if position and momentum differ in dimension, [`Error::Length`]
+    /// if it is odd; [`Error::NoDisplacement`] for a zero displacement.
     pub fn new<W: Vector<Scalar = f64>>(start: &State<W>) -> Result<Self, Error> {
         check_even(&start.q)?;
         check_state(start.time, &start.q, &start.p, start.q.dimension())?;
@@ -63,7 +64,8 @@ impl Megno {
         })
     }
 
-    /// Looks at the next state of the run, forward or backward in time. One that is not behind the last one in that direction is ignored.
+    /// Observes the next state of the run, forward or backward in time. A state that does not follow the last observed
+    /// state in that direction is ignored.
     pub fn see<W: Vector<Scalar = f64>>(&mut self, state: &State<W>) {
         let elapsed = state.time - self.begin;
         let (time, step) = (elapsed.abs(), elapsed.abs() - self.elapsed.abs());
@@ -80,12 +82,12 @@ impl Megno {
         (self.elapsed, self.growth, self.value) = (elapsed, growth, value);
     }
 
-    /// Y, which oscillates: for quasi-periodic orbits around 2.
+    /// Y(t). For quasi-periodic orbits it oscillates around 2.
     pub const fn value(&self) -> f64 {
         self.value
     }
 
-    /// Ȳ, the indicator that is shown in maps.
+    /// Ȳ(t), the indicator plotted in stability maps.
     pub fn mean(&self) -> f64 {
         self.over_time(self.sum)
     }
@@ -108,7 +110,7 @@ impl Megno {
     }
 }
 
-/// ln|δ| of a state of a tangent system, also where squares overflow or vanish; nothing where δ is zero.
+/// ln|δ| of a state of a tangent system, scaled against overflow and underflow; `None` for δ = 0.
 fn logarithm<W: Vector<Scalar = f64>>(state: &State<W>) -> Option<f64> {
     let (q, p) = state.as_slices();
     let parts = || {

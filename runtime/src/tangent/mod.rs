@@ -1,7 +1,7 @@
-//! The tangent map: how a small displacement of the start grows along an orbit, and whether the orbit is chaotic.
+//! The tangent map: growth of a small displacement along an orbit, and indicators of chaos.
 //!
 //! * [`Tangent`] is a system together with its variational equations.
-//! * [`Megno`] is an indicator of chaos, and the largest Lyapunov exponent, from a run of it.
+//! * [`Megno`] computes an indicator of chaos and the largest Lyapunov exponent from its trajectory.
 
 mod dual_vector;
 mod megno;
@@ -26,21 +26,26 @@ use crate::system::{Class, Conservative, Hamiltonian, LaneWork, OverEveryScalar,
 /// q' = ∂H/∂p     δq' = D(∂H/∂p)·(δq, δp)      δp' = −D(∂H/∂q)·(δq, δp)     p' = −∂H/∂q
 /// ```
 ///
-/// In this order it is a Hamiltonian system, with `K = DH·(δq, δp)`, which is its [energy](System::energy); so all that steps, events and
-/// solvers suppose of a system holds for it. The derivatives are exact, by dual numbers through the code of the system. A step of an
-/// explicit method maps the displacement `(δq, δp)` by the derivative of the step itself: two displacements keep their symplectic
-/// product, and `(q, p)` has the bits that it has without a displacement.
+/// With these conjugate pairs it is a Hamiltonian system with `K = DH·(δq, δp)`, its [energy](System::energy). So
+/// steps, events and solvers apply unchanged. The derivatives are exact: dual numbers run through the code of the
+/// system.
 ///
-/// The vectors have twice the dimension: `SVector<f64, 4>` for two positions. It runs like any other system in steps of fixed size, in the
-/// lanes of an [`Ensemble`](crate::ensemble::Ensemble) too. With a monitor of [`adaptive`](crate::adaptive) the displacement would choose
-/// the steps. Systems with friction or constraints, closures and chains have none. Dynamic vectors are allocated in every
-/// evaluation: prefer fixed ones. Where velocity or force has no derivative, as `|x|` at zero written as a root, a step fails with
-/// [`Error::NonFinite`].
+/// A step of an explicit method maps the displacement `(δq, δp)` by the derivative of the step map. So the symplectic
+/// product of two displacements is conserved, and `(q, p)` has the same bits as without a displacement.
 ///
-/// A displacement is a direction. Take it no longer than the state: what is tried when an integrator is made, whether the velocity is
-/// linear in the momentum, is relative to the largest component. Explicit methods do not care how short it is; one of length 10⁻³⁰⁰ may
-/// grow by 10⁶⁰⁰ before a run ends with [`Error::NonFinite`]. An implicit method stops to iterate where the largest components do not
-/// change any more: take a displacement about as long as the state and compensated sums, which stay right when it has grown by 10¹⁰.
+/// The vectors have twice the dimension: `SVector<f64, 4>` for two positions. The system runs like any other with
+/// constant steps, also in the lanes of an [`Ensemble`](crate::ensemble::Ensemble).
+///
+/// Limits: with a monitor of [`adaptive`](crate::adaptive) the displacement would influence the step sizes. Systems
+/// with friction or constraints, closures and chains have no tangent system. Dynamic vectors are allocated in every
+/// evaluation; prefer fixed sizes. If velocity or force is not differentiable, as `|x|` at zero written as a root, a
+/// step fails with [`Error::NonFinite`].
+///
+/// A displacement is a direction. Choose it no longer than the state: a new integrator checks whether the velocity is
+/// linear in the momentum, relative to the largest component. Explicit methods work with any shorter length; a
+/// displacement of length 10⁻³⁰⁰ may grow by 10⁶⁰⁰ before a run ends with [`Error::NonFinite`]. The iteration of an
+/// implicit method stops when the largest components no longer change. There, use a displacement about as long as the
+/// state and compensated sums, which remain accurate for a growth by 10¹⁰.
 ///
 /// ```
 /// use symplectic::nalgebra::{SVector, Vector2};
@@ -83,19 +88,19 @@ impl<S> Tangent<S> {
         Self(system)
     }
 
-    /// The system.
+    /// The original system.
     pub const fn system(&self) -> &S {
         &self.0
     }
 }
 
 impl<S: Hamiltonian> Tangent<S> {
-    /// The state with a displacement `(δq, δp)`.
+    /// The state of the tangent system for `state` with the displacement `(δq, δp)`.
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`]; [`Error::NoDisplacement`] where it is zero; [`Error::Length`] where the
-    /// vectors `W` do not have twice the dimension.
+    /// [`Error::Dimension`], [`Error::NonFiniteState`]; [`Error::NoDisplacement`] for a zero displacement;
+    /// [`Error::Length`] if the vectors `W` do not have twice the dimension of the system.
     pub fn start<W: Vector<Scalar = f64>>(
         &self,
         state: &State<S::Vector<f64>>,
@@ -119,7 +124,7 @@ impl<S: Hamiltonian> Tangent<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] where the vectors `W` do not have twice the dimension of those of the system.
+    /// [`Error::Length`] if the vectors `W` do not have twice the dimension of the system.
     pub fn state<W: Vector<Scalar = f64>>(
         &self,
         state: &State<W>,
@@ -147,7 +152,7 @@ impl<S: Hamiltonian> Tangent<S> {
     }
 }
 
-/// Checks that a vector has two halves.
+/// Checks that the dimension is even.
 fn check_even<W: Vector>(vector: &W) -> Result<(), Error> {
     match vector.dimension() {
         found if found % 2 == 1 => Err(Error::Length {
@@ -167,7 +172,8 @@ pub type Displacement<S> = (
 /// The vectors of a system over dual numbers.
 type Duals<S, W> = <S as Hamiltonian>::Vector<Dual<<W as Vector>::Scalar>>;
 
-/// The dual positions of `(q, δq)` and momenta of `(δp, p)`, and zeros; nothing where the system has vectors of another dimension.
+/// The dual position of `(q, δq)`, the dual momentum of `(δp, p)`, and a zero vector; `None` if the vectors of the
+/// system have another dimension.
 #[inline(always)]
 fn duals<S: Hamiltonian, W: Vector>(q: &W, p: &W) -> Option<[Duals<S, W>; 3]> {
     let (values, slopes) = halves(q.as_slice());
@@ -176,21 +182,21 @@ fn duals<S: Hamiltonian, W: Vector>(q: &W, p: &W) -> Option<[Duals<S, W>; 3]> {
     Some([q, joined(values, slopes)?, zeros(values.len())?])
 }
 
-/// Writes a velocity, `(v, δv)`.
+/// Writes a velocity as `(v, δv)`.
 #[inline(always)]
 fn write_velocity<W: Vector>(duals: &[Dual<W::Scalar>], out: &mut W) {
     let (values, slopes) = halves_mut(out.as_mut_slice());
     part(duals, values, slopes);
 }
 
-/// Writes a force, `(δf, f)`.
+/// Writes a force as `(δf, f)`.
 #[inline(always)]
 fn write_force<W: Vector>(duals: &[Dual<W::Scalar>], out: &mut W) {
     let (slopes, values) = halves_mut(out.as_mut_slice());
     part(duals, values, slopes);
 }
 
-/// What is no velocity and no force: the first step then fails, and [`System::explain`] says why.
+/// Writes NaN as velocity or force: the first step then fails, and [`System::explain`] gives the reason.
 fn write_nothing<W: Vector>(out: &mut W) {
     out.as_mut_slice().fill(W::Scalar::from_f64(f64::NAN));
 }
@@ -203,7 +209,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Vector> System<W> for Tangent<S> {
 
     #[inline(always)]
     fn velocity(&self, time: W::Scalar, q: &W, p: &W, velocity: &mut W) {
-        // What it does not depend on is any vector at hand.
+        // The velocity of a separable system does not depend on q; any vector will do.
         let q = if S::Class::SEPARABLE { p } else { q };
         let Some([q, p, mut found]) = duals::<S, W>(q, p) else {
             return write_nothing(velocity);
@@ -251,7 +257,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Vector> System<W> for Tangent<S> {
         write_force(found.as_slice(), applied);
     }
 
-    /// Where the system has vectors of another dimension, that is what is wrong.
+    /// Replaces the error if the vectors of the system have another dimension.
     fn explain(&self, error: Error, q: &W) -> Error {
         if let Err(odd) = check_even(q) {
             return odd;

@@ -1,7 +1,7 @@
-//! The integrators written by hand on their own: nanoseconds a step, sweeps, nanoseconds an evaluation.
+//! The hand-written integrators alone: nanoseconds per step, sweeps, nanoseconds per evaluation.
 //!
-//! `RUSTFLAGS="-C target-cpu=native" cargo run --release --example baseline`. A baseline is worth as much as it is fast:
-//! these are the figures to hold against those of other people's loops.
+//! `RUSTFLAGS="-C target-cpu=native" cargo run --release --example baseline`. A baseline must be fast: compare these
+//! numbers with other hand-written loops.
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
@@ -23,7 +23,7 @@ const GAUSS: Rule<8> = Rule {
     c: Gauss8::C,
 };
 
-/// Steps of a run: short enough that most runs are not interrupted.
+/// Number of steps of a run, few enough that most runs are not interrupted.
 const STEPS: u64 = 640;
 
 fn main() {
@@ -189,7 +189,7 @@ fn row(problem: &str, form: &str, step_size: f64, step: f64, sweeps: u64, evalua
     );
 }
 
-/// The least time of a run, in seconds.
+/// The shortest time of a run, in seconds.
 fn best(mut run: impl FnMut()) -> f64 {
     let mut best = f64::INFINITY;
     for _ in 0..200 {

@@ -1,7 +1,9 @@
-//! Constrained steps against code by hand, and what a chain of links costs: `cargo run --release -p symplectic-contest --example constraints`.
+//! Constrained steps against hand-written code, and the cost of a chain of links:
+//! `cargo run --release -p symplectic-contest --example constraints`.
 //!
-//! A plane box of rigid triangles in a trap, RATTLE, beside SHAKE and RATTLE as they are usually written: bond by bond until no bond is off by
-//! more than a tolerance. Then chains of links, the time for a link and step; and the double pendulum in coordinates and by its angles.
+//! Rigid triangles in a plane trap: RATTLE of the library against SHAKE and RATTLE as usually written, bond by bond
+//! until the error of every bond is below a tolerance. Chains of links: time per link and step. The double pendulum in
+//! Cartesian coordinates and in angles.
 
 #![allow(clippy::print_stdout, reason = "it prints")]
 
@@ -32,7 +34,7 @@ symplectic::hamiltonian! {
 }
 
 symplectic::hamiltonian! {
-    /// The double pendulum in coordinates.
+    /// The double pendulum in Cartesian coordinates.
     pub Plane
     q: [x1, y1, x2, y2], p: [px1, py1, px2, py2];
     H = (px1^2 + py1^2 + px2^2 + py2^2)/2 + y1 + y2
@@ -40,16 +42,16 @@ symplectic::hamiltonian! {
 }
 
 symplectic::lagrangian! {
-    /// The double pendulum by its angles.
+    /// The double pendulum in angles.
     pub Angles
     q: [a, b], v: [va, vb];
     L = va^2 + vb^2/2 + va vb cos(a - b) + 2 cos(a) + cos(b)
 }
 
-/// Runs of each, in turn.
+/// Number of runs of each program, in turn.
 const RUNS: usize = 9;
 
-/// The medians of the times of two programs that run in turn, in seconds.
+/// The median times of two programs that run in turn, in seconds.
 fn medians(mut programs: [Box<dyn FnMut() + '_>; 2]) -> [f64; 2] {
     let mut times = [Vec::new(), Vec::new()];
     for _ in 0..RUNS {
@@ -65,7 +67,7 @@ fn medians(mut programs: [Box<dyn FnMut() + '_>; 2]) -> [f64; 2] {
     })
 }
 
-/// Triangles by hand.
+/// Hand-written code for the triangles.
 struct ByHand {
     masses: Vec<f64>,
     rods: Vec<(usize, usize, f64)>,
@@ -75,7 +77,7 @@ struct ByHand {
 }
 
 impl ByHand {
-    /// How far a bond may be off, relative to its length.
+    /// Largest relative error of the length of a bond.
     const TOLERANCE: f64 = 1e-14;
 
     fn kick(&mut self, h: f64) {
@@ -253,7 +255,7 @@ fn double_pendulum() -> Result<(), Error> {
             .zip(exact)
             .fold(0.0_f64, |e, (x, y)| e.max((x - y).abs()))
     };
-    // As many steps as an error of 1e-9 takes, by order 6.
+    // The number of steps for an error of 1e-9, extrapolated with order 6.
     let wanted = |run: &dyn Fn(u64) -> Result<[f64; 4], Error>| -> Result<u64, Error> {
         let found = error(run(400)?);
         Ok((400.0 * (found / 1e-9).powf(1.0 / 6.0)).ceil() as u64)

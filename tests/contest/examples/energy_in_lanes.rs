@@ -1,4 +1,4 @@
-//! The energy of a formula over many points, eight and four of them side by side: nanoseconds a point.
+//! The energy of a formula at many points, in eight and in four lanes: nanoseconds per point.
 //!
 //! `cargo run --release -p symplectic-contest --example energy_in_lanes`, and with `RUSTFLAGS="-C target-cpu=native"`
 
@@ -12,17 +12,17 @@ use symplectic::simd::{F64x4, F64x8, Lanes};
 use symplectic::{Hamiltonian, Scalar};
 use symplectic_tests::formulas::RestrictedThreeBody;
 
-/// They stay in the first cache.
+/// Number of points; they fit the first-level cache.
 const POINTS: usize = 512;
-/// Passes over all points in one measurement.
+/// Number of passes over all points in a measurement.
 const PASSES: usize = 100;
-/// Measurements, of which the shortest counts.
+/// Number of measurements, of which the shortest counts.
 const ROUNDS: usize = 500;
 
 /// Position and momentum of a group of points.
 type Point<T> = [SVector<T, 2>; 2];
 
-/// The energy of some points, one group after another.
+/// The energies at the points, one group after another.
 fn energies<T: Scalar>(system: &RestrictedThreeBody, points: &[Point<T>], energies: &mut [T]) {
     for ([q, p], energy) in points.iter().zip(energies) {
         *energy = system
@@ -31,7 +31,7 @@ fn energies<T: Scalar>(system: &RestrictedThreeBody, points: &[Point<T>], energi
     }
 }
 
-/// Points without a pattern around the Earth and the Moon.
+/// Irregularly spaced points around the Earth and the Moon.
 fn points<T: Scalar>(width: usize, group: impl Fn(&dyn Fn(usize) -> f64) -> T) -> Vec<Point<T>> {
     let number = |k: usize| (k as f64 * 0.754_877_666_2).fract() * 3.0 - 1.5;
     let component =
@@ -41,14 +41,14 @@ fn points<T: Scalar>(width: usize, group: impl Fn(&dyn Fn(usize) -> f64) -> T) -
         .collect()
 }
 
-/// The two square roots and two quotients of that energy, and nothing else: what the unit of the processor that divides takes for it.
+/// Only the two square roots and two quotients of that energy: the share of the division unit of the processor.
 fn roots_and_quotients<T: Scalar>(points: &[Point<T>], values: &mut [T]) {
     for ([q, p], value) in points.iter().zip(values) {
         *value = T::from_f64(0.3) / q[0].sqrt() + T::from_f64(0.7) / p[0].sqrt();
     }
 }
 
-/// Nanoseconds a point of the energy, and of its roots and quotients.
+/// Nanoseconds per point for the energy, and for its roots and quotients alone.
 fn times<T: Scalar>(points: &[Point<T>]) -> [f64; 2] {
     let system = black_box(RestrictedThreeBody::default());
     let positive = points.iter().map(|[q, p]| [q.map(T::abs), p.map(T::abs)]);
@@ -57,7 +57,7 @@ fn times<T: Scalar>(points: &[Point<T>]) -> [f64; 2] {
     [energy, shortest(&positive, roots_and_quotients)]
 }
 
-/// Nanoseconds a point, in the shortest of the measurements.
+/// Nanoseconds per point, from the shortest measurement.
 fn shortest<T: Scalar>(points: &[Point<T>], pass: impl Fn(&[Point<T>], &mut [T])) -> f64 {
     let mut out = vec![T::zero(); points.len()];
     let round = |_| {

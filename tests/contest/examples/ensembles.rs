@@ -1,4 +1,4 @@
-//! Ensembles against a loop of single runs: nanoseconds a step of one trajectory.
+//! Ensembles against a loop of single runs: nanoseconds per step of a trajectory.
 //!
 //! `cargo run --release -p symplectic-contest --example ensembles`
 
@@ -17,12 +17,12 @@ use symplectic::{
 use symplectic_tests::formulas::{HenonHeiles, Kepler};
 use symplectic_tests::methods::{BlanesMoanS10, Gauss4};
 
-/// Rounds, in each of which everything runs once, in turn.
+/// Number of rounds; in each round all variants run once, in turn.
 const ROUNDS: usize = 9;
 
 type Start = State<Vector2<f64>>;
 
-/// Prints a row: medians of a loop of single runs, of an ensemble on one thread, and of one on all.
+/// Prints a row: medians of a loop of single runs, of an ensemble on one thread, and of an ensemble on all threads.
 fn row<M, S, R>(
     name: &str,
     method: M,

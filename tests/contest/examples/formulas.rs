@@ -1,4 +1,4 @@
-//! Systems from formulas against the same systems by hand: ratios of the times of whole runs, medians of runs in turn.
+//! Systems from formulas against the same systems written by hand: median ratios of the times of whole runs in turn.
 //!
 //! `cargo run --release -p symplectic-contest --example formulas`
 
@@ -13,10 +13,10 @@ use symplectic_tests::formulas;
 use symplectic_tests::methods::{BlanesMoanS10, Gauss4, Gauss8, StoermerVerlet};
 use symplectic_tests::scenes::{self, outer_solar_system as planets};
 
-/// How often both are run, in turn.
+/// Number of runs of both, in turn.
 const ROUNDS: usize = 41;
 
-/// Prints a row, and keeps its ratios: a run of each system by each method, so many steps of a size.
+/// Prints a row and stores its ratios, from runs of both systems with each method.
 macro_rules! scene {
     ($all:ident, $name:literal, $hand:expr, $formula:expr, $start:expr => $vector:ty, $step:expr, $steps:expr, [$($method:ident),*]) => {
         $(
@@ -45,7 +45,7 @@ fn vector<V: Vector<Scalar = f64>>(components: &[f64]) -> V {
     V::from_slice(components).expect("as many components")
 }
 
-/// The median of the ratios of neighbouring runs, the second over the first.
+/// The median of the ratios of consecutive runs, the second over the first.
 fn ratio(mut hand: impl FnMut(), mut formula: impl FnMut()) -> f64 {
     let seconds = |run: &mut dyn FnMut()| {
         let began = Instant::now();

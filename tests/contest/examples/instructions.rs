@@ -1,10 +1,10 @@
-//! Instructions of an explicit step, by the library and by hand, as callgrind counts them.
+//! Instructions of an explicit step of the library and of hand-written code, counted by callgrind.
 //!
 //! `cargo run --release --example instructions` runs itself under `valgrind --tool=callgrind`, once for each number of
-//! components, and prints the ratios. Valgrind knows no AVX-512: build for the baseline target.
+//! components, and prints the ratios. Valgrind does not support AVX-512: build for the baseline target.
 //!
-//! The program is run with two numbers of steps, and the difference of the counts divided by that of the steps: what
-//! comes before and after the steps drops out.
+//! The program runs with two numbers of steps. The difference of the counts divided by the difference of the steps
+//! excludes all code before and after the steps.
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
@@ -22,7 +22,7 @@ use symplectic_tests::methods::{ForestRuth, VelocityVerlet};
 
 type Outcome = Result<(), Box<dyn Error>>;
 
-/// Steps of the short and of the long run.
+/// Numbers of steps of the short and of the long run.
 const STEPS: [u64; 2] = [100, 1100];
 
 fn main() -> Outcome {
@@ -59,13 +59,13 @@ fn main() -> Outcome {
     Ok(())
 }
 
-/// Instructions a step.
+/// Instructions per step.
 fn count(case: &str, who: &str) -> Result<f64, Box<dyn Error>> {
     let [short, long] = STEPS.map(|steps| instructions(case, who, steps));
     Ok((long? - short?) / (STEPS[1] - STEPS[0]) as f64)
 }
 
-/// Instructions of a whole run, from the summary that callgrind prints: `Collected : 12345`.
+/// Instructions of a whole run, from the summary of callgrind: `Collected : 12345`.
 fn instructions(case: &str, who: &str, steps: u64) -> Result<f64, Box<dyn Error>> {
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
@@ -80,7 +80,7 @@ fn instructions(case: &str, who: &str, steps: u64) -> Result<f64, Box<dyn Error>
     Ok(count.trim().parse()?)
 }
 
-/// Oscillators in a row, each coupled to the next: cheap forces, so that what is beside them shows.
+/// A row of coupled oscillators: the forces are cheap, so that the overhead is visible.
 #[derive(Clone, Copy)]
 struct Oscillators;
 
@@ -189,7 +189,7 @@ impl ByHand for ForestRuth {
     const DRIFTS: &'static [f64] = &Self::B;
 }
 
-/// A kick, then drifts and kicks in turn; the force is kept from step to step, and the velocity is the momentum.
+/// A kick, then alternating drifts and kicks. The force is kept from step to step; masses are 1.
 #[inline(never)]
 fn by_hand<M: ByHand, R: Summation, V: Vector<Scalar = f64>>(
     mut q: V,

@@ -1,8 +1,8 @@
-//! The library against integrators written by hand: times of a step and their ratio.
+//! The library against hand-written integrators: times per step and their ratio.
 //!
-//! `RUSTFLAGS="-C target-cpu=native" cargo run --release --example ratios`; arguments choose rows by what they contain.
-//! Runs of both take turns, so that a machine which drifts hits both alike; a run has as many steps as Gauss 8 takes to the end of
-//! the problem, which takes 50 milliseconds at most.
+//! `RUSTFLAGS="-C target-cpu=native" cargo run --release --example ratios`; arguments select rows that contain them.
+//! Runs of both take turns, so that changes in the speed of the machine affect both alike. A run has the number of
+//! steps of Gauss 8 to the end of the problem, at most 50 milliseconds.
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
@@ -12,7 +12,7 @@ use std::time::Instant;
 use symplectic::Error;
 use symplectic_contest::{Run, pairs};
 
-/// Runs of each.
+/// Number of runs of each.
 const ROUNDS: usize = 101;
 
 fn main() -> Result<(), Error> {
@@ -64,7 +64,7 @@ fn time(run: &Run, steps: u64) -> Result<f64, Error> {
     Ok(begin.elapsed().as_secs_f64())
 }
 
-/// The least value: the one to look at where the machine has other work.
+/// The smallest value, which is least disturbed by other processes.
 fn least(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::INFINITY, f64::min)
 }

@@ -1,4 +1,5 @@
-//! An orbit of eccentricity 0.999: steps of variable size against DOP853, the time to a position to 1e-9 after 100 orbits.
+//! An orbit of eccentricity 0.999: variable steps against DOP853, run time for a position error of 1e-9 after 100
+//! periods.
 //!
 //! `cargo run --release -p symplectic-contest --example variable_steps`
 
@@ -22,30 +23,30 @@ symplectic::hamiltonian! {
 }
 
 symplectic::tableau! {
-    /// Kahan & Li, order 8, with a drift first: on Kepler orbits only the time has an error.
+    /// Kahan & Li, order 8, with a drift first: on Kepler orbits its only error is in time.
     KahanLi8Drift { base: kahan-li-1997-s17odr8-b, exchange: true }
 }
 
 const ECCENTRICITY: f64 = 0.999;
 const END: f64 = 100.0 * TAU;
 const WANTED: f64 = 1e-9;
-/// Runs of each, of which the median counts.
+/// Number of runs of each, of which the median counts.
 const ROUNDS: usize = 9;
-/// A step parameter is divided by this until the position is right.
+/// The step parameter is divided by this until the position is accurate.
 const RATIO: f64 = 1.25;
 
-/// The apocentre.
+/// The start at the apocentre.
 fn start() -> State<Vector2<f64>> {
     let speed = ((1.0 - ECCENTRICITY) / (1.0 + ECCENTRICITY)).sqrt();
     State::from_arrays(0.0, [-1.0 - ECCENTRICITY, 0.0], [0.0, -speed])
 }
 
-/// The error of the energy, −1/2.
+/// The error of the energy, whose exact value is −1/2.
 fn energy_error(state: &State<Vector2<f64>>) -> f64 {
     state.p.norm_squared() / 2.0 - state.q.norm().recip() + 0.5
 }
 
-/// What a run has: its last position, its steps, and the errors of the energy after them, if they were asked for.
+/// The outcome of a run: last position, number of steps and, on request, the energy errors after the steps.
 struct Outcome {
     position: Vector2<f64>,
     steps: u64,
@@ -61,7 +62,7 @@ fn logarithmic<M: Method + ProvedFor<Separable> + Copy>(
     let extended: State<Vector3<f64>> = system.extend(&start())?;
     let mut run = Integrator::new(method, system, extended, epsilon)?;
     let mut found = Vec::new();
-    // Many steps at once, and near the end one by one.
+    // Several steps at once, and single steps near the end.
     while run.state().q[2] < END - 1.0 {
         match energies {
             false => drop(run.take_steps(16)?),
@@ -103,7 +104,7 @@ fn reversible<M: Method + ProvedFor<Separable> + Copy>(
     })
 }
 
-/// Prints the row of the longest steps that are good enough.
+/// Prints the row of the largest steps that are accurate enough.
 fn row(
     name: &str,
     first: f64,
@@ -144,7 +145,7 @@ fn row(
     );
 }
 
-/// The mean, and its standard error.
+/// The mean and its standard error.
 fn mean(values: &[f64]) -> String {
     if values.is_empty() {
         return String::new();

@@ -1,7 +1,7 @@
-//! The library against integrators written by hand, and against other crates: the same problems, methods, steps and sums.
+//! The library against hand-written integrators and other crates: the same problems, methods, steps and sums.
 //!
-//! Not published. `cargo run --release --example ratios` prints the ratios, `--example instructions` counts instructions,
-//! `cargo bench -p symplectic-contest` has the other crates beside them.
+//! Not published. `cargo run --release --example ratios` prints the ratios, `--example instructions` counts
+//! instructions, `cargo bench -p symplectic-contest` adds the other crates.
 
 pub mod baseline;
 mod pairs;

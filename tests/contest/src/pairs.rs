@@ -1,4 +1,4 @@
-//! The library and integrators written by hand on the same problems, with the same methods, steps and sums.
+//! The library and hand-written integrators on the same problems, with the same methods, steps and sums.
 
 mod few;
 mod many;
@@ -12,33 +12,34 @@ use symplectic_tests::scenes::{
     double_pendulum, fput_springs, henon_heiles, kepler, nonseparable, outer_solar_system,
 };
 
-/// A run of so many steps, to be made as often as is liked: the components of the state at its end, q and then p.
+/// A repeatable run with a number of steps; returns the components of the state at its end, q followed by p.
 pub type Run = Box<dyn Fn(u64) -> Result<Vec<f64>, Error>>;
 
-/// One method on one problem, twice.
+/// A method on a problem, by the library and by hand-written code.
 pub struct Pair {
     /// The problem.
     pub problem: &'static str,
     /// The method.
     pub method: &'static str,
-    /// How increments are added to the state, `plain` or `compensated`; for implicit methods also `to rounding`, plain ones where
-    /// the library iterates as it does without a word, and not to the tolerance of the iteration by hand.
+    /// The summation of increments, `plain` or `compensated`. For implicit methods also `to rounding`: plain sums,
+    /// where the library iterates to rounding by default, not to the tolerance of the hand-written iteration.
     pub sums: &'static str,
-    /// Whether both do the same arithmetic, so that their states agree to the last bit.
+    /// Whether both use the same arithmetic, so that their states agree to the last bit.
     pub same_arithmetic: bool,
     /// The step size.
     pub step_size: f64,
-    /// Steps of a whole run, for times.
+    /// Number of steps of a whole run, for timing.
     pub steps: u64,
-    /// Steps after which the states are compared, at most these: rounding errors grow, exponentially where there is chaos.
+    /// Number of steps after which the states are compared; small, because rounding errors grow, exponentially in
+    /// chaotic systems.
     pub compared: u64,
-    /// By the library.
+    /// The run of the library.
     pub library: Run,
-    /// By hand.
+    /// The run of the hand-written code.
     pub baseline: Run,
 }
 
-/// What the sums of a row are called where the library iterates down to rounding.
+/// The name of the sums if the library iterates to rounding.
 const TO_ROUNDING: &str = "to rounding";
 
 impl Pair {
@@ -47,7 +48,7 @@ impl Pair {
         format!("{} | {} | {}", self.problem, self.method, self.sums)
     }
 
-    /// The largest difference of a component where the states are compared, in units of the largest position or momentum.
+    /// The largest difference of a component after `compared` steps, in units of the largest position or momentum.
     ///
     /// # Errors
     ///
@@ -70,25 +71,26 @@ impl Pair {
     }
 }
 
-/// Where a problem starts, and how it is stepped.
+/// A problem with its start and its steps.
 struct Problem<S, B, V> {
     name: &'static str,
     system: S,
     /// The system, written by hand.
     by_hand: B,
     start: State<V>,
-    /// For Gauss with eight stages; the others have fractions of it.
+    /// The step size of Gauss with eight stages; other methods use fractions of it.
     step_size: f64,
-    /// Those of [`Pair`].
+    /// As in [`Pair`], like `compared`.
     steps: u64,
     compared: u64,
-    /// What no stage of the iteration by hand may move by in the end; rounding errors are smaller.
+    /// Largest final change of a stage in the hand-written iteration; rounding errors are smaller.
     tolerance: f64,
-    /// Whether the library iterates positions and momenta at once, as it is done by hand for Hamiltonians that are not separable.
+    /// Whether the library iterates positions and momenta at once, like the hand-written code for nonseparable
+    /// Hamiltonians.
     at_once: bool,
 }
 
-/// Every pair.
+/// All pairs.
 pub fn pairs() -> Vec<Pair> {
     let mut pairs = Vec::new();
     few::separable(
@@ -199,7 +201,7 @@ where
     S: System<V> + Copy + 'static,
     V: Vector<Scalar = f64>,
 {
-    /// A pair for steps of `step_size`, with an integrator that is given its solver.
+    /// A pair for steps of `step_size`, with an integrator and its solver.
     fn pair<M: Method + ProvedFor<S::Class>, R: Summation, N: Solver<V, S>>(
         &self,
         method: (&'static str, M),

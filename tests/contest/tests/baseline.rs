@@ -1,4 +1,4 @@
-//! The integrators written by hand, against which the library is timed, integrate what the library integrates.
+//! The hand-written integrators, against which the library is timed, give the results of the library.
 
 use std::num::NonZero;
 use std::thread;
@@ -6,12 +6,12 @@ use std::thread;
 use symplectic::Error;
 use symplectic_contest::pairs;
 
-/// What is wrong with every `shares`-th pair.
+/// The failures among every `shares`-th pair.
 fn failures(share: usize, shares: usize) -> Result<Vec<String>, Error> {
     let mut failures = Vec::new();
     for pair in pairs().into_iter().skip(share).step_by(shares) {
         let difference = pair.difference()?;
-        // Where the order of the operations differs, rounding errors grow by the phase of an orbit and by chaos.
+        // If the order of operations differs, rounding errors grow with the phase of an orbit and by chaos.
         let bound = if pair.same_arithmetic { 0.0 } else { 1e-11 };
         if difference.is_nan() || difference > bound {
             failures.push(format!("{}: {difference:e}", pair.label()));
@@ -22,7 +22,7 @@ fn failures(share: usize, shares: usize) -> Result<Vec<String>, Error> {
 
 #[test]
 fn library_and_baseline_go_to_the_same_states() -> Result<(), Error> {
-    // Without optimisation they take minutes.
+    // In parallel, because without optimisation they take minutes.
     let shares = thread::available_parallelism().map_or(1, NonZero::get);
     let found = thread::scope(|scope| {
         let start = |share| scope.spawn(move || failures(share, shares));

@@ -1,4 +1,4 @@
-//! A separable scene with an explicit method: the program in which a test looks for what should not be there.
+//! A separable scene with an explicit method. A test checks that the binary contains no code it does not need.
 
 #![allow(clippy::print_stdout, reason = "a program prints")]
 

@@ -1,4 +1,4 @@
-//! A separable scene with an implicit method, and else as `explicit_scene`: the program in which a test finds the solver.
+//! Like `explicit_scene`, but with an implicit method. A test finds the solver in the binary.
 
 #![allow(clippy::print_stdout, reason = "a program prints")]
 

@@ -1,4 +1,4 @@
-//! The same formula by Newton's iteration, with its energy: the program in which a test finds the derivatives.
+//! The same formula with Newton's iteration and its energy. A test finds the derivatives in the binary.
 
 #![allow(clippy::print_stdout, reason = "a program prints")]
 

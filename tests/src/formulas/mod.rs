@@ -1,7 +1,7 @@
-//! The scenes as formulas: from each, everything is derived.
+//! The scenes as formulas, from which all equations are derived.
 //!
-//! The same systems by hand are in [`scenes`](crate::scenes); that both give the same is tested, and how fast both are is measured.
-//! The restricted three-body problem is here only.
+//! The same systems written by hand are in [`scenes`](crate::scenes). Tests check that both agree, and benches compare
+//! their speed. The restricted three-body problem is here only.
 
 symplectic::hamiltonian! {
     /// The harmonic oscillator.
@@ -26,7 +26,7 @@ symplectic::hamiltonian! {
 }
 
 symplectic::hamiltonian! {
-    /// The restricted three-body problem in the plane, in the frame that turns with the Earth and the Moon.
+    /// The planar restricted three-body problem, in the frame that rotates with the Earth and the Moon.
     pub RestrictedThreeBody { mu: 0.01215058560962404 }
     q: [x, y], p: [px, py];
     H = (px^2 + py^2)/2 + y px - x py - (1 - mu)/hypot(x + mu, y) - mu/hypot(x - 1 + mu, y)
@@ -48,7 +48,7 @@ symplectic::hamiltonian! {
 }
 
 symplectic::hamiltonian! {
-    /// Bodies that attract one another, in space.
+    /// Gravitating bodies in space.
     pub Planets<N> { m: [N], G: 2.95912208286e-4 }
     q: [N; 3], p: [N; 3];
     H = sum(i in 0..N: |p[i]|^2/(2 m[i])) - sum(i < j: G m[i] m[j]/|q[i] - q[j]|)
@@ -98,7 +98,7 @@ symplectic::hamiltonian! {
 }
 
 symplectic::hamiltonian! {
-    /// A system that is not separable, of polynomials.
+    /// A polynomial system that is not separable.
     pub Nonseparable
     q: [x], p: [px];
     H = (x^2 + 1) (px^2 + 1)/2

@@ -1,4 +1,4 @@
-//! Scenes by their Lagrangians; the same by their Hamiltonians are in [`formulas`](crate::formulas).
+//! Scenes given by their Lagrangians; [`formulas`](crate::formulas) contains their Hamiltonians.
 
 symplectic::lagrangian! {
     /// Kepler's problem in the plane.
@@ -57,7 +57,7 @@ symplectic::lagrangian! {
 }
 
 symplectic::lagrangian! {
-    /// Bodies that attract one another, in space.
+    /// Gravitating bodies in space.
     pub Planets<N> { m: [N], G: 2.95912208286e-4 }
     q: [N; 3], v: [N; 3];
     L = sum(i in 0..N: m[i] |v[i]|^2/2) + sum(i < j: G m[i] m[j]/|q[i] - q[j]|)
@@ -77,7 +77,7 @@ symplectic::lagrangian! {
 }
 
 symplectic::lagrangian! {
-    /// Five pendulums that are all coupled by their kinetic energy.
+    /// Five pendulums, all coupled by the kinetic energy.
     pub FivePendulums { g: 9.81 }
     q: [5], v: [5];
     L = sum(i: 5 v[i]^2/2 + g cos(q[i])) + sum(i < j: v[i] v[j] cos(q[i] - q[j])/2)

@@ -1,5 +1,5 @@
-//! A Gauss method over wide numbers, by fixed-point iteration: short, slow, and apart from the library that it is the
-//! reference for.
+//! A Gauss method over wide numbers, with fixed-point iteration: short, slow, and independent of the library for which
+//! it computes references.
 
 use std::fmt;
 
@@ -15,7 +15,7 @@ pub struct Collocation {
     b: Vec<Wide>,
 }
 
-/// The iteration for the stages did not settle in the step from this time.
+/// The stage iteration did not converge in the step from this time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoConvergence {
     /// The time.
@@ -36,11 +36,11 @@ impl fmt::Display for NoConvergence {
 
 impl std::error::Error for NoConvergence {}
 
-/// The relative change that ends the iteration, which then is about as far from the solution as the next one would be:
-/// some 10⁻⁴⁰, because it contracts well.
+/// The relative change that ends the iteration. The remaining error is about the next change, some 10⁻⁴⁰, because the
+/// iteration contracts well.
 const TOLERANCE: f64 = 1e-38;
 
-/// Sweeps after which it has not settled.
+/// Maximum number of sweeps.
 const MOST_SWEEPS: u32 = 200;
 
 impl Collocation {
@@ -59,10 +59,10 @@ impl Collocation {
         self.b.len()
     }
 
-    /// The state at `end` and the number of steps, from `start` at time 0 in steps of the size that `step_size` finds good
-    /// at their beginning; the last one ends at `end`.
+    /// The state at `end` and the number of steps, from `start` at time 0. `step_size` returns the size of each step
+    /// from the state at its beginning; the last step ends at `end`.
     ///
-    /// The time is a double, whose sums are exact where steps are not too odd; the system must not depend on it.
+    /// The time of the state is rounded to a double; the system must be autonomous.
     ///
     /// # Errors
     ///
@@ -79,7 +79,7 @@ impl Collocation {
         S: System<V>,
     {
         let mut state = start.clone();
-        // The time left, in wide numbers: the sum of the steps is the end to all digits.
+        // The remaining time in wide numbers, so that the steps add up to the end to all digits.
         let mut left = Wide::from_f64(end);
         let mut steps = 0;
         while !left.is_zero() {
@@ -127,7 +127,8 @@ impl Collocation {
         })
     }
 
-    /// New stages `start + size Σ_j a_ij slope_j`; returns how far they went relative to the largest component.
+    /// Updates the stages to `start + size Σ_j a_ij slope_j`; returns the largest change relative to the largest
+    /// component.
     fn update<V>(&self, start: &V, size: Wide, slopes: &[V], stages: &mut [V]) -> f64
     where
         V: Vector<Scalar = Wide>,
@@ -160,7 +161,7 @@ fn add<V: Vector<Scalar = Wide>>(sum: &mut V, size: Wide, factors: &[Wide], slop
     }
 }
 
-/// The larger absolute value.
+/// The maximum of `a` and `|b|`.
 fn larger(a: Wide, b: Wide) -> Wide {
     let b = b.abs();
     if b > a { b } else { a }

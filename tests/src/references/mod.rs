@@ -1,9 +1,8 @@
 //! Reference end states of the scenes without a closed form.
 //!
-//! They stand in `data/references.toml` with 30 digits and are recomputed by `cargo run --release --example references`:
-//! every number in that file is from the program, by `recomputations` over numbers of 237 bits ([`Wide`]), and each run is
-//! made twice, with two sequences of steps. The reference belongs to the doubles of the scene: those that its start is, and
-//! those that its coefficients are.
+//! `data/references.toml` contains them with 30 digits; `cargo run --release --example references` recomputes the file.
+//! Every number in it comes from `recomputations` with 237-bit numbers ([`Wide`]), and each run is made with two
+//! sequences of steps. A reference belongs to the scene with its start and coefficients rounded to doubles.
 
 mod collocation;
 mod recomputations;
@@ -25,28 +24,28 @@ pub struct Record {
     pub scene: String,
     /// Its parameters, if it has any.
     pub parameters: String,
-    /// The time of the end; the start is that of the scene.
+    /// The end time; the start is that of the scene.
     pub time: f64,
-    /// The stages of the Gauss method, and how many steps it took in the coarser run and in the finer one.
+    /// The number of stages of the Gauss method.
     pub stages: usize,
-    /// See `stages`.
+    /// The number of steps of the coarser and of the finer run.
     pub steps: [u64; 2],
-    /// The distance of the two ends in two digits: the larger one of the relative distances of q and of p in the 2-norm.
+    /// The distance of the two ends to two digits: the larger of the relative distances of q and of p in the 2-norm.
     pub agreement: String,
-    /// The position at the end of the finer run.
+    /// The position at the end of the finer run, in decimals.
     pub q: Vec<String>,
-    /// The momentum there.
+    /// The momentum at the end of the finer run, in decimals.
     pub p: Vec<String>,
 }
 
-/// The file as a whole.
+/// The whole file.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 pub struct Records {
-    /// In the order of [`ALL`].
+    /// The records in the order of [`ALL`].
     pub reference: Vec<Record>,
 }
 
-/// What is recorded.
+/// All records.
 pub fn records() -> &'static [Record] {
     static RECORDS: OnceLock<Records> = OnceLock::new();
     let records = RECORDS.get_or_init(|| {
@@ -56,7 +55,7 @@ pub fn records() -> &'static [Record] {
     &records.reference
 }
 
-/// The recorded state of a scene at `time` as the nearest doubles; `None` if there is none, or none of this dimension.
+/// The recorded state of a scene at `time`, rounded to doubles; `None` if there is none with this dimension.
 pub fn find<V>(scene: &str, parameters: &str, time: f64) -> Option<State<V>>
 where
     V: Vector<Scalar = f64>,

@@ -1,4 +1,4 @@
-//! How each reference is computed, as data.
+//! The computation of each reference, as data.
 
 use symplectic::nalgebra::{DVector, SVector};
 use symplectic::{Scalar, State, System, Vector};
@@ -27,9 +27,9 @@ pub struct Recomputation {
     pub parameters: &'static str,
     /// The end time.
     pub time: f64,
-    /// The step size of the coarser run, or what the scene's own scale of time is multiplied by.
+    /// The step size of the coarser run, or its factor for the time scale of the scene.
     pub step: f64,
-    /// The run in such steps.
+    /// The run with a given step size.
     run: Run,
 }
 
@@ -38,10 +38,10 @@ type Run = fn(&Collocation, time: f64, step: f64) -> Result<End, NoConvergence>;
 /// Steps, position and momentum.
 type End = (u64, [Vec<Wide>; 2]);
 
-/// How much shorter the steps of the finer run are.
+/// The ratio of the step sizes of the finer and the coarser run.
 const REFINEMENT: f64 = 0.75;
 
-/// All of them.
+/// All recomputations.
 pub const ALL: &[Recomputation] = &[
     Recomputation {
         scene: "Hénon–Heiles",
@@ -87,7 +87,7 @@ pub const ALL: &[Recomputation] = &[
         step: 0.09,
         run: |method, time, step| {
             let start: State<SVector<Wide, 6>> = pythagorean_three_body::start();
-            // Kepler's third law for the nearest pair, and no longer than the bodies are on their way.
+            // Kepler's third law for the nearest pair.
             let scale = |state: &State<SVector<Wide, 6>>| {
                 let distances = pythagorean_three_body::distances(&state.q).map(Wide::to_f64);
                 let nearest = distances.into_iter().fold(f64::INFINITY, f64::min);
@@ -252,7 +252,7 @@ where
 }
 
 impl Recomputation {
-    /// Whether the record is one of this run.
+    /// Whether the record belongs to this run.
     pub fn is_of(&self, record: &Record) -> bool {
         (
             record.scene.as_str(),
@@ -286,8 +286,8 @@ impl Recomputation {
 }
 
 impl Record {
-    /// How far a run in steps of this size ends from what is recorded, as [`agreement`](Self::agreement) has it; NaN where that
-    /// is no number or has another dimension.
+    /// The distance of the end of a run with this step size from the record, in the sense of
+    /// [`agreement`](Self::agreement); NaN if the record cannot be parsed or has another dimension.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! A scalar with 237 bits, 71 digits: `f256` of the crate of that name as a [`Scalar`].
+//! A [`Scalar`] with 237 bits, 71 digits: `f256` of the crate of that name.
 
 use std::fmt;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -12,7 +12,7 @@ use symplectic::num_traits::{One, Zero};
 pub struct Wide(f256);
 
 impl Wide {
-    /// The number nearest to a decimal; `None` if it is none.
+    /// The number nearest to a decimal; `None` if the text is not a decimal.
     pub fn parse(decimal: &str) -> Option<Self> {
         decimal.parse().ok().map(Self)
     }
@@ -22,9 +22,9 @@ impl Wide {
         Self(self.0.mul_add(factor.0, summand.0))
     }
 
-    /// The nearest double, or one next to it.
+    /// The nearest double, or a neighbour of it.
     pub fn to_f64(self) -> f64 {
-        // The crate converts to text only; 40 digits are rounded correctly, but for a tie in the digits behind them.
+        // The crate converts to text only. Rounding via 40 digits is correct except near ties.
         format!("{:.40e}", self.0).parse().unwrap_or(f64::NAN)
     }
 }
@@ -135,7 +135,7 @@ impl Scalar for Wide {
 mod tests {
     use super::*;
 
-    /// mpmath 1.3 with 60 digits, at 0.7 as a double; what the scenes compute with.
+    /// Values of mpmath 1.3 with 60 digits at the double 0.7, for the functions that the scenes use.
     #[test]
     fn functions_have_their_digits() {
         let x = Wide::from_f64(0.7);
@@ -211,7 +211,7 @@ mod tests {
         assert_eq!(third.to_f64(), 1.0 / 3.0);
         assert_eq!(third.to_string(), "3.33333333333333333333333333333e-1");
         assert!(third.mul_add(Wide::from_f64(3.0), -Wide::one()).magnitude() <= Wide::EPSILON);
-        // The rounding error of the third, which a product rounded by itself would hide.
+        // The rounding error of the third; a separately rounded product would hide it.
         assert!(!third.mul_add(Wide::from_f64(3.0), -Wide::one()).is_zero());
     }
 }

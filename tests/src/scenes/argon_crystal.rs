@@ -4,9 +4,8 @@
 //! Units: nanometres, nanoseconds, and for energies Boltzmann's constant times one kelvin.
 //!
 //! *Needs:* nothing. Separable, quadratic kinetic energy, not stiff; the atoms oscillate with periods of some 10⁻³ ns.
-//! *Source:* GNI §I.4, Table 4.1, after Biesiadecki & Skeel, 1993. The tests hold the data against the energy and the
-//! temperature that GNI names.
-//! *Reference:* recorded, [`recorded`].
+//! *Source:* GNI §I.4, Table 4.1, after Biesiadecki & Skeel, 1993. The tests compare the data with the energy and the
+//! temperature stated in GNI. *Reference:* recorded, [`recorded`].
 
 use symplectic::nalgebra::SVector;
 use symplectic::{Scalar, SeparableHamiltonian, State};
@@ -14,7 +13,7 @@ use symplectic::{Scalar, SeparableHamiltonian, State};
 use super::Needs;
 use crate::references;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs::NOTHING;
 
 /// Number of atoms.
@@ -106,7 +105,7 @@ fn separation<T: Scalar>(q: &SVector<T, COORDINATES>, i: usize, j: usize) -> ([T
     (d, (d[0] * d[0] + d[1] * d[1]).recip())
 }
 
-/// (σ/r)⁶ of 1/r².
+/// (σ/r)⁶ from 1/r².
 #[inline]
 fn sixth_power<T: Scalar>(inverse: T) -> T {
     let square = T::from_f64(DIAMETER * DIAMETER) * inverse;
@@ -122,7 +121,7 @@ pub fn start<T: Scalar>() -> State<SVector<T, COORDINATES>> {
     )
 }
 
-/// The temperature in kelvin: the mean kinetic energy of an atom, which in the plane has two degrees of freedom.
+/// The temperature in kelvin: the mean kinetic energy per atom, with two degrees of freedom in the plane.
 pub fn temperature(state: &State<SVector<f64, COORDINATES>>) -> f64 {
     state.p.norm_squared() / (2.0 * MASS * ATOMS as f64)
 }
@@ -153,7 +152,7 @@ mod tests {
         let start = start();
         let energy = SeparableHamiltonian::energy(&ArgonCrystal, 0.0, &start.q, &start.p);
         let energy: f64 = energy.expect("an energy");
-        // GNI: H ≈ −1260.2 and T ≈ 22.72 K, which one wrong digit in the table would miss; nothing moves as a whole.
+        // GNI: H ≈ −1260.2 and T ≈ 22.72 K, which a wrong digit in the table would change; the total momentum is zero.
         assert!((energy + 1260.2).abs() < 0.05, "{energy}");
         assert!((temperature(&start) - 22.72).abs() < 0.005);
         let momentum = |k: usize| -> f64 { VELOCITIES.iter().skip(k).step_by(2).sum() };

@@ -1,8 +1,8 @@
-//! A charged particle in a magnetic field that grows from an axis, and in a potential:
+//! A charged particle in a magnetic field that increases with the distance from an axis, and in a potential:
 //! `H = |p − A(q)|²/2 + U(q)` with `A = (−q_2, q_1, 0) r/3`, `r² = q_1² + q_2²`, so that `B = rot A = (0, 0, r)`, and
 //! `U = q_1³ − q_2³ + q_1⁴/5 + q_2⁴ + q_3⁴`.
 //!
-//! The momentum is the canonical one, `p = q' + A(q)`.
+//! The momentum is canonical, `p = q' + A(q)`.
 //!
 //! *Needs:* a method for general Hamiltonians. Not separable, not stiff.
 //! *Source:* Hairer & Lubich, Energy behaviour of the Boris method for charged-particle dynamics, BIT 58 (2018), with the
@@ -15,7 +15,7 @@ use symplectic::{General, Hamiltonian, Scalar, State};
 use super::Needs;
 use crate::references;
 
-/// What it needs: the kinetic energy has a constant mass, but the momentum is not that of the motion.
+/// Its needs: the mass is constant, but the canonical momentum depends on the position.
 pub const NEEDS: Needs = Needs {
     quadratic_kinetic_energy: true,
     ..Needs::GENERAL
@@ -66,7 +66,7 @@ impl Hamiltonian for ChargedParticle {
         let velocity = p - potential(q);
         let [x, y, z] = [q[0] * q[0], q[1] * q[1], q[2] * q[2]];
         let cubes = x * q[0] - y * q[1];
-        // U with 4·0.2, as the force has it: 0.8 and 0.2 are the same digits.
+        // As doubles, 4·0.2 is exactly the 0.8 of the force.
         let fourth = T::from_f64(0.2) * x * x + y * y + z * z;
         Some(velocity.dot(&velocity) * T::from_f64(0.5) + cubes + fourth)
     }
@@ -79,7 +79,7 @@ fn potential<T: Scalar>(q: &SVector<T, 3>) -> SVector<T, 3> {
     SVector::from([-q[1] * third, q[0] * third, T::zero()])
 }
 
-/// From the place (0, 1, 0.1) with the velocity (0.09, 0.55, 0.3).
+/// Position (0, 1, 0.1), velocity (0.09, 0.55, 0.3).
 pub fn start<T: Scalar>() -> State<SVector<T, 3>> {
     let place = SVector::from([0.0, 1.0, 0.1].map(T::from_f64));
     let velocity = SVector::from([0.09, 0.55, 0.3].map(T::from_f64));

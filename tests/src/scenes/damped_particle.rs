@@ -1,8 +1,8 @@
-//! A particle in the plane with the potential `V = |q|²(|q|² − 1)²`, `H = |p|²/2 + V(q)`, to be damped by the force
+//! A particle in the plane with the potential `V = |q|²(|q|² − 1)²`, `H = |p|²/2 + V(q)`, and with the damping force
 //! `−10⁻³ q'`.
 //!
-//! [`DampedParticle`] is the system without that force, [`WithFriction`] the one with it: its energy falls at the rate
-//! `−DAMPING |q'|²`.
+//! [`DampedParticle`] is the system without this force, [`WithFriction`] the system with it: its energy changes at the
+//! rate `−DAMPING |q'|²`.
 //!
 //! *Needs:* nothing. Separable, quadratic kinetic energy, not stiff; a well at the origin and one around the unit
 //! circle, with a ridge of the height 4/27 between them.
@@ -16,7 +16,7 @@ use symplectic::{Scalar, SeparableHamiltonian, State};
 use super::Needs;
 use crate::references;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs::NOTHING;
 
 /// The coefficient of the damping force.
@@ -36,7 +36,7 @@ impl SeparableHamiltonian for DampedParticle {
 
     #[inline]
     fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
-        // With s = |q|² the potential is s(s − 1)², and its derivative by s is (s − 1)(3s − 1).
+        // With s = |q|² the potential is s(s − 1)², and its derivative with respect to s is (s − 1)(3s − 1).
         let square = q.dot(q);
         let slope = (square - T::one()) * (T::from_f64(3.0) * square - T::one());
         *force = -*q * (slope + slope);
@@ -57,7 +57,7 @@ symplectic::hamiltonian! {
     force: { q[i] = -damping p[i] }
 }
 
-/// From the slope outside of the circle, with the momentum (0, 1/2): above the ridge.
+/// Outside the circle, with the momentum (0, 1/2) and an energy above the ridge.
 pub fn start<T: Scalar>() -> State<SVector<T, 2>> {
     let vector = |components: [f64; 2]| SVector::from(components.map(T::from_f64));
     State::new(0.0, vector([1.25, 0.0]), vector([0.0, 0.5]))
@@ -80,7 +80,7 @@ mod tests {
         check::needs(NEEDS, &DampedParticle, &state);
     }
 
-    /// The friction is added to the same force, and the work of it is what the energy loses.
+    /// The force differs by the friction only, and the energy changes by its work.
     #[test]
     fn friction_is_the_only_difference() {
         use symplectic::System;

@@ -2,10 +2,9 @@
 //! `H = (p_1² + 2p_2² − 2p_1 p_2 cos δ)/(2(1 + sin² δ)) − g(2 cos q_1 + cos q_2)`, where `δ = q_1 − q_2`; angles from
 //! the vertical, in radians.
 //!
-//! *Needs:* a method for general Hamiltonians, sine and cosine. Not separable, not stiff; chaotic, so that neighbouring
-//! orbits part exponentially.
-//! *Source:* the equations are those of every textbook of mechanics; the angles at the start are our choice.
-//! *Reference:* recorded, [`recorded`].
+//! *Needs:* a method for general Hamiltonians, sine and cosine. Not separable, not stiff; chaotic: neighbouring orbits
+//! diverge exponentially. *Source:* the equations are those of every textbook of mechanics; the angles at the start are
+//! our choice. *Reference:* recorded, [`recorded`].
 
 use symplectic::nalgebra::SVector;
 use symplectic::{General, Hamiltonian, Scalar, State};
@@ -13,7 +12,7 @@ use symplectic::{General, Hamiltonian, Scalar, State};
 use super::Needs;
 use crate::references;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs::GENERAL;
 
 /// The acceleration of gravity g.
@@ -78,7 +77,7 @@ fn inverse<T: Scalar>(cosine: T) -> T {
     (T::from_f64(2.0) - cosine * cosine).recip()
 }
 
-/// The velocities by `cos δ`.
+/// The velocities from `cos δ`.
 #[inline(always)]
 fn velocities<T: Scalar>(cosine: T, p: &SVector<T, 2>) -> SVector<T, 2> {
     let inverse = inverse(cosine);
@@ -95,7 +94,7 @@ fn sines<T: Scalar>(q: &SVector<T, 2>) -> ([T; 3], T) {
     ([sine, first, second], cosine)
 }
 
-/// The forces by these sines and `cos δ`.
+/// The forces from these sines and `cos δ`.
 #[inline(always)]
 fn forces<T: Scalar>([sine, first, second]: [T; 3], cosine: T, p: &SVector<T, 2>) -> SVector<T, 2> {
     let inverse = inverse(cosine);
@@ -111,7 +110,7 @@ fn forces<T: Scalar>([sine, first, second]: [T; 3], cosine: T, p: &SVector<T, 2>
 }
 
 symplectic::hamiltonian! {
-    /// The same in Cartesian coordinates, on two rods.
+    /// The double pendulum in Cartesian coordinates, with two rods as constraints.
     pub OnRods { g: 9.8 }
     q: [x1, y1, x2, y2], p: [px1, py1, px2, py2];
     H = (px1^2 + py1^2 + px2^2 + py2^2)/2 + g (y1 + y2)
@@ -163,7 +162,7 @@ mod tests {
         check::needs(NEEDS, &DoublePendulum, &state);
     }
 
-    /// Angles and rods have the same energy, and the rods their lengths.
+    /// Both formulations have the same energy, and the rods have length 1.
     #[test]
     fn rods_are_the_same_motion() {
         use symplectic::System;

@@ -1,11 +1,10 @@
 //! The Fermi–Pasta–Ulam–Tsingou chain with cubic forces, `H = Σ p_i²/2 + Σ (d²/2 + d⁴/4)` over all bonds, `d` the
 //! difference of neighbours; the ends are fixed.
 //!
-//! *Needs:* nothing. Separable, quadratic kinetic energy, not stiff: no frequency is above 2 but for large amplitudes;
-//! as many particles as the vector has components.
-//! *Source:* Fermi, Pasta, Ulam & Tsingou, Studies of nonlinear problems (1955), the β chain with β = 1; the momenta
-//! at the start are our choice.
-//! *Reference:* recorded for few particles, [`recorded`]; for many a finer run.
+//! *Needs:* nothing. Separable, quadratic kinetic energy, not stiff: no frequency exceeds 2 except at large amplitudes.
+//! The number of particles is the dimension of the vector. *Source:* Fermi, Pasta, Ulam & Tsingou, Studies of nonlinear
+//! problems (1955), the β chain with β = 1; the momenta at the start are our choice. *Reference:* recorded for few
+//! particles, [`recorded`]; for many particles a finer run.
 
 use symplectic::emitted::{Bonds, Chain};
 use symplectic::nalgebra::DVector;
@@ -14,10 +13,10 @@ use symplectic::{Scalar, State};
 use super::Needs;
 use crate::references;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs::NOTHING;
 
-/// The number of particles of the benches.
+/// The number of particles in the benches.
 pub const PARTICLES: usize = 1024;
 
 /// The system, for vectors of any kind and dimension.
@@ -45,7 +44,8 @@ impl Bonds for Beta {
     }
 }
 
-/// At rest position, with momenta `p_i = ((7919 i mod n) − n/2)/n`: equally spaced numbers in a scattered order.
+/// The momenta of the start, at rest positions: `p_i = ((7919 i mod n) − n/2)/n`: equidistant numbers in a scattered
+/// order.
 pub fn momenta<T: Scalar>(particles: usize) -> impl Iterator<Item = T> {
     let n = particles as f64;
     (0..particles).map(move |i| T::from_f64(((7919 * i % particles) as f64 - 0.5 * n) / n))
@@ -57,7 +57,7 @@ pub fn start(particles: usize) -> State<DVector<f64>> {
     State::new(0.0, DVector::zeros(particles), p)
 }
 
-/// The recorded reference from [`start`] with so many particles at `time`, if there is one.
+/// The recorded reference from [`start`] with this number of particles at `time`, if there is one.
 pub fn recorded(particles: usize, time: f64) -> Option<State<DVector<f64>>> {
     references::find("FPUT chain", &format!("N = {particles}"), time)
 }

@@ -4,10 +4,9 @@
 //!
 //! `H = |p|²/2 + ω²/2 Σ x_1i² + ((x_01 − x_11)⁴ + Σ_{i<3} (x_0,i+1 − x_1,i+1 − x_0i − x_1i)⁴ + (x_03 + x_13)⁴)/4`
 //!
-//! *Needs:* nothing. Separable, quadratic kinetic energy; stiff: an explicit method or a fixed-point iteration wants
-//! `hω` of order one.
-//! *Source:* GNI §I.5.1, with ω = 50 (10³ and 10⁵ are our choice); after Galgani, Giorgilli, Martinoli & Vanzini, 1992.
-//! *Reference:* recorded for these frequencies, [`recorded`].
+//! *Needs:* nothing. Separable, quadratic kinetic energy; stiff: an explicit method or a fixed-point iteration requires
+//! `hω` of order one. *Source:* GNI §I.5.1, with ω = 50 (10³ and 10⁵ are our choice); after Galgani, Giorgilli,
+//! Martinoli & Vanzini, 1992. *Reference:* recorded for these frequencies, [`recorded`].
 
 use symplectic::nalgebra::SVector;
 use symplectic::{Scalar, SeparableHamiltonian, State};
@@ -15,7 +14,7 @@ use symplectic::{Scalar, SeparableHamiltonian, State};
 use super::Needs;
 use crate::references;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs {
     stiff: true,
     ..Needs::NOTHING
@@ -90,7 +89,7 @@ impl SeparableHamiltonian for FputSprings {
     }
 }
 
-/// Elongations of the soft springs, from wall to wall. The last one, `−(x_03 + x_13)`, has its sign from the way.
+/// Elongations of the soft springs, from wall to wall; hence the sign of the last one, `−(x_03 + x_13)`.
 #[inline(always)]
 fn elongations<T: Scalar>(q: &SVector<T, COORDINATES>) -> [T; SPRINGS + 1] {
     [
@@ -153,7 +152,7 @@ mod tests {
             1.0 / 64.0,
             20.0,
         );
-        // Order ω⁻¹; were the soft forces wrong by a factor, it would not be an invariant at all.
+        // The change is of order ω⁻¹; with a wrong factor in the soft forces it would not be an invariant.
         let change = (oscillatory(&end) - oscillatory(&begin)).abs();
         assert!(change < 4.0 / OMEGA, "{change}");
     }

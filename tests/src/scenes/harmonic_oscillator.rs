@@ -1,8 +1,7 @@
-//! The harmonic oscillator `H = (p² + ω²q²)/2`, on which the stability of methods is measured.
+//! The harmonic oscillator `H = (p² + ω²q²)/2`, the test problem for the stability of methods.
 //!
-//! *Needs:* nothing. Separable, quadratic kinetic energy; with one frequency there is nothing to be stiff against, but the
-//! step size has to be within the stability interval `hω < ν*` of the method.
-//! *Source:* every textbook; the start is our choice.
+//! *Needs:* nothing. Separable, quadratic kinetic energy; a single frequency is not stiff, but the step size must be
+//! within the stability interval `hω < ν*` of the method. *Source:* every textbook; the start is our choice.
 //! *Reference:* closed form, [`exact`].
 
 use symplectic::nalgebra::SVector;
@@ -10,7 +9,7 @@ use symplectic::{Scalar, SeparableHamiltonian, State};
 
 use super::Needs;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs::NOTHING;
 
 /// The system.
@@ -47,9 +46,9 @@ pub fn start<T: Scalar>() -> State<SVector<T, 1>> {
     State::from_arrays(0.0, [T::one()], [T::zero()])
 }
 
-/// The solution `q = cos ωt`, `p = −ω sin ωt`, to some roundings for any number of periods.
+/// The solution `q = cos ωt`, `p = −ω sin ωt`, to a few rounding errors for any number of periods.
 pub fn exact(omega: f64, time: f64) -> State<SVector<f64, 1>> {
-    // ωt in two doubles.
+    // ωt as an unevaluated sum of two doubles.
     let angle = omega * time;
     let rest = omega.mul_add(time, -angle);
     let (sine, cosine) = angle.sin_cos();

@@ -11,7 +11,7 @@ use symplectic::{Scalar, SeparableHamiltonian, State};
 use super::Needs;
 use crate::references;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs::NOTHING;
 
 /// The system.
@@ -58,7 +58,7 @@ pub fn start_at_one_twelfth<T: Scalar>() -> State<SVector<T, 2>> {
     State::from_arrays(0.0, [T::zero(), T::zero()], [component, component])
 }
 
-/// From the place (q_2, p_2) of the section q_1 = 0, with this energy and q_1 growing; not a number where there is no such
+/// From the point (q_2, p_2) of the section q_1 = 0, with this energy and q_1 increasing; NaN if there is no such
 /// state.
 pub fn on_section(energy: f64, q2: f64, p2: f64) -> State<SVector<f64, 2>> {
     let rest = 2.0 * energy - p2 * p2 - q2 * q2 + 2.0 / 3.0 * q2 * q2 * q2;

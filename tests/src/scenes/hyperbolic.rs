@@ -1,18 +1,17 @@
-//! `H = qp` in one dimension: a Hamiltonian without a Lagrangian, for `p q' − H` vanishes on all velocities.
+//! `H = qp` in one dimension: a Hamiltonian without a Lagrangian, because `p q' − H` vanishes for all velocities.
 //!
 //! *Needs:* a method for general Hamiltonians that does not go through a Lagrangian. Not separable, degenerate; the
-//! position grows and the momentum falls exponentially.
-//! *Source:* Leok & Zhang, Discrete Hamiltonian variational integrators, §1.
-//! *Reference:* closed form, [`exact`].
+//! position grows and the momentum decays exponentially. *Source:* Leok & Zhang, Discrete Hamiltonian variational
+//! integrators, §1. *Reference:* closed form, [`exact`].
 
 use symplectic::nalgebra::SVector;
 use symplectic::{General, Hamiltonian, Scalar, State};
 
 use super::Needs;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs {
-    // The matrix of masses is constant: it is zero.
+    // ∂²H/∂p² is constant: zero.
     quadratic_kinetic_energy: true,
     degenerate: true,
     ..Needs::GENERAL

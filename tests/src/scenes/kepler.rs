@@ -1,9 +1,8 @@
 //! The Kepler problem in the plane, `H = |p|²/2 − 1/|q|`, from the pericentre of an orbit with semi-major axis 1 and
 //! period 2π.
 //!
-//! *Needs:* nothing. Separable, quadratic kinetic energy, not stiff; hard where the eccentricity comes near 1.
-//! *Source:* Hairer, Lubich & Wanner, Geometric Numerical Integration (GNI), §I.2.
-//! *Reference:* closed form, [`exact`].
+//! *Needs:* nothing. Separable, quadratic kinetic energy, not stiff; hard for eccentricities near 1. *Source:* Hairer,
+//! Lubich & Wanner, Geometric Numerical Integration (GNI), §I.2. *Reference:* closed form, [`exact`].
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,7 +11,7 @@ use symplectic::{Scalar, SeparableHamiltonian, State};
 
 use super::Needs;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs::NOTHING;
 
 /// The system.
@@ -40,7 +39,7 @@ impl SeparableHamiltonian for Kepler {
     }
 }
 
-/// The pericentre of the orbit of `eccentricity` at time 0: `q = (1 − e, 0)`, `p = (0, √((1 + e)/(1 − e)))`.
+/// The pericentre of the orbit with this eccentricity at time 0: `q = (1 − e, 0)`, `p = (0, √((1 + e)/(1 − e)))`.
 pub fn start<T: Scalar>(eccentricity: f64) -> State<SVector<T, 2>> {
     let [distance, speed] = pericentre(eccentricity).map(T::from_f64);
     State::new(
@@ -57,10 +56,10 @@ pub fn angular_momentum<T: Scalar>(state: &State<SVector<T, 2>>) -> T {
 
 /// The solution from [`start`] at `time`, for eccentricities in [0, 1).
 ///
-/// It is the orbit of the doubles that [`start`] returns, not of the eccentricity they were rounded from: the rounding
-/// makes the period another by some 1e-16, which is 3e-12 of phase after 1000 periods. The mean anomaly is good to
-/// one rounding for any number of periods up to 2⁵⁰, the eccentric anomaly to `4 ε/(1 − e)` radians, so the position
-/// to `4 ε/(1 − e)` and the momentum to `4 ε/(1 − e)²`, where `ε = 2⁻⁵³`; away from the pericentre it is better.
+/// It is the orbit through the doubles of [`start`], not through their exact values: rounding changes the period by
+/// about 1e-16, a phase of 3e-12 after 1000 periods. The mean anomaly has an error of one rounding for up to 2⁵⁰
+/// periods, the eccentric anomaly of `4 ε/(1 − e)` radians with `ε = 2⁻⁵³`. So the position is accurate to
+/// `4 ε/(1 − e)` and the momentum to `4 ε/(1 − e)²`; away from the pericentre both are more accurate.
 pub fn exact(eccentricity: f64, time: f64) -> State<SVector<f64, 2>> {
     let orbit = Orbit::new(pericentre(eccentricity));
     let anomaly = orbit.eccentric_anomaly(orbit.mean_anomaly(time));
@@ -84,7 +83,7 @@ fn pericentre(eccentricity: f64) -> [f64; 2] {
     [distance, ((1.0 + eccentricity) / distance).sqrt()]
 }
 
-/// The orbit through a pericentre that is the one of semi-major axis 1 up to rounding.
+/// The orbit through a pericentre, with semi-major axis 1 up to rounding.
 struct Orbit {
     /// δ = a − 1 for the semi-major axis a.
     excess: f64,
@@ -133,8 +132,8 @@ impl Orbit {
         if target == 0.0 {
             return mean;
         }
-        // On [0, π] the left-hand side increases and is convex, so from min(M + e, π), which is no less than E, Newton's
-        // iteration comes down to E. Where it no longer does, rounding errors have taken over.
+        // On [0, π] the left-hand side is increasing and convex. So Newton's iteration decreases from min(M + e, π) ≥ E
+        // to E, until rounding errors dominate.
         let mut anomaly = (target + e).min(PI.max(target));
         loop {
             let residual = (anomaly - target) - e * anomaly.sin();
@@ -308,7 +307,7 @@ mod tests {
     fn the_closed_form_has_the_digits_of_a_multiprecision_computation() {
         for &(eccentricity, time, digits) in GOLDEN {
             let state = exact(eccentricity, time);
-            // The bounds that `exact` states.
+            // The bounds stated for `exact`.
             let bound = 4.0 * (f64::EPSILON / 2.0) / (1.0 - eccentricity);
             let bounds = [
                 bound,

@@ -1,5 +1,5 @@
-//! Problems, one a file: the Hamiltonian over any scalar, the initial data with its source, a reference, and what a
-//! method has to bring along to integrate it.
+//! Problems, one per file: the Hamiltonian over any scalar, the initial data with their source, a reference, and the
+//! requirements on a method.
 
 pub mod argon_crystal;
 pub mod charged_particle;
@@ -24,21 +24,21 @@ pub mod skate;
 pub mod sleigh;
 pub mod spring_pendulum;
 
-/// What a scene asks of a method.
+/// The requirements of a scene on a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Needs {
-    /// `H = T(p) + U(q)`: any method will do, and many are explicit.
+    /// `H = T(p) + U(q)`: any method applies, and many are explicit.
     pub separable: bool,
-    /// `H = pᵀM⁻¹p/2 + U(q)` with a constant matrix M: methods with a Nyström order have it.
+    /// `H = pᵀM⁻¹p/2 + U(q)` with a constant matrix M: Nyström orders hold.
     pub quadratic_kinetic_energy: bool,
-    /// Frequencies are far apart: explicit methods take the steps of the fastest one.
+    /// Frequencies differ widely: the fastest frequency limits the steps of explicit methods.
     pub stiff: bool,
-    /// `∂²H/∂p²` is singular everywhere: there is no Lagrangian, and a method must not ask for one.
+    /// `∂²H/∂p²` is singular everywhere: there is no Lagrangian, so a method must not need one.
     pub degenerate: bool,
 }
 
 impl Needs {
-    /// Nothing: separable, with a quadratic kinetic energy, neither stiff nor degenerate.
+    /// No requirements: separable, with quadratic kinetic energy, neither stiff nor degenerate.
     pub const NOTHING: Self = Self {
         separable: true,
         quadratic_kinetic_energy: true,
@@ -54,7 +54,7 @@ impl Needs {
     };
 }
 
-/// What every scene has to hold.
+/// Checks for every scene.
 #[cfg(test)]
 mod check {
     use symplectic::nalgebra::DMatrix;
@@ -64,7 +64,7 @@ mod check {
     use super::Needs;
     use crate::methods::Gauss8;
 
-    /// What the system is said to need is so at `state`, as far as that shows there: everything but stiffness.
+    /// Checks the declared needs of the system at `state`, except stiffness.
     pub fn needs<V, S>(needs: Needs, system: &S, state: &State<V>)
     where
         V: Vector<Scalar = f64>,
@@ -97,7 +97,7 @@ mod check {
         let constant = (&here - &there).norm() <= 1e-6 * here.norm();
         assert_eq!(needs.quadratic_kinetic_energy, constant, "{here} {there}");
         let singular = |matrix: &DMatrix<f64>| {
-            // Masses may differ by many powers of ten.
+            // Scaled by rows, because masses may differ by many powers of ten.
             let mut scaled = matrix.clone();
             for mut row in scaled.row_iter_mut() {
                 let largest = row.amax();
@@ -109,8 +109,8 @@ mod check {
         assert_eq!(needs.degenerate, singular(&here) && singular(&there));
     }
 
-    /// The velocity is ∂H/∂p and the force −∂H/∂q, by central differences of width `step`, to `tolerance` times
-    /// the largest component.
+    /// Checks that the velocity is ∂H/∂p and the force −∂H/∂q, by central differences of width `step`, to `tolerance`
+    /// times the largest component.
     pub fn derivatives<V, S>(system: &S, state: &State<V>, step: f64, tolerance: f64)
     where
         V: Vector<Scalar = f64>,
@@ -155,7 +155,7 @@ mod check {
             .clone()
     }
 
-    /// [`end`] has the energy of `start` to the relative `tolerance`, and is elsewhere.
+    /// Checks that [`end`] has the energy of `start` to the relative `tolerance` and another position.
     pub fn conservation<V, S>(system: S, start: State<V>, step_size: f64, time: f64, tolerance: f64)
     where
         V: Vector<Scalar = f64>,

@@ -1,4 +1,4 @@
-//! An oscillator in the plane that carries a third coordinate with it: z' = y x', a non-holonomic constraint.
+//! An oscillator in the plane with a third coordinate that obeys the non-holonomic constraint z' = y x'.
 //!
 //! *Needs:* a method that is `nonholonomic`.
 //! *Source:* Rosenberg, Analytical dynamics of discrete systems (1977), the particle with z' = y x'; the potential of Cortés & Martínez,
@@ -16,9 +16,9 @@ symplectic::hamiltonian! {
     nonholonomic: { carried = vz - y vx }
 }
 
-/// x, y, x' and y' at the time 0.
+/// x, y, x' and y' at time 0.
 const START: [f64; 4] = [0.6, 0.5, 0.8, 0.9];
-/// Steps of the integrals to a time, whose error is below 1e-13 up to the time 20.
+/// Number of steps of the integrals; their error is below 1e-13 up to time 20.
 const STEPS: u32 = 40_000;
 
 /// The state at `time`: y'' = −y; with s = √(1 + y²) and dτ = dt/s the constraint leaves d²x/dτ² = −x, and z' = y x'.
@@ -32,7 +32,7 @@ pub fn exact(time: f64) -> State<SVector<f64, 3>> {
     let (mut tau, mut z) = (0.0, 0.0);
     for k in 0..STEPS {
         let start = f64::from(k) * h;
-        // The rule of Simpson; τ half way, where the parabola through 1/s at both ends and half way is integrated.
+        // Simpson's rule; τ at the midpoint is the integral of the parabola through 1/s at both ends and the midpoint.
         let rates = [0.0, 0.5, 1.0].map(|part| 1.0 / s(start + part * h));
         let half = tau + h / 24.0 * (5.0 * rates[0] + 8.0 * rates[1] - rates[2]);
         let whole = tau + h / 6.0 * (rates[0] + 4.0 * rates[1] + rates[2]);
@@ -49,7 +49,7 @@ pub fn exact(time: f64) -> State<SVector<f64, 3>> {
     State::from_arrays(time, [x, y(time), z], [rate, y_rate, y(time) * rate])
 }
 
-/// The state at the time 0.
+/// The state at time 0.
 pub fn start() -> State<SVector<f64, 3>> {
     exact(0.0)
 }
@@ -67,7 +67,7 @@ mod tests {
         check::derivatives(&Oscillator, &exact(1.0), 1e-5, 1e-8);
     }
 
-    /// The rates are the momenta, these obey the constraint, and the energy is conserved.
+    /// The velocities equal the momenta and obey the constraint, and the energy is conserved.
     #[test]
     fn the_closed_form_is_a_motion() {
         let energy = |state: &State<SVector<f64, 3>>| {

@@ -10,7 +10,7 @@ use symplectic::{General, Hamiltonian, Scalar, State};
 use super::Needs;
 use crate::references;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs::GENERAL;
 
 /// The system.

@@ -1,10 +1,10 @@
 //! The Sun and the five outer planets, `H = Σ |p_i|²/(2 m_i) − G Σ_{i<j} m_i m_j/|q_i − q_j|`, in astronomical units,
 //! days and solar masses.
 //!
-//! *Needs:* nothing. Separable, quadratic kinetic energy, not stiff, no close encounters; many revolutions.
-//! *Source:* GNI §I.2.4, after Ahnerts Kalender für Sternfreunde 1994: 5 September 1994, 0 h. The Sun's mass includes
-//! those of the inner planets.
-//! *Reference:* recorded, [`recorded`]; at other times a much finer run of high order, [`reference()`].
+//! *Needs:* nothing. Separable, quadratic kinetic energy, not stiff, no close encounters; many revolutions. *Source:*
+//! GNI §I.2.4, after Ahnerts Kalender für Sternfreunde 1994: 5 September 1994, 0 h. The Sun's mass includes the masses
+//! of the inner planets. *Reference:* recorded, [`recorded`]; at other times a much finer run of high order,
+//! [`reference()`].
 
 use std::array;
 
@@ -16,7 +16,7 @@ use crate::measure::integrate;
 use crate::methods::Gauss8;
 use crate::references;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs::NOTHING;
 
 /// Number of bodies.
@@ -35,7 +35,7 @@ pub struct Body {
     pub name: &'static str,
     /// Its mass in solar masses.
     pub mass: f64,
-    /// Its place in AU, from the centre of the Sun.
+    /// Its position in AU, relative to the Sun.
     pub position: [f64; 3],
     /// Its velocity in AU per day, relative to the Sun.
     pub velocity: [f64; 3],
@@ -194,7 +194,7 @@ pub fn angular_momentum<T: Scalar>(state: &State<SVector<T, COORDINATES>>) -> [T
     })
 }
 
-/// The same state as seen from the centre of mass, which is then at rest in the origin.
+/// The state in the frame of the centre of mass, which is at rest in the origin.
 pub fn to_barycentre(state: &State<SVector<f64, COORDINATES>>) -> State<SVector<f64, COORDINATES>> {
     let mass = |coordinate: usize| BODIES_AT_START[coordinate / 3].mass;
     let total: f64 = BODIES_AT_START.iter().map(|body| body.mass).sum();
@@ -212,8 +212,8 @@ pub fn to_barycentre(state: &State<SVector<f64, COORDINATES>>) -> State<SVector<
 
 /// The state at `time`, by Gauss with eight stages (order 16) in steps of 200 days.
 ///
-/// Its error is rounding only: after 200 000 days the position agrees with a run in steps of 400 days to 1e-10 AU, a
-/// test holds it to that.
+/// Its error is due to rounding only: after 200 000 days the position agrees with a run in steps of 400 days to 1e-10
+/// AU, as a test checks.
 ///
 /// # Errors
 ///

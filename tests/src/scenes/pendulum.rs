@@ -1,16 +1,15 @@
 //! The pendulum `H = p²/2 − cos q`, from the lowest point.
 //!
-//! *Needs:* nothing. Separable, quadratic kinetic energy, not stiff. With a momentum below 2 it swings, above it turns
-//! over; at 2 it rises to the top for ever.
-//! *Source:* GNI §I.1.1; the start is our choice.
-//! *Reference:* closed form in elliptic functions, [`exact`].
+//! *Needs:* nothing. Separable, quadratic kinetic energy, not stiff. It swings for momenta below 2 and rotates above;
+//! at 2 it approaches the top asymptotically. *Source:* GNI §I.1.1; the start is our choice. *Reference:* closed form
+//! in elliptic functions, [`exact`].
 
 use symplectic::nalgebra::SVector;
 use symplectic::{Scalar, SeparableHamiltonian, State};
 
 use super::Needs;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs::NOTHING;
 
 /// The system.
@@ -45,8 +44,8 @@ pub fn start<T: Scalar>(momentum: f64) -> State<SVector<T, 1>> {
 /// The solution from [`start`] with a positive momentum, at `time`.
 ///
 /// With `k = p_0/2` it is `sin(q/2) = k sn(t, k)`, `p = 2k cn(t, k)` below the separatrix, `q = 2 am(kt, 1/k)`,
-/// `p = 2k dn(kt, 1/k)` above it, and `sin(q/2) = tanh t`, `p = 2 sech t` on it. The error of the phase is a few roundings
-/// of the time; near the separatrix, where orbits part, it grows with the distance in time from the lowest point.
+/// `p = 2k dn(kt, 1/k)` above it, and `sin(q/2) = tanh t`, `p = 2 sech t` on it. The phase error is a few rounding
+/// errors of the time; near the separatrix, where orbits diverge, it grows with the time from the lowest point.
 pub fn exact(momentum: f64, time: f64) -> State<SVector<f64, 1>> {
     let k = momentum / 2.0;
     let (q, p) = if k < 1.0 {
@@ -63,7 +62,7 @@ pub fn exact(momentum: f64, time: f64) -> State<SVector<f64, 1>> {
     State::from_arrays(time, [q], [p])
 }
 
-/// Jacobi's elliptic functions at one place.
+/// Jacobi's elliptic functions at a point.
 struct Jacobi {
     /// The amplitude am: `sn = sin am`, `cn = cos am`.
     amplitude: f64,
@@ -76,7 +75,7 @@ impl Jacobi {
     /// descending transformation (Abramowitz & Stegun 16.4).
     fn new(u: f64, k: f64, complement: f64) -> Self {
         let (mut mean, mut geometric) = (1.0, complement.sqrt());
-        // c_n/a_n, which falls quadratically: a dozen of them, even for the complement 1e-300.
+        // c_n/a_n, which converges quadratically: a dozen terms even for the complement 1e-300.
         let mut ratios = Vec::new();
         let mut phase = u;
         loop {
@@ -92,7 +91,7 @@ impl Jacobi {
         for ratio in ratios.iter().rev() {
             phase = 0.5 * (phase + (ratio * phase.sin()).asin());
         }
-        // 1 − k² sn² without a cancellation.
+        // 1 − k² sn² without cancellation.
         let delta = (complement + (k * phase.cos()).powi(2)).sqrt();
         Self {
             amplitude: phase,
@@ -123,7 +122,7 @@ mod tests {
         for momentum in [1e-3, 0.5, 1.0, 1.9, 2.0, 2.1, 4.0] {
             let found = check::end(Pendulum, start(momentum), 1.0 / 32.0, 5.0);
             let expected = exact(momentum, 5.0);
-            // At the separatrix neighbouring orbits part by e⁵.
+            // At the separatrix neighbouring orbits diverge by a factor e⁵.
             let error = (found.q - expected.q).norm() + (found.p - expected.p).norm();
             assert!(error < 1e-13 * momentum.max(1.0), "{momentum}: {error:e}");
         }

@@ -1,12 +1,12 @@
-//! Point vortices in the plane, of the strengths Γ_i in units of 2π: `H = −Σ_{i<j} Γ_i Γ_j ln |z_i − z_j|`, where
+//! Point vortices in the plane with the strengths Γ_i in units of 2π: `H = −Σ_{i<j} Γ_i Γ_j ln |z_i − z_j|`, where
 //! `Γ_i x_i' = ∂H/∂y_i` and `Γ_i y_i' = −∂H/∂x_i`.
 //!
-//! The coordinates x_i are the positions and `p_i = Γ_i y_i` the momenta: half of the plane plays each part.
+//! The coordinates x_i are the positions and `p_i = Γ_i y_i` the momenta.
 //!
-//! *Needs:* a method for general Hamiltonians that does not go through a Lagrangian. Not separable; degenerate, for nothing
-//! changes where all vortices move up together; four and more are chaotic.
-//! *Source:* Newton, The N-vortex problem (2001); the start is our choice.
-//! *Reference:* recorded, [`recorded`]; for two vortices they turn around their centre, at the rate `(Γ_1 + Γ_2)/d²`.
+//! *Needs:* a method for general Hamiltonians that does not go through a Lagrangian. Not separable; degenerate, because
+//! H is invariant under a common translation; four or more vortices are chaotic. *Source:* Newton, The N-vortex problem
+//! (2001); the start is our choice. *Reference:* recorded, [`recorded`]; two vortices rotate about their centre at the
+//! rate `(Γ_1 + Γ_2)/d²`.
 
 use symplectic::nalgebra::SVector;
 use symplectic::{General, Hamiltonian, Scalar, State};
@@ -14,7 +14,7 @@ use symplectic::{General, Hamiltonian, Scalar, State};
 use super::Needs;
 use crate::references;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs {
     degenerate: true,
     ..Needs::GENERAL

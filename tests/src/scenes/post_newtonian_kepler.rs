@@ -4,11 +4,10 @@
 //!
 //! with `ε = 1/c²` and the ratio `ν = m_1 m_2/(m_1 + m_2)²` between 0 and 1/4.
 //!
-//! *Needs:* a method for general Hamiltonians. Not separable, not stiff; the pericentre moves on by
-//! `6πε/(a(1 − e²))` a turn, to the first order.
-//! *Source:* Damour & Schäfer, Nuovo Cimento B 101 (1988), the Hamiltonian in ADM coordinates; the start, at the
-//! pericentre of the Newtonian orbit with e = 0.6, is our choice.
-//! *Reference:* recorded, [`recorded`].
+//! *Needs:* a method for general Hamiltonians. Not separable, not stiff; the pericentre advances by `6πε/(a(1 − e²))`
+//! per revolution, to first order. *Source:* Damour & Schäfer, Nuovo Cimento B 101 (1988), the Hamiltonian in ADM
+//! coordinates; the start, at the pericentre of the Newtonian orbit with e = 0.6, is our choice. *Reference:* recorded,
+//! [`recorded`].
 
 use symplectic::nalgebra::SVector;
 use symplectic::{General, Hamiltonian, Scalar, State};
@@ -16,7 +15,7 @@ use symplectic::{General, Hamiltonian, Scalar, State};
 use super::{Needs, kepler};
 use crate::references;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs::GENERAL;
 
 /// The system of the recorded reference: equal masses, speeds of a few per cent of that of light.
@@ -158,7 +157,7 @@ mod tests {
             .find_event(TAU * 1.25, &pericentre)
             .expect("a turn");
         let place = place.expect("a pericentre after one turn");
-        // From the Newtonian start, which is a pericentre of the corrected orbit too: both elements are off by order ε.
+        // The Newtonian start is also a pericentre of the corrected orbit; both elements change by O(ε).
         let expected = 6.0 * PI * 1e-6 / (1.0 - 0.36);
         let angle = place.q[1].atan2(place.q[0]);
         assert!(

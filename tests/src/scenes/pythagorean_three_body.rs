@@ -1,10 +1,9 @@
-//! Three bodies with the masses 3, 4 and 5, at rest in the corners of a triangle with the sides 3, 4 and 5, each opposite
-//! to the side of its number: `H = Σ |p_i|²/(2m_i) − Σ_{i<j} m_i m_j/|q_i − q_j|` in the plane.
+//! Three bodies with masses 3, 4 and 5, at rest at the corners of a triangle with sides 3, 4 and 5, each opposite the
+//! side of the same number: `H = Σ |p_i|²/(2m_i) − Σ_{i<j} m_i m_j/|q_i − q_j|` in the plane.
 //!
-//! *Needs:* nothing, but steps that follow its close encounters. Separable, quadratic kinetic energy; the bodies come as
-//! near as 4·10⁻⁴ (at t = 15.83) before one of them is thrown out at about t = 60.
-//! *Source:* Burrau, Astron. Nachr. 195 (1913); Szebehely & Peters, Astron. J. 72 (1967), who found the end.
-//! *Reference:* recorded, [`recorded`].
+//! *Needs:* nothing except steps that resolve its close encounters. Separable, quadratic kinetic energy; the smallest
+//! distance is 4·10⁻⁴ (at t = 15.83) before a body is ejected at about t = 60. *Source:* Burrau, Astron. Nachr. 195
+//! (1913); Szebehely & Peters, Astron. J. 72 (1967), who found the end. *Reference:* recorded, [`recorded`].
 
 use std::array;
 
@@ -14,7 +13,7 @@ use symplectic::{Scalar, SeparableHamiltonian, State};
 use super::Needs;
 use crate::references;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs::NOTHING;
 
 /// Number of bodies.
@@ -95,7 +94,7 @@ pub fn distances<T: Scalar>(q: &SVector<T, COORDINATES>) -> [T; 3] {
     PAIRS.map(|(i, j)| separation(q, i, j).1.sqrt())
 }
 
-/// At rest in the corners (1, 3), (−2, −1) and (1, −1), with the centre of mass in the origin.
+/// At rest at the corners (1, 3), (−2, −1) and (1, −1), with the centre of mass in the origin.
 pub fn start<T: Scalar>() -> State<SVector<T, COORDINATES>> {
     let corners = [1.0, 3.0, -2.0, -1.0, 1.0, -1.0];
     State::new(

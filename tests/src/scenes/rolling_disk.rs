@@ -1,26 +1,25 @@
 //! A disk of radius 1 that rolls upright on a plane without slipping: two non-holonomic constraints.
 //!
-//! (x, y) is the point of contact, θ the angle by which it has rolled, φ its heading. It goes round on a circle.
+//! (x, y) is the point of contact, θ the rolling angle, φ the heading. The disk moves on a circle.
 //!
-//! *Needs:* a method that is `nonholonomic`.
-//! *Source:* Bloch, Nonholonomic mechanics and control (2003), §1.4, without forces; the numbers are our choice.
-//! *Reference:* the closed form, [`exact`].
+//! *Needs:* a method that is `nonholonomic`. *Source:* Bloch, Nonholonomic mechanics and control (2003), §1.4, without
+//! forces; the numbers are our choice. *Reference:* closed form, [`exact`].
 
 use symplectic::State;
 use symplectic::nalgebra::SVector;
 
 symplectic::hamiltonian! {
-    /// The disk, with the moment of inertia about its axis; about a diameter it is half of that.
+    /// The disk, with the moment of inertia about its axis; the moment about a diameter is half of it.
     pub Disk { inertia: 0.5 }
     q: [x, y, theta, phi], p: [px, py, ptheta, pphi], v: [vx, vy, rolls, turns];
     H = (px^2 + py^2)/2 + ptheta^2/(2 inertia) + pphi^2/inertia
     nonholonomic: { along_x = vx - cos(phi) rolls, along_y = vy - sin(phi) rolls }
 }
 
-/// The rates at which it rolls and turns.
+/// The rolling rate and the turning rate.
 const RATES: [f64; 2] = [1.25, 0.5];
 
-/// The state at `time`: θ and φ grow at constant rates.
+/// The state at `time`: θ' and φ' are constant.
 pub fn exact(time: f64) -> State<SVector<f64, 4>> {
     let [rolls, turns] = RATES;
     let (theta, phi) = (rolls * time, turns * time);
@@ -31,7 +30,7 @@ pub fn exact(time: f64) -> State<SVector<f64, 4>> {
     State::from_arrays(time, q, p)
 }
 
-/// The state at the time 0.
+/// The state at time 0.
 pub fn start() -> State<SVector<f64, 4>> {
     exact(0.0)
 }
@@ -49,7 +48,7 @@ mod tests {
         check::derivatives(&Disk::new(), &exact(1.0), 1e-5, 1e-8);
     }
 
-    /// Along it x' and θ' obey the constraints, by differences, and the momenta are those of the rates.
+    /// By difference quotients, x', y' and θ' obey the constraints and the momenta match the velocities.
     #[test]
     fn the_closed_form_is_a_motion() {
         let (before, here, after) = (exact(0.7 - 1e-4), exact(0.7), exact(0.7 + 1e-4));
@@ -59,7 +58,7 @@ mod tests {
         assert!((rates - velocity).norm() < 1e-8);
         assert!((velocity[0] - velocity[2] * here.q[3].cos()).abs() < 1e-15);
         assert!((velocity[1] - velocity[2] * here.q[3].sin()).abs() < 1e-15);
-        // Steps of order 4 stay near it.
+        // A method of order 4 stays near it.
         let mut run =
             Integrator::new(Midpoint4, Disk::new(), start(), 1.0 / 64.0).expect("a start");
         let end = run.integrate_to(10.0).expect("steps");

@@ -1,11 +1,10 @@
 //! The sine-Gordon lattice, a ring of pendulums coupled by springs,
 //! `H = Σ (p_i²/2 + (q_{i+1} − q_i)²/(2d²) + 1 − cos q_i)` with the spacing `d = 1/4`.
 //!
-//! *Needs:* nothing. Separable, quadratic kinetic energy; no frequency is above `√(1 + 4/d²)`, about 8. As many pendulums
-//! as the vector has components.
-//! *Source:* Duncan, Symplectic finite difference approximations of the nonlinear Klein–Gordon equation, SIAM J. Numer.
-//! Anal. 34 (1997); the start is a breather of the equation `q_tt = q_xx − sin q` as it goes through zero.
-//! *Reference:* recorded, [`recorded`].
+//! *Needs:* nothing. Separable, quadratic kinetic energy; no frequency exceeds `√(1 + 4/d²)`, about 8. The number of
+//! pendulums is the dimension of the vector. *Source:* Duncan, Symplectic finite difference approximations of the
+//! nonlinear Klein–Gordon equation, SIAM J. Numer. Anal. 34 (1997); the start is a breather of the equation
+//! `q_tt = q_xx − sin q` at its zero. *Reference:* recorded, [`recorded`].
 
 use symplectic::emitted::{Bonds, Chain};
 use symplectic::nalgebra::SVector;
@@ -14,7 +13,7 @@ use symplectic::{Scalar, State};
 use super::Needs;
 use crate::references;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs::NOTHING;
 
 /// The number of pendulums of the recorded reference.
@@ -23,7 +22,7 @@ pub const PENDULUMS: usize = 64;
 /// 1/d².
 const STIFFNESS: f64 = 16.0;
 
-/// `exp(wd)`: the breather falls by this factor from one pendulum to the next, with `w = 4 ln(5/4)`.
+/// `exp(wd)`, the decay of the breather from one pendulum to the next, with `w = 4 ln(5/4)`.
 const RATIO: f64 = 1.25;
 
 /// w.
@@ -34,7 +33,7 @@ pub const fn system() -> Chain<Pendulums> {
     Chain::ring(Pendulums)
 }
 
-/// The springs, and the pendulums between them.
+/// The springs and the pendulums.
 #[derive(Clone, Copy, Debug)]
 pub struct Pendulums;
 
@@ -58,9 +57,9 @@ impl Bonds for Pendulums {
     }
 }
 
-/// The momenta `4w/cosh(wx)` of a breather in the middle, that is at pendulum `n/2`.
+/// The momenta `4w/cosh(wx)` of a breather centred at pendulum `n/2`.
 ///
-/// They are made of products and quotients only, so that they are the same doubles on every machine.
+/// Only products and quotients are used, so that the doubles are the same on every machine.
 pub fn momenta<T: Scalar>(pendulums: usize) -> impl Iterator<Item = T> {
     (0..pendulums).map(move |i| {
         let mut growth = 1.0;
@@ -71,7 +70,7 @@ pub fn momenta<T: Scalar>(pendulums: usize) -> impl Iterator<Item = T> {
     })
 }
 
-/// All pendulums at the lowest point, moved by a breather.
+/// All pendulums at the lowest point, with the momenta of a breather.
 pub fn start<T: Scalar>() -> State<SVector<T, PENDULUMS>> {
     let p = SVector::from_iterator(momenta(PENDULUMS));
     State::new(0.0, SVector::zeros(), p)
@@ -104,7 +103,8 @@ mod tests {
 
     #[test]
     fn the_breather_breathes() {
-        // The continuous one has the energy 16w, and its middle is at 4 atan(w/ω sin ωt) where ω² = 1 − w².
+        // The breather of the differential equation has the energy 16w, and at its centre q = 4 atan(w/ω sin ωt), ω² =
+        // 1 − w².
         let start = start();
         let energy = System::energy(&system(), 0.0, &start.q, &start.p);
         let energy: f64 = energy.expect("an energy");
@@ -116,7 +116,7 @@ mod tests {
         for time in [1.0, 3.0] {
             let end = check::end(system(), start.clone(), 1.0 / 16.0, time);
             let expected = 4.0 * (DECAY / omega * (omega * time).sin()).atan();
-            // The lattice is off by d² times the fourth derivatives over 12.
+            // The discretization error is d²/12 times the fourth derivative.
             let error = (end.q[PENDULUMS / 2] - expected).abs();
             assert!(error < 0.05, "{error}");
         }

@@ -1,23 +1,22 @@
-//! A skate on a plane that slopes down along x: it moves along its edge only, a non-holonomic constraint.
+//! A skate on a plane that slopes down along x. It moves along its edge only, a non-holonomic constraint.
 //!
-//! It turns at a constant rate and goes on a cycloid: across the slope, and not down.
+//! It turns at a constant rate and moves on a cycloid: across the slope, not down.
 //!
-//! *Needs:* a method that is `nonholonomic`.
-//! *Source:* Bloch, Nonholonomic mechanics and control (2003), §1.6, the knife edge; the numbers are our choice.
-//! *Reference:* the closed form, [`exact`].
+//! *Needs:* a method that is `nonholonomic`. *Source:* Bloch, Nonholonomic mechanics and control (2003), §1.6, the
+//! knife edge; the numbers are our choice. *Reference:* closed form, [`exact`].
 
 use symplectic::State;
 use symplectic::nalgebra::SVector;
 
 symplectic::hamiltonian! {
-    /// The skate at (x, y) in the direction a.
+    /// The skate at (x, y) with the direction a.
     pub Skate { slope: 2 }
     q: [x, y, a], p: [px, py, pa], v: [vx, vy, va];
     H = (px^2 + py^2 + pa^2)/2 - slope x
     nonholonomic: { edge = vx sin(a) - vy cos(a) }
 }
 
-/// The rate at which it turns.
+/// The turning rate.
 const RATE: f64 = 1.5;
 
 /// The state at `time`, for the slope 2 and a start at rest along x.
@@ -35,7 +34,7 @@ pub fn exact(time: f64) -> State<SVector<f64, 3>> {
     State::from_arrays(time, q, [speed * cosine, speed * sine, RATE])
 }
 
-/// The state at the time 0.
+/// The state at time 0.
 pub fn start() -> State<SVector<f64, 3>> {
     exact(0.0)
 }
@@ -53,7 +52,7 @@ mod tests {
         check::derivatives(&Skate::new(), &exact(1.0), 1e-5, 1e-8);
     }
 
-    /// The rates are the momenta, these obey the constraint, and the energy is conserved.
+    /// The velocities equal the momenta and obey the constraint, and the energy is conserved.
     #[test]
     fn the_closed_form_is_a_motion() {
         let energy = |state: &State<SVector<f64, 3>>| {

@@ -1,25 +1,26 @@
-//! The sleigh of Chaplygin: a body on a plane that glides on two points and on a blade, which moves along its edge only.
+//! Chaplygin's sleigh: a body on a plane that glides on two points and on a blade, which moves along its edge only.
 //!
-//! (x, y) is the place of the blade, a its direction. The sleigh ends with the blade behind its centre of mass: the motion tends to a straight line.
+//! (x, y) is the position of the blade, a its direction. The motion tends to a straight line with the blade behind the
+//! centre of mass.
 //!
-//! *Needs:* a method that is `nonholonomic` for a kinetic energy that depends on the place.
-//! *Source:* Bloch, Nonholonomic mechanics and control (2003), §1.7; the numbers are our choice.
-//! *Reference:* [`exact`], integrals of closed forms.
+//! *Needs:* a method that is `nonholonomic`, for a kinetic energy that depends on the position. *Source:* Bloch,
+//! Nonholonomic mechanics and control (2003), §1.7; the numbers are our choice. *Reference:* [`exact`], integrals of
+//! closed forms.
 
 use symplectic::State;
 use symplectic::nalgebra::SVector;
 
 symplectic::lagrangian! {
-    /// The sleigh of mass 1, whose centre of mass is a length ahead of the blade.
+    /// The sleigh of mass 1; its centre of mass is the distance `length` ahead of the blade.
     pub Sleigh { length: 0.5, inertia: 0.4 }
     q: [x, y, a], v: [vx, vy, turns];
     L = ((vx - length turns sin(a))^2 + (vy + length turns cos(a))^2 + inertia turns^2)/2
     nonholonomic: { edge = vx sin(a) - vy cos(a) }
 }
 
-/// Direction, speed along the blade and rate of turning at the time 0.
+/// Direction, speed along the blade and turning rate at time 0.
 const START: [f64; 3] = [0.3, -0.4, 1.1];
-/// Steps of the integrals to a time, whose error is below 1e-13 up to the time 20.
+/// Number of steps of the integrals; their error is below 1e-13 up to time 20.
 const STEPS: u32 = 40_000;
 
 /// The state at `time`: v' = ℓω² and (I + ℓ²)ω' = −ℓvω for the speed v and the rate ω, so that v² + (I + ℓ²)ω² = C², and
@@ -39,7 +40,7 @@ pub fn exact(time: f64) -> State<SVector<f64, 3>> {
     let h = time / f64::from(STEPS);
     let [mut x, mut y] = [0.0; 2];
     for k in 0..STEPS {
-        // The rule of Simpson.
+        // Simpson's rule.
         for (part, weight) in [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)] {
             let t = (f64::from(k) + part) * h;
             let (sine, cosine) = direction(t).sin_cos();
@@ -59,7 +60,7 @@ pub fn exact(time: f64) -> State<SVector<f64, 3>> {
     State::from_arrays(time, [x, y, a], [px, py, whole * rate])
 }
 
-/// The state at the time 0.
+/// The state at time 0.
 pub fn start() -> State<SVector<f64, 3>> {
     exact(0.0)
 }
@@ -77,7 +78,7 @@ mod tests {
         check::derivatives(&Sleigh::new(), &exact(1.0), 1e-5, 1e-8);
     }
 
-    /// The rates are the velocities, these obey the constraint, and the energy is conserved.
+    /// The derivatives match the velocities, which obey the constraint, and the energy is conserved.
     #[test]
     fn the_closed_form_is_a_motion() {
         let energy = |state: &State<SVector<f64, 3>>| {

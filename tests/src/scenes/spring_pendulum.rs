@@ -1,15 +1,14 @@
 //! A pendulum on a stiff spring of length 1, `H = |p|²/2 + ω²(|q| − 1)²/2 + q_2`.
 //!
-//! *Needs:* nothing. Separable, quadratic kinetic energy; stiff: the spring oscillates with the frequency ω, the pendulum
-//! with frequencies of order one.
-//! *Source:* GNI §XV.1, the pendulum on a spring; the start is our choice.
+//! *Needs:* nothing. Separable, quadratic kinetic energy; stiff: the spring oscillates with frequency ω, the pendulum
+//! with frequencies of order one. *Source:* GNI §XV.1, the pendulum on a spring; the start is our choice.
 
 use symplectic::nalgebra::SVector;
 use symplectic::{Scalar, SeparableHamiltonian, State};
 
 use super::Needs;
 
-/// What it needs.
+/// Its needs.
 pub const NEEDS: Needs = Needs {
     stiff: true,
     ..Needs::NOTHING
@@ -46,7 +45,7 @@ impl SeparableHamiltonian for SpringPendulum {
     }
 }
 
-/// Level, with the spring relaxed, on the way up.
+/// Horizontal, with a relaxed spring, moving up.
 pub fn start<T: Scalar>() -> State<SVector<T, 2>> {
     State::from_arrays(0.0, [T::one(), T::zero()], [T::zero(), T::one()])
 }

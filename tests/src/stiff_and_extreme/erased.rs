@@ -1,4 +1,4 @@
-//! A system whose type is forgotten, so that a method is compiled once for all problems.
+//! A type-erased system, so that a method is compiled once for all problems.
 
 use std::fmt;
 use std::rc::Rc;
@@ -7,12 +7,12 @@ use symplectic::nalgebra::{DVector, SVector};
 use symplectic::solver::FixedPoint;
 use symplectic::{Separable, State, System, Vector};
 
-/// A separable system of any number of components.
+/// A separable system with any number of components.
 #[derive(Clone)]
 pub struct Erased(Rc<dyn OnSlices>);
 
 impl Erased {
-    /// The system of `N` components that is given.
+    /// Erases the type of a system with `N` components.
     pub fn new<S, const N: usize>(system: S) -> Self
     where
         S: System<SVector<f64, N>, Class = Separable> + 'static,
@@ -27,20 +27,20 @@ impl fmt::Debug for Erased {
     }
 }
 
-/// The state as one of any number of components.
+/// Converts a state to dynamic vectors.
 pub fn erased<V: Vector<Scalar = f64>>(state: &State<V>) -> State<DVector<f64>> {
     let vector = |half: &V| DVector::from_column_slice(half.as_slice());
     State::new(state.time, vector(&state.q), vector(&state.p))
 }
 
-/// The functions of a system with slices for its vectors.
+/// The functions of a system, on slices.
 trait OnSlices {
     fn velocity(&self, time: f64, p: &[f64], velocity: &mut [f64]);
     fn force(&self, time: f64, q: &[f64], force: &mut [f64]);
     fn energy(&self, time: f64, q: &[f64], p: &[f64]) -> Option<f64>;
 }
 
-/// A system of `N` components.
+/// A system with `N` components.
 struct OfSize<S, const N: usize>(S);
 
 impl<S: System<SVector<f64, N>, Class = Separable>, const N: usize> OnSlices for OfSize<S, N> {

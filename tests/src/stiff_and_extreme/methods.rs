@@ -1,4 +1,4 @@
-//! The methods of the table: at least one of each kind of the catalogue.
+//! The methods of the table: at least one of each kind in the catalogue.
 
 use symplectic::Method;
 use symplectic_report::Verdict;
@@ -14,23 +14,23 @@ use crate::methods::{
 /// A method of the table.
 #[derive(Clone, Copy, Debug)]
 pub struct Entrant {
-    /// What it is called.
+    /// Name in the table.
     pub name: &'static str,
-    /// What it is called in the catalogue, if it is there.
+    /// Name in the catalogue, if it is there.
     pub catalogue: Option<&'static str>,
-    /// What it is derived from.
+    /// Its definition.
     pub definition: &'static str,
-    /// How its stages are found.
+    /// How its stages are solved.
     pub stages: Stages,
     run: fn(&Run) -> Option<Verdict>,
 }
 
-/// How stages are found.
+/// How stages are solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stages {
-    /// One after another.
+    /// Explicitly.
     Explicit,
-    /// By fixed-point iteration, which converges for short steps only.
+    /// By fixed-point iteration, which converges for small step sizes only.
     FixedPoint,
     /// By Newton's iteration.
     Newton,
@@ -53,7 +53,7 @@ impl Entrant {
         }
     }
 
-    /// What becomes of a run by this method; `None` for the longest run by Newton's iteration.
+    /// The verdict on a run with this method; `None` for the longest run with Newton's iteration.
     pub fn verdict(&self, run: &Run) -> Option<Verdict> {
         (self.run)(run)
     }

@@ -1,4 +1,4 @@
-//! What becomes of methods where problems are stiff or extreme: a table of methods and problems, each cell a finite answer.
+//! Verdicts on methods for stiff and extreme problems: a table of problems by methods.
 
 mod erased;
 mod methods;
@@ -19,7 +19,7 @@ use crate::scenes::spring_pendulum::{self, SpringPendulum};
 use erased::{Erased, erased};
 pub use methods::{ENTRANTS, Entrant, Stages};
 
-/// A run: equal steps from a start.
+/// A run with equal steps from a start.
 #[derive(Clone, Debug)]
 pub struct Run {
     system: Problem,
@@ -32,7 +32,7 @@ pub struct Run {
 #[derive(Clone, Debug)]
 enum Problem {
     Any(Erased),
-    /// The one that takes millions of steps, where a type that is known saves minutes.
+    /// The problem with millions of steps, where a static type saves minutes.
     Kepler,
 }
 
@@ -104,23 +104,23 @@ impl Run {
 /// The steps `hω` of the oscillator in the table.
 pub const OSCILLATOR_STEPS: [f64; 8] = [0.1, 1.0, 2.5, 4.5, 10.0, 100.0, 1e3, 1e4];
 
-/// The oscillator is also run at these parts of the proved end of the first stability interval of each method.
+/// Additional steps `hω` of the oscillator, relative to the proved end of the first stability interval of each method.
 pub const PARTS_OF_THE_LIMIT: [f64; 2] = [0.99, 1.01];
 
-/// The name of the row with the oscillator at this part of the limit.
+/// The name of the row for the oscillator at this fraction of the limit.
 pub fn at_the_limit(part: f64) -> String {
     format!("oscillator, hω = {part} ν*")
 }
 
-/// The steps `hω` of the oscillator with their rows.
+/// The row names and steps `hω` of the oscillator.
 pub fn oscillators() -> impl Iterator<Item = (String, f64)> {
     OSCILLATOR_STEPS
         .into_iter()
         .map(|nu| (format!("oscillator, hω = {nu}"), nu))
 }
 
-/// The whole table, for the methods whose names `keep` thinks so of. `long_steps` is the number of steps in its last row;
-/// `progress` is shown each problem and the part of the table that is done.
+/// The whole table for the methods for whose names `keep` returns true. `long_steps` is the number of steps in its last
+/// row; `progress` receives each problem and the completed fraction of the table.
 ///
 /// # Errors
 ///
@@ -184,7 +184,7 @@ const DESCRIPTION: &str = "What becomes of methods with steps that are longer th
     not of the size of one. ν* is the proved end of the first interval of stability of each method. The iteration of an \
     implicit method is by fixed points where nothing else is said, and converges for short steps only.";
 
-/// The oscillator with `hω = ν`, and whether that is proved to be stable.
+/// The verdict on the oscillator with `hω = ν`, and whether it is proved to be stable.
 fn oscillator(entrant: &Entrant, entry: &Entry, nu: f64) -> Option<Cell> {
     Some(Cell {
         verdict: entrant.verdict(&Run::oscillator(nu))?,
@@ -192,8 +192,8 @@ fn oscillator(entrant: &Entrant, entry: &Entry, nu: f64) -> Option<Cell> {
     })
 }
 
-/// The limits of stability of the explicit methods of the catalogue whose names `keep` thinks so of, proved and measured; where
-/// none was seen, [`FARTHEST`] is the measured one.
+/// The proved and measured limits of stability of the explicit methods of the catalogue for whose names `keep` returns
+/// true. If no limit was found, the measured limit is [`FARTHEST`].
 ///
 /// # Errors
 ///
@@ -207,7 +207,7 @@ pub fn limits(keep: impl Fn(&str) -> bool) -> io::Result<Vec<StabilityLimit>> {
             Some(StabilityLimit {
                 method: entry.name.clone(),
                 proved: entry.proved_limit()?,
-                // An infinite one is no number in JSON.
+                // JSON has no infinity.
                 measured: entry.explicit()?.measured_limit().min(FARTHEST),
             })
         })
@@ -216,8 +216,8 @@ pub fn limits(keep: impl Fn(&str) -> bool) -> io::Result<Vec<StabilityLimit>> {
     Ok(limits)
 }
 
-/// The problems that are not linear, or not of the size of one. `long_steps` is the number of steps of the last one, which is not
-/// run by Newton's iteration: it is many times slower there.
+/// The problems that are nonlinear or not of order one. `long_steps` is the number of steps of the last problem, which
+/// is not run with Newton's iteration, because that is many times slower.
 pub fn extremes(long_steps: u64) -> Vec<(String, Run)> {
     let mut rows = Vec::new();
     for (name, product) in [("resolved", 0.25), ("a hundred times too long", 25.0)] {
@@ -268,7 +268,7 @@ pub fn extremes(long_steps: u64) -> Vec<(String, Run)> {
     rows
 }
 
-/// The oscillator with ω = 1 and an energy in the unit `scale²`, which neither overflows nor underflows.
+/// The oscillator with ω = 1 and its energy in units of `scale²`, so that it neither overflows nor underflows.
 #[derive(Clone, Copy, Debug)]
 struct Scaled {
     scale: f64,

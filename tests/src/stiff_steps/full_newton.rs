@@ -1,6 +1,6 @@
-//! Newton's iteration in full: the derivatives of every stage anew in every sweep, and one dense system for all stages.
+//! The full Newton iteration: derivatives at every stage in every iteration, and a dense system for all stages.
 //!
-//! Short, slow, and apart from the library. The unknowns are the stage positions; of systems with unit masses.
+//! Short, slow, and independent of the library. The unknowns are the stage positions; masses are 1.
 
 #![allow(
     clippy::needless_range_loop,
@@ -20,17 +20,17 @@ use symplectic::{Class, Quantity, Scalar, Separable, Summation, System};
 
 use super::systems::Stiff;
 
-/// How the result of a step depends on what was before it and on rounding, to first order.
+/// First-order sensitivity of the result of a step to its start and to rounding errors.
 #[derive(Clone, Debug, Default)]
 pub struct Sensitivity {
-    /// |∂(q1, p1)/∂(q0, p0)|, by rows.
+    /// |∂(q1, p1)/∂(q0, p0)| entrywise, by rows.
     pub map: Vec<Vec<f64>>,
-    /// A bound on what rounding errors of one unit in the evaluations and the stages do to (q1, p1).
+    /// A bound on the effect on (q1, p1) of rounding errors of one unit in the evaluations and the stages.
     pub noise: Vec<f64>,
 }
 
 impl Sensitivity {
-    /// The bound after a step, from the one before it.
+    /// The error bound after a step from the bound before it.
     pub fn carry(&self, before: &[f64]) -> Vec<f64> {
         let carried = |row: &Vec<f64>| row.iter().zip(before).map(|(a, b)| a * b).sum::<f64>();
         let rows = self.map.iter().zip(&self.noise);
@@ -38,23 +38,23 @@ impl Sensitivity {
     }
 }
 
-/// The time of a stage and its values.
+/// The fraction of the step and the values of a stage.
 pub type StageValues = (f64, Vec<f64>);
 
-/// A system that tells [`FullNewton`] where to start, and takes its notes.
+/// A system that provides the starting values of [`FullNewton`] and stores its sensitivity.
 #[derive(Clone, Debug)]
 pub struct Watched<S> {
     system: S,
-    /// Positions inside the step at fractions of it, to start from; from the start of the step where there are none.
+    /// Starting positions at fractions of the step; stages without one start from the beginning of the step.
     pub guess: Rc<RefCell<Vec<StageValues>>>,
-    /// Of the last step.
+    /// The sensitivity of the last step.
     pub notes: Rc<RefCell<Sensitivity>>,
-    /// Whether notes are taken.
+    /// Whether the sensitivity is computed.
     pub is_reference: bool,
 }
 
 impl<S> Watched<S> {
-    /// One that has seen nothing.
+    /// A system without starting values.
     pub fn new(system: S) -> Self {
         Self {
             system,
@@ -88,7 +88,7 @@ impl<T: Scalar, S: Stiff<N>, const N: usize> System<SVector<T, N>> for Watched<S
 #[derive(Clone, Copy, Debug)]
 pub struct FullNewton;
 
-/// It remembers nothing.
+/// Empty storage: the solver keeps nothing between steps.
 #[derive(Clone, Copy, Debug)]
 pub struct Nothing;
 
@@ -108,7 +108,7 @@ impl<T: Scalar, const N: usize> StageStorage<SVector<T, N>> for Nothing {
     }
 }
 
-/// Changes of so many units of EPSILON of the positions are rounding errors.
+/// Changes of the positions up to this multiple of EPSILON are rounding errors.
 const ROUNDING: f64 = 16.0;
 
 impl<T: Scalar, S: Stiff<N> + 'static, const N: usize> Solver<SVector<T, N>, Watched<S>>
@@ -153,7 +153,7 @@ impl<T: Scalar, S: Stiff<N> + 'static, const N: usize> Solver<SVector<T, N>, Wat
     }
 }
 
-/// `Q_i = q0 + Σ_j a_ij P_j`, `P_j = p0 + Σ_l ã_jl force(Q_l)`, the step size in the coefficients.
+/// `Q_i = q0 + Σ_j a_ij P_j`, `P_j = p0 + Σ_l ã_jl force(Q_l)`; the coefficients contain the step size.
 struct Stages<T, const N: usize> {
     start: ([T; N], [T; N]),
     a: Vec<Vec<T>>,
@@ -257,7 +257,7 @@ impl<T: Scalar, const N: usize> Stages<T, N> {
         self.a_tilde.iter().map(momentum).collect()
     }
 
-    /// How far the stages are off.
+    /// The residual of the stage equations.
     fn residual<S: Stiff<N>>(&self, system: &S) -> Vec<T> {
         let momenta = self.momenta(&self.forces(system));
         let mut residual = Vec::new();
@@ -273,7 +273,7 @@ impl<T: Scalar, const N: usize> Stages<T, N> {
         residual
     }
 
-    /// `1 − A Ã ⊗ ∂force/∂q`, at each stage its own.
+    /// `1 − A Ã ⊗ ∂force/∂q`, with the derivative at each stage.
     fn matrix<S: Stiff<N>>(&self, system: &S) -> Vec<Vec<T>> {
         let count = self.q.len();
         let derivatives: Vec<_> = self.q.iter().map(|q| system.derivative(q)).collect();
@@ -306,7 +306,8 @@ impl<T: Scalar, const N: usize> Stages<T, N> {
         )
     }
 
-    /// (δq1, δp1) of errors of the stage momenta and of the forces, and of changes of the start that the caller has made part of these.
+    /// (δq1, δp1) for errors of the stage momenta and of the forces; the caller expresses changes of the start by
+    /// these.
     fn response(
         &self,
         factors: &Factors<T>,
@@ -381,7 +382,7 @@ impl<T: Scalar, const N: usize> Stages<T, N> {
         let mut map = vec![vec![0.0; 2 * N]; 2 * N];
         let mut noise = vec![0.0; 2 * N];
         for k in 0..N {
-            // q0: the forces change with it.
+            // A change of q0 changes the forces.
             let of_forces: Vec<[T; N]> = derivatives
                 .iter()
                 .map(|d| std::array::from_fn(|i| d[i][k]))
@@ -457,7 +458,7 @@ fn largest<T: Scalar>(values: &[T]) -> f64 {
         .fold(0.0, |largest: f64, x| largest.max(x.magnitude()))
 }
 
-/// The double next to it; good for sizes.
+/// A nearby double, accurate enough for magnitudes.
 fn signed<T: Scalar>(x: T) -> f64 {
     let size = x.magnitude();
     if (x - T::from_f64(size)).magnitude() <= size {
@@ -467,7 +468,7 @@ fn signed<T: Scalar>(x: T) -> f64 {
     }
 }
 
-/// Gauss's elimination with partial pivots.
+/// Gaussian elimination with partial pivoting.
 struct Factors<T> {
     rows: Vec<Vec<T>>,
     order: Vec<usize>,

@@ -1,9 +1,9 @@
-//! Steps of stiff systems by Newton's iteration, beside full Newton iterations in doubles and in 71 digits.
+//! Steps of stiff systems with Newton's iteration, compared with full Newton iterations in doubles and in 71 digits.
 //!
-//! A result is compared with the solution of the same discrete equations, with the coefficients as they are rounded, that is next to its
-//! own stages. The unit of its error is what rounding does to that solution, to first order: one half unit of EPSILON of all that is added
-//! in a force, of the largest position that it depends on, and of the largest momentum, goes through the linearised equations of all steps
-//! so far, in absolute values.
+//! A result is compared with the solution of the same discrete equations, with rounded coefficients, that is nearest to
+//! its stages. The unit of its error is a first-order bound on the effect of rounding: errors of EPSILON/2, relative to
+//! the terms of each force, to the largest position that it depends on and to the largest momentum, are propagated in
+//! absolute values through the linearised equations of all steps.
 
 mod full_newton;
 mod systems;
@@ -19,32 +19,32 @@ use crate::references::Wide;
 use full_newton::{FullNewton, Watched};
 use systems::{Fput, HangingChain, Steps, Stiff};
 
-/// Steps that are taken one after another.
+/// Number of consecutive steps.
 const STEPS: u32 = 3;
 
-/// Iterations after which full Newton has failed.
+/// Maximum number of full Newton iterations.
 const MOST_ITERATIONS: u32 = 60;
 
-/// Positions beyond this are those of an unstable method: hω is beyond its stability, and states grow by powers of it. The start is of the
-/// size of one.
+/// Positions beyond this indicate an unstable method: hω is outside its stability interval and states grow by powers of
+/// it. The start is of order one.
 const GROWN: f64 = 100.0;
 
-/// What became of a run.
+/// The outcome of a run.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// System, method, derivatives, sums, k and h.
+    /// System, method, derivatives, summation, k and h.
     pub name: String,
-    /// The most sweeps of a step, or why one failed.
+    /// The largest number of sweeps of a step, or the error of a failed step.
     pub sweeps: Result<u32, Error>,
-    /// The most iterations that full Newton takes for a step in doubles, if it converges.
+    /// The largest number of full Newton iterations of a step in doubles, if it converges.
     pub in_full: Option<u32>,
-    /// The error in units of what rounding does to the exact solution; `None` where full Newton in 71 digits found none.
+    /// The error in units of the bound on rounding; `None` if full Newton in 71 digits did not converge.
     pub error: Option<f64>,
     /// Whether the method is unstable.
     pub grows: bool,
 }
 
-/// A system and where it starts.
+/// A system with its start.
 #[derive(Clone, Copy)]
 struct Problem<S, const N: usize> {
     name: &'static str,
@@ -54,7 +54,7 @@ struct Problem<S, const N: usize> {
     p: [f64; N],
 }
 
-/// Makes all runs with these powers of ten for `k` and `h`, and shows what became of each.
+/// Makes all runs with these powers of ten for `k` and `h`, and passes each outcome to `see`.
 pub fn grid(stiffnesses: &[i32], step_sizes: &[i32], mut see: impl FnMut(Outcome)) {
     for &power in stiffnesses {
         let k = 10f64.powi(power);
@@ -132,7 +132,7 @@ fn solvers<M: Method, S: Stiff<N> + 'static, const N: usize>(
     run!(Differences Plain Differences Compensated AnalyticOrDifferences Plain AnalyticOrDifferences Compensated);
 }
 
-/// The most iterations of full Newton in doubles.
+/// The largest number of full Newton iterations in doubles.
 fn in_full<M: Method, S: Stiff<N> + 'static, const N: usize>(
     method: M,
     problem: &Problem<S, N>,
@@ -171,7 +171,7 @@ where
     outcome
 }
 
-/// Takes the steps; errors are those of the library.
+/// Takes the steps and records the outcome; errors are those of the library.
 fn follow<M: Method, S: Stiff<N> + 'static, L, R: Summation, const N: usize>(
     method: M,
     nodes: &[f64],

@@ -1,4 +1,4 @@
-//! Stiff systems that know their derivatives and the size of their rounding errors.
+//! Stiff systems with their derivatives and the magnitude of their rounding errors.
 
 #![allow(
     clippy::needless_range_loop,
@@ -10,7 +10,7 @@ use symplectic::solver::FixedPoint;
 use symplectic::system::Jacobian;
 use symplectic::{Scalar, Separable, System};
 
-/// A separable system with unit masses, of `N` components.
+/// A separable system with unit masses and `N` components.
 pub trait Stiff<const N: usize>: Copy {
     /// Writes the force at `q`.
     fn force<T: Scalar>(&self, q: &[T; N], force: &mut [T; N]);
@@ -18,11 +18,11 @@ pub trait Stiff<const N: usize>: Copy {
     /// `∂force_i/∂q_j` at `q`.
     fn derivative<T: Scalar>(&self, q: &[T; N]) -> [[T; N]; N];
 
-    /// The sum of the absolute values of all that is added in each component of the force.
+    /// The sum of the absolute values of all terms in each component of the force.
     fn terms(&self, q: &[f64; N]) -> [f64; N];
 }
 
-/// Any of them as a system for integrators.
+/// A stiff system as a system for integrators.
 #[derive(Clone, Copy, Debug)]
 pub struct Steps<S>(pub S);
 
@@ -62,7 +62,8 @@ impl<T: Scalar, S: Stiff<N>, const N: usize> System<SVector<T, N>> for Steps<S> 
     }
 }
 
-/// Adds the spring of stiffness `k` and length 1 from `a` to `b`, two components each; a fixed end is `None`, at the origin.
+/// Adds the force of a spring of stiffness `k` and length 1 between `ends`, the indices of their first components;
+/// `None` is a fixed end at the origin.
 fn spring<T: Scalar, const N: usize>(
     k: f64,
     q: &[T; N],
@@ -127,7 +128,7 @@ fn spring_terms<const N: usize>(
     }
 }
 
-/// Masses on springs of length 1 in a plane, hung one below the other: `N/2` of them. A spring pendulum is one of these.
+/// A hanging chain of `N/2` masses on springs of length 1 in a plane. A single mass is a spring pendulum.
 #[derive(Clone, Copy, Debug)]
 pub struct HangingChain {
     /// Stiffness.
@@ -159,14 +160,14 @@ impl<const N: usize> Stiff<N> for HangingChain {
     }
 }
 
-/// GNI §I.5.1.
+/// The stiff and soft springs of GNI §I.5.1.
 #[derive(Clone, Copy, Debug)]
 pub struct Fput {
     /// ω²
     pub k: f64,
 }
 
-/// Of the soft springs: the components with their signs.
+/// The signs of the components in the elongation of each soft spring.
 const SOFT: [[f64; 6]; 4] = [
     [1.0, 0.0, 0.0, -1.0, 0.0, 0.0],
     [-1.0, 1.0, 0.0, -1.0, -1.0, 0.0],

@@ -36,7 +36,7 @@ fn lift_pair(
     h: &[u64],
 ) -> (Vec<BigInt>, Vec<BigInt>) {
     let integers = |polynomial: &[u64]| polynomial.iter().map(|&c| c.into()).collect::<Vec<_>>();
-    // s g + t h = 1; g has an inverse modulo h, for they are coprime.
+    // s g + t h = 1; g is invertible modulo h because they are coprime.
     let s = field.inverse_modulo(g, h).unwrap_or_default();
     let t = field.subtract(&[1], &field.multiply(&s, g));
     let (t, _) = field.div_rem(&t, h);

@@ -1,7 +1,7 @@
 //! The irreducible factors of rational polynomials.
 //!
-//! Zassenhaus' method: factors modulo a prime, lifted to a power of it that is larger than twice any
-//! coefficient of a true factor, and combined to true factors.
+//! Zassenhaus' method: factors modulo a prime are lifted to a power of the prime that exceeds twice any coefficient of
+//! a true factor, and combined to true factors.
 
 mod hensel;
 mod recombination;
@@ -16,14 +16,14 @@ use super::prime_field::{PrimeField, large_primes, small_primes};
 use super::residues::Residues;
 use super::roots::Root;
 
-/// The number of suitable primes of which the one with the fewest factors is taken.
+/// Number of suitable primes to try; the prime with the fewest factors is used.
 const PRIMES: usize = 5;
 
-/// The distinct irreducible factors of a polynomial over the rationals, primitive with a positive leading
-/// coefficient, by degree.
+/// The distinct irreducible factors of a polynomial over the rationals, primitive with a positive leading coefficient,
+/// sorted by degree.
 ///
-/// A number has none. `None` for the zero polynomial, and where more than 2²⁰ combinations of factors
-/// modulo a prime would have to be tried; that takes more than 20 of them.
+/// A constant has no factors. `None` for the zero polynomial, and if more than 2²⁰ combinations of factors modulo a
+/// prime would be needed; this requires more than 20 such factors.
 pub fn irreducible_factors(polynomial: &Polynomial) -> Option<Vec<Polynomial>> {
     polynomial.degree()?;
     let mut factors = Vec::new();
@@ -46,9 +46,9 @@ pub fn irreducible_factors(polynomial: &Polynomial) -> Option<Vec<Polynomial>> {
     Some(factors)
 }
 
-/// The irreducible factor that vanishes at a root which was isolated for a squarefree polynomial.
+/// The irreducible factor of a squarefree polynomial that vanishes at one of its isolated roots.
 ///
-/// `None` where factoring gives up, see [`irreducible_factors`].
+/// `None` if factoring exceeds its limit, see [`irreducible_factors`].
 pub fn irreducible_factor_at(polynomial: &Polynomial, root: &Root) -> Option<Polynomial> {
     if let Some(value) = root.rational() {
         let linear = &Polynomial::variable() - &Polynomial::constant(value.clone());
@@ -72,9 +72,9 @@ pub(crate) fn squarefree_part(polynomial: &Polynomial) -> Polynomial {
     }
 }
 
-/// Whether a polynomial is squarefree modulo a large prime, and so over the rationals.
+/// Whether a polynomial is squarefree modulo a large prime, and hence over the rationals.
 ///
-/// A squarefree polynomial fails only if the prime divides its discriminant.
+/// A squarefree polynomial fails only if the primes divide its discriminant or its leading coefficient.
 pub(crate) fn is_surely_squarefree(polynomial: &Polynomial) -> bool {
     large_primes().take(2).any(|prime| {
         let field = PrimeField::new(prime);
@@ -84,7 +84,7 @@ pub(crate) fn is_surely_squarefree(polynomial: &Polynomial) -> bool {
     })
 }
 
-/// The factorisation modulo a prime, and what several primes say about the degrees of true factors.
+/// The factorisation modulo a prime, and the possible degrees of true factors from several primes.
 struct Modular {
     field: PrimeField,
     factors: Vec<Vec<u64>>,
@@ -100,8 +100,8 @@ fn zassenhaus(polynomial: &Polynomial) -> Option<Vec<Polynomial>> {
         return Some(vec![polynomial.clone()]);
     }
     let leading = polynomial.leading().to_integer();
-    // Mignotte: the coefficients of a factor are at most 2ⁿ times the length of the coefficients; here
-    // a factor comes with the leading coefficient of the whole.
+    // Mignotte: the coefficients of a factor are at most 2ⁿ times the Euclidean norm of the coefficients. Here factors
+    // are scaled to the leading coefficient of the polynomial.
     let square: BigInt = polynomial.numerators().iter().map(|n| n * n).sum();
     let bound = ((square.sqrt() + 1u32) * &leading) << (degree + 1);
     let mut modulus = BigInt::from(modular.field.prime());
@@ -126,7 +126,7 @@ fn zassenhaus(polynomial: &Polynomial) -> Option<Vec<Polynomial>> {
     recombination::recombine(polynomial, &ring, lifted, &modular.degrees)
 }
 
-/// Takes the prime with the fewest factors of several.
+/// Chooses the prime with the fewest factors among several.
 fn modular_factors(polynomial: &Polynomial) -> Option<Modular> {
     let degree = polynomial.degree()?;
     let mut degrees = vec![true; degree + 1];
@@ -235,7 +235,7 @@ mod tests {
             assert_eq!(factors(&f), [f]);
         }
         assert!(start.elapsed().as_secs() < 20);
-        // Too many sets: that is said, and does not take forever.
+        // Too many combinations: the limit is reported.
         assert_eq!(
             irreducible_factors(&swinnerton_dyer(&[2, 3, 5, 7, 11, 13])),
             None

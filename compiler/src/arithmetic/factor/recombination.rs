@@ -7,10 +7,10 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::residues::Residues;
 
-/// The number of sets of factors modulo `p` that are tried before factoring is given up.
+/// Largest number of sets of factors modulo `p` to try.
 const MAX_TRIALS: u32 = 1 << 20;
 
-/// Combines the factors modulo a prime power to true factors, the smallest sets first.
+/// Combines factors modulo a prime power to true factors, the smallest sets first; `None` beyond [`MAX_TRIALS`].
 pub(super) fn recombine(
     polynomial: &Polynomial,
     ring: &Residues,
@@ -57,7 +57,7 @@ pub(super) fn recombine(
     Some(found)
 }
 
-/// The next set of as many indices below a bound, in lexicographic order.
+/// Advances to the next set of the same size of indices below a bound, in lexicographic order.
 fn advance(set: &mut [usize], bound: usize) -> bool {
     let size = set.len();
     let Some(position) = (0..size).rev().find(|&i| set[i] < bound - size + i) else {
@@ -78,7 +78,7 @@ struct Search<'a> {
     /// `leading` times the sum of the roots of each factor, as a fraction of the modulus in units of
     /// 2⁻⁶⁴.
     traces: Vec<u64>,
-    /// The largest value that this takes for a true factor.
+    /// The largest trace of a true factor, in the same units; `None` if the bound excludes nothing.
     tolerance: Option<u64>,
 }
 
@@ -94,7 +94,7 @@ impl<'a> Search<'a> {
                 fraction(residue).to_u64().unwrap_or(0)
             })
             .collect();
-        // Every fraction is rounded down by one unit at most.
+        // Every fraction is rounded down by at most one unit.
         let rounding = BigInt::from(factors.len() + 1);
         let largest = BigInt::one() << trace_bits(polynomial);
         let tolerance = (fraction(largest) + rounding).to_u64();
@@ -111,7 +111,7 @@ impl<'a> Search<'a> {
         set.iter().map(|&i| self.factors[i].len() - 1).sum()
     }
 
-    /// Whether the sum of the roots is small enough for a true factor. That excludes almost all sets.
+    /// Whether the sum of the roots is small enough for a true factor. This excludes almost all sets.
     fn traces_match(&self, set: &[usize]) -> bool {
         let sum = set
             .iter()
@@ -120,13 +120,13 @@ impl<'a> Search<'a> {
             .is_none_or(|tolerance| sum <= tolerance || sum.wrapping_neg() <= tolerance)
     }
 
-    /// The true factor that a set of lifted factors belongs to, and the quotient.
+    /// The true factor from a set of lifted factors, and the quotient.
     fn divide(&self, polynomial: &Polynomial, set: &[usize]) -> Option<(Polynomial, Polynomial)> {
         let factors = || set.iter().map(|&i| &self.factors[i]);
         let constant = factors().fold(self.leading.clone(), |product, factor| {
             (product * &factor[0]).mod_floor(self.ring.modulus())
         });
-        // The constant terms do not vanish, and divide each other like the polynomials.
+        // The constant term of a factor is nonzero and divides that of the polynomial.
         let whole = polynomial.coefficient(0).to_integer() * &self.leading;
         let constant = self.ring.symmetric(&constant);
         if constant.is_zero() || !(whole % constant).is_zero() {
@@ -144,7 +144,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// A power of two that `leading · Σ roots` of every factor is below in absolute value.
+/// A number `n` with `|leading · Σ roots| < 2ⁿ` for every factor.
 fn trace_bits(polynomial: &Polynomial) -> u64 {
     let bits = |n: &BigInt| n.abs().bits() as i64;
     let Some((leading, rest)) = polynomial.numerators().split_last() else {
@@ -176,7 +176,7 @@ mod tests {
 
     #[test]
     fn sums_of_roots_are_within_the_bound() {
-        // 7 (x − 1000)(x + 3)(x − 1/7): all partial sums, times 7.
+        // 7 (x − 1000)(x + 3)(x − 1/7): the largest partial sum is 1000 + 1/7.
         let f = [[-1000, 1], [3, 1], [-1, 7]]
             .iter()
             .fold(Polynomial::one(), |p, c| &p * &Polynomial::from_integers(c));

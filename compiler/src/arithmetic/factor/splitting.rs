@@ -2,7 +2,7 @@
 
 use crate::arithmetic::prime_field::PrimeField;
 
-/// The map `h ↦ hᵖ` on polynomials modulo a given one; it is linear.
+/// The linear map `h ↦ hᵖ` on polynomials modulo `modulus`.
 struct Frobenius<'a> {
     field: PrimeField,
     modulus: &'a [u64],
@@ -42,14 +42,13 @@ impl<'a> Frobenius<'a> {
     }
 }
 
-/// Splits a monic squarefree polynomial into products of the irreducible factors of one degree, each
-/// with this degree.
+/// Splits a monic squarefree polynomial into the products of its irreducible factors of equal degree, each with this
+/// degree.
 pub(super) fn by_degree(field: PrimeField, polynomial: &[u64]) -> Vec<(Vec<u64>, usize)> {
     let frobenius = Frobenius::new(field, polynomial);
     let mut rest = polynomial.to_vec();
     let mut parts = Vec::new();
-    // x to the power pᵈ: the irreducible polynomials whose degree divides d are the divisors of its
-    // difference from x.
+    // x to the power pᵈ. The irreducible divisors of x^(pᵈ) − x are those whose degree divides d.
     let mut power = vec![0, 1];
     for degree in 1.. {
         if rest.len() <= 2 * degree {
@@ -69,11 +68,11 @@ pub(super) fn by_degree(field: PrimeField, polynomial: &[u64]) -> Vec<(Vec<u64>,
     parts
 }
 
-/// The irreducible factors of a monic product of different ones of the same degree; `p` is odd.
+/// Splits a monic product of distinct irreducible factors of the same degree; `p` is odd.
 pub(super) fn equal_degrees(field: PrimeField, product: Vec<u64>, degree: usize) -> Vec<Vec<u64>> {
     let mut pending = vec![product];
     let mut factors = Vec::new();
-    // A fixed sequence (Knuth's multiplier): chance makes the splitting fast, never wrong.
+    // A fixed pseudorandom sequence (Knuth's multiplier): it affects the run time only, not the result.
     let mut state = 0u64;
     let mut draw = |prime: u64| {
         state = state
@@ -89,7 +88,7 @@ pub(super) fn equal_degrees(field: PrimeField, product: Vec<u64>, degree: usize)
         let frobenius = Frobenius::new(field, &product);
         loop {
             let mut power: Vec<u64> = (1..product.len()).map(|_| draw(field.prime())).collect();
-            // The power (pᵈ − 1)/2 is 1 or −1 modulo each factor, with even chances.
+            // The power (pᵈ − 1)/2 is 1 or −1 modulo each factor, with equal probability.
             let mut norm = vec![1];
             for _ in 0..degree {
                 norm = field.remainder(&field.multiply(&norm, &power), &product);
@@ -114,7 +113,7 @@ mod tests {
 
     #[test]
     fn the_field_itself_is_found() {
-        // x^p − x has every element as a root; x^(p²) − x all quadratic factors besides.
+        // x^p − x has every element as a root; x^(p²) − x also contains all irreducible quadratic factors.
         let field = PrimeField::new(5);
         let mut f = vec![0; 26];
         (f[1], f[25]) = (4, 1);

@@ -1,4 +1,4 @@
-//! Lists with errors, and the diagnoses of them.
+//! Lists with errors, and their diagnoses.
 
 use num_traits::Signed;
 

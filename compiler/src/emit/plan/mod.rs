@@ -38,7 +38,7 @@ struct Bodies {
     finish: TokenStream,
     /// Evaluations in `begin`, for starting values, in a sweep and in `finish`.
     counts: [usize; 4],
-    /// How many of the evaluations in `begin` the previous step has made already.
+    /// Number of evaluations in `begin` that are reused from the previous step.
     carried: usize,
 }
 
@@ -50,8 +50,8 @@ pub(super) struct Plan {
     pub(super) code: TokenStream,
 }
 
-/// The plans of a method, under these names. A composition with coupled stages is taken substep by substep: by
-/// its methods and substeps.
+/// The plans of a method, under these names. A composition of at least two substeps with coupled stages is computed
+/// substep by substep, from its methods and substeps.
 pub(super) fn plans(
     tableau: &Tableau,
     numbers: &Coefficients<Number<'_>>,

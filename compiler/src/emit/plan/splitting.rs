@@ -21,7 +21,8 @@ impl<'g, 'a> Chain<'g, 'a> {
 
     /// The plan as a type of this name.
     pub(super) fn plan(&self, name: &Ident) -> Plan {
-        // The first evaluation, if any, is carried over: the last one of its kind leaves it in its place.
+        // Only the first evaluation can be carried over: the last evaluation of its kind in the previous step leaves it
+        // in its slot.
         let carried = Phases::new(self.graph).carried().len();
         let lines = self.evaluations.iter().enumerate();
         let lines = lines.map(|(number, &node)| self.line(node, number == 0 && carried > 0));

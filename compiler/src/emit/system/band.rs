@@ -1,4 +1,4 @@
-//! How far second derivatives are from the diagonal.
+//! The bandwidth of the second derivatives.
 
 use std::collections::BTreeSet;
 

@@ -23,7 +23,7 @@ pub struct Task {
     pub value: Op,
     /// The statement for the value.
     pub write: Statement,
-    /// Whether the value is a double, whatever the scalar.
+    /// Whether the value is an `f64` for every scalar type.
     pub fixed: bool,
 }
 
@@ -32,7 +32,7 @@ pub struct Task {
 pub(super) struct Written {
     pub(super) tokens: TokenStream,
     pub(super) strength: Strength,
-    /// Whether it is a double, whatever the scalar.
+    /// Whether the value is an `f64` for every scalar type.
     pub(super) fixed: bool,
 }
 

@@ -192,7 +192,7 @@ impl Emitter<'_> {
         starts
     }
 
-    /// How many constraints a family has.
+    /// Number of constraints of a family.
     fn count(&self, constraint: &Constraint) -> TokenStream {
         let parts = Literal::usize_unsuffixed(constraint.parts.len());
         let indices = match constraint

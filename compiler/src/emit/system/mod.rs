@@ -259,7 +259,8 @@ impl<'a> Emitter<'a> {
         parts
     }
 
-    /// The statements that write some of the derivatives. All are known, so each derivative has the same bits in every selection.
+    /// The statements that write some of the derivatives. The operations are derived from all derivatives together, so
+    /// each derivative has the same bits in every selection.
     fn derivatives(
         &self,
         read: &[&str],

@@ -19,7 +19,7 @@ pub fn entry(layout: &Layout, vector: &TokenStream, coordinate: &Coordinate) -> 
     }
 }
 
-/// A name of the user as an identifier; raw where it is a word of Rust.
+/// A name of the user as an identifier; raw if it is a Rust keyword.
 pub fn identifier(name: &str) -> Ident {
     const WORDS: [&str; 46] = [
         "as", "async", "await", "abstract", "become", "box", "break", "const", "continue", "do",

@@ -1,4 +1,4 @@
-//! The page: everything in one file, without anything from elsewhere.
+//! The self-contained HTML page.
 
 mod overview;
 mod verdicts;
@@ -13,12 +13,12 @@ use super::{
 };
 
 impl Measurements {
-    /// The page, in HTML: the fastest method for each problem; for each problem the times for the [targets](Self::targets), its
-    /// plots, what failed and every run; the tables of [verdicts](Self::verdicts); the [limits](Self::limits) of stability; then
-    /// what is known of the methods.
+    /// The page in HTML: the fastest method for each problem; for each problem the times for the
+    /// [targets](Self::targets), its plots, failures and all runs; the tables of [verdicts](Self::verdicts); the
+    /// [limits](Self::limits) of stability; and the facts about the methods.
     ///
-    /// It needs no other file and no network, and is light or dark as the reader prefers. All of it is readable without its
-    /// script, by which a click brings a pale curve forward.
+    /// It needs no other file and no network, and follows the reader's preference for a light or dark scheme. It is
+    /// readable without its script, which brings a pale curve forward on a click.
     pub fn page(&self) -> String {
         let head = Element::new("head")
             .child(Element::new("meta").with("charset", "utf-8"))
@@ -33,7 +33,7 @@ impl Measurements {
                 include_str!("page.css"),
                 style(Scheme::Reader)
             )));
-        // The first table has links to the problems.
+        // The overview links to the problems.
         let names = self.verdicts.iter().map(|table| &table.title);
         let links = names.map(|name| link(name, &file_name(name)));
         let limits = (!self.limits.is_empty()).then_some(&self.limits);
@@ -126,7 +126,7 @@ impl Measurements {
         table("times", header, rows)
     }
 
-    /// The methods in colour.
+    /// The names of the coloured methods.
     fn caption(&self, problem: &ProblemRecord) -> Element {
         let roles = self.roles(problem);
         let is_coloured = |curve: &&Curve| roles.iter().any(|(_, held)| *held == *curve);
@@ -148,7 +148,7 @@ impl Measurements {
     }
 
     fn methods_section(&self) -> Element {
-        // A column for each fact that one of the methods has.
+        // A column for each fact of any method.
         let mut names: Vec<&str> = Vec::new();
         for fact in self.methods.iter().flat_map(|method| &method.facts) {
             if !names.contains(&fact.name.as_str()) {
@@ -191,7 +191,7 @@ fn method_row(method: &MethodRecord, names: &[&str]) -> Element {
         .child(Element::new("td").with("class", "words").child(definition))
 }
 
-/// Why a time is what it is.
+/// The explanation of a time.
 fn explain(curve: &Curve, found: &Cost) -> String {
     match found {
         Cost::Between { .. } => "interpolated between two runs".into(),
@@ -235,7 +235,7 @@ fn failures(problem: &ProblemRecord) -> Option<Element> {
     })
 }
 
-/// All runs that came to the end.
+/// All runs that reached the end.
 fn runs(problem: &ProblemRecord) -> Element {
     let fixed = [
         "method",
@@ -330,7 +330,7 @@ mod tests {
     #[test]
     fn the_page_is_well_formed_and_needs_nothing_from_elsewhere() {
         let page = measurements().page();
-        // This page happens to be XML too, but for its first line.
+        // Except for its first line, this page is also valid XML.
         let xml = page.strip_prefix("<!DOCTYPE html>\n").expect("it is HTML");
         let document = roxmltree::Document::parse(xml).expect("every element is closed");
         let count = |name: &str| {
@@ -374,7 +374,7 @@ mod tests {
         record.name = "Gauss 2".into();
         found.methods.push(record);
         let page = found.page();
-        // In the plots of time, evaluations and energy.
+        // Once in each of the plots of time, evaluations and energy.
         let pale = "<g class=\"curve pale\" data-method=\"Gauss 2\">";
         assert_eq!(page.matches(pale).count(), 3);
         assert!(page.contains("<tr data-method=\"Gauss 2\">") && page.contains("1 more in grey"));
@@ -404,7 +404,7 @@ mod tests {
         ] {
             assert!(page.contains(words), "{words} in {page}");
         }
-        // A row for the fact, and a dash where there is none.
+        // A row for the fact, and a dash for a method without it.
         assert!(page.contains("<th>stable for hω in</th><td>(0, 2)</td><td>–</td>"));
     }
 
@@ -420,7 +420,7 @@ mod tests {
     #[test]
     fn the_fastest_is_marked_and_only_it() {
         let page = measurements().page();
-        // One for each target that is reached, with a class of its own.
+        // One for each target that is reached.
         assert_eq!(page.matches("class=\"best\"").count(), 4);
         assert!(page.contains("not reached within the budget; the best error is 1.0·10⁻⁴"));
     }

@@ -1,4 +1,4 @@
-//! The first table: the fastest method for each problem and target.
+//! The overview: the fastest method for each problem and target.
 
 use super::{link, tag};
 use crate::plot::element::Element;
@@ -7,7 +7,7 @@ use crate::table::{cost, error};
 use crate::{Measurements, ProblemRecord};
 
 impl Measurements {
-    /// The fastest method for each problem and target, with what the numbers are; nothing where there are no problems.
+    /// The fastest method for each problem and target, with an explanation of the numbers; empty without problems.
     pub(super) fn overview(&self) -> Vec<Element> {
         if self.problems.is_empty() {
             return Vec::new();
@@ -29,7 +29,7 @@ impl Measurements {
 
     fn fastest_row(&self, problem: &ProblemRecord) -> Element {
         let cells = self.targets.iter().map(|target| {
-            // Narrow pages have no header: each cell says its error.
+            // Narrow pages hide the header, so each cell contains its error.
             let cell = Element::new("td").with("data-error", error(*target));
             match problem.fastest(*target).first() {
                 Some((curve, found)) => cell

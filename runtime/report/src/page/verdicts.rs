@@ -5,7 +5,7 @@ use crate::plot::element::Element;
 use crate::plot::file_name;
 use crate::{Cause, Cell, Fact, StabilityLimit, Verdict, Verdicts, text};
 
-/// What a kind of verdict looks like: the name of its colour, a sign, a word.
+/// The appearance of a kind of verdict: CSS class, symbol, word.
 type Kind = (&'static str, &'static str, &'static str);
 
 const ACCURATE: Kind = ("accurate", "●", "accurate");
@@ -30,7 +30,7 @@ const fn kind(verdict: &Verdict) -> Kind {
     }
 }
 
-/// The number that belongs to the word.
+/// The number next to the word.
 fn number(verdict: &Verdict) -> String {
     match verdict {
         Verdict::Accurate { error } | Verdict::Bounded { error, .. } => text::scientific(*error),
@@ -40,12 +40,12 @@ fn number(verdict: &Verdict) -> String {
     }
 }
 
-/// A section with a table of verdicts, and what its words mean.
+/// A section with a table of verdicts and its key.
 pub(super) fn section(verdicts: &Verdicts) -> Element {
     let methods = verdicts.columns.iter().map(|column| column.method.clone());
     let header = ["problem".into()].into_iter().chain(methods);
     let rows = verdicts.rows.iter().map(|row| {
-        // What is left out at the end was not run.
+        // Missing cells at the end of a row were not run.
         let missing = verdicts.columns.len().saturating_sub(row.cells.len());
         let missing = (0..missing).map(|_| None);
         let cells = row.cells.iter().map(Option::as_ref).chain(missing);
@@ -63,7 +63,7 @@ pub(super) fn section(verdicts: &Verdicts) -> Element {
         .child(table("scroll", header, rows))
 }
 
-/// A row for each fact that is known of one of the methods.
+/// A row for each fact of any method.
 fn fact_rows(verdicts: &Verdicts) -> Vec<Element> {
     let mut names: Vec<&str> = Vec::new();
     for Fact { name, .. } in verdicts.columns.iter().flat_map(|column| &column.facts) {
@@ -110,7 +110,7 @@ fn cell(cell: Option<&Cell>) -> Element {
     element.with("class", class).with("title", words)
 }
 
-/// What the signs and words mean.
+/// The key of symbols and words.
 fn key() -> Element {
     let stopped = ("stopped", "■", "no convergence, not finite, singular");
     let entries = [

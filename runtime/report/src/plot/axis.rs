@@ -1,29 +1,30 @@
-//! Axes: from numbers to places, and where the ticks are.
+//! Axes: mapping of values to positions, and ticks.
 
 use crate::text;
 
-/// How numbers become places.
+/// The scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
     Linear,
     Logarithmic,
 }
 
-/// An axis from one number to another, which may be the smaller one.
+/// An axis from a value to another, which may be smaller.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     pub label: String,
     pub scale: Scale,
-    /// The numbers at its start and at its end.
+    /// The value at the start; `to` is the value at the end.
     pub from: f64,
     pub to: f64,
 }
 
 impl Axis {
-    /// A logarithmic axis over whole decades that hold the values, at least one; `None` where no value is positive.
+    /// A logarithmic axis over the decades that contain the positive values, at least one decade; `None` if no value is
+    /// positive.
     pub fn decades(label: &str, values: impl Iterator<Item = f64>) -> Option<Self> {
         let (low, high) = range(values.filter(|value| *value > 0.0))?;
-        // A value next to a decade, by rounding, is on it.
+        // Tolerate rounding errors at powers of ten.
         let (low, high) = ((low.log10() + 1e-9).floor(), (high.log10() - 1e-9).ceil());
         let high = if high <= low { low + 1.0 } else { high };
         Some(Self {
@@ -34,7 +35,7 @@ impl Axis {
         })
     }
 
-    /// A linear axis that holds the values and a little more; `None` where there are none.
+    /// A linear axis over the values with a margin; `None` without values.
     pub fn linear(label: &str, values: impl Iterator<Item = f64>) -> Option<Self> {
         let (low, high) = range(values)?;
         let margin = if high > low { 0.06 * (high - low) } else { 1.0 };
@@ -46,7 +47,7 @@ impl Axis {
         })
     }
 
-    /// The same axis the other way round.
+    /// The axis with its ends exchanged.
     pub fn reversed(self) -> Self {
         Self {
             from: self.to,
@@ -55,7 +56,7 @@ impl Axis {
         }
     }
 
-    /// Where a value is: 0 at the start, 1 at the end.
+    /// The position of a value: 0 at the start, 1 at the end.
     pub fn place(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Linear => (value - self.from) / (self.to - self.from),
@@ -63,7 +64,7 @@ impl Axis {
         }
     }
 
-    /// The values with a label.
+    /// The labelled ticks.
     pub fn ticks(&self) -> Vec<(f64, String)> {
         match self.scale {
             Scale::Linear => self.round_ticks(),
@@ -78,7 +79,7 @@ impl Axis {
         }
     }
 
-    /// The values with a short tick between the others: 2, …, 9 times the powers of ten, or those powers without a label.
+    /// The short ticks without labels: 2, …, 9 times the powers of ten, or on long axes the powers of ten themselves.
     pub fn minor_ticks(&self) -> Vec<f64> {
         if self.scale == Scale::Linear {
             return Vec::new();
@@ -99,7 +100,7 @@ impl Axis {
         (from.min(to), from.max(to))
     }
 
-    /// Multiples of 1, 2 or 5 times a power of ten, some five of them.
+    /// About five multiples of 1, 2 or 5 times a power of ten.
     fn round_ticks(&self) -> Vec<(f64, String)> {
         let (low, high) = (self.from.min(self.to), self.from.max(self.to));
         let raw = (high - low) / 5.0;
@@ -129,7 +130,7 @@ impl Axis {
     }
 }
 
-/// The smallest and the largest value.
+/// The smallest and the largest finite value.
 fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     values
         .filter(|value| value.is_finite())

@@ -8,12 +8,12 @@ use super::labels::{self, Area};
 use super::look::{self, Look};
 use crate::Kind;
 
-/// The size of a chart, with its texts.
+/// The width of a chart, including texts.
 pub const WIDTH: f64 = 820.0;
-/// The height of it.
+/// The height of a chart.
 pub const HEIGHT: f64 = 470.0;
 
-/// Where the curves are.
+/// The area of the curves.
 const INNER: Area = Area {
     left: 72.0,
     top: 62.0,
@@ -21,10 +21,10 @@ const INNER: Area = Area {
     bottom: 414.0,
 };
 
-/// Where the names of curves that end on the right are.
+/// Left end of the column of names of curves that end on the right.
 const COLUMN: f64 = INNER.right + 16.0;
 
-/// What is drawn.
+/// The content of a chart.
 #[derive(Clone, Debug)]
 pub struct Chart {
     pub title: String,
@@ -32,7 +32,8 @@ pub struct Chart {
     pub x: Axis,
     pub y: Axis,
     pub curves: Vec<Drawn>,
-    /// Up to this value of x nothing is known, from the end of the axis.
+    /// The shaded region from this value of x to the end of the axis, where the reference is too inaccurate; and its
+    /// label.
     pub unknown: Option<(f64, &'static str)>,
 }
 
@@ -44,14 +45,14 @@ pub struct Drawn {
     pub shape: Shape,
 }
 
-/// How it is drawn.
+/// The shape of a curve.
 #[derive(Clone, Debug)]
 pub enum Shape {
-    /// Marks with lines between them, and a text for each.
+    /// Marks joined by lines, with a text for each mark.
     Marks(Vec<(f64, f64, String)>),
     /// A line, with gaps.
     Line(Vec<Option<(f64, f64)>>),
-    /// The area between a lower and an upper line: x and both y.
+    /// The area between a lower and an upper line: x, lower y, upper y.
     Band(Vec<(f64, f64, f64)>),
 }
 
@@ -71,7 +72,7 @@ impl Chart {
         elements.extend(self.key());
         elements.extend(self.unknown_area());
         elements.extend(self.grid());
-        // Pale curves first: those in colour are drawn over them, and their names are placed first.
+        // Coloured curves are drawn over pale ones, but their names are placed first.
         let (pale, coloured): (Vec<&Drawn>, Vec<&Drawn>) = self
             .curves
             .iter()
@@ -83,7 +84,7 @@ impl Chart {
         elements
     }
 
-    /// Curves with their names, and where the names are.
+    /// Draws curves with their names; also returns the areas of the names.
     fn groups(&self, curves: &[&Drawn], taken: &[Area], column: f64) -> (Vec<Element>, Vec<Area>) {
         let lines: Vec<Vec<(f64, f64)>> = curves.iter().map(|curve| self.line(curve)).collect();
         let ends: Vec<Option<(f64, f64)>> = lines.iter().map(|line| line.last().copied()).collect();
@@ -124,7 +125,7 @@ impl Chart {
         )
     }
 
-    /// What the marks mean, where there are marks of several kinds.
+    /// The key of the marks in use.
     fn key(&self) -> Vec<Element> {
         let kinds = [
             (Kind::Explicit, "explicit"),
@@ -231,7 +232,7 @@ impl Chart {
         elements
     }
 
-    /// The places of the points of a curve.
+    /// The positions of the points of a curve, in pixels.
     fn line(&self, curve: &Drawn) -> Vec<(f64, f64)> {
         match &curve.shape {
             Shape::Marks(points) => points
@@ -265,7 +266,7 @@ impl Chart {
             }
         };
         let width = |coloured| if look.role.is_some() { coloured } else { "1.1" };
-        // What the mouse finds is wider than what the eye sees.
+        // The area that reacts to the mouse is wider than the visible line.
         let hit = |path: &str| {
             let title = Element::new("title").text(curve.name.as_str());
             Element::new("path")
@@ -317,12 +318,12 @@ impl Chart {
     }
 }
 
-/// The name of a curve, with a line to its end where it is far from it.
+/// The name of a curve, with a leader line if it is far from the end of the curve.
 fn label(name: &str, look: Look, end: (f64, f64), area: &Area) -> Vec<Element> {
     let middle = (area.top + area.bottom) / 2.0;
     let mut elements = Vec::new();
     if labels::distance(area, end) > 14.0 {
-        // To the nearest point of the text.
+        // The leader ends at the nearest point of the text.
         let x = end.0.clamp(area.left - 3.0, area.right + 3.0);
         let leader = Element::new("path")
             .with("class", format!("leader {}", look.line()))
@@ -342,7 +343,7 @@ fn text(x: f64, y: f64, class: &str, words: &str) -> Element {
         .text(words)
 }
 
-/// Straight lines between points.
+/// An SVG path of straight lines.
 fn path(points: &[(f64, f64)]) -> String {
     let mut path = String::new();
     for (index, (x, y)) in points.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Display, Write};
 
-/// An element with attributes, elements and text in it.
+/// An element with attributes and content.
 #[derive(Clone, Debug)]
 pub struct Element {
     name: &'static str,
@@ -14,7 +14,7 @@ pub struct Element {
 enum Node {
     Element(Element),
     Text(String),
-    /// Already markup.
+    /// Raw markup.
     Markup(String),
 }
 
@@ -27,37 +27,37 @@ impl Element {
         }
     }
 
-    /// With an attribute.
+    /// Adds an attribute.
     pub fn with(mut self, name: &'static str, value: impl Display) -> Self {
         self.attributes.push((name, value.to_string()));
         self
     }
 
-    /// With an attribute that is a length or a place in pixels, to a tenth.
+    /// Adds a length or position in pixels, rounded to a tenth.
     pub fn at(self, name: &'static str, value: f64) -> Self {
         self.with(name, Pixels(value))
     }
 
-    /// With an element inside.
+    /// Adds a child element.
     pub fn child(mut self, child: Self) -> Self {
         self.children.push(Node::Element(child));
         self
     }
 
-    /// With elements inside.
+    /// Adds child elements.
     pub fn children(mut self, children: impl IntoIterator<Item = Self>) -> Self {
         self.children
             .extend(children.into_iter().map(Node::Element));
         self
     }
 
-    /// With a text inside.
+    /// Adds text, escaped.
     pub fn text(mut self, text: impl Into<String>) -> Self {
         self.children.push(Node::Text(text.into()));
         self
     }
 
-    /// With markup inside, as it is.
+    /// Adds raw markup.
     pub fn markup(mut self, markup: impl Into<String>) -> Self {
         self.children.push(Node::Markup(markup.into()));
         self
@@ -70,7 +70,7 @@ impl Display for Element {
         for (name, value) in &self.attributes {
             write!(f, " {name}=\"{}\"", Escaped(value))?;
         }
-        // Only what has no content in HTML may be closed at once there.
+        // In HTML only void elements may be self-closing.
         if self.children.is_empty() && !matches!(self.name, "td" | "th" | "p" | "span" | "div") {
             return f.write_str("/>");
         }
@@ -86,7 +86,7 @@ impl Display for Element {
     }
 }
 
-/// A text that stands for itself in markup.
+/// A text escaped for markup.
 struct Escaped<'a>(&'a str);
 
 impl Display for Escaped<'_> {
@@ -104,12 +104,12 @@ impl Display for Escaped<'_> {
     }
 }
 
-/// A place in pixels, to a tenth.
+/// A position in pixels, rounded to a tenth.
 pub struct Pixels(pub f64);
 
 impl Display for Pixels {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // Without a negative zero.
+        // Avoids −0.
         let tenths = (10.0 * self.0).round() + 0.0;
         write!(f, "{}", tenths / 10.0)
     }

@@ -1,4 +1,4 @@
-//! Places for the names of curves next to their ends, where nothing else is.
+//! Placement of the names of curves next to their ends, without overlaps.
 
 /// A rectangle in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,17 +32,17 @@ impl Area {
 /// The height of a line of text.
 pub const HEIGHT: f64 = 13.0;
 
-/// The width of a text in letters of [`HEIGHT`], roughly: no font is at hand. Rather too wide.
+/// An upper estimate of the width of a text of height [`HEIGHT`]; font metrics are not available.
 pub fn width(text: &str) -> f64 {
     6.6 * text.chars().count() as f64
 }
 
-/// Ends of curves that are no farther to the left of the column have their names in it.
+/// Largest distance to the left of the column of curve ends that are labelled in the column.
 const REACH: f64 = 104.0;
 
-/// Places for texts that are about these points, inside `frame`: those of points near its left end in a column that begins at
-/// `column`, in the order of the points, all others as near as can be, on no other text, and on as little of `curves` as
-/// possible. None is on a text that is `taken`.
+/// Places texts near their points, inside `frame`. Texts of points within [`REACH`] of `column` are placed in a column
+/// that begins there, ordered like the points. All other texts are placed near their points; overlaps with other texts,
+/// with `taken` areas and with `curves` are avoided by penalties.
 pub fn place(
     labels: &[(&str, (f64, f64))],
     curves: &[Vec<(f64, f64)>],
@@ -65,7 +65,7 @@ pub fn place(
             bottom: middle + HEIGHT / 2.0,
         });
     }
-    // From top to bottom, so that labels in a column have the order of their points.
+    // From top to bottom, so that labels keep the order of their points.
     let mut order: Vec<usize> = (0..labels.len())
         .filter(|index| !in_column(index))
         .collect();
@@ -94,10 +94,11 @@ pub fn place(
     placed.into_iter().flatten().collect()
 }
 
-/// Ascending values at least `gap` apart, as near as can be to ascending `wanted` ones in the sense of least squares, and
-/// inside the range as long as there is room.
+/// Ascending values at least `gap` apart, closest to the ascending `wanted` values in least squares, and inside the
+/// range if there is room.
 fn spread(wanted: &[f64], gap: f64, (low, high): (f64, f64)) -> Vec<f64> {
-    // Groups of neighbours that touch: how many they are, and the sum of where they want the first of them to be.
+    // Groups of touching neighbours: their number, and the sum of the positions of the first member that each member
+    // wants.
     let mut groups: Vec<(usize, f64)> = Vec::new();
     for &value in wanted {
         let mut group = (1, value);
@@ -118,7 +119,7 @@ fn spread(wanted: &[f64], gap: f64, (low, high): (f64, f64)) -> Vec<f64> {
         .into_iter()
         .flat_map(|(count, sum)| (0..count).map(move |k| sum / count as f64 + gap * k as f64))
         .collect();
-    // What is outside is pushed in, and pushes the next ones.
+    // Values outside the range are pushed in, together with their neighbours.
     let mut limit = low + gap / 2.0;
     for value in &mut values {
         *value = value.max(limit);
@@ -132,7 +133,7 @@ fn spread(wanted: &[f64], gap: f64, (low, high): (f64, f64)) -> Vec<f64> {
     values
 }
 
-/// Places around a point, those to its right first.
+/// Candidate areas around a point, those to its right first.
 fn candidates(width: f64, (x, y): (f64, f64)) -> impl Iterator<Item = Area> {
     let lefts = [x + 8.0, x + 20.0, x - width / 2.0, x - 8.0 - width];
     lefts.into_iter().flat_map(move |left| {
@@ -150,7 +151,7 @@ fn candidates(width: f64, (x, y): (f64, f64)) -> impl Iterator<Item = Area> {
     })
 }
 
-/// How far a text is from the point that it is about. To the right is best.
+/// The distance of a text from its point, with a penalty unless it is to the right.
 pub fn distance(area: &Area, (x, y): (f64, f64)) -> f64 {
     let dx = (area.left - x).max(x - area.right).max(0.0);
     let dy = ((area.top + area.bottom) / 2.0 - y).abs();
@@ -158,7 +159,7 @@ pub fn distance(area: &Area, (x, y): (f64, f64)) -> f64 {
     dx + dy + beside
 }
 
-/// Points on the straight lines between the points of a curve, some pixels apart.
+/// Points on the polygon of a curve, at most about 3 pixels apart.
 fn samples(curve: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let between = |pair: &[(f64, f64)]| {
         let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
@@ -223,7 +224,7 @@ mod tests {
                 .windows(2)
                 .all(|pair| pair[1] - pair[0] >= HEIGHT)
         );
-        // The middle one of three stays where it is, and who is alone too.
+        // The middle label of three stays in place, and so does an isolated label.
         assert!((found[1].top - (149.0 - HEIGHT / 2.0)).abs() < 1e-9);
         assert!((found[3].top - (40.0 - HEIGHT / 2.0)).abs() < 1e-9);
     }

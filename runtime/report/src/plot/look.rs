@@ -1,23 +1,23 @@
-//! Colours and shapes.
+//! Colours and marks.
 
 use core::fmt::Write;
 
 use super::element::{Element, Pixels};
 use crate::{Kind, Role};
 
-/// For what background a plot is.
+/// The background of a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scheme {
-    /// A light one.
+    /// Light.
     Light,
-    /// A dark one.
+    /// Dark.
     Dark,
-    /// The one that the reader prefers: light, or dark where the reader's system is.
+    /// As the reader's system prefers.
     Reader,
 }
 
-/// Colours that are told apart by all: five of those of M. Okabe & K. Ito (2008), brighter on a dark background where they
-/// would be hard to see. For lines and marks, and for texts, which need more contrast.
+/// Five colours of the colour-blind safe palette of M. Okabe & K. Ito (2008), brightened for dark backgrounds. Texts
+/// need more contrast than lines and marks.
 struct Palette {
     background: &'static str,
     ink: &'static str,
@@ -29,7 +29,7 @@ struct Palette {
     texts: [&'static str; ROLES],
 }
 
-/// Number of colours, one for each [`Role`].
+/// Number of colours, one per [`Role`].
 const ROLES: usize = Role::ALL.len();
 
 const LIGHT: Palette = Palette {
@@ -103,11 +103,11 @@ fn rules(palette: &Palette) -> String {
     text
 }
 
-/// What a curve looks like.
+/// The appearance of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Look {
     pub kind: Kind,
-    /// Its role, which has a colour; pale grey without one.
+    /// The role, which determines the colour; pale grey without a role.
     pub role: Option<Role>,
 }
 
@@ -119,27 +119,27 @@ impl Look {
         }
     }
 
-    /// The class of a line.
+    /// CSS class of a line.
     pub fn line(self) -> String {
         self.class("line")
     }
 
-    /// The class of an area or a mark.
+    /// CSS class of an area or a mark.
     pub fn area(self) -> String {
         self.class("fill")
     }
 
-    /// The class of a text.
+    /// CSS class of a text.
     pub fn letters(self) -> String {
         self.class("text")
     }
 
-    /// The dashes of a line: for methods that are not of the library.
+    /// The dashes of a line, for methods from elsewhere.
     pub fn dashes(self) -> Option<&'static str> {
         (self.kind == Kind::Peer).then_some("5 3")
     }
 
-    /// A mark at a place: a disc for explicit methods, a square for implicit ones, a triangle for others.
+    /// A mark: a disc for explicit methods, a square for implicit methods, a triangle for others.
     pub fn mark(self, x: f64, y: f64) -> Element {
         mark(self.kind, x, y).with("class", self.area())
     }
@@ -203,7 +203,7 @@ mod tests {
                 assert!(contrast(line) >= 2.0, "{line}: {}", contrast(line));
             }
             assert!(contrast(palette.grid) < contrast(palette.pale));
-            // Curves in the background are seen, and stay behind those in colour.
+            // Pale curves are visible, with less contrast than coloured ones.
             let nearest = palette.lines.iter().map(|line| contrast(line));
             let nearest = nearest.fold(f64::INFINITY, f64::min);
             assert!(contrast(palette.pale) >= 1.5 && contrast(palette.pale) <= 0.8 * nearest);

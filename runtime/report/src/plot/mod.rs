@@ -16,24 +16,24 @@ pub use look::Scheme;
 
 use super::{Curve, Kind, Measured, Measurements, Parameter, ProblemRecord, Trace, text};
 
-/// A plot, to be drawn for a light or a dark background.
+/// A plot, for a light or a dark background.
 ///
-/// The methods with a [`Role`](super::Role) are drawn in colours that the colour-blind tell apart, with their names at the ends
-/// of the curves. All others are pale grey; their names appear under the mouse, and so do the numbers of every run.
+/// Methods with a [`Role`](super::Role) have colour-blind safe colours and their names at the ends of the curves. All
+/// others are pale grey; their names, and the numbers of every run, appear under the mouse.
 #[derive(Clone, Debug)]
 pub struct Plot {
     chart: Chart,
 }
 
 impl Plot {
-    /// The plot as a file of its own.
+    /// The plot as an SVG file.
     pub fn svg(&self, scheme: Scheme) -> String {
         let style = Element::new("style").markup(style(scheme));
         let svg = self.root().child(style).children(self.chart.elements());
         format!("{svg}\n")
     }
 
-    /// The plot as a part of a page that has its [`style`].
+    /// The plot as part of a page that contains its [`style`].
     pub(super) fn inline(&self) -> Element {
         self.root().children(self.chart.elements())
     }
@@ -56,14 +56,14 @@ impl Plot {
     }
 }
 
-/// Errors from here on are not drawn.
+/// Errors from this value on are not drawn.
 const DRAWN: f64 = 1.0;
-/// What an error of zero is drawn as.
+/// Smallest error in plots; zero is drawn here.
 const NOTHING: f64 = 1e-17;
 
 impl Measurements {
-    /// All plots, with names for their files: of each problem `…-time`, `…-evaluations` and `…-energy`, as far as there is
-    /// something to draw.
+    /// All plots with their file names: for each problem `…-time`, `…-evaluations` and `…-energy`, unless there is
+    /// nothing to draw.
     pub fn plots(&self) -> Vec<(String, Plot)> {
         let plots = self.problems.iter().flat_map(|problem| {
             let name = file_name(&problem.name);
@@ -79,14 +79,14 @@ impl Measurements {
         plots.collect()
     }
 
-    /// What the curves of a problem look like, by method.
+    /// The appearance of the curves of a problem, by method.
     fn looks(&self, problem: &ProblemRecord) -> impl Fn(&str) -> Look {
         let roles = self.roles(problem);
         move |method| {
             let held = roles.iter().filter(|(_, curve)| curve.method == method);
             Look {
                 kind: self.method(method).map_or(Kind::Peer, |known| known.kind),
-                // Verlet keeps its colour where it is the best explicit method too.
+                // Verlet keeps its own colour even if it is also the best explicit method.
                 role: held.map(|(role, _)| *role).next_back(),
             }
         }
@@ -161,7 +161,8 @@ impl Measurements {
         })
     }
 
-    /// The error of the energy over time: on a logarithmic scale, or with its sign where the problem asks for one step size.
+    /// The error of the energy over time: signed if the problem prescribes a step size, otherwise on a logarithmic
+    /// scale.
     pub(super) fn energy_plot(&self, problem: &ProblemRecord) -> Option<Plot> {
         let traced = || {
             let curves = problem.curves.iter();
@@ -201,7 +202,7 @@ impl Measurements {
             let curves = traced().map(|(curve, trace)| {
                 let ranges = trace.ranges.iter().enumerate();
                 let line = ranges.filter_map(|(index, range)| {
-                    // Parts of the time without a step are no gaps.
+                    // Intervals without an observed state are skipped, not drawn as gaps.
                     range.map(|range| Some((time(trace, index), magnitude(range))))
                 });
                 drawn(curve, Shape::Line(line.collect()))
@@ -227,7 +228,7 @@ impl Measurements {
     }
 }
 
-/// A run in words.
+/// The description of a run.
 fn describe(kind: Parameter, parameter: f64, run: &Measured) -> String {
     let of = match kind {
         Parameter::StepSize => format!("step size {}", text::scientific(parameter)),
@@ -241,7 +242,7 @@ fn describe(kind: Parameter, parameter: f64, run: &Measured) -> String {
     )
 }
 
-/// A name as that of a file: small letters and digits, with a hyphen for everything else.
+/// A file name: lower-case letters and digits, with hyphens for other characters.
 pub(super) fn file_name(name: &str) -> String {
     let mut text = String::new();
     for c in name.chars().flat_map(char::to_lowercase) {
@@ -319,7 +320,7 @@ mod tests {
         let found = measurements();
         let plot = found.time_plot(&found.problems[0]).expect("there are runs");
         let svg = plot.svg(Scheme::Light);
-        // Two of Verlet, three of Gauss, two of the peer; and one in the key for each kind.
+        // Two marks of Verlet, three of Gauss, two of the peer, and one per kind in the key.
         assert_eq!(svg.matches("<circle").count(), 2 + 1);
         assert_eq!(svg.matches("l3.8 6.6h-7.6z").count(), 2 + 1);
         assert_eq!(svg.matches("<rect").count(), 3 + 1 + 1);

@@ -1,4 +1,4 @@
-//! Arrays of `.npz` files that this library wrote: read, checked, joined.
+//! Reads, checks and concatenates arrays of `.npz` files that this library wrote.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -25,11 +25,11 @@ use super::{crc32, invalid};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct NpzArray {
-    /// Its name, without `.npy`.
+    /// Name, without `.npy`.
     pub name: String,
-    /// The lengths along its indices; empty for a single value.
+    /// Shape; empty for a scalar.
     pub shape: Vec<usize>,
-    /// Its values, the last index the fastest.
+    /// Values in C order, the last index fastest.
     pub values: NpzValues,
 }
 
@@ -38,9 +38,9 @@ pub struct NpzArray {
 pub enum NpzValues {
     /// Doubles, `<f8`.
     Doubles(Vec<f64>),
-    /// Whole numbers, `<u8`.
+    /// Unsigned integers, `<u8`.
     Integers(Vec<u64>),
-    /// Texts, `<U`.
+    /// Strings, `<U`.
     Texts(Vec<String>),
 }
 
@@ -49,10 +49,10 @@ impl NpzArray {
     ///
     /// # Errors
     ///
-    /// [`ErrorKind::InvalidData`] for a file that is cut off or was changed (every array has a checksum), and for what `Npz` does not
-    /// write: compressed files, other types of numbers.
+    /// [`ErrorKind::InvalidData`] for a file that is truncated or modified (every array has a checksum), and for
+    /// features that `Npz` does not write: compression, other number types.
     pub fn read_all(file: &[u8]) -> io::Result<Vec<Self>> {
-        // The last record, without a comment (APPNOTE 6.3.10, 4.3.16).
+        // The end-of-central-directory record, without a comment (APPNOTE 6.3.10, 4.3.16).
         let end = file.len().checked_sub(22).ok_or_else(cut_off)?;
         if part(file, end, 4)? != b"PK\x05\x06" {
             return Err(cut_off());
@@ -70,7 +70,7 @@ impl NpzArray {
         }
     }
 
-    /// The array of the entry of the directory at this place, and the place of the next one.
+    /// Reads the array of the directory entry at this offset; also returns the offset of the next entry.
     fn entry(file: &[u8], at: usize) -> io::Result<(Self, usize)> {
         if part(file, at, 4)? != b"PK\x01\x02" {
             return Err(damaged("its directory is broken"));
@@ -104,12 +104,12 @@ impl NpzArray {
         Ok((array, at + 46 + letters + more))
     }
 
-    /// Puts another array after this one, along the first index, as `numpy.concatenate` does.
+    /// Appends another array along the first index, like `numpy.concatenate`.
     ///
     /// # Errors
     ///
-    /// [`ErrorKind::InvalidInput`] if it has another name, other kinds of values or other lengths along the other indices, and for single
-    /// values; the array is then as it was.
+    /// [`ErrorKind::InvalidInput`] if name, value type or the lengths of the other indices differ, and for scalars; the
+    /// array is then unchanged.
     pub fn append(&mut self, other: Self) -> io::Result<()> {
         let same = self.name == other.name
             && !self.shape.is_empty()
@@ -131,7 +131,7 @@ impl NpzArray {
     }
 }
 
-/// Shape and values of a file in the format NPY 1.0, with the header that [`Npz`](super::Npz) writes.
+/// Shape and values of an NPY 1.0 file with the header that [`Npz`](super::Npz) writes.
 fn npy(file: &[u8]) -> io::Result<(Vec<usize>, NpzValues)> {
     let strange =
         || damaged("no header of NPY 1.0 with numbers in little-endian order and C order");
@@ -177,7 +177,7 @@ fn npy(file: &[u8]) -> io::Result<(Vec<usize>, NpzValues)> {
     Ok((shape, values))
 }
 
-/// A text in UTF-32, without the zeros after it.
+/// A UTF-32 string, without trailing zeros.
 fn text(letters: &[[u8; 4]]) -> Option<String> {
     let letters = letters.iter().copied().map(u32::from_le_bytes);
     let text: Option<String> = letters.map(char::from_u32).collect();
@@ -190,7 +190,7 @@ fn part(file: &[u8], at: usize, length: usize) -> io::Result<&[u8]> {
     end.and_then(|end| file.get(at..end)).ok_or_else(cut_off)
 }
 
-/// A number of at most four bytes, the lowest first.
+/// A little-endian number of at most four bytes.
 fn number(file: &[u8], at: usize, bytes: usize) -> io::Result<usize> {
     let bytes = part(file, at, bytes)?.iter().rev();
     Ok(bytes.fold(0, |sum, byte| sum << 8 | usize::from(*byte)))

@@ -14,10 +14,10 @@ use crate::method::Method;
 use crate::number::Vector;
 use crate::system::System;
 
-/// Writes a `.npz` file, which `numpy.load` reads: arrays with names, in a ZIP archive without compression.
+/// Writes a `.npz` file for `numpy.load`: named arrays in an uncompressed ZIP archive.
 ///
-/// An array is written as soon as it is given, and [`finish`](Self::finish) writes the directory of the archive. A file without its
-/// directory, of a run that was killed or a disk that is full, is not complete; `zip -FF` saves the arrays that are.
+/// Each array is written immediately; [`finish`](Self::finish) writes the directory of the archive. A file without its
+/// directory, from a killed run or a full disk, is incomplete; `zip -FF` recovers its complete arrays.
 ///
 /// ```
 /// use symplectic::ensemble::Npz;
@@ -38,7 +38,7 @@ pub struct Npz<W> {
     directory: Vec<u8>,
     /// The names of the arrays.
     names: Vec<String>,
-    /// Whether an array is written in part.
+    /// Whether the last array is incomplete.
     broken: bool,
 }
 
@@ -54,19 +54,19 @@ impl<W: Write> Npz<W> {
         }
     }
 
-    /// Writes an array of doubles, its last index the fastest.
+    /// Writes an array of doubles in C order, the last index fastest.
     ///
     /// # Errors
     ///
-    /// Those of the output, after which the file takes nothing more; [`ErrorKind::InvalidInput`] if the shape has another number of
-    /// elements, if there is an array of this name, and where the file would exceed 4 GiB: write the [shards](Ensemble::shard) of the
-    /// ensemble to files of their own.
+    /// I/O errors of the output, after which the file accepts no more arrays; [`ErrorKind::InvalidInput`] if the shape
+    /// does not match the number of values, if the name exists already, or if the file would exceed 4 GiB. Write the
+    /// [shards](Ensemble::shard) of a large ensemble to separate files.
     pub fn doubles(&mut self, name: &str, shape: &[usize], values: &[f64]) -> io::Result<()> {
         let bytes = values.iter().flat_map(|value| value.to_le_bytes());
         self.npy(name, "<f8", shape, values.len(), bytes)
     }
 
-    /// Writes an array of whole numbers.
+    /// Writes an array of unsigned integers.
     ///
     /// # Errors
     ///
@@ -76,7 +76,7 @@ impl<W: Write> Npz<W> {
         self.npy(name, "<u8", shape, values.len(), bytes)
     }
 
-    /// Writes a text, an array without an index.
+    /// Writes a string, as a scalar array.
     ///
     /// # Errors
     ///
@@ -85,7 +85,7 @@ impl<W: Write> Npz<W> {
         self.letters(name, &[], &[text])
     }
 
-    /// Writes a list of texts.
+    /// Writes a list of strings.
     ///
     /// # Errors
     ///
@@ -94,7 +94,7 @@ impl<W: Write> Npz<W> {
         self.letters(name, &[texts.len()], texts)
     }
 
-    /// Writes an array that was read: with the bytes that it had, if this library wrote it.
+    /// Writes an array that was read, with the same bytes if this library wrote it.
     ///
     /// # Errors
     ///
@@ -115,8 +115,8 @@ impl<W: Write> Npz<W> {
         }
     }
 
-    /// Writes what is known of an ensemble: `method`, `definition`, `orders` (general, separable, with quadratic kinetic energy),
-    /// `step_size` and the `version` of this library. Of a tableau at run time there is no definition: it says `at run time`.
+    /// Writes the metadata of an ensemble: `method`, `definition`, `orders` (general, separable, with quadratic kinetic
+    /// energy), `step_size` and the `version` of this library. For a tableau at run time `definition` is `at run time`.
     ///
     /// # Errors
     ///
@@ -138,12 +138,12 @@ impl<W: Write> Npz<W> {
         self.text("version", env!("CARGO_PKG_VERSION"))
     }
 
-    /// Writes rows, once in a file: `trajectory`, `time`, `q` and `p` with an index for the row and one for the component, `steps`; and the
-    /// numbers of trajectories that failed, `failed`, with their errors, `error`.
+    /// Writes rows, once per file: `trajectory`, `time`, `q` and `p` (row, component), `steps`; and for failed
+    /// trajectories their numbers, `failed`, and their errors, `error`.
     ///
     /// # Errors
     ///
-    /// As for [`doubles`](Self::doubles); [`ErrorKind::InvalidInput`] also for rows of different dimensions.
+    /// Those of [`doubles`](Self::doubles); [`ErrorKind::InvalidInput`] also for rows of different dimensions.
     pub fn rows<V: Vector<Scalar = f64>, A>(&mut self, rows: &[Row<V, A>]) -> io::Result<()> {
         let count = rows.len();
         let dimension = rows.first().map_or(0, |row| row.state.q.dimension());
@@ -176,11 +176,11 @@ impl<W: Write> Npz<W> {
         self.texts("error", &errors)
     }
 
-    /// Writes the directory, flushes, and returns what was written to.
+    /// Writes the directory, flushes, and returns the output.
     ///
     /// # Errors
     ///
-    /// Those of the output; an array that was written in part.
+    /// I/O errors of the output; an error if an array is incomplete.
     pub fn finish(mut self) -> io::Result<W> {
         self.check()?;
         let size = word(self.directory.len())?;
@@ -198,7 +198,7 @@ impl<W: Write> Npz<W> {
         Ok(self.out)
     }
 
-    /// Texts of one length in UTF-32, filled up by zeros.
+    /// Writes strings in UTF-32, padded with zeros to equal length.
     fn letters(&mut self, name: &str, shape: &[usize], texts: &[&str]) -> io::Result<()> {
         let lengths = texts.iter().map(|text| text.chars().count());
         let longest = lengths.max().unwrap_or(0).max(1);
@@ -210,7 +210,7 @@ impl<W: Write> Npz<W> {
         self.npy(name, &format!("<U{longest}"), shape, texts.len(), bytes)
     }
 
-    /// Writes an array in the format NPY 1.0.
+    /// Writes an array in NPY 1.0 format.
     fn npy(
         &mut self,
         name: &str,
@@ -230,7 +230,7 @@ impl<W: Write> Npz<W> {
         let sides: String = shape.iter().map(|side| format!("{side}, ")).collect();
         let mut header =
             format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({sides}), }}");
-        // Ten bytes come before the header and a new line after it; together they fill lines of 64 bytes.
+        // Ten bytes before the header and a newline after it; the total is padded to a multiple of 64 bytes.
         while (header.len() + 11) % 64 != 0 {
             header.push(' ');
         }
@@ -243,7 +243,7 @@ impl<W: Write> Npz<W> {
         self.entry(&format!("{name}.npy"), &file)
     }
 
-    /// Writes a file of the archive (APPNOTE 6.3.10, 4.3.7 and 4.3.12), stored, of 1 January 1980.
+    /// Writes a file of the archive (APPNOTE 6.3.10, 4.3.7 and 4.3.12), stored, dated 1 January 1980.
     fn entry(&mut self, name: &str, file: &[u8]) -> io::Result<()> {
         self.check()?;
         if self.names.iter().any(|known| known == name) {
@@ -283,7 +283,7 @@ impl<W: Write> Npz<W> {
         Ok(())
     }
 
-    /// Refuses what would come after an array that was written in part.
+    /// Returns an error after an incomplete array.
     fn check(&self) -> io::Result<()> {
         match self.broken {
             false => Ok(()),
@@ -305,12 +305,12 @@ fn too_large() -> Error {
     )
 }
 
-/// A number of bytes as the archive has it.
+/// A byte count as a 32-bit field of the archive.
 fn word(count: usize) -> io::Result<u32> {
     u32::try_from(count).map_err(|_| too_large())
 }
 
-/// The checksum of ZIP: CRC-32 with the polynomial 0xEDB88320.
+/// The checksum of ZIP: CRC-32 with the reflected polynomial 0xEDB88320.
 fn crc32(bytes: &[u8]) -> u32 {
     const TABLE: [u32; 256] = {
         let mut table = [0; 256];
@@ -335,7 +335,7 @@ fn crc32(bytes: &[u8]) -> u32 {
 mod tests {
     use super::crc32;
 
-    /// The check values of the catalogue of parametrised CRC algorithms (CRC-32/ISO-HDLC), and of the empty text.
+    /// The check value of the catalogue of parametrised CRC algorithms (CRC-32/ISO-HDLC), and that of the empty string.
     #[test]
     fn the_checksum_is_that_of_zip() {
         assert_eq!(crc32(b"123456789"), 0xcbf4_3926);

@@ -1,4 +1,4 @@
-//! Several events in one search.
+//! Lists of events for one search.
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
@@ -7,22 +7,22 @@ use super::track::Track;
 use super::{Event, Kind};
 use crate::state::State;
 
-/// Events that are searched for together: one [`Event`], an array, a slice or a vector of them (the latter two with the
-/// feature `alloc`), a tuple of up to eight with different functions, or `()` for none.
+/// Events of one search: an [`Event`], an array, a slice or a vector of events (the latter two with the feature
+/// `alloc`), a tuple of up to eight events with different functions, or `()` for none.
 pub trait Events<V>: EventList<V> {}
 
 impl<V, E: EventList<V> + ?Sized> Events<V> for E {}
 
-/// What a search asks a list of events for.
+/// The interface of a list of events to the search; sealed.
 pub trait EventList<V> {
-    /// What is known about each.
+    /// Search state of each event.
     type Tracks: AsRef<[Track]> + AsMut<[Track]>;
 
-    /// Nothing known yet about any.
+    /// Initial search states.
     fn tracks(&self) -> Self::Tracks;
     /// The kind of the event `index`.
     fn kind(&self, index: usize) -> Kind;
-    /// Its function at a state.
+    /// The function of the event `index` at a state.
     fn value(&self, index: usize, state: &State<V>) -> f64;
 }
 
@@ -58,7 +58,7 @@ impl<V, G: Fn(&State<V>) -> f64> EventList<V> for Event<G> {
     }
 }
 
-/// Lists of events with functions of one type.
+/// Implements `EventList` for lists of events with one function type.
 macro_rules! lists {
     ($([$($parameter:tt)*] $list:ty, $tracks:ty, $make:expr;)*) => {$(
         impl<V, G: Fn(&State<V>) -> f64, $($parameter)*> EventList<V> for $list {
@@ -87,7 +87,7 @@ lists! {
     [] Vec<Event<G>>, Vec<Track>, |count| alloc::vec![Track::default(); count];
 }
 
-/// Tuples of events.
+/// Implements `EventList` for tuples of events.
 macro_rules! tuples {
     ($($count:literal: $($G:ident $index:tt)*;)*) => {$(
         impl<V, $($G: Fn(&State<V>) -> f64),*> EventList<V> for ($(Event<$G>,)*) {

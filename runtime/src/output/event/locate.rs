@@ -1,4 +1,4 @@
-//! Where in a panel the events of a function are.
+//! Locates the events of a function in a panel.
 
 use super::list::EventList;
 use super::search::{Search, copy_state};
@@ -11,16 +11,16 @@ use crate::number::{Scalar, Summation, Vector};
 use crate::output::brent::{before_zero, negative_near_minimum};
 use crate::system::System;
 
-/// Halvings of a panel in which the side to which a function leaves zero is looked for: down to rounding.
+/// Halvings of a panel, down to rounding, in the search for the sign of a function that starts on zero.
 const HALVINGS: u32 = 60;
 
-/// How far beside the end of a panel its slope is looked at, as a part of the panel.
+/// Distance from the end of a panel at which the slope there is estimated, relative to the panel.
 const BESIDE: f64 = 1.0 / 65_536.0;
 
-/// How far an extremum is from the values in a panel, at most, in units of their largest difference.
+/// Largest assumed distance of an extremum from the values in a panel, in units of their largest difference.
 const DEEPEST: f64 = 4.0;
 
-/// The part of a step over which a derivative along the flow is taken.
+/// Increment of the difference quotient for the derivative along the flow, relative to the step.
 const SMALL: f64 = 1.0 / 16_384.0;
 
 impl<E, M, S, V, N> Search<'_, E, M, S, V, N>
@@ -31,8 +31,8 @@ where
     V: Vector,
     N: Solver<V, S>,
 {
-    /// Finds the events of a function in the panel with the start `start`, the middle and the end `ahead`, and goes on to its
-    /// end.
+    /// Finds the events of a function in the panel from `start`, with the middle and the end in `ahead`, and advances
+    /// its track to the end.
     pub(super) fn detect<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -61,7 +61,7 @@ where
         Ok(())
     }
 
-    /// Finds two zeros between places at which the sign is the same: on both sides of an extremum beyond zero.
+    /// Finds two zeros between points with equal signs: on both sides of an extremum with the opposite sign.
     fn look_for_two<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -78,7 +78,7 @@ where
             return Ok(());
         }
         let mut value = |time| Ok(side * self.value_at(integrator, index, time, false)?);
-        // One extremum is where the smallest of the three values is, or beside it.
+        // A single extremum lies next to the smallest of the three values.
         let between = if second <= third && second <= first {
             (start, end)
         } else {
@@ -103,7 +103,7 @@ where
         Ok(())
     }
 
-    /// Takes note of the event at a change of sign, if it is one that is asked for.
+    /// Records the event at a sign change if the change has the requested direction.
     fn push<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -127,7 +127,7 @@ where
         Ok(())
     }
 
-    /// The last time before a change of sign; none if that is at the start, on zero.
+    /// The last time before a sign change; `None` if it is the start of a search on zero.
     fn locate<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -152,7 +152,7 @@ where
         if found.is_some() || !by_steps {
             return Ok(Some(found.unwrap_or(to)));
         }
-        // The zero is so near to one of them that it is on the other side of it.
+        // Steps of the method place a zero close to `start` or `to` just outside the interval.
         let (last, width) = (integrator.last_step().ok_or(Error::NoStep)?, to - from);
         let (low, high) = (last.start.min(last.end), last.start.max(last.end));
         let wider = (
@@ -167,8 +167,8 @@ where
         Ok(zero((last.start, time), true)?.or(Some(time)))
     }
 
-    /// A place at which a function that starts on zero has its sign, beyond rounding: the last one of those halfway to the
-    /// start, a quarter of the way, and so on.
+    /// A time at which a function that starts on zero exceeds its rounding error: the first of the midpoint of the
+    /// panel, a quarter of it, and so on.
     fn departure<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -192,7 +192,7 @@ where
         Ok(None)
     }
 
-    /// The value of a function inside the last step.
+    /// Value of a function at a time inside the last step.
     fn value_at<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -204,7 +204,7 @@ where
         self.value(index)
     }
 
-    /// Makes the state at a time of the last step the one that is looked at.
+    /// Sets `self.state` to the state at a time inside the last step.
     pub(super) fn look_at<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -227,8 +227,7 @@ where
             .write(integrator, time, &mut state.q, &mut state.p)
     }
 
-    /// The change of a function along the flow through the state that is to be shown, over a small part of `step`; 0
-    /// where it is not known.
+    /// Change of a function along the flow through `self.shown`, over a small part of `step`; 0 if it is unreliable.
     pub(super) fn slope<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -250,12 +249,12 @@ where
             self.events.value(index, &self.state)
         });
         let change = after - before;
-        // Of an extremum on the way, or undefined on one side.
+        // Not at an extremum, or where the function is undefined on one side.
         let known = change.abs() > 1e-9 * (after.abs() + before.abs());
         if known { change } else { 0.0 }
     }
 
-    /// The change of a function at the present state when the state changes by rounding.
+    /// Largest change of a function at the present state when the state changes by rounding errors.
     pub(super) fn rounding<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -273,7 +272,7 @@ where
     }
 }
 
-/// Multiplies components by 1 ± `size`, with signs by the number of a pattern.
+/// Multiplies components by 1 ± `size`; `pattern` selects the signs.
 fn perturb<V: Vector>(vector: &mut V, pattern: u32, size: f64) {
     for (k, component) in vector.as_mut_slice().iter_mut().enumerate() {
         // Equal signs, alternating signs, and two patterns without a period.

@@ -1,4 +1,4 @@
-//! Events: where a function of the state changes its sign.
+//! Events: sign changes of a function of the state.
 
 use crate::state::State;
 
@@ -10,42 +10,45 @@ mod track;
 
 pub use list::Events;
 
-/// A function g of the state whose zeros are looked for.
+/// An event function g of the state; its sign changes are the events.
 ///
 /// # Which zeros are found
 ///
-/// A step is looked at in panels, four unless [`samples`](Self::samples) says otherwise: g is evaluated on the
-/// [dense output](crate::Integrator::dense) at the start, the middle and the end of each. A change of sign between
-/// neighbours is an event, found by Brent's method to rounding. Where all three signs are the same, and the three values
-/// and the slope at the end with the smallest one say that g has an extremum nearer to zero, the extremum is looked for:
-/// if it is beyond zero, the zeros on both sides of it are events. So no zero is missed in a panel in which g has
-/// at most one extremum, not further from the three values than four times their largest difference.
+/// A step is divided into panels, four unless [`samples`](Self::samples) sets another number. g is evaluated on the
+/// [dense output](crate::Integrator::dense) at the start, the middle and the end of each panel. A sign change between
+/// neighbouring points is an event, located by Brent's method to rounding.
 ///
-/// What can be missed: two zeros, or any even number, in a panel in which g has several extrema or a sharp one; two
-/// zeros closer than about 1e-5 of a panel; a zero at which the sign does not change. Of three zeros between neighbours
-/// one is found. More samples miss less.
+/// If the three signs agree, the three values and the slope at the end with the smallest value may indicate an extremum
+/// nearer to zero. That extremum is then located; if g has the other sign there, the zeros on both sides are events. So
+/// no zero is missed in a panel in which g has at most one extremum, provided that the extremum differs from the three
+/// values by at most four times their largest difference.
+///
+/// The search can miss: two zeros, or any even number, in a panel in which g has several extrema or a sharp extremum;
+/// two zeros closer than about 1e-5 of a panel; a zero without a sign change. Of three zeros between neighbouring
+/// points one is found. More samples miss fewer zeros.
 ///
 /// # The state at an event
 ///
-/// It is the last state before the zero, to rounding: g is zero there or still has the sign that it is about to
-/// lose. So the state at a [`wall`](Self::wall) is never behind it.
+/// The state at an event is the last state before the zero, to rounding: g is zero there or still has its old sign. So
+/// the state at a [`wall`](Self::wall) never lies behind the wall.
 ///
 /// # A start on zero
 ///
-/// Where g is zero at the start of a search, it has the sign that it takes right after it, by its derivative along the flow.
-/// So the start is no event, and a zero after it is found however soon: a ball thrown up from the floor comes down
-/// again, perhaps within the first step.
+/// If g is zero at the start of a search, its sign is that of its derivative along the flow. So the start is no event,
+/// and a later zero is found however close: a ball thrown up from the floor comes down again, perhaps within the first
+/// step.
 ///
-/// A search from the event that was found last (after [`set_state`](crate::Integrator::set_state) with its state, changed or
-/// not) starts on zero too, whatever g is by rounding. If the state was reset so that g turns round, the next zero is
-/// found; if g goes on through zero, the event is not found again. Where the derivative is zero, g is to turn round.
+/// A search from the last event (after [`set_state`](crate::Integrator::set_state) with its state, changed or not) also
+/// starts on zero, whatever value g has by rounding. If the new state makes g turn round, the next zero is found. If g
+/// goes on through zero, the event is not found again. If the derivative is zero, the search assumes that g turns
+/// round.
 ///
 /// # Impacts that accumulate
 ///
-/// If g is to turn round, but is never seen to: because the flight is shorter than time can resolve or stays within the
-/// rounding of g, or because the state is at rest on the zero: the search ends with
-/// [`Error::EventsAccumulate`](crate::Error::EventsAccumulate), at the state of the last event. So does a search that has found a
-/// thousand events at the same time.
+/// Sometimes g should turn round, but the search cannot see it: the flight is shorter than the resolution of time, g
+/// stays within its rounding error, or the state rests on the zero. The search then ends with
+/// [`Error::EventsAccumulate`](crate::Error::EventsAccumulate), at the state of the last event. So does a search that
+/// has found a thousand events at the same time.
 ///
 /// ```
 /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
@@ -75,10 +78,10 @@ pub struct Event<G> {
     kind: Kind,
 }
 
-/// What is an event of a function, and how it is found.
+/// Which sign changes of a function are events, and how they are located.
 #[derive(Clone, Copy, Debug)]
 pub struct Kind {
-    /// Whether a change to plus is one, and a change to minus.
+    /// Whether a change from minus to plus is an event, and a change from plus to minus.
     directions: [bool; 2],
     samples: u32,
     by_steps: bool,
@@ -95,7 +98,7 @@ impl Kind {
         }
     }
 
-    /// Whether a change from this sign is an event.
+    /// Whether a change from the sign `side` is an event.
     fn wants(&self, side: f64) -> bool {
         self.directions[usize::from(side > 0.0)]
     }
@@ -107,28 +110,27 @@ impl<G> Event<G> {
         Self { function, kind }
     }
 
-    /// Where the function changes from minus to plus, in the direction of the steps.
+    /// Events where the function changes from minus to plus, in the direction of the steps.
     pub const fn rising(function: G) -> Self {
         Self::new(function, [true, false])
     }
 
-    /// Where the function changes from plus to minus, in the direction of the steps.
+    /// Events where the function changes from plus to minus, in the direction of the steps.
     pub const fn falling(function: G) -> Self {
         Self::new(function, [false, true])
     }
 
-    /// Where the function changes its sign.
+    /// Events at every sign change of the function.
     pub const fn crossing(function: G) -> Self {
         Self::new(function, [true, true])
     }
 
-    /// A wall, on which the state stays at g ≥ 0: where the function changes from plus to minus, in the direction of the
-    /// steps.
+    /// A wall, which keeps the state at g ≥ 0. An event is a change from plus to minus, in the direction of the steps.
     ///
-    /// It differs from [`falling`](Self::falling) in two ways. A start at g ≤ 0 is an event at once unless g rises above
-    /// zero. And an integration does not go on behind it: after the event the present state is that at the event, with
-    /// what the handler makes of it. A handler that lets the state go on into the wall gets the same event again, until
-    /// [`Error::EventsAccumulate`](crate::Error::EventsAccumulate).
+    /// A wall differs from [`falling`](Self::falling) in two ways. A start at g ≤ 0 is an event at once unless g rises
+    /// above zero. And the integration does not continue behind the wall: after an event the present state is the state
+    /// at the event, as the handler changed it. A handler that lets the state continue into the wall receives the same
+    /// event again, until [`Error::EventsAccumulate`](crate::Error::EventsAccumulate).
     ///
     /// ```
     /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
@@ -158,16 +160,17 @@ impl<G> Event<G> {
         event
     }
 
-    /// Looks at this many places in every step, its end among them, instead of eight, in half as many panels. An odd
-    /// number counts as the next even one; 0 counts as 1, and 1 looks at the end only, for changes of sign.
+    /// Number of points at which each step is sampled, including its end; the default is eight. Two points make a
+    /// panel, so an odd number counts as the next even number. 0 counts as 1; 1 samples the end only, for sign changes.
+    /// Of several events in one search the largest number applies to all.
     #[must_use]
     pub fn samples(mut self, samples: u32) -> Self {
         self.kind.samples = samples.max(1);
         self
     }
 
-    /// Finds the zero by steps of the method from the start of the step in which it is, about ten for an event: the state
-    /// has then the order of the method, whatever that of the dense output is.
+    /// Locates the zero by steps of the method from the start of the step that contains it, about ten per event. The
+    /// state at the event then has the order of the method, whatever the order of the dense output.
     ///
     /// ```
     /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
@@ -190,16 +193,16 @@ impl<G> Event<G> {
     }
 }
 
-/// What [`integrate_through`](crate::Integrator::integrate_through) shows, in the order of time.
+/// What [`integrate_through`](crate::Integrator::integrate_through) passes to its handler, in order of time.
 #[derive(Debug)]
 pub enum Moment<'a, V> {
     /// The state at the next output time.
     Output(&'a State<V>),
     /// The state at an event.
     Event {
-        /// The number of the event in the list, from 0.
+        /// Index of the event in the list, from 0.
         index: usize,
-        /// The state, which may be changed; its time is kept.
+        /// The state. The handler may change it, except its time.
         state: &'a mut State<V>,
     },
 }

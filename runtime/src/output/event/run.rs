@@ -1,4 +1,4 @@
-//! Integrations with events.
+//! Integration with events.
 
 use core::ops::ControlFlow;
 
@@ -14,14 +14,15 @@ use crate::state::State;
 use crate::system::System;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// [`integrate_to`](Self::integrate_to) that shows `observe` the state at every event, in their order, and ends after
-    /// the step in which `observe` breaks it, at a [`wall`](Event::wall) at the event: with the value that it breaks with,
-    /// otherwise with `None`.
+    /// [`integrate_to`](Self::integrate_to) that calls `observe` with the state at every event, in order. If `observe`
+    /// breaks with a value, the integration ends after the step that contains the event, or at the event if it is a
+    /// [`wall`](Event::wall), and returns that value; otherwise it returns `None`.
     ///
     /// # Errors
     ///
-    /// Those of [`integrate_to`](Self::integrate_to) and of [`dense`](Self::dense); [`Error::EventValue`] where the
-    /// function is NaN: the present state is then that before the step; [`Error::EventsAccumulate`].
+    /// Those of [`integrate_to`](Self::integrate_to) and of [`dense`](Self::dense). [`Error::EventValue`] if the
+    /// function is NaN; the present state is then the state before the step. [`Error::EventsAccumulate`], see
+    /// [`Event`].
     pub fn integrate_with_events<G, B, F>(
         &mut self,
         end: f64,
@@ -38,14 +39,16 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         })
     }
 
-    /// The state at the first event before `end`; `None`, and the present state at `end`, if there is none.
+    /// The state at the first event before `end`. If there is no event, returns `None`, with the present state at
+    /// `end`.
     ///
-    /// The present state is that after the step in which the event is; at a [`wall`](Event::wall) it is the state at the
-    /// event. To go on from the event, [set](Self::set_state) the state, changed or not: see [`Event`].
+    /// The present state is then the state after the step that contains the event; at a [`wall`](Event::wall) it is the
+    /// state at the event. To continue from the event, [set](Self::set_state) the returned state, changed or not: see
+    /// [`Event`].
     ///
     /// # Errors
     ///
-    /// As for [`integrate_with_events`](Self::integrate_with_events).
+    /// Those of [`integrate_with_events`](Self::integrate_with_events).
     pub fn find_event<G: Fn(&State<V>) -> f64>(
         &mut self,
         end: f64,
@@ -54,18 +57,20 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         self.integrate_with_events(end, event, |state| ControlFlow::Break(state.clone()))
     }
 
-    /// [`integrate_to`](Self::integrate_to) that shows `handle` the states at output times and at the events of a list, in
-    /// the order of time.
+    /// [`integrate_to`](Self::integrate_to) that calls `handle` with the states at the output times and at the events
+    /// of a list, in order of time.
     ///
-    /// At the same time output comes first, then the events in the order of the list. The handler may change the state at
-    /// an event: the integration goes on from the changed state, and events at the same time after it see it. It
-    /// ends where the handler breaks it, with the value that it breaks with, otherwise with `None`. The present
-    /// state is then that after the step, or, at a wall and where the state was changed, that at the event.
+    /// At equal times output comes first, then the events in the order of the list. The handler may change the state at
+    /// an event. The integration continues from the changed state, and later events at the same time receive it.
+    ///
+    /// If the handler breaks with a value, the integration ends and returns it; otherwise it returns `None`. The
+    /// present state is then the state after the step; at a wall and after a change of the state it is the state at the
+    /// event.
     ///
     /// # Errors
     ///
-    /// Those of [`integrate_with_events`](Self::integrate_with_events), [`Error::OutputTime`] and
-    /// [`Error::OutputAfterEnd`] before the first step, [`Error::NonFiniteState`] and [`Error::Dimension`] for a
+    /// Those of [`integrate_with_events`](Self::integrate_with_events); [`Error::OutputTime`] and
+    /// [`Error::OutputAfterEnd`] before the first step; [`Error::NonFiniteState`] and [`Error::Dimension`] for a
     /// changed state.
     ///
     /// ```
@@ -121,7 +126,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 }
 
-/// [`Integrator::integrate_through`] for everything that takes steps.
+/// [`Integrator::integrate_through`] for constant and variable step sizes.
 pub(crate) fn integrate_through<M, S, V, R, N, E, B>(
     steps: &mut impl Steps<M, S, V, R, N>,
     end: f64,
@@ -176,7 +181,7 @@ where
     }
 }
 
-/// Checks that output times come one after the other from `before` to the end, in a direction.
+/// Checks that the output times are finite and ordered, from `before` to `end` in the given direction.
 fn check_times(times: &[f64], mut before: f64, end: f64, direction: f64) -> Result<(), Error> {
     if is_after(direction, before, end) {
         return Err(Error::OutputTime { time: end, before });

@@ -1,4 +1,4 @@
-//! A search for events, step by step.
+//! The search for events, step by step.
 
 use core::ops::ControlFlow;
 
@@ -15,7 +15,7 @@ use crate::output::dense::Ends;
 use crate::state::State;
 use crate::system::System;
 
-/// The most events at one time.
+/// Largest number of events at the same time.
 const MOST_AT_ONE_TIME: u32 = 1000;
 
 /// A search for the events of a list.
@@ -29,29 +29,29 @@ where
 {
     pub(super) events: &'e E,
     pub(super) tracks: E::Tracks,
-    /// Output times that are not behind.
+    /// Remaining output times.
     pub(super) times: &'e [f64],
-    /// Whether time goes on to larger ones.
+    /// Whether time increases.
     forward: bool,
-    /// Places that are looked at in a step.
+    /// Number of sample points per step.
     samples: u32,
     pub(super) ends: Ends<V>,
-    /// Whether these are those of the last step.
+    /// Whether `ends` belongs to the last step.
     pub(super) evaluated: bool,
     pub(super) partial: Option<PartialSteps<M, S, V, N>>,
     pub(super) slopes: Option<(V, V)>,
-    /// The state that is looked at.
+    /// The state under examination.
     pub(super) state: State<V>,
-    /// The state that is shown at an event, and what is made of it.
+    /// The state passed to the handler at an event, and as the handler changed it.
     pub(super) shown: State<V>,
     pub(super) last: Option<LastEvent>,
 }
 
-/// Why a search does not go on with the next step.
+/// Why a search does not continue with the next step.
 pub(super) enum Stop<B> {
-    /// It is to go on from the state that was shown.
+    /// The search restarts from the state that the handler received.
     Reset,
-    /// The handler broke it; whether the present state is to be the one that was shown.
+    /// The handler broke the search; the flag says whether the state that it received becomes the present state.
     Broken(B, bool),
     Failed(Error),
 }
@@ -100,7 +100,7 @@ where
         }
     }
 
-    /// Starts from the present state of the integrator; the next step has about the size `step`.
+    /// Starts at the present state of the integrator; `step` is the approximate size of the next step.
     pub(super) fn start<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -116,7 +116,7 @@ where
         Ok(())
     }
 
-    /// What is known about a function at the start, where it has a value.
+    /// Track of a function at the start, where its value is `value`.
     fn start_of<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -149,7 +149,7 @@ where
         track
     }
 
-    /// Shows what is in the last step.
+    /// Passes the output and the events in the last step to the handler.
     pub(super) fn step<R: Summation, B>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -189,12 +189,13 @@ where
                 return Ok(seen);
             }
         }
-        // It is not the start of another search any more.
+        // An event before the end of the step is no longer the start of another search.
         self.last = self.last.filter(|last| last.time == end);
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Ends the search with an error, at the start of the last step: its end may lie behind a wall that was not found.
+    /// Ends the search with an error. The state returns to the start of the last step, because its end may lie behind a
+    /// wall that was not found.
     pub(super) fn fail<R: Summation, B>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -210,7 +211,7 @@ where
         ControlFlow::Break(Stop::Failed(error))
     }
 
-    /// Shows output and events up to a time.
+    /// Passes output and events up to a time to the handler.
     fn show<R: Summation, B>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -237,7 +238,7 @@ where
         }
     }
 
-    /// The next event in the panel; of several at the same time the first one in the list.
+    /// The next event in the panel; of simultaneous events the first in the list.
     fn next(&self) -> Option<(usize, Crossing)> {
         let tracks = self.tracks.as_ref().iter().enumerate();
         let firsts = tracks.filter_map(|(index, track)| Some((index, track.pending[0]?)));
@@ -258,7 +259,7 @@ where
         }
     }
 
-    /// Shows all events at a time, the state of which is there to be shown.
+    /// Passes all events at a time to the handler; `self.shown` is the state at this time.
     fn show_events<B>(
         &mut self,
         time: f64,
@@ -297,14 +298,14 @@ where
         if reset {
             return ControlFlow::Break(Stop::Reset);
         }
-        // The search goes on through them.
+        // The search continues through the events.
         for track in self.tracks.as_mut() {
             track.fired = 0.0;
         }
         ControlFlow::Continue(())
     }
 
-    /// Shows the states at the output times up to `until`, which is not after the present time.
+    /// Passes the states at the output times up to `until` to the handler; `until` is not after the present time.
     pub(super) fn show_output<R: Summation, B>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -329,7 +330,7 @@ where
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Keeps the values at the state that is looked at, the middle or the end of the panel.
+    /// Stores the values at `self.state`, the middle (0) or the end (1) of the panel.
     fn look_ahead(&mut self, place: usize) -> Result<(), Error> {
         for index in 0..self.tracks.as_ref().len() {
             self.tracks.as_mut()[index].ahead[place] = self.value(index)?;
@@ -337,7 +338,7 @@ where
         Ok(())
     }
 
-    /// The value of a function at the state that is looked at.
+    /// Value of a function at `self.state`.
     pub(super) fn value(&self, index: usize) -> Result<f64, Error> {
         let value = self.events.value(index, &self.state);
         if value.is_nan() {

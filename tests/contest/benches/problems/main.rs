@@ -1,7 +1,7 @@
-//! Whole runs of the problems to errors of about 1e-9: by the library, by hand, and by other crates.
+//! Whole runs of the problems to errors of about 1e-9: by the library, by hand-written code, and by other crates.
 //!
-//! `RUSTFLAGS="-C target-cpu=native" cargo bench --bench problems`; the errors come first, as a table, for a time says
-//! nothing without its error. `ratios` among the examples compares library and hand step by step.
+//! `RUSTFLAGS="-C target-cpu=native" cargo bench --bench problems`; a table of the errors is printed first, because a
+//! time means nothing without its error. The example `ratios` compares the library and hand-written code step by step.
 
 #![allow(clippy::print_stdout, reason = "a bench prints")]
 
@@ -28,7 +28,7 @@ use symplectic_tests::scenes::{
 };
 use wide::f64x8;
 
-/// Gauss with eight stages, for the integrators by hand.
+/// Gauss with eight stages, for the hand-written integrators.
 const GAUSS: Rule<8> = Rule {
     a: Gauss8::A,
     a_tilde: Gauss8::A_TILDE,
@@ -36,24 +36,24 @@ const GAUSS: Rule<8> = Rule {
     c: Gauss8::C,
 };
 
-/// One integrator on one problem.
+/// An integrator on a problem.
 struct Entry {
     name: &'static str,
     run: Box<dyn Fn() -> End>,
 }
 
-/// How the integrators are set: for errors of about 1e-9, but for Forest & Ruth, which would take all day for some.
+/// The settings of the integrators, for errors of about 1e-9; larger for Forest & Ruth, which would take too long.
 struct Settings {
     end: f64,
-    /// Step sizes of Gauss with eight stages, of Blanes & Moan, and of Forest & Ruth elsewhere.
+    /// Step sizes of Gauss with eight stages, of Blanes & Moan, and of Forest & Ruth in another crate.
     gauss: f64,
     blanes_moan: f64,
     forest_ruth: f64,
-    /// What stages may move by in the end, in the plain form by hand.
+    /// Largest final change of a stage, in the plain hand-written form.
     stages: f64,
-    /// Of DOP853.
+    /// Tolerance of DOP853.
     tolerance: f64,
-    /// Step size of the reference: Gauss with eight stages by hand, in the form without drift.
+    /// Step size of the reference: hand-written Gauss with eight stages, in the form without drift.
     reference: f64,
 }
 
@@ -240,7 +240,7 @@ fn steps(end: f64, step_size: f64) -> (f64, u64) {
     (end / steps, steps as u64)
 }
 
-/// A run of the library, by the solver that is set.
+/// A run of the library with the given solver.
 fn library<M, S, V, R, N>(
     name: &'static str,
     method: M,
@@ -265,7 +265,7 @@ where
     })
 }
 
-/// Gauss with eight stages of the library, in lanes as by hand and stage by stage.
+/// Gauss with eight stages of the library, in lanes like the hand-written code, and stage by stage.
 fn gauss_8<S, V>(settings: &Settings, system: S, start: State<V>) -> [Entry; 3]
 where
     S: SystemInLanes<V> + System<V, Class: Unconstrained> + Copy + 'static,
@@ -452,7 +452,7 @@ where
     entries
 }
 
-/// The larger relative error of q and p in the 2-norm.
+/// The larger of the relative errors of q and p in the 2-norm.
 fn error(found: &[f64], reference: &[f64]) -> f64 {
     let half = reference.len() / 2;
     let relative = |a: &[f64], b: &[f64]| {

@@ -6,10 +6,10 @@ use symplectic::nalgebra::SVector;
 use symplectic_tests::peers;
 pub use symplectic_tests::peers::Equations;
 
-/// The state `y = (q, p)` at the end, or nothing where the crate gives up.
+/// The state `y = (q, p)` at the end; `None` if the crate fails.
 pub type End = Option<Vec<f64>>;
 
-/// `ode_solvers`: DOP853 with one tolerance, relative and absolute.
+/// DOP853 from `ode_solvers`, with the same relative and absolute tolerance.
 pub fn ode_solvers<S, const N: usize, const M: usize>(
     equations: &Equations<S, N>,
     start: [f64; M],
@@ -24,7 +24,7 @@ where
     Some(solver.y_out().last()?.as_slice().to_vec())
 }
 
-/// `differential-equations`: DOP853 with one tolerance.
+/// DOP853 from `differential-equations`, with the same relative and absolute tolerance.
 pub fn dop853<S, const N: usize, const M: usize>(
     equations: &Equations<S, N>,
     start: [f64; M],
@@ -43,7 +43,7 @@ where
     Some(solution.last().ok()?.1.to_vec())
 }
 
-/// `differential-equations`: the symplectic method of Forest and Ruth, for separable systems.
+/// The symplectic method of Forest & Ruth from `differential-equations`, for separable systems.
 pub fn forest_ruth<S, const N: usize, const M: usize>(
     equations: &Equations<S, N>,
     start: [f64; M],

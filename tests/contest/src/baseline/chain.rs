@@ -1,4 +1,4 @@
-//! The FPUT-β chain: long vectors, with the lanes along the particles and everything in one pass.
+//! The FPUT-β chain: long vectors, with lanes along the particles and a single pass.
 
 use std::array;
 
@@ -8,15 +8,15 @@ use super::explicit::Splitting;
 use super::gauss::{Rule, product};
 use super::lanes::Lanes;
 
-/// Positions or momenta of the moving particles, eight in a block.
+/// Positions or momenta of the moving particles, in blocks of eight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blocks(pub(super) Vec<f64x8>);
 
 impl Blocks {
-    /// Particles in a block.
+    /// Number of particles in a block.
     pub(super) const LANES: usize = f64x8::COUNT;
 
-    /// The `values`; what does not fill a block is left out.
+    /// The `values` in blocks; an incomplete block at the end is dropped.
     pub fn new(values: &[f64]) -> Self {
         let (blocks, _) = values.as_chunks::<{ Self::LANES }>();
         Self(blocks.iter().copied().map(f64x8::new).collect())
@@ -28,16 +28,16 @@ impl Blocks {
     }
 }
 
-/// Walks along the chain: the forces on one block after the other, from the blocks of positions.
+/// A walk along the chain that computes the forces block by block.
 #[derive(Clone, Copy)]
 pub(super) struct Walk {
     here: f64x8,
-    /// The tensions of the bonds to the right of the block before.
+    /// The tensions of the bonds to the right of the previous block.
     tensions: f64x8,
 }
 
 impl Walk {
-    /// From the wall on the left to the first block.
+    /// Starts at the left wall with the first block.
     #[inline(always)]
     pub(super) fn new(first: f64x8) -> Self {
         Self {
@@ -46,7 +46,7 @@ impl Walk {
         }
     }
 
-    /// The force on the present block, which has the block `next` to its right.
+    /// The force on the present block, whose right neighbour is the block `next`.
     #[inline(always)]
     pub(super) fn force(&mut self, next: f64x8) -> f64x8 {
         let (here, right) = (self.here.to_array(), next.lane(0));
@@ -83,7 +83,7 @@ fn drift_and_kick(q: &mut Blocks, p: &mut Blocks, drift: f64, kick: f64) {
     };
     *first = p_first.fused(drift, *first);
     let mut walk = Walk::new(*first);
-    // The block that waits for its neighbour on the right.
+    // The block that waits for its right neighbour.
     let mut before = p_first;
     for (q, p) in q.iter_mut().zip(p) {
         *q = p.fused(drift, *q);
@@ -93,12 +93,12 @@ fn drift_and_kick(q: &mut Blocks, p: &mut Blocks, drift: f64, kick: f64) {
     *before = walk.force(f64x8::splat(0.0)).fused(kick, *before);
 }
 
-/// Takes `steps` steps of a splitting. What ends a step and what begins the next one are done together.
+/// Takes `steps` steps of a splitting. The last stage of a step is merged with the first stage of the next.
 pub fn explicit<M: Splitting>(q: &mut Blocks, p: &mut Blocks, step_size: f64, steps: u64) {
     let last = M::LENGTH - 1;
     let h = step_size;
     if M::DRIFT_FIRST {
-        // Drift, kick, …, drift: the last kick is none.
+        // Drift, kick, …, drift: the last kick is empty.
         let mut pending = h * M::DRIFTS[0];
         for _ in 0..steps {
             for i in 0..last {
@@ -109,7 +109,7 @@ pub fn explicit<M: Splitting>(q: &mut Blocks, p: &mut Blocks, step_size: f64, st
         }
         drift_and_kick(q, p, pending - h * M::DRIFTS[0], 0.0);
     } else {
-        // Kick, drift, …, kick: the last drift is none.
+        // Kick, drift, …, kick: the last drift is empty.
         drift_and_kick(q, p, 0.0, h * M::KICKS[0]);
         for step in 0..steps {
             for i in 0..last {
@@ -153,7 +153,8 @@ impl<const S: usize> SecondOrder<S> {
         }
     }
 
-    /// New stage positions from the forces by `matrix`, and the forces there; the largest change of a force.
+    /// Computes new stage positions from the forces by `matrix`, and the new forces; returns the largest change of a
+    /// force.
     #[inline(always)]
     fn sweep(
         (q, p): (&Blocks, &Blocks),

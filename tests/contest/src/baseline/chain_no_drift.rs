@@ -1,5 +1,5 @@
-//! Gauss and Lobatto methods on the FPUT-β chain in the form that keeps the energy without drift: increments by coefficients that are
-//! symplectic as rounded, iterated until they stop changing by less, and a state of two doubles.
+//! Gauss and Lobatto methods on the FPUT-β chain in the form without energy drift: the rounded coefficients are exactly
+//! symplectic, the iteration runs until the changes no longer decrease, and the state is a sum of two doubles.
 
 use std::array;
 
@@ -9,24 +9,24 @@ use super::chain::{Blocks, Walk};
 use super::gauss::{Rule, product};
 use super::lanes::{Lanes, fast_two_sum, two_sum};
 
-/// Positions or momenta, each the sum of two doubles.
+/// Positions or momenta, each a sum of two doubles.
 #[derive(Clone, Debug)]
 pub struct DoubleBlocks {
     /// The sum, rounded.
     pub high: Blocks,
-    /// What that leaves out.
+    /// The rounding error of `high`.
     low: Blocks,
 }
 
 impl DoubleBlocks {
-    /// Doubles as they are.
+    /// Exact doubles.
     pub fn new(high: Blocks) -> Self {
         let low = Blocks(vec![f64x8::splat(0.0); high.0.len()]);
         Self { high, low }
     }
 }
 
-/// Which rows there are: forces while the changes are large, increments `h b_j force_j` then.
+/// The contents of the rows: forces while the changes are large, then increments `h b_j force_j`.
 #[derive(Clone, Copy, PartialEq)]
 enum Rows {
     Forces,
@@ -41,17 +41,17 @@ pub struct NoDrift<const S: usize> {
     nodes: [f64; S],
     /// `ν`
     nu: [[f64; S]; S],
-    /// `h a ã`, of forces.
+    /// `h a ã`, applied to forces.
     rough: [[f64; S]; S],
-    /// From the increments of the step before.
+    /// The predictor, applied to the increments of the previous step.
     extrapolated: [[f64; S]; S],
     /// `h b_j`
     weights: [f64; S],
-    /// Those of all stages, block by block.
+    /// The rows of all stages, block by block.
     rows: Vec<[f64x8; S]>,
 }
 
-/// A number below one, rounded to a multiple of 2⁻⁵²: sums and differences of such are exact.
+/// Rounds a number below one to a multiple of 2⁻⁵²; sums and differences of such numbers are exact.
 fn on_grid(x: f64) -> f64 {
     (x + 1.0) - 1.0
 }
@@ -61,7 +61,7 @@ impl<const S: usize> NoDrift<S> {
     pub fn new(rule: &Rule<S>, particles: usize, step_size: f64) -> Self {
         let (h, square) = (step_size, rule.square());
         let nodes = rule.c.map(on_grid);
-        // c_i − ν_ij, which is symmetric: of the two of a pair one is taken.
+        // c_i − ν_ij is symmetric; each pair uses the same entry.
         let symmetric = |i: usize, j: usize| on_grid(nodes[i] - square[i][j] / rule.b[j]);
         let extrapolated = product(&square, &rule.extrapolation());
         Self {
@@ -75,7 +75,7 @@ impl<const S: usize> NoDrift<S> {
         }
     }
 
-    /// New stage positions by `h matrix` from the rows, and new rows of one kind; their largest change.
+    /// Computes new stage positions from the rows by `h matrix`, and new rows of a kind; returns their largest change.
     #[inline(always)]
     fn sweep(
         &mut self,
@@ -122,8 +122,8 @@ impl<const S: usize> NoDrift<S> {
         change
     }
 
-    /// Takes `steps` steps, and returns the number of sweeps. While a force changes a stage position by more than about `rough`, sweeps
-    /// are of forces.
+    /// Takes `steps` steps, and returns the number of sweeps. Sweeps use forces while these change a stage position by
+    /// more than about `rough`.
     pub fn run(
         &mut self,
         (q, p): (&mut DoubleBlocks, &mut DoubleBlocks),
@@ -157,7 +157,7 @@ impl<const S: usize> NoDrift<S> {
         sweeps
     }
 
-    /// The end of a step.
+    /// Adds the increments to the state.
     #[inline(always)]
     fn add(&self, (q, p): (&mut DoubleBlocks, &mut DoubleBlocks)) {
         let h = f64x8::splat(self.step_size);
@@ -182,7 +182,7 @@ impl<const S: usize> NoDrift<S> {
     }
 }
 
-/// The sum of two sums of two.
+/// The sum of two double-double numbers.
 #[inline(always)]
 fn plus((a, a_low): (f64x8, f64x8), (b, b_low): (f64x8, f64x8)) -> (f64x8, f64x8) {
     let (high, error) = two_sum(a, b);

@@ -1,18 +1,18 @@
-//! Kicks and drifts one after another.
+//! Splittings: alternating kicks and drifts.
 
 use super::lanes::{Lanes, fast_two_sum, two_sum};
 use super::no_drift::Double;
 use super::systems::Separable;
 
-/// The kicks and drifts of a method; one of each in turn.
+/// The alternating kicks and drifts of a method.
 pub trait Splitting {
-    /// How many of each.
+    /// Number of kicks, and of drifts.
     const LENGTH: usize;
-    /// The kicks: `kick_i` of the step.
+    /// The kicks, as fractions of the step.
     const KICKS: &'static [f64];
-    /// The drifts: `drift_i` of the step.
+    /// The drifts, as fractions of the step.
     const DRIFTS: &'static [f64];
-    /// Whether each drift comes before the kick of the same number.
+    /// Whether each drift precedes the kick with the same index.
     const DRIFT_FIRST: bool;
 }
 
@@ -41,7 +41,7 @@ splitting! {
     BlanesMoan: BlanesMoanSrkn14a, true;
 }
 
-/// Whether the force at the end of a step is the one at the start of the next.
+/// Whether the force at the end of a step is reused at the start of the next.
 const fn carries<M: Splitting>() -> bool {
     !M::DRIFT_FIRST && M::KICKS[M::LENGTH - 1] != 0.0
 }

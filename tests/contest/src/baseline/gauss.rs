@@ -1,4 +1,5 @@
-//! Gauss and Lobatto methods with one stage a lane: fixed-point iteration from the previous step's stage polynomial, plain sums.
+//! Gauss and Lobatto methods with a lane per stage: fixed-point iteration from the stage polynomial of the previous
+//! step, plain sums.
 
 use std::array;
 
@@ -8,9 +9,9 @@ use super::systems::{General, Separable};
 /// The coefficients of a symplectic method with `S` stages, as `tableau!` emits them.
 #[derive(Clone, Copy, Debug)]
 pub struct Rule<const S: usize> {
-    /// The matrix a, of the positions.
+    /// The matrix a, for the positions.
     pub a: [[f64; S]; S],
-    /// The matrix ã, of the momenta: a again for Gauss.
+    /// The matrix ã, for the momenta; equal to a for Gauss.
     pub a_tilde: [[f64; S]; S],
     /// The weights b.
     pub b: [f64; S],
@@ -24,7 +25,7 @@ impl<const S: usize> Rule<S> {
         product(&self.a, &self.a_tilde)
     }
 
-    /// `ℓ_j(1 + c_i)`: the polynomial through values at the nodes of one step, at the nodes of the next.
+    /// `ℓ_j(1 + c_i)`: evaluates the polynomial through values at the nodes of a step at the nodes of the next step.
     pub(super) fn extrapolation(&self) -> [[f64; S]; S] {
         array::from_fn(|i| {
             array::from_fn(|j| {
@@ -37,7 +38,7 @@ impl<const S: usize> Rule<S> {
     }
 }
 
-/// A matrix as columns, with a row a lane; lanes beyond the last row are zero.
+/// A matrix by columns, with a lane per row; lanes beyond the last row are zero.
 pub(super) fn columns<L: Lanes, const S: usize>(
     matrix: &[[f64; S]; S],
     factor: impl Fn(usize) -> f64,
@@ -54,7 +55,7 @@ pub(super) fn product<const S: usize>(a: &[[f64; S]; S], b: &[[f64; S]; S]) -> [
     array::from_fn(|i| array::from_fn(|j| (0..S).map(|k| a[i][k] * b[k][j]).sum()))
 }
 
-/// `Σ_j columns_j x_j` for the lanes `x_j`, in two chains.
+/// `Σ_j columns_j x_j` for the lanes `x_j`, as two independent sums.
 #[inline(always)]
 pub(super) fn transform<L: Lanes, const S: usize>(columns: &[L; S], x: L) -> L {
     let mut even = columns[0] * L::splat(x.lane(0));
@@ -155,7 +156,7 @@ impl<L: Lanes, const S: usize> SecondOrder<L, S> {
 /// The first-order form, for any Hamiltonian.
 #[derive(Clone, Copy, Debug)]
 pub struct FirstOrder<L, const S: usize> {
-    /// Of the positions and of the momenta.
+    /// The matrices of the positions and of the momenta.
     pub(super) stages: [[L; S]; 2],
     pub(super) extrapolated: [[L; S]; 2],
     weights: L,
@@ -183,7 +184,7 @@ impl<L: Lanes, const S: usize> FirstOrder<L, S> {
         array::from_fn(|k| L::splat(base[k]) + transform(matrix, slopes[k]))
     }
 
-    /// As [`SecondOrder::run`], with the positions and momenta of the stages in one tolerance.
+    /// Like [`SecondOrder::run`], with the same tolerance for positions and momenta of the stages.
     #[inline(always)]
     pub fn run<T: General<N>, const N: usize>(
         &self,

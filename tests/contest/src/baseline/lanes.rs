@@ -1,11 +1,11 @@
-//! Numbers side by side.
+//! SIMD lanes.
 
 use std::array;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 use wide::{f64x2, f64x4, f64x8};
 
-/// One number, or as many as a register holds.
+/// One number, or as many as a register contains.
 pub trait Lanes:
     Copy
     + Add<Output = Self>
@@ -15,9 +15,9 @@ pub trait Lanes:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// How many numbers.
+    /// Number of lanes.
     const COUNT: usize;
-    /// The same with half as many.
+    /// The type with half as many lanes.
     type Half: Lanes;
 
     /// The number `value(i)` in lane i.
@@ -30,21 +30,22 @@ pub trait Lanes:
     fn halves(self) -> (Self::Half, Self::Half);
     /// √x.
     fn sqrt(self) -> Self;
-    /// Sine and cosine: those of `wide`, of one double those of the standard library. The library has its own.
+    /// Sine and cosine of `wide`, or of the standard library for a single double. The library has its own
+    /// implementation.
     fn sin_cos(self) -> (Self, Self);
-    /// Sine, as [`sin_cos`](Self::sin_cos).
+    /// Sine, like [`sin_cos`](Self::sin_cos).
     fn sin(self) -> Self;
     /// `self * factor + term`, rounded once with the feature `fma` and twice elsewhere.
     fn fused(self, factor: Self, term: Self) -> Self;
     /// |x|.
     fn abs(self) -> Self;
-    /// The larger one in each lane.
+    /// The maximum in each lane.
     fn max(self, other: Self) -> Self;
-    /// The smaller one in each lane.
+    /// The minimum in each lane.
     fn min(self, other: Self) -> Self;
-    /// Whether a lane is above that of `bound`.
+    /// Whether any lane exceeds that of `bound`.
     fn exceeds(self, bound: Self) -> bool;
-    /// Whether a lane is above that of `low` and below that of `high`.
+    /// Whether any lane is strictly between those of `low` and `high`.
     fn between(self, low: Self, high: Self) -> bool;
 
     /// Sum over the lanes.
@@ -57,7 +58,7 @@ pub trait Lanes:
         (a + b).sum()
     }
 
-    /// Sum over the lanes of `self + low`, and what rounding leaves out of it.
+    /// Sum over the lanes of `self + low`, with its rounding error.
     #[inline(always)]
     fn double_sum(self, low: Self) -> (f64, f64) {
         if Self::COUNT == 1 {
@@ -69,7 +70,7 @@ pub trait Lanes:
     }
 }
 
-/// The rounded sum, and what rounding left out of it.
+/// The rounded sum and its rounding error.
 #[inline(always)]
 pub fn two_sum<L: Lanes>(a: L, b: L) -> (L, L) {
     let sum = a + b;
@@ -77,7 +78,7 @@ pub fn two_sum<L: Lanes>(a: L, b: L) -> (L, L) {
     (sum, (a - (sum - part)) + (b - part))
 }
 
-/// [`two_sum`] where `a` is not smaller than `b`, or is zero.
+/// [`two_sum`] for `|a| ≥ |b|` or `a = 0`.
 #[inline(always)]
 pub fn fast_two_sum<L: Lanes>(a: L, b: L) -> (L, L) {
     let sum = a + b;

@@ -1,8 +1,8 @@
-//! Integrators written by hand for one problem each, as fast as their author could make them: what the benches and the
-//! ratios hold the generated code against.
+//! Hand-written integrators, each for one problem and as fast as possible: the baseline of the benches and the ratios
+//! for the generated code.
 //!
-//! They do what the library does and nothing beside it: no errors, no statistics, no checks, fixed dimension. A test
-//! holds their end states to those of the library.
+//! They compute the same as the library and nothing else: no errors, no statistics, no checks, fixed dimension. A test
+//! compares their end states with those of the library.
 
 #![allow(
     clippy::needless_range_loop,

@@ -1,6 +1,6 @@
-//! Gauss and Lobatto methods with one stage a lane in the form that keeps the energy without drift: coefficients
-//! `μ_ij = a_ij/b_j` with `μ_ij + μ̃_ji = 1` exactly, iteration until the stages stop changing by less, increments and
-//! state as sums of two doubles (Hairer, McLachlan & Razakarivony, 2008; Antoñana, Makazaga & Murua, 2017).
+//! Gauss and Lobatto methods with a lane per stage in the form without energy drift: coefficients `μ_ij = a_ij/b_j`
+//! with `μ_ij + μ̃_ji = 1` exactly, iteration until the changes of the stages no longer decrease, state and increments
+//! as sums of two doubles (Hairer, McLachlan & Razakarivony, 2008; Antoñana, Makazaga & Murua, 2017).
 
 use std::array;
 
@@ -8,17 +8,17 @@ use super::gauss::{FirstOrder, Rule, SecondOrder, columns, row, transform};
 use super::lanes::{Lanes, fast_two_sum, two_sum};
 use super::systems::{General, Separable};
 
-/// Positions or momenta, each the sum of two doubles.
+/// Positions or momenta, each a sum of two doubles.
 #[derive(Clone, Copy, Debug)]
 pub struct Double<const N: usize> {
     /// The sum, rounded.
     pub high: [f64; N],
-    /// What that leaves out.
+    /// The rounding error of `high`.
     pub low: [f64; N],
 }
 
 impl<const N: usize> Double<N> {
-    /// Doubles as they are.
+    /// Exact doubles.
     pub const fn new(high: [f64; N]) -> Self {
         Self {
             high,
@@ -46,7 +46,8 @@ impl<const N: usize> Double<N> {
     }
 }
 
-/// Whether changes still shrink: in some lane `change` is less than the least one before and not zero. Notes the least.
+/// Whether changes still decrease: in some lane `change` is positive and below the smallest change so far, which is
+/// updated.
 #[inline(always)]
 fn shrinks<L: Lanes>(change: L, least: &mut L) -> bool {
     let shrinks = change.between(L::splat(0.0), *least);
@@ -54,7 +55,8 @@ fn shrinks<L: Lanes>(change: L, least: &mut L) -> bool {
     shrinks
 }
 
-/// `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b_j`: of two that add up to 1 the larger one rounded, the smaller one the exact rest.
+/// `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b_j`: of two that add up to 1, the larger is rounded and the smaller is the
+/// exact remainder.
 fn mu<const S: usize>(rule: &Rule<S>) -> [[[f64; S]; S]; 2] {
     let mut mu = [[[0.0; S]; S]; 2];
     for i in 0..S {
@@ -78,7 +80,7 @@ fn mu<const S: usize>(rule: &Rule<S>) -> [[[f64; S]; S]; 2] {
 pub struct NoDrift<L, const S: usize> {
     mu: [[L; S]; 2],
     weights: L,
-    /// Where the iteration starts, and how it goes while the changes are large.
+    /// The predictor, and the iteration while the changes are large.
     rough: SecondOrder<L, S>,
 }
 
@@ -94,8 +96,8 @@ impl<L: Lanes, const S: usize> NoDrift<L, S> {
 
     /// Takes `steps` steps from `(q, p)`, and returns the number of sweeps.
     ///
-    /// Sweeps are those of the second-order form, which has one matrix and not two, until the stages move by less than
-    /// `rough`.
+    /// Until the stages change by less than `rough`, sweeps use the second-order form, which needs one matrix instead
+    /// of two.
     #[inline(always)]
     pub fn run<T: Separable<N>, const N: usize>(
         &self,
@@ -162,15 +164,15 @@ fn largest_change<L: Lanes, const N: usize>(a: &[L; N], b: &[L; N]) -> L {
     change
 }
 
-/// Whether stages start from the other side of where they will be, at half of the steps: else rounding shows from which they come, and
-/// the energy drifts.
+/// Whether the stages start from the opposite side of the solution, for half of the steps. Otherwise the rounding
+/// errors of the iteration have a preferred sign and the energy drifts.
 #[inline(always)]
 const fn mirrors(step: u64) -> bool {
     let bits = step.wrapping_mul(0x9e37_79b9_7f4a_7c15);
     (bits ^ bits >> 32).wrapping_mul(0xc4ce_b9fe_1a85_ec53) >> 63 == 1
 }
 
-/// As far beyond `new` as it is from `old`.
+/// The reflection of `old` at `new`.
 #[inline(always)]
 fn beyond<L: Lanes, const N: usize>(old: &[L; N], new: &[L; N]) -> [L; N] {
     array::from_fn(|k| new[k] + (new[k] - old[k]))

@@ -1,4 +1,4 @@
-//! The forces of the scenes, over numbers side by side: the same arithmetic, written anew.
+//! The forces of the scenes over lanes: the same arithmetic, rewritten.
 
 use super::lanes::Lanes;
 use symplectic_tests::scenes::double_pendulum::GRAVITY;
@@ -139,7 +139,7 @@ impl Separable<6> for FputSprings {
     }
 }
 
-/// The double pendulum: the two sines and cosines serve velocity and force.
+/// The double pendulum; velocity and force share the sines and cosines.
 #[derive(Clone, Copy, Debug)]
 pub struct DoublePendulum;
 

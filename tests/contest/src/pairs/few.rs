@@ -1,4 +1,4 @@
-//! Problems with few components: the stages in lanes.
+//! Problems with few components: stages in lanes.
 
 use symplectic::nalgebra::SVector;
 use symplectic::solver::SimdFixedPoint;
@@ -19,10 +19,10 @@ use symplectic_tests::methods::{
     BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4, Gauss6, Gauss8, Lobatto3, VelocityVerlet,
 };
 
-/// An integrator before it is given its solver.
+/// An integrator with the default solver.
 type Made<M, S, const N: usize, R> = Integrator<M, S, SVector<f64, N>, R>;
 
-/// Sets the tolerance of the iteration by hand: what no stage may move by in the last sweep.
+/// Sets the tolerance of the hand-written iteration: the largest change of a stage in the last sweep.
 fn within<M: Method, S: SystemInLanes<SVector<f64, N>>, const N: usize>(
     tolerance: f64,
     mut made: Made<M, S, N, Plain>,
@@ -173,7 +173,7 @@ where
         );
     }
 
-    /// A pair with both halves at once, or in turn.
+    /// A pair that iterates positions and momenta at once or in turn.
     fn coupled_pair<M: Method + ProvedFor<General>, R: Summation>(
         &self,
         method: (&'static str, M),

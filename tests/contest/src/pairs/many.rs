@@ -50,12 +50,12 @@ impl Chain {
         (q, p)
     }
 
-    /// How many steps of this size go to the same time.
+    /// The number of steps of this size to the same end time.
     fn steps_of(&self, step_size: f64) -> u64 {
         (self.steps as f64 * self.step_size / step_size).round() as u64
     }
 
-    /// Runs by hand.
+    /// The hand-written run.
     fn by_hand<const STAGES: usize>(
         &self,
         rule: &Rule<STAGES>,
@@ -70,7 +70,8 @@ impl Chain {
         }
     }
 
-    /// A method with `scale` times the step of the problem: to the tolerance by hand, and down to rounding; and with compensated sums.
+    /// A method with `scale` times the step size of the problem: to the tolerance of the hand-written code, to
+    /// rounding, and with compensated sums.
     fn implicit<M: Method, const STAGES: usize>(
         &self,
         pairs: &mut Vec<Pair>,
@@ -125,7 +126,7 @@ impl Chain {
         });
     }
 
-    /// What a system costs that is known in doubles only.
+    /// The cost of a system that is defined for doubles only.
     fn stage_by_stage(&self) -> Pair {
         let (step_size, tolerance) = (self.step_size, self.tolerance);
         self.pair(

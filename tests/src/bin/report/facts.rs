@@ -1,14 +1,14 @@
-//! What the compiler proves of a method, in a few words.
+//! The facts that the compiler proves about a method.
 
 use symplectic_compiler::order::{ClassOrder, HamiltonianClass};
 use symplectic_compiler::{Definition, Error, Limits, Property};
 use symplectic_report::Fact;
 use symplectic_tests::linear_stability::evidence;
 
-/// Stability of methods with more stages takes seconds.
+/// Largest number of stages for which stability is computed; beyond it this takes seconds.
 const STABILITY_STAGES: usize = 20;
 
-/// Derives the method from its definition again, and says what it is.
+/// Derives the method from its definition again and returns its facts.
 pub fn facts(definition: &str) -> Vec<Fact> {
     proved(definition).unwrap_or_else(|error| vec![Fact::new("order", error.to_string())])
 }

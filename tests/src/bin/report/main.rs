@@ -1,6 +1,7 @@
-//! Error against run time of all methods on all scenes: `cargo run --release -p symplectic-tests --bin report`
+//! The report of all methods on all scenes, error against run time:
+//! `cargo run --release -p symplectic-tests --bin report`
 //!
-//! Writes a page, plots, CSV, JSON and the table of the book into a folder.
+//! Writes a page, plots, CSV, JSON and the table of the book to a folder.
 
 #![allow(clippy::print_stdout, reason = "a report prints its table")]
 
@@ -24,28 +25,28 @@ use crate::scenes::{SCENES, Scene};
 /// The name of the stiff and extreme cases among the scenes.
 const STIFF: &str = "stiff-and-extreme";
 
-/// Error against run time of all methods on all scenes.
+/// The report of all methods on all scenes, error against run time.
 #[derive(Debug, Parser)]
 struct Arguments {
-    /// Only scenes with this in their names; may be given several times.
+    /// Only scenes whose names contain this text; can be repeated.
     #[arg(long)]
     scene: Vec<String>,
-    /// Only methods with this in their names; may be given several times.
+    /// Only methods whose names contain this text; can be repeated.
     #[arg(long)]
     method: Vec<String>,
-    /// Errors for which methods are compared, instead of 1e-3, 1e-6, 1e-9, 1e-12.
+    /// Target errors instead of 1e-3, 1e-6, 1e-9, 1e-12; can be repeated.
     #[arg(long)]
     target: Vec<f64>,
-    /// Shorter runs and fewer repetitions: within a minute.
+    /// Shorter runs and fewer repetitions, within a minute.
     #[arg(long)]
     quick: bool,
-    /// The folder that is written.
+    /// The output folder.
     #[arg(long, default_value = "target/report")]
     out: PathBuf,
-    /// Draws the measurements in this file of JSON again, and measures nothing.
+    /// Draws the measurements of this JSON file, without measuring.
     #[arg(long)]
     from: Option<PathBuf>,
-    /// Lists the names of the scenes, and measures nothing.
+    /// Lists the names of the scenes, without measuring.
     #[arg(long)]
     list: bool,
 }
@@ -100,13 +101,13 @@ fn measure(arguments: &Arguments) -> Result<Measurements, Box<dyn Error>> {
     Ok(measurements)
 }
 
-/// Whether a name has one of these texts in it, or there are none.
+/// Whether a name contains one of these texts, or there are none.
 fn contains_any(name: &str, texts: &[String]) -> bool {
     let name = plain(name);
     texts.is_empty() || texts.iter().any(|text| name.contains(&plain(text)))
 }
 
-/// Small letters that any keyboard has.
+/// Lower case, with some non-ASCII letters replaced.
 fn plain(text: &str) -> String {
     let letter = |c| match c {
         'ö' => 'o',
@@ -141,7 +142,7 @@ fn settings(arguments: &Arguments) -> Settings {
     settings
 }
 
-/// Where and how it was measured.
+/// The circumstances of the measurement.
 fn circumstances(quick: bool, seconds: u64) -> Vec<Fact> {
     let vectors = if cfg!(target_feature = "avx512f") {
         ", AVX-512"
@@ -160,7 +161,7 @@ fn circumstances(quick: bool, seconds: u64) -> Vec<Fact> {
     ]
 }
 
-/// The name of the processor, where the system tells it.
+/// The name of the processor if the system provides it, otherwise the architecture.
 fn processor() -> String {
     let architecture = std::env::consts::ARCH.to_owned();
     let Ok(text) = fs::read_to_string("/proc/cpuinfo") else {

@@ -1,5 +1,5 @@
-//! What is not of the library: the classical Runge–Kutta method, and the crates `ode_solvers` and `differential-equations`,
-//! called `diff-equations` for short.
+//! Peers: the classical Runge–Kutta method, and the crates `ode_solvers` and `differential-equations`, abbreviated
+//! `diff-equations`.
 
 use differential_equations::methods::{ExplicitRungeKutta, SymplecticIntegrator};
 use differential_equations::prelude::{IVP, Solution};
@@ -8,14 +8,14 @@ use symplectic::{State, Vector};
 use symplectic_report::{Finish, Ladder, Observe, Problem};
 use symplectic_tests::peers::{Equations, dop853};
 
-/// Steps that a peer may take that chooses them itself: a second or so, after which it is said to have failed. No problem here is
-/// solved with as many, but in an encounter a loose tolerance leads astray, to steps that are shorter and shorter.
+/// Largest number of steps of a peer with step size control, about a second; beyond it the run counts as failed. No
+/// problem here needs that many, but in a close encounter a loose tolerance leads to ever shorter steps.
 const MOST_STEPS: usize = 500_000;
 
-/// Steps that a peer may take whose steps are chosen here.
+/// Largest number of steps of a peer with a given step size.
 const MOST_EQUAL_STEPS: usize = 100_000_000;
 
-/// A start with `N` components, as it is handed to others.
+/// A start with `N` components, as an array for the peers.
 struct Begin<V, const M: usize> {
     start: State<V>,
     values: [f64; M],
@@ -36,7 +36,7 @@ impl<V: Vector<Scalar = f64>, const M: usize> Begin<V, M> {
         }
     }
 
-    /// The state of these values; nothing where a crate hands back another number of them.
+    /// The state with these values; an error if a crate returns another number of values.
     fn state(&self, time: f64, values: &[f64]) -> Result<State<V>, String> {
         let half = self.start.q.dimension();
         let (q, p) = values.split_at(half.min(values.len()));
@@ -44,7 +44,7 @@ impl<V: Vector<Scalar = f64>, const M: usize> Begin<V, M> {
     }
 }
 
-/// Adds the peers to a problem of `N` components; `M = 2N`, which stable Rust does not compute.
+/// Adds the peers to a problem with `N` components. `M = 2N` is a parameter because stable Rust cannot compute it.
 pub fn with_peers<V, S, const N: usize, const M: usize>(
     problem: Problem<V, S>,
     system: &S,
@@ -73,7 +73,7 @@ where
         )
 }
 
-/// Adds Forest & Ruth by `differential-equations`, for separable systems.
+/// Adds Forest–Ruth from `differential-equations`, for separable systems.
 pub fn with_forest_ruth<V, S, const N: usize, const M: usize>(
     problem: Problem<V, S>,
     system: &S,
@@ -99,7 +99,7 @@ where
     })
 }
 
-/// `ode_solvers`: DOP853 with one tolerance, relative and absolute.
+/// DOP853 from `ode_solvers`, with the same relative and absolute tolerance.
 fn ode_solvers<V, S, const N: usize, const M: usize>(
     equations: &Equations<S, N>,
     begin: &Begin<V, M>,
@@ -128,7 +128,7 @@ where
     ))
 }
 
-/// `differential-equations`: DOP853 with one tolerance.
+/// DOP853 from `differential-equations`, with the same relative and absolute tolerance.
 fn differential_equations<V, S, const N: usize, const M: usize>(
     equations: &Equations<S, N>,
     begin: &Begin<V, M>,
@@ -179,7 +179,7 @@ where
     })
 }
 
-/// The classical method in equal steps of at most `step_size`.
+/// The classical Runge–Kutta method with equal steps of at most `step_size`.
 fn rk4<V, S>(
     system: &S,
     start: &State<V>,
@@ -200,7 +200,7 @@ where
         let time = start.time + step as f64 * h;
         stage.clone_from(&state);
         sum.clone_from(&state);
-        // The next stage is h·ahead along the slope of this one, whose weight is h·weight.
+        // The next stage lies h·ahead along the slope of this stage, whose weight is h·weight/6.
         for (node, weight, ahead) in [
             (0.0, 1.0, 0.5),
             (0.5, 2.0, 0.5),

@@ -1,6 +1,6 @@
 //! The scenes of the report, one function each: the system, the reference, the largest step, and the sets of methods.
 //!
-//! A new one is a function here and a row in [`SCENES`].
+//! A new scene needs a function here and a row in [`SCENES`].
 
 use std::f64::consts::TAU;
 
@@ -20,7 +20,7 @@ use crate::sets::{
     Set, constrained, coupled, explicit, implicit, more_explicit, newton, nonholonomic,
 };
 
-/// A scene: what it is called on the command line, and how it is added to a study.
+/// A scene: its name on the command line, and the function that adds it to a study.
 pub type Scene = (&'static str, fn(Study) -> Result<Study, Error>);
 
 /// All scenes, in the order of the report.
@@ -63,7 +63,7 @@ pub const SCENES: &[Scene] = &[
     ("hyperbolic", hyperbolic),
 ];
 
-/// A state of the scenes that has been computed with 70 digits.
+/// A reference state recorded with the scene, computed with 70 digits.
 fn recorded<V: Vector<Scalar = f64>>(state: Option<State<V>>) -> Reference<V> {
     Reference::known(
         state.expect("a recorded time"),
@@ -79,7 +79,7 @@ fn kepler(
     sets: &[Set<SVector<f64, 2>, kepler::Kepler>],
 ) -> Result<Study, Error> {
     let start = kepler::start(eccentricity);
-    // The error of the closed form is stated there; away from the pericentre it is much smaller.
+    // The error bound of the closed form; away from the pericentre the error is much smaller.
     let reference = Reference::known(
         kepler::exact(eccentricity, end),
         "closed form, Kepler's equation",
@@ -145,7 +145,7 @@ fn outer_solar_system(study: Study) -> Result<Study, Error> {
     )))
 }
 
-/// `largest` is hω with the first step size.
+/// `largest` is hω for the first step size.
 fn springs(study: Study, omega: f64, end: f64, largest: f64) -> Result<Study, Error> {
     let start = fput_springs::start(omega);
     let system = fput_springs::FputSprings { omega };
@@ -212,7 +212,7 @@ fn long_fput_chain(study: Study) -> Result<Study, Error> {
         .described(FPUT_CHAIN)
         .needing("nothing: separable, quadratic kinetic energy, not stiff; more components than the nearest memory holds");
     let ladder = Ladder::Descend { first: 1.0 };
-    // The other crates have states of a length that is known when they are compiled, on the stack, which is too small.
+    // Only RK4: the other crates need arrays of a fixed length on the stack, which is too small.
     Ok(study.problem(with_rk4(
         implicit(explicit(problem)),
         &system,
@@ -526,7 +526,7 @@ fn hyperbolic(study: Study) -> Result<Study, Error> {
     Ok(study.problem(with_peers::<_, _, 1, 2>(problem, &system, &start, end, 1.0)))
 }
 
-/// Marsden & West, Figure 1: what happens to the energy of a conservative system in the long run.
+/// Marsden & West, Figure 1: the energy of a conservative system over a long time.
 fn energy_behaviour(study: Study) -> Result<Study, Error> {
     let (start, end, size) = (henon_heiles::start(), 1000.0, 0.4);
     let system = henon_heiles::HenonHeiles;
@@ -545,7 +545,7 @@ fn energy_behaviour(study: Study) -> Result<Study, Error> {
     Ok(study.problem(with_rk4(problem, &system, &start, end, ladder)))
 }
 
-/// The methods and peers of a separable problem, with `implicit` ones.
+/// Adds the methods and peers of a separable problem, with the set `implicit`.
 fn separable<S, const N: usize, const M: usize>(
     problem: Problem<SVector<f64, N>, S>,
     system: S,

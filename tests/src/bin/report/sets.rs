@@ -1,6 +1,6 @@
-//! Which methods are run on what kind of problem.
+//! Sets of methods for each kind of problem.
 //!
-//! Every method is generic over the system once, here: a scene chooses a set and says its numbers.
+//! Every method is generic over the system, here only; a scene chooses a set and its parameters.
 
 use symplectic::system::Unconstrained;
 use symplectic::{Class, Constrained, Integrator, Nonholonomic, Separable, System, Vector};
@@ -11,10 +11,10 @@ use symplectic_tests::methods::{
     StoermerVerlet, SymplecticEuler, VelocityVerlet, Yoshida8,
 };
 
-/// A problem with methods that are to be run on it.
+/// Adds a set of methods to a problem.
 pub type Set<V, S> = fn(Problem<V, S>) -> Problem<V, S>;
 
-/// Adds runs of methods to a problem, `Method "name" sums`, each by what is made of its integrator.
+/// Adds methods to a problem, `Method "name" sums`, each with the expression applied to its integrator.
 macro_rules! run {
     ($problem:expr, $integrator:pat => $made:expr; $($method:ident $name:literal $sums:ident),+ $(,)?) => {
         $problem$(.run($name, |system, start, h| {
@@ -24,7 +24,7 @@ macro_rules! run {
     };
 }
 
-/// Explicit methods that are worth it for quadratic kinetic energy: plain sums.
+/// Competitive explicit methods for quadratic kinetic energy, with plain sums.
 pub fn explicit<V, S>(problem: Problem<V, S>) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
@@ -40,7 +40,7 @@ where
     )
 }
 
-/// More of them, for one scene that has all.
+/// More explicit methods, for one scene.
 pub fn more_explicit<V, S>(problem: Problem<V, S>) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
@@ -71,7 +71,7 @@ where
     )
 }
 
-/// Implicit methods that are interesting where nothing is explicit.
+/// Implicit methods for systems that are not separable.
 pub fn coupled<V, S>(problem: Problem<V, S>) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
@@ -112,7 +112,7 @@ where
     )
 }
 
-/// By Newton's iteration, for what is stiff.
+/// Implicit methods with Newton's iteration, for stiff systems.
 pub fn newton<V, S>(problem: Problem<V, S>) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
