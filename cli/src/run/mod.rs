@@ -258,7 +258,7 @@ fn times(file: &File<'_>, setup: &Setup) -> Result<Option<Vec<f64>>, Error> {
                 return refused(time, times.span());
             }
             match list.is_empty() || list.windows(2).any(|pair| (pair[1] - pair[0]) * size < 0.0) {
-                true => Err(file.error(times.span(), "`times` needs at least one time, and none before another one that stands before it")),
+                true => Err(file.error(times.span(), "`times` must contain at least one time, in the direction of the steps")),
                 false => Ok(Some(list)),
             }
         }
@@ -374,7 +374,7 @@ impl Run<'_> {
         );
         self.target.write(&results)?;
         let printed = print(&message)?;
-        Ok(match failed == rows.len() {
+        Ok(match failed > 0 && failed == rows.len() {
             true => ExitCode::from(1),
             false => printed,
         })

@@ -322,6 +322,15 @@ fn parts_and_threads_have_the_same_bits() {
     assert_eq!(names, expected);
 }
 
+#[test]
+fn a_part_may_be_empty() {
+    let folder = folder("empty-part");
+    let output = call(&folder, PENDULUM, &["--shard", "0/64"]);
+    assert!(output.status.success(), "{output:?}");
+    let part = fs::read_to_string(folder.join("out.0-of-64.csv")).expect("a part");
+    assert_eq!(part.lines().count(), 1);
+}
+
 /// The header and the data of an array in a `.npz` file, which is not compressed.
 fn array(file: &[u8], name: &str) -> (String, Vec<u8>) {
     let short = |at: usize| usize::from(u16::from_le_bytes([file[at], file[at + 1]]));

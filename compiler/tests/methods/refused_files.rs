@@ -88,13 +88,13 @@ fn files_that_are_no_tables_are_refused_at_the_place() {
         (
             "b = [\"1/2\", \"0\"]",
             "b = [\"1/2\", \"1/0\"]",
-            "`1/0` is no rational number",
+            "`1/0` is not a rational number",
             "\"1/0\"",
         ),
         (
             "b = [\"1/2\", \"0\"]",
             "b = [\"1/2\", \"0.5\"]",
-            "`0.5` is no rational number",
+            "`0.5` is not a rational number",
             "\"0.5\"",
         ),
         (

@@ -208,7 +208,7 @@ impl<V: Vector<Scalar = f64>> Reference<V> {
         let uncertainty = Measured::error_of(&coarse, &fine);
         Ok(Self {
             origin: format!(
-                "{} in steps of {step_size}; in steps of {} the end is another by {}",
+                "{} with steps of {step_size}; with steps of {} the end differs by {}",
                 M::NAME,
                 1.5 * step_size,
                 text::scientific(uncertainty),

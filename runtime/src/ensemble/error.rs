@@ -38,7 +38,7 @@ pub enum EnsembleError {
 
     /// Bins that hold nothing.
     #[error(
-        "a histogram of {bins} bins from {low} to {high}: there must be one at least and 2^24 at most, and both ends finite, in their order"
+        "a histogram of {bins} bins from {low} to {high}: the number of bins must be from 1 to 2^24, and low < high, both finite"
     )]
     Histogram {
         /// The lower end.
@@ -56,12 +56,12 @@ pub enum EnsembleError {
     OtherBins,
 
     /// What is read is no such thing.
-    #[error("the file does not hold {0}; it is damaged, or of something else")]
+    #[error("expected {0} in the file; it is damaged or has other contents")]
     Written(&'static str),
 
     /// There is no such part.
     #[error(
-        "there is no part {part} of {count}: parts are numbered from 0, and there must be one at least"
+        "there is no part {part} of {count}: there must be at least one part, and parts are numbered from 0"
     )]
     Shard {
         /// The part asked for.

@@ -275,7 +275,7 @@ pub enum Error {
     },
 
     /// The function of an [`Event`](crate::Event) is NaN.
-    #[error("the function whose zeros are events is not a number at time {time}")]
+    #[error("the event function is NaN at time {time}")]
     EventValue {
         /// The time.
         time: f64,
@@ -284,8 +284,8 @@ pub enum Error {
     /// Events follow each other more closely than time or the state can resolve: impacts accumulate, or the state rests
     /// on a wall. The present state is that at the last event.
     #[error(
-        "events accumulate at time {time}: function {index} is zero there and cannot be seen to turn round, after {count} events \
-         at this time; end there, or hold the state on the wall from there on"
+        "events accumulate at time {time}: after {count} events at this time the sign of function {index} cannot be resolved; \
+         stop there, or constrain the state to the wall"
     )]
     EventsAccumulate {
         /// The time.
@@ -297,7 +297,7 @@ pub enum Error {
     },
 
     /// The length of a slice differs from the dimension of the vector to create.
-    #[error("a vector with {expected} components cannot be made of {found} numbers")]
+    #[error("the slice has {found} entries; a vector with {expected} components is needed")]
     Length {
         /// The dimension of the vector.
         expected: usize,
@@ -306,7 +306,7 @@ pub enum Error {
     },
 
     /// A system has constraints or friction, but its class does not: steps would ignore them.
-    #[error("the system has {what}, and its class does not: write `type Class = {class};`")]
+    #[error("the system has {what}, but its class excludes them; declare `type Class = {class};`")]
     OtherClass {
         /// Constraints or friction.
         what: &'static str,
@@ -479,8 +479,8 @@ pub enum Error {
 
     /// The momentum at the start violates a primary constraint of the Lagrangian.
     #[error(
-        "no velocity has this momentum: component {component} is off a primary constraint by {value:e}; start from \
-         `momentum_of_velocity(&system, time, &q, &v)`, `primary_constraints` tells what momenta obey"
+        "no velocity has this momentum: component {component} violates a primary constraint by {value:e}; start from \
+         `momentum_of_velocity(&system, time, &q, &v)`; `primary_constraints` returns the constraints"
     )]
     PrimaryConstraint {
         /// The component of the momentum that violates it, from 0, given the other components.

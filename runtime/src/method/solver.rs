@@ -68,7 +68,7 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
         const {
             assert!(
                 size_of::<V>() == usize::MAX,
-                "a tableau at run time is for `FixedPoint` and the solver that an integrator has from the start: leave out `with_solver`"
+                "a tableau at run time works with `FixedPoint` and with the default solver of an integrator: leave out `with_solver`"
             );
         }
         Ok(StepStatistics::default())

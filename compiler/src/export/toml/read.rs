@@ -36,7 +36,7 @@ use crate::tableau::Tableau;
 /// let error = toml::read("verlet.toml", &text.replacen("\"1/2\"", "\"1/0\"", 1), &Limits::default());
 /// assert_eq!(
 ///     error.unwrap_err().to_string(),
-///     "verlet.toml, line 14, column 6: `1/0` is no rational number such as 3 or -3/4"
+///     "verlet.toml, line 14, column 6: `1/0` is not a rational number such as 3 or -3/4"
 /// );
 /// # Ok::<(), symplectic_compiler::Error>(())
 /// ```
@@ -108,7 +108,7 @@ fn number(file: Input<'_>, entry: &Spanned<String>) -> Result<BigRational, Error
     }
     rational::parse(text).ok_or_else(|| {
         let shown = crate::expression::shown(text);
-        let message = format!("`{shown}` is no rational number such as 3 or -3/4");
+        let message = format!("`{shown}` is not a rational number such as 3 or -3/4");
         document_error(file, entry.span(), message)
     })
 }

@@ -203,6 +203,6 @@ fn cut_off() -> Error {
 fn damaged(reason: &str) -> Error {
     Error::new(
         ErrorKind::InvalidData,
-        format!("no file that `Npz` wrote, or a damaged one: {reason}"),
+        format!("not a file written by `Npz`, or damaged: {reason}"),
     )
 }

@@ -112,7 +112,7 @@ where
         between: (f64, f64),
     ) -> Result<(), Error> {
         let kind = self.events.kind(index);
-        if kind.wants(track.side) {
+        if kind.matches(track.side) {
             let side = track.side;
             let found = self.locate(integrator, index, track, between, kind.by_steps)?;
             let time = found.unwrap_or(between.0);

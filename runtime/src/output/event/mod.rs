@@ -99,7 +99,7 @@ impl Kind {
     }
 
     /// Whether a change from the sign `side` is an event.
-    fn wants(&self, side: f64) -> bool {
+    fn matches(&self, side: f64) -> bool {
         self.directions[usize::from(side > 0.0)]
     }
 }
