@@ -11,6 +11,7 @@ mod choice;
 mod derive;
 mod derive_system;
 mod emit;
+mod formula;
 mod import;
 mod list;
 mod output;

@@ -442,7 +442,8 @@ fn number(value: &Number, notation: Notation) -> (String, Strength) {
     }
 }
 
-fn index_letter(over: LoopId) -> String {
+/// The letter of the index of a loop.
+pub(crate) fn index_letter(over: LoopId) -> String {
     match ["i", "j", "k", "l", "m"].get(over.0) {
         Some(letter) => (*letter).to_owned(),
         None => format!("i{}", over.0),
