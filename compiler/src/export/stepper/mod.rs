@@ -119,8 +119,12 @@ impl Stepper {
         let plan = Plan::new(&table, class, DIGITS)?;
         let notation = languages::notation(self);
         let about = (notation.comment)(&about(&table, &plan));
-        let (name, upper) = (&table.name, table.name.to_uppercase());
-        let module = module(name);
+        let mut name = table.name.clone();
+        if table.flows.is_some() && matches!(plan, Plan::Coupled(_)) {
+            // One program may have both.
+            name.push_str("_general");
+        }
+        let (upper, module) = (name.to_uppercase(), module(&name));
         let names = [("name", &name[..]), ("NAME", &upper), ("module", &module)];
         let add = fill(notation.add.trim_end(), &names);
         let mut values = vec![("about", about.trim_end()), ("add", &add)];

@@ -92,8 +92,10 @@ fn declare(fields: &[Field], _least: usize) -> String {
                 lengths,
                 is_fixed: false,
             } => {
-                let lengths = lengths.join(" x ").replace("s->", "");
-                format!("    const double *{name}; /* {lengths} */\n")
+                let rows = ["", ", by rows"][usize::from(lengths.len() > 1)];
+                let names = lengths.iter().map(|name| name.trim_start_matches("s->"));
+                let lengths = names.collect::<Vec<_>>().join(" x ");
+                format!("    const double *{name}; /* {lengths} numbers{rows} */\n")
             }
         }
     };

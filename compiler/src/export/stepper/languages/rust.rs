@@ -80,7 +80,7 @@ fn declare(fields: &[Field], least: usize) -> String {
         if let FieldShape::Length = field.shape {
             let (name, value) = (&field.name, least.max(2));
             text.push_str(&format!(
-                "/// A length that the formula leaves open: set it here.\npub const {name}: usize = {value};\n"
+                "/// A length that the formula leaves open: set it here.\npub const {name}: usize = {value};\n\n"
             ));
         }
     }
