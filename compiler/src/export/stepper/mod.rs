@@ -2,7 +2,8 @@
 //!
 //! A method that consists of drifts and kicks becomes straight-line code. Any other method solves for its stages, by fixed-point
 //! iteration until stagnation, with coefficients that are [symplectic as rounded](crate::emit). Both carry the state as a sum of two
-//! numbers (compensated summation). The parts common to all methods are a template of the language; [`plan`] has the others.
+//! numbers (compensated summation). The parts common to all methods are a template of the language; [`plan`] has the others, and
+//! [`system`] the velocity, force and energy of a formula.
 
 mod languages;
 mod plan;

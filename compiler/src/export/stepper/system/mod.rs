@@ -49,7 +49,7 @@ pub(super) fn section(
     system: &System,
     structure: &Structure,
     is_splitting: bool,
-    method: &[(&str, &str)],
+    method: &[(&str, &str); 3],
 ) -> Result<String, Error> {
     let mut system = system.clone();
     let energy = system.energy;
@@ -63,7 +63,8 @@ pub(super) fn section(
         return Err(ErrorKind::NoStepperOfSystem { what }.into());
     }
     let notation = formulas(language);
-    let names = Names::new(&system, notation);
+    let [.., (_, module)] = method;
+    let names = Names::new(&system, notation, module);
     let text = Text {
         system: &system,
         names: &names,

@@ -18,7 +18,8 @@ pub(super) struct Names {
 }
 
 impl Names {
-    pub fn new(system: &System, notation: &Formulas) -> Self {
+    /// The names of a system in a module of this name.
+    pub fn new(system: &System, notation: &Formulas, module: &str) -> Self {
         let mut open: Vec<Length> = Vec::new();
         let arrays = system
             .parameters
@@ -47,7 +48,7 @@ impl Names {
             .map(|parameter| free(&parameter.name, notation.words, &mut taken))
             .collect();
         Names {
-            kind: free(&system.name, notation.types, &mut Vec::new()),
+            kind: free(&system.name, notation.types, &mut vec![module.to_owned()]),
             prefix: snake(&plain(&system.name)),
             lengths,
             parameters,

@@ -17,7 +17,7 @@ pub struct Planets {
 /// The number of coordinates.
 pub const DIMENSION: usize = 3 * LENGTH_N;
 
-#[allow(unused_variables, non_snake_case)]
+#[allow(unused_mut, unused_variables, non_snake_case)]
 impl System<DIMENSION> for Planets {
     fn velocity(&self, t: f64, p: &[f64; DIMENSION]) -> [f64; DIMENSION] {
         let mut v = [0.0; DIMENSION];
