@@ -23,6 +23,7 @@ system!(PLANETS: Planets<N> { m: [N], G: 1 } q: [N; 3], p: [N; 3];
     H = sum(i: |p[i]|^2 / (2 m[i])) - sum(i < j: G m[i] m[j] / |q[i] - q[j]|));
 system!(WARPED: Warped { lambda: 1/4, k: [2, 2] } q: [x, y], p: [px, py];
     H = (1 + lambda x^2) (px^2 + py^2)/2 + k[0, 0] x^2/2 + k[1, 1] y^4/4 + k[0, 1] x^5 y/(1 + y^2)^(3/2));
+system!(DRIVEN: Driven { k: 1/3 } q: [x], p: [y]; H = y^2/2 + (1 + k t) x^2/2 + t x^4/(1 + x^2));
 system!(PENDULUM: Pendulum { g: 9.81 } q: [a], p: [pa]; H = pa^2/2 - g cos(a) + exp(-t) sin(a)/8);
 
 symplectic::tableau! { Verlet { base: stormer-verlet } }
@@ -97,6 +98,19 @@ fn planets() -> Case {
     }
 }
 
+/// H depends on time.
+fn driven() -> Case {
+    Case {
+        method: "forest-ruth-1990",
+        formula: DRIVEN,
+        kind: "Driven",
+        values: vec![("k", Number(0.3))],
+        start: [vec![0.5], vec![-0.2]],
+        h: 0.01,
+        steps: 1000,
+    }
+}
+
 fn warped() -> Case {
     Case {
         method: "gauss-2",
@@ -157,6 +171,9 @@ fn splittings_have_the_bits_of_the_runtime() {
         &runtime!(case, Forest, system, SMatrix<f64, 3, 3>),
         0.0,
     );
+    let case = driven();
+    let system = Driven { k: 0.3 };
+    agree(&case, &runtime!(case, Forest, system, SVector<f64, 1>), 0.0);
 }
 
 /// The iteration of the runtime begins elsewhere and ends elsewhere: 200 steps differ by the rounding errors of each.
