@@ -1,18 +1,19 @@
 //! `symplectic emit`
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use symplectic_compiler::export::{self, SteppedClass, Stepper};
 use symplectic_compiler::{Error, Tableau, catalogue, check};
 
-use crate::output;
+use crate::{formula, output};
 
 /// Write a program that takes steps of a method, in one file without any dependency.
 ///
 /// Methods that consist of drifts and kicks become a sequence of them; others solve for their stages by fixed-point iteration. The
-/// programs in C, Rust and Python give the same results to the last bit.
+/// programs in C, Rust and Python give the same results to the last bit. With `--system` the program has velocity and force of a formula,
+/// and otherwise you give them.
 #[derive(Args)]
 pub(crate) struct Arguments {
     /// A method of the catalogue, or a TOML file with a definition as `derive` reads it.
@@ -24,6 +25,9 @@ pub(crate) struct Arguments {
     /// The Hamiltonians that steps are for [default: separable for drifts and kicks, else general].
     #[arg(long, value_enum)]
     class: Option<Class>,
+    /// A file with the formula of a system, as `derive-system` reads it: its velocity, force and energy are written too.
+    #[arg(long, value_name = "FILE")]
+    system: Option<PathBuf>,
     /// The most stages that are derived [default: 36].
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=1000))]
     max_stages: Option<u16>,
@@ -62,7 +66,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         Class::Separable => SteppedClass::Separable,
     });
     output::warn_if_inconsistent(&tableau);
-    output::print(&language.write(&tableau, class)?)
+    output::print(&match &arguments.system {
+        None => language.write(&tableau, class)?,
+        Some(file) => {
+            let (system, structure) = formula::read(file)?;
+            language.write_with_system(&tableau, class, &system, &structure)?
+        }
+    })
 }
 
 /// The method of the catalogue, or of a file.

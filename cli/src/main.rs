@@ -12,6 +12,7 @@ mod choice;
 mod derive;
 mod derive_system;
 mod emit;
+mod formula;
 mod import;
 mod list;
 mod output;

@@ -54,6 +54,12 @@ pub enum ErrorKind {
         /// Why, and what to do.
         reason: &'static str,
     },
+    /// A system of which no velocity and force can be written beside a stepper.
+    #[error("no stepper of this system can be written: it has {what}")]
+    NoStepperOfSystem {
+        /// What cannot be written, and what to do.
+        what: &'static str,
+    },
     /// A method of which no theorem can be written for a proof assistant.
     #[error("no theorem of this method can be written for Coq: {reason}")]
     NoTheorem {

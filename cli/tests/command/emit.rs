@@ -265,12 +265,12 @@ print('ok')
     }
 }
 
-fn emit(method: &str, language: &str, options: &[&str]) -> String {
+pub fn emit(method: &str, language: &str, options: &[&str]) -> String {
     stdout(&[&["emit", method, "--language", language], options].concat())
 }
 
 /// A folder of its own for a test.
-fn folder(name: &str) -> PathBuf {
+pub fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("emit")
         .join(name);
@@ -279,7 +279,7 @@ fn folder(name: &str) -> PathBuf {
 }
 
 /// What a program prints; `None` where it is not installed.
-fn output(program: &str, arguments: &[&str], folder: &Path) -> Option<String> {
+pub fn output(program: &str, arguments: &[&str], folder: &Path) -> Option<String> {
     let output = Command::new(program)
         .args(arguments)
         .current_dir(folder)
@@ -304,7 +304,10 @@ fn read(text: &str) -> Vec<[f64; 4]> {
 type Runs = [(usize, usize); 3];
 
 fn c(folder: &Path, case: &Case, general: bool, runs: &Runs) -> Option<Vec<[f64; 4]>> {
-    let name = case.method.replace('-', "_");
+    let mut name = case.method.replace('-', "_");
+    if !case.options.is_empty() {
+        name.push_str("_general");
+    }
     let upper = name.to_uppercase();
     let arguments = match general {
         true => [

@@ -9,6 +9,7 @@ mod certificates;
 mod check;
 mod coq;
 mod emit;
+mod emit_systems;
 mod encodings;
 mod import;
 mod languages;

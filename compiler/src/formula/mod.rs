@@ -22,6 +22,7 @@
 //! | the degree of a polynomial, a singular `∂²H/∂p²` | [`degree`], [`hessian`] |
 //! | as text, LaTeX and JSON | [`description`], [`display`] |
 //! | the operations of an evaluation, in their order | [`operations`] |
+//! | statements and loops | [`statements`] |
 //! | as Rust | [`emit::system`](crate::emit::system()) |
 
 mod check;
@@ -43,6 +44,7 @@ pub mod modular;
 pub mod operations;
 pub mod parse;
 mod rewrite;
+pub mod statements;
 pub mod structure;
 pub mod syntax;
 mod system;

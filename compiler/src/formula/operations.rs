@@ -156,6 +156,17 @@ impl<'a> Operations<'a> {
         self.quotients.contains(&op)
     }
 
+    /// The operands as they are written: of a quotient its divisor.
+    pub fn written_operands(&self, op: Op) -> Vec<Op> {
+        match *self.get(op) {
+            Operation::Multiply(a, b) => match *self.get(b) {
+                Operation::Reciprocal(divisor) if self.is_division(b) => vec![a, divisor],
+                _ => vec![a, b],
+            },
+            ref operation => operation.operands(),
+        }
+    }
+
     /// The operation of a node.
     pub fn of(&self, id: Id) -> Op {
         self.known[&id]

@@ -5,7 +5,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::Emitter;
-use super::block::{Statement, Task, Writer};
+use super::block::{Task, Write, Writer};
 use crate::formula::derivative::gradient;
 use crate::formula::graph::{Half, Id, LoopId, Number};
 use crate::formula::operations::Operations;
@@ -59,7 +59,7 @@ impl Emitter<'_> {
                 &this.prefix,
                 TokenStream::new(),
             );
-            let write: Statement = Box::new(|value| quote!(let value = #value;));
+            let write: Write = Box::new(|value| quote!(let value = #value;));
             let task = Task {
                 loops: Vec::new(),
                 value: operations.of(value),

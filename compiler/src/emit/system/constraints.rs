@@ -5,7 +5,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::Emitter;
-use super::block::{Statement, Task, Writer};
+use super::block::{Task, Write, Writer};
 use super::names::{identifier, index_name, index_tokens};
 use crate::formula::Constraint;
 use crate::formula::derivative::gradient;
@@ -26,21 +26,21 @@ impl Emitter<'_> {
             return TokenStream::new();
         };
         let operations = Operations::new(&self.system.graph, &[rate]);
-        let write: Statement = Box::new(|value| quote!(return #value;));
+        let write: Write = Box::new(|value| quote!(return #value;));
         let task = Task {
             loops: Vec::new(),
             value: operations.of(rate),
             write,
             fixed: true,
         };
-        let mut writer = Writer::new(
+        let writer = Writer::new(
             &self.system,
             &operations,
             self.scalar.clone(),
             &self.prefix,
             TokenStream::new(),
         );
-        let statements = writer.write(vec![task]);
+        let statements = writer.write(&[task]);
         quote! {
             #[inline(always)]
             fn friction(&self, component: usize) -> f64 {
@@ -260,7 +260,7 @@ impl Emitter<'_> {
         let roots: Vec<Id> = parts.iter().map(|part| part.1).collect();
         let operations = Operations::new(&self.system.graph, &roots);
         let tasks = parts.into_iter().map(|(loops, value, place)| {
-            let write: Statement = Box::new(move |value| write(&place, value));
+            let write: Write = Box::new(move |value| write(&place, value));
             Task {
                 loops,
                 value: operations.of(value),
@@ -268,14 +268,14 @@ impl Emitter<'_> {
                 fixed: false,
             }
         });
-        let mut writer = Writer::new(
+        let writer = Writer::new(
             &self.system,
             &operations,
             self.scalar.clone(),
             &self.prefix,
             outside,
         );
-        let statements = writer.write(tasks.collect());
+        let statements = writer.write(&tasks.collect::<Vec<_>>());
         quote!(#views #least #statements)
     }
 }

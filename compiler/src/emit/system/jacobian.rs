@@ -5,7 +5,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::Emitter;
-use super::block::{Statement, Task, Writer};
+use super::block::{Task, Write, Writer};
 use super::names::index_tokens;
 use crate::formula::Layout;
 use crate::formula::derivative::{Scatter, gradient};
@@ -86,7 +86,7 @@ impl Emitter<'_> {
         let tasks = parts.iter().map(|(matrix, row, part)| {
             let matrix = format_ident!("{matrix}");
             let [row, column] = [row, &part.target].map(|place| self.place(place));
-            let write: Statement =
+            let write: Write =
                 Box::new(move |value| quote!(jacobian.#matrix.add(#row, #column, #value);));
             Task {
                 loops: part.loops.clone(),
@@ -95,8 +95,8 @@ impl Emitter<'_> {
                 fixed: false,
             }
         });
-        let mut writer = Writer::new(&self.system, &operations, scalar.clone(), &self.prefix, nan);
-        let statements = writer.write(tasks.collect());
+        let writer = Writer::new(&self.system, &operations, scalar.clone(), &self.prefix, nan);
+        let statements = writer.write(&tasks.collect::<Vec<_>>());
         let places = parts.iter().map(|(_, row, part)| [row, &part.target]);
         let half_bandwidth = self.half_bandwidth(places);
         quote! {

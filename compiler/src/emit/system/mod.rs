@@ -19,7 +19,7 @@ mod names;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use self::block::{Statement, Task, Writer};
+use self::block::{Task, Write, Writer};
 use self::names::{entry, identifier, length_tokens};
 use super::Header;
 use crate::formula::derivative::{Scatter, gradient};
@@ -293,7 +293,7 @@ impl<'a> Emitter<'a> {
             for part in parts {
                 let place = entry(&self.system.layout, &vector, &part.target);
                 let value = operations.of(part.value);
-                let write: Statement = match once {
+                let write: Write = match once {
                     true => Box::new(move |value| quote!(#place = #value;)),
                     false => Box::new(move |value| quote!(#place += #value;)),
                 };
@@ -305,14 +305,14 @@ impl<'a> Emitter<'a> {
                 });
             }
         }
-        let mut writer = Writer::new(
+        let writer = Writer::new(
             &self.system,
             &operations,
             self.scalar.clone(),
             &self.prefix,
             outside,
         );
-        let statements = writer.write(tasks);
+        let statements = writer.write(&tasks);
         quote!(#views #least #clear #statements)
     }
 
@@ -322,7 +322,7 @@ impl<'a> Emitter<'a> {
         let views = self.views(read, &[]);
         let least = self.least(&outside);
         let operations = Operations::new(&self.system.graph, values);
-        let mut writer = Writer::new(
+        let writer = Writer::new(
             &self.system,
             &operations,
             scalar.clone(),
@@ -333,7 +333,7 @@ impl<'a> Emitter<'a> {
         let names: Vec<Ident> = (1..=count).map(|k| format_ident!("result_{k}")).collect();
         let tasks = values.iter().zip(&names).map(|(&value, name)| {
             let name = name.clone();
-            let write: Statement = Box::new(move |value| quote!(let #name = #value;));
+            let write: Write = Box::new(move |value| quote!(let #name = #value;));
             Task {
                 loops: Vec::new(),
                 value: operations.of(value),
@@ -341,7 +341,7 @@ impl<'a> Emitter<'a> {
                 fixed: false,
             }
         });
-        let statements = writer.write(tasks.collect());
+        let statements = writer.write(&tasks.collect::<Vec<_>>());
         quote!(#views #least #statements)
     }
 

@@ -24,7 +24,8 @@ pub(super) fn write(table: &Table<'_>) -> String {
 /// Lines as one comment.
 pub(in crate::export) fn comment(lines: &[String]) -> String {
     let lines: Vec<String> = lines.iter().map(|line| line.replace("*/", "* /")).collect();
-    format!("/* {} */\n", lines.join("\n   "))
+    let text = lines.join("\n   ").replace("\n   \n", "\n\n");
+    format!("/* {text} */\n")
 }
 
 /// A constant array.

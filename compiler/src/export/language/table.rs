@@ -336,8 +336,8 @@ fn identifier(name: &str) -> String {
 
 /// Lines as comments.
 pub(in crate::export) fn comments(mark: &str, lines: &[String]) -> String {
-    let lines = lines.iter().map(|line| format!("{mark} {line}\n"));
-    lines.collect()
+    let line = |line: &String| format!("{}\n", format!("{mark} {line}").trim_end());
+    lines.iter().map(line).collect()
 }
 
 #[cfg(test)]

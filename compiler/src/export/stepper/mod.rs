@@ -2,10 +2,12 @@
 //!
 //! A method that consists of drifts and kicks becomes straight-line code. Any other method solves for its stages, by fixed-point
 //! iteration until stagnation, with coefficients that are [symplectic as rounded](crate::emit). Both carry the state as a sum of two
-//! numbers (compensated summation). The parts common to all methods are a template of the language; [`plan`] has the others.
+//! numbers (compensated summation). The parts common to all methods are a template of the language; [`plan`] has the others, and
+//! [`system`] the velocity, force and energy of a formula.
 
 mod languages;
 mod plan;
+mod system;
 mod template;
 
 use self::languages::Notation;
@@ -13,6 +15,7 @@ use self::plan::{Coupled, Plan};
 use self::template::fill;
 use super::language::table::{Entry, Flow, Table};
 use crate::error::Error;
+use crate::formula::{Structure, System};
 use crate::order::HamiltonianClass;
 use crate::tableau::Tableau;
 
@@ -65,12 +68,64 @@ impl Stepper {
     /// weight of zero, for a method that does not consist of drifts and kicks though the class requires it, and for a method that is too
     /// long.
     pub fn write(self, tableau: &Tableau, class: Option<SteppedClass>) -> Result<String, Error> {
+        self.write_for(tableau, class, None)
+    }
+
+    /// Writes a stepper with the parameters, the velocity, the force and the energy of a system. A system that is not separable has a
+    /// stepper for every H.
+    ///
+    /// The order of the operations is that of the macro `hamiltonian!`.
+    ///
+    /// ```
+    /// use symplectic_compiler::derive;
+    /// use symplectic_compiler::export::Stepper;
+    /// use symplectic_compiler::formula::{Structure, System};
+    ///
+    /// let mut pendulum = System::read("pendulum", "Pendulum { g: 9.81 } q: [a], p: [pa]; H = pa^2/2 - g cos(a)")?;
+    /// let structure = Structure::of(&mut pendulum);
+    /// let verlet = derive("polynomial(2)", "lobatto(2)")?.named("stormer-verlet");
+    /// let text = Stepper::Python.write_with_system(&verlet, None, &pendulum, &structure)?;
+    /// assert!(text.contains("        f[0] = -self.g * x1\n"));
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`write`](Self::write); [`ErrorKind::NoStepperOfSystem`](crate::ErrorKind::NoStepperOfSystem) for a system that is more than
+    /// a formula of H; [`ErrorKind::NoStepper`](crate::ErrorKind::NoStepper) for a method whose order is for a class that the system does
+    /// not belong to.
+    pub fn write_with_system(
+        self,
+        tableau: &Tableau,
+        class: Option<SteppedClass>,
+        system: &System,
+        structure: &Structure,
+    ) -> Result<String, Error> {
+        self.write_for(tableau, class, Some((system, structure)))
+    }
+
+    fn write_for(
+        self,
+        tableau: &Tableau,
+        class: Option<SteppedClass>,
+        system: Option<(&System, &Structure)>,
+    ) -> Result<String, Error> {
         let table = Table::new(tableau, DIGITS);
+        let class = match system {
+            None => class,
+            Some((system, structure)) => {
+                system::check(system)?;
+                plan::class_of(&table, class, structure)?
+            }
+        };
         let plan = Plan::new(&table, class, DIGITS)?;
         let notation = languages::notation(self);
         let about = (notation.comment)(&about(&table, &plan));
-        let (name, upper) = (&table.name, table.name.to_uppercase());
-        let module = module(name);
+        let mut name = table.name.clone();
+        if table.flows.is_some() && matches!(plan, Plan::Coupled(_)) {
+            // One program may have both.
+            name.push_str("_general");
+        }
+        let (upper, module) = (name.to_uppercase(), module(&name));
         let names = [("name", &name[..]), ("NAME", &upper), ("module", &module)];
         let add = fill(notation.add.trim_end(), &names);
         let mut values = vec![("about", about.trim_end()), ("add", &add)];
@@ -92,7 +147,14 @@ impl Stepper {
                 ("tables", tables(notation, coupled, &names))
             }
         };
-        values.push((body.0, &body.1));
+        let section = match system {
+            None => String::new(),
+            Some((system, structure)) => {
+                let is_splitting = matches!(plan, Plan::Splitting(_));
+                system::section(self, system, structure, is_splitting, &names)?
+            }
+        };
+        values.extend([(body.0, &body.1[..]), ("system", &section)]);
         Ok(fill(template, &values))
     }
 }

@@ -4,6 +4,8 @@ use super::SteppedClass;
 use crate::emit::{Known, Relative, Rounded};
 use crate::error::{Error, ErrorKind};
 use crate::export::language::table::{Entry, Flow, Table, weight};
+use crate::formula::{Kinetic, Structure};
+use crate::order::HamiltonianClass;
 use crate::schedule::{Class, Node, StepGraph};
 use crate::tableau::left_out;
 
@@ -38,6 +40,39 @@ impl<'t> Plan<'t> {
             _ => Coupled::new(table, digits).map(|coupled| Plan::Coupled(Box::new(coupled))),
         }
     }
+}
+
+/// The class of a stepper for a system, for which the method has to have its order.
+pub(super) fn class_of(
+    table: &Table<'_>,
+    class: Option<SteppedClass>,
+    structure: &Structure,
+) -> Result<Option<SteppedClass>, Error> {
+    let [general, separable, nystrom] = [
+        HamiltonianClass::General,
+        HamiltonianClass::Separable,
+        HamiltonianClass::Nystrom,
+    ]
+    .map(|class| table.order(class));
+    if structure.split.is_err() {
+        if class == Some(SteppedClass::Separable) {
+            return Err(refused(
+                "H is not separable: leave the class out, which gives a stepper for every H",
+            ));
+        }
+        if general < separable {
+            return Err(refused(
+                "H is not separable, where it has a lower order: take a method with its order for every H (`symplectic list --class general`)",
+            ));
+        }
+        return Ok(Some(SteppedClass::General));
+    }
+    if structure.kinetic == Kinetic::General && separable < nystrom {
+        return Err(refused(
+            "the kinetic energy is not quadratic in the momenta, where it has a lower order: take another method (`symplectic list --class separable`)",
+        ));
+    }
+    Ok(class)
 }
 
 impl Coupled {

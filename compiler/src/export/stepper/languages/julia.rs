@@ -1,5 +1,6 @@
 //! Julia.
 
+use super::formulas::{Field, FieldShape, Formulas, Functions};
 use super::{Notation, shortest};
 use crate::export::language::table::comments;
 
@@ -25,3 +26,124 @@ pub(super) const NOTATION: Notation = Notation {
     comment: |lines| comments("#", lines),
     remark: |text| format!("# {text}"),
 };
+
+pub(super) const FORMULAS: Formulas = Formulas {
+    template: include_str!("../templates/system.jl.txt"),
+    indent: 4,
+    comment: NOTATION.comment,
+    declare,
+    usage,
+    argument: "@half@",
+    start: |_, _, _| String::new(),
+    enough: "",
+    too_few: TOO_FEW,
+    too_few_for_energy: TOO_FEW,
+    clear: "fill!(@vector@, 0.0)",
+    name: "@name@ = @value@",
+    zero: "@name@ = 0.0",
+    increase: "@target@ += @value@",
+    set: "@target@ = @value@",
+    result: "return @value@",
+    range: "for @index@ in @start@:@last@",
+    end: "end",
+    member: "s.@name@",
+    matrix: ["@member@[@i@, @j@]"; 2],
+    length_member: "s.@name@",
+    length: "n",
+    named_length: "@name@",
+    multiple: "@count@ * @length@",
+    first: 1,
+    infinity: "Inf",
+    functions: Functions {
+        root: "sqrt",
+        absolute: "abs",
+        logarithm: "log",
+        angle: "atan",
+        prefix: "",
+    },
+    words: &[
+        "_",
+        "baremodule",
+        "begin",
+        "break",
+        "catch",
+        "const",
+        "continue",
+        "do",
+        "else",
+        "elseif",
+        "end",
+        "export",
+        "false",
+        "finally",
+        "for",
+        "function",
+        "global",
+        "if",
+        "import",
+        "in",
+        "isa",
+        "let",
+        "local",
+        "macro",
+        "module",
+        "quote",
+        "return",
+        "struct",
+        "true",
+        "try",
+        "using",
+        "where",
+        "while",
+    ],
+    types: &[
+        "B",
+        "B_TILDE",
+        "C",
+        "MOST_SWEEPS",
+        "MU",
+        "MU_TILDE",
+        "STAGES",
+        "State",
+        "Float64",
+        "Inf",
+        "Int",
+        "Matrix",
+        "NaN",
+        "Vector",
+    ],
+};
+
+const TOO_FEW: &str = "    @length@ < @least@ && throw(ArgumentError(\"the formula needs at least @least@ coordinates\"))\n";
+
+fn declare(fields: &[Field], _least: usize) -> String {
+    let field = |field: &Field| {
+        let kind = match &field.shape {
+            FieldShape::Length => "Int",
+            FieldShape::Number(_) => "Float64",
+            FieldShape::Array { lengths, .. } if lengths.len() == 1 => "Vector{Float64}",
+            FieldShape::Array { .. } => "Matrix{Float64}",
+        };
+        let default = field
+            .default()
+            .map_or_else(String::new, |value| format!(" = {value}"));
+        format!("    {}::{kind}{default}\n", field.name)
+    };
+    match fields {
+        [] => "struct @Type@ end\n".to_owned(),
+        fields => {
+            let fields: String = fields.iter().map(field).collect();
+            format!("Base.@kwdef struct @Type@\n{fields}end\n")
+        }
+    }
+}
+
+fn usage(fields: &[Field]) -> Vec<String> {
+    let values = Field::values(fields, |name, value| format!("{name} = {value}"));
+    vec![
+        format!("system = @module@.@Type@({values})"),
+        "velocity!(v, t, @velocity_of@) = @module@.velocity!(system, v, t, @velocity_of@)"
+            .to_owned(),
+        "force!(f, t, @force_of@) = @module@.force!(system, f, t, @force_of@)".to_owned(),
+    ]
+}

@@ -1,6 +1,7 @@
 //! The notation of each language.
 
 mod c;
+pub(super) mod formulas;
 mod julia;
 mod python;
 mod rust;

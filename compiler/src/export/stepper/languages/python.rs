@@ -1,5 +1,6 @@
 //! Python.
 
+use super::formulas::{Field, Formulas, Functions};
 use super::{Notation, shortest};
 use crate::export::language::table::comments;
 
@@ -25,3 +26,99 @@ pub(super) const NOTATION: Notation = Notation {
     comment: |lines| comments("#", lines),
     remark: |text| format!("# {text}"),
 };
+
+pub(super) const FORMULAS: Formulas = Formulas {
+    template: include_str!("../templates/system.py.txt"),
+    indent: 8,
+    comment: NOTATION.comment,
+    declare,
+    usage,
+    argument: "@half@",
+    start: |_, _, _| String::new(),
+    enough: "",
+    too_few: TOO_FEW,
+    too_few_for_energy: TOO_FEW,
+    clear: "",
+    name: "@name@ = @value@",
+    zero: "@name@ = 0.0",
+    increase: "@target@ += @value@",
+    set: "@target@ = @value@",
+    result: "return @value@",
+    range: "for @index@ in range(@start@, @end@):",
+    end: "",
+    member: "self.@name@",
+    matrix: ["@member@[@i@][@j@]"; 2],
+    length_member: "self.@name@",
+    length: "n",
+    named_length: "@name@",
+    multiple: "(@count@ * @length@)",
+    first: 0,
+    infinity: "math.inf",
+    functions: Functions {
+        root: "math.sqrt",
+        absolute: "abs",
+        logarithm: "math.log",
+        angle: "math.atan2",
+        prefix: "math.",
+    },
+    words: &[
+        "False", "None", "True", "and", "as", "assert", "async", "await", "break", "class",
+        "continue", "def", "del", "elif", "else", "except", "finally", "for", "from", "global",
+        "if", "import", "in", "is", "lambda", "nonlocal", "not", "or", "pass", "raise", "return",
+        "try", "while", "with", "yield", "self", "velocity", "force", "energy",
+    ],
+    types: &[
+        "False",
+        "None",
+        "True",
+        "DoesNotConverge",
+        "NotFinite",
+        "State",
+        "B",
+        "B_TILDE",
+        "C",
+        "MOST_SWEEPS",
+        "MU",
+        "MU_TILDE",
+        "STAGES",
+        "ArithmeticError",
+        "ValueError",
+    ],
+};
+
+const TOO_FEW: &str = "        if @length@ < @least@:
+            raise ValueError(\"the formula needs at least @least@ coordinates\")
+";
+
+fn declare(fields: &[Field], _least: usize) -> String {
+    if fields.is_empty() {
+        return String::new();
+    }
+    // Arguments without a default come first.
+    let (given, others): (Vec<&Field>, Vec<&Field>) =
+        fields.iter().partition(|field| field.default().is_none());
+    let arguments = given
+        .iter()
+        .chain(&others)
+        .map(|field| match field.default() {
+            None => field.name.clone(),
+            Some(value) => format!("{}={value}", field.name),
+        });
+    let arguments: Vec<String> = arguments.collect();
+    let members = fields
+        .iter()
+        .map(|Field { name, .. }| format!("        self.{name} = {name}\n"));
+    let members: String = members.collect();
+    format!(
+        "    def __init__(self, {}):\n{members}\n",
+        arguments.join(", ")
+    )
+}
+
+fn usage(fields: &[Field]) -> Vec<String> {
+    let values = Field::values(fields, |name, value| format!("{name}={value}"));
+    vec![
+        format!("system = @Type@({values})"),
+        "step(state, system.velocity, system.force, t0 + k * h, h)".to_owned(),
+    ]
+}
