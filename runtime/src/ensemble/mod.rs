@@ -69,7 +69,7 @@ use crate::error::Error;
 use crate::integrator::validation::{check_kinetic, check_step_size};
 use crate::integrator::{Integrator, Retry};
 use crate::method::{Method, ProvedFor, RunTimeTableau, Solver, Stopping};
-use crate::number::{Compensated, F64x8, Lanes, Plain, Summation, Vector};
+use crate::number::{Compensated, DefaultLanes, Lanes, Plain, Summation, Vector};
 use crate::state::State;
 use crate::system::System;
 
@@ -103,7 +103,7 @@ type Kind<M, R, N, L> = fn() -> (M, R, N, L);
 /// # Ok(())
 /// # }
 /// ```
-pub struct Ensemble<M, S, V, R = Compensated, N = <S as System<V>>::Solver, L = F64x8>
+pub struct Ensemble<M, S, V, R = Compensated, N = <S as System<V>>::Solver, L = DefaultLanes>
 where
     V: Vector,
     S: System<V>,
@@ -321,10 +321,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         self.of_kind()
     }
 
-    /// The same ensemble with another lane width than [`F64x8`], for example [`F64x4`](crate::simd::F64x4). The results
-    /// do not depend on it.
-    ///
-    /// Eight lanes are fastest even on narrower registers, because the dependency chains of several registers overlap.
+    /// The same ensemble with another lane width than [`DefaultLanes`], for example [`F64x4`](crate::simd::F64x4). The
+    /// results do not depend on it.
     ///
     /// ```
     /// # use symplectic::State;

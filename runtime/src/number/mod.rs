@@ -12,6 +12,7 @@ pub(crate) mod linear_combination;
 pub(crate) mod rank;
 pub(crate) mod rows;
 pub(crate) mod scalar;
+mod sixteen;
 pub(crate) mod summation;
 pub(crate) mod vector;
 pub(crate) mod words;
@@ -23,6 +24,7 @@ pub use linear_combination::{
     weighted_total, weights,
 };
 pub use scalar::Scalar;
+pub use sixteen::{DefaultLanes, F64x16};
 pub use summation::{Compensated, Plain, Summation};
 pub use vector::Vector;
 pub use words::{Visit, Words, scalar_words, vector_words};

@@ -1,7 +1,7 @@
 //! Elementary functions of doubles and of lanes.
 
 use symplectic::Scalar;
-use symplectic::simd::{F64x2, F64x4, F64x8, Lanes};
+use symplectic::simd::{F64x2, F64x4, F64x8, F64x16, Lanes};
 
 /// What is made of sums and products, for one scalar.
 fn functions<T: Scalar>(x: T) -> [T; 7] {
@@ -78,6 +78,7 @@ fn lanes_have_the_bits_of_doubles() {
     check::<F64x2>();
     check::<F64x4>();
     check::<F64x8>();
+    check::<F64x16>();
 }
 
 #[test]
@@ -110,6 +111,7 @@ fn several_angles_at_once_have_the_bits_of_each() {
             check::<F64x2>(of);
             check::<F64x4>(of);
             check::<F64x8>(of);
+            check::<F64x16>(of);
             let one_by_one = [of(0), of(1), of(2)];
             for (x, (sine, cosine)) in one_by_one.into_iter().zip(Scalar::sin_cos_all(one_by_one)) {
                 let (s, c) = Scalar::sin_cos(x);

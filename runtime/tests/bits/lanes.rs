@@ -9,7 +9,7 @@ use crate::common::methods::{
 };
 use crate::common::systems::{Kepler, Product, perihelion};
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
-use symplectic::simd::{F64x2, F64x4, F64x8, Lanes};
+use symplectic::simd::{F64x2, F64x4, F64x8, F64x16, Lanes};
 use symplectic::solver::{FixedPoint, SimdFixedPoint, SimdJacobi, Solver};
 use symplectic::system::SystemInLanes;
 use symplectic::{
@@ -144,6 +144,7 @@ fn functions_are_taken_lane_by_lane() {
     check::<F64x2>();
     check::<F64x4>();
     check::<F64x8>();
+    check::<F64x16>();
 }
 
 /// A force that is not finite beyond q = 1.

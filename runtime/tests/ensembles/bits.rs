@@ -2,7 +2,7 @@
 
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
-use symplectic::simd::{F64x2, F64x4, F64x8};
+use symplectic::simd::{F64x2, F64x4, F64x8, F64x16};
 use symplectic::solver::{FixedPoint, SimdJacobi};
 use symplectic::{
     Compensated, Integrator, Method, Plain, ProvedFor, Separable, State, Summation, System, Vector,
@@ -34,6 +34,10 @@ macro_rules! in_all_lanes {
             }),
             ("8 lanes", {
                 let $ensemble = $make.in_lanes::<F64x8>();
+                $rows
+            }),
+            ("16 lanes", {
+                let $ensemble = $make.in_lanes::<F64x16>();
                 $rows
             }),
         ]

@@ -1,0 +1,200 @@
+//! Sixteen doubles side by side.
+
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use num_traits::{One, Zero};
+
+use crate::number::array::array;
+use crate::number::words::{Visit, words};
+use crate::number::{F64x8, Lanes, Scalar};
+
+/// Sixteen doubles side by side, [`Lanes`], as two groups of eight.
+///
+/// An operation takes several cycles until its result can be used. With two groups in wide registers the processor works on one of
+/// them while it waits for the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct F64x16([F64x8; 2]);
+
+impl F64x16 {
+    #[inline(always)]
+    fn map(self, function: impl Fn(F64x8) -> F64x8) -> Self {
+        let Self([a, b]) = self;
+        Self([function(a), function(b)])
+    }
+
+    #[inline(always)]
+    fn zip(self, other: Self, function: impl Fn(F64x8, F64x8) -> F64x8) -> Self {
+        let (Self([a, b]), Self([c, d])) = (self, other);
+        Self([function(a, c), function(b, d)])
+    }
+}
+
+macro_rules! operators {
+    ($($operator:ident $function:ident $assign:ident $assigning:ident),*) => {
+        $(
+            impl $operator for F64x16 {
+                type Output = Self;
+                #[inline(always)]
+                fn $function(self, other: Self) -> Self {
+                    self.zip(other, $operator::$function)
+                }
+            }
+
+            impl $assign for F64x16 {
+                #[inline(always)]
+                fn $assigning(&mut self, other: Self) {
+                    *self = $operator::$function(*self, other);
+                }
+            }
+        )*
+    };
+}
+
+operators! {
+    Add add AddAssign add_assign, Sub sub SubAssign sub_assign,
+    Mul mul MulAssign mul_assign, Div div DivAssign div_assign
+}
+
+impl Neg for F64x16 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.map(Neg::neg)
+    }
+}
+
+impl Zero for F64x16 {
+    #[inline(always)]
+    fn zero() -> Self {
+        Self([F64x8::zero(); 2])
+    }
+
+    fn is_zero(&self) -> bool {
+        *self == Self::zero()
+    }
+}
+
+impl One for F64x16 {
+    #[inline(always)]
+    fn one() -> Self {
+        Self([F64x8::one(); 2])
+    }
+}
+
+macro_rules! by_halves {
+    ($($function:ident)*) => {
+        $(
+            #[inline(always)]
+            fn $function(self) -> Self {
+                self.map(Scalar::$function)
+            }
+        )*
+    };
+}
+
+impl Scalar for F64x16 {
+    const EPSILON: f64 = f64::EPSILON;
+
+    fn as_words(&mut self, visit: &mut Visit<'_>) {
+        let mut lanes = self.to_array();
+        words!(visit: lanes);
+        *self = Self::from_array(lanes);
+    }
+
+    #[inline(always)]
+    fn from_f64(value: f64) -> Self {
+        Self([F64x8::from_f64(value); 2])
+    }
+
+    #[inline]
+    fn magnitude(self) -> f64 {
+        let [a, b] = self.0.map(Scalar::magnitude);
+        if a >= b || a.is_nan() { a } else { b }
+    }
+
+    #[inline(always)]
+    fn fused(self, factor: Self, term: Self) -> Self {
+        let (Self([a, b]), Self([c, d]), Self([e, f])) = (self, factor, term);
+        Self([a.fused(c, e), b.fused(d, f)])
+    }
+
+    by_halves! { sqrt recip abs sign exp ln sin cos tan asin acos atan sinh cosh tanh }
+
+    #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        self.zip(x, Scalar::atan2)
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let [(a, b), (c, d)] = self.0.map(Scalar::sin_cos);
+        (Self([a, c]), Self([b, d]))
+    }
+}
+
+impl Lanes for F64x16 {
+    type Array = [f64; 16];
+
+    const WIDTH: usize = 16;
+
+    #[inline(always)]
+    fn from_fn(mut lane: impl FnMut(usize) -> f64) -> Self {
+        let first = F64x8::from_fn(&mut lane);
+        Self([first, F64x8::from_fn(|k| lane(8 + k))])
+    }
+
+    #[inline(always)]
+    fn from_array(doubles: [f64; 16]) -> Self {
+        Self::from_fn(|lane| doubles[lane])
+    }
+
+    #[inline(always)]
+    fn to_array(self) -> [f64; 16] {
+        let halves = self.0.map(F64x8::to_array);
+        array(0.0, |lane| halves[lane / 8][lane % 8])
+    }
+
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        self.zip(other, Lanes::larger)
+    }
+
+    #[inline(always)]
+    fn larger_or_nan(self, other: Self) -> Self {
+        self.zip(other, Lanes::larger_or_nan)
+    }
+
+    #[inline(always)]
+    fn largest(self) -> f64 {
+        let [a, b] = self.0.map(Lanes::largest);
+        if a > b { a } else { b }
+    }
+
+    #[inline(always)]
+    fn any_above(self, bound: f64) -> bool {
+        let [a, b] = self.0.map(|half| half.any_above(bound));
+        a | b
+    }
+
+    #[inline(always)]
+    fn all_below(self, bound: f64) -> bool {
+        let [a, b] = self.0.map(|half| Lanes::all_below(half, bound));
+        a & b
+    }
+
+    #[inline(always)]
+    fn any_nan(self) -> bool {
+        let [a, b] = self.0.map(Lanes::any_nan);
+        a | b
+    }
+}
+
+/// The lanes of the trajectories of an ensemble: several registers, so that their chains of dependent operations overlap. These are
+/// sixteen if the target has AVX-512, otherwise eight.
+#[cfg(target_feature = "avx512f")]
+pub type DefaultLanes = F64x16;
+
+/// The lanes of the trajectories of an ensemble: several registers, so that their chains of dependent operations overlap. These are
+/// sixteen if the target has AVX-512, otherwise eight.
+#[cfg(not(target_feature = "avx512f"))]
+pub type DefaultLanes = F64x8;
