@@ -53,6 +53,8 @@
 
 #[cfg(feature = "alloc")]
 mod asynchronous;
+#[cfg(feature = "alloc")]
+mod checkpoint;
 mod composed;
 mod damping;
 mod drift;
@@ -63,7 +65,10 @@ pub mod kepler;
 mod kick;
 #[cfg(feature = "alloc")]
 mod linear;
+mod memory;
 mod ornstein_uhlenbeck;
+#[cfg(feature = "alloc")]
+mod output;
 mod palindrome;
 mod philox;
 mod splitting;
@@ -136,6 +141,36 @@ pub trait Flow<V: Vector> {
         }
         Ok(())
     }
+
+    /// Shows `visit` all words of 64 bits that the flow carries from one call to the next, always in the same order; `visit` may replace
+    /// them. An [`OrnsteinUhlenbeck`] bath has the number of its draws. A flow that depends only on the span and the state has none.
+    ///
+    /// [Checkpoints](FlowIntegrator::checkpoint) store them. A [partial step](FlowIntegrator::state_at) and a step that fails put them back.
+    ///
+    /// ```
+    /// use symplectic::flow::{Flow, FlowError, Span};
+    /// use symplectic::nalgebra::Vector1;
+    ///
+    /// /// A kick in every other call.
+    /// struct EveryOther {
+    ///     calls: u64,
+    /// }
+    ///
+    /// impl Flow<Vector1<f64>> for EveryOther {
+    ///     fn flow(&mut self, span: Span, _q: &mut Vector1<f64>, p: &mut Vector1<f64>) -> Result<(), FlowError> {
+    ///         if self.calls % 2 == 0 {
+    ///             p[0] += 2.0 * span.size;
+    ///         }
+    ///         self.calls += 1;
+    ///         Ok(())
+    ///     }
+    ///
+    ///     fn memory(&mut self, visit: &mut dyn FnMut(&mut u64)) {
+    ///         visit(&mut self.calls);
+    ///     }
+    /// }
+    /// ```
+    fn memory(&mut self, _visit: &mut dyn FnMut(&mut u64)) {}
 }
 
 /// Checks a parameter of a flow: finite, and above 0 or not below it.

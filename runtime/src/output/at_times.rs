@@ -94,7 +94,7 @@ where
 }
 
 /// The last of the times, which come one after the other from `before` on.
-fn check_times(direction: f64, times: &[f64], mut before: f64) -> Result<f64, Error> {
+pub(crate) fn check_times(direction: f64, times: &[f64], mut before: f64) -> Result<f64, Error> {
     for &time in times {
         if !time.is_finite() || is_after(direction, before, time) {
             return Err(Error::OutputTime { time, before });
