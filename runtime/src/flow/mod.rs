@@ -15,6 +15,7 @@
 //! | flow | part | exact |
 //! |---|---|---|
 //! | [`Kick`], [`Drift`] | `U(q)`, `T(p)` of a separable system | yes |
+//! | `MollifiedKick` | `U(Aq)`, with means Aq over the motion of a `Linear` part | yes |
 //! | `Linear` | `z' = Az`, such as `H = pᵀM⁻¹p/2 + qᵀKq/2` | to rounding |
 //! | [`Gyration`] | `p' = p × B(q)` in a magnetic field | yes |
 //! | [`Damping`] | `p' = −γp` | yes |
@@ -58,6 +59,8 @@ mod checkpoint;
 mod composed;
 mod damping;
 mod drift;
+#[cfg(feature = "alloc")]
+mod exponential;
 mod gyration;
 mod integrator;
 #[cfg(feature = "alloc")]
@@ -66,6 +69,8 @@ mod kick;
 #[cfg(feature = "alloc")]
 mod linear;
 mod memory;
+#[cfg(feature = "alloc")]
+mod mollified;
 mod ornstein_uhlenbeck;
 #[cfg(feature = "alloc")]
 mod output;
@@ -84,6 +89,8 @@ pub use integrator::FlowIntegrator;
 pub use kick::Kick;
 #[cfg(feature = "alloc")]
 pub use linear::Linear;
+#[cfg(feature = "alloc")]
+pub use mollified::MollifiedKick;
 pub use ornstein_uhlenbeck::OrnsteinUhlenbeck;
 pub use palindrome::Palindrome;
 pub use splitting::Splitting;

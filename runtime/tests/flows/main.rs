@@ -6,6 +6,7 @@ mod common;
 mod asynchronous;
 mod in_time;
 mod kepler;
+mod mollified;
 mod output;
 mod parts;
 mod planets;
