@@ -31,9 +31,9 @@ use crate::system::{Class, Conservative, Hamiltonian, LaneWork, OverEveryScalar,
 /// explicit method maps the displacement `(δq, δp)` by the derivative of the step itself: two displacements keep their symplectic
 /// product, and `(q, p)` has the bits that it has without a displacement.
 ///
-/// The vectors have twice the dimension: `SVector<f64, 4>` for two positions. It runs like any other system in steps of fixed size, in the
-/// lanes of an [`Ensemble`](crate::ensemble::Ensemble) too. With a monitor of [`adaptive`](crate::adaptive) the displacement would choose
-/// the steps. Systems with friction or constraints, closures and chains have none. Dynamic vectors are allocated in every
+/// The vectors have twice the dimension: `SVector<f64, 4>` for two positions. It runs like any other system, in the lanes of an
+/// [`Ensemble`](crate::ensemble::Ensemble) too. In [steps of variable size](crate::adaptive::Adaptive) the monitor sees `q` only, and the
+/// displacement is mapped by the derivative of each step at its size: to the order of the method, as the variational equations do. Systems with friction or constraints, closures and chains have none. Dynamic vectors are allocated in every
 /// evaluation: prefer fixed ones. Where velocity or force has no derivative, as `|x|` at zero written as a root, a step fails with
 /// [`Error::NonFinite`].
 ///
@@ -200,6 +200,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Vector> System<W> for Tangent<S> {
     type Solver = Automatic;
 
     const FORCED: bool = S::FORCED;
+    const DISPLACED: bool = true;
 
     #[inline(always)]
     fn velocity(&self, time: W::Scalar, q: &W, p: &W, velocity: &mut W) {
