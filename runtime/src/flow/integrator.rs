@@ -238,10 +238,18 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
 fn take<V: Vector<Scalar = f64>, F: Flow<V>>(
     flow: &mut F,
     span: Span,
-    State { q, p, .. }: &mut State<V>,
+    state: &mut State<V>,
 ) -> Result<(), FlowError> {
-    let dimension = q.dimension();
-    flow.flow(span, q, p)?;
+    let dimension = state.q.dimension();
+    flow.flow(span, &mut state.q, &mut state.p)?;
+    check_end(dimension, state)
+}
+
+/// Checks the result of a flow.
+pub(super) fn check_end<V: Vector<Scalar = f64>>(
+    dimension: usize,
+    State { q, p, .. }: &State<V>,
+) -> Result<(), FlowError> {
     super::check_dimension(dimension, q)?;
     super::check_dimension(dimension, p)?;
     let what = if !is_finite(q) {
@@ -255,7 +263,7 @@ fn take<V: Vector<Scalar = f64>, F: Flow<V>>(
 }
 
 /// The error of a step.
-const fn failed(failure: FlowError, span: Span, step: u64) -> Error {
+pub(super) const fn failed(failure: FlowError, span: Span, step: u64) -> Error {
     let (time, step_size) = (span.time, span.size);
     match failure {
         FlowError::NonFinite { what } => Error::NonFinite {

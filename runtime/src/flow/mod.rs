@@ -10,6 +10,8 @@
 //! | [`Substeps`] | `n` steps of size `h/n`, for fast parts | that of the step |
 //! | `Asynchronous` | each of many potentials in steps of its own | 2 |
 //!
+//! A `Corrector` takes the error of first order in a small `B` away from both ends of a run of symmetric steps.
+//!
 //! Flows of parts:
 //!
 //! | flow | part | exact |
@@ -57,6 +59,8 @@ mod asynchronous;
 #[cfg(feature = "alloc")]
 mod checkpoint;
 mod composed;
+#[cfg(feature = "alloc")]
+mod corrector;
 mod damping;
 mod drift;
 #[cfg(feature = "alloc")]
@@ -82,6 +86,8 @@ mod substeps;
 #[cfg(feature = "alloc")]
 pub use asynchronous::{Asynchronous, Elements};
 pub use composed::Composed;
+#[cfg(feature = "alloc")]
+pub use corrector::Corrector;
 pub use damping::Damping;
 pub use drift::Drift;
 pub use gyration::Gyration;

@@ -61,8 +61,8 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// the method; both ends are those of the step, to the bit.
     ///
     /// The shorter step goes the way of the step, so flows that cannot go backward give it too. It costs as much as a step. It starts
-    /// with the [memory](Flow::memory) that the step started with, and leaves it as it is now. So with noise it has the random numbers of the
-    /// step: it has the law of a step of this size from the start, and does not depend on what the run does later as a bridge between both ends would.
+    /// with the [memory](Flow::memory) that the step started with, and then puts the present one back. So noise is that of the random numbers of
+    /// the step. The law of the state is that of a shorter step from the start; it is not a bridge, which would depend on the end too.
     ///
     /// # Errors
     ///

@@ -4,6 +4,7 @@
 mod common;
 
 mod asynchronous;
+mod corrector;
 mod in_time;
 mod kepler;
 mod mollified;
