@@ -12,8 +12,8 @@ const ROOMS: &[&[&str]] = &[
     &["method"],
     &["solver"],
     &["integrator"],
-    &["flow", "output", "rotation", "tangent", "variational"],
-    &["adaptive"],
+    &["output", "rotation", "tangent", "variational"],
+    &["adaptive", "flow"],
     &["ensemble"],
 ];
 

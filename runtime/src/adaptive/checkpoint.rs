@@ -1,7 +1,7 @@
 //! Runs with steps of variable size that are interrupted and go on with the same bits.
 
 use super::integrator::{Adaptive, Controller};
-use super::monitor::{Monitor, Slopes};
+use super::monitor::{Monitor, Slopes, seen};
 use crate::integrator::{Checkpoint, CheckpointError};
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
@@ -31,7 +31,7 @@ where
             unfinished,
             time_low,
         } = self.controller;
-        let [value, slope] = evaluated(&self.monitor, &self.slopes, &self.state().q);
+        let [value, slope] = evaluated(&self.monitor, &self.slopes, seen::<S, V>(&self.state().q));
         let beside = [epsilon, density, unfinished, time_low, value, slope];
         self.integrator.checkpoint_with(KIND, &beside)
     }
@@ -45,7 +45,7 @@ where
         let mut found = [0.0; 6];
         let (monitor, slopes) = (&self.monitor, &self.slopes);
         let mine = |q: &V, words: &[f64]| {
-            let known = evaluated(monitor, slopes, q).map(f64::to_bits);
+            let known = evaluated(monitor, slopes, seen::<S, V>(q)).map(f64::to_bits);
             words[4..].iter().map(|word| word.to_bits()).eq(known)
         };
         self.integrator
@@ -65,8 +65,8 @@ where
 fn evaluated<W: Monitor, V: Vector<Scalar = f64>>(
     monitor: &W,
     slopes: &Slopes<V>,
-    q: &V,
+    q: &[f64],
 ) -> [f64; 2] {
     let slope = slopes.clone().along(monitor, q, q);
-    [monitor.value(q.as_slice()), slope]
+    [monitor.value(q), slope]
 }

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::monitor::{Monitor, Slopes, value_at};
+use super::monitor::{Monitor, Slopes, seen, value_at};
 use crate::error::Error;
 use crate::integrator::validation::{check_state, check_step_size};
 use crate::integrator::{Integrator, Retry};
@@ -191,7 +191,7 @@ where
         }
         check_step_size(epsilon)?;
         let State { time, q, .. } = integrator.state();
-        let value = value_at(&monitor, q).map_err(Error::monitor_at(*time))?;
+        let value = value_at(&monitor, seen::<S, V>(q)).map_err(Error::monitor_at(*time))?;
         let (slopes, velocity) = (Slopes::like(q), q.zeros_like());
         integrator.set_retry(Retry::Never);
         Ok(Self {
@@ -263,11 +263,15 @@ where
             system.velocity(*time, q, p, &mut self.velocity);
             &self.velocity
         };
-        let slope = self.slopes.along(&self.monitor, q, velocity);
+        let slope = self
+            .slopes
+            .along(&self.monitor, seen::<S, V>(q), seen::<S, V>(velocity));
         if slope.is_finite() {
             Ok(-slope)
         } else {
-            Err(Error::monitor_at(*time)(self.monitor.value(q.as_slice())))
+            Err(Error::monitor_at(*time)(
+                self.monitor.value(seen::<S, V>(q)),
+            ))
         }
     }
 
@@ -321,7 +325,7 @@ where
     fn restarted(&self, state: &State<V>) -> Result<Controller, Error> {
         let State { time, q, p } = state;
         check_state(*time, q, p, self.integrator.state().q.dimension())?;
-        let value = value_at(&self.monitor, q).map_err(Error::monitor_at(*time))?;
+        let value = value_at(&self.monitor, seen::<S, V>(q)).map_err(Error::monitor_at(*time))?;
         Ok(Controller::new(self.controller.epsilon, value))
     }
 }
@@ -347,6 +351,11 @@ where
     /// The size of the last step; before the first step `ε σ(q)`. Negative where the steps go backward.
     pub fn step_size(&self) -> f64 {
         self.controller.step_size()
+    }
+
+    /// Number of steps taken.
+    pub const fn steps(&self) -> u64 {
+        self.integrator.steps()
     }
 
     /// The ε of the run, negative where its steps go backward.

@@ -2,7 +2,7 @@
 
 use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
-use crate::system::{Hamiltonian, Separable};
+use crate::system::{Hamiltonian, Separable, System};
 
 /// A monitor σ(q) > 0: steps are as long as `σ(q)` says, in units of the ε that a run is given.
 ///
@@ -204,14 +204,20 @@ fn power<T: Scalar>(x: T, exponent: f64) -> T {
 }
 
 /// The value of a monitor at a position; an error, with the value, where it is not finite and positive.
-pub(super) fn value_at<W: Monitor, V: Vector<Scalar = f64>>(
-    monitor: &W,
-    q: &V,
-) -> Result<f64, f64> {
-    let value = monitor.value(q.as_slice());
+pub(super) fn value_at<W: Monitor>(monitor: &W, q: &[f64]) -> Result<f64, f64> {
+    let value = monitor.value(q);
     // Nor may 1/σ overflow.
     let sound = value > 0.0 && value.is_finite() && value.recip().is_finite();
     if sound { Ok(value) } else { Err(value) }
+}
+
+/// The positions of a system that a monitor sees.
+pub(super) fn seen<S: System<V>, V: Vector>(q: &V) -> &[V::Scalar] {
+    let q = q.as_slice();
+    match S::DISPLACED {
+        true => &q[..q.len() / 2],
+        false => q,
+    }
 }
 
 /// Room for the derivatives of a monitor.
@@ -230,14 +236,13 @@ impl<V: Vector<Scalar = f64>> Slopes<V> {
     }
 
     /// `∇ ln σ · direction`; NaN where σ is seen not to be positive.
-    pub(super) fn along<W: Monitor>(&mut self, monitor: &W, q: &V, direction: &V) -> f64 {
-        let (q, direction) = (q.as_slice(), direction.as_slice());
-        let gradient = self.gradient.as_mut_slice();
+    pub(super) fn along<W: Monitor>(&mut self, monitor: &W, q: &[f64], direction: &[f64]) -> f64 {
+        let gradient = &mut self.gradient.as_mut_slice()[..q.len()];
         if monitor.logarithmic_gradient(q, gradient) {
             let products = gradient.iter().zip(direction).map(|(g, d)| g * d);
             return products.fold(0.0, |sum, product| sum + product);
         }
-        let duals = self.duals.as_mut_slice();
+        let duals = &mut self.duals.as_mut_slice()[..q.len()];
         for ((dual, &value), &first) in duals.iter_mut().zip(q).zip(direction) {
             *dual = HyperDual::new(value, first, 0.0);
         }

@@ -103,7 +103,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
         state: &State<S::Vector<f64>>,
     ) -> Result<State<V>, Error> {
         let energy = energy_of(&self.system, state)?;
-        value_at(&self.monitor, &state.q).map_err(Error::monitor_at(state.time))?;
+        value_at(&self.monitor, state.q.as_slice()).map_err(Error::monitor_at(state.time))?;
         extended(state, -energy)
     }
 
@@ -149,7 +149,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
         };
         room.of_system.set_q(q);
         room.of_system.set_p(p);
-        let value = value_at(&self.monitor, &room.of_system.q);
+        let value = value_at(&self.monitor, room.of_system.q.as_slice());
         let seen = value.map(|value| look(value, &mut room));
         self.room.set(Some(room));
         // NaN comes of evaluations that failed before.

@@ -59,4 +59,8 @@ impl<V: Vector, F: Flow<V>> Flow<V> for Composed<F> {
         });
         self.step.flow_through(parts, q, p)
     }
+
+    fn memory(&mut self, visit: &mut dyn FnMut(&mut u64)) {
+        self.step.memory(visit);
+    }
 }

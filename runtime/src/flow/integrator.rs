@@ -1,16 +1,19 @@
 //! Steps of a flow.
 
+use super::memory::Memory;
 use super::{Flow, FlowError, Span};
 use crate::error::{Error, Quantity};
 use crate::integrator::pace::{Pace, Stepper};
 use crate::integrator::validation::check_state;
 use crate::method::storage::is_finite;
+use crate::number::words::{Visit, Words, words};
 use crate::number::{Vector, copy};
 use crate::state::State;
 
 /// Takes steps of a [`Flow`] that consists of others: a [`Splitting`](super::Splitting), a [`Palindrome`](super::Palindrome), …
 ///
-/// A step that fails leaves the state as it was. Sums are plain. No step allocates, if the flows do not.
+/// A step that fails leaves the state as it was. Sums are plain. No step allocates, if the flows do not. A clone, where the flow can be
+/// cloned, goes on with the same bits.
 ///
 /// ```
 /// symplectic::tableau! { Verlet { base: velocity-verlet } }
@@ -30,11 +33,36 @@ use crate::state::State;
 /// ```
 #[derive(Clone, Debug)]
 pub struct FlowIntegrator<V, F> {
-    flow: F,
-    pace: Pace,
-    state: State<V>,
-    /// Position and momentum before the step.
-    before: (V, V),
+    pub(super) flow: F,
+    pub(super) course: Course<V>,
+    /// Room for the memory of the flow during a partial step.
+    #[cfg(feature = "alloc")]
+    present: Memory,
+}
+
+/// What the steps change, beside the flow.
+#[derive(Clone, Debug)]
+pub(super) struct Course<V> {
+    pub(super) pace: Pace,
+    pub(super) state: State<V>,
+    /// Position and momentum before the last step.
+    pub(super) before: (V, V),
+    pub(super) last: Option<Last>,
+    /// The memory of the flow before the last step.
+    pub(super) memory: Memory,
+}
+
+/// The last step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Last {
+    pub(super) start: f64,
+    pub(super) size: f64,
+}
+
+impl Words for Last {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        words!(visit: self.start, self.size);
+    }
 }
 
 impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
@@ -43,13 +71,21 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// # Errors
     ///
     /// [`Error::StepSize`], [`Error::Dimension`], [`Error::NonFiniteState`].
-    pub fn new(flow: F, state: State<V>, step_size: f64) -> Result<Self, Error> {
+    pub fn new(mut flow: F, state: State<V>, step_size: f64) -> Result<Self, Error> {
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
+        let mut memory = Memory::default();
+        memory.keep(&mut flow);
         Ok(Self {
             flow,
-            pace: Pace::new(state.time, step_size)?,
-            before: (state.q.clone(), state.p.clone()),
-            state,
+            course: Course {
+                pace: Pace::new(state.time, step_size)?,
+                before: (state.q.clone(), state.p.clone()),
+                last: None,
+                memory,
+                state,
+            },
+            #[cfg(feature = "alloc")]
+            present: Memory::default(),
         })
     }
 
@@ -60,7 +96,32 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// [`Error::Flow`], [`Error::NonFinite`], [`Error::TimeResolution`]; the state is untouched.
     pub fn step(&mut self) -> Result<&State<V>, Error> {
         self.one_step()?;
-        Ok(&self.state)
+        Ok(&self.course.state)
+    }
+
+    /// Takes `count` steps and returns the state after them.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`step`](Self::step); the state is then that of the last good step.
+    pub fn take_steps(&mut self, count: u64) -> Result<&State<V>, Error> {
+        for _ in 0..count {
+            self.one_step()?;
+        }
+        Ok(&self.course.state)
+    }
+
+    /// An endless iterator over the states after each step, cloned. After an error there are no more items.
+    pub fn states(&mut self) -> impl Iterator<Item = Result<State<V>, Error>> {
+        let mut failed = false;
+        core::iter::from_fn(move || {
+            if failed {
+                return None;
+            }
+            let state = self.step().cloned();
+            failed = state.is_err();
+            Some(state)
+        })
     }
 
     /// Goes to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or backward.
@@ -70,17 +131,45 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last good step.
     pub fn integrate_to(&mut self, end: f64) -> Result<&State<V>, Error> {
         self.steps_to(end)?;
-        Ok(&self.state)
+        Ok(&self.course.state)
+    }
+
+    /// [`integrate_to`](Self::integrate_to) that calls `observe` with the state after every step.
+    ///
+    /// # Errors
+    ///
+    /// As for [`integrate_to`](Self::integrate_to).
+    pub fn integrate_with<O: FnMut(&State<V>)>(
+        &mut self,
+        end: f64,
+        mut observe: O,
+    ) -> Result<&State<V>, Error> {
+        self.steps_in_sight(end, |run| observe(&run.course.state))?;
+        Ok(&self.course.state)
     }
 
     /// The present state.
     pub const fn state(&self) -> &State<V> {
-        &self.state
+        &self.course.state
     }
 
     /// The present state, moved out.
     pub fn into_state(self) -> State<V> {
-        self.state
+        self.course.state
+    }
+
+    /// Replaces the present state by another one of the same dimension. The [memory](Flow::memory) of the flow stays.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Dimension`], [`Error::NonFiniteState`]; the state is then untouched.
+    pub fn set_state(&mut self, state: State<V>) -> Result<(), Error> {
+        let dimension = self.course.state.q.dimension();
+        check_state(state.time, &state.q, &state.p, dimension)?;
+        self.course.pace.restart(state.time);
+        self.course.state = state;
+        self.course.last = None;
+        Ok(())
     }
 
     /// The flow of a step.
@@ -90,12 +179,12 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
 
     /// The step size.
     pub const fn step_size(&self) -> f64 {
-        self.pace.step_size()
+        self.course.pace.step_size()
     }
 
     /// Steps taken.
     pub const fn steps(&self) -> u64 {
-        self.pace.taken()
+        self.course.pace.taken()
     }
 
     /// Changes the step size; negative to go backward.
@@ -104,61 +193,129 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     ///
     /// [`Error::StepSize`]; the one before then holds.
     pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
-        self.pace.set_step_size(self.state.time, step_size)
+        let time = self.course.state.time;
+        self.course.pace.set_step_size(time, step_size)
     }
 
-    /// What is wrong with the result of a step.
-    fn check(&self) -> Result<(), FlowError> {
-        let State { q, p, .. } = &self.state;
-        let expected = self.before.0.dimension();
-        super::check_dimension(expected, q)?;
-        super::check_dimension(expected, p)?;
-        let what = if !is_finite(q) {
-            Quantity::Position
-        } else if !is_finite(p) {
-            Quantity::Momentum
-        } else {
+    /// Writes the state at a time of the last step, or at the present one.
+    #[cfg(feature = "alloc")]
+    pub(super) fn look_at(&mut self, time: f64, out: &mut State<V>) -> Result<(), Error> {
+        let Course {
+            state,
+            before,
+            last,
+            memory,
+            pace,
+        } = &self.course;
+        out.time = time;
+        if time == state.time {
+            copy(&mut out.q, &state.q);
+            copy(&mut out.p, &state.p);
             return Ok(());
+        }
+        let (Last { start, size }, end) = (last.ok_or(Error::NoStep)?, state.time);
+        if !(start.min(end) <= time && time <= start.max(end)) {
+            return Err(Error::OutsideStep { time, start, end });
+        }
+        copy(&mut out.q, &before.0);
+        copy(&mut out.p, &before.1);
+        if time == start {
+            return Ok(());
+        }
+        let span = Span {
+            time: start,
+            size: size * ((time - start) / (end - start)),
         };
-        Err(FlowError::NonFinite { what })
+        self.present.keep(&mut self.flow);
+        memory.put_back(&mut self.flow);
+        let taken = take(&mut self.flow, span, out);
+        self.present.put_back(&mut self.flow);
+        taken.map_err(|failure| failed(failure, span, pace.taken()))
+    }
+}
+
+/// Takes a flow, and checks the result.
+fn take<V: Vector<Scalar = f64>, F: Flow<V>>(
+    flow: &mut F,
+    span: Span,
+    state: &mut State<V>,
+) -> Result<(), FlowError> {
+    let dimension = state.q.dimension();
+    flow.flow(span, &mut state.q, &mut state.p)?;
+    check_end(dimension, state)
+}
+
+/// Checks the result of a flow.
+pub(super) fn check_end<V: Vector<Scalar = f64>>(
+    dimension: usize,
+    State { q, p, .. }: &State<V>,
+) -> Result<(), FlowError> {
+    super::check_dimension(dimension, q)?;
+    super::check_dimension(dimension, p)?;
+    let what = if !is_finite(q) {
+        Quantity::Position
+    } else if !is_finite(p) {
+        Quantity::Momentum
+    } else {
+        return Ok(());
+    };
+    Err(FlowError::NonFinite { what })
+}
+
+/// The error of a step.
+pub(super) const fn failed(failure: FlowError, span: Span, step: u64) -> Error {
+    let (time, step_size) = (span.time, span.size);
+    match failure {
+        FlowError::NonFinite { what } => Error::NonFinite {
+            time,
+            step_size,
+            step,
+            what,
+            stage: None,
+        },
+        failure => Error::Flow {
+            time,
+            step_size,
+            step,
+            failure,
+        },
     }
 }
 
 impl<V: Vector<Scalar = f64>, F: Flow<V>> Stepper for FlowIntegrator<V, F> {
     fn pace(&mut self) -> &mut Pace {
-        &mut self.pace
+        &mut self.course.pace
     }
 
     fn time(&self) -> f64 {
-        self.state.time
+        self.course.state.time
     }
 
     fn advance(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
-        let State { time, q, p } = &mut self.state;
-        let (time, step_size) = (*time, size);
-        copy(&mut self.before.0, q);
-        copy(&mut self.before.1, p);
-        let outcome = self.flow.flow(Span { time, size }, q, p);
-        if let Err(failure) = outcome.and_then(|()| self.check()) {
-            self.state.q.clone_from(&self.before.0);
-            self.state.p.clone_from(&self.before.1);
-            return Err(match failure {
-                FlowError::NonFinite { what } => Error::NonFinite {
-                    time,
-                    step_size,
-                    step: number,
-                    what,
-                    stage: None,
-                },
-                failure => Error::Flow {
-                    time,
-                    step_size,
-                    step: number,
-                    failure,
-                },
-            });
+        let Course {
+            state,
+            before,
+            last,
+            memory,
+            ..
+        } = &mut self.course;
+        let span = Span {
+            time: state.time,
+            size,
+        };
+        copy(&mut before.0, &state.q);
+        copy(&mut before.1, &state.p);
+        memory.keep(&mut self.flow);
+        if let Err(failure) = take(&mut self.flow, span, state) {
+            state.q.clone_from(&before.0);
+            state.p.clone_from(&before.1);
+            memory.put_back(&mut self.flow);
+            *last = None;
+            return Err(failed(failure, span, number));
         }
-        self.state.time = end;
+        let start = state.time;
+        *last = Some(Last { start, size });
+        state.time = end;
         Ok(())
     }
 }

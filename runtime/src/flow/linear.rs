@@ -4,10 +4,10 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use nalgebra::DMatrix;
-use num_traits::Float;
 
+use super::exponential::exponential;
 use super::{Flow, FlowError, Span, check_count, check_dimension, check_parameter};
-use crate::error::{Error, Quantity};
+use crate::error::Error;
 use crate::number::Vector;
 
 /// The flow of a linear system: `z' = Az` with `z = (q, p)`, so `z ← e^{hA} z`.
@@ -42,12 +42,6 @@ pub struct Linear {
 
 /// Durations that are kept.
 const MOST: usize = 64;
-
-/// The relative error of an exponential that is too large.
-const LARGEST_ERROR: f64 = 1e-3;
-
-/// The highest power of the exponential series.
-const POWERS: u32 = 15;
 
 impl Linear {
     /// The system with this matrix, of 2n rows and columns.
@@ -102,39 +96,30 @@ impl Linear {
         }))
     }
 
-    /// `e^{hA} − 1`.
-    fn exponential(&self, h: f64) -> Result<Vec<f64>, FlowError> {
-        let n = self.size;
-        let column = |j: usize| (0..n).map(|i| self.matrix[i * n + j].abs()).sum::<f64>();
-        let norm = (0..n).map(column).fold(0.0, f64::max) * h.abs();
-        let error = norm * n as f64 * f64::EPSILON;
-        if error.is_nan() || error > LARGEST_ERROR {
-            return Err(FlowError::Other {
-                reason: "the step is so long that less than three digits of the linear flow are known; take a smaller step",
-            });
+    /// Number of components of the position.
+    pub(super) const fn dimension(&self) -> usize {
+        self.size / 2
+    }
+
+    /// The means of the positions over the time `duration` of the motion that starts at rest, as a matrix, row by row, that takes the
+    /// first positions to them: `1/τ ∫_0^τ e^{sA} ds`, its rows and columns of positions, from `e^{τB}` with `B = (A, 1; 0, 0)`.
+    pub(super) fn mean_positions(&self, duration: f64) -> Result<Vec<f64>, FlowError> {
+        let (n, size) = (self.size / 2, self.size);
+        let rows = size + n;
+        let mut extended = vec![0.0; rows * rows];
+        for (i, row) in self.matrix.chunks_exact(size.max(1)).enumerate() {
+            extended[i * rows..i * rows + size].copy_from_slice(row);
         }
-        let (mut scale, mut squarings) = (1.0, 0);
-        while norm * scale > 0.5 {
-            scale /= 2.0;
-            squarings += 1;
-        }
-        let x: Vec<f64> = self.matrix.iter().map(|a| a * h * scale).collect();
-        // X(1 + X/2 (1 + X/3 (1 + …))).
-        let mut sum = x.clone();
-        for power in (2..=POWERS).rev() {
-            let mut inner: Vec<f64> = sum.iter().map(|e| e / f64::from(power)).collect();
-            (0..n).for_each(|i| inner[i * n + i] += 1.0);
-            sum = product(n, &x, &inner);
-        }
-        for _ in 0..squarings {
-            let square = product(n, &sum, &sum);
-            sum.iter_mut()
-                .zip(square)
-                .for_each(|(e, square)| *e = 2.0 * *e + square);
-        }
-        let what = Quantity::Derivative;
-        let finite = sum.iter().all(|e| Float::is_finite(*e));
-        finite.then_some(sum).ok_or(FlowError::NonFinite { what })
+        (0..n).for_each(|i| extended[i * rows + size + i] = 1.0);
+        let exponential = exponential(rows, &extended, duration)?;
+        let mean = |place: usize| {
+            let (i, j) = (place / n, place % n);
+            match duration == 0.0 {
+                true => f64::from(i == j),
+                false => exponential[i * rows + size + j] / duration,
+            }
+        };
+        Ok((0..n * n).map(mean).collect())
     }
 
     /// The place of `e^{hA} − 1` among those that are kept.
@@ -142,22 +127,13 @@ impl Linear {
         if let Some(found) = self.exponentials.iter().position(|(size, _)| *size == h) {
             return Ok(found);
         }
-        let exponential = self.exponential(h)?;
+        let exponential = exponential(self.size, &self.matrix, h)?;
         if self.exponentials.len() == MOST {
             self.exponentials.clear();
         }
         self.exponentials.push((h, exponential));
         Ok(self.exponentials.len() - 1)
     }
-}
-
-/// The product of two matrices of n rows.
-fn product(n: usize, left: &[f64], right: &[f64]) -> Vec<f64> {
-    let entry = |place: usize| {
-        let (i, j) = (place / n, place % n);
-        (0..n).map(|k| left[i * n + k] * right[k * n + j]).sum()
-    };
-    (0..n * n).map(entry).collect()
 }
 
 impl<V: Vector<Scalar = f64>> Flow<V> for Linear {

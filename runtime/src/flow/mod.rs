@@ -10,11 +10,14 @@
 //! | [`Substeps`] | `n` steps of size `h/n`, for fast parts | that of the step |
 //! | `Asynchronous` | each of many potentials in steps of its own | 2 |
 //!
+//! A `Corrector` takes the error of first order in a small `B` away from both ends of a run of symmetric steps.
+//!
 //! Flows of parts:
 //!
 //! | flow | part | exact |
 //! |---|---|---|
 //! | [`Kick`], [`Drift`] | `U(q)`, `T(p)` of a separable system | yes |
+//! | `MollifiedKick` | `U(Aq)`, with means Aq over the motion of a `Linear` part | yes |
 //! | `Linear` | `z' = Az`, such as `H = pᵀM⁻¹p/2 + qᵀKq/2` | to rounding |
 //! | [`Gyration`] | `p' = p × B(q)` in a magnetic field | yes |
 //! | [`Damping`] | `p' = −γp` | yes |
@@ -53,9 +56,15 @@
 
 #[cfg(feature = "alloc")]
 mod asynchronous;
+#[cfg(feature = "alloc")]
+mod checkpoint;
 mod composed;
+#[cfg(feature = "alloc")]
+mod corrector;
 mod damping;
 mod drift;
+#[cfg(feature = "alloc")]
+mod exponential;
 mod gyration;
 mod integrator;
 #[cfg(feature = "alloc")]
@@ -63,7 +72,12 @@ pub mod kepler;
 mod kick;
 #[cfg(feature = "alloc")]
 mod linear;
+mod memory;
+#[cfg(feature = "alloc")]
+mod mollified;
 mod ornstein_uhlenbeck;
+#[cfg(feature = "alloc")]
+mod output;
 mod palindrome;
 mod philox;
 mod splitting;
@@ -72,6 +86,8 @@ mod substeps;
 #[cfg(feature = "alloc")]
 pub use asynchronous::{Asynchronous, Elements};
 pub use composed::Composed;
+#[cfg(feature = "alloc")]
+pub use corrector::Corrector;
 pub use damping::Damping;
 pub use drift::Drift;
 pub use gyration::Gyration;
@@ -79,6 +95,8 @@ pub use integrator::FlowIntegrator;
 pub use kick::Kick;
 #[cfg(feature = "alloc")]
 pub use linear::Linear;
+#[cfg(feature = "alloc")]
+pub use mollified::MollifiedKick;
 pub use ornstein_uhlenbeck::OrnsteinUhlenbeck;
 pub use palindrome::Palindrome;
 pub use splitting::Splitting;
@@ -136,6 +154,36 @@ pub trait Flow<V: Vector> {
         }
         Ok(())
     }
+
+    /// Shows `visit` all words of 64 bits that the flow carries from one call to the next, always in the same order; `visit` may replace
+    /// them. An [`OrnsteinUhlenbeck`] bath has the number of its draws. A flow that depends only on the span and the state has none.
+    ///
+    /// [Checkpoints](FlowIntegrator::checkpoint) store them. A [partial step](FlowIntegrator::state_at) and a step that fails put them back.
+    ///
+    /// ```
+    /// use symplectic::flow::{Flow, FlowError, Span};
+    /// use symplectic::nalgebra::Vector1;
+    ///
+    /// /// A kick in every other call.
+    /// struct EveryOther {
+    ///     calls: u64,
+    /// }
+    ///
+    /// impl Flow<Vector1<f64>> for EveryOther {
+    ///     fn flow(&mut self, span: Span, _q: &mut Vector1<f64>, p: &mut Vector1<f64>) -> Result<(), FlowError> {
+    ///         if self.calls % 2 == 0 {
+    ///             p[0] += 2.0 * span.size;
+    ///         }
+    ///         self.calls += 1;
+    ///         Ok(())
+    ///     }
+    ///
+    ///     fn memory(&mut self, visit: &mut dyn FnMut(&mut u64)) {
+    ///         visit(&mut self.calls);
+    ///     }
+    /// }
+    /// ```
+    fn memory(&mut self, _visit: &mut dyn FnMut(&mut u64)) {}
 }
 
 /// Checks a parameter of a flow: finite, and above 0 or not below it.

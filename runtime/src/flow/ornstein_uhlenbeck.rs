@@ -15,8 +15,8 @@ use crate::number::{Scalar, Vector};
 /// averages over positions are the most precise ones among these splittings (Leimkuhler & Matthews, *Appl. Math. Res. Express* 2013, 34).
 ///
 /// The random numbers are those of a counter, Philox-4×32-10: they depend on the seed, the number of the [draw](Self::draws) and the component
-/// only, and are the same on every machine. Every flow takes a draw, also one of a step that fails in another flow.
-/// Several baths in one step need different seeds.
+/// only, and are the same on every machine. Every flow takes a draw. A [`FlowIntegrator`](super::FlowIntegrator) takes back those of a step
+/// that fails, with the feature `alloc`. Several baths in one step need different seeds.
 ///
 /// ```
 /// symplectic::tableau! { Verlet { base: velocity-verlet } }
@@ -98,5 +98,9 @@ impl<V: Vector<Scalar = f64>, W: AsRef<[f64]>> Flow<V> for OrnsteinUhlenbeck<W> 
         }
         self.draws += 1;
         Ok(())
+    }
+
+    fn memory(&mut self, visit: &mut dyn FnMut(&mut u64)) {
+        visit(&mut self.draws);
     }
 }

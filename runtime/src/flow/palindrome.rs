@@ -65,4 +65,9 @@ impl<V: Vector, A: Flow<V>, B: Flow<V>> Flow<V> for Palindrome<A, B> {
             self.outer.flow(Span::about(time, size), q, p)
         })
     }
+
+    fn memory(&mut self, visit: &mut dyn FnMut(&mut u64)) {
+        self.outer.memory(visit);
+        self.inner.memory(visit);
+    }
 }

@@ -111,6 +111,11 @@ impl<V: Vector, M: Method, A: Flow<V>, B: Flow<V>> Flow<V> for Splitting<M, A, B
         moves.take_what_waits();
         moves.outcome
     }
+
+    fn memory(&mut self, visit: &mut dyn FnMut(&mut u64)) {
+        self.drift.memory(visit);
+        self.kick.memory(visit);
+    }
 }
 
 /// The plan of the method steps a system with one component, which stands still: only its coefficients count.

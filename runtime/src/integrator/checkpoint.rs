@@ -88,9 +88,9 @@ pub enum CheckpointError {
         expected: String,
     },
 
-    /// The system gives another velocity or force at the state of the checkpoint.
+    /// The system gives another velocity, force or flow at the state of the checkpoint.
     #[error(
-        "the system gives another velocity or force at the state of the checkpoint: it is another system, or has other parameters"
+        "the system gives another velocity, force or flow at the state of the checkpoint: it is another system, or has other parameters"
     )]
     OtherSystem,
 
@@ -105,6 +105,58 @@ pub enum CheckpointError {
 const DAMAGED: fn(&'static str) -> CheckpointError = |reason| CheckpointError::Damaged { reason };
 
 impl Checkpoint {
+    /// A checkpoint without words, of steps of a flow.
+    pub(crate) fn of_flow(dimension: usize) -> Self {
+        Self {
+            version: env!("CARGO_PKG_VERSION").to_string(),
+            method: "steps of a flow".to_string(),
+            definition: String::new(),
+            scalar: f64::SAVED_AS.unwrap_or_default().to_string(),
+            sums: "plain".to_string(),
+            solver: String::new(),
+            dimension,
+            words: String::new(),
+            checksum: String::new(),
+        }
+    }
+
+    /// Fills a checkpoint with the words that `show` shows.
+    pub(crate) fn filled(mut self, show: impl FnOnce(&mut Visit<'_>)) -> Self {
+        let words = &mut self.words;
+        show(&mut |word| {
+            // Writing to a string does not fail.
+            let _ = write!(words, "{word:016x}");
+        });
+        self.checksum = self.sum();
+        self
+    }
+
+    /// Lets `take` replace its words by those of this checkpoint, which has to have as many, and the other fields of `own`.
+    pub(crate) fn read(
+        &self,
+        own: &Self,
+        take: impl FnOnce(&mut Visit<'_>),
+    ) -> Result<(), CheckpointError> {
+        for ((what, found), (_, expected)) in self.header().into_iter().zip(own.header()) {
+            if found != expected {
+                return Err(CheckpointError::OtherRun {
+                    what,
+                    found,
+                    expected,
+                });
+            }
+        }
+        let (mut words, mut missing) = (self.decoded()?.into_iter(), false);
+        take(&mut |word| match words.next() {
+            Some(found) => *word = found,
+            None => missing = true,
+        });
+        if missing || words.next().is_some() {
+            return Err(DAMAGED("it has not as many words as this run"));
+        }
+        Ok(())
+    }
+
     /// All fields except the words and the checksum, with their names.
     fn header(&self) -> [(&'static str, String); 7] {
         [
@@ -166,16 +218,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         kind: &str,
         beside: &[f64],
     ) -> Result<Checkpoint, CheckpointError> {
-        let mut checkpoint = self.blank_checkpoint(kind)?;
         let mut run = self.all_that_changes();
-        let mut add = |word: u64| {
-            // Writing to a string does not fail.
-            let _ = write!(checkpoint.words, "{word:016x}");
-        };
-        run.words(&mut |word| add(*word));
-        beside.iter().for_each(|value| add(value.to_bits()));
-        checkpoint.checksum = checkpoint.sum();
-        Ok(checkpoint)
+        Ok(self.blank_checkpoint(kind)?.filled(|visit| {
+            run.words(visit);
+            beside.iter().for_each(|value| visit(&mut value.to_bits()));
+        }))
     }
 
     /// Continues from a checkpoint of an integrator that was created in the same way: with the same method, system, sums and solver, for
@@ -197,27 +244,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         beside: &mut [f64],
         mine: impl FnOnce(&V, &[f64]) -> bool,
     ) -> Result<(), CheckpointError> {
-        let own = self.blank_checkpoint(kind)?.header();
-        for ((what, found), (_, expected)) in checkpoint.header().into_iter().zip(own) {
-            if found != expected {
-                return Err(CheckpointError::OtherRun {
-                    what,
-                    found,
-                    expected,
-                });
-            }
-        }
-        let mut words = checkpoint.decoded()?.into_iter();
-        let (mut run, mut missing) = (self.all_that_changes(), false);
-        let mut read = |word: &mut u64| match words.next() {
-            Some(found) => *word = found,
-            None => missing = true,
-        };
-        run.words(&mut read);
-        beside.words(&mut read);
-        if missing || words.next().is_some() {
-            return Err(DAMAGED("it has not as many words as this run"));
-        }
+        let mut run = self.all_that_changes();
+        checkpoint.read(&self.blank_checkpoint(kind)?, |visit| {
+            run.words(visit);
+            beside.words(visit);
+        })?;
         let known = run.evaluations == run.evaluated(&self.system);
         if !known || !mine(&run.course.state.q, beside) {
             return Err(CheckpointError::OtherSystem);
@@ -336,21 +367,24 @@ impl<V: Vector, T: StageStorage<V>> Run<V, T> {
         self.retry = halvings.map_or(Retry::Never, |halvings| Retry::Split { halvings });
     }
 
-    /// Hashes of velocity and force at the state. The upper half of each product is folded onto the lower half; otherwise the hash could
-    /// miss changed signs of two components.
+    /// Hashes of velocity and force at the state.
     fn evaluated<S: System<V>>(&self, system: &S) -> [u64; 2] {
         let State { time, q, p } = &self.course.state;
         let time = V::Scalar::from_f64(*time);
         let mut found = [q.zeros_like(), q.zeros_like()];
         system.velocity(time, q, p, &mut found[0]);
         system.force(time, q, p, &mut found[1]);
-        found.map(|mut vector| {
-            let mut brief = 0_u64;
-            vector_words(core::slice::from_mut(&mut vector), &mut |word| {
-                let product = (brief ^ *word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-                brief = product ^ (product >> 32);
-            });
-            brief
-        })
+        found.map(|mut vector| hash(core::slice::from_mut(&mut vector)))
     }
+}
+
+/// A hash of vectors. The upper half of each product is folded onto the lower half; otherwise it could miss changed signs of two
+/// components.
+pub(crate) fn hash<V: Vector>(vectors: &mut [V]) -> u64 {
+    let mut brief = 0_u64;
+    vector_words(vectors, &mut |word| {
+        let product = (brief ^ *word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        brief = product ^ (product >> 32);
+    });
+    brief
 }

@@ -31,7 +31,7 @@ use crate::state::State;
 use crate::system::{Class, System};
 
 #[cfg(feature = "alloc")]
-mod checkpoint;
+pub(crate) mod checkpoint;
 mod many_steps;
 mod memory;
 mod one_step;

@@ -3,6 +3,7 @@
 use super::clock::{Clock, uniform};
 use super::validation::check_step_size;
 use crate::error::Error;
+use crate::number::words::{Visit, Words, words};
 
 /// The step size, the times of the steps, and their number.
 #[derive(Clone, Copy, Debug)]
@@ -10,6 +11,12 @@ pub(crate) struct Pace {
     step_size: f64,
     clock: Clock,
     taken: u64,
+}
+
+impl Words for Pace {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        words!(visit: self.step_size, self.clock, self.taken);
+    }
 }
 
 impl Pace {
@@ -41,6 +48,11 @@ impl Pace {
         };
         Ok(())
     }
+
+    /// Steps of the same size from `time` on.
+    pub(crate) const fn restart(&mut self, time: f64) {
+        self.clock = Clock::new(time, self.step_size);
+    }
 }
 
 /// An integrator that takes steps.
@@ -62,16 +74,23 @@ pub(crate) trait Stepper {
 
     /// Takes the smallest number of equal steps to `end` that are no longer than the step size.
     fn steps_to(&mut self, end: f64) -> Result<(), Error> {
+        self.steps_in_sight(end, |_| {})
+    }
+
+    /// [`steps_to`](Self::steps_to) that calls `see` after every step.
+    fn steps_in_sight(&mut self, end: f64, mut see: impl FnMut(&Self)) -> Result<(), Error> {
         let start = self.time();
         let step_size = self.pace().step_size;
         let (count, size) = uniform(start, end, step_size)?;
         let clock = Clock::new(start, size);
         let outcome = (1..=count).try_for_each(|number| {
             let last = number == count;
-            self.counted(size, if last { end } else { clock.later(number) })
+            self.counted(size, if last { end } else { clock.later(number) })?;
+            see(self);
+            Ok(())
         });
         let time = self.time();
-        self.pace().clock = Clock::new(time, step_size);
+        self.pace().restart(time);
         outcome
     }
 

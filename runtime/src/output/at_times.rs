@@ -93,7 +93,7 @@ where
 }
 
 /// Checks that the times are finite and ordered, starting from `before`, and returns the last of them.
-fn check_times(direction: f64, times: &[f64], mut before: f64) -> Result<f64, Error> {
+pub(crate) fn check_times(direction: f64, times: &[f64], mut before: f64) -> Result<f64, Error> {
     for &time in times {
         if !time.is_finite() || is_after(direction, before, time) {
             return Err(Error::OutputTime { time, before });

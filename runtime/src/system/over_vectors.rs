@@ -56,6 +56,10 @@ pub trait System<V: Vector>: Sized {
     /// Whether the velocity is the momentum: see [`SeparableHamiltonian::UNIT_MASSES`](crate::SeparableHamiltonian::UNIT_MASSES).
     const UNIT_MASSES: bool = false;
 
+    /// Whether the second half of the positions is a displacement of the first, as in [`Tangent`](crate::tangent::Tangent): monitors of
+    /// step sizes do not see it.
+    const DISPLACED: bool = false;
+
     /// Writes ∂H/∂p at `(time, q, p)` into `velocity`.
     fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V);
 

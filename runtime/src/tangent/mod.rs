@@ -33,11 +33,12 @@ use crate::system::{Class, Conservative, Hamiltonian, LaneWork, OverEveryScalar,
 /// A step of an explicit method maps the displacement `(δq, δp)` by the derivative of the step map. So the symplectic
 /// product of two displacements is conserved, and `(q, p)` has the same bits as without a displacement.
 ///
-/// The vectors have twice the dimension: `SVector<f64, 4>` for two positions. The system runs like any other with
-/// constant steps, also in the lanes of an [`Ensemble`](crate::ensemble::Ensemble).
+/// The vectors have twice the dimension: `SVector<f64, 4>` for two positions. The system runs like any other, also in the
+/// lanes of an [`Ensemble`](crate::ensemble::Ensemble). In [steps of variable size](crate::adaptive::Adaptive) the
+/// monitor sees `q` only. Each step then maps the displacement by its derivative at fixed size, which agrees with the
+/// variational equations to the order of the method.
 ///
-/// Limits: with a monitor of [`adaptive`](crate::adaptive) the displacement would influence the step sizes. Systems
-/// with friction or constraints, closures and chains have no tangent system. Dynamic vectors are allocated in every
+/// Limits: systems with friction or constraints, closures and chains have no tangent system. Dynamic vectors are allocated in every
 /// evaluation; prefer fixed sizes. If velocity or force is not differentiable, as `|x|` at zero written as a root, a
 /// step fails with [`Error::NonFinite`].
 ///
@@ -206,6 +207,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Vector> System<W> for Tangent<S> {
     type Solver = Automatic;
 
     const FORCED: bool = S::FORCED;
+    const DISPLACED: bool = true;
 
     #[inline(always)]
     fn velocity(&self, time: W::Scalar, q: &W, p: &W, velocity: &mut W) {

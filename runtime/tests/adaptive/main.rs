@@ -9,3 +9,4 @@ mod monitors;
 mod output;
 mod poincare;
 mod restart;
+mod tangent;

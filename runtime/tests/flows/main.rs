@@ -4,9 +4,13 @@
 mod common;
 
 mod asynchronous;
+mod corrector;
 mod in_time;
 mod kepler;
+mod mollified;
+mod output;
 mod parts;
 mod planets;
+mod restart;
 mod splittings;
 mod substeps;

@@ -9,23 +9,23 @@ use crate::common::distance;
 use crate::common::methods::{Gauss8, StoermerVerlet};
 
 symplectic::tableau! {
-    Leapfrog { base: saba-1 }
-    Saba3 { base: saba-3 }
+    pub Leapfrog { base: saba-1 }
+    pub Saba3 { base: saba-3 }
     Aba1064 { base: blanes-2013-aba-10-6-4 }
 }
 
-const N: usize = 4;
-const G: f64 = 39.478;
+pub const N: usize = 4;
+pub const G: f64 = 39.478;
 
-type Bodies = SMatrix<f64, 3, N>;
+pub type Bodies = SMatrix<f64, 3, N>;
 
 /// Masses of planets, in parts of the star's.
-fn masses(scale: f64) -> [f64; N] {
+pub fn masses(scale: f64) -> [f64; N] {
     [1.0, scale, 0.3 * scale, 0.5 * scale]
 }
 
 /// Planets with small eccentricities and inclinations, and a centre of mass that moves.
-fn start(masses: [f64; N]) -> State<Bodies> {
+pub fn start(masses: [f64; N]) -> State<Bodies> {
     let orbits = [(1.0, 0.3), (1.9, 2.4), (3.4, 4.0)];
     let (mut q, mut p) = (Bodies::zeros(), Bodies::zeros());
     for (i, (radius, angle)) in orbits.into_iter().enumerate() {

@@ -35,7 +35,7 @@ symplectic::hamiltonian! {
 
 /// H = (q² + p²)/2.
 #[derive(Clone, Copy)]
-struct Rotation;
+pub struct Rotation;
 
 impl Flow<V> for Rotation {
     fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError> {
@@ -60,7 +60,7 @@ impl Flow<V> for Squeeze {
 
 /// H = cq⁴/4.
 #[derive(Clone, Copy)]
-struct Quartic(f64);
+pub struct Quartic(pub f64);
 
 impl Flow<V> for Quartic {
     fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError> {
@@ -69,14 +69,14 @@ impl Flow<V> for Quartic {
     }
 }
 
-const END: f64 = 4.0;
+pub const END: f64 = 4.0;
 
-fn start() -> State<V> {
+pub fn start() -> State<V> {
     point(0.9, 0.4)
 }
 
 /// The motion by Gauss with eight stages and 400 steps.
-fn exact(squeeze: f64, quartic: f64) -> State<V> {
+pub fn exact(squeeze: f64, quartic: f64) -> State<V> {
     run(Gauss8, Sum { squeeze, quartic }, start(), END, 400).expect("a run")
 }
 
@@ -93,7 +93,7 @@ fn slope(flow: impl Flow<V> + Copy, exact: &State<V>, steps: u32) -> f64 {
     (coarse / fine).log2()
 }
 
-fn near(slope: f64, order: f64) {
+pub fn near(slope: f64, order: f64) {
     assert!((slope - order).abs() < 0.05, "{slope} instead of {order}");
 }
 

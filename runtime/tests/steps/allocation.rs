@@ -283,6 +283,11 @@ fn steps_of_flows_make_no_vectors() -> Result<(), Error> {
     let (count, outcome) = made(|| integrator.integrate_to(10.0).map(|_| ()));
     outcome?;
     assert_eq!(count, 0);
+    // Output has room for one state.
+    let times: Vec<f64> = (0..100).map(|k| 10.0 + 0.03 * f64::from(k)).collect();
+    let (count, outcome) = made(|| integrator.integrate_at(&times, |_| {}).map(|_| ()));
+    outcome?;
+    assert_eq!(count, 2);
     Ok(())
 }
 

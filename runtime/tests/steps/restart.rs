@@ -161,7 +161,7 @@ fn checkpoints_of_other_runs_are_refused() -> Result<(), Error> {
     assert_eq!(error, CheckpointError::OtherSystem);
     assert_eq!(
         error.to_string(),
-        "the system gives another velocity or force at the state of the checkpoint: it is another system, or has other \
+        "the system gives another velocity, force or flow at the state of the checkpoint: it is another system, or has other \
          parameters"
     );
     Ok(())

@@ -1,0 +1,109 @@
+//! Runs of a flow that are interrupted and go on with the same bits.
+
+use super::integrator::{Course, FlowIntegrator};
+use super::memory::Memory;
+use super::{Flow, Span};
+use crate::integrator::checkpoint::hash;
+use crate::integrator::{Checkpoint, CheckpointError};
+use crate::number::Vector;
+use crate::number::words::{Visit, Words, vector_words, words};
+use crate::state::State;
+
+impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
+    /// What the run needs to [go on](Self::restore) from here with the same bits: state, step size, clock, the last step, and the
+    /// [memory](Flow::memory) of the flow. See [`Checkpoint`].
+    ///
+    /// The flow itself is not in it. To recognise it, a step is tried from the present state; it changes nothing.
+    ///
+    /// ```
+    /// use symplectic::flow::{Drift, FlowIntegrator, Kick, OrnsteinUhlenbeck, Palindrome};
+    /// use symplectic::nalgebra::Vector1;
+    /// use symplectic::{State, acceleration};
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let run = || {
+    ///     let spring = || acceleration::<Vector1<f64>, _>(|_, q, force| force[0] = -q[0]);
+    ///     let bath = OrnsteinUhlenbeck::new(0.5, 1.0, [1.0], 2024)?;
+    ///     let step = Palindrome::new(Kick::new(spring()), Palindrome::new(Drift::new(spring()), bath));
+    ///     FlowIntegrator::new(step, State::from_arrays(0.0, [1.0], [0.0]), 0.1)
+    /// };
+    /// let mut whole = run()?;
+    /// whole.take_steps(100)?;
+    /// let checkpoint = whole.checkpoint();
+    ///
+    /// // In another process, say.
+    /// let mut resumed = run()?;
+    /// resumed.restore(&checkpoint)?;
+    /// assert_eq!(resumed.take_steps(100)?, whole.take_steps(100)?);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn checkpoint(&mut self) -> Checkpoint {
+        let (mut course, mut memory) = (self.course.clone(), self.present_memory());
+        let mut tried = self.tried_step();
+        Checkpoint::of_flow(course.state.q.dimension()).filled(|visit| {
+            words!(visit: course, memory, tried);
+        })
+    }
+
+    /// Goes on from a checkpoint of a run that was made in the same way. State and step size become those of the checkpoint.
+    ///
+    /// # Errors
+    ///
+    /// [`CheckpointError`], with [`OtherSystem`](CheckpointError::OtherSystem) where the flow takes another step from the state of the
+    /// checkpoint; the run is then as it was.
+    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
+        let own = Checkpoint::of_flow(self.state().q.dimension());
+        let (mut course, mut memory) = (self.course.clone(), self.present_memory());
+        let mut tried = 0_u64;
+        checkpoint.read(&own, |visit| {
+            words!(visit: course, memory, tried);
+        })?;
+        let present = self.present_memory();
+        core::mem::swap(&mut self.course, &mut course);
+        memory.put_back(&mut self.flow);
+        if self.tried_step() != tried {
+            self.course = course;
+            present.put_back(&mut self.flow);
+            return Err(CheckpointError::OtherSystem);
+        }
+        Ok(())
+    }
+
+    fn present_memory(&mut self) -> Memory {
+        let mut memory = Memory::default();
+        memory.keep(&mut self.flow);
+        memory
+    }
+
+    /// A hash of the end of the next step, or of what is left where it fails.
+    fn tried_step(&mut self) -> u64 {
+        let memory = self.present_memory();
+        let State { time, q, p } = &self.course.state;
+        let span = Span {
+            time: *time,
+            size: self.step_size(),
+        };
+        let (mut q, mut p) = (q.clone(), p.clone());
+        // A failure leaves other bits than a step.
+        let _ = self.flow.flow(span, &mut q, &mut p);
+        memory.put_back(&mut self.flow);
+        hash(&mut [q, p])
+    }
+}
+
+impl<V: Vector<Scalar = f64>> Words for Course<V> {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        let Self {
+            pace,
+            state: State { time, q, p },
+            before,
+            last,
+            memory,
+        } = self;
+        words!(visit: *time, *pace, *last, *memory);
+        for vector in [q, p, &mut before.0, &mut before.1] {
+            vector_words(core::slice::from_mut(vector), visit);
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! What a flow carries from one call to the next.
+
+#[cfg(feature = "alloc")]
+use alloc::vec::Vec;
+
+use super::Flow;
+use crate::number::Vector;
+#[cfg(feature = "alloc")]
+use crate::number::words::{Visit, Words};
+
+/// The words of the [memory](Flow::memory) of a flow at one moment. Without the feature `alloc` there is no room for them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Memory(#[cfg(feature = "alloc")] Vec<u64>);
+
+#[cfg(feature = "alloc")]
+impl Memory {
+    /// Copies the words of a flow.
+    pub(super) fn keep<V: Vector, F: Flow<V>>(&mut self, flow: &mut F) {
+        self.0.clear();
+        flow.memory(&mut |word| self.0.push(*word));
+    }
+
+    /// Writes the words back into their flow.
+    pub(super) fn put_back<V: Vector, F: Flow<V>>(&self, flow: &mut F) {
+        let mut words = self.0.iter();
+        flow.memory(&mut |word| *word = words.next().copied().unwrap_or(*word));
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl Words for Memory {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        self.0.words(visit);
+    }
+}
+
+#[cfg(not(feature = "alloc"))]
+impl Memory {
+    pub(super) fn keep<V: Vector, F: Flow<V>>(&mut self, _flow: &mut F) {}
+
+    pub(super) fn put_back<V: Vector, F: Flow<V>>(&self, _flow: &mut F) {}
+}
