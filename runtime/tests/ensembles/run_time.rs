@@ -2,7 +2,7 @@
 
 use symplectic::ensemble::{Ensemble, EnsembleError};
 use symplectic::nalgebra::{SVector, Vector2};
-use symplectic::simd::{F64x2, F64x4, F64x8, F64x16};
+use symplectic::simd::{F64x2, F64x4, F64x8};
 use symplectic::solver::Coefficient;
 use symplectic::{
     AtRunTime, CheckpointError, Error, Integrator, Method, RunTimeCoefficients, RunTimeTableau,
@@ -60,7 +60,6 @@ macro_rules! check {
         of!(2, $make.in_lanes::<F64x2>());
         of!(4, $make.in_lanes::<F64x4>());
         of!(8, $make.in_lanes::<F64x8>());
-        of!(16, $make.in_lanes::<F64x16>());
     };
 }
 
