@@ -107,7 +107,7 @@ type Function<L> = (fn(L) -> L, fn(f64) -> f64);
 #[test]
 fn functions_are_taken_lane_by_lane() {
     fn check<L: Lanes>() {
-        let value = |lane: usize| 0.1 + 0.1 * lane as f64;
+        let value = |lane: usize| 0.1 + 0.05 * lane as f64;
         let x = L::from_fn(value);
         let functions: [Function<L>; 13] = [
             (L::sqrt, f64::sqrt),
