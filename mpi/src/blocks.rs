@@ -7,7 +7,7 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use symplectic::ensemble::{Ensemble, EnsembleCheckpoint, Npz, NpzArray, NpzValues};
-use symplectic::simd::{F64x8, Lanes};
+use symplectic::simd::{DefaultLanes, Lanes};
 use symplectic::solver::Solver;
 use symplectic::{Compensated, Method, Summation, System, Vector};
 
@@ -20,7 +20,7 @@ use crate::Error;
 /// run that is killed at any time loses the blocks in work only. A second run finds the others.
 ///
 /// All ranks must see one folder. One run at a time may write to it.
-pub struct Blocks<'a, M, S, V, R = Compensated, N = <S as System<V>>::Solver, L = F64x8>
+pub struct Blocks<'a, M, S, V, R = Compensated, N = <S as System<V>>::Solver, L = DefaultLanes>
 where
     V: Vector,
     S: System<V>,

@@ -9,8 +9,7 @@
 //! | Events, and everything else that an integrator offers | [`Ensemble::each`] |
 //! | Result of a trajectory, or its error | [`Row`] |
 //! | Mean, variance, histogram over the trajectories | [`Moments`], [`Histogram`] |
-//! | Several machines, and interrupted runs | [`Ensemble::shard`], [`Ensemble::checkpoint`]; with MPI the package
-//! `symplectic-mpi` |
+//! | Several machines, and interrupted runs | [`Ensemble::shard`], [`Ensemble::checkpoint`]; with MPI the package `symplectic-mpi` |
 //!
 //! # Lanes
 //!

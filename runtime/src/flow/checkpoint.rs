@@ -41,7 +41,8 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     pub fn checkpoint(&mut self) -> Checkpoint {
         let (mut course, mut memory) = (self.course.clone(), self.present_memory());
         let mut tried = self.tried_step();
-        Checkpoint::of_flow(course.state.q.dimension()).filled(|visit| {
+        let blank = Checkpoint::of_flow(course.state.q.dimension(), memory.len());
+        blank.filled(|visit| {
             words!(visit: course, memory, tried);
         })
     }
@@ -53,8 +54,8 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// [`CheckpointError`], with [`OtherSystem`](CheckpointError::OtherSystem) where the flow takes another step from the state of the
     /// checkpoint; the run is then as it was.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
-        let own = Checkpoint::of_flow(self.state().q.dimension());
         let (mut course, mut memory) = (self.course.clone(), self.present_memory());
+        let own = Checkpoint::of_flow(course.state.q.dimension(), memory.len());
         let mut tried = 0_u64;
         checkpoint.read(&own, |visit| {
             words!(visit: course, memory, tried);

@@ -19,20 +19,24 @@ use crate::system::Separable;
 /// error is that of Euler and Maclaurin, a sum of terms at both ends of the run. So nothing has to be done in between:
 ///
 /// ```text
-/// C K^n C⁻¹ ≈ e^{nh(A+B)}       C = Π_i e^{a_i hA} e^{b_i hB} e^{−a_i hA}
+/// C K^n C⁻¹ ≈ e^{nh(A+B)}       C = Π_i e^{−a_i hA} e^{b_i hB} e^{a_i hA}
 /// 2 Σ_{i=1}^m b_i a_i^{2k−1} = −1/(2k) Σ_j w_j B_{2k}(c_j)       k = 1, …, m
 /// ```
 ///
 /// $$ 2 \sum_{i=1}^m b_i a_i^{2k-1} = -\frac{1}{2k} \sum_j w_j B_{2k}(c_j) \qquad k = 1, \dots, m $$
 ///
-/// with the kicks `w_j` of the method at the times `c_j` of its drift, and the Bernoulli polynomials `B_{2k}`. C has the pairs `(a_i, b_i)` and
-/// `(−a_i, −b_i)` with `a_i = i/2`; the `b_i` are solved for when it is made. It takes `2m` kicks and `2m + 1` drifts, forward and backward, and is
-/// symplectic where the flows are. Neither part may depend on time.
+/// with the kicks `w_j` of the method at the times `c_j` of its drift, and the Bernoulli polynomials `B_{2k}`; the flow on the right comes first.
+/// C has the pairs `(a_i, b_i)` and `(−a_i, −b_i)` with `a_i = i/2`; the `b_i` are solved for when it is made. It takes `2m` kicks and `2m + 1`
+/// drifts, forward and backward, and is symplectic where the flows are. Neither part may depend on time.
 ///
 /// The run itself takes the variables of the kernel: [`to_kernel`](Self::to_kernel) makes the start, [`from_kernel`](Self::from_kernel) takes a state
 /// of the run back, for output. They are inverse to each other, to rounding. Both need the size of the steps that are taken, in
 /// [`Substeps`](super::Substeps) that of a substep. [`integrate_to`](super::FlowIntegrator::integrate_to) takes shorter ones where the time to the end is
 /// not a multiple of the step size. Beside the error ε²h² that stays, more than four pairs seldom help.
+///
+/// A state [inside a step](super::FlowIntegrator::state_at) is a step of another size, and other variables belong to it: with `from_kernel` it
+/// has the error `O(εh³)` of one step without a corrector. For such a time take the last state of the run back, and go from there in corrected
+/// steps of another size.
 ///
 /// ```
 /// use symplectic::flow::kepler::Jacobi;

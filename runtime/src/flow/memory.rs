@@ -20,6 +20,11 @@ impl Memory {
         flow.memory(&mut |word| self.0.push(*word));
     }
 
+    /// Number of words.
+    pub(super) const fn len(&self) -> usize {
+        self.0.len()
+    }
+
     /// Writes the words back into their flow.
     pub(super) fn put_back<V: Vector, F: Flow<V>>(&self, flow: &mut F) {
         let mut words = self.0.iter();

@@ -22,9 +22,9 @@ use crate::system::{Separable, System};
 /// resonance with the fast motion. Let τ be the step size h of the run: the mean vanishes where `hω = π, 2π, …` (`LongAverage` of the paper;
 /// `h/2` is `ShortAverage`, which vanishes at `2π, 4π, …`). Without a mean, `τ = 0`, it is the impulse method, whose energy grows there.
 ///
-/// It is the flow of the potential `U(Aq)`, and so symplectic and symmetric in any splitting. With `τ ∝ h`, Störmer–Verlet with the exact fast
-/// flow is of order 2. No splitting of a higher order has more than 2: `U(Aq) − U(q) = O(τ²)`. The mean is computed once, for the τ that is
-/// given: a run whose step size changes keeps it.
+/// It is the flow of the potential `U(Aq)`. So a step with it is symplectic, and symmetric where the splitting is. With `τ ∝ h`,
+/// Störmer–Verlet with the exact fast flow is of order 2. No splitting of a higher order has more than 2: `U(Aq) − U(q) = O(τ²)`. The mean is
+/// computed once, for the τ that is given: a run whose step size changes keeps it.
 ///
 /// For a fast motion that is not linear A depends on q, and the kick would need the derivative of the mean: there is none here.
 ///
@@ -63,8 +63,8 @@ impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> MollifiedKick<S, 
     ///
     /// # Errors
     ///
-    /// [`Error::FlowParameter`] for a duration that is negative or not finite, and for one so long that less than three digits of the fast
-    /// motion are known.
+    /// [`Error::FlowParameter`] for a duration that is negative or not finite, and for one so long that the fast motion overflows, or that
+    /// less than three digits of it are known.
     pub fn new(system: S, fast: &Linear, duration: f64) -> Result<Self, Error> {
         let what = "duration of the mean";
         check_parameter(what, 0, duration, true)?;
@@ -76,7 +76,7 @@ impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> MollifiedKick<S, 
                 what,
                 index: 0,
                 value: duration,
-                range: "short enough for three digits of the fast motion",
+                range: "so short that the fast motion is finite, and known to three digits",
             })?,
             room: (None, None),
         })

@@ -105,12 +105,12 @@ pub enum CheckpointError {
 const DAMAGED: fn(&'static str) -> CheckpointError = |reason| CheckpointError::Damaged { reason };
 
 impl Checkpoint {
-    /// A checkpoint without words, of steps of a flow.
-    pub(crate) fn of_flow(dimension: usize) -> Self {
+    /// A checkpoint without words, of steps of a flow that carries so many words from one call to the next.
+    pub(crate) fn of_flow(dimension: usize, carried: usize) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION").to_string(),
             method: "steps of a flow".to_string(),
-            definition: String::new(),
+            definition: format!("words carried: {carried}"),
             scalar: f64::SAVED_AS.unwrap_or_default().to_string(),
             sums: "plain".to_string(),
             solver: String::new(),

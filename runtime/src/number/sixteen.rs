@@ -189,12 +189,11 @@ impl Lanes for F64x16 {
     }
 }
 
-/// The lanes of the trajectories of an ensemble: several registers, so that their chains of dependent operations overlap. These are
-/// sixteen if the target has AVX-512, otherwise eight.
 #[cfg(target_feature = "avx512f")]
-pub type DefaultLanes = F64x16;
-
-/// The lanes of the trajectories of an ensemble: several registers, so that their chains of dependent operations overlap. These are
-/// sixteen if the target has AVX-512, otherwise eight.
+use F64x16 as Fastest;
 #[cfg(not(target_feature = "avx512f"))]
-pub type DefaultLanes = F64x8;
+use F64x8 as Fastest;
+
+/// The lanes of the trajectories of an ensemble: sixteen if the target has AVX-512, otherwise eight. These are several registers, so that
+/// their chains of dependent operations overlap.
+pub type DefaultLanes = Fastest;

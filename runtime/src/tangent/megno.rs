@@ -14,7 +14,7 @@ use crate::state::State;
 /// Y(t) = 2/t ∫₀ᵗ s d ln|δ(s)| = 2 (ln|δ(t)| − 1/t ∫₀ᵗ ln|δ(s)| ds)      Ȳ(t) = 1/t ∫₀ᵗ Y(s) ds      |δ(0)| = 1
 /// ```
 ///
-/// | orbit | `|δ|` grows like | Ȳ tends to | λ tends to |
+/// | orbit | `∣δ∣` grows like | Ȳ tends to | λ tends to |
 /// |---|---|---|---|
 /// | quasi-periodic | t | 2 | 0 |
 /// | of linear oscillators | 1 | 0 | 0 |

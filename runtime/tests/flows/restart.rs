@@ -49,16 +49,22 @@ fn checkpoints_of_other_runs_are_refused() -> Result<(), Error> {
     assert_eq!(other.checkpoint(), before);
     assert_eq!(other.flow().inner.inner.draws(), 1);
 
-    // Fewer words: no bath.
+    // It carries nothing: no bath.
     let step = Palindrome::new(Kick::new(Well), Drift::new(Well));
     let mut without = FlowIntegrator::new(step, point(1.2, 0.3), 0.1)?;
     let refused = without.restore(&checkpoint);
-    assert!(matches!(refused, Err(CheckpointError::Damaged { .. })));
+    assert!(matches!(
+        refused,
+        Err(CheckpointError::OtherRun {
+            what: "definition",
+            ..
+        })
+    ));
 
     let free = || acceleration::<Vector2<f64>, _>(|_, _, _| ());
     let start = State::from_arrays(0.0, [1.0, 2.0], [0.0, 0.0]);
     let mut plane = FlowIntegrator::new(Drift::new(free()), start, 0.1)?;
-    let refused = plane.restore(&checkpoint);
+    let refused = plane.restore(&without.checkpoint());
     assert!(matches!(
         refused,
         Err(CheckpointError::OtherRun {
