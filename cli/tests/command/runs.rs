@@ -483,6 +483,15 @@ fn wrong_files_are_refused_at_their_place() {
             "{error}"
         );
     }
+    // A table has a column for the time.
+    let timed = replaced("[a]", "[time]").replace("cos(a)", "cos(time)");
+    let timed = timed.replace("a = {", "time = {");
+    for (file, status) in [("out.csv", 2), ("out.parquet", 2), ("out.npz", 0)] {
+        let output = call(&folder, &timed.replace("out.csv", file), &[]);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(status), "{error}");
+        assert_eq!(error.contains("would have the name `time`"), status == 2);
+    }
     // A line of a CSV file.
     let table = "starts.csv";
     let setup = &PENDULUM[..PENDULUM.find("[starts]").expect("a table")];
