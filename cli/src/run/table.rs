@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::fmt::Display;
 use std::fs::File;
 use std::io::{self, Write};
+use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
@@ -164,7 +165,14 @@ impl Reader<'_> {
     /// The rows of a file whose columns have the names of the coordinates.
     pub(super) fn of_table(&self, path: &Path) -> Result<Rows, Error> {
         match path.extension().and_then(|extension| extension.to_str()) {
-            Some("parquet") => self.of_parquet(path),
+            Some("parquet") => {
+                // The crate panics on some files that are damaged.
+                let hook = panic::take_hook();
+                panic::set_hook(Box::new(|_| {}));
+                let rows = panic::catch_unwind(AssertUnwindSafe(|| self.of_parquet(path)));
+                panic::set_hook(hook);
+                rows.unwrap_or_else(|_| Err(refused(path, "the file is damaged")))
+            }
             _ => self.of_csv(path),
         }
     }
@@ -216,6 +224,9 @@ impl Reader<'_> {
         let mut rows = Vec::new();
         for (number, record) in records.enumerate() {
             let record = record.map_err(unread)?;
+            if number == MOST {
+                return Err(refused(path, too_many()));
+            }
             let fields = record.get_column_iter().map(|(_, field)| field);
             let cells = fields.map(|field| (field.to_string(), double(field)));
             let row = row(number, &places, &names, cells);
@@ -278,11 +289,12 @@ fn too_many() -> String {
     format!("more than {MOST} starts: split it into several files")
 }
 
-/// The number in a cell of a Parquet file, if it is exact in double precision.
+/// The number in a cell of a Parquet file; integers only if they are exact in double precision.
 fn double(field: &Field) -> Option<f64> {
     match *field {
         Field::Double(value) => Some(value),
         Field::Float(value) => Some(value.into()),
+        Field::Float16(value) => Some(value.into()),
         Field::Byte(value) => Some(value.into()),
         Field::Short(value) => Some(value.into()),
         Field::Int(value) => Some(value.into()),
@@ -291,6 +303,8 @@ fn double(field: &Field) -> Option<f64> {
         Field::UInt(value) => Some(value.into()),
         Field::Long(value) if value.unsigned_abs() <= 1 << 53 => Some(value as f64),
         Field::ULong(value) if value <= 1 << 53 => Some(value as f64),
+        // Rounded, as in a CSV file.
+        Field::Decimal(_) => field.to_string().parse().ok(),
         _ => None,
     }
 }
