@@ -121,6 +121,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     }
     let path = file.beside(setup.output.file.get_ref());
     refuse_overwriting(&file, &setup, &path)?;
+    refuse_twins(&file, &setup, &coordinates, &path)?;
     let seen = times.as_ref().map_or(1, Vec::len) as u128 * starts.len() as u128;
     let parts = arguments.shard.map_or(1, |shard| shard.count) as u128;
     if seen * 2 * coordinates.dimension() as u128 / parts > MOST_NUMBERS {
@@ -156,6 +157,25 @@ fn refuse_overwriting(file: &File<'_>, setup: &Setup, output: &Path) -> Result<(
             setup.output.file.span(),
             "the output is the file of the starts, which would be lost: give another name",
         )),
+        _ => Ok(()),
+    }
+}
+
+/// Refuses a table in which two columns would have the same name.
+fn refuse_twins(
+    file: &File<'_>,
+    setup: &Setup,
+    coordinates: &Coordinates,
+    output: &Path,
+) -> Result<(), Error> {
+    let is_table = (output.extension()).is_some_and(|extension| extension != "npz");
+    match table::twin(coordinates) {
+        Some(name) if is_table => {
+            let message = format!(
+                "two columns of the table would have the name `{name}`: give the coordinate another name, or write a `.npz` file"
+            );
+            Err(file.error(setup.output.file.span(), message))
+        }
         _ => Ok(()),
     }
 }

@@ -1,8 +1,10 @@
 //! Tables, as CSV or Parquet: results with a line for each state, and starts with a line for each trajectory.
 
+use std::collections::HashSet;
 use std::fmt::Display;
 use std::fs::File;
 use std::io::{self, Write};
+use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
@@ -55,22 +57,9 @@ impl Results<'_> {
         })
     }
 
-    /// The names of the coordinates at the start, and of the coordinates.
-    fn names(&self) -> [Vec<String>; 2] {
-        let names: Vec<String> = self.coordinates.all().cloned().collect();
-        [
-            names.iter().map(|name| format!("{name}_start")).collect(),
-            names,
-        ]
-    }
-
     pub(super) fn write_csv(&self, out: &mut impl Write) -> io::Result<()> {
         let mut file = csv::Writer::from_writer(out);
-        let [starts, names] = self.names();
-        let one = |name: &str| vec![name.to_owned()];
-        let last = ["energy_error", "steps", "error"].map(str::to_owned);
-        let header = [one("trajectory"), starts, one("time"), names, last.to_vec()];
-        file.write_record(header.concat())?;
+        file.write_record(header(self.coordinates))?;
         for line in self.lines() {
             let numbers = |state| coordinates(state).map(|x| x.to_string());
             let energy_error = line.energy_error.map(|error| format!("{error:e}"));
@@ -110,11 +99,13 @@ impl Results<'_> {
         ] {
             file.note(name, text);
         }
-        let names = self.names();
+        let names = header(self.coordinates);
         let mut lines = self.lines();
         loop {
             let group: Vec<Line<'_>> = lines.by_ref().take(GROUP).collect();
-            file.group(&columns(&group, &names))?;
+            let columns = columns(&group, self.coordinates.all().count());
+            let columns: Vec<_> = names.iter().map(String::as_str).zip(columns).collect();
+            file.group(&columns)?;
             if group.len() < GROUP {
                 return file.finish().map(|_| ());
             }
@@ -128,10 +119,27 @@ fn coordinates(state: &State<DVector<f64>>) -> impl Iterator<Item = &f64> {
     q.iter().chain(p)
 }
 
-fn columns<'a>(
-    lines: &[Line<'_>],
-    [starts, names]: &'a [Vec<String>; 2],
-) -> Vec<(&'a str, ParquetColumn)> {
+/// The names of the columns; coordinates are at the start and at the time of the line.
+fn header(coordinates: &Coordinates) -> Vec<String> {
+    let starts = coordinates.all().map(|name| format!("{name}_start"));
+    let own = |name: &str| [name.to_owned()].into_iter();
+    own("trajectory")
+        .chain(starts)
+        .chain(own("time"))
+        .chain(coordinates.all().cloned())
+        .chain(["energy_error", "steps", "error"].map(str::to_owned))
+        .collect()
+}
+
+/// A name that two columns of a table would have, as with a coordinate `time`.
+pub(super) fn twin(coordinates: &Coordinates) -> Option<String> {
+    let mut known = HashSet::new();
+    let mut names = header(coordinates).into_iter();
+    names.find(|name| !known.insert(name.clone()))
+}
+
+/// The columns of lines with this number of coordinates, in the order of the [`header`].
+fn columns(lines: &[Line<'_>], count: usize) -> Vec<ParquetColumn> {
     let integers =
         |of: fn(&Line<'_>) -> u64| ParquetColumn::Integers(lines.iter().map(of).collect());
     let doubles =
@@ -139,21 +147,14 @@ fn columns<'a>(
     let coordinate = |of: for<'l> fn(&'l Line<'_>) -> &'l State<DVector<f64>>, k: usize| {
         doubles(&|line| coordinates(of(line)).nth(k).copied().unwrap_or(f64::NAN))
     };
-    let mut columns = vec![("trajectory", integers(|line| line.row.trajectory as u64))];
-    for (k, name) in starts.iter().enumerate() {
-        columns.push((name, coordinate(|line| line.start, k)));
-    }
-    columns.push(("time", doubles(&|line| line.state.time)));
-    for (k, name) in names.iter().enumerate() {
-        columns.push((name, coordinate(|line| line.state, k)));
-    }
-    let energy_errors = doubles(&|line| line.energy_error.unwrap_or(f64::NAN));
+    let mut columns = vec![integers(|line| line.row.trajectory as u64)];
+    columns.extend((0..count).map(|k| coordinate(|line| line.start, k)));
+    columns.push(doubles(&|line| line.state.time));
+    columns.extend((0..count).map(|k| coordinate(|line| line.state, k)));
+    columns.push(doubles(&|line| line.energy_error.unwrap_or(f64::NAN)));
+    columns.push(integers(|line| line.row.statistics.steps));
     let failures = lines.iter().map(|line| line.failure.clone()).collect();
-    columns.extend([
-        ("energy_error", energy_errors),
-        ("steps", integers(|line| line.row.statistics.steps)),
-        ("error", ParquetColumn::Texts(failures)),
-    ]);
+    columns.push(ParquetColumn::Texts(failures));
     columns
 }
 
@@ -164,7 +165,14 @@ impl Reader<'_> {
     /// The rows of a file whose columns have the names of the coordinates.
     pub(super) fn of_table(&self, path: &Path) -> Result<Rows, Error> {
         match path.extension().and_then(|extension| extension.to_str()) {
-            Some("parquet") => self.of_parquet(path),
+            Some("parquet") => {
+                // The crate panics on some files that are damaged.
+                let hook = panic::take_hook();
+                panic::set_hook(Box::new(|_| {}));
+                let rows = panic::catch_unwind(AssertUnwindSafe(|| self.of_parquet(path)));
+                panic::set_hook(hook);
+                rows.unwrap_or_else(|_| Err(refused(path, "the file is damaged")))
+            }
             _ => self.of_csv(path),
         }
     }
@@ -216,6 +224,9 @@ impl Reader<'_> {
         let mut rows = Vec::new();
         for (number, record) in records.enumerate() {
             let record = record.map_err(unread)?;
+            if number == MOST {
+                return Err(refused(path, too_many()));
+            }
             let fields = record.get_column_iter().map(|(_, field)| field);
             let cells = fields.map(|field| (field.to_string(), double(field)));
             let row = row(number, &places, &names, cells);
@@ -278,11 +289,12 @@ fn too_many() -> String {
     format!("more than {MOST} starts: split it into several files")
 }
 
-/// The number in a cell of a Parquet file, if it is exact in double precision.
+/// The number in a cell of a Parquet file; integers only if they are exact in double precision.
 fn double(field: &Field) -> Option<f64> {
     match *field {
         Field::Double(value) => Some(value),
         Field::Float(value) => Some(value.into()),
+        Field::Float16(value) => Some(value.into()),
         Field::Byte(value) => Some(value.into()),
         Field::Short(value) => Some(value.into()),
         Field::Int(value) => Some(value.into()),
@@ -291,6 +303,8 @@ fn double(field: &Field) -> Option<f64> {
         Field::UInt(value) => Some(value.into()),
         Field::Long(value) if value.unsigned_abs() <= 1 << 53 => Some(value as f64),
         Field::ULong(value) if value <= 1 << 53 => Some(value as f64),
+        // Rounded, as in a CSV file.
+        Field::Decimal(_) => field.to_string().parse().ok(),
         _ => None,
     }
 }

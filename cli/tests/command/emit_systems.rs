@@ -238,6 +238,9 @@ fn systems_that_do_not_fit_are_refused() {
         refusal("blanes-moan-2002-srkn11b", relativistic, &[])
             .contains("not quadratic in the momenta")
     );
+    // Its order is 4 there, and not 6.
+    let moving = "R q: [x], p: [y]; H = y^2/2 + sin(t) y + x^4/4";
+    assert!(refusal("blanes-moan-2002-srkn11b", moving, &[]).contains("depends on the time"));
     for (more, what) in [
         ("friction: 1/10;", "friction"),
         ("force: { x = t }", "forces"),

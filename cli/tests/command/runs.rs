@@ -483,6 +483,15 @@ fn wrong_files_are_refused_at_their_place() {
             "{error}"
         );
     }
+    // A table has a column for the time.
+    let timed = replaced("[a]", "[time]").replace("cos(a)", "cos(time)");
+    let timed = timed.replace("a = {", "time = {");
+    for (file, status) in [("out.csv", 2), ("out.parquet", 2), ("out.npz", 0)] {
+        let output = call(&folder, &timed.replace("out.csv", file), &[]);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(status), "{error}");
+        assert_eq!(error.contains("would have the name `time`"), status == 2);
+    }
     // A line of a CSV file.
     let table = "starts.csv";
     let setup = &PENDULUM[..PENDULUM.find("[starts]").expect("a table")];
@@ -751,4 +760,18 @@ fn starts_are_read_from_parquet() {
             "{name}: {error}"
         );
     }
+    // The first page begins at 4, written as 8; 1 is −1.
+    let whole = fs::read(folder.join("starts.parquet")).expect("a file");
+    let eights = (whole.len() / 2..whole.len()).filter(|&k| whole[k] == 8);
+    let damaged = eights.filter(|&k| {
+        let mut file = whole.clone();
+        file[k] = 1;
+        fs::write(folder.join("damaged.parquet"), file).expect("a file");
+        let output = call(&folder, &setup("damaged.parquet"), &[]);
+        let error = String::from_utf8_lossy(&output.stderr);
+        let code = output.status.code();
+        assert!(code.is_some_and(|code| code <= 2), "{error}");
+        error.contains("the file is damaged")
+    });
+    assert!(damaged.count() > 0);
 }

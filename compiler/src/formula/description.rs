@@ -91,20 +91,20 @@ impl System {
     /// The second derivatives of H, a line for each part of one that is not zero; then the parts in common.
     pub fn second_derivatives(&self, notation: Notation) -> Vec<String> {
         let mut copy = self.clone();
-        let mut parts = Vec::new();
+        let (mut parts, mut is_cut_off) = (Vec::new(), false);
         let halves = [(Half::P, Half::P), (Half::P, Half::Q), (Half::Q, Half::Q)];
         'all: for (row, column) in halves {
             for first in gradient(&mut copy.graph, self.energy, &[], Number::one(), row) {
                 let (value, loops) = (first.value, &first.loops);
                 for second in gradient(&mut copy.graph, value, loops, Number::one(), column) {
-                    if parts.len() == MOST_LINES {
+                    is_cut_off = parts.len() == MOST_LINES;
+                    if is_cut_off {
                         break 'all;
                     }
                     parts.push((first.target.clone(), second));
                 }
             }
         }
-        let is_cut_off = parts.len() == MOST_LINES;
         let values: Vec<Id> = parts.iter().map(|(_, second)| second.value).collect();
         let (values, common) = copy.formulas(&values, 'u', notation);
         let lines = parts.iter().zip(values).map(|((row, second), value)| {

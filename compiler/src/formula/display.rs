@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
 use super::derivative::Scatter;
@@ -426,18 +427,17 @@ pub fn number_text(value: &Number) -> String {
     decimal(value).unwrap_or_else(|| number(value, Notation::Text).0)
 }
 
-/// A number with a finite decimal expansion, if doubles print it in a few digits.
+/// A number that is the shortest decimal of a double, as that decimal.
 fn decimal(value: &Number) -> Option<String> {
-    let mut rest = value.denom().clone();
-    for prime in [2, 5] {
-        while (&rest % num_bigint::BigInt::from(prime)).is_zero() {
-            rest /= prime;
-        }
+    let text = crate::arithmetic::rounding::to_f64(value).to_string();
+    if text.len() >= 25 {
+        return None;
     }
-    let double = crate::arithmetic::rounding::to_f64(value);
-    let is_short =
-        || crate::arithmetic::rounding::exact(double) == *value || double.to_string().len() < 25;
-    (rest.is_one() && is_short()).then(|| double.to_string())
+    let places = text.split_once('.').map_or(0, |(_, places)| places.len());
+    // Not a number if the double is infinite.
+    let digits: BigInt = text.replace('.', "").parse().ok()?;
+    let power = BigInt::from(10).pow(u32::try_from(places).ok()?);
+    (Number::new(digits, power) == *value).then_some(text)
 }
 
 fn number(value: &Number, notation: Notation) -> (String, Strength) {
@@ -483,5 +483,27 @@ fn index_text(index: &Index) -> String {
         0 => base,
         offset if offset > 0 => format!("{base}+{offset}"),
         offset => format!("{base}{offset}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BigInt, Number, number_text};
+
+    #[test]
+    fn values_are_shown_exactly() {
+        let large = BigInt::from(12_345_678_901_234_567_891_u64);
+        let huge = BigInt::from(10).pow(400);
+        let quotient = |a: i64, b: i64| Number::new(a.into(), b.into());
+        for (value, text) in [
+            (quotient(-1, 4), "-0.25".to_owned()),
+            (quotient(3, 10), "0.3".to_owned()),
+            (quotient(1, 3), "(1/3)".to_owned()),
+            (large.clone().into(), large.to_string()),
+            (huge.clone().into(), huge.to_string()),
+            (Number::new(1.into(), huge.clone()), format!("(1/{huge})")),
+        ] {
+            assert_eq!(number_text(&value), text);
+        }
     }
 }

@@ -114,7 +114,7 @@ impl Stepper {
             None => class,
             Some((system, structure)) => {
                 system::check(system)?;
-                plan::class_of(&table, class, structure)?
+                plan::class_of(&table, class, system, structure)?
             }
         };
         let plan = Plan::new(&table, class, DIGITS)?;

@@ -4,7 +4,7 @@ use super::SteppedClass;
 use crate::emit::{Known, Relative, Rounded};
 use crate::error::{Error, ErrorKind};
 use crate::export::language::table::{Entry, Flow, Table, weight};
-use crate::formula::{Kinetic, Structure};
+use crate::formula::{Kinetic, Structure, System};
 use crate::order::HamiltonianClass;
 use crate::schedule::{Class, Node, StepGraph};
 use crate::tableau::left_out;
@@ -46,6 +46,7 @@ impl<'t> Plan<'t> {
 pub(super) fn class_of(
     table: &Table<'_>,
     class: Option<SteppedClass>,
+    system: &System,
     structure: &Structure,
 ) -> Result<Option<SteppedClass>, Error> {
     let [general, separable, nystrom] = [
@@ -54,7 +55,7 @@ pub(super) fn class_of(
         HamiltonianClass::Nystrom,
     ]
     .map(|class| table.order(class));
-    if structure.split.is_err() {
+    let Ok(split) = structure.split else {
         if class == Some(SteppedClass::Separable) {
             return Err(refused(
                 "H is not separable: leave the class out, which gives a stepper for every H",
@@ -66,10 +67,13 @@ pub(super) fn class_of(
             ));
         }
         return Ok(Some(SteppedClass::General));
-    }
-    if structure.kinetic == Kinetic::General && separable < nystrom {
+    };
+    // A time in the kinetic energy lowers the order also where it is in a term that is linear in the momenta.
+    let is_quadratic =
+        structure.kinetic != Kinetic::General && !system.graph.depends(split.kinetic).time;
+    if separable < nystrom && !is_quadratic {
         return Err(refused(
-            "the kinetic energy is not quadratic in the momenta, where it has a lower order: take another method (`symplectic list --class separable`)",
+            "the kinetic energy is not quadratic in the momenta or depends on the time, where it has a lower order: take another method (`symplectic list --class separable`)",
         ));
     }
     Ok(class)

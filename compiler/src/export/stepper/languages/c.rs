@@ -71,7 +71,8 @@ pub(super) const FORMULAS: Formulas = Formulas {
         "else", "enum", "extern", "float", "for", "goto", "if", "inline", "int", "long",
         "register", "restrict", "return", "short", "signed", "sizeof", "static", "struct",
         "switch", "typedef", "union", "unsigned", "void", "volatile", "while", "NAN", "INFINITY",
-        "NULL",
+        "NULL", "alignas", "alignof", "bool", "false", "linux", "nullptr", "true", "typeof",
+        "unix",
     ],
     types: &[],
 };

@@ -61,7 +61,7 @@ pub(in super::super) struct Formulas {
     pub functions: Functions,
     /// Words that parameters cannot have as names.
     pub words: &'static [&'static str],
-    /// Words that the type cannot have as its name.
+    /// More words that the type cannot have as its name.
     pub types: &'static [&'static str],
 }
 
@@ -101,10 +101,10 @@ pub(in super::super) enum FieldShape {
 }
 
 impl Field {
-    /// The value of the definition.
+    /// The value of the definition, unless it is too large for a double.
     pub fn default(&self) -> Option<String> {
         match self.shape {
-            FieldShape::Number(Some(value)) => Some(format!("{value:?}")),
+            FieldShape::Number(Some(value)) if value.is_finite() => Some(format!("{value:?}")),
             _ => None,
         }
     }

@@ -99,6 +99,7 @@ pub(super) const FORMULAS: Formulas = Formulas {
     types: &[
         "B",
         "B_TILDE",
+        "Base",
         "C",
         "MOST_SWEEPS",
         "MU",
@@ -111,6 +112,7 @@ pub(super) const FORMULAS: Formulas = Formulas {
         "Matrix",
         "NaN",
         "Vector",
+        "energy",
     ],
 };
 

@@ -83,6 +83,9 @@ pub(super) const FORMULAS: Formulas = Formulas {
         "STAGES",
         "ArithmeticError",
         "ValueError",
+        "math",
+        "step",
+        "sys",
     ],
 };
 

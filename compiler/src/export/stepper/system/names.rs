@@ -48,7 +48,11 @@ impl Names {
             .map(|parameter| free(&parameter.name, notation.words, &mut taken))
             .collect();
         Names {
-            kind: free(&system.name, notation.types, &mut vec![module.to_owned()]),
+            kind: free(
+                &system.name,
+                &[notation.types, notation.words].concat(),
+                &mut vec![module.to_owned()],
+            ),
             prefix: snake(&plain(&system.name)),
             lengths,
             parameters,
