@@ -50,7 +50,7 @@ impl System {
         texts.remove(&id).map_or_else(String::new, |(text, _)| text)
     }
 
-    /// Derivatives, one line for each part: `q'[i] = …`, or `+=` where several are added; then the [parts in common](Self::formulas).
+    /// Derivatives, one line for each part: `q'[i] = …`, or `+=` where several are added; then a line for each part in common that has a name.
     pub fn equations(&self, halves: &[(Half, Vec<Scatter>)], notation: Notation) -> Vec<String> {
         let dotted = |half: Half, target: &Coordinate| {
             let name = self.coordinate_name(&target.of(half), notation);
