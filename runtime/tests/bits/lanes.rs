@@ -110,19 +110,19 @@ fn functions_are_taken_lane_by_lane() {
         let value = |lane: usize| 0.1 + 0.05 * lane as f64;
         let x = L::from_fn(value);
         let functions: [Function<L>; 13] = [
-            (L::sqrt, f64::sqrt),
-            (L::recip, f64::recip),
-            (L::abs, f64::abs),
-            (L::exp, f64::exp),
-            (L::ln, f64::ln),
-            (L::sin, f64::sin),
-            (L::cos, f64::cos),
-            (L::tan, f64::tan),
-            (L::asin, f64::asin),
-            (L::acos, f64::acos),
-            (L::atan, f64::atan),
-            (L::sinh, f64::sinh),
-            (L::cosh, f64::cosh),
+            (L::sqrt, Scalar::sqrt),
+            (L::recip, Scalar::recip),
+            (L::abs, Scalar::abs),
+            (L::exp, Scalar::exp),
+            (L::ln, Scalar::ln),
+            (L::sin, Scalar::sin),
+            (L::cos, Scalar::cos),
+            (L::tan, Scalar::tan),
+            (L::asin, Scalar::asin),
+            (L::acos, Scalar::acos),
+            (L::atan, Scalar::atan),
+            (L::sinh, Scalar::sinh),
+            (L::cosh, Scalar::cosh),
         ];
         for (in_lanes, alone) in functions {
             for (lane, &found) in in_lanes(x).to_array().as_ref().iter().enumerate() {
