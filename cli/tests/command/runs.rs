@@ -357,19 +357,20 @@ fn doubles(bytes: &[u8]) -> Vec<f64> {
         .collect()
 }
 
+/// Three trajectories with states at times; the last one escapes to infinity.
+const CUBIC: &str = r#"
+    system = "Cubic q: [x], p: [px]; H = px^2/2 + x^2/2 - x^3/3"
+    method = "forest-ruth-1990"
+    step_size = 0.1
+    times = { from = 0, to = 20, count = 5 }
+    starts = { x = { values = [0.1, 0.5, 1.5] }, px = 0.0 }
+    output.file = "out.csv"
+"#;
+
 #[test]
 fn files_for_numpy_hold_states_at_times() {
     let folder = folder("npz");
-    // Of these the last escapes to infinity.
-    let setup = r#"
-        system = "Cubic q: [x], p: [px]; H = px^2/2 + x^2/2 - x^3/3"
-        method = "forest-ruth-1990"
-        step_size = 0.1
-        times = { from = 0, to = 20, count = 5 }
-        starts = { x = { values = [0.1, 0.5, 1.5] }, px = 0.0 }
-        output.file = "out.npz"
-    "#;
-    let output = call(&folder, setup, &[]);
+    let output = call(&folder, &CUBIC.replace("out.csv", "out.npz"), &[]);
     let said = String::from_utf8_lossy(&output.stdout);
     assert!(said.starts_with("3 trajectories, 1 failed: "), "{said}");
     let file = fs::read(folder.join("out.npz")).expect("the output");
@@ -649,17 +650,8 @@ fn the_example_of_the_book_runs() {
 #[test]
 fn tables_are_the_same_as_parquet_and_as_csv() {
     let folder = folder("parquet");
-    // Of these the last escapes to infinity.
-    let setup = r#"
-        system = "Cubic q: [x], p: [px]; H = px^2/2 + x^2/2 - x^3/3"
-        method = "forest-ruth-1990"
-        step_size = 0.1
-        times = { from = 0, to = 20, count = 5 }
-        starts = { x = { values = [0.1, 0.5, 1.5] }, px = 0.0 }
-        output.file = "out.csv"
-    "#;
-    let table = csv(&folder, setup);
-    call(&folder, &setup.replace("out.csv", "out.parquet"), &[]);
+    let table = csv(&folder, CUBIC);
+    call(&folder, &CUBIC.replace("out.csv", "out.parquet"), &[]);
     let file = fs::File::open(folder.join("out.parquet")).expect("the output");
     let reader = SerializedFileReader::new(file).expect("a table");
     let about = reader.metadata().file_metadata();

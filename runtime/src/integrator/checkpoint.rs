@@ -105,7 +105,7 @@ pub enum CheckpointError {
 const DAMAGED: fn(&'static str) -> CheckpointError = |reason| CheckpointError::Damaged { reason };
 
 impl Checkpoint {
-    /// A checkpoint without words, of steps of a flow that carries so many words from one call to the next.
+    /// An empty checkpoint of a flow. `carried` is the number of words of the flow's own memory; flows with another number are told apart.
     pub(crate) fn of_flow(dimension: usize, carried: usize) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION").to_string(),
