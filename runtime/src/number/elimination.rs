@@ -186,13 +186,29 @@ impl<E: Entry> Elimination<E> {
         &mut self,
         entry: impl Fn(usize, usize) -> E,
     ) -> Option<usize> {
-        self.entries.fill(E::zero());
+        self.clear();
         for i in 0..self.size {
             for j in self.band(i) {
-                let place = self.place(i, j);
-                self.entries[place] = entry(i, j);
+                self.set(i, j, entry(i, j));
             }
         }
+        self.eliminate_all()
+    }
+
+    /// Sets all entries to zero.
+    pub(crate) fn clear(&mut self) {
+        self.entries.fill(E::zero());
+    }
+
+    /// Sets an entry within the band of a matrix that is then [factored](Self::eliminate_all).
+    #[inline(always)]
+    pub(crate) fn set(&mut self, i: usize, j: usize, entry: E) {
+        let place = self.place(i, j);
+        self.entries[place] = entry;
+    }
+
+    /// Factors the matrix of the entries that were [`set`](Self::set); returns the first column whose pivot is zero, NaN or infinite.
+    pub(crate) fn eliminate_all(&mut self) -> Option<usize> {
         (0..self.size).find(|&k| !self.eliminate(k))
     }
 

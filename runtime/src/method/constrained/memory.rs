@@ -4,6 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::array;
 
+use super::history::History;
 use super::last_impulse::LastImpulse;
 use super::metric::{Metric, Point};
 use super::newton::StageJacobian;
@@ -12,7 +13,7 @@ use crate::error::Quantity;
 use crate::method::storage::{first_mismatch, first_non_finite};
 use crate::method::{Method, StageStorage};
 use crate::number::{Scalar, Vector, Visit, scalar_words, vector_words};
-use crate::system::{Gradients, System, Terms};
+use crate::system::{Class, Gradients, System, Terms};
 
 /// Everything that depends on the numbers of constraints and stages.
 #[derive(Clone, Debug)]
@@ -34,11 +35,15 @@ pub(super) struct Workspace<V: Vector> {
     pub(super) gradients: Vec<Gradients<V::Scalar>>,
     /// `h b_k Λ_k`, stage by stage.
     pub(super) impulses: Vec<V::Scalar>,
+    /// Their last changes.
+    pub(super) changes: Vec<V::Scalar>,
     /// One for each number of stages; a costly one is made when it is first needed.
     pub(super) jacobians: Vec<StageJacobian<V::Scalar>>,
     /// `φ(Q_i)`, then `S⁻¹ φ(Q_i)`, i = 2..s, stage by stage.
     pub(super) defects: Vec<V::Scalar>,
-    /// The multipliers at the end of the previous step, which are the starting values of the next.
+    /// The previous steps of every part of a composition.
+    pub(super) histories: Vec<History<V>>,
+    /// The multipliers at the end of the previous step, which are the starting values of the next without a history.
     pub(super) multipliers: Vec<V::Scalar>,
     pub(super) last_impulse: LastImpulse<V::Scalar>,
     /// The sizes that the residuals of every constraint are compared with.
@@ -67,19 +72,24 @@ impl<V: Vector> Workspace<V> {
             let count = step.tableau.weights.len();
             stages = stages.max(count);
             let (own, half) = (count.saturating_sub(1), metric.half_bandwidth());
-            let known = jacobians
-                .iter()
-                .any(|known| known.fits(constraints, own, half));
+            let known = jacobians.iter().any(|known| known.fits(own));
             if !known && !metric.is_full() {
                 jacobians.push(StageJacobian::new(constraints, own, half));
             }
         }
+        let histories = M::CONSTRAINED.iter().map(|step| {
+            let stages = step.tableau.weights.len();
+            let momenta = if S::Class::SEPARABLE { 0 } else { stages };
+            let own = stages.saturating_sub(1);
+            History::new(q, own + momenta, own * constraints)
+        });
         let vectors = |count: usize| -> Vec<V> { (0..count).map(|_| q.zeros_like()).collect() };
         let numbers = |count: usize| vec![V::Scalar::from_f64(0.0); count];
         let gradients = point.gradients.clone();
         Self {
             resolution: Resolution::new(system, q, &gradients),
             metric,
+            histories: histories.collect(),
             start: point.clone(),
             end: point,
             q: vectors(stages),
@@ -88,6 +98,7 @@ impl<V: Vector> Workspace<V> {
             kick: vectors(stages),
             gradients: vec![gradients; stages.saturating_sub(2)],
             impulses: numbers(stages.saturating_sub(1) * constraints),
+            changes: numbers(stages.saturating_sub(1) * constraints),
             jacobians,
             defects: numbers(stages.saturating_sub(1) * constraints),
             multipliers: numbers(constraints),
@@ -111,6 +122,7 @@ impl<V: Vector> StageStorage<V> for ConstrainedStages<V> {
             resolution,
             end,
             multipliers,
+            histories,
             ..
         }) = &mut self.workspace
         else {
@@ -121,6 +133,9 @@ impl<V: Vector> StageStorage<V> for ConstrainedStages<V> {
         end.normal.words(visit);
         scalar_words(multipliers, visit);
         resolution.words(visit);
+        for history in histories {
+            history.words(visit);
+        }
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {

@@ -188,7 +188,7 @@ impl<T: Scalar> Metric<T> {
                 InverseMasses::Diagonal(inverse) => inverse[component],
                 _ => T::one(),
             };
-            for (a, b, row, column, component) in self.products.pairs() {
+            for [a, b, row, column, component] in self.products.pairs() {
                 let (left, right) = (left.values(), right.values());
                 band[place(row, column)] += left[a] * right[b] * mass(component);
                 if row != column {

@@ -8,6 +8,7 @@
 //! With two stages of Lobatto IIIA–IIIB this is RATTLE.
 
 mod force;
+mod history;
 mod last_impulse;
 mod memory;
 mod metric;
@@ -33,9 +34,9 @@ use core::marker::PhantomData;
 
 use crate::error::Error;
 use crate::method::{
-    ConstrainedStep, ConstrainedTableau, EvaluationObserver, Failure, Inside, Interpolation,
-    Method, Outcome, Plan, Solver, StageStorage, StageView, Step, StepStatistics, Stopping,
-    WarmStart, check_no_friction, check_no_rows,
+    ConstrainedStep, EvaluationObserver, Failure, Inside, Interpolation, Method, Outcome, Plan,
+    Solver, StageStorage, StageView, Step, StepStatistics, Stopping, WarmStart, check_no_friction,
+    check_no_rows,
 };
 use crate::number::{Scalar, Summation, Vector};
 use crate::system::{Class, Constrained, System, Unconstrained};
@@ -156,8 +157,10 @@ impl<V: Vector> ConstrainedStages<V> {
         let workspace = workspace
             .get_or_insert_with(|| Workspace::new::<M, S>(system, step.time, step.q, step.p));
         let between = Outcome { q, q_low, p, p_low };
-        let take = |tableau, part: &Step<'_, V>, carried, here: &mut Outcome<'_, V>| {
-            let taken = workspace.take::<R, S>(tableau, part, system, carried, stopping, here);
+        let take = |number: usize, part: &Step<'_, V>, carried, here: &mut Outcome<'_, V>| {
+            let tableau = M::CONSTRAINED[number].tableau;
+            let taken =
+                workspace.take::<R, S>((number, tableau), part, system, carried, stopping, here);
             show_stages::<V, S>(tableau, part, (&workspace.q, &workspace.p), &mut show);
             taken
         };
@@ -180,7 +183,8 @@ pub(super) fn taken_once_more<V: Vector>(
     take(WarmStart::default(), outcome).map(|_| ())
 }
 
-/// Takes the steps of a composition one after another. `take` takes one step and is told whether the previous one ended where it starts.
+/// Takes the steps of a composition one after another. `take` takes the step of a number, and is told whether the previous one ended where
+/// it starts.
 pub(super) fn in_turn<'a, V: Vector>(
     steps: &[ConstrainedStep],
     step: &Step<'_, V>,
@@ -188,7 +192,7 @@ pub(super) fn in_turn<'a, V: Vector>(
     mut between: Outcome<'a, V>,
     mut outcome: Outcome<'a, V>,
     mut take: impl FnMut(
-        &'static ConstrainedTableau,
+        usize,
         &Step<'_, V>,
         bool,
         &mut Outcome<'_, V>,
@@ -217,7 +221,7 @@ pub(super) fn in_turn<'a, V: Vector>(
             linear_velocity: step.linear_velocity,
         };
         let carried = number > 0 || kept.evaluation;
-        work += take(substep.tableau, &part, carried, here)?;
+        work += take(number, &part, carried, here)?;
     }
     Ok(work)
 }

@@ -18,9 +18,11 @@ use crate::system::{Gradients, System};
 /// The change of the forces with the positions is left out: it is smaller by a factor of h².
 #[derive(Clone, Debug)]
 pub(super) struct StageJacobian<T> {
+    /// Ordered by constraint, then by stage.
     elimination: Elimination<T>,
-    /// Blocks `h Z_ik G(Q_i) M⁻¹ G(Q_k)ᵀ` by rows, one after another.
-    blocks: Vec<T>,
+    stages: usize,
+    /// `G(Q_i) M⁻¹ G(Q_k)ᵀ` of two stages, as a band by rows.
+    block: Vec<T>,
 }
 
 impl<T: Scalar> StageJacobian<T> {
@@ -29,17 +31,14 @@ impl<T: Scalar> StageJacobian<T> {
         let half = (half_bandwidth + 1) * stages - 1;
         Self {
             elimination: Elimination::new(constraints * stages, half),
-            blocks: vec![T::zero(); Self::entries(constraints, stages, half_bandwidth)],
+            stages,
+            block: vec![T::zero(); constraints * (2 * half_bandwidth + 1)],
         }
     }
 
-    /// Whether the memory has the size for these numbers.
-    pub(super) fn fits(&self, constraints: usize, stages: usize, half_bandwidth: usize) -> bool {
-        self.blocks.len() == Self::entries(constraints, stages, half_bandwidth)
-    }
-
-    const fn entries(constraints: usize, stages: usize, half_bandwidth: usize) -> usize {
-        stages * stages * constraints * (2 * half_bandwidth + 1)
+    /// Whether the memory has the size for this number of stages with multipliers.
+    pub(super) const fn fits(&self, stages: usize) -> bool {
+        self.stages == stages
     }
 }
 
@@ -49,7 +48,7 @@ impl<V: Vector> Workspace<V> {
         self.metric.is_full()
     }
 
-    /// New impulses of the constraints from the defects, by a Newton step. Uses the matrix of an earlier sweep unless `renew` is set.
+    /// Changes of the impulses of the constraints from the defects, by a Newton step. Uses the matrix of an earlier sweep unless `renew` is set.
     ///
     /// # Errors
     /// [`Failure::SingularMatrix`]
@@ -61,12 +60,10 @@ impl<V: Vector> Workspace<V> {
         renew: bool,
     ) -> Result<(), Failure> {
         let (stages, constraints) = (tableau.weights.len() - 1, self.multipliers.len());
-        let half = self.metric.half_bandwidth();
-        let fitting = |known: &StageJacobian<_>| known.fits(constraints, stages, half);
-        let place = self.jacobians.iter().position(fitting);
+        let place = self.jacobians.iter().position(|known| known.fits(stages));
         let mut jacobian = match place {
             Some(place) => self.jacobians.swap_remove(place),
-            None => StageJacobian::new(constraints, stages, half),
+            None => StageJacobian::new(constraints, stages, self.metric.half_bandwidth()),
         };
         let regular = !renew || self.renew(tableau, step, system, &mut jacobian)?;
         let elimination = &mut jacobian.elimination;
@@ -78,7 +75,7 @@ impl<V: Vector> Workspace<V> {
         elimination.solve();
         for c in 0..constraints {
             for k in 0..stages {
-                self.impulses[k * constraints + c] += elimination.right[c * stages + k];
+                self.changes[k * constraints + c] = elimination.right[c * stages + k];
             }
         }
         self.jacobians.push(jacobian);
@@ -95,7 +92,6 @@ impl<V: Vector> Workspace<V> {
     ) -> Result<bool, Failure> {
         let (stages, constraints) = (tableau.weights.len() - 1, self.multipliers.len());
         let half = self.metric.half_bandwidth();
-        let width = 2 * half + 1;
         // The gradients at Q_1 … Q_{s−1} are known from the sweep.
         let q = &self.q[stages];
         let last = &mut self.end.gradients;
@@ -116,30 +112,25 @@ impl<V: Vector> Workspace<V> {
             });
             V::Scalar::from_f64(step.size * products.sum::<f64>())
         };
+        let StageJacobian {
+            elimination, block, ..
+        } = jacobian;
+        elimination.clear();
         for k in 0..stages {
             let place = (step.at(tableau.momentum_nodes[k]), &self.q[k], &self.p[k]);
             for i in 0..stages {
-                let block = (i * stages + k) * constraints * width;
-                let block = &mut jacobian.blocks[block..block + constraints * width];
                 let scratch = &mut self.scratch;
                 (self.metric).cross(system, place, at(i + 1), at(k), block, scratch);
                 let factor = factor(i, k);
-                block.iter_mut().for_each(|entry| *entry *= factor);
+                for (c, row) in block.chunks_exact(2 * half + 1).enumerate() {
+                    let columns = c.saturating_sub(half)..constraints.min(c + half + 1);
+                    for d in columns {
+                        let entry = factor * row[d + half - c];
+                        elimination.set(c * stages + i, d * stages + k, entry);
+                    }
+                }
             }
         }
-        let StageJacobian {
-            elimination,
-            blocks,
-        } = jacobian;
-        // Ordered by constraint, then by stage.
-        Ok(elimination.factor(|row, column| {
-            let (c, i) = (row / stages, row % stages);
-            let (d, k) = (column / stages, column % stages);
-            if c.abs_diff(d) > half {
-                return V::Scalar::from_f64(0.0);
-            }
-            let block = (i * stages + k) * constraints * width;
-            blocks[block + c * width + d + half - c]
-        }))
+        Ok(elimination.eliminate_all().is_none())
     }
 }

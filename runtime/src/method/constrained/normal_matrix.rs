@@ -12,8 +12,8 @@ use crate::system::Gradients;
 /// The products of entries of G that make up the entries of S.
 #[derive(Clone, Debug)]
 pub(in crate::method) struct Products {
-    /// Two entries of G in the same column, the place of their product in the band, and the column.
-    pairs: Vec<(u32, u32, u32, u32)>,
+    /// Two entries of G in the same column, the constraints of both (the second is not larger than the first), and the column.
+    pairs: Vec<[u32; 5]>,
     half_bandwidth: usize,
 }
 
@@ -43,11 +43,10 @@ impl Products {
         for column in columns() {
             for (number, &(component, row, entry)) in column.iter().enumerate() {
                 for &(_, other_row, other) in &column[..=number] {
-                    let place = row * half_bandwidth + half_bandwidth + other_row;
-                    pairs.push([entry, other, place, component].map(|x| x as u32).into());
+                    pairs.push([entry, other, row, other_row, component].map(|x| x as u32));
                     // Two entries of one constraint in one column count in both orders.
                     if row == other_row && entry != other {
-                        pairs.push([other, entry, place, component].map(|x| x as u32).into());
+                        pairs.push([other, entry, row, other_row, component].map(|x| x as u32));
                     }
                 }
             }
@@ -64,16 +63,10 @@ impl Products {
         self.half_bandwidth
     }
 
-    /// Two entries of G in the same column, the numbers of their constraints (the second is not larger than the first), and the column.
-    pub(in crate::method) fn pairs(
-        &self,
-    ) -> impl Iterator<Item = (usize, usize, usize, usize, usize)> {
-        let half = self.half_bandwidth;
-        self.pairs.iter().map(move |&(a, b, place, component)| {
-            let row = place as usize / (half + 1);
-            let column = place as usize - row * half - half;
-            (a as usize, b as usize, row, column, component as usize)
-        })
+    /// Two entries of G in the same column, the constraints of both (the second is not larger than the first), and the column.
+    #[inline]
+    pub(in crate::method) fn pairs(&self) -> impl Iterator<Item = [usize; 5]> {
+        self.pairs.iter().map(|pair| pair.map(|x| x as usize))
     }
 }
 
@@ -111,14 +104,15 @@ impl<T: Scalar> NormalMatrix<T> {
         self.rows.fill(T::zero());
         match masses {
             InverseMasses::Diagonal(inverse) => {
-                for &(a, b, place, component) in &products.pairs {
-                    let product = values[a as usize] * values[b as usize];
-                    self.rows[place as usize] += product * inverse[component as usize];
+                for [a, b, row, column, component] in products.pairs() {
+                    let place = self.place(row, column);
+                    self.rows[place] += values[a] * values[b] * inverse[component];
                 }
             }
             _ => {
-                for &(a, b, place, _) in &products.pairs {
-                    self.rows[place as usize] += values[a as usize] * values[b as usize];
+                for [a, b, row, column, _] in products.pairs() {
+                    let place = self.place(row, column);
+                    self.rows[place] += values[a] * values[b];
                 }
             }
         }

@@ -1,5 +1,6 @@
 //! One constrained step.
 
+use super::history::History;
 use super::memory::Workspace;
 use crate::error::Quantity;
 use crate::method::storage::is_finite;
@@ -20,19 +21,21 @@ const SLOW: f64 = 0.125;
 pub(in crate::method) const PATIENCE: u32 = 4;
 
 impl<V: Vector> Workspace<V> {
-    /// Takes a step; `carried` means that the previous step ended where this one starts.
+    /// Takes the step of a number in its composition; `carried` means that the previous step ended where this one starts.
     ///
-    /// A sweep evaluates the forces at the stages, computes the stages with the present multipliers, and corrects the multipliers, first by
+    /// Stages and multipliers start from those of the last three steps if these had the same size. A sweep evaluates the forces at the
+    /// stages, computes the stages with the present multipliers, and corrects the multipliers by a Newton step, or, in the first sweep without
+    /// previous steps, by
     ///
     /// ```text
     /// h b_k Λ_k += (b_k/h) Σ_i (X⁻¹)_ki S⁻¹ φ(Q_i)      S = G M⁻¹ Gᵀ at q0
     /// ```
     ///
-    /// then by a Newton step, until the residuals are rounding errors. Then `Q_s = q1`, and the last multiplier follows from
-    /// `G velocity(q1, p1) = 0`.
+    /// until the residuals are rounding errors. Stages between start and end follow the new multipliers at once. Then `Q_s = q1`, and the last
+    /// multiplier follows from `G velocity(q1, p1) = 0`.
     pub(super) fn take<R: Summation, S: System<V>>(
         &mut self,
-        tableau: &ConstrainedTableau,
+        (number, tableau): (usize, &ConstrainedTableau),
         step: &Step<'_, V>,
         system: &S,
         carried: bool,
@@ -44,6 +47,7 @@ impl<V: Vector> Workspace<V> {
         if !carried {
             // The multipliers of another state, or of a step that failed, are no starting values.
             self.multipliers.fill(V::Scalar::from_f64(0.0));
+            self.histories.iter_mut().for_each(History::forget);
             let Self {
                 metric,
                 end,
@@ -58,38 +62,63 @@ impl<V: Vector> Workspace<V> {
             }
         }
         core::mem::swap(&mut self.start, &mut self.end);
-        self.begin(tableau, step, system, &mut work);
-        self.iterate::<R, S>(tableau, step, system, stopping, outcome, &mut work)?;
+        let extrapolated = self.begin((number, tableau), step, system, &mut work);
+        self.iterate::<R, S>(
+            tableau,
+            step,
+            system,
+            extrapolated,
+            stopping,
+            outcome,
+            &mut work,
+        )?;
+        let momenta = if separable {
+            &[]
+        } else {
+            &self.p[..tableau.weights.len()]
+        };
+        let stages = self.q[1..tableau.weights.len()].iter().chain(momenta);
+        self.histories[number].end(stages, &self.impulses);
         self.finish::<R, S>(tableau, step, system, stopping, outcome, &mut work)?;
         Ok(work)
     }
 
-    /// Starting values of the stages and multipliers.
+    /// Starting values of the stages and multipliers; returns whether they are extrapolated from previous steps.
     fn begin<S: System<V>>(
         &mut self,
-        tableau: &ConstrainedTableau,
+        (number, tableau): (usize, &ConstrainedTableau),
         step: &Step<'_, V>,
         system: &S,
         work: &mut StepStatistics,
-    ) {
+    ) -> bool {
         let stages = tableau.weights.len();
-        let impulses = self.impulses.chunks_exact_mut(self.multipliers.len());
-        for (impulses, &weight) in impulses.zip(tableau.weights) {
-            let weight = V::Scalar::weight(step.size, weight);
-            for (impulse, &multiplier) in impulses.iter_mut().zip(&self.multipliers) {
-                *impulse = weight * multiplier;
+        let history = &mut self.histories[number];
+        let extrapolated = history.begin(step.size, &mut self.impulses);
+        if !extrapolated {
+            let impulses = self.impulses.chunks_exact_mut(self.multipliers.len());
+            for (impulses, &weight) in impulses.zip(tableau.weights) {
+                let weight = V::Scalar::weight(step.size, weight);
+                for (impulse, &multiplier) in impulses.iter_mut().zip(&self.multipliers) {
+                    *impulse = weight * multiplier;
+                }
             }
         }
         let velocity = &mut self.scratch[0];
         system.velocity(step.at(Coefficient::exact(0.0)), step.q, step.p, velocity);
         work.evaluations += 1;
         copy(&mut self.q[0], step.q);
-        self.p.iter_mut().for_each(|p| copy(p, step.p));
         for i in 1..stages {
             let factor = V::Scalar::weight(step.size, tableau.nodes[i]);
             let pairs = step.q.as_slice().iter().zip(velocity.as_slice());
             for (out, (&q, &velocity)) in self.q[i].as_mut_slice().iter_mut().zip(pairs) {
                 *out = velocity.fused(factor, q);
+            }
+            history.correct(i - 1, &mut self.q[i]);
+        }
+        for (i, p) in self.p[..stages].iter_mut().enumerate() {
+            copy(p, step.p);
+            if !S::Class::SEPARABLE {
+                history.correct(stages - 1 + i, p);
             }
         }
         let size = step.size.abs();
@@ -98,6 +127,7 @@ impl<V: Vector> Workspace<V> {
             |k| q[k].magnitude() + size * velocity[k].magnitude(),
             &mut self.terms,
         );
+        extrapolated
     }
 
     /// Sweeps until the stages are on the constraints and no longer move. The position after the step is in `outcome`.
@@ -106,19 +136,25 @@ impl<V: Vector> Workspace<V> {
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
         system: &S,
+        extrapolated: bool,
         stopping: Stopping,
         outcome: &mut Outcome<'_, V>,
         work: &mut StepStatistics,
     ) -> Result<(), Failure> {
         let (mut best, mut since) = (f64::INFINITY, 0);
         let (mut before, mut moved) = (f64::INFINITY, f64::INFINITY);
+        let stages = tableau.weights.len();
+        // The first sweep with Newton's matrix, which needs good stages.
+        let first = if extrapolated { 1 } else { 2 };
+        // Forces inside the step depend on the multipliers if there are stages between start and end.
+        let between = stages > 2 && !self.jacobian_is_costly();
         for sweep in 1..=stopping.max_iterations {
             work.iterations += 1;
             self.kicks(tableau, step, system, work)?;
             self.drifts::<S>(tableau, step, system, work);
-            let [defect, movement, noise] = self.positions::<R, S>(tableau, step, system, outcome);
-            // The remaining movement shrinks at least as fast as the movements did.
-            let rate = if sweep > 1 && movement < moved {
+            let [defect, movement, size] = self.positions::<R, S>(tableau, step, system, outcome);
+            // Where stages do not follow the multipliers at once, the next movement is smaller by the same factor at least.
+            let rate = if !between && sweep > 1 && movement < moved {
                 movement / moved
             } else {
                 1.0
@@ -135,7 +171,9 @@ impl<V: Vector> Workspace<V> {
                 (best, since) = (residual, 0);
             } else {
                 since += 1;
-                if since >= PATIENCE && (best <= NOISE || noise <= NOISE) {
+                if since >= PATIENCE
+                    && (best <= NOISE || self.noise(stages, movement, size) <= NOISE)
+                {
                     return Ok(());
                 }
                 if since >= PATIENCE * PATIENCE {
@@ -148,12 +186,18 @@ impl<V: Vector> Workspace<V> {
             // The matrix at the start of the step costs nothing extra; that at the first stages contracts much faster.
             let slow = residual > SLOW * before;
             before = residual;
-            if sweep == 1 || self.jacobian_is_costly() && !slow {
+            if sweep < first || self.jacobian_is_costly() && !slow {
                 self.correct(tableau, step);
             } else {
-                let renew = sweep == 2 || slow;
+                let renew = sweep == first || slow;
                 self.correct_by_newton(tableau, step, system, renew)?;
                 work.factorisations += u32::from(renew);
+            }
+            for (impulse, &change) in self.impulses.iter_mut().zip(&self.changes) {
+                *impulse += change;
+            }
+            if between {
+                self.follow::<S>(tableau, step, system, work);
             }
         }
         Err(Failure::NoConvergence {
@@ -227,7 +271,7 @@ impl<V: Vector> Workspace<V> {
     }
 
     /// The positions of the stages. Returns their distance from the constraints, and the movement of the positions that forces depend on,
-    /// both in units of rounding. The third value is the larger of the two in units of what the values of the constraints resolve.
+    /// both in units of rounding, and the size of these positions.
     fn positions<R: Summation, S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
@@ -269,33 +313,76 @@ impl<V: Vector> Workspace<V> {
             system.constraint_values(&self.q[i], defects);
         }
         let defects = self.defects.chunks_exact(constraints).take(stages - 1);
-        let resolution = &self.resolution;
-        let (mut residual, mut noise) = (0.0, movement / (size + resolution.position));
+        let mut residual = 0.0;
         for defects in defects {
-            let defects = defects.iter().zip(&self.terms).zip(&resolution.values);
-            for ((defect, terms), &resolved) in defects {
-                let defect = defect.magnitude();
-                residual = maximum(residual, terms.relative(defect, 0.0));
-                noise = maximum(noise, terms.relative(defect, resolved));
+            for (defect, terms) in defects.iter().zip(&self.terms) {
+                residual = maximum(residual, terms.relative(defect.magnitude(), 0.0));
             }
         }
-        [residual, movement / size, noise].map(|change| change / V::Scalar::EPSILON)
+        let unit = V::Scalar::EPSILON;
+        [residual / unit, movement / size / unit, size]
     }
 
-    /// New impulses of the constraints from the defects.
+    /// The larger of distance and movement in units of what the values of the constraints resolve.
+    fn noise(&self, stages: usize, movement: f64, size: f64) -> f64 {
+        let resolution = &self.resolution;
+        let mut noise = movement * size / (size + resolution.position);
+        for defects in self
+            .defects
+            .chunks_exact(self.multipliers.len())
+            .take(stages - 1)
+        {
+            let defects = defects.iter().zip(&self.terms).zip(&resolution.values);
+            for ((defect, terms), &resolved) in defects {
+                let defect = terms.relative(defect.magnitude(), resolved);
+                noise = maximum(noise, defect / V::Scalar::EPSILON);
+            }
+        }
+        noise
+    }
+
+    /// Moves the stages between start and end by the changes of the impulses.
+    fn follow<S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        work: &mut StepStatistics,
+    ) {
+        let (stages, constraints) = (tableau.weights.len(), self.multipliers.len());
+        for (j, changes) in self
+            .changes
+            .chunks_exact(constraints)
+            .take(stages - 1)
+            .enumerate()
+        {
+            let gradients = match j {
+                0 => &self.start.gradients,
+                _ => &self.gradients[j - 1],
+            };
+            gradients.subtract_transposed(changes, self.kick[j].as_mut_slice());
+        }
+        self.drifts::<S>(tableau, step, system, work);
+        for i in 1..stages - 1 {
+            let start = (step.q, step.q_low);
+            stage(&mut self.q[i], start, tableau.positions[i], &self.drift);
+        }
+    }
+
+    /// Changes of the impulses of the constraints from the defects.
     fn correct(&mut self, tableau: &ConstrainedTableau, step: &Step<'_, V>) {
         let (stages, constraints) = (tableau.weights.len(), self.multipliers.len());
         let defects = self.defects.chunks_exact_mut(constraints);
         for defects in defects.take(stages - 1) {
             self.start.normal.solve(defects);
         }
+        self.changes.fill(V::Scalar::from_f64(0.0));
         for (k, row) in tableau.multipliers.iter().enumerate() {
             let weight = tableau.weights[k].double() / step.size;
             for (i, &entry) in row.iter().enumerate() {
                 let factor = V::Scalar::from_f64(weight * entry);
                 for c in 0..constraints {
-                    self.impulses[k * constraints + c] +=
-                        factor * self.defects[i * constraints + c];
+                    self.changes[k * constraints + c] += factor * self.defects[i * constraints + c];
                 }
             }
         }
@@ -417,14 +504,15 @@ pub(in crate::method) fn show_stages<V: Vector, S: System<V>>(
 }
 
 /// Whether momentum and velocity of a stage are those of the previous stage: for a separable system with equal rows.
+#[inline]
 pub(in crate::method) fn same_momentum<V: Vector, S: System<V>>(
     tableau: &ConstrainedTableau,
     i: usize,
 ) -> bool {
     i > 0
         && S::Class::SEPARABLE
-        && tableau.momenta[i] == tableau.momenta[i - 1]
         && tableau.momentum_nodes[i] == tableau.momentum_nodes[i - 1]
+        && tableau.momenta[i] == tableau.momenta[i - 1]
 }
 
 /// Position or momentum after a step, `base + low + Σ_j increment_j`, with its compensation.
@@ -446,6 +534,7 @@ pub(in crate::method) fn result<R: Summation, V: Vector>(
 }
 
 /// `out = base + (low + Σ_j factor_j increment_j)`
+#[inline]
 pub(in crate::method) fn stage<V: Vector>(
     out: &mut V,
     (base, low): (&V, &V),

@@ -163,7 +163,8 @@ impl<V: Vector> NonholonomicStages<V> {
         let workspace = workspace
             .get_or_insert_with(|| Workspace::new::<M, _>(system, step.time, step.q, step.p));
         let between = Outcome { q, q_low, p, p_low };
-        let take = |tableau, part: &Step<'_, V>, carried, here: &mut Outcome<'_, V>| {
+        let take = |number: usize, part: &Step<'_, V>, carried, here: &mut Outcome<'_, V>| {
+            let tableau = M::NONHOLONOMIC[number].tableau;
             let taken = workspace.take::<R, _>(tableau, part, system, carried, stopping, here);
             let places = (&workspace.q[..], &workspace.p[..]);
             show_stages::<V, RowsAsGradients<'_, S>>(tableau, part, places, &mut show);
