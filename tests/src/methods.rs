@@ -15,6 +15,9 @@ symplectic::tableau! {
     /// Lobatto IIIA–IIIB with four stages, order 6.
     pub Lobatto4 { basis: polynomial(4), nodes: lobatto(4), require: [symplectic, symmetric, order == 6] }
 
+    /// Lobatto IIIA–IIIB with five stages, order 8.
+    pub Lobatto5 { basis: polynomial(5), nodes: lobatto(5), require: [symplectic, symmetric, order == 8] }
+
     /// Gauss with two stages, order 4.
     pub Gauss2 {
         basis: polynomial(2), nodes: gauss(2), require: [symplectic, symmetric, equal_matrices, order == 4, p_stable]
@@ -62,6 +65,9 @@ symplectic::tableau! {
 symplectic::composition! {
     /// Störmer–Verlet as a splitting: half a kick, a drift, half a kick.
     pub VelocityVerlet { base: velocity-verlet }
+
+    /// Five Störmer–Verlet steps, order 4.
+    pub Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] }
 
     /// Five midpoint steps, order 4, also with non-holonomic constraints.
     pub Midpoint4 { base: gauss-1, weights: suzuki(4), require: [order == 4] }

@@ -12,6 +12,7 @@ symplectic::tableau! {
     pub Lobatto2 { basis: polynomial(2), nodes: lobatto(2) }
     pub Lobatto3 { basis: polynomial(3), nodes: lobatto(3) }
     pub Lobatto4 { basis: polynomial(4), nodes: lobatto(4) }
+    pub Lobatto5 { basis: polynomial(5), nodes: lobatto(5) }
     pub ForestRuth { base: forest-ruth-1990 }
 }
 
@@ -83,6 +84,7 @@ fn orders_with_a_force_of_momenta() {
         (slope(Lobatto2, ring, &start, &end, 64), 2.0),
         (slope(Lobatto3, ring, &start, &end, 64), 4.0),
         (slope(Lobatto4, ring, &start, &end, 64), 6.0),
+        (slope(Lobatto5, ring, &start, &end, 48), 8.0),
     ] {
         assert!((found - order).abs() < 0.05, "{found} instead of {order}");
     }

@@ -330,6 +330,22 @@ fn a_state_that_is_set_starts_anew() {
     assert_eq!(run.step().expect("a step"), fresh.step().expect("a step"));
 }
 
+/// Equal steps start from extrapolated stages, which saves sweeps; steps of two sizes in turn do not.
+#[test]
+fn extrapolation_saves_sweeps() {
+    let sweeps = |sizes: [f64; 2]| {
+        let start = double_start();
+        let mut run = Integrator::new(Lobatto4, DoubleSpherical, start, sizes[0]).expect("a run");
+        for number in 0..100 {
+            run.set_step_size(sizes[number % 2]).expect("a size");
+            run.step().expect("a step");
+        }
+        run.statistics().iterations
+    };
+    let (equal, unequal) = (sweeps([0.02; 2]), sweeps([0.02, 0.0201]));
+    assert!(5 * equal < 4 * unequal, "{equal} {unequal}");
+}
+
 /// A velocity that is linear in the momentum at the start, and affine elsewhere.
 #[test]
 fn magnetic_fields() {

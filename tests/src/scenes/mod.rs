@@ -3,6 +3,7 @@
 
 pub mod argon_crystal;
 pub mod charged_particle;
+pub mod circuit;
 pub mod damped_particle;
 pub mod double_pendulum;
 pub mod fput_chain;

@@ -5,14 +5,17 @@
 use std::f64::consts::TAU;
 
 use symplectic::nalgebra::SVector;
+use symplectic::variational::{DiracIntegrator, DiracRule};
 use symplectic::{Error, Integrator, Separable, State, System, Vector};
-use symplectic_report::{Ladder, Problem, Reference, Study};
-use symplectic_tests::methods::{Gauss6, Gauss8, Midpoint, StoermerVerlet, VelocityVerlet};
+use symplectic_report::{Finish, Ladder, Observe, Problem, Reference, Study};
+use symplectic_tests::methods::{
+    Gauss6, Gauss8, Midpoint, StoermerVerlet, Suzuki4, VelocityVerlet,
+};
 use symplectic_tests::scenes::{
-    argon_crystal, charged_particle, damped_particle, double_pendulum, fput_chain, fput_springs,
-    harmonic_oscillator, henon_heiles, hyperbolic, kepler, nonholonomic_oscillator, nonseparable,
-    outer_solar_system, pendulum, point_vortices, post_newtonian_kepler, pythagorean_three_body,
-    rolling_disk, sine_gordon, skate, sleigh,
+    argon_crystal, charged_particle, circuit, damped_particle, double_pendulum, fput_chain,
+    fput_springs, harmonic_oscillator, henon_heiles, hyperbolic, kepler, nonholonomic_oscillator,
+    nonseparable, outer_solar_system, pendulum, point_vortices, post_newtonian_kepler,
+    pythagorean_three_body, rolling_disk, sine_gordon, skate, sleigh,
 };
 
 use crate::peers::{with_forest_ruth, with_peers, with_rk4};
@@ -56,6 +59,7 @@ pub const SCENES: &[Scene] = &[
     ("skate", skate),
     ("nonholonomic-oscillator", nonholonomic_oscillator),
     ("sleigh", sleigh),
+    ("circuit", circuit),
     ("nonseparable", nonseparable),
     ("charged-particle", charged_particle),
     ("post-newtonian-kepler", post_newtonian_kepler),
@@ -543,6 +547,63 @@ fn energy_behaviour(study: Study) -> Result<Study, Error> {
         .run("Störmer–Verlet", |system, start, h| Integrator::plain(VelocityVerlet, system, start, h))
         .run("Midpoint", |system, start, h| Integrator::plain(Midpoint, system, start, h));
     Ok(study.problem(with_rk4(problem, &system, &start, end, ladder)))
+}
+
+fn circuit(study: Study) -> Result<Study, Error> {
+    let (start, end, first) = (circuit::start(), 20.0, 0.5);
+    let reference = Reference::known(circuit::exact(end), "closed form", 4.0 * f64::EPSILON);
+    let system = circuit::SolvedByHand;
+    let problem = Problem::new("Circuit", system, start.clone(), reference, first)
+        .described("L = ℓq₀'²/2 − Σ q²/2C and Kirchhoff's laws for the currents: an inductor and three capacitors, a degenerate Lagrangian (Yoshimura & Marsden 2006). The peers have the laws solved by hand.")
+        .needing("Dirac mechanics");
+    let methods = [
+        ("Trapezoid", DiracRule::Trapezoid, false),
+        ("Midpoint", DiracRule::Midpoint, false),
+        ("Trapezoid, order 4", DiracRule::Trapezoid, true),
+    ];
+    let problem = methods
+        .into_iter()
+        .fold(problem, |problem, (name, rule, composed)| {
+            let ladder = Ladder::Descend { first };
+            problem.peer(name, ladder, move |size, observe| {
+                circuit_run(rule, composed, end, size, observe).map_err(|error| error.to_string())
+            })
+        });
+    Ok(study.problem(with_peers::<_, _, 4, 8>(
+        problem, &system, &start, end, first,
+    )))
+}
+
+fn circuit_run(
+    rule: DiracRule,
+    composed: bool,
+    end: f64,
+    size: f64,
+    observe: Option<Observe<'_, SVector<f64, 4>>>,
+) -> Result<Finish<SVector<f64, 4>>, Error> {
+    let (system, start) = (circuit::Circuit::default(), circuit::start());
+    // Equal steps that end at the end.
+    let steps = (end / size).ceil();
+    let size = end / steps;
+    let mut run = if composed {
+        DiracIntegrator::composed(Suzuki4, rule, system, start, size)?
+    } else {
+        DiracIntegrator::new(rule, system, start, size)?
+    };
+    match observe {
+        Some(observe) => {
+            for _ in 0..steps as u64 {
+                observe(run.step()?);
+            }
+        }
+        None => drop(run.integrate_to(end)?),
+    }
+    let evaluations = run.system().evaluations.get();
+    Ok(Finish::explicit(
+        run.state().clone(),
+        Some(run.steps()),
+        evaluations,
+    ))
 }
 
 /// Adds the methods and peers of a separable problem, with the set `implicit`.
