@@ -52,18 +52,18 @@ impl<V: Vector, A: Flow<V>, B: Flow<V>> Flow<V> for Palindrome<A, B> {
         p: &mut V,
     ) -> Result<(), FlowError> {
         // Middle and size of the outer flow at the end of the previous step, which is still to be taken.
-        let mut waiting: Option<(f64, f64)> = None;
+        let mut pending: Option<(f64, f64)> = None;
         for span in spans {
             let half = span.size / 2.0;
-            let first = match waiting {
+            let first = match pending {
                 Some((time, size)) => Span::about(time, size + half),
                 None => Span::about(span.time, half),
             };
             self.outer.flow(first, q, p)?;
             self.inner.flow(span, q, p)?;
-            waiting = Some((span.time + span.size, half));
+            pending = Some((span.time + span.size, half));
         }
-        waiting.map_or(Ok(()), |(time, size)| {
+        pending.map_or(Ok(()), |(time, size)| {
             self.outer.flow(Span::about(time, size), q, p)
         })
     }

@@ -77,14 +77,14 @@ impl<V: Vector, M: Method, A: Flow<V>, B: Flow<V>> Flow<V> for Splitting<M, A, B
         q: &mut V,
         p: &mut V,
     ) -> Result<(), FlowError> {
-        let mut moves = Flows {
+        let mut flows = Flows {
             drift: &mut self.drift,
             kick: &mut self.kick,
             q,
             p,
             step: Span::about(0.0, 0.0),
             drifted: 0.0,
-            waiting: Waiting::NOTHING,
+            pending: Pending::NOTHING,
             outcome: Ok(()),
         };
         let mut memory = <M::Separable as Plan>::Memory::<_, Nothing, FixedPoint>::like(&PLACE);
@@ -96,20 +96,20 @@ impl<V: Vector, M: Method, A: Flow<V>, B: Flow<V>> Flow<V> for Splitting<M, A, B
                 p: &mut c,
                 p_low: &mut d,
             };
-            (moves.step, moves.drifted) = (span, 0.0);
+            (flows.step, flows.drifted) = (span, 0.0);
             M::Separable::take_in_place::<Plain, _, _, FixedPoint, _>(
                 span,
                 &Nothing,
                 &mut memory,
                 place,
-                &mut moves,
+                &mut flows,
             );
-            if moves.outcome.is_err() {
+            if flows.outcome.is_err() {
                 break;
             }
         }
-        moves.take_what_waits();
-        moves.outcome
+        flows.take_pending();
+        flows.outcome
     }
 
     fn memory(&mut self, visit: &mut dyn FnMut(&mut u64)) {
@@ -140,14 +140,14 @@ enum Part {
 
 /// A flow that is not yet taken, because the next one may be of the same part.
 #[derive(Clone, Copy, Debug)]
-struct Waiting {
+struct Pending {
     part: Part,
     /// The start of a drift, or the middle of a kick.
     time: f64,
     size: f64,
 }
 
-impl Waiting {
+impl Pending {
     const NOTHING: Self = Self {
         part: Part::Drift,
         time: 0.0,
@@ -164,7 +164,7 @@ struct Flows<'a, V, A, B> {
     step: Span,
     /// The sum of the drifts so far, as a fraction of the step.
     drifted: f64,
-    waiting: Waiting,
+    pending: Pending,
     outcome: Result<(), FlowError>,
 }
 
@@ -176,17 +176,17 @@ impl<V: Vector, A: Flow<V>, B: Flow<V>> Flows<'_, V, A, B> {
         if part == Part::Drift {
             self.drifted += weight.double();
         }
-        if self.waiting.size != 0.0 && self.waiting.part == part {
-            self.waiting.size += size;
+        if self.pending.size != 0.0 && self.pending.part == part {
+            self.pending.size += size;
             return;
         }
-        self.take_what_waits();
-        self.waiting = Waiting { part, time, size };
+        self.take_pending();
+        self.pending = Pending { part, time, size };
     }
 
     #[inline(never)]
-    fn take_what_waits(&mut self) {
-        let Waiting { part, time, size } = core::mem::replace(&mut self.waiting, Waiting::NOTHING);
+    fn take_pending(&mut self) {
+        let Pending { part, time, size } = core::mem::replace(&mut self.pending, Pending::NOTHING);
         if size == 0.0 || self.outcome.is_err() {
             return;
         }
