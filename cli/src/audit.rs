@@ -11,9 +11,9 @@ use crate::output;
 
 /// Compare the claims of libraries about their tables with proofs.
 ///
-/// A file contains the library, its version and source, the `convention` by which it steps its numbers, and its tables
-/// with their claims; `tableaux/libraries/` contains such files. Next to each proved order the output shows the order
-/// observed in steps of the pendulum. The exit status is 1 if a proved order differs from the observed order.
+/// A file contains the library, its version and source, the `convention` by which it uses the numbers of its tables, and
+/// these tables with their claims; `tableaux/libraries/` contains such files. Next to each proved order the output shows
+/// the order observed in steps of the pendulum. The exit status is 1 if a proved order differs from the observed order.
 #[derive(Args)]
 pub(crate) struct Arguments {
     /// Files, or folders with files named .toml.
@@ -57,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         "claim",
         "T(p) + U(q)",
         "T quadratic",
-        "seen: p²/2, √(1 + p²)",
+        "observed: p²/2, √(1 + p²)",
         "",
     ]
     .map(str::to_owned);
@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         .collect();
     let unexplained = audit.unexplained().count();
     output::print(&format!(
-        "{}\n{} tables, {} prove another order than they claim, {unexplained} unexplained\n",
+        "{}\n{} tables; for {} the proved order is not the claimed order, {unexplained} unexplained\n",
         output::aligned(&rows),
         audit.rows.len(),
         audit.differences().count(),

@@ -8,7 +8,7 @@ use symplectic_compiler::{Error, Tableau, catalogue, check, export};
 
 use crate::output;
 
-/// Write the certificate of a method: everything proved of it, for an independent checker.
+/// Write the certificate of a method: everything that is proved about it, for an independent checker.
 ///
 /// `python3 tableaux/check_certificate.py FILE` checks a certificate using Python's standard library only.
 #[derive(Args)]

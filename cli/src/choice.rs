@@ -121,13 +121,13 @@ impl Choice {
         let several = |orders: &Option<Orders>| orders.as_ref().is_some_and(|o| o.0.len() > 1);
         if self.class != Some(Class::Perturbed) {
             if several(&self.min_order) || several(&self.max_order) {
-                return refused("several orders are those of `--class perturbed`; give one");
+                return refused("several orders need `--class perturbed`: give one order");
             }
             return Ok(());
         }
         if matches!(self.sort, Some(Sort::Error | Sort::Efficiency)) || self.tolerance.is_some() {
             return refused(
-                "there is no error constant for `--class perturbed`: sort by name, order or evaluations",
+                "there is no error constant for `--class perturbed`: leave out `--tolerance`, and sort by name, order or evaluations",
             );
         }
         Ok(())
@@ -286,8 +286,8 @@ pub(crate) fn table(choice: &Choice) -> Result<String, Error> {
     ];
     rows.extend(methods.into_iter().map(Method::row));
     let mut text = format!(
-        "Methods for {class} H. Forces: evaluations a step, of methods that are explicit for separable H.\n\
-         Cost: evaluations in a unit of time for an error of {tolerance:e}, forces × (error constant / error)^(1/order).\n\n"
+        "Methods for {class} H. Forces: force evaluations per step, for methods that are explicit for separable H.\n\
+         Cost: force evaluations per unit of time for an error of {tolerance:e}, forces × (error constant / error)^(1/order).\n\n"
     );
     text.push_str(&aligned(&rows));
     Ok(text)
@@ -302,7 +302,7 @@ fn perturbed(methods: Vec<Method>) -> String {
     }));
     let mut text = String::from(
         "Splittings for H = H_A + εH_B with drifts for H_A and kicks for εH_B; with `exchange: true` the other way round.\n\
-         Order: (s1, s2, …) for local errors of O(ε h^(s1+1) + ε² h^(s2+1) + …), the last one in all higher powers of ε.\n\n",
+         Order: (s1, s2, …) for local errors of O(ε h^(s1+1) + ε² h^(s2+1) + …), the last order for all higher powers of ε.\n\n",
     );
     text.push_str(&aligned(&rows));
     text

@@ -9,26 +9,26 @@ use symplectic_compiler::{Error, Tableau, catalogue, check};
 
 use crate::{formula, output};
 
-/// Write a program that takes steps of a method, in one file without any dependency.
+/// Write a program that takes steps with a method: one file without dependencies.
 ///
-/// Methods that consist of drifts and kicks become a sequence of them; others solve for their stages by fixed-point iteration. The
-/// programs in C, Rust and Python give the same results to the last bit. With `--system` the program has velocity and force of a formula,
-/// and otherwise you give them.
+/// A splitting becomes a sequence of drifts and kicks; other methods solve for their stages by fixed-point iteration. The programs in C,
+/// Rust and Python give the same results to the last bit. With `--system` the program contains the velocity and the force of a formula;
+/// otherwise you write these two functions.
 #[derive(Args)]
 pub(crate) struct Arguments {
     /// A method of the catalogue, or a TOML file with a definition as `derive` reads it.
     #[arg(value_name = "METHOD")]
     method: String,
-    /// The language.
+    /// Programming language.
     #[arg(long, value_enum)]
     language: Language,
-    /// The Hamiltonians that steps are for [default: separable for drifts and kicks, else general].
+    /// Class of Hamiltonians [default: separable for splittings, general for other methods].
     #[arg(long, value_enum)]
     class: Option<Class>,
-    /// A file with the formula of a system, as `derive-system` reads it: its velocity, force and energy are written too.
+    /// A file with the formula of a system, as for `derive-system`: the program also contains its velocity, force and energy.
     #[arg(long, value_name = "FILE")]
     system: Option<PathBuf>,
-    /// The most stages that are derived [default: 36].
+    /// Largest number of stages to derive [default: 36].
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=1000))]
     max_stages: Option<u16>,
 }

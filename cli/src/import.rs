@@ -9,7 +9,7 @@ use symplectic_compiler::{Error, ImportOrigin, Library, export, import_with_orig
 use crate::output::{self, OutputOptions};
 use crate::report;
 
-/// Import a table of another library, with the convention by which that library steps its numbers.
+/// Import a table of another library, by that library's convention for the numbers of its tables.
 ///
 /// The file contains one table, in the language of the library: Julia's `1//2` and `big"0.5"`, C's `0x1.8p-1`,
 /// Fortran's `1.0d0` and `0.5_real64`, Mathematica's "1.5`20", Python's `Fraction(1, 2)`, Matlab's `[1 2; 3 4]`.
@@ -51,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         }
         ImportOrigin::Decimals => {
             report::warning(
-                "no exact method was found near the decimals, which are taken as they stand",
+                "no exact method was found near the decimals; they are taken as exact numbers",
             );
         }
     }

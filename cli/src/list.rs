@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
             format!("{title}; {}", entry.definition),
         ]
     }));
-    let mut rules = vec![["nodes", "s from", "what they are"].map(str::to_owned)];
+    let mut rules = vec![["nodes", "least s", "quadrature rule"].map(str::to_owned)];
     rules.extend(FAMILIES.map(|family| {
         [
             format!("{}(s)", family.name),

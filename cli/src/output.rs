@@ -80,7 +80,7 @@ impl OutputOptions {
         if let Some(wanted) = self.digits.filter(|&wanted| wanted > most) {
             let stages = tableau.stages();
             let message = format!(
-                "{wanted} digits of the coefficients of {stages} stages take too long: `--digits` up to {most} are written of this method"
+                "{wanted} digits take too long for a method with {stages} stages: for this method `--digits` may be up to {most}"
             );
             return Err(ErrorKind::Definition { message }.into());
         }
@@ -175,7 +175,7 @@ pub(crate) fn refuse_overwriting<'a>(
         let place = known(path);
         if place.is_some() && taken.contains(&place) {
             return Err(document(format!(
-                "`{}` would be written over an input or the other result",
+                "the output `{}` would overwrite an input or the other output: give another name",
                 path.display()
             )));
         }

@@ -63,7 +63,7 @@ keys! {
     /// The weights of the quadrature formula, if they are not the interpolatory ones; beside a base the fractions of
     /// the steps that a composition makes with it: `1/2, adjoint(1/2)`, `triple_jump(4)`, `suzuki(4)`.
     Weights = "weights", Some("WEIGHTS"),
-        "The weights of the quadrature, if not the interpolatory ones: \"1/6, 2/3, 1/6\". Beside a base the fractions of its steps: \"1/2, adjoint(1/2)\", \"triple_jump(4)\", \"suzuki(4)\"";
+        "The weights of the quadrature, if not the interpolatory ones: \"1/6, 2/3, 1/6\". With `--base`, the fractions of its steps: \"1/2, adjoint(1/2)\", \"triple_jump(4)\", \"suzuki(4)\"";
     /// Given coefficients `a_ij`: `[[0, 0], [1/2, 1/2]]`.
     A = "a", Some("ROWS"),
         "Given coefficients of the position stages, row by row: \"[[0, 0], [1/2, 1/2]]\"";
@@ -84,12 +84,12 @@ keys! {
         "The drifts of a splitting, q += drift_i h dT/dp, each after the kick of the same number: \"1, 0\"";
     /// `drift` where each drift of a splitting comes before the kick of the same number; `kick` otherwise.
     First = "first", Some("FLOW"),
-        "Which of the two comes first: kick or drift [default: kick]";
+        "What comes first: kick or drift [default: kick]";
     /// What printed kicks and drifts claim: `separable(6)`, `nystrom(6)`, `perturbed(8, 6, 4)`, or printed weights of a
     /// composition, `separable(8)`. The coefficients are then those of the exact method that is proved to be near the
     /// digits, see [`certify`](crate::certify).
     Claim = "claim", Some("CLAIM"),
-        "The order that printed kicks and drifts claim, or the printed weights of a composition: the exact method behind their digits is derived, with a proof that it exists. `separable(6)`, `nystrom(6)`, `perturbed(8, 6, 4)`";
+        "The claimed order of printed kicks and drifts, or of printed weights of a composition: `separable(6)`, `nystrom(6)`, `perturbed(8, 6, 4)`. The exact method near the digits is derived, with a proof that it exists";
     /// Steps of other methods one after another, each with its fraction of the step and its own
     /// definition: `[[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]]`.
     Compose = "compose", Some("STEPS"),
@@ -97,7 +97,7 @@ keys! {
     /// `true` where the parts of a splitting, or the weights of a composition, are the first half of a sequence that
     /// reads the same from both ends. The last one that is written stands in the middle, once.
     Symmetric = "symmetric", None,
-        "Mirror a splitting, or the weights of a base: what is written last stands in the middle, once";
+        "Continue a splitting, or the weights of a composition, in reverse order; the last entry is the middle one and is not repeated";
     /// `true` where the coefficients for positions and momenta are exchanged in the end.
     Exchange = "exchange", None,
         "Exchange the coefficients of positions and momenta";

@@ -65,8 +65,7 @@ impl Definition {
 
 impl Parse for Field {
     fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
-        const KEY: &str =
-            "expected a key such as `nodes:`; a list stands in brackets: `[0, 1/2, 1]`";
+        const KEY: &str = "expected a key such as `nodes:`; lists need brackets: `[0, 1/2, 1]`";
         let key: Ident = input
             .parse()
             .map_err(|error| syn::Error::new(error.span(), KEY))?;

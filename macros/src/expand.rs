@@ -95,7 +95,7 @@ fn expand_one(definition: &Definition, form: Form) -> syn::Result<TokenStream> {
         (Some(file), false) => Err(syn::Error::new(
             file.key.span(),
             format!(
-                "`file` says everything: leave out {}, or `file`",
+                "`file` already defines the method: leave out {}, or `file`",
                 parts.join(" and ")
             ),
         )),

@@ -41,7 +41,7 @@ impl Method {
             c: numbers.c,
             c_tilde: numbers.c_tilde,
         };
-        let name = tableau.name().unwrap_or("a method of its own");
+        let name = tableau.name().unwrap_or("a method without a name");
         let made = RunTimeTableau::new(name, &coefficients, orders)
             .map_err(|error| file.error(setup.method.span(), error.to_string()))?;
         Ok(Method {
@@ -55,7 +55,7 @@ impl Method {
 }
 
 fn derive(file: &File<'_>, method: &Value) -> Result<Tableau, Error> {
-    let expected = "expected the name of a method, of a file `.toml` or `.json`, or a table with the keys of `symplectic derive`";
+    let expected = "expected the name of a method of the catalogue, the name of a `.toml` or `.json` file, or a table with the keys of `symplectic derive`";
     let refused = |message: String| symplectic_compiler::ErrorKind::Document { message };
     match method {
         Value::String(name) if name.ends_with(".toml") || name.ends_with(".json") => {
@@ -76,7 +76,7 @@ fn derive(file: &File<'_>, method: &Value) -> Result<Tableau, Error> {
                 let key = Key::find(name).ok_or_else(|| {
                     let known: Vec<&str> = Key::ALL.iter().map(|key| key.name()).collect();
                     refused(format!(
-                        "there is no key `{name}` of a method; there are {}",
+                        "a method has no key `{name}`; its keys are {}",
                         known.join(", ")
                     ))
                 })?;

@@ -107,9 +107,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let tapes = Tapes::new(&mut system, &structure, &values).map_err(|refusal| {
         let message = match refusal {
             Refusal::TooLong => format!(
-                "with its sums written out the formula has more than {MOST_STEPS} operations: take fewer bodies, or the macro `hamiltonian!`"
+                "with its sums written out, the formula has more than {MOST_STEPS} operations: take fewer bodies, or write a program with the macro `hamiltonian!`"
             ),
-            Refusal::Outside => "the formula asks for a coordinate or a parameter that does not exist".to_owned(),
+            Refusal::Outside => "an index in the formula is out of range: that coordinate or entry of a parameter does not exist".to_owned(),
         };
         file.error(setup.system.span(), message)
     })?;
@@ -117,7 +117,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         // The global pool can be set only once per process, and this is the only call.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
         pool.build_global()
-            .map_err(|error| document(format!("no threads: {error}")))?;
+            .map_err(|error| document(format!("cannot start the threads: {error}")))?;
     }
     let path = file.beside(setup.output.file.get_ref());
     refuse_overwriting(&file, &setup, &path)?;
@@ -126,7 +126,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let parts = arguments.shard.map_or(1, |shard| shard.count) as u128;
     if seen * 2 * coordinates.dimension() as u128 / parts > MOST_NUMBERS {
         let message = format!(
-            "the states take more than {MOST_NUMBERS} numbers: give fewer `times`, or run parts with `--shard`"
+            "the output states have more than {MOST_NUMBERS} components in all: give fewer `times`, or run parts with `--shard`"
         );
         return Err(file.error(setup.starts.span(), message));
     }
@@ -155,7 +155,7 @@ fn refuse_overwriting(file: &File<'_>, setup: &Setup, output: &Path) -> Result<(
     match (starts, output) {
         (Ok(starts), Ok(output)) if starts == output => Err(file.error(
             setup.output.file.span(),
-            "the output is the file of the starts, which would be lost: give another name",
+            "the output would overwrite the file of the starts: give another name",
         )),
         _ => Ok(()),
     }
@@ -213,7 +213,7 @@ fn read_system(file: &File<'_>, setup: &Setup) -> Result<(System, Structure), Er
     match refused {
         Some(what) => Err(file.error(
             span,
-            format!("`symplectic run` does not take {what}: write a program with the macros, as the book describes"),
+            format!("`symplectic run` does not support {what}: write a program with the macros, as the book describes"),
         )),
         None => Ok((system, structure)),
     }
@@ -240,7 +240,7 @@ fn times(file: &File<'_>, setup: &Setup) -> Result<Option<Vec<f64>>, Error> {
     let behind = |time: f64| !time.is_finite() || (time - start) * size < 0.0;
     let refused = |time: f64, span| {
         let message = format!(
-            "the time {time} is not on the way: runs start at {start}, and the step size is {size}"
+            "the run cannot reach the time {time}: it starts at {start} with the step size {size}"
         );
         Err(file.error(span, message))
     };
@@ -288,7 +288,7 @@ fn times(file: &File<'_>, setup: &Setup) -> Result<Option<Vec<f64>>, Error> {
         ))),
         (Some(_), Some(times)) => Err(file.error(
             times.span(),
-            "there are both `end` and `times`: give `end` for the last state, or `times` for all of them",
+            "both `end` and `times` are given: give `end` for the final state only, or `times` for the states at these times",
         )),
     }
 }
@@ -411,11 +411,11 @@ impl Run<'_> {
                 ..
             } => self.file.error(
                 span,
-                format!("`{name}` has order {order} where the kinetic energy is quadratic in the momenta, and {lower_order} here: {accept}"),
+                format!("`{name}` has order {order} if the kinetic energy is quadratic in the momenta, but for this H only {lower_order}: {accept}"),
             ),
             EnsembleError::All(RunError::SeparableTableau { order, lower_order }) => self.file.error(
                 span,
-                format!("`{name}` has order {order} for separable systems only; here H is not separable, and it has order {lower_order} or is not symplectic: {accept}"),
+                format!("H is not separable: `{name}` has order {order} for separable H only, and for this H it has order {lower_order} or is not symplectic: {accept}"),
             ),
             other => self.file.error(self.setup.starts.span(), other.to_string()),
         }

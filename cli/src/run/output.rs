@@ -70,7 +70,7 @@ impl Target {
             Some("parquet") => Format::Parquet,
             _ => {
                 let message = format!(
-                    "the output is called `{}`: its name must end in .npz, .parquet or .csv",
+                    "the name of the output `{}` must end in .npz, .parquet or .csv",
                     path.display()
                 );
                 return Err(ErrorKind::Document { message }.into());
@@ -120,7 +120,7 @@ impl Target {
             .and_then(|()| fs::rename(&self.part, &self.path));
         written.map_err(|error| {
             let message = format!(
-                "cannot write `{}`: {error}; the results of this run are lost, and a file that was there before is as it was",
+                "cannot write `{}`: {error}; the results of this run are lost, and an existing file of this name is unchanged",
                 self.path.display()
             );
             Error::from(ErrorKind::Document { message })

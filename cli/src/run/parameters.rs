@@ -31,7 +31,7 @@ pub(super) fn read(
         let names: Vec<&str> = system.parameters.iter().map(|p| p.name.as_str()).collect();
         let there = match names.as_slice() {
             [] => "the formula has none".to_owned(),
-            names => format!("there are {}", names.join(", ")),
+            names => format!("the parameters are {}", names.join(", ")),
         };
         let message = format!("there is no parameter `{name}`; {there}");
         return Err(file.error(value.span(), message));
@@ -82,7 +82,7 @@ pub(super) fn read(
                         Some(expected) if expected == found => Ok(()),
                         Some(expected) => {
                             let message =
-                                format!("`{name}` has {found} entries, and {expected} are needed");
+                                format!("`{name}` has {found} entries, but {expected} are needed");
                             Err(file.error(span.clone(), message))
                         }
                     }

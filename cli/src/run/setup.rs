@@ -84,7 +84,7 @@ pub(super) type Grid = BTreeMap<String, Spanned<Value>>;
 /// The starts as given.
 #[derive(Debug)]
 pub(super) enum Starts {
-    /// A CSV file.
+    /// A CSV or Parquet file.
     File(PathBuf),
     /// A sequence of grids.
     Grids(Vec<Grid>),
@@ -97,7 +97,7 @@ impl<'de> Deserialize<'de> for Starts {
             type Value = Starts;
 
             fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                formatter.write_str("a table with the coordinates, a list of such tables, or the name of a CSV file")
+                formatter.write_str("a table with the coordinates, a list of such tables, or the name of a CSV or Parquet file")
             }
 
             fn visit_str<E>(self, name: &str) -> Result<Starts, E> {

@@ -134,11 +134,11 @@ impl Reader<'_> {
         match (any, self.setup.random) {
             (true, None) => Err(self.file.error(
                 span,
-                "these starts are random: say how many and from which seed, `random = { seed = 1, count = 1000 }`",
+                "these starts are random: give their number and a seed, `random = { seed = 1, count = 1000 }`",
             )),
             (false, Some(_)) => Err(self.file.error(
                 span,
-                "`random` is there, but no start is random: write `{ uniform = [low, high] }` or `{ normal = [mean, deviation] }` for a coordinate",
+                "`random` is given, but no start is random: write `{ uniform = [low, high] }` or `{ normal = [mean, deviation] }` for a coordinate",
             )),
             _ => Ok(()),
         }
@@ -151,13 +151,13 @@ impl Reader<'_> {
             _ => listed.ok_or_else(|| {
                 self.file.error(
                     self.setup.starts.span(),
-                    "the number of coordinates is that of the starts: give the lists `q = [...]` and `p = [...]`",
+                    "the formula leaves the number of coordinates open: give the starts as lists `q = [...]` and `p = [...]`, which determine it",
                 )
             })?,
         };
         if bodies < self.system.least.max(1) {
             let message = format!(
-                "the formula needs {} coordinates at least, and the starts have {bodies}",
+                "the formula needs at least {} coordinates, but the starts have {bodies}",
                 self.system.least.max(1)
             );
             return Err(self.file.error(self.setup.starts.span(), message));
@@ -204,7 +204,7 @@ impl Reader<'_> {
                 let spec =
                     read(leaf, &name).map_err(|message| self.file.error(value.span(), message))?;
                 if axes.iter().any(|(found, _)| *found == place) {
-                    let message = format!("`{name}` has two starts: leave one of them out");
+                    let message = format!("`{name}` is given twice: leave out one of the two");
                     return Err(self.file.error(value.span(), message));
                 }
                 axes.push((place, spec));
@@ -216,7 +216,7 @@ impl Reader<'_> {
             .find(|(place, _)| axes.iter().all(|(found, _)| found != place));
         if let Some((_, name)) = missing {
             let message = format!(
-                "the starts do not say where `{name}` begins; there are {}",
+                "the starts give no value for `{name}`; the coordinates are {}",
                 coordinates.listed()
             );
             return Err(self.file.error(self.setup.starts.span(), message));
@@ -239,7 +239,7 @@ impl Reader<'_> {
                 let place = coordinates.all().position(|name| name == key);
                 let place = place.ok_or_else(|| {
                     format!(
-                        "there is no coordinate `{key}`; there are {}",
+                        "there is no coordinate `{key}`; the coordinates are {}",
                         coordinates.listed()
                     )
                 })?;
@@ -263,7 +263,7 @@ impl Reader<'_> {
         }
         if found.len() != half {
             return Err(format!(
-                "`{key}` has {} numbers, and {half} are needed; the coordinates are {}",
+                "`{key}` has {} numbers, but {half} are needed; the coordinates are {}",
                 found.len(),
                 coordinates.listed()
             ));

@@ -217,7 +217,9 @@ impl Reader<'_> {
         let unread = |error| {
             refused(
                 path,
-                format!("{error}; files are read without compression and with Snappy"),
+                format!(
+                    "{error}; only files without compression or with Snappy compression can be read"
+                ),
             )
         };
         let records = reader.get_row_iter(None).map_err(unread)?;
@@ -256,7 +258,7 @@ fn places(coordinates: &Coordinates, names: &[&str]) -> Result<Vec<usize>, Strin
         let place = coordinates.all().position(|known| known == name);
         let place = place.filter(|place| !places.contains(place)).ok_or_else(|| {
             format!(
-                "the column `{name}` is not a coordinate, or there are two of it; the coordinates are {}",
+                "the column `{name}` is not a coordinate, or occurs twice; the coordinates are {}",
                 coordinates.listed()
             )
         })?;
@@ -286,7 +288,7 @@ fn row(
 }
 
 fn too_many() -> String {
-    format!("more than {MOST} starts: split it into several files")
+    format!("more than {MOST} starts: split the file into several files")
 }
 
 /// The number in a cell of a Parquet file; integers only if they are exact in double precision.

@@ -101,7 +101,7 @@ fn the_libraries_differ_from_their_claims_where_it_is_known() {
     }
     assert!(
         printed.ends_with(&format!(
-            "{} tables, {} prove another order than they claim, 0 unexplained\n",
+            "{} tables; for {} the proved order is not the claimed order, 0 unexplained\n",
             rows.len(),
             differences.len()
         )),
@@ -350,7 +350,7 @@ fn wrong_files_are_refused_at_their_place() {
     ] {
         let (status, message) = failure(&arguments);
         assert!(
-            status == Some(2) && message.contains("over an input or the other result"),
+            status == Some(2) && message.contains("would overwrite an input or the other output"),
             "{message}"
         );
     }

@@ -284,6 +284,6 @@ fn more_digits_than_can_be_computed_in_time_are_refused() {
     assert_eq!(status, Some(2), "{errors}");
     assert_eq!(
         errors.trim_end(),
-        "error: 10000 digits of the coefficients of 36 stages take too long: `--digits` up to 6500 are written of this method"
+        "error: 10000 digits take too long for a method with 36 stages: for this method `--digits` may be up to 6500"
     );
 }

@@ -339,7 +339,7 @@ fn the_command_writes_the_certificate_of_a_method_and_of_a_file() {
         (
             vec!["certify", &table, "--out", &table],
             2,
-            "would be written over an input",
+            "would overwrite an input",
         ),
         (
             vec!["certify", "gauss-2", "--out", "/missing/gauss-2.json"],

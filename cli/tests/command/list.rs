@@ -36,7 +36,7 @@ fn list_filters_and_sorts_by_several_orders() {
     for (arguments, told) in [
         (
             &["--min-order", "8,2"][..],
-            "several orders are those of `--class perturbed`",
+            "several orders need `--class perturbed`",
         ),
         (
             &["--class", "perturbed", "--sort", "error"],

@@ -139,7 +139,10 @@ fn first_certified(
             },
             Err(error) => error,
         };
-        if worst.as_ref().is_none_or(|known| tells_more(&error, known)) {
+        if worst
+            .as_ref()
+            .is_none_or(|known| is_more_informative(&error, known))
+        {
             worst = Some(error);
         }
     }
@@ -151,7 +154,7 @@ fn first_certified(
 
 /// Whether an error is more informative. A solution ranks highest, and a nearer solution higher; then a failed search;
 /// then the number of missing coefficients.
-fn tells_more(error: &CertifyError, known: &CertifyError) -> bool {
+fn is_more_informative(error: &CertifyError, known: &CertifyError) -> bool {
     let rank = |error: &CertifyError| match error {
         CertifyError::DifferentSolution { .. } => 3,
         CertifyError::NotFound { .. } => 2,

@@ -276,7 +276,7 @@ fn power_order<F: Field>(
         },
         refuted_by,
     };
-    // The only word of degree m with m letters B, a condition of its own, is B itself.
+    // For m > 1 there is no condition of degree m with m letters B: the word B^m is not a Lyndon word.
     let holds = given_order.max(if power == 1 { 0 } else { power });
     for degree in holds + 1..=limit {
         if product.cost() > most_products(product.field()) {

@@ -221,7 +221,7 @@ impl<'a> StepGraph<'a> {
         match class {
             // For general H, evaluations of both kinds use every stage.
             Class::General => graph,
-            Class::Separable => graph.without_what_is_not_used(),
+            Class::Separable => graph.without_unused_evaluations(),
         }
     }
 

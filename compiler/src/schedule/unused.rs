@@ -8,7 +8,7 @@ impl StepGraph<'_> {
     /// weight and no used stage needs it: the drift of 0 at the end of a splitting needs no velocity.
     ///
     /// A coefficient that is only known to be tiny counts as used.
-    pub(super) fn without_what_is_not_used(mut self) -> Self {
+    pub(super) fn without_unused_evaluations(mut self) -> Self {
         loop {
             let used = |evaluations: &[Evaluation<'_>], values: &[StageValue<'_>]| {
                 let needed = |(index, evaluation): (usize, &Evaluation<'_>)| {

@@ -143,7 +143,7 @@ pub(super) fn monotonic_within(
                     found.push(Interval { low, high, bits });
                     continue;
                 }
-                Some(Vertex::NotTold) => return None,
+                Some(Vertex::Undecided) => return None,
                 Some(Vertex::Beyond { y, places }) => {
                     // m + ry in units of 2⁻ᵇⁱᵗˢ⁻ᵖˡᵃᶜᵉˢ⁻¹.
                     let middle = ((&low + &high) << places) + (&high - &low) * y;
@@ -182,7 +182,7 @@ enum Vertex {
     /// The polynomial has the other sign at `y·2⁻ᵖˡᵃᶜᵉˢ`: at most one root is on either side of that point.
     Beyond { y: BigInt, places: u32 },
     /// The extremum cannot be distinguished from zero: there may be a double root.
-    NotTold,
+    Undecided,
 }
 
 /// The vertex of a polynomial `f = Σ c_k yᵏ` with `|f''| ≥ 2·bend` for `|y| ≤ 1`; `None` if it is not found in the interval.
@@ -229,7 +229,7 @@ fn vertex(coefficients: &[Ball], bend: &Ball, precision: u32) -> Option<Vertex> 
     let here = dyadic(&y);
     let value = at(coefficients, &here)?;
     let Some(sign) = value.sign() else {
-        return Some(Vertex::NotTold);
+        return Some(Vertex::Undecided);
     };
     if sign.is_eq() {
         return None;

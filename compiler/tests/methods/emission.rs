@@ -50,8 +50,8 @@ fn a_splitting_is_straight_line_code() {
     assert!(separable.contains("&mut ::symplectic::emitted::Evaluations<V>"));
     assert!(separable.contains("if !kept.evaluation {"), "{separable}");
     // The last momentum stage has no drift after it, and no velocity is evaluated there.
-    let moves = [".kick::<", ".drift::<"].map(|call| separable.matches(call).count());
-    assert_eq!(moves, [4, 3]);
+    let calls = [".kick::<", ".drift::<"].map(|call| separable.matches(call).count());
+    assert_eq!(calls, [4, 3]);
     expect_file!["emitted/forest_ruth.rs"].assert_eq(&code);
 }
 
@@ -146,7 +146,7 @@ fn a_composition_of_explicit_methods_is_explicit() {
     assert!(!separable.contains("relax") && !separable.contains("combine"));
     assert_eq!(separable.matches(".force::<").count(), 4);
     // Each of them is applied once, with the sum of the weights where two steps meet.
-    let moves = [".kick::<", ".drift::<"].map(|call| separable.matches(call).count());
-    assert_eq!(moves, [4, 3]);
+    let calls = [".kick::<", ".drift::<"].map(|call| separable.matches(call).count());
+    assert_eq!(calls, [4, 3]);
     assert!(factors(&code).iter().all(|&c| c != 0.0));
 }

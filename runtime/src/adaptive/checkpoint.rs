@@ -1,4 +1,4 @@
-//! Runs with steps of variable size that are interrupted and go on with the same bits.
+//! Checkpoints of runs with steps of variable size, which continue with the same bits.
 
 use super::integrator::{Adaptive, Controller};
 use super::monitor::{Monitor, Slopes, seen};
@@ -7,7 +7,7 @@ use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 use crate::system::System;
 
-/// What a checkpoint of such a run is of, beside its method.
+/// The kind of run, which the checkpoint records beside the method.
 const KIND: &str = "adaptive";
 
 impl<M, S, W, V, R, N> Adaptive<M, S, W, V, R, N>
@@ -19,7 +19,7 @@ where
     R: Summation,
     N: Solver<V, S>,
 {
-    /// What the run needs to [go on](Self::restore) from here with the same bits: see [`Checkpoint`].
+    /// All that the run needs to [continue](Self::restore) from here with the same bits: see [`Checkpoint`].
     ///
     /// # Errors
     ///
@@ -36,11 +36,11 @@ where
         self.integrator.checkpoint_with(KIND, &beside)
     }
 
-    /// Goes on from a checkpoint of a run that was made in the same way, with the same monitor.
+    /// Continues from a checkpoint of a run with the same method, system, solver, sums and monitor.
     ///
     /// # Errors
     ///
-    /// [`CheckpointError`], with [`OtherSystem`](CheckpointError::OtherSystem) for another monitor too; the run is then as it was.
+    /// [`CheckpointError`], with [`OtherSystem`](CheckpointError::OtherSystem) also for another monitor; the run is then unchanged.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
         let mut found = [0.0; 6];
         let (monitor, slopes) = (&self.monitor, &self.slopes);
@@ -61,7 +61,7 @@ where
     }
 }
 
-/// A monitor at a position, and its slope away from the origin: they tell monitors with other parameters.
+/// The value of a monitor at a position, and its logarithmic derivative along `q`: they distinguish monitors with other parameters.
 fn evaluated<W: Monitor, V: Vector<Scalar = f64>>(
     monitor: &W,
     slopes: &Slopes<V>,

@@ -1,4 +1,4 @@
-//! The extended phase space: time is a position, and minus the energy its momentum.
+//! The extended phase space: time is a position, and minus the energy is its momentum.
 
 use alloc::vec::Vec;
 
@@ -12,7 +12,7 @@ use crate::number::{Scalar, Vector};
 use crate::state::State;
 use crate::system::Hamiltonian;
 
-/// The state ((q, t), (p, p_t)) at τ = 0, with vectors of one component more.
+/// The extended state ((q, t), (p, p_t)) at τ = 0, whose vectors have one component more.
 pub(super) fn extended<V, W>(state: &State<V>, momentum: f64) -> Result<State<W>, Error>
 where
     V: Vector<Scalar = f64>,
@@ -26,7 +26,7 @@ where
     Ok(State::new(0.0, q, vector(&state.p, momentum)?))
 }
 
-/// The state (q, p) at time t of an extended one.
+/// The state (q, p) at time t of an extended state.
 pub(super) fn reduced<V, W>(state: &State<W>) -> Result<State<V>, Error>
 where
     V: Vector<Scalar = f64>,
@@ -38,7 +38,7 @@ where
     Ok(State::new(time, V::from_slice(q)?, V::from_slice(p)?))
 }
 
-/// All components but the last one, and the last one.
+/// All components except the last, and the last component.
 pub(super) fn parted<W: Vector<Scalar = f64>>(vector: &W) -> (&[f64], f64) {
     let components = vector.as_slice();
     match components.split_last() {
@@ -47,7 +47,7 @@ pub(super) fn parted<W: Vector<Scalar = f64>>(vector: &W) -> (&[f64], f64) {
     }
 }
 
-/// [`parted`], to be written.
+/// [`parted`], mutable.
 pub(super) fn parted_mut<W: Vector<Scalar = f64>>(
     vector: &mut W,
 ) -> Option<(&mut [f64], &mut f64)> {
@@ -55,7 +55,7 @@ pub(super) fn parted_mut<W: Vector<Scalar = f64>>(
     Some((rest, last))
 }
 
-/// Vectors of a system, where it is evaluated.
+/// Work vectors for evaluations of a system.
 pub(super) struct Room<S: Hamiltonian> {
     pub(super) q: S::Vector<f64>,
     pub(super) p: S::Vector<f64>,
@@ -87,7 +87,7 @@ impl<S: Hamiltonian> Room<S> {
         self.p.as_mut_slice().copy_from_slice(p);
     }
 
-    /// H and ∂H/∂t, as `first`, at (time, q, p); NaN where the system gives no energy.
+    /// H at (time, q, p), with ∂H/∂t as its first derivative; NaN if the system gives no energy.
     pub(super) fn energy(&mut self, system: &S, time: f64) -> HyperDual {
         let copies = [(&mut self.dual_q, &self.q), (&mut self.dual_p, &self.p)];
         for (duals, values) in copies {
@@ -100,7 +100,7 @@ impl<S: Hamiltonian> Room<S> {
     }
 }
 
-/// The energy of a sound state, for a system that gives it and is all that its class says.
+/// The energy of a state. An error if the state is not finite, or the system has constraints or friction, or gives no energy.
 pub(super) fn energy_of<S: Hamiltonian>(
     system: &S,
     state: &State<S::Vector<f64>>,

@@ -13,10 +13,10 @@ use crate::output::DenseOutput;
 use crate::state::State;
 use crate::system::System;
 
-/// A symmetric method with steps of variable size `h ≈ ε σ(q)`, reversible: the integrating controller of Hairer & Söderlind (2005;
+/// A symmetric method with reversible steps of variable size `h ≈ ε σ(q)`: the integrating controller of Hairer & Söderlind (2005;
 /// Hairer, Lubich & Wanner, *Geometric numerical integration*, VIII.3.2).
 ///
-/// The step density `z ≈ 1/σ` is a variable of its own. It is kicked before and after a step Φ of the method:
+/// The step density `z ≈ 1/σ` is an additional variable. It is kicked before and after a step Φ of the method:
 ///
 /// ```text
 /// z ← z + ε/2 G(q, p)      (q, p) ← Φ_{ε/z}(q, p)      t ← t + ε/z      z ← z + ε/2 G(q, p)
@@ -26,22 +26,22 @@ use crate::system::System;
 /// $$ z_{n+1/2} = z_n + \frac{\varepsilon}{2} G(q_n, p_n) \qquad (q, p)_{n+1} = \Phi_{\varepsilon/z_{n+1/2}}((q, p)_n) \qquad
 /// z_{n+1} = z_{n+1/2} + \frac{\varepsilon}{2} G(q_{n+1}, p_{n+1}) $$
 ///
-/// The map of (q, p, z) is symmetric, and reversible where the flow is. So the energy of a reversible system does not drift, as it
-/// does where a step size is taken from the state before the step. The map is not symplectic: for a system that is not
-/// reversible there is no such promise; take [`Poincare`](super::Poincare) or [`Logarithmic`](super::Logarithmic).
+/// The map of (q, p, z) is symmetric, and reversible if the flow is. So the energy of a reversible system does not drift, as it would
+/// if the step size were a function of the state before the step. The map is not symplectic, so the energy of other systems may drift:
+/// take [`Poincare`](super::Poincare) or [`Logarithmic`](super::Logarithmic) for them.
 ///
-/// The order in ε is that of the method: t is the sum of the step sizes that were taken. Steps are explicit if those of the method are; a step
-/// costs one slope of the [`Monitor`] more, and one velocity unless it [is the momentum](System::UNIT_MASSES).
+/// The order in ε is that of the method: t is the sum of the step sizes. Steps are explicit if those of the method are. Each step costs one
+/// additional derivative of the [`Monitor`], and one velocity unless it [is the momentum](System::UNIT_MASSES).
 ///
 /// # Back to the start
 ///
-/// [`reverse`](Self::reverse) turns the steps round. The first step back has the size of the last one to the bit; the others have those of
-/// the steps that they undo to rounding, as positions and momenta come back to rounding.
+/// [`reverse`](Self::reverse) reverses the direction of the run. The first step back has exactly the size of the last step. The sizes of the
+/// other steps, like positions and momenta, agree with those of the forward run up to rounding.
 ///
 /// # Output
 ///
-/// Nothing that is seen of a run changes its steps. A run ends with the first step that reaches its end time or goes beyond, and
-/// what is seen at times inside a step comes from the [dense output](Integrator::dense), or from a shorter step from the same start.
+/// Output does not change the steps. A run ends with the first step that reaches or passes its end time. States at times inside a step come
+/// from the [dense output](Integrator::dense), or from a shorter step with the same start.
 ///
 /// ```
 /// use symplectic::adaptive::DistancePower;
@@ -93,20 +93,20 @@ pub struct Adaptive<
     pub(super) controller: Controller,
 }
 
-/// What chooses the step sizes.
+/// The controller of the step sizes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Controller {
     pub(super) epsilon: f64,
-    /// z inside the last step, or at the start.
+    /// `z_{n+1/2}` of the last step, or `z_0` before the first step.
     pub(super) density: f64,
-    /// The ε/2 of the kick of z that is to finish the last step; 0 at the start.
+    /// The factor ε/2 of the second kick of z in the last step, which the next step applies; 0 before the first step.
     pub(super) unfinished: f64,
-    /// What the time of the state leaves out.
+    /// The rounding error of the time of the state, so that the errors of the steps do not add up.
     pub(super) time_low: f64,
 }
 
 impl Controller {
-    /// That which starts at a value of the monitor.
+    /// The controller at the start, with the value of the monitor there.
     const fn new(epsilon: f64, monitor: f64) -> Self {
         Self {
             epsilon,
@@ -122,14 +122,14 @@ impl Controller {
 }
 
 impl<M: Method, S: System<V>, V: Vector<Scalar = f64>> Integrator<M, S, V> {
-    /// Steps of variable size: see [`Adaptive`](crate::adaptive::Adaptive). `epsilon` is the size of a step in units of the monitor, `h ≈ ε σ(q)`; negative to
-    /// go backward.
+    /// An integrator with steps of variable size: see [`Adaptive`](crate::adaptive::Adaptive). `epsilon` is the ε of the step size
+    /// `h ≈ ε σ(q)`; a negative one steps backward.
     ///
     /// Does not compile unless the method is symmetric on systems of this class.
     ///
     /// # Errors
     ///
-    /// Those of [`new`](Integrator::new), with [`Error::StepSize`] for ε; [`Error::Monitor`].
+    /// Those of [`new`](Integrator::new), with [`Error::StepSize`] for ε; [`Error::Monitor`] if σ is not finite and positive at the start.
     pub fn adaptive<W: Monitor>(
         method: M,
         system: S,
@@ -153,12 +153,14 @@ where
     R: Summation,
     N: Solver<V, S>,
 {
-    /// Goes on from the state of an integrator of any sums and solver. Its step size is not used, and steps that fail are not
-    /// [split](Retry): parts of a step would not be symmetric.
+    /// Continues from the state of an integrator, which may have any sums and solver. Its step size is not used. A step that fails is not
+    /// [split](Retry), because its parts would not be symmetric.
+    ///
+    /// Does not compile unless the method is symmetric on systems of this class.
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`] for ε, [`Error::Monitor`].
+    /// [`Error::StepSize`] for ε; [`Error::Monitor`] if σ is not finite and positive at the start.
     ///
     /// ```
     /// use symplectic::adaptive::{Adaptive, DistancePower};
@@ -207,8 +209,8 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`Integrator::step`]; [`Error::Monitor`] where the monitor or its slope is not finite, or the monitor not positive;
-    /// [`Error::StepDensity`] where z is no longer positive. State and step density are untouched.
+    /// Those of [`Integrator::step`]; [`Error::Monitor`] if `∇σ·q'/σ` is not finite, or if dual numbers evaluate it and σ is not positive;
+    /// [`Error::StepDensity`] if z is no longer positive, or `ε/z` overflows. State and step density are then unchanged.
     pub fn step(&mut self) -> Result<&State<V>, Error> {
         self.advance()?;
         Ok(self.integrator.state())
@@ -218,7 +220,7 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`step`](Self::step); the state is then that after the last good step.
+    /// Those of [`step`](Self::step); the state is then that after the last successful step.
     pub fn take_steps(&mut self, count: u64) -> Result<&State<V>, Error> {
         for _ in 0..count {
             self.advance()?;
@@ -230,7 +232,7 @@ where
         let mut next = self.controller;
         let half = 0.5 * next.epsilon;
         let kick = next.unfinished + half;
-        // After a reversal there is no kick, and the step size is that of the step before.
+        // Just after a reversal the two halves cancel: z is not kicked, and the step has the size of the last one.
         if kick != 0.0 {
             next.density += kick * self.rate()?;
         }
@@ -275,7 +277,7 @@ where
         }
     }
 
-    /// Turns the steps round: the next one undoes the last one.
+    /// Reverses the direction of the run: the next step undoes the last one.
     ///
     /// ```
     /// use symplectic::adaptive::DistancePower;
@@ -302,11 +304,11 @@ where
         self.controller.epsilon = -self.controller.epsilon;
     }
 
-    /// Puts another state of the same dimension in place of the present one; the step density starts again as 1/σ.
+    /// Replaces the present state by another one of the same dimension, and the step density by 1/σ there.
     ///
     /// # Errors
     ///
-    /// Those of [`Integrator::set_state`], [`Error::Monitor`]; the state is then untouched.
+    /// Those of [`Integrator::set_state`]; [`Error::Monitor`] if σ is not finite and positive there. The state is then unchanged.
     pub fn set_state(&mut self, state: State<V>) -> Result<(), Error> {
         let controller = self.restarted(&state)?;
         self.integrator.set_state(state)?;
@@ -343,12 +345,13 @@ where
         self.integrator.state()
     }
 
-    /// The energy of the present state, where the system knows it.
+    /// The energy of the present state, if the system gives it.
     pub fn energy(&self) -> Option<V::Scalar> {
         self.integrator.energy()
     }
 
-    /// The size of the last step; before the first step `ε σ(q)`. Negative where the steps go backward.
+    /// The size of the last step, negative in a run backward. Before the first step, and after [`set_state`](Self::set_state), `ε σ(q)`.
+    /// After [`reverse`](Self::reverse) it has the opposite sign.
     pub fn step_size(&self) -> f64 {
         self.controller.step_size()
     }
@@ -358,7 +361,7 @@ where
         self.integrator.steps()
     }
 
-    /// The ε of the run, negative where its steps go backward.
+    /// The ε of the run, negative in a run backward.
     pub const fn epsilon(&self) -> f64 {
         self.controller.epsilon
     }
@@ -377,7 +380,7 @@ where
         self.integrator.dense()
     }
 
-    /// The integrator that takes the steps: for its system, its statistics and all else that can be read.
+    /// The integrator that takes the steps, for example to read its system and its statistics.
     pub const fn integrator(&self) -> &Integrator<M, S, V, R, N> {
         &self.integrator
     }
@@ -392,7 +395,7 @@ where
     R: Summation,
     N: Solver<V, S>,
 {
-    /// Both go on with the same bits.
+    /// Both continue with the same bits.
     fn clone(&self) -> Self {
         Self {
             integrator: self.integrator.clone(),

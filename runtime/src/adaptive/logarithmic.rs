@@ -12,8 +12,8 @@ use crate::state::State;
 use crate::system::linearity::non_linear_velocity;
 use crate::system::{Hamiltonian, Separable, System};
 
-/// The logarithmic Hamiltonian of a system `H = T(p) + U(q)` with `U < 0` (Mikkola & Tanikawa 1999; Preto & Tremaine 1999), in a time τ of
-/// its own:
+/// The logarithmic Hamiltonian of a system `H = T(p) + U(q)` with `U < 0` (Mikkola & Tanikawa 1999; Preto & Tremaine 1999), in a fictitious
+/// time τ:
 ///
 /// ```text
 /// K = ln(T(p) + B) − ln(−U(q))      B = −H(start)
@@ -22,21 +22,22 @@ use crate::system::{Hamiltonian, Separable, System};
 ///
 /// $$ K = \ln(T(p) + B) - \ln(-U(q)) \qquad \frac{dt}{d\tau} = \frac{1}{T + B} $$
 ///
-/// Positions are (q, t) and momenta (p, B). K is zero along the motion, on which its orbits are those of H; a step of size ε in τ takes
-/// the time `ε/(T + B) = ε/(−U)`, which is short where the potential is deep. K is separable: all splittings for separable systems
-/// apply, explicit and symplectic. Methods of which the order holds for quadratic kinetic energy only (Runge–Kutta–Nyström) would lose
-/// it, and are refused with [`Error::NotQuadraticKinetic`].
+/// Positions are (q, t) and momenta (p, B). K is zero along the motion, and there its orbits are those of H. A step of size ε in τ takes
+/// about the time `ε/(T + B) = ε/(−U)`, which is short where the potential is deep. K is separable: all splittings for separable systems
+/// apply, explicit and symplectic. The kinetic part of K is not quadratic: methods whose order holds for quadratic kinetic energy only
+/// (Runge–Kutta–Nyström) are refused with [`Error::NotQuadraticKinetic`].
 ///
-/// For the Kepler problem `position-verlet` and its compositions have the exact orbit, to rounding: the energy and the Laplace vector stay.
-/// Only time has an error, of the order of the method. Any other splitting, and `velocity-verlet` too, has its error in the orbit as well.
+/// For the Kepler problem `position-verlet` and its compositions follow the exact orbit, up to rounding: they conserve the energy and the
+/// Laplace vector. Only the time has an error, of the order of the method. Other splittings, and `velocity-verlet`, have an error in the
+/// orbit as well.
 ///
-/// `T = p·M⁻¹p/2` with a constant M. U may depend on time. The system must give its [energy](Hamiltonian::energy), from which U is
-/// taken: `U(t, q) = H(t, q, 0)`.
+/// `T = p·M⁻¹p/2` with a constant M. U may depend on time. The system must give its [energy](Hamiltonian::energy), which determines U:
+/// `U(t, q) = H(t, q, 0)`.
 ///
 /// # How to use it
 ///
-/// [`extend`](Self::extend) makes the start, for vectors of one component more than those of the system; [`reduce`](Self::reduce)
-/// gives back the state at time t. A time t is reached by an [`Event`](crate::Event) of the last position.
+/// [`extend`](Self::extend) makes the initial state, whose vectors have one component more than those of the system;
+/// [`reduce`](Self::reduce) gives back the state at time t. To stop at a time t, use an [`Event`](crate::Event) of the last position.
 ///
 /// ```
 /// use symplectic::adaptive::Logarithmic;
@@ -70,13 +71,13 @@ use crate::system::{Hamiltonian, Separable, System};
 ///
 /// # Errors of steps
 ///
-/// [`Error::LogarithmicDomain`] where `U ≥ 0` or `T + B ≤ 0`. A force without a potential has no place in K; a system with an
+/// [`Error::LogarithmicDomain`] if `U ≥ 0` or `T + B ≤ 0`. K cannot contain a force without a potential: a system with an
 /// [applied force](Hamiltonian::applied_force) does not compile.
 pub struct Logarithmic<S: Hamiltonian<Class = Separable>> {
     system: S,
-    /// Where the system is evaluated; there is none before the first time, and during it.
+    /// Work vectors for evaluations of the system; `None` before the first evaluation and during each.
     room: Cell<Option<Box<Room<S>>>>,
-    /// What was not positive in the last evaluation that failed.
+    /// The name and the value of the argument of a logarithm that was not positive in the last failed evaluation.
     fault: Cell<Option<(&'static str, f64)>>,
 }
 
@@ -100,10 +101,9 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::OtherClass`] where the system has constraints or friction,
-    /// [`Error::NoEnergy`]; [`Error::LogarithmicMasses`] where the velocity is not `M⁻¹p`
-    /// with a constant M; [`Error::LogarithmicDomain`] where `U ≥ 0`; [`Error::Length`] where the vectors do not have one component
-    /// more.
+    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::OtherClass`] if the system has constraints or friction,
+    /// [`Error::NoEnergy`], [`Error::LogarithmicMasses`] if the velocity is not `M⁻¹p` with a constant M, [`Error::LogarithmicDomain`] if
+    /// `U ≥ 0`, [`Error::Length`] if the vectors of type `W` cannot have one component more than those of the system.
     pub fn extend<W: Vector<Scalar = f64>>(
         &self,
         state: &State<S::Vector<f64>>,
@@ -131,7 +131,7 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
         extended(state, -energy)
     }
 
-    /// The state (q, p) at time t of an extended one.
+    /// The state (q, p) at time t of an extended state.
     ///
     /// # Errors
     ///
@@ -143,12 +143,12 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
         reduced(state)
     }
 
-    /// The system in its own time.
+    /// The original system.
     pub const fn system(&self) -> &S {
         &self.system
     }
 
-    /// `look` with the room for `dimension` components; nothing where the system has another dimension.
+    /// Calls `look` with the work vectors for `dimension` components; `None` if the system has another dimension.
     fn in_room<T>(&self, dimension: usize, look: impl FnOnce(&mut Room<S>) -> T) -> Option<T> {
         let room = self.room.take();
         let mut room = match room.filter(|room| room.q.dimension() == dimension) {
@@ -160,7 +160,7 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
         Some(seen)
     }
 
-    /// `T + B`, with the velocity in the room; nothing where it is not positive.
+    /// `T + B`; `None` if it is not positive. Leaves the velocity in the work vectors.
     fn kinetic(&self, room: &mut Room<S>, p: &[f64], b: f64) -> Option<f64> {
         room.set_p(p);
         let Room { q, p, slope, .. } = room;
@@ -174,7 +174,7 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
         self.positive(KINETIC, kinetic)
     }
 
-    /// `−U` and `∂ ln(−U)/∂t`; nothing where U is not negative.
+    /// `−U` and `∂ ln(−U)/∂t`; `None` if U is not negative.
     fn potential(&self, room: &mut Room<S>, q: &[f64], time: f64) -> Option<(f64, f64)> {
         room.set_q(q);
         room.p.as_mut_slice().fill(0.0);
@@ -187,7 +187,7 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
         if value > 0.0 {
             return Some(value);
         }
-        // NaN comes of evaluations that failed before.
+        // NaN comes from an earlier failed evaluation.
         if !value.is_nan() {
             self.fault.set(Some((what, value)));
         }
@@ -249,7 +249,7 @@ where
             let (depth, _) = self.potential(room, q, time)?;
             Some(Scalar::ln(sum / depth))
         });
-        // It is no evaluation of a step.
+        // This evaluation is not part of a step.
         self.fault.set(fault);
         Some(found.flatten().unwrap_or(f64::NAN))
     }

@@ -1,16 +1,16 @@
-//! Steps of variable size that keep what matters: for orbits of high eccentricity and close encounters.
+//! Steps of variable size without energy drift: for orbits of high eccentricity and close encounters.
 //!
-//! A step size taken from the state before the step spoils what a symplectic or symmetric method is for: the energy drifts. Three
-//! ways keep it.
+//! If the step size is a function of the state before the step, symplectic and symmetric methods lose their advantage: the energy drifts.
+//! Three ways avoid that.
 //!
-//! | | What it is | Methods | Keeps |
+//! | | What it is | Methods | Conserves |
 //! |---|---|---|---|
-//! | [`Adaptive`] | a reversible controller of the step size, for any system and [`Monitor`] | symmetric ones, explicit or implicit | the energy of reversible systems |
-//! | [`Logarithmic`] | another Hamiltonian with the same orbits, for `T(p) + U(q)` with `U < 0` | all splittings for separable systems | the symplectic form; with compositions of `position-verlet` Kepler orbits exactly |
+//! | [`Adaptive`] | a reversible controller of the step size, for any system and [`Monitor`] | symmetric ones, explicit or implicit | the energy of reversible systems, without drift |
+//! | [`Logarithmic`] | another Hamiltonian with the same orbits, for `T(p) + U(q)` with `U < 0` | all splittings for separable systems | the symplectic form; with compositions of `position-verlet` also Kepler orbits, exactly |
 //! | [`Poincare`] | another Hamiltonian, `σ(q)(H − H_0)`, for any H and [`Monitor`] | implicit ones, for general systems | the symplectic form |
 //!
-//! The last two are systems for an ordinary [`Integrator`](crate::Integrator), with steps of one size in a time τ of their own; physical
-//! time is a coordinate.
+//! The last two are systems for an ordinary [`Integrator`](crate::Integrator) with equal steps in a fictitious time τ; physical time is a
+//! coordinate.
 
 #[cfg(feature = "alloc")]
 mod checkpoint;

@@ -1,14 +1,14 @@
-//! How long steps are where the positions are q.
+//! Monitors: functions of the positions that set the step size.
 
 use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
 use crate::system::{Hamiltonian, Separable, System};
 
-/// A monitor σ(q) > 0: steps are as long as `σ(q)` says, in units of the ε that a run is given.
+/// A monitor σ(q) > 0, which sets the step size `h ≈ ε σ(q)`. The run chooses ε.
 ///
-/// It is small where the motion is fast: `|q|^{3/2}` for a Kepler orbit, as Kepler's third law has it. The positions are given
-/// as a slice, so that one monitor serves vectors of every type. It is written once, for every [`Scalar`]: dual numbers give its
-/// derivatives. As everywhere in code for every scalar, no value decides which way to go.
+/// σ must be small where the motion is fast: `|q|^{3/2}` for a Kepler orbit, by Kepler's third law. The positions are given as a slice, so
+/// that one monitor serves vectors of every type. A monitor is written once, for every [`Scalar`]: dual numbers give its derivatives. As in
+/// all code for every scalar, no branch may depend on a value.
 ///
 /// ```
 /// use symplectic::Scalar;
@@ -30,11 +30,11 @@ use crate::system::{Hamiltonian, Separable, System};
     note = "take `DistancePower`, `PairDistances` or `ForcePower`, or implement `Monitor` with `fn value<T: Scalar>(&self, q: &[T]) -> T`"
 )]
 pub trait Monitor {
-    /// σ(q). It must be finite and positive wherever the motion goes.
+    /// σ(q), finite and positive wherever the motion goes.
     fn value<T: Scalar>(&self, q: &[T]) -> T;
 
-    /// Writes `∇ ln σ = ∇σ/σ`, as many components as `q` has, and returns `true`; `false` leaves it to dual numbers. Worth writing
-    /// out where it is cheaper than σ itself.
+    /// Writes `∇ ln σ = ∇σ/σ`, with as many components as `q`, and returns `true`. If it returns `false`, the default, dual numbers give
+    /// the derivatives. Worth implementing if it is cheaper than an evaluation of σ in dual numbers.
     fn logarithmic_gradient(&self, _q: &[f64], _gradient: &mut [f64]) -> bool {
         false
     }
@@ -52,7 +52,7 @@ impl<W: Monitor + ?Sized> Monitor for &W {
 
 /// The monitor `σ = |q|^α`, for motion about a centre.
 ///
-/// `α = 3/2` gives steps in proportion to the time of free fall to the centre, the choice for Kepler orbits of high eccentricity.
+/// With `α = 3/2` the step size is proportional to the free-fall time to a Kepler centre: the choice for orbits of high eccentricity.
 ///
 /// ```
 /// use symplectic::adaptive::{DistancePower, Monitor};
@@ -80,14 +80,14 @@ impl Monitor for DistancePower {
     }
 }
 
-/// A smooth monitor for bodies that meet: about the power α of the least distance of two of them,
+/// A smooth monitor for close encounters of bodies: about `r^α`, with the smallest distance r between two bodies,
 ///
 /// ```text
 /// σ = (Σ_{i<j} |q_i − q_j|^{−2m})^{−α/(2m)}
 /// ```
 ///
-/// `q` holds the bodies one after the other, with as many components each as space has dimensions; components left over do not count. With a larger m the sum follows
-/// the least distance more closely.
+/// `q` holds the bodies one after another, with as many components each as space has dimensions; components left over are ignored. The
+/// larger m is, the closer σ is to `r^α`.
 ///
 /// ```
 /// use symplectic::adaptive::{Monitor, PairDistances};
@@ -109,7 +109,7 @@ pub struct PairDistances {
 }
 
 impl PairDistances {
-    /// Shows `see` the pairs of bodies, by the places of their first components, with the square of their distance and its −m-th power.
+    /// Calls `see(i, j, r², r^{−2m})` for each pair of bodies: the indices of their first components, and their distance r.
     fn pairs<T: Scalar>(&self, q: &[T], mut see: impl FnMut(usize, usize, T, T)) {
         let dimensions = self.dimensions.max(1);
         let places = || (0..q.len() / dimensions).map(|body| body * dimensions);
@@ -131,7 +131,7 @@ impl Monitor for PairDistances {
         power(sum, -0.5 * self.exponent / f64::from(self.sharpness))
     }
 
-    /// `α Σ_j r_ij^{−2m−2} (q_i − q_j) / Σ r^{−2m}` for the body i.
+    /// `α Σ_j r_ij^{−2m−2} (q_i − q_j) / Σ r^{−2m}` for body i.
     fn logarithmic_gradient(&self, q: &[f64], gradient: &mut [f64]) -> bool {
         gradient.fill(0.0);
         let mut sum = 0.0;
@@ -150,15 +150,15 @@ impl Monitor for PairDistances {
     }
 }
 
-/// Short steps where the force is strong, for systems of which no distance is known:
+/// A monitor that is small where the force is strong, for systems without a distance to measure:
 ///
 /// ```text
 /// σ = (F_0² + |∂H/∂q|²)^{−α/2}
 /// ```
 ///
-/// With `α = 3/4` and `F_0 = 0` it is `|q|^{3/2}` in the Kepler problem. Where the force has zeros, a floor `F_0` above zero keeps σ
-/// finite. The force is taken at the time 0. Each value of σ is an evaluation of the force, and each derivative one
-/// with dual numbers; with dynamic vectors they allocate.
+/// With `α = 3/4` and `F_0 = 0` it is `|q|^{3/2}` in the Kepler problem `U = −1/|q|`. If the force has zeros, a floor `F_0 > 0` keeps σ
+/// finite. The force is evaluated at time 0: once for a value of σ, and once in dual numbers for a directional derivative. With dynamic
+/// vectors each evaluation allocates.
 ///
 /// ```
 /// use symplectic::adaptive::{ForcePower, Monitor};
@@ -170,7 +170,7 @@ impl Monitor for PairDistances {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForcePower<S> {
-    /// Whose force it is.
+    /// The system whose force is evaluated.
     pub system: S,
     /// α
     pub exponent: f64,
@@ -203,15 +203,15 @@ fn power<T: Scalar>(x: T, exponent: f64) -> T {
     (x.ln() * T::from_f64(exponent)).exp()
 }
 
-/// The value of a monitor at a position; an error, with the value, where it is not finite and positive.
+/// The value of a monitor at a position; the value as an error if it is not finite and positive.
 pub(super) fn value_at<W: Monitor>(monitor: &W, q: &[f64]) -> Result<f64, f64> {
     let value = monitor.value(q);
-    // Nor may 1/σ overflow.
+    // 1/σ must not overflow either.
     let sound = value > 0.0 && value.is_finite() && value.recip().is_finite();
     if sound { Ok(value) } else { Err(value) }
 }
 
-/// The positions of a system that a monitor sees.
+/// The part of the positions that a monitor sees: without displacements, see [`System::DISPLACED`].
 pub(super) fn seen<S: System<V>, V: Vector>(q: &V) -> &[V::Scalar] {
     let q = q.as_slice();
     match S::DISPLACED {
@@ -220,7 +220,7 @@ pub(super) fn seen<S: System<V>, V: Vector>(q: &V) -> &[V::Scalar] {
     }
 }
 
-/// Room for the derivatives of a monitor.
+/// Work vectors for the derivatives of a monitor.
 #[derive(Clone, Debug)]
 pub(super) struct Slopes<V: Vector> {
     gradient: V,
@@ -235,7 +235,7 @@ impl<V: Vector<Scalar = f64>> Slopes<V> {
         }
     }
 
-    /// `∇ ln σ · direction`; NaN where σ is seen not to be positive.
+    /// `∇ ln σ · direction`; NaN if dual numbers evaluate it and σ is not positive.
     pub(super) fn along<W: Monitor>(&mut self, monitor: &W, q: &[f64], direction: &[f64]) -> f64 {
         let gradient = &mut self.gradient.as_mut_slice()[..q.len()];
         if monitor.logarithmic_gradient(q, gradient) {
@@ -264,7 +264,7 @@ impl<V: Vector<Scalar = f64>> Slopes<V> {
             for (dual, &value) in duals.iter_mut().zip(q) {
                 *dual = HyperDual::from_f64(value);
             }
-            // Two components by one evaluation.
+            // One evaluation gives two components.
             for (pair, gradient) in gradient.chunks_mut(2).enumerate() {
                 let seed = |duals: &mut [HyperDual], slope: f64| {
                     duals[2 * pair].set_first(slope);

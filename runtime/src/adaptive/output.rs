@@ -1,4 +1,4 @@
-//! What is seen of a run with steps of variable size.
+//! Output of a run with steps of variable size.
 
 use core::ops::ControlFlow;
 
@@ -26,21 +26,21 @@ where
     R: Summation,
     N: Solver<V, S>,
 {
-    /// Takes steps until `end` is reached or behind, and returns the state at `end`: by a shorter step of the method from the start of
-    /// the last one, to the order of the method. The present state is that after the last step, so that the step
-    /// sizes do not depend on `end`.
+    /// Takes steps until `end` is reached or passed, and returns the state at `end`. If `end` is inside the last step, a shorter step of the
+    /// method from the start of the last one gives that state. The present state is that after the last step, so that the step sizes do not
+    /// depend on `end`.
     ///
-    /// `end` may lie in the last step already, which takes no other then.
+    /// If `end` is inside the last step already, no other step is taken.
     ///
     /// # Errors
     ///
-    /// [`Error::OutputTime`] where `end` is not finite or before the last step, in the direction of the steps. Those of
-    /// [`step`](Self::step); the state is then that of the last good step.
+    /// [`Error::OutputTime`] if `end` is not finite, or before the start of the last step in the direction of the run. Those of
+    /// [`step`](Self::step); the state is then that after the last successful step.
     pub fn integrate_to(&mut self, end: f64) -> Result<State<V>, Error> {
         self.integrate_with(end, |_| ())
     }
 
-    /// [`integrate_to`](Self::integrate_to) that shows `observe` the state after every step.
+    /// [`integrate_to`](Self::integrate_to) that calls `observe` with the state after every step.
     ///
     /// # Errors
     ///
@@ -65,7 +65,8 @@ where
         Ok(state)
     }
 
-    /// Takes steps until all `times` are behind, and shows `observe` the state at each of them: see [`Integrator::integrate_at`].
+    /// Takes steps until all `times` are reached or passed, and calls `observe` with the state at each of them: see
+    /// [`Integrator::integrate_at`].
     ///
     /// # Errors
     ///
@@ -98,15 +99,15 @@ where
         Ok(self.state())
     }
 
-    /// Takes steps until `end` is reached or behind, and shows `observe` the state at every event: see
-    /// [`Integrator::integrate_with_events`]. Events in the last step are shown even behind `end`, so that a run that goes on misses
-    /// none. The search starts from the present state, which [`integrate_to`](Self::integrate_to) and
-    /// [`integrate_at`](Self::integrate_at) may have left behind their end.
+    /// Takes steps until `end` is reached or passed, and calls `observe` with the state at every event: see
+    /// [`Integrator::integrate_with_events`]. Events of the last step are reported even after `end`, so that a continued run misses none.
+    /// The search starts from the present state. After [`integrate_to`](Self::integrate_to) and [`integrate_at`](Self::integrate_at) that
+    /// state may be later than the end or the last output time.
     ///
     /// # Errors
     ///
-    /// Those of [`Integrator::integrate_with_events`] and of [`step`](Self::step); [`Error::OutputTime`] where `end` is before the last
-    /// step, in the direction of the steps.
+    /// Those of [`Integrator::integrate_with_events`] and of [`step`](Self::step); [`Error::OutputTime`] if `end` is before the start of
+    /// the last step in the direction of the run.
     pub fn integrate_with_events<G, B, F>(
         &mut self,
         end: f64,
@@ -123,7 +124,8 @@ where
         })
     }
 
-    /// The state at the first event up to the end of the step in which `end` is reached: see [`Integrator::find_event`].
+    /// The state at the first event, if there is one up to the end of the step that reaches or passes `end`: see
+    /// [`Integrator::find_event`].
     ///
     /// # Errors
     ///
@@ -154,14 +156,14 @@ where
         self.integrate_with_events(end, event, |state| ControlFlow::Break(state.clone()))
     }
 
-    /// Takes steps until `end` is reached or behind, and shows `handle` the states at output times and at the events of a list: see
-    /// [`Integrator::integrate_through`]. The first output times may lie in the last step already. Where a handler changes the state, and
-    /// at a wall, the step density starts again as 1/σ.
+    /// Takes steps until `end` is reached or passed, and calls `handle` with the states at output times and at the events of a list: see
+    /// [`Integrator::integrate_through`]. The first output times may lie inside the last step. When the run continues from a changed state,
+    /// or from a wall, the step density becomes 1/σ there.
     ///
     /// # Errors
     ///
-    /// Those of [`Integrator::integrate_through`] and of [`step`](Self::step); [`Error::OutputTime`] where `end` is before the last step,
-    /// in the direction of the steps.
+    /// Those of [`Integrator::integrate_through`] and of [`step`](Self::step); [`Error::OutputTime`] if `end` is before the start of the
+    /// last step in the direction of the run.
     pub fn integrate_through<E, B, F>(
         &mut self,
         end: f64,
@@ -193,7 +195,7 @@ where
         &self.integrator
     }
 
-    /// They go their own way, whatever the end.
+    /// The controller alone sets the step size, whatever the end.
     fn size_to(&self, _end: f64) -> f64 {
         self.step_size()
     }
@@ -206,7 +208,7 @@ where
         self.start_of_last_step()
     }
 
-    /// Their number is not known before.
+    /// The number of steps is not known in advance.
     fn check_count(&self, _end: f64) -> Result<(), Error> {
         Ok(())
     }

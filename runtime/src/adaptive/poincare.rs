@@ -1,4 +1,4 @@
-//! Poincaré's transformation of time.
+//! Poincaré's time transformation.
 
 use alloc::boxed::Box;
 use core::cell::Cell;
@@ -12,8 +12,8 @@ use crate::solver::FixedPoint;
 use crate::state::State;
 use crate::system::{Conservative, General, Hamiltonian, System};
 
-/// The Hamiltonian `K = σ(q)(H + p_t)` of Poincaré's transformation of time (Hairer 1997; Reich 1999), for any H and any [`Monitor`] σ, in a
-/// time τ of its own:
+/// The Hamiltonian `K = σ(q)(H + p_t)` of Poincaré's time transformation (Hairer 1997; Reich 1999), for any H and any [`Monitor`] σ, in a
+/// fictitious time τ:
 ///
 /// ```text
 /// dq/dτ = σ H_p      dt/dτ = σ      dp/dτ = −σ H_q − (H + p_t) ∇σ      dp_t/dτ = −σ H_t
@@ -21,12 +21,12 @@ use crate::system::{Conservative, General, Hamiltonian, System};
 ///
 /// $$ K = \sigma(q)\,(H(t, q, p) + p_t) \qquad p_t = -H(\text{start}) \qquad \frac{dt}{d\tau} = \sigma(q) $$
 ///
-/// Positions are (q, t) and momenta (p, p_t). K is zero along the motion, on which its orbits are those of H; a step of size ε in τ takes
-/// about the time `ε σ(q)`. K is not separable, whatever H is: methods for [`General`] systems step it, such as `basis: polynomial(s),
-/// nodes: gauss(s)`, and they are symplectic in the extended phase space. The order in ε is that of the method.
+/// Positions are (q, t) and momenta (p, p_t). K is zero along the motion, and there its orbits are those of H. A step of size ε in τ takes
+/// about the time `ε σ(q)`. K is not separable, even if H is. It needs a method for [`General`] systems, such as `basis: polynomial(s),
+/// nodes: gauss(s)`, which is symplectic in the extended phase space. The order in ε is that of the method.
 ///
-/// The system must give its [energy](Hamiltonian::energy), which may depend on time. [`extend`](Self::extend) makes the start, for
-/// vectors of one component more than those of the system; [`reduce`](Self::reduce) gives back the state at time t.
+/// The system must give its [energy](Hamiltonian::energy), which may depend on time. [`extend`](Self::extend) makes the initial state, whose
+/// vectors have one component more than those of the system; [`reduce`](Self::reduce) gives back the state at time t.
 ///
 /// ```
 /// use symplectic::adaptive::{DistancePower, Poincare};
@@ -58,14 +58,14 @@ use crate::system::{Conservative, General, Hamiltonian, System};
 ///
 /// # Errors of steps
 ///
-/// [`Error::Monitor`] where the monitor is not finite and positive. A force without a potential has no place in K; a system with an
+/// [`Error::Monitor`] if the monitor is not finite and positive. K cannot contain a force without a potential: a system with an
 /// [applied force](Hamiltonian::applied_force) does not compile.
 pub struct Poincare<S: Hamiltonian, W> {
     system: S,
     monitor: W,
-    /// Where system and monitor are evaluated; there is none before the first time, and during it.
+    /// Work vectors for evaluations of system and monitor; `None` before the first evaluation and during each.
     room: Cell<Option<Box<Rooms<S>>>>,
-    /// The value of the monitor that was not positive.
+    /// The value of the monitor in the last failed evaluation, unless it was NaN.
     fault: Cell<Option<f64>>,
 }
 
@@ -95,9 +95,9 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::OtherClass`] where the system has constraints or friction,
-    /// [`Error::NoEnergy`], [`Error::Monitor`]; [`Error::Length`] where the vectors do not
-    /// have one component more.
+    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::OtherClass`] if the system has constraints or friction,
+    /// [`Error::NoEnergy`], [`Error::Monitor`], [`Error::Length`] if the vectors of type `V` cannot have one component more than those of
+    /// the system.
     pub fn extend<V: Vector<Scalar = f64>>(
         &self,
         state: &State<S::Vector<f64>>,
@@ -107,7 +107,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
         extended(state, -energy)
     }
 
-    /// The state (q, p) at time t of an extended one.
+    /// The state (q, p) at time t of an extended state.
     ///
     /// # Errors
     ///
@@ -119,7 +119,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
         reduced(state)
     }
 
-    /// The system in its own time.
+    /// The original system.
     pub const fn system(&self) -> &S {
         &self.system
     }
@@ -129,7 +129,8 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
         &self.monitor
     }
 
-    /// `look` with σ at a state, which is in the room; nothing where σ is not positive, or the system has another dimension.
+    /// Calls `look` with σ and the work vectors, which hold the state; `None` if σ is not finite and positive, or the system has another
+    /// dimension.
     fn at_state<T>(
         &self,
         (q, p): (&[f64], &[f64]),
@@ -152,7 +153,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
         let value = value_at(&self.monitor, room.of_system.q.as_slice());
         let seen = value.map(|value| look(value, &mut room));
         self.room.set(Some(room));
-        // NaN comes of evaluations that failed before.
+        // NaN comes from an earlier failed evaluation.
         seen.map_err(|value| self.fault.set(Some(value).filter(|value| !value.is_nan())))
             .ok()
     }
@@ -213,7 +214,7 @@ where
             let energy = room.of_system.energy(&self.system, time);
             monitor * (energy.real() + momentum)
         });
-        // It is no evaluation of a step.
+        // This evaluation is not part of a step.
         self.fault.set(fault);
         Some(found.unwrap_or(f64::NAN))
     }

@@ -1,4 +1,4 @@
-//! Potentials with steps of their own.
+//! Asynchronous variational integrators: every potential has its own step size.
 
 use alloc::collections::BinaryHeap;
 use alloc::collections::binary_heap::PeekMut;
@@ -10,19 +10,19 @@ use super::{Flow, FlowError, Span, check_count, check_dimension, check_parameter
 use crate::error::{Error, Quantity};
 use crate::number::Vector;
 
-/// A system `H = Σ p_i²/(2m_i) + Σ_K V_K(t, q)`, whose elements K are each felt by a few components of the position: bonds, springs, the
-/// cells of a mesh. For [`Asynchronous`].
+/// A system `H = Σ p_i²/(2m_i) + Σ_K V_K(t, q)` for [`Asynchronous`]. Each element K depends on a few components of the position: bonds,
+/// springs, the cells of a mesh.
 pub trait Elements {
     /// The number of elements.
     fn count(&self) -> usize;
 
-    /// The components of the position on which `V_K` depends, each once; always the same.
+    /// The components of the position on which `V_K` depends, each once. They must not change.
     fn components(&self, element: usize) -> &[usize];
 
-    /// Writes the force `−∂V_K/∂q` on each component of an element, in their order; `q` are their positions.
+    /// Writes the force `−∂V_K/∂q` on each [component](Self::components) of an element, in their order; `q` holds their positions.
     fn force(&self, element: usize, time: f64, q: &[f64], force: &mut [f64]);
 
-    /// The longest step of an element: well below the shortest period of its own oscillations.
+    /// The longest step `h_K` of an element: well below the shortest period of its own oscillations.
     fn step_size(&self, element: usize) -> f64;
 
     /// `1/m_i` of a component of the position.
@@ -31,10 +31,10 @@ pub trait Elements {
     }
 }
 
-/// The step of an asynchronous variational integrator (Lew, Marsden, Ortiz & West 2003): each element kicks in steps of its own.
+/// The step of an asynchronous variational integrator (Lew, Marsden, Ortiz & West 2003): each element kicks with its own step size.
 ///
-/// A step of size h has `n_K = ⌈h/h_K⌉` equal steps of element K, with the [step size](Elements::step_size) `h_K`. At the times
-/// `k h/n_K` the components of the element drift from where they were last, and get the kick
+/// In a step of size h, element K takes `n_K = ⌈h/h_K⌉` equal steps, with the [step size](Elements::step_size) `h_K`. At the times
+/// `k h/n_K` the components of the element drift from their last positions, and get the kick
 ///
 /// ```text
 /// p ← p − (h/n_K) ∂V_K/∂q,   half of it for k = 0 and k = n_K.
@@ -42,13 +42,13 @@ pub trait Elements {
 ///
 /// $$ p \leftarrow p - \frac{h}{n_K} \frac{\partial V_K}{\partial q} $$
 ///
-/// So a stiff bond is evaluated often, and a soft one seldom, with no common substep: the numbers `n_K` need no common divisor. The step is
-/// symplectic, symmetric and of order 2. It conserves the total momentum, to rounding, where the forces of each element add up to zero. It is
-/// all of the system, to be stepped by a [`FlowIntegrator`](super::FlowIntegrator), or a part beside other flows. Within
-/// [`Substeps`](super::Substeps) the half kicks between two steps are one evaluation.
+/// So the force of a stiff bond is evaluated often, that of a soft bond seldom. The numbers `n_K` need no common divisor. The step is
+/// symplectic, symmetric and of order 2. It conserves the total momentum up to rounding if the forces of each element add up to zero. It may
+/// be the whole system, for a [`FlowIntegrator`](super::FlowIntegrator), or a part beside other flows. Within [`Substeps`](super::Substeps)
+/// the two half kicks between two steps share one evaluation.
 ///
-/// Kicks of fast elements can resonate with the oscillations of slow ones, as in every method with several step sizes; keep h below half
-/// of the shortest period of the elements that have one step, or look at the energy for several step sizes. Sums are plain.
+/// As in every method with several step sizes, kicks of fast elements can resonate with the oscillations of slow ones. Keep h below half
+/// of the shortest period of the elements with `n_K = 1`, or compare the energy for several step sizes. Sums are not compensated.
 ///
 /// ```
 /// use symplectic::State;
@@ -93,26 +93,26 @@ pub trait Elements {
 pub struct Asynchronous<E> {
     elements: E,
     drifts: Drifts,
-    /// Where the forces of each element begin, and where those of the last one end.
+    /// The index in `forces` where those of each element begin; at the end, the length of `forces`.
     begins: Vec<usize>,
     /// The forces of all elements at their last kicks.
     forces: Vec<f64>,
-    /// Room for the positions of one element.
+    /// Work space for the positions of one element.
     positions: Vec<f64>,
-    /// The next kick of each element.
+    /// The next kick of each element, in the present step.
     queue: BinaryHeap<Kick>,
 }
 
-/// How the components of the position have drifted within a step.
+/// The drifts of the components of the position within a step.
 #[derive(Clone, Debug)]
 struct Drifts {
     inverse_masses: Vec<f64>,
-    /// To which part of the step.
+    /// The fraction of the step up to which each component has drifted.
     reached: Vec<f64>,
 }
 
 impl Drifts {
-    /// Takes a component to a part of a step of this size.
+    /// Drifts a component up to the fraction `part` of a step of this size.
     fn take(&mut self, component: usize, part: f64, size: f64, q: &mut [f64], p: &[f64]) {
         let way = part - self.reached[component];
         q[component] += size * way * self.inverse_masses[component] * p[component];
@@ -120,7 +120,7 @@ impl Drifts {
     }
 }
 
-/// The kick `number` of `count` that an element has in a step.
+/// A kick of an element in a step: the `number`-th, from 0 to `count`, of an element with `count` steps.
 #[derive(Clone, Copy, Debug)]
 struct Kick {
     element: usize,
@@ -129,13 +129,13 @@ struct Kick {
 }
 
 impl Kick {
-    /// When it is, as a part of the step.
+    /// The time of the kick, as a fraction of the step.
     fn part(self) -> f64 {
         f64::from(self.number) / f64::from(self.count)
     }
 }
 
-/// The greatest one is the next; of several at one time, that of the first element.
+/// The greatest kick is the next one, as a [`BinaryHeap`] gives it: the earliest, and at equal times that of the first element.
 impl Ord for Kick {
     fn cmp(&self, other: &Self) -> Ordering {
         let by_time = other.part().total_cmp(&self.part());
@@ -162,8 +162,8 @@ impl<E: Elements> Asynchronous<E> {
     ///
     /// # Errors
     ///
-    /// [`Error::FlowParameter`] for a step size of an element that is not finite and positive, an inverse mass that is not finite or
-    /// negative, a component that there is not, or that an element has twice.
+    /// [`Error::FlowParameter`] for a step size of an element that is not finite and positive, an inverse mass that is negative or not
+    /// finite, and a component that does not exist or that an element has twice.
     pub fn new(elements: E, dimension: usize) -> Result<Self, Error> {
         let (mut begins, mut longest) = (vec![0], 0);
         let mut seen_by = vec![None; dimension];
@@ -207,7 +207,7 @@ impl<E: Elements> Asynchronous<E> {
         &self.elements
     }
 
-    /// One step; the forces at its start are known if it follows another one.
+    /// Takes one step. The forces at its start are known if it follows another step.
     fn step(
         &mut self,
         span: Span,
@@ -248,7 +248,7 @@ impl<E: Elements> Asynchronous<E> {
         Ok(())
     }
 
-    /// Writes the forces of an element at a kick.
+    /// Evaluates the forces of an element for a kick.
     fn evaluate(&mut self, kick: Kick, span: Span, q: &[f64]) -> Result<(), FlowError> {
         let components = self.elements.components(kick.element);
         let positions = &mut self.positions[..components.len()];
@@ -266,7 +266,7 @@ impl<E: Elements> Asynchronous<E> {
         }
     }
 
-    /// Adds the kick of an element by its forces.
+    /// Adds the kick of an element, by the forces of its last evaluation.
     fn kick(&self, kick: Kick, span: Span, p: &mut [f64]) {
         let Kick {
             element,
@@ -282,8 +282,7 @@ impl<E: Elements> Asynchronous<E> {
     }
 }
 
-/// The smallest number of equal steps that are no longer than `longest`. A quotient that rounding has lifted above a whole number counts as
-/// that number.
+/// The smallest number of equal steps that are no longer than `longest`. A quotient that exceeds an integer by rounding counts as that integer.
 fn steps(size: f64, longest: f64) -> Result<u32, FlowError> {
     let ratio = size.abs() / longest * (1.0 - 4.0 * f64::EPSILON);
     if ratio < f64::from(u32::MAX) {

@@ -1,4 +1,4 @@
-//! Runs of a flow that are interrupted and go on with the same bits.
+//! Checkpoints of runs of a flow, which continue with the same bits.
 
 use super::integrator::{Course, FlowIntegrator};
 use super::memory::Memory;
@@ -10,10 +10,10 @@ use crate::number::words::{Visit, Words, vector_words, words};
 use crate::state::State;
 
 impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
-    /// What the run needs to [go on](Self::restore) from here with the same bits: state, step size, clock, the last step, and the
+    /// All that the run needs to [continue](Self::restore) from here with the same bits: state, step size, clock, the last step, and the
     /// [memory](Flow::memory) of the flow. See [`Checkpoint`].
     ///
-    /// The flow itself is not in it. To recognise it, a step is tried from the present state; it changes nothing.
+    /// The flow itself is not stored. A hash of a trial step from the present state identifies it; the trial changes nothing.
     ///
     /// ```
     /// use symplectic::flow::{Drift, FlowIntegrator, Kick, OrnsteinUhlenbeck, Palindrome};
@@ -47,12 +47,12 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
         })
     }
 
-    /// Goes on from a checkpoint of a run that was made in the same way. State and step size become those of the checkpoint.
+    /// Continues from a checkpoint of a run with the same flow. State and step size become those of the checkpoint.
     ///
     /// # Errors
     ///
-    /// [`CheckpointError`], with [`OtherSystem`](CheckpointError::OtherSystem) where the flow takes another step from the state of the
-    /// checkpoint; the run is then as it was.
+    /// [`CheckpointError`], with [`OtherSystem`](CheckpointError::OtherSystem) if a step of the flow from the state of the checkpoint has
+    /// another result; the run is then unchanged.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
         let (mut course, mut memory) = (self.course.clone(), self.present_memory());
         let own = Checkpoint::of_flow(course.state.q.dimension(), memory.len());
@@ -77,7 +77,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
         memory
     }
 
-    /// A hash of the end of the next step, or of what is left where it fails.
+    /// A hash of the result of the next step, or of the state that a failed step leaves.
     fn tried_step(&mut self) -> u64 {
         let memory = self.present_memory();
         let State { time, q, p } = &self.course.state;
@@ -86,7 +86,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
             size: self.step_size(),
         };
         let (mut q, mut p) = (q.clone(), p.clone());
-        // A failure leaves other bits than a step.
+        // The bits after a failure differ from those after a step.
         let _ = self.flow.flow(span, &mut q, &mut p);
         memory.put_back(&mut self.flow);
         hash(&mut [q, p])

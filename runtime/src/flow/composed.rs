@@ -1,15 +1,15 @@
-//! Symmetric steps of order 2, composed to a higher order.
+//! Compositions of symmetric steps of order 2, of higher order.
 
 use super::{Flow, FlowError, Span};
 use crate::method::Method;
 use crate::method::symmetric_steps::SymmetricSteps;
 use crate::number::Vector;
 
-/// The steps `γ_1 h, …, γ_m h` of a composition that [`composition!`](crate::composition) makes of Störmer–Verlet steps, each a step of another
-/// symmetric flow of order 2, such as a [`Palindrome`](super::Palindrome) of three parts.
+/// The composition of steps of the sizes `γ_1 h, …, γ_m h` of a symmetric flow of order 2, such as a [`Palindrome`](super::Palindrome) of three
+/// parts. The `γ_i` are those of a composition of Störmer–Verlet steps, made by [`composition!`](crate::composition).
 ///
 /// The order is `M::ORDERS.general`: the order conditions are the same for every symmetric method of order 2 (Hairer, Lubich & Wanner, V.3).
-/// With another method it does not compile.
+/// A method that is not a composition of Störmer–Verlet steps does not compile.
 ///
 /// ```
 /// symplectic::composition! { Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] } }
@@ -29,7 +29,7 @@ pub struct Composed<F> {
 }
 
 impl<F> Composed<F> {
-    /// The composition of these steps.
+    /// The composition of steps of `step`, with the fractions of the method.
     pub fn new<M: Method>(_method: M, step: F) -> Self {
         Self {
             steps: SymmetricSteps::of::<M>(),

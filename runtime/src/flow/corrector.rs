@@ -12,11 +12,11 @@ use crate::number::Vector;
 use crate::state::State;
 use crate::system::Separable;
 
-/// A symplectic corrector for a symmetric [`Splitting`] of `H = A + B` with a small `B = O(ε)` (Wisdom, Holman & Touma, *Fields Inst. Commun.*
-/// 10, 217, 1996): a change of variables in which the steps have the error `O(εh^{2m+2} + ε²h²)` instead of `O(εh²)`.
+/// A symplectic corrector for a symmetric [`Splitting`] K of `H = A + B` with a small `B = O(ε)` (Wisdom, Holman & Touma, *Fields Inst. Commun.*
+/// 10, 217, 1996): a change of variables C in which the error of the steps is `O(εh^{2m+2} + ε²h²)` instead of `O(εh²)`.
 ///
-/// To first order in ε a run of `n` steps takes the integral of the kick along the exact flow of A by a quadrature rule in every step. Its
-/// error is that of Euler and Maclaurin, a sum of terms at both ends of the run. So nothing has to be done in between:
+/// To first order in ε, a run of `n` steps integrates the kick along the exact flow of A by a quadrature rule in every step. By the
+/// Euler–Maclaurin formula the error of this sum consists of terms at both ends of the run. So a correction is needed only there:
 ///
 /// ```text
 /// C K^n C⁻¹ ≈ e^{nh(A+B)}       C = Π_i e^{−a_i hA} e^{b_i hB} e^{a_i hA}
@@ -25,18 +25,18 @@ use crate::system::Separable;
 ///
 /// $$ 2 \sum_{i=1}^m b_i a_i^{2k-1} = -\frac{1}{2k} \sum_j w_j B_{2k}(c_j) \qquad k = 1, \dots, m $$
 ///
-/// with the kicks `w_j` of the method at the times `c_j` of its drift, and the Bernoulli polynomials `B_{2k}`; the flow on the right comes first.
-/// C has the pairs `(a_i, b_i)` and `(−a_i, −b_i)` with `a_i = i/2`; the `b_i` are solved for when it is made. It takes `2m` kicks and `2m + 1`
-/// drifts, forward and backward, and is symplectic where the flows are. Neither part may depend on time.
+/// with the kicks of weight `w_j` of the method at the times `c_j h` of its drift, and the Bernoulli polynomials `B_{2k}`; the rightmost flow
+/// comes first. C has the pairs `(a_i, b_i)` and `(−a_i, −b_i)` with `a_i = i/2`; [`new`](Self::new) solves for the `b_i`. C takes `2m` kicks
+/// and `2m + 1` drifts, forward and backward, and is symplectic if the flows are. Neither part may depend on time.
 ///
-/// The run itself takes the variables of the kernel: [`to_kernel`](Self::to_kernel) makes the start, [`from_kernel`](Self::from_kernel) takes a state
-/// of the run back, for output. They are inverse to each other, to rounding. Both need the size of the steps that are taken, in
-/// [`Substeps`](super::Substeps) that of a substep. [`integrate_to`](super::FlowIntegrator::integrate_to) takes shorter ones where the time to the end is
-/// not a multiple of the step size. Beside the error ε²h² that stays, more than four pairs seldom help.
+/// The run itself is in the variables of the kernel K: [`to_kernel`](Self::to_kernel) transforms the initial state, and
+/// [`from_kernel`](Self::from_kernel) transforms a state of the run back, for output. They are inverse to each other up to rounding. Both need
+/// the step size of the run; with [`Substeps`](super::Substeps), that of a substep. [`integrate_to`](super::FlowIntegrator::integrate_to) takes
+/// shorter steps if the time to the end is not a multiple of the step size. More than four pairs seldom help, because the error ε²h² remains.
 ///
-/// A state [inside a step](super::FlowIntegrator::state_at) is a step of another size, and other variables belong to it: with `from_kernel` it
-/// has the error `O(εh³)` of one step without a corrector. For such a time take the last state of the run back, and go from there in corrected
-/// steps of another size.
+/// A state [inside a step](super::FlowIntegrator::state_at) is the end of a shorter step, to which another change of variables belongs:
+/// `from_kernel` leaves the error `O(εh³)` of one step without a corrector. For such a time, transform the last state of the run back and
+/// continue from it in corrected steps of another size.
 ///
 /// ```
 /// use symplectic::flow::kepler::Jacobi;
@@ -63,7 +63,7 @@ use crate::system::Separable;
 /// # }
 /// ```
 ///
-/// A method that is not symmetric has other errors, and does not compile:
+/// A method that is not symmetric has other error terms, and does not compile:
 ///
 /// ```compile_fail,E0080
 /// use symplectic::flow::Corrector;
@@ -73,7 +73,7 @@ use crate::system::Separable;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Corrector<A, B> {
-    /// `(a_i, b_i)` in the order of `a_i`.
+    /// The 2m pairs `(a_i, b_i)`, with `a_i` ascending.
     pairs: Vec<(f64, f64)>,
     /// The flow of A.
     pub drift: A,
@@ -81,18 +81,18 @@ pub struct Corrector<A, B> {
     pub kick: B,
 }
 
-/// The largest number of pairs: with them the error of first order is about 10⁻¹¹ε where a step is a sixth of the shortest period.
+/// The largest number of pairs. With it the error of first order is about 10⁻¹¹ε if the step is a sixth of the shortest period.
 const MOST: u32 = 8;
 
-/// The distance of the places `a_i`.
+/// The spacing of the `a_i`.
 const SPACING: f64 = 0.5;
 
 impl<A, B> Corrector<A, B> {
-    /// The corrector with `pairs` pairs, m, for the splitting with this method and flows.
+    /// The corrector with m = `pairs` for the splitting with this method and these flows.
     ///
     /// # Errors
     ///
-    /// [`Error::FlowParameter`] for 0 pairs, and more than 8.
+    /// [`Error::FlowParameter`] for 0 pairs or more than 8.
     pub fn new<M: Method>(method: M, drift: A, kick: B, pairs: u32) -> Result<Self, Error> {
         const {
             assert!(
@@ -120,12 +120,12 @@ impl<A, B> Corrector<A, B> {
         })
     }
 
-    /// The state in the variables of the kernel, from which a run of steps of the splitting of size `step_size` starts: `C⁻¹`.
+    /// `C⁻¹`: the state in the variables of the kernel, from which a run with steps of size `step_size` starts.
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`], [`Error::Dimension`], [`Error::NonFiniteState`]; [`Error::Flow`] and [`Error::NonFinite`], with 0 as the step, where a flow
-    /// fails, as one that cannot go backward does.
+    /// [`Error::StepSize`], [`Error::Dimension`], [`Error::NonFiniteState`]; [`Error::Flow`] and [`Error::NonFinite`], with 0 as the step, if a
+    /// flow fails, for example because it cannot go backward.
     pub fn to_kernel<V>(&mut self, state: &State<V>, step_size: f64) -> Result<State<V>, Error>
     where
         V: Vector<Scalar = f64>,
@@ -135,7 +135,7 @@ impl<A, B> Corrector<A, B> {
         self.corrected(state, step_size, true)
     }
 
-    /// The state whose variables of the kernel these are: `C`.
+    /// `C`: the state that belongs to a state in the variables of the kernel.
     ///
     /// # Errors
     ///
@@ -169,7 +169,7 @@ impl<A, B> Corrector<A, B> {
         Ok(found)
     }
 
-    /// Takes all pairs, each from its place and back again, where two ways between them are one.
+    /// Applies all pairs. The drift back from one place and the drift to the next are merged.
     fn pass<V>(&mut self, state: &mut State<V>, h: f64, inverse: bool) -> Result<(), FlowError>
     where
         V: Vector<Scalar = f64>,
@@ -200,7 +200,7 @@ const fn way(time: f64, size: f64) -> Span {
     Span { time, size }
 }
 
-/// The kicks of a method in a step of size 1, by size and time.
+/// The kicks `(w_j, c_j)` of a method in a step of size 1.
 fn kicks<M: Method>(method: M) -> Vec<(f64, f64)> {
     struct Still;
     struct Kicks(Vec<(f64, f64)>);
@@ -238,7 +238,7 @@ fn end_terms(m: usize, kicks: &[(f64, f64)]) -> Vec<f64> {
     terms
 }
 
-/// The values of the Bernoulli polynomials 0 to `last`, by `Σ_{k ≤ n} (n+1 over k) B_k(x) = (n + 1) xⁿ`.
+/// `B_0(x)` to `B_last(x)`, by `Σ_{k ≤ n} (n+1 over k) B_k(x) = (n + 1) xⁿ`.
 fn bernoulli(last: usize, x: f64) -> Vec<f64> {
     let (mut values, mut power) = (Vec::with_capacity(last + 1), 1.0);
     for n in 0..=last {
@@ -254,7 +254,7 @@ fn bernoulli(last: usize, x: f64) -> Vec<f64> {
     values
 }
 
-/// The b of `2 Σ_i b_i a_i^{2k−1} = terms_k`: with the polynomials in a² that are 1 at one place and 0 at the others.
+/// The solution b of `2 Σ_i b_i a_i^{2k−1} = terms_k`, by the Lagrange polynomials in a².
 fn weights(places: &[f64], terms: &[f64]) -> Vec<f64> {
     let others = |place: f64| places.iter().filter(move |&&other| other != place);
     let weight = |&place: &f64| {
@@ -299,7 +299,7 @@ mod tests {
         }
     }
 
-    /// The corrector of order 3 of the authors for drift, kick, drift has a = √(7/40), b = 1/(48 a).
+    /// For drift–kick–drift the third-order corrector of Wisdom, Holman & Touma has a = √(7/40), b = 1/(48 a).
     #[test]
     fn one_pair_is_that_of_the_paper() {
         let place = (7.0_f64 / 40.0).sqrt();

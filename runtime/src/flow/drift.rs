@@ -8,7 +8,7 @@ use crate::system::{Separable, System};
 
 /// The flow of the kinetic energy of a separable system: `q ← q + h velocity(t, p)`, with t in the [middle](Span::middle) of the span.
 ///
-/// It is exact if the velocity does not depend on time, and of order 2 otherwise.
+/// It is exact if the velocity does not depend on time, and has order 2 otherwise.
 ///
 /// ```
 /// use symplectic::flow::{Drift, Flow, FlowError, Span};

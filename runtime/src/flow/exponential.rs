@@ -7,13 +7,13 @@ use num_traits::Float;
 use super::FlowError;
 use crate::error::Quantity;
 
-/// The relative error of an exponential that is too large.
+/// The largest relative error of an exponential, as estimated.
 const LARGEST_ERROR: f64 = 1e-3;
 
-/// The highest power of the exponential series.
+/// The highest power in the exponential series.
 const POWERS: u32 = 15;
 
-/// `e^{hA} − 1` of a matrix A of n rows, row by row: see [`Linear`](super::Linear).
+/// `e^{hA} − 1` of a matrix A with n rows, row by row: see [`Linear`](super::Linear).
 pub(super) fn exponential(n: usize, matrix: &[f64], h: f64) -> Result<Vec<f64>, FlowError> {
     let column = |j: usize| (0..n).map(|i| matrix[i * n + j].abs()).sum::<f64>();
     let norm = (0..n).map(column).fold(0.0, f64::max) * h.abs();
@@ -47,7 +47,7 @@ pub(super) fn exponential(n: usize, matrix: &[f64], h: f64) -> Result<Vec<f64>, 
     finite.then_some(sum).ok_or(FlowError::NonFinite { what })
 }
 
-/// The product of two matrices of n rows.
+/// The product of two matrices with n rows.
 fn product(n: usize, left: &[f64], right: &[f64]) -> Vec<f64> {
     let entry = |place: usize| {
         let (i, j) = (place / n, place % n);

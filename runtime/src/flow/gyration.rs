@@ -6,13 +6,13 @@ use super::{Flow, FlowError, Span};
 use crate::error::Quantity;
 use crate::number::{Scalar, Vector};
 
-/// Particles in space turned by a magnetic field: `v' = v × B(t, q)` at a fixed position, `B` in units of mass over charge, at the time in the
-/// [middle](Span::middle) of the span.
+/// The rotation of particles in a magnetic field: `v' = v × B(t, q)` at fixed positions. `B` is charge over mass times the magnetic field, at
+/// the time in the [middle](Span::middle) of the span.
 ///
-/// The velocity of each particle, three components of `p`, turns about `B(t, q)` by the angle `−h|B|`, exactly, by Rodrigues' formula. Its length
-/// stays, and so does the volume in phase space, for any field: the map is a rotation of `v` that depends on `q` only. With a
-/// drift and a kick by the electric field in a [`Palindrome`](super::Palindrome) it is Boris's method with the exact angle, which is of order 2, symmetric
-/// and volume preserving (Boris 1970; Qin et al., *Phys. Plasmas* 20, 084503, 2013). It is not symplectic in general: `v` is the kinetic momentum.
+/// The velocity of each particle, three components of `p`, turns about `B(t, q)` by the angle `−h|B|`, exactly, by Rodrigues' formula. The
+/// map is a rotation of `v` that depends on `q` only, so it conserves `|v|` and the volume in phase space. With a drift and a kick by the
+/// electric field in a [`Palindrome`](super::Palindrome) it is Boris's method with the exact angle, which is of order 2, symmetric and volume
+/// preserving (Boris 1970; Qin et al., *Phys. Plasmas* 20, 084503, 2013). It is not symplectic in general: `v` is the kinetic momentum.
 ///
 /// ```
 /// use symplectic::flow::{Flow, FlowError, Gyration, Span};
@@ -42,7 +42,7 @@ impl<F: Fn(f64, &Vector3<f64>) -> Vector3<f64>> Gyration<F> {
         if size == 0.0 {
             return *v;
         }
-        // With half the angle there is no 1 − cos.
+        // Half the angle avoids the cancellation in 1 − cos.
         let (sine, cosine) = Scalar::sin_cos(half * size);
         let axis = angle / size;
         let once = axis.cross(v);

@@ -43,7 +43,7 @@ impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> Flow<V> for Kick<
     }
 }
 
-/// Room for a slope, of as many components as the state now has.
+/// The work vector `kept`, made anew if it has not as many components as the state.
 pub(super) fn room<'a, V: Vector>(
     kept: &'a mut Option<V>,
     q: &V,
@@ -60,7 +60,7 @@ pub(super) fn room<'a, V: Vector>(
     Ok(kept.get_or_insert_with(|| q.zeros_like()))
 }
 
-/// Adds `size · slope` to a vector of as many components.
+/// Adds `size · slope` to a vector. An error if the slope is not finite, or the numbers of components differ.
 pub(super) fn add<V: Vector<Scalar = f64>>(
     what: Quantity,
     size: f64,

@@ -1,4 +1,4 @@
-//! Linear systems, exactly.
+//! The exact flow of linear systems.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -12,11 +12,14 @@ use crate::number::Vector;
 
 /// The flow of a linear system: `z' = Az` with `z = (q, p)`, so `z ← e^{hA} z`.
 ///
-/// `e^{hA} − 1` is computed once for every duration h, of which a method has a few: `2^{−s} hA` is brought below 1/2 in the norm of the largest
-/// column sum, the exponential series is summed to the power 15 (the rest is below 10⁻¹⁸), and `(1 + E)² − 1 = 2E + E²` is applied s times (Moler &
-/// Van Loan, *SIAM Rev.* 45, 2003, method 3). The relative error is about `nε(1 + ‖hA‖)` where `e^{hA}` is bounded, and so is the deviation from symplecticity;
-/// from 1/1000 on the flow fails with [`FlowError::Other`], and where `e^{hA}` overflows with [`FlowError::NonFinite`].
-/// The first flow of a new duration allocates; up to 64 are kept.
+/// `E = e^{hA} − 1` is computed once for each duration h, of which a method has a few, by scaling and squaring (Moler & Van Loan, *SIAM Rev.*
+/// 45, 2003, method 3): s is chosen such that `2^{−s} hA` is at most 1/2 in the 1-norm (the largest column sum), the exponential series of
+/// `2^{−s} hA` is summed up to the power 15 (the remainder is below 10⁻¹⁸), and `(1 + E)² − 1 = 2E + E²` is applied s times.
+///
+/// The relative error is about `nε(1 + ‖hA‖)` if `e^{hA}` is bounded, and so is the deviation from symplecticity. If `nε‖hA‖` exceeds 1/1000,
+/// the flow fails with [`FlowError::Other`]; if `e^{hA}` overflows, with [`FlowError::NonFinite`].
+///
+/// The first flow of a new duration allocates. Up to 64 durations are kept; the next one discards them all.
 ///
 /// ```
 /// use symplectic::flow::{Flow, Linear, Span};
@@ -35,20 +38,20 @@ pub struct Linear {
     size: usize,
     /// A, row by row.
     matrix: Vec<f64>,
-    /// Durations, and `e^{hA} − 1` row by row.
+    /// Pairs of a duration h and `e^{hA} − 1`, row by row.
     exponentials: Vec<(f64, Vec<f64>)>,
     state: Vec<f64>,
 }
 
-/// Durations that are kept.
+/// The largest number of durations that are kept.
 const MOST: usize = 64;
 
 impl Linear {
-    /// The system with this matrix, of 2n rows and columns.
+    /// The flow of `z' = Az` with this matrix A, of 2n rows and columns.
     ///
     /// # Errors
     ///
-    /// [`Error::FlowParameter`] for a matrix that is not square, or of an odd number of rows, and for an entry that is not finite.
+    /// [`Error::FlowParameter`] for a matrix that is not square or has an odd number of rows, and for an entry that is not finite.
     pub fn new(matrix: &DMatrix<f64>) -> Result<Self, Error> {
         let (size, columns) = matrix.shape();
         check_count(
@@ -69,7 +72,7 @@ impl Linear {
         })
     }
 
-    /// `H = Σ p_k²/(2m_k) + qᵀKq/2` with these masses and a symmetric K.
+    /// The flow of `H = Σ p_k²/(2m_k) + qᵀKq/2` with these masses and a symmetric stiffness K.
     ///
     /// # Errors
     ///
@@ -101,8 +104,8 @@ impl Linear {
         self.size / 2
     }
 
-    /// The means of the positions over the time `duration` of the motion that starts at rest, as a matrix, row by row, that takes the
-    /// first positions to them: `1/τ ∫_0^τ e^{sA} ds`, its rows and columns of positions, from `e^{τB}` with `B = (A, 1; 0, 0)`.
+    /// The matrix, row by row, that takes initial positions to the mean positions of the motion from rest over the time τ = `duration`. It is
+    /// the position block of `1/τ ∫_0^τ e^{sA} ds`, which is a block of `e^{τB}/τ` with `B = (A, 1; 0, 0)`.
     pub(super) fn mean_positions(&self, duration: f64) -> Result<Vec<f64>, FlowError> {
         let (n, size) = (self.size / 2, self.size);
         let rows = size + n;
@@ -122,7 +125,7 @@ impl Linear {
         Ok((0..n * n).map(mean).collect())
     }
 
-    /// The place of `e^{hA} − 1` among those that are kept.
+    /// The index of `e^{hA} − 1` in `exponentials`; computes it if it is not there.
     fn place(&mut self, h: f64) -> Result<usize, FlowError> {
         if let Some(found) = self.exponentials.iter().position(|(size, _)| *size == h) {
             return Ok(found);

@@ -1,4 +1,4 @@
-//! What a flow carries from one call to the next.
+//! A copy of what a flow carries from one call to the next.
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
@@ -8,7 +8,7 @@ use crate::number::Vector;
 #[cfg(feature = "alloc")]
 use crate::number::words::{Visit, Words};
 
-/// The words of the [memory](Flow::memory) of a flow at one moment. Without the feature `alloc` there is no room for them.
+/// The words of the [memory](Flow::memory) of a flow at one moment; none without the feature `alloc`.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Memory(#[cfg(feature = "alloc")] Vec<u64>);
 
@@ -25,7 +25,7 @@ impl Memory {
         self.0.len()
     }
 
-    /// Writes the words back into their flow.
+    /// Writes the words back into the flow.
     pub(super) fn put_back<V: Vector, F: Flow<V>>(&self, flow: &mut F) {
         let mut words = self.0.iter();
         flow.memory(&mut |word| *word = words.next().copied().unwrap_or(*word));

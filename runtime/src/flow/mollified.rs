@@ -1,4 +1,4 @@
-//! A kick by a slow force at mean positions of the fast motion.
+//! A kick by the slow force at mean positions of the fast motion.
 
 use alloc::vec::Vec;
 
@@ -10,7 +10,7 @@ use crate::system::{Separable, System};
 
 /// The kick of the mollified impulse method (García-Archilla, Sanz-Serna & Skeel, *SIAM J. Sci. Comput.* 20, 930, 1998; Hairer, Lubich &
 /// Wanner, *Geometric numerical integration*, XIII.1): the slow potential `U(q)` is replaced by `U(Aq)`, with the mean `Aq` of the positions
-/// over a time τ of the fast motion that starts from q at rest.
+/// over a time τ of the fast motion that starts at rest from q.
 ///
 /// ```text
 /// p ← p + h Aᵀ force(t, Aq)        A = 1/τ ∫_0^τ ∂q(s)/∂q(0) ds
@@ -18,15 +18,15 @@ use crate::system::{Separable, System};
 ///
 /// $$ p \leftarrow p + h A^T f(t, Aq) \qquad A = \frac{1}{\tau} \int_0^\tau \frac{\partial q(s)}{\partial q(0)}\, ds $$
 ///
-/// The fast motion is [`Linear`]. For oscillators of the frequencies Ω it is `A = sin(τΩ)/(τΩ)`, which takes out of the force what is in
-/// resonance with the fast motion. Let τ be the step size h of the run: the mean vanishes where `hω = π, 2π, …` (`LongAverage` of the paper;
-/// `h/2` is `ShortAverage`, which vanishes at `2π, 4π, …`). Without a mean, `τ = 0`, it is the impulse method, whose energy grows there.
+/// The fast motion is [`Linear`]. For oscillators with the frequencies Ω, `A = sin(τΩ)/(τΩ)`, which removes from the force the components in
+/// resonance with the fast motion. Take τ equal to the step size h of the run: A vanishes at `hω = π, 2π, …` (`LongAverage` of the paper).
+/// With `τ = h/2` it vanishes at `hω = 2π, 4π, …` (`ShortAverage`). `τ = 0` gives the impulse method, whose energy grows at the resonances.
 ///
-/// It is the flow of the potential `U(Aq)`. So a step with it is symplectic, and symmetric where the splitting is. With `τ ∝ h`,
-/// Störmer–Verlet with the exact fast flow is of order 2. No splitting of a higher order has more than 2: `U(Aq) − U(q) = O(τ²)`. The mean is
-/// computed once, for the τ that is given: a run whose step size changes keeps it.
+/// The kick is the exact flow of the potential `U(Aq)`. So a splitting with it is symplectic, and symmetric if the method is. With `τ ∝ h`,
+/// Störmer–Verlet with the exact fast flow has order 2. Splittings of higher order have order 2 as well, because `U(Aq) − U(q) = O(τ²)`. A is
+/// computed once, for the given τ; a change of the step size does not change it.
 ///
-/// For a fast motion that is not linear A depends on q, and the kick would need the derivative of the mean: there is none here.
+/// The fast motion must be linear: otherwise A would depend on q, and the kick would need the derivative of the mean.
 ///
 /// ```
 /// symplectic::tableau! { Verlet { base: velocity-verlet } }
@@ -63,8 +63,8 @@ impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> MollifiedKick<S, 
     ///
     /// # Errors
     ///
-    /// [`Error::FlowParameter`] for a duration that is negative or not finite, and for one so long that the fast motion overflows, or that
-    /// less than three digits of it are known.
+    /// [`Error::FlowParameter`] for a duration that is negative or not finite, or so long that the fast motion overflows or fewer than three
+    /// digits of it are known.
     pub fn new(system: S, fast: &Linear, duration: f64) -> Result<Self, Error> {
         let what = "duration of the mean";
         check_parameter(what, 0, duration, true)?;
@@ -97,7 +97,7 @@ impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> Flow<V> for Molli
             *place = row.iter().zip(q.as_slice()).map(|(a, q)| a * q).sum();
         }
         self.system.force(span.middle(), place, p, force);
-        // Aᵀ force, in the place of the mean positions.
+        // Aᵀ force replaces the mean positions.
         place.as_mut_slice().fill(0.0);
         for (row, force) in rows().zip(force.as_slice()) {
             for (sum, a) in place.as_mut_slice().iter_mut().zip(row) {

@@ -1,22 +1,23 @@
-//! Friction and noise.
+//! A heat bath of friction and noise.
 
 use super::philox::normal_pair;
 use super::{Flow, FlowError, Span, check_dimension, check_parameter};
 use crate::error::Error;
 use crate::number::{Scalar, Vector};
 
-/// Friction and noise at a temperature: `dp = −γp dt + √(2γ m kT) dW`, exactly in law.
+/// A heat bath, the Ornstein–Uhlenbeck process `dp = −γp dt + √(2γ m kT) dW`, exact in law:
 ///
 /// ```text
 /// p ← e^{−γh} p + √(m kT (1 − e^{−2γh})) ξ      ξ standard normal
 /// ```
 ///
-/// The law of p in the limit is that of Maxwell and Boltzmann. `Palindrome::new(kick, Palindrome::new(drift, ou))` is BAOAB, whose
-/// averages over positions are the most precise ones among these splittings (Leimkuhler & Matthews, *Appl. Math. Res. Express* 2013, 34).
+/// The stationary distribution of p is that of Maxwell and Boltzmann. `Palindrome::new(kick, Palindrome::new(drift, ou))` is BAOAB, the
+/// splitting of these three parts with the most accurate averages over positions (Leimkuhler & Matthews, *Appl. Math. Res. Express* 2013, 34).
 ///
-/// The random numbers are those of a counter, Philox-4×32-10: they depend on the seed, the number of the [draw](Self::draws) and the component
-/// only, and are the same on every machine. Every flow takes a draw. A [`FlowIntegrator`](super::FlowIntegrator) takes back those of a step
-/// that fails, with the feature `alloc`. Several baths in one step need different seeds.
+/// The random numbers come from the counter-based generator Philox-4×32-10. They depend only on the seed, the number of the
+/// [draw](Self::draws) and the component, and are the same on every machine. Every call of the flow is one draw. If a step fails, a
+/// [`FlowIntegrator`](super::FlowIntegrator) with the feature `alloc` resets the number of draws. Several baths in one step need different
+/// seeds.
 ///
 /// ```
 /// symplectic::tableau! { Verlet { base: velocity-verlet } }
@@ -48,7 +49,7 @@ pub struct OrnsteinUhlenbeck<W> {
 }
 
 impl<W: AsRef<[f64]>> OrnsteinUhlenbeck<W> {
-    /// Friction with the rate γ, the temperature `kT`, and the mass of every component of the momentum.
+    /// A bath with the friction rate γ, the temperature `kT`, and the mass of every component of the momentum.
     ///
     /// # Errors
     ///
@@ -68,12 +69,12 @@ impl<W: AsRef<[f64]>> OrnsteinUhlenbeck<W> {
         })
     }
 
-    /// The number of flows so far, each with its own random numbers.
+    /// The number of draws so far: one per call of the flow, each with its own random numbers.
     pub const fn draws(&self) -> u64 {
         self.draws
     }
 
-    /// Goes on as after `draws` flows: to continue a run.
+    /// Sets the number of draws, to continue a run.
     pub const fn set_draws(&mut self, draws: u64) {
         self.draws = draws;
     }

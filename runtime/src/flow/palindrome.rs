@@ -1,4 +1,4 @@
-//! The symmetric step of two flows, or more.
+//! The symmetric step of two or more flows.
 
 use super::{Flow, FlowError, Span};
 use crate::number::Vector;
@@ -6,8 +6,10 @@ use crate::number::Vector;
 /// `A(h/2) B(h) A(h/2)`: symmetric, of order 2 (Strang 1968).
 ///
 /// `B` may be a palindrome again: `Palindrome::new(a, Palindrome::new(b, c))` is `A/2 B/2 C B/2 A/2`, and so on for any number of
-/// parts. [`Composed`](super::Composed) raises the order. The inner flow carries the time; the outer one is taken about the start and about the end of
-/// the step, and the two that meet where steps meet in [`flow_through`](Flow::flow_through) are one.
+/// parts. [`Composed`](super::Composed) raises the order.
+///
+/// The inner flow has the time span of the step. The spans of the outer flow have their middles at the start and at the end of the step. In
+/// [`flow_through`](Flow::flow_through) the last outer flow of a step and the first of the next step are merged.
 ///
 /// ```
 /// use symplectic::flow::{Damping, Drift, FlowIntegrator, Kick, Palindrome};
@@ -32,7 +34,7 @@ pub struct Palindrome<A, B> {
 }
 
 impl<A, B> Palindrome<A, B> {
-    /// The step of these flows.
+    /// The step with these flows.
     pub const fn new(outer: A, inner: B) -> Self {
         Self { outer, inner }
     }
@@ -49,19 +51,19 @@ impl<V: Vector, A: Flow<V>, B: Flow<V>> Flow<V> for Palindrome<A, B> {
         q: &mut V,
         p: &mut V,
     ) -> Result<(), FlowError> {
-        // The time of the outer flow that waits, and its size.
-        let mut waiting: Option<(f64, f64)> = None;
+        // Middle and size of the outer flow at the end of the previous step, which is still to be taken.
+        let mut pending: Option<(f64, f64)> = None;
         for span in spans {
             let half = span.size / 2.0;
-            let first = match waiting {
+            let first = match pending {
                 Some((time, size)) => Span::about(time, size + half),
                 None => Span::about(span.time, half),
             };
             self.outer.flow(first, q, p)?;
             self.inner.flow(span, q, p)?;
-            waiting = Some((span.time + span.size, half));
+            pending = Some((span.time + span.size, half));
         }
-        waiting.map_or(Ok(()), |(time, size)| {
+        pending.map_or(Ok(()), |(time, size)| {
             self.outer.flow(Span::about(time, size), q, p)
         })
     }

@@ -1,9 +1,9 @@
-//! Random numbers by their number.
+//! Counter-based random numbers.
 
 use crate::number::Scalar;
 
-/// Philox-4×32-10 (Salmon, Moraes, Dror & Shaw, *Parallel random numbers: as easy as 1, 2, 3*, SC 2011): four random words from a counter
-/// and a key, with no state.
+/// Philox-4×32-10 (Salmon, Moraes, Dror & Shaw, *Parallel random numbers: as easy as 1, 2, 3*, SC 2011): four random words as a function of a
+/// counter and a key.
 const fn philox(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
     let mut round = 0;
     while round < 10 {
@@ -24,12 +24,12 @@ const fn philox(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
     counter
 }
 
-/// Two independent standard normal numbers, by the method of Box & Muller: those of the pair `pair` in the draw `draw`.
+/// Two independent standard normal numbers, by the Box–Muller method: pair number `pair` of draw number `draw`.
 pub(super) fn normal_pair(seed: u64, draw: u64, pair: u64) -> [f64; 2] {
     let halves = |word: u64| [word as u32, (word >> 32) as u32];
     let ([a, b], [c, d]) = (halves(draw), halves(pair));
     let [a, b, c, d] = philox([a, b, c, d], halves(seed)).map(u64::from);
-    // 53 bits of each, from 0 exclusive to 1 inclusive.
+    // A number in (0, 1] with 53 bits.
     let unit = |high: u64, low: u64| {
         let bits = ((high << 32) | low) >> 11;
         (bits + 1) as f64 * f64::EPSILON / 2.0
@@ -43,7 +43,7 @@ pub(super) fn normal_pair(seed: u64, draw: u64, pair: u64) -> [f64; 2] {
 mod tests {
     use super::*;
 
-    /// The known answers of the authors' library Random123 (`kat_vectors`).
+    /// The known-answer tests of the authors' library Random123 (`kat_vectors`).
     #[test]
     fn the_words_are_those_of_the_authors() {
         let ones = u32::MAX;

@@ -1,4 +1,4 @@
-//! The drifts and kicks of a proved method, with other flows in their places.
+//! Splitting methods whose drifts and kicks are replaced by flows.
 
 use core::marker::PhantomData;
 
@@ -12,15 +12,15 @@ use crate::number::{Coefficient, Plain, Summation, Vector};
 use crate::solver::FixedPoint;
 use crate::system::{Separable, System};
 
-/// A step of a splitting method with the flow of `A` in the place of the drift and that of `B` in the place of the kick.
+/// A step of a splitting method with the flow of `A` in place of the drift and the flow of `B` in place of the kick.
 ///
-/// The method is one of [`splitting!`](crate::splitting), [`composition!`](crate::composition) or the catalogue that consists of kicks and
-/// drifts. The order for `H = A + B` is `M::ORDERS.separable`; where `B` is small, O(ε), the error is that of the
-/// order `(s1, s2, …)` for perturbed systems, `O(εh^s1 + ε²h^s2 + …)`. Flows of one part that meet are made one, also where steps meet in
+/// The method consists of kicks and drifts; it comes from [`splitting!`](crate::splitting), [`composition!`](crate::composition) or the
+/// catalogue. The order for `H = A + B` is `M::ORDERS.separable`. If `B = O(ε)` is small, the error is `O(εh^s1 + ε²h^s2 + …)`, with the
+/// order `(s1, s2, …)` of the method for perturbed systems. Adjacent flows of the same part are merged, also between the steps of
 /// [`flow_through`](Flow::flow_through).
 ///
-/// Methods without kicks and drifts do not compile, nor those of Runge–Kutta–Nyström type: their order holds only if `A` is quadratic in
-/// the momenta, and `B` depends on positions only, so that `[B, [B, [B, A]]] = 0`. `method.accept_lower_order()` compiles.
+/// Methods without kicks and drifts do not compile. Nor do Runge–Kutta–Nyström methods: their order holds only if `A` is quadratic in the
+/// momenta and `B` depends on positions only, so that `[B, [B, [B, A]]] = 0`. With `method.accept_lower_order()` they compile.
 ///
 /// ```compile_fail,E0080
 /// use symplectic::flow::Splitting;
@@ -38,14 +38,14 @@ use crate::system::{Separable, System};
 #[derive(Clone, Copy, Debug)]
 pub struct Splitting<M, A, B> {
     method: PhantomData<M>,
-    /// The flow in the place of the drift.
+    /// The flow in place of the drift.
     pub drift: A,
-    /// The flow in the place of the kick.
+    /// The flow in place of the kick.
     pub kick: B,
 }
 
 impl<M: Method, A, B> Splitting<M, A, B> {
-    /// The step of this method over these flows.
+    /// The step of this method with these flows.
     pub fn new(_method: M, drift: A, kick: B) -> Self {
         const {
             assert!(
@@ -77,14 +77,14 @@ impl<V: Vector, M: Method, A: Flow<V>, B: Flow<V>> Flow<V> for Splitting<M, A, B
         q: &mut V,
         p: &mut V,
     ) -> Result<(), FlowError> {
-        let mut moves = Flows {
+        let mut flows = Flows {
             drift: &mut self.drift,
             kick: &mut self.kick,
             q,
             p,
             step: Span::about(0.0, 0.0),
             drifted: 0.0,
-            waiting: Waiting::NOTHING,
+            pending: Pending::NOTHING,
             outcome: Ok(()),
         };
         let mut memory = <M::Separable as Plan>::Memory::<_, Nothing, FixedPoint>::like(&PLACE);
@@ -96,20 +96,20 @@ impl<V: Vector, M: Method, A: Flow<V>, B: Flow<V>> Flow<V> for Splitting<M, A, B
                 p: &mut c,
                 p_low: &mut d,
             };
-            (moves.step, moves.drifted) = (span, 0.0);
+            (flows.step, flows.drifted) = (span, 0.0);
             M::Separable::take_in_place::<Plain, _, _, FixedPoint, _>(
                 span,
                 &Nothing,
                 &mut memory,
                 place,
-                &mut moves,
+                &mut flows,
             );
-            if moves.outcome.is_err() {
+            if flows.outcome.is_err() {
                 break;
             }
         }
-        moves.take_what_waits();
-        moves.outcome
+        flows.take_pending();
+        flows.outcome
     }
 
     fn memory(&mut self, visit: &mut dyn FnMut(&mut u64)) {
@@ -118,7 +118,7 @@ impl<V: Vector, M: Method, A: Flow<V>, B: Flow<V>> Flow<V> for Splitting<M, A, B
     }
 }
 
-/// The plan of the method steps a system with one component, which stands still: only its coefficients count.
+/// The system with one component for which the plan of the method runs. It does nothing: only the coefficients of the plan are needed.
 struct Nothing;
 
 const PLACE: Vector1<f64> = Vector1::new(0.0);
@@ -138,16 +138,16 @@ enum Part {
     Kick,
 }
 
-/// A flow that waits for others of the same part.
+/// A flow that is not yet taken, because the next one may be of the same part.
 #[derive(Clone, Copy, Debug)]
-struct Waiting {
+struct Pending {
     part: Part,
-    /// When a drift starts, or the time of a kick.
+    /// The start of a drift, or the middle of a kick.
     time: f64,
     size: f64,
 }
 
-impl Waiting {
+impl Pending {
     const NOTHING: Self = Self {
         part: Part::Drift,
         time: 0.0,
@@ -155,38 +155,38 @@ impl Waiting {
     };
 }
 
-/// Takes flows where a splitting makes drifts and kicks.
+/// Takes flows in place of the drifts and kicks of a splitting.
 struct Flows<'a, V, A, B> {
     drift: &'a mut A,
     kick: &'a mut B,
     q: &'a mut V,
     p: &'a mut V,
     step: Span,
-    /// The drifts of the step so far, as a fraction of it.
+    /// The sum of the drifts so far, as a fraction of the step.
     drifted: f64,
-    waiting: Waiting,
+    pending: Pending,
     outcome: Result<(), FlowError>,
 }
 
 impl<V: Vector, A: Flow<V>, B: Flow<V>> Flows<'_, V, A, B> {
-    /// The next flow, by its part of the step.
+    /// The next flow, of size `weight` times the step size.
     fn next(&mut self, part: Part, weight: Coefficient) {
         let time = self.step.time + self.drifted * self.step.size;
         let size = self.step.size * weight.double();
         if part == Part::Drift {
             self.drifted += weight.double();
         }
-        if self.waiting.size != 0.0 && self.waiting.part == part {
-            self.waiting.size += size;
+        if self.pending.size != 0.0 && self.pending.part == part {
+            self.pending.size += size;
             return;
         }
-        self.take_what_waits();
-        self.waiting = Waiting { part, time, size };
+        self.take_pending();
+        self.pending = Pending { part, time, size };
     }
 
     #[inline(never)]
-    fn take_what_waits(&mut self) {
-        let Waiting { part, time, size } = core::mem::replace(&mut self.waiting, Waiting::NOTHING);
+    fn take_pending(&mut self) {
+        let Pending { part, time, size } = core::mem::replace(&mut self.pending, Pending::NOTHING);
         if size == 0.0 || self.outcome.is_err() {
             return;
         }

@@ -1,4 +1,4 @@
-//! Many steps of a flow as one.
+//! Several steps of a flow as one step.
 
 use core::num::NonZeroU32;
 
@@ -8,9 +8,9 @@ use crate::number::Vector;
 
 /// `n` steps of size `h/n` of a flow.
 ///
-/// With it a fast part of a system is stepped inside the steps of a slow one: [`Splitting`](super::Splitting) with velocity Verlet over `Substeps` of
-/// the fast part and a kick by the slow force is the multiple-time-step method r-RESPA (Tuckerman, Berne & Martyna 1992). Outermost it
-/// joins the flows at both ends of its steps: of a step kick–drift–kick it evaluates the force once.
+/// Inside the steps of the slow part of a system it makes several steps of the fast part: a velocity-Verlet [`Splitting`](super::Splitting)
+/// with `Substeps` of the fast part as the drift and a kick by the slow force is the multiple-time-step method r-RESPA (Tuckerman, Berne &
+/// Martyna 1992). The last flow of a substep and the first of the next are merged, so that a kick–drift–kick substep evaluates the force once.
 ///
 /// ```
 /// symplectic::tableau! { Verlet { base: velocity-verlet } }
@@ -36,7 +36,7 @@ pub struct Substeps<F> {
 }
 
 impl<F> Substeps<F> {
-    /// This many steps of the flow.
+    /// `count` steps of the flow.
     ///
     /// # Errors
     ///

@@ -198,7 +198,7 @@ impl<M: Method> Plan for DampedPlan<M> {
             evaluations,
             change,
         } = memory;
-        let mut moves = DampedKicks { change };
+        let mut kick_drift = DampedKicks { change };
         let separable = AsSeparable(system);
         Ok(M::Separable::take_by::<R, V, _, _, ()>(
             step,
@@ -206,7 +206,7 @@ impl<M: Method> Plan for DampedPlan<M> {
             evaluations,
             kept,
             outcome,
-            &mut moves,
+            &mut kick_drift,
             &mut (),
         ))
     }
@@ -228,7 +228,7 @@ impl<M: Method> Plan for DampedPlan<M> {
             evaluations,
             change,
         } = memory;
-        let mut moves = DampedKicks { change };
+        let mut kick_drift = DampedKicks { change };
         let separable = AsSeparable(system);
         let kept = WarmStart::default();
         M::Separable::take_by::<R, V, _, _, W>(
@@ -237,7 +237,7 @@ impl<M: Method> Plan for DampedPlan<M> {
             evaluations,
             kept,
             outcome,
-            &mut moves,
+            &mut kick_drift,
             witness,
         );
     }

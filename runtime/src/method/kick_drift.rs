@@ -377,7 +377,7 @@ mod tests {
         size: 0.3,
     };
 
-    /// The vectors that the moves act on.
+    /// The vectors that kicks and drifts act on.
     #[derive(Clone, Debug, PartialEq)]
     struct Places {
         q: (Long, Long),
@@ -386,23 +386,28 @@ mod tests {
     }
 
     impl Places {
-        fn force(&mut self, moves: &mut impl KickDrift, system: &impl System<Long>) {
+        fn force(&mut self, kick_drift: &mut impl KickDrift, system: &impl System<Long>) {
             let force = Force {
                 span: SPAN,
                 stage: 1,
                 time: Coefficient::exact(0.75),
             };
             let (place, p) = (&mut self.force, (&mut self.p.0, &mut self.p.1));
-            moves.force::<Plain, _, _, _>(force, system, place, &mut self.q.0, p, &mut ());
+            kick_drift.force::<Plain, _, _, _>(force, system, place, &mut self.q.0, p, &mut ());
         }
 
-        fn kick(&mut self, moves: &mut impl KickDrift, system: &impl System<Long>, weight: f64) {
+        fn kick(
+            &mut self,
+            kick_drift: &mut impl KickDrift,
+            system: &impl System<Long>,
+            weight: f64,
+        ) {
             let (weight, p) = (Coefficient::exact(weight), (&mut self.p.0, &mut self.p.1));
             let (force, q) = (&mut self.force, &mut self.q.0);
-            moves.kick::<Plain, _, _>(SPAN.size, weight, system, force, q, p);
+            kick_drift.kick::<Plain, _, _>(SPAN.size, weight, system, force, q, p);
         }
 
-        fn drift(&mut self, moves: &mut impl KickDrift, system: &impl System<Long>) {
+        fn drift(&mut self, kick_drift: &mut impl KickDrift, system: &impl System<Long>) {
             let drift = Drift {
                 span: SPAN,
                 stage: 1,
@@ -415,20 +420,20 @@ mod tests {
                 (&mut self.q.0, &mut self.q.1),
                 (&mut self.p.0, &mut self.p.1),
             );
-            moves.drift::<Plain, _, _, _>(drift, system, evaluations, q, p, &mut ());
+            kick_drift.drift::<Plain, _, _, _>(drift, system, evaluations, q, p, &mut ());
         }
 
-        fn settle(&mut self, moves: &mut impl KickDrift, system: &impl System<Long>) {
+        fn settle(&mut self, kick_drift: &mut impl KickDrift, system: &impl System<Long>) {
             let p = (&mut self.p.0, &mut self.p.1);
-            moves.settle::<Plain, _, _>(system, &mut self.force, &mut self.q.0, p);
+            kick_drift.settle::<Plain, _, _>(system, &mut self.force, &mut self.q.0, p);
         }
     }
 
     /// More kicks than a splitting has before a drift, forces without kicks, and kicks without a drift.
     #[test]
-    fn what_waits_is_made_as_what_does_not() {
+    fn fused_kicks_give_the_same_bits_as_separate_kicks() {
         fn all(
-            mut moves: impl KickDrift,
+            mut kick_drift: impl KickDrift,
             mut places: Places,
             system: &impl System<Long>,
         ) -> Places {
@@ -444,19 +449,19 @@ mod tests {
                 (0, 0),
             ] {
                 for _ in 0..forces {
-                    places.force(&mut moves, system);
+                    places.force(&mut kick_drift, system);
                 }
                 for kick in 0..kicks {
-                    places.kick(&mut moves, system, 0.25 * f64::from(kick + 1));
+                    places.kick(&mut kick_drift, system, 0.25 * f64::from(kick + 1));
                 }
-                places.drift(&mut moves, system);
+                places.drift(&mut kick_drift, system);
             }
-            places.force(&mut moves, system);
+            places.force(&mut kick_drift, system);
             for weight in [0.5, -1.5] {
-                places.kick(&mut moves, system, weight);
+                places.kick(&mut kick_drift, system, weight);
             }
             for _ in 0..2 {
-                places.settle(&mut moves, system);
+                places.settle(&mut kick_drift, system);
             }
             places
         }
@@ -470,8 +475,8 @@ mod tests {
             };
             let expected = all((), start.clone(), system);
             for passes in [0, u64::MAX] {
-                let waiting = FusedKicks::new(passes);
-                assert_eq!(all(waiting, start.clone(), system), expected);
+                let fused = FusedKicks::new(passes);
+                assert_eq!(all(fused, start.clone(), system), expected);
             }
             assert!(expected.q.0.iter().all(|q| q.is_finite()));
         }

@@ -194,14 +194,14 @@ pub trait Plan {
         N: Solver<V, S>;
 
     /// Takes a step from `state`, in place, with the evaluations [kept](WarmStart::evaluation) by the previous step. Does nothing if
-    /// [`EVALUATIONS_IN_PLACE`](Self::EVALUATIONS_IN_PLACE) is `None`. `moves` may defer a force and kicks.
+    /// [`EVALUATIONS_IN_PLACE`](Self::EVALUATIONS_IN_PLACE) is `None`. `kick_drift` may defer a force and kicks.
     #[inline(always)]
     fn take_in_place<R, V, S, N, K>(
         _span: Span,
         _system: &S,
         _memory: &mut Self::Memory<V, S, N>,
         _state: Outcome<'_, V>,
-        _moves: &mut K,
+        _kick_drift: &mut K,
     ) where
         R: Summation,
         V: Vector,
@@ -217,7 +217,7 @@ pub trait Plan {
         _system: &S,
         _memory: &mut Self::Memory<V, S, N>,
         _state: Outcome<'_, V>,
-        _moves: &mut K,
+        _kick_drift: &mut K,
     ) where
         R: Summation,
         V: Vector,
@@ -227,7 +227,7 @@ pub trait Plan {
     {
     }
 
-    /// Takes `step` of a splitting by `moves` other than plain kicks and drifts, and shows its evaluations to `witness`. Does not compile
+    /// Takes `step` of a splitting with the kicks and drifts of `kick_drift`, and shows its evaluations to `witness`. Does not compile
     /// for any other plan.
     #[inline(always)]
     fn take_by<R, V, S, K, W>(
@@ -236,7 +236,7 @@ pub trait Plan {
         _evaluations: &mut Evaluations<V>,
         _kept: WarmStart,
         _outcome: Outcome<'_, V>,
-        _moves: &mut K,
+        _kick_drift: &mut K,
         _witness: &mut W,
     ) -> StepStatistics
     where

@@ -4,13 +4,14 @@ use crate::method::Method;
 use crate::number::Coefficients;
 use crate::system::{Class, Unconstrained};
 
-/// The order and the symplecticity of a method on the systems of class `C` are not lower than on a narrower class.
+/// A method that keeps its order and its symplecticity on all systems of class `C`.
 ///
-/// The macros implement it from what the compiler proves. Every method has it for [`Separable`](crate::Separable). A splitting is
-/// symplectic for separable Hamiltonians only and lacks it for [`General`](crate::General):
-/// [`Integrator::new`](crate::Integrator::new) does not compile there. [`Method::accept_lower_order`] lifts that.
+/// The macros implement it if the compiler proves that, on class `C`, the order is as high as on the narrower classes and the step is
+/// symplectic if it is symplectic on those. Every method has it for [`Separable`](crate::Separable). A splitting is symplectic for separable
+/// Hamiltonians only and lacks it for [`General`](crate::General): [`Integrator::new`](crate::Integrator::new) does not compile there.
+/// [`Method::accept_lower_order`] lifts that.
 ///
-/// Every method has it for `()` too, which is no class. If a method had it for one class only, the compiler would infer that class from the
+/// Every method also has it for `()`, which is not a class. If a method had it for one class only, rustc would infer that class from the
 /// method and report an error in the system.
 ///
 /// Code that is generic over the method and the system asks for `M: Method + ProvedFor<S::Class>`.

@@ -20,7 +20,7 @@ pub trait SplittingPlan {
     /// Number of first evaluations that are skipped if the previous step has [kept](WarmStart::evaluation) them.
     const CARRIED: u32;
 
-    /// Takes the step `span` from `state`, in place, by these `moves`, and shows its evaluations to `witness`.
+    /// Takes the step `span` from `state`, in place, by these `kick_drift`, and shows its evaluations to `witness`.
     fn apply<
         R: Summation,
         V: Vector,
@@ -33,7 +33,7 @@ pub trait SplittingPlan {
         evaluations: &mut Evaluations<V>,
         kept: WarmStart,
         state: Outcome<'_, V>,
-        moves: &mut K,
+        kick_drift: &mut K,
         witness: &mut W,
     );
 }
@@ -78,9 +78,9 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         S: System<V, Class = P::Class>,
         N: Solver<V, S>,
     {
-        let (moves, witness) = (&mut (), &mut ());
+        let (kick_drift, witness) = (&mut (), &mut ());
         Ok(Self::take_by::<R, V, S, _, _>(
-            step, system, memory, kept, outcome, moves, witness,
+            step, system, memory, kept, outcome, kick_drift, witness,
         ))
     }
 
@@ -91,7 +91,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         evaluations: &mut Evaluations<V>,
         kept: WarmStart,
         mut outcome: Outcome<'_, V>,
-        moves: &mut K,
+        kick_drift: &mut K,
         witness: &mut W,
     ) -> StepStatistics
     where
@@ -108,7 +108,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
             evaluations,
             kept,
             outcome,
-            moves,
+            kick_drift,
             witness,
         );
         let carried = if kept.evaluation { P::CARRIED } else { 0 };
@@ -153,7 +153,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         system: &S,
         memory: &mut Evaluations<V>,
         state: Outcome<'_, V>,
-        moves: &mut K,
+        kick_drift: &mut K,
     ) where
         R: Summation,
         V: Vector,
@@ -162,7 +162,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         K: KickDrift,
     {
         let kept = WarmStart::new(true, false);
-        P::apply::<R, V, S, K, ()>(span, system, memory, kept, state, moves, &mut ());
+        P::apply::<R, V, S, K, ()>(span, system, memory, kept, state, kick_drift, &mut ());
     }
 
     #[inline(always)]
@@ -170,7 +170,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         system: &S,
         memory: &mut Evaluations<V>,
         state: Outcome<'_, V>,
-        moves: &mut K,
+        kick_drift: &mut K,
     ) where
         R: Summation,
         V: Vector,
@@ -179,6 +179,6 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         K: KickDrift,
     {
         let momentum = (state.p, state.p_low);
-        moves.settle::<R, V, S>(system, &mut memory.force, state.q, momentum);
+        kick_drift.settle::<R, V, S>(system, &mut memory.force, state.q, momentum);
     }
 }

@@ -52,7 +52,7 @@ impl<'g, 'a> Chain<'g, 'a> {
                     evaluations: &mut ::symplectic::emitted::Evaluations<V>,
                     kept: ::symplectic::emitted::WarmStart,
                     state: ::symplectic::emitted::Outcome<'_, V>,
-                    moves: &mut K,
+                    kick_drift: &mut K,
                     witness: &mut W,
                 ) {
                     let ::symplectic::emitted::Evaluations { velocity, force } = evaluations;
@@ -79,14 +79,14 @@ impl<'g, 'a> Chain<'g, 'a> {
         };
         if !matches!(node, Node::Force(_)) {
             return quote! {
-                moves.drift::<R, V, S, W>(
+                kick_drift.drift::<R, V, S, W>(
                     ::symplectic::emitted::Drift { span, stage: #stage, time: #time, weight: #weight, known: #known },
                     system, (&mut *velocity, &mut *force), (&mut *q, &mut *q_low), (&mut *p, &mut *p_low), witness,
                 );
             };
         }
         let evaluate = quote! {
-            moves.force::<R, V, S, W>(
+            kick_drift.force::<R, V, S, W>(
                 ::symplectic::emitted::Force { span, stage: #stage, time: #time },
                 system, &mut *force, &mut *q, (&mut *p, &mut *p_low), witness,
             );
@@ -97,7 +97,7 @@ impl<'g, 'a> Chain<'g, 'a> {
         };
         quote! {
             #evaluate
-            moves.kick::<R, V, S>(span.size, #weight, system, &mut *force, &mut *q, (&mut *p, &mut *p_low));
+            kick_drift.kick::<R, V, S>(span.size, #weight, system, &mut *force, &mut *q, (&mut *p, &mut *p_low));
         }
     }
 }

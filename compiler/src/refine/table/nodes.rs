@@ -239,13 +239,13 @@ fn within_last_places(
     let Some((rows, best)) = near.last.filter(|_| !near.reached) else {
         return Ok(nearest);
     };
-    // Leaving out a number with multiplier zero changes nothing.
-    let holds_back = |index: &usize| !best.multipliers[*index].is_zero();
+    // A number with multiplier zero is an inactive constraint: leaving it out changes nothing.
+    let is_active = |index: &usize| !best.multipliers[*index].is_zero();
     let reachable = |index: &usize| {
         let rest = without(&rows, *index);
         minimax(&rest).is_some_and(|best| best.level <= slack())
     };
-    let indices = (0..rows.len()).filter(holds_back).filter(reachable);
+    let indices = (0..rows.len()).filter(is_active).filter(reachable);
     let mut methods = Vec::new();
     for index in indices.take(MAX_SUSPECTS) {
         let found = search.shifted(near.coefficients.clone(), Some(index))?;

@@ -897,13 +897,13 @@ const _: () = {
             evaluations: &mut ::symplectic::emitted::Evaluations<V>,
             kept: ::symplectic::emitted::WarmStart,
             state: ::symplectic::emitted::Outcome<'_, V>,
-            moves: &mut K,
+            kick_drift: &mut K,
             witness: &mut W,
         ) {
             let ::symplectic::emitted::Evaluations { velocity, force } = evaluations;
             let ::symplectic::emitted::Outcome { q, q_low, p, p_low } = state;
             if !kept.evaluation {
-                moves
+                kick_drift
                     .force::<
                         R,
                         V,
@@ -922,7 +922,7 @@ const _: () = {
                         witness,
                     );
             }
-            moves
+            kick_drift
                 .kick::<
                     R,
                     V,
@@ -939,7 +939,7 @@ const _: () = {
                     &mut *q,
                     (&mut *p, &mut *p_low),
                 );
-            moves
+            kick_drift
                 .drift::<
                     R,
                     V,
@@ -967,7 +967,7 @@ const _: () = {
                     (&mut *p, &mut *p_low),
                     witness,
                 );
-            moves
+            kick_drift
                 .force::<
                     R,
                     V,
@@ -989,7 +989,7 @@ const _: () = {
                     (&mut *p, &mut *p_low),
                     witness,
                 );
-            moves
+            kick_drift
                 .kick::<
                     R,
                     V,
@@ -1006,7 +1006,7 @@ const _: () = {
                     &mut *q,
                     (&mut *p, &mut *p_low),
                 );
-            moves
+            kick_drift
                 .drift::<
                     R,
                     V,
@@ -1030,7 +1030,7 @@ const _: () = {
                     (&mut *p, &mut *p_low),
                     witness,
                 );
-            moves
+            kick_drift
                 .force::<
                     R,
                     V,
@@ -1052,7 +1052,7 @@ const _: () = {
                     (&mut *p, &mut *p_low),
                     witness,
                 );
-            moves
+            kick_drift
                 .kick::<
                     R,
                     V,
@@ -1069,7 +1069,7 @@ const _: () = {
                     &mut *q,
                     (&mut *p, &mut *p_low),
                 );
-            moves
+            kick_drift
                 .drift::<
                     R,
                     V,
@@ -1097,7 +1097,7 @@ const _: () = {
                     (&mut *p, &mut *p_low),
                     witness,
                 );
-            moves
+            kick_drift
                 .force::<
                     R,
                     V,
@@ -1115,7 +1115,7 @@ const _: () = {
                     (&mut *p, &mut *p_low),
                     witness,
                 );
-            moves
+            kick_drift
                 .kick::<
                     R,
                     V,

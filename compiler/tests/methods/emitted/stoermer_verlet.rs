@@ -502,13 +502,13 @@ const _: () = {
             evaluations: &mut ::symplectic::emitted::Evaluations<V>,
             kept: ::symplectic::emitted::WarmStart,
             state: ::symplectic::emitted::Outcome<'_, V>,
-            moves: &mut K,
+            kick_drift: &mut K,
             witness: &mut W,
         ) {
             let ::symplectic::emitted::Evaluations { velocity, force } = evaluations;
             let ::symplectic::emitted::Outcome { q, q_low, p, p_low } = state;
             if !kept.evaluation {
-                moves
+                kick_drift
                     .force::<
                         R,
                         V,
@@ -527,7 +527,7 @@ const _: () = {
                         witness,
                     );
             }
-            moves
+            kick_drift
                 .kick::<
                     R,
                     V,
@@ -540,7 +540,7 @@ const _: () = {
                     &mut *q,
                     (&mut *p, &mut *p_low),
                 );
-            moves
+            kick_drift
                 .drift::<
                     R,
                     V,
@@ -560,7 +560,7 @@ const _: () = {
                     (&mut *p, &mut *p_low),
                     witness,
                 );
-            moves
+            kick_drift
                 .force::<
                     R,
                     V,
@@ -578,7 +578,7 @@ const _: () = {
                     (&mut *p, &mut *p_low),
                     witness,
                 );
-            moves
+            kick_drift
                 .kick::<
                     R,
                     V,
