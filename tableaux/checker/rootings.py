@@ -6,7 +6,7 @@ from check_certificate import trees
 
 
 def turned_over(tree, i):
-    """The tree with its child i as the root. For a symplectic method, and conditions of lower orders, the conditions of both are equivalent.
+    """The tree with its child i as the root. For a symplectic method with the conditions of lower orders, both conditions are equivalent.
 
     By b_i a_ij + b~_j a~_ji = b_i b~_j, where the child has the colour q, the old root becomes a child of the colour p, and the other way
     round.

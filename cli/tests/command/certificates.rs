@@ -171,6 +171,33 @@ fn what_is_not_proved_and_what_is_no_certificate_is_rejected() {
             ),
             "order 5 (general)",
         ),
+        // With a tree of the sixth order that is indeed violated.
+        (
+            edited(
+                &gauss,
+                "\"general\": {\"order\": 4, \"violated\": \"q[q^4]\", \"residual\": \"-0.00555555555556\"",
+                "\"general\": {\"order\": 5, \"violated\": \"q[q^5]\", \"residual\": \"-0.0138888888889\"",
+            ),
+            "order 5 (general), tree",
+        ),
+        // One node twice.
+        (
+            edited(
+                &gauss,
+                "\"c\": [\"0x1.b0cb174df99c7p-3\", \"0x1.93cd3a2c8198ep-1\"]",
+                "\"c\": [\"0x1.b0cb174df99c7p-3\", \"0x1.b0cb174df99c7p-3\"]",
+            ),
+            "nodes in order",
+        ),
+        // Three roots round to this decimal: 0.99, 1 and 1.01.
+        (
+            edited(
+                reducible,
+                "[\"-1\", \"0\", \"1\"]",
+                "[\"-9999\", \"29999\", \"-30000\", \"10000\"]",
+            ),
+            "one root of the polynomial that rounds to 1.0",
+        ),
         (
             edited(&gauss, "\"infinity\"", "\"3\""),
             "the end infinity of stable steps",
