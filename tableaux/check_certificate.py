@@ -1,55 +1,367 @@
 #!/usr/bin/env python3
-"""Checks certificates of symplectic methods, and shares no code with the compiler that wrote them.
+"""Checks certificates of symplectic methods. It shares no code with the compiler that wrote them.
 
     python3 check_certificate.py certificates/gauss-2.json certificates/forest-ruth-1990.json
     python3 check_certificate.py                      # every certificate and table of the catalogue
 
-This is the place to start trusting: this file and the folder `checker`, Python 3.11 and its standard library. A certificate has the
-coefficients of a method as exact numbers, and what is claimed of them. From the coefficients alone this program proves
+This file is the place to start trusting. It needs Python 3.11 and its standard library. A certificate has the exact coefficients of a
+method, and what is claimed of them. From the coefficients alone this file proves
 
   * the doubles: none is nearer to the exact coefficient;
-  * that a method is `symplectic` and `symmetric` or not, or that a splitting is a `palindrome`;
-  * the `order` for each class of Hamiltonians: all order conditions up to it, from trees that this program makes itself, and that the
-    condition of `violated`, a tree of the next order, does not hold;
-  * the `perturbed` orders of a splitting for H_A + eps H_B, from words, and that none is higher;
-  * `stability`: the trace of a step of the oscillator, and all step sizes that are stable.
+  * that a method is `symplectic` and `symmetric` or not;
+  * the `order` for each class of Hamiltonians: all order conditions up to it, from trees that this file makes itself, and that of
+    `violated`, a tree of the next order, does not hold. Orders with more than MOST_TREES trees: "general 6 (8 is claimed)".
 
-Coefficients that are the solution of order conditions are proved to exist. Orders with more than MOST_TREES trees are not checked: the
-output says "general 6 (8 is claimed)", and what a certificate itself names as not covered. A table of the same name in the folder above is checked too: its
-decimals, functions of the nodes and orders.
+The files of FURTHER check the other claims. If one is missing, the output says "not checked here" and which file is needed. The exit
+status is 0 if all is right, 1 if something is wrong, 2 if a file is missing.  HLW: Hairer, Lubich & Wanner, Geometric numerical integration
 """
-
 import json
+import math
+import re
 import sys
 from fractions import Fraction
+from functools import lru_cache
+from importlib import import_module
+from itertools import accumulate
 from pathlib import Path
 
-from checker.methods import Nodes, Stages, Weights
-from checker.numbers import Field, Rejected, check_decimal, check_double, demand, enclosed, whole
-from checker.solutions import Solution
-from checker.stability import check_stability
-from checker.tables import check_table
-from checker.trees import fits, read_tree, size, trees, unrooted
-from checker.words import check_palindrome, check_perturbed
-
-MOST_TREES = 1000
-MOST_BYTES = 1 << 24
-MOST_STAGES = 64
-# Errors of files that are no certificates.
-WRONG = (Rejected, ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RecursionError, TypeError, ValueError)
-CLASSES = ("general", "separable", "nystrom")
+FURTHER = {  # Claims, and the files in the folder `checker` with a function of that name for them.
+    "solution": "solutions",  # The coefficients are the solution of order conditions.
+    "palindrome": "splittings",  # The flows of a splitting are the same forwards and backwards.
+    "perturbed": "splittings",  # The orders of a splitting for H_A + eps H_B.
+    "stability": "stability",  # All stable step sizes of the oscillator.
+    "table": "tables",  # The table of the same name in the folder above says what the certificate says.
+}
+CLASSES = ("general", "separable", "nystrom")  # Any H; T(p) + U(q); the same with a quadratic T.
 NOT_COVERED = {"symplectic", "symmetric", "palindrome", "stability", "order (perturbed)", *(f"order ({kind})" for kind in CLASSES)}
-MEMBERS = ("format", "version", "name", "stages", "layout", "numbers", "b", "b_tilde", "doubles", "order", "not_covered")
-NUMBERS = {"nodes": ("polynomial",), "field": ("polynomial", "root"), "solution": ("class", "orders", "unknowns")}
 
+MOST_TREES = 1000  # Of one order.
+MOST_BYTES = 1 << 24  # Of a file.
+MOST_STAGES = 64
+MOST_DEGREE = 100  # Of polynomials that define nodes and fields,
+MOST_DIGITS = 3000  # and of their coefficients, all as long as the longest.
+MOST_VERTICES = 60  # Of a tree in a file.
+UNIT = 1 << 250  # Irrational roots are known between two neighbouring multiples of 1/UNIT.
+TIE = Fraction(1, 1 << 240)  # What is nearer to the middle between two decimals may be rounded to both.
+
+class Rejected(Exception):
+    """A claim that does not hold."""
+
+class NotChecked(str):
+    """What to say of a claim whose file is missing."""
+# The errors of claims that do not hold and of files that are not certificates.
+WRONG = (Rejected, ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RecursionError, TypeError, ValueError)
+
+def demand(holds, claim):
+    if not holds:
+        raise Rejected(claim)
 
 def check_members(thing, needed, optional=()):
     demand(isinstance(thing, dict), "an object")
     for name in needed:
         thing[name]
-    demand(thing.keys() <= {*needed, *optional}, f"members that are known, not {', '.join(thing.keys() - {*needed, *optional})}")
+    unknown = thing.keys() - {*needed, *optional}
+    demand(not unknown, f"members that are known, not {', '.join(unknown)}")
 
+def whole(x):
+    demand(type(x) is int and 0 <= x <= 1000, f"a whole number up to 1000, not {str(x):.40}")
+    return x
 
+def rationals(texts):
+    demand(isinstance(texts, list) and len(texts) <= 1000, "a list of rational numbers")
+    for text in texts:
+        known = isinstance(text, str) and re.fullmatch(r"-?[0-9]{1,500}(/[0-9]{1,500})?", text)
+        demand(known, f"a rational number, not {str(text):.40}")
+    return [Fraction(text) for text in texts]
+
+# Polynomials: lists of the coefficients of 1, x, x^2, ..., whole or rational.
+def value(f, x):
+    (f, divisor), total, power = over_one_denominator(f), 0, 1
+    for c in reversed(f):
+        total, power = total * x.numerator + c * power, power * x.denominator
+    return Fraction(total * x.denominator, divisor * power)
+
+def derivative(f):
+    return [k * c for k, c in enumerate(f)][1:]
+
+def product(f, g):
+    found = [0] * max(len(f) + len(g) - 1, 0)
+    for i, x in enumerate(f):
+        for j, y in enumerate(g) if x else ():
+            found[i + j] += x * y
+    return found
+
+def over_one_denominator(f):
+    """Whole coefficients, and what they are to be divided by."""
+    common = math.lcm(*(c.denominator for c in f))
+    return [c.numerator * (common // c.denominator) for c in f], common
+
+def primitive(f):
+    """The multiple by a positive number that has coprime whole coefficients, without zeros at the end."""
+    f, _ = over_one_denominator(f[: max((k + 1 for k, c in enumerate(f) if c), default=0)])
+    return [c // math.gcd(*f) for c in f]
+
+def remainder(f, m):
+    """That of a division by m, without fractions: it is to be divided by the second result."""
+    divisor = 1
+    while len(f) >= len(m):
+        *f, highest = f
+        if highest:
+            f, divisor = [c * m[-1] for c in f], divisor * m[-1]
+            for i, c in enumerate(m[:-1], len(f) - len(m) + 1):
+                f[i] -= highest * c
+    return f, divisor
+
+def product_modulo(f, g, m):
+    """f g in Q[x]/m"""
+    (f, d), (g, e) = over_one_denominator(f), over_one_denominator(g)
+    found, divisor = remainder(product(f, g), m)
+    return [Fraction(c, d * e * divisor) for c in found]
+
+def common_divisor(f, g):
+    while g:
+        f, g = g, primitive(remainder(f, g)[0])
+    return f
+
+def definition(texts):
+    """A polynomial that defines nodes or a field. Of its multiples, it is the one with coprime whole coefficients."""
+    f = rationals(texts)
+    demand(1 < len(f) <= MOST_DEGREE, f"a polynomial of degree 1 to {MOST_DEGREE - 1}")
+    demand(len(f) * max(map(len, texts)) <= MOST_DIGITS, f"a polynomial with at most {MOST_DIGITS} digits")
+    demand(f[-1] > 0 and primitive(f) == f, "a polynomial with coprime whole coefficients")
+    return primitive(f)
+
+def coordinates(texts, m):
+    """A polynomial as an element of Q[x]/m."""
+    f, degree = rationals(texts), len(m) - 1
+    demand(len(f) <= degree, f"at most {degree} coefficients, the degree of the polynomial")
+    return f + [Fraction(0)] * (degree - len(f))
+
+# Ends: two rational numbers between which a real number is; equal ones if it is rational.
+def root_between(f, low, high, what):
+    """The ends of a root of f, which changes its sign there or is zero; equal ones for a simple fraction."""
+    low, high = math.ceil(low * UNIT), math.floor(high * UNIT)
+    scaled = [c * UNIT ** (len(f) - 1 - k) for k, c in enumerate(f)]  # UNIT^degree f(x / UNIT)
+    before = value(scaled, low)
+    demand(low <= high and before * value(scaled, high) <= 0, what)
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if value(scaled, middle) * before > 0 else (low, middle)
+    simple = Fraction(low + high, 2 * UNIT).limit_denominator(1000)
+    is_simple = low <= simple * UNIT <= high and value(f, simple) == 0
+    return (simple, simple) if is_simple else (Fraction(low, UNIT), Fraction(high, UNIT))
+
+def enclosed(f, x):
+    """The ends of f(x): f in the middle, rounded, and more or less the distance times sum_k k |f_k| |x|^(k-1), rounded up."""
+    if x[0] == x[1] or not any(f):
+        return value(f, x[0]), value(f, x[0])
+    middle, slope = sum(x) / 2, value(derivative([math.ceil(abs(c)) for c in f]), max(-x[0], x[1]))
+    found = Fraction(sum(round(c * middle**k * UNIT**2) for k, c in enumerate(f)), UNIT**2)
+    error = (x[1] - x[0]) * slope + Fraction(len(f), UNIT**2)
+    return found - error, found + error
+
+def ends(x):
+    return x.ends() if isinstance(x, Number) else (x, x)
+
+def is_not_zero(x):
+    low, high = ends(x)
+    return low > 0 or high < 0
+
+def rounded_from(decimal, tie=TIE):
+    """The numbers that round to a decimal: half a unit of its last place to both sides."""
+    known = isinstance(decimal, str) and re.fullmatch(r"-?[0-9]{1,99}(?:\.([0-9]{1,99}))?(?:e(-?[0-9]{1,3}))?", decimal)
+    demand(known, f"a decimal, not {str(decimal):.40}")
+    demand(re.search("[1-9]", decimal.partition("e")[0]), f"a decimal that is not zero, not {decimal}")
+    half = Fraction(10) ** (int(known[2] or 0) - len(known[1] or "")) / 2 + tie
+    return Fraction(decimal) - half, Fraction(decimal) + half
+
+def nearest_to(text):
+    """The numbers to which no other double is nearer than this one. Only zero belongs to zero."""
+    known = isinstance(text, str) and re.fullmatch(r"-?0x[01](\.[0-9a-f]{1,13})?p[+-][0-9]{1,4}", text)
+    demand(known and text == re.sub(r"\.?0*p", "p", float.fromhex(text).hex()), f"a double, not {str(text):.40}")
+    double = float.fromhex(text)
+    sides = (-math.inf, math.inf) if double else (double, double)
+    return tuple((Fraction(double) + Fraction(math.nextafter(double, side))) / 2 for side in sides)
+
+def check_rounded(text, x, rounding, what):
+    """Checks the text of a number, or texts of a vector or a matrix, against the ends of what they say."""
+    if isinstance(x, list):
+        demand(isinstance(text, list) and len(text) == len(x), f"as many entries in {what} as stages")
+        for k, (entry, y) in enumerate(zip(text, x), 1):
+            check_rounded(entry, y, rounding, f"{what}[{k}]")
+        return
+    low, high = rounding(text)
+    demand(low <= x[0] and x[1] <= high, f"{what} = {text}")
+
+# Numbers that are not rational. They have + and *, with rationals too.
+class Number:
+    """What follows from + and *."""
+    __radd__ = lambda self, other: self + other
+    __rmul__ = lambda self, other: self * other
+    __sub__ = lambda self, other: self + other * -1
+
+class Element(Number):
+    """f(root) for f in Q[x]/m. Two are equal if their coordinates are."""
+    def __init__(self, m, root, f):
+        self.m, self.root, self.f = m, root, f
+
+    def __add__(self, other):
+        f = other.f if isinstance(other, Element) else [other] + [0] * (len(self.f) - 1)
+        return Element(self.m, self.root, [x + y for x, y in zip(self.f, f)])
+
+    def __mul__(self, other):
+        f = product_modulo(self.f, other.f, self.m) if isinstance(other, Element) else [x * other for x in self.f]
+        return Element(self.m, self.root, f)
+    __eq__ = lambda self, other: not (self - other)
+    __bool__ = lambda self: any(self.f)
+    ends = lambda self: enclosed(self.f, self.root)
+
+def field(polynomial, root):
+    """The function that reads numbers f(root). The root is the one that rounds to a decimal; "0" and x make the rationals."""
+    m, ends = definition(polynomial), None
+    if m != [0, 1] or root != "0":
+        near, what = rounded_from(root, tie=0), f"one root of the polynomial that rounds to {root}"
+        low, high = enclosed(derivative(m), near)
+        demand(low > 0 or high < 0, what)
+        ends = root_between(m, *near, what)
+    return lambda texts: Element(m, ends, coordinates(texts, m)) if len(m) > 2 else coordinates(texts, m)[0]
+
+# Methods:  Q_i = q0 + h sum_j a_ij V_j,  P_i = p0 + h sum_j a~_ij F_j,  q1 = q0 + h sum_i b_i V_i,  p1 = p0 + h sum_i b~_i F_i
+# with V_i = dH/dp and F_i = -dH/dq at (Q_i, P_i). What is multiplied with V has the colour q, what is multiplied with F the colour p.
+# A vector has a number for each stage. Proofs see matrices only by what they make of vectors.
+class Stages:
+    """Vectors as lists. Splittings have weights only. `solved` are orders that are known."""
+    turns = True
+    def __init__(self, layout, weights, matrices, solved=None):
+        self.s, self.weights, self.matrices, self.solved = len(weights["q"]), weights, matrices, solved or {}
+        self.first = "p" if layout == "kicks first" else "q"
+        rows = [row for matrix in matrices.values() for row in (matrix, *matrix)]
+        demand(all(len(row) == self.s for row in (weights["p"], *rows)), "lists of one length")
+        self.one = [Fraction(1)] * self.s
+        self.basis = [[Fraction(i == k) for i in range(self.s)] for k in range(self.s)]
+
+    times = lambda self, f, g: [x * y if x and y else Fraction(0) for x, y in zip(f, g)]
+    dot = lambda self, f, g: sum((x * y for x, y in zip(f, g) if x and y), Fraction(0))
+    turned = lambda self, f: f[::-1]
+    ends = lambda self, f: [ends(x) for x in f]
+    entries = lambda self, colour: [self.ends(row) for row in zip(*(self.apply(colour, f) for f in self.basis))]
+
+    def apply(self, colour, f):
+        """sum_j a_ij f_j, or with a~. A flow of a splitting sees those before it, and the first one of its stage itself."""
+        if self.matrices:
+            return [self.dot(row, f) for row in self.matrices[colour]]
+        sums = list(accumulate(self.times(self.weights[colour], f), initial=Fraction(0)))
+        return sums[1:] if colour == self.first else sums[:-1]
+
+class Nodes:
+    """Vectors as functions of the nodes, the roots of a polynomial m: elements of Q[x]/m. A sum over the nodes is a trace."""
+    solved = {}
+    def __init__(self, polynomial, weights, matrices, doubles):
+        self.m = definition(polynomial)
+        self.s = len(self.m) - 1
+        self.basis = [[Fraction(i == k) for i in range(self.s)] for k in range(self.s)]
+        self.one, powers = self.basis[0], self.basis[:1]
+        while len(powers) < 3 * self.s:
+            powers.append(self.times(powers[-1], [Fraction(0), Fraction(1)]))
+        # The traces of x^k, which maps x^i to x^(i + k).
+        self.sums, self.divisor = over_one_denominator([sum(powers[i + k][i] for i in range(self.s)) for k in range(2 * self.s)])
+        self.weights = {colour: coordinates(f, self.m) for colour, f in weights.items()}
+        self.matrices = {colour: [coordinates(f, self.m) for f in rows] for colour, rows in matrices.items()}
+        demand(all(len(rows) <= self.s for rows in self.matrices.values()), "matrices of functions")
+        names = [name for name, colour in (("c", "q"), ("c_tilde", "p")) if self.apply(colour, self.one) == powers[1]]
+        demand(names and len(doubles[names[0]]) == self.s, f"{self.s} nodes that are c or, of an exchanged method, c~")
+        self.nodes = [root_between(self.m, *nearest_to(text), f"a node that rounds to {text}") for text in doubles[names[0]]]
+        # Each has ends of its own, so there are no other roots.
+        demand(all(x[1] < y[0] for x, y in zip(self.nodes, self.nodes[1:])), "nodes in order")
+        self.turns = not any(self.turned(self.m))
+
+    times = lambda self, f, g: product_modulo(f, g, self.m)
+    dot = lambda self, f, g: sum(x * y for x, y in zip(self.moments(f), g))
+    ends = lambda self, f: [self.at(f, node) for node in self.nodes]
+    entries = lambda self, colour: [[self.entry(self.matrices[colour], x, y) for y in self.nodes] for x in self.nodes]
+
+    def moments(self, f):
+        """The sums over the nodes of f, x f, x^2 f, ..."""
+        f, divisor = over_one_denominator(f)
+        return [Fraction(sum(c * x for c, x in zip(f, self.sums[k:])), divisor * self.divisor) for k in range(self.s)]
+
+    def apply(self, colour, f):
+        """sum_j a(x, c_j) f(c_j) for a(x, y) = sum_k row_k(x) y^k"""
+        terms = [(row, moment) for row, moment in zip(self.matrices[colour], self.moments(f)) if moment]
+        return [sum((row[i] * moment for row, moment in terms), Fraction(0)) for i in range(self.s)]
+
+    def turned(self, f):
+        """f(1 - x)"""
+        found = [Fraction(0)] * self.s
+        for c in reversed(f):
+            found = self.times(found, [Fraction(1), Fraction(-1)])
+            found[0] += c
+        return found
+
+    def at(self, f, node):
+        """The ends of f(node), which tell whether it is zero."""
+        low, high = enclosed(f, node)
+        # The common divisor of f and m has this root of m or none here.
+        before, after = (value(common_divisor(self.m, primitive(f)), x) for x in node) if low <= 0 <= high else (1, 1)
+        return (low, high) if before * after > 0 else (Fraction(0), Fraction(0))
+
+    def entry(self, rows, x, y):
+        """The ends of a(x, y), with an error of y as in `enclosed`."""
+        low, high = self.at([value(column, sum(y) / 2) for column in zip(*rows)], x)
+        bounds = [max(map(abs, self.at(row, x))) for row in rows] if y[0] < y[1] else []
+        error = (y[1] - y[0]) / 2 * value(derivative(bounds), max(-y[0], y[1]))
+        return low - error, high + error
+
+# Trees with vertices of two colours, 'q' and 'p': (colour, children), the children sorted (HLW III.2).
+def fits(tree, kind):
+    """Of T(p) + U(q) the colours alternate. If T is quadratic, the velocity has no second derivative."""
+    colour, children = tree
+    carries = kind == "general" or all(child[0] != colour for child in children)
+    return carries and (kind != "nystrom" or colour == "p" or len(children) < 2) and all(fits(child, kind) for child in children)
+
+@lru_cache(maxsize=None)
+def trees(order, kind):
+    """All trees with this number of vertices for a class of Hamiltonians."""
+    return [tree for colour in "qp" for tree in ((colour, children) for children in forests(order - 1, kind)) if fits(tree, kind)]
+
+@lru_cache(maxsize=None)
+def forests(size, kind):
+    """All multisets of trees with this number of vertices together."""
+    firsts = ((tree, n) for n in range(1, size + 1) for tree in trees(n, kind))
+    return sorted({tuple(sorted((tree, *rest))) for tree, n in firsts for rest in forests(size - n, kind)}) if size else [()]
+
+size = lambda tree: 1 + sum(size(child) for child in tree[1])
+density = lambda tree: size(tree) * math.prod(density(child) for child in tree[1])
+
+def read_tree(text):
+    """`q[p^2,q[p]]`"""
+    tokens, wrong = ["end", *re.findall(r"\^[1-9][0-9]?|.", text, re.DOTALL)[::-1]], f"a tree, not {text}"
+
+    def tree():
+        """A tree and the number of its vertices."""
+        colour, children, vertices = tokens.pop(), [], 1
+        demand(colour in ("q", "p"), wrong)
+        separator = tokens.pop() if tokens[-1] == "[" else "]"
+        while separator != "]":
+            child, size = tree()
+            copies = int(tokens.pop()[1:]) if re.match(r"\^[1-9]", tokens[-1]) else 1
+            children, vertices = children + [child] * copies, vertices + size * copies
+            demand(vertices <= MOST_VERTICES, f"a tree with at most {MOST_VERTICES} vertices")
+            separator = tokens.pop()
+            demand(separator in (",", "]"), wrong)
+        return (colour, tuple(sorted(children))), vertices
+
+    found, _ = tree()
+    demand(tokens == ["end"], wrong)
+    return found
+
+def residuals(of):
+    """The function that tells by how much a method violates the condition of a tree: its elementary weight less 1/gamma (HLW III.2)."""
+    stages = lru_cache(maxsize=None)(lambda tree: of.apply(tree[0], product(tree[1])))
+    product = lru_cache(maxsize=None)(lambda trees: of.times(product(trees[:-1]), stages(trees[-1])) if trees else of.one)
+    return lambda tree: of.dot(of.weights[tree[0]], product(tree[1])) - Fraction(1, density(tree))
+
+# Claims.
 def symplectic(of):
     """What has to vanish: b_i a~_ij + b~_j a_ji - b_i b~_j, tested with functions of i and of j, and b_i - b~_i (HLW VI.4)."""
     b, b_tilde = of.weights["q"], of.weights["p"]
@@ -59,178 +371,130 @@ def symplectic(of):
         for f, row in zip(of.basis, rows):
             yield of.dot(of.times(b, e), row) + of.dot(of.times(b_tilde, f), column) - of.dot(b, e) * of.dot(b_tilde, f)
 
-
 def symmetric(of):
     """What has to vanish: b_(s+1-j) - b_j and a_(s+1-i)(s+1-j) + a_ij - b_j, and so with a~ and b~ (HLW V.2)."""
-    if not of.can_be_turned():
-        yield Fraction(1)
-        return
-    for colour in "qp":
+    for colour in "qp" if of.turns else ():
         b = of.weights[colour]
         yield from (x - y for x, y in zip(of.turned(b), b))
         for f in of.basis:
             there, here = of.turned(of.apply(colour, of.turned(f))), of.apply(colour, f)
             yield from (x + y - of.dot(b, f) * z for x, y, z in zip(there, here, of.one))
-
+    yield 0 if of.turns else 1  # Whether 1 - c is a node with c.
 
 def check_property(name, claim, residuals):
     """All residuals are zero, or the value of one is not."""
-    holds = all(not x for x in residuals) if claim is True else any(enclosed(x).is_not_zero() for x in residuals)
+    holds = all(not x for x in residuals) if claim is True else any(map(is_not_zero, residuals))
     demand(type(claim) is bool and holds, f"{name} = {claim}")
+    return name if claim else f"not {name}"
 
-
-def coefficients(of):
-    """All coefficients by their names in files."""
-    rows = {"b": of.values(of.weights["q"]), "b_tilde": of.values(of.weights["p"])}
-    for colour, tilde in (("q", ""), ("p", "_tilde")):
-        rows["c" + tilde] = of.values(of.apply(colour, of.one))
-        rows |= {f"a{tilde}[{i + 1}]": row for i, row in enumerate(of.entries(colour))}
-    return rows
-
-
-def check_doubles(rows, doubles):
-    for name in ("a", "a_tilde"):
-        demand(name not in doubles or len(doubles[name]) == len(rows["b"]), f"as many rows of doubles in {name} as stages")
-    for name, numbers in rows.items():
-        name, _, row = name.partition("[")
-        # The weights of a splitting say its matrices.
-        if name in doubles or not row:
-            texts = doubles[name][int(row[:-1]) - 1] if row else doubles[name]
-            demand(len(texts) == len(numbers), f"as many doubles in {name} as stages")
-            for j, (text, x) in enumerate(zip(texts, numbers)):
-                check_double(text, x, f"{name}[{row}[{j + 1}]" if row else f"{name}[{j + 1}]")
-
-
-def check_order(weights, kind, claim, given, one_rooting):
-    """Returns up to which order the conditions were checked; `given` is the order that is known."""
+def check_order(of, residual, kind, claim):
+    """Says up to which order the conditions were checked."""
     check_members(claim, ("order", "violated", "residual"))
     order, checked = whole(claim["order"]), 0
-    what = f"order {order} ({kind})"
-    tree = read_tree(claim["violated"])
+    what, tree = f"order {order} ({kind})", read_tree(claim["violated"])
     demand(size(tree) == order + 1 and fits(tree, kind), f"{what}: {claim['violated']} as a tree of the next order and the class")
-    residual = weights.residual(tree)
-    check_decimal(claim["residual"], residual, f"{what}: residual of {claim['violated']}")
-    demand(enclosed(residual).is_not_zero(), f"{what} and no higher")
-    if given is not None:
-        demand(order <= given, f"{what}, from the conditions that were solved")
-        return order
+    check_rounded(claim["residual"], ends(residual(tree)), rounded_from, f"{what}: residual of {claim['violated']}")
+    demand(is_not_zero(residual(tree)), f"{what} and no higher")
+    if kind in of.solved:
+        demand(order <= of.solved[kind], f"{what}, from the conditions that were solved")
+        return f"{kind} {order}"
     while checked < order and len(trees(checked + 1, kind)) <= MOST_TREES:
         checked += 1
-        for tree in (unrooted if one_rooting else trees)(checked, kind):
-            demand(weights.residual(tree) == 0, f"{what}, tree {tree}")
-    return checked
+        for tree in trees(checked, kind):
+            demand(residual(tree) == 0, f"{what}, tree {tree}")
+    return f"{kind} {checked}" + (f" ({order} is claimed)" if checked < order else "")
 
+def further(claim, *arguments):
+    """What another file says of a claim, or that it is missing."""
+    try:
+        return getattr(import_module(f"checker.{FURTHER[claim]}"), claim)(*arguments)
+    except ModuleNotFoundError as error:
+        return NotChecked(f"{claim} not checked here: needs checker/{FURTHER[claim]}.py beside this file ({error})")
 
-def method_of(certificate):
-    """The method, and the orders that follow from the conditions that were solved."""
-    numbers, layout, stages = certificate["numbers"], certificate["layout"], whole(certificate["stages"])
-    demand(numbers["kind"] in NUMBERS, "numbers of a kind that is known")
-    check_members(numbers, ("kind", *NUMBERS[numbers["kind"]]), ("weights",) if numbers.get("class") == "composition" else ())
-    count = len(numbers["polynomial"]) - 1 if numbers["kind"] == "nodes" else len(certificate["b"])
-    demand(0 < stages <= MOST_STAGES and stages == count, f"{stages} stages, of at most {MOST_STAGES}")
-    weights = {"q": certificate["b"], "p": certificate["b_tilde"]}
-    matrices = {"q": certificate["a"], "p": certificate["a_tilde"]} if layout == "matrices" else {}
-    if numbers["kind"] == "nodes":
-        demand(matrices, "matrices of functions of the nodes")
-        return Nodes(numbers["polynomial"], weights, matrices), ({}, None)
-    if numbers["kind"] == "solution":
-        solution = Solution(numbers, layout, weights)
-        return Stages(layout, solution.weights, {}), solution.given()
-    field = Field(numbers["polynomial"], numbers["root"])
-    weights = {colour: [field.number(x) for x in f] for colour, f in weights.items()}
-    matrices = {colour: [[field.number(x) for x in row] for row in rows] for colour, rows in matrices.items()}
-    return Stages(layout, weights, matrices), ({}, None)
-
-
+# Certificates.
 def read(text):
     """An object. Its numbers are whole, and its members have different names."""
-
-    def refuse(number):
-        raise Rejected(f"a whole number or a text, not {number:.40}")
-
-    def members(pairs):
-        demand(len(dict(pairs)) == len(pairs), "members with different names")
-        return dict(pairs)
-
+    refuse = lambda number: demand(False, f"a whole number or a text, not {number:.40}")
+    members = lambda pairs: demand(len(dict(pairs)) == len(pairs), "members with different names") or dict(pairs)
     found = json.loads(text, parse_float=refuse, parse_constant=refuse, object_pairs_hook=members)
     demand(isinstance(found, dict), "an object")
     return found
 
+def method_of(certificate):
+    numbers, layout, stages = certificate["numbers"], certificate["layout"], whole(certificate["stages"])
+    kind, weights = numbers["kind"], {"q": certificate["b"], "p": certificate["b_tilde"]}
+    matrices = {"q": certificate["a"], "p": certificate["a_tilde"]} if layout == "matrices" else {}
+    count = len(numbers["polynomial"]) - 1 if kind == "nodes" else len(certificate["b"])
+    demand(0 < stages <= MOST_STAGES and stages == count, f"{stages} stages, of at most {MOST_STAGES}")
+    if kind == "solution" and not matrices:
+        return further("solution", numbers, layout, weights)
+    if kind == "nodes" and matrices:
+        check_members(numbers, ("kind", "polynomial"))
+        return Nodes(numbers["polynomial"], weights, matrices, certificate["doubles"])
+    demand(kind == "field", "numbers of a kind that is known and belongs to the layout")
+    check_members(numbers, ("kind", "polynomial", "root"))
+    number = field(numbers["polynomial"], numbers["root"])
+    weights = {colour: [number(x) for x in f] for colour, f in weights.items()}
+    matrices = {colour: [[number(x) for x in row] for row in rows] for colour, rows in matrices.items()}
+    return Stages(layout, weights, matrices)
 
 def check(text):
-    """Checks a certificate; returns it with the coefficients and what was checked."""
+    """Returns a certificate, functions for the ends of its coefficients, by name, and what was checked. Raises one of WRONG."""
     certificate = read(text)
     demand(certificate["format"] == "symplectic certificate" and whole(certificate["version"]) == 1, "a certificate of version 1")
-    layout = certificate["layout"]
-    demand(layout in ("matrices", "kicks first", "drifts first"), "a layout that is known")
-    matrices = ("a", "a_tilde") if layout == "matrices" else ()
-    properties = ("symplectic", "symmetric") if matrices else ("palindrome", "perturbed")
-    check_members(certificate, (*MEMBERS, *matrices), (*properties, "stability"))
+    demand(certificate["layout"] in ("matrices", "kicks first", "drifts first"), "a layout that is known")
+    matrices = ("a", "a_tilde") if certificate["layout"] == "matrices" else ()  # Those of a splitting follow from its weights.
+    first, last = (("symplectic", "symmetric"), ("stability",)) if matrices else (("palindrome",), ("perturbed", "stability"))
+    needed = ("format", "version", "name", "stages", "layout", "numbers", "b", "b_tilde", *matrices, "doubles", "order", "not_covered")
+    check_members(certificate, needed, (*first, *last))
     check_members(certificate["doubles"], ("c", "c_tilde", "b", "b_tilde", *matrices), ("a", "a_tilde"))
+    check_members(certificate["order"], (), CLASSES)
     missing = certificate["not_covered"]
     demand(isinstance(missing, list) and all(name in NOT_COVERED for name in missing), "not_covered as a list of claims")
-    of, (given, powers) = method_of(certificate)
-    rows, done = coefficients(of), ["doubles"]
-    check_doubles(rows, certificate["doubles"])
-    for name, residuals in (("symplectic", symplectic), ("symmetric", symmetric)):
-        if name in certificate:
-            check_property(name, certificate[name], residuals(of))
-            done.append(name if certificate[name] else f"not {name}")
-    if "palindrome" in certificate:
-        check_palindrome(of.flows(), certificate["palindrome"])
-        done.append("palindrome" if certificate["palindrome"] else "not palindrome")
-    weights = Weights(of)
-    check_members(certificate["order"], (), CLASSES)
-    for kind, claim in certificate["order"].items():
-        one_rooting = certificate.get("symplectic", not of.matrices and kind != "general")
-        checked = check_order(weights, kind, claim, given.get(kind), one_rooting)
-        done.append(f"{kind} {checked}" + (f" ({claim['order']} is claimed)" if checked < claim["order"] else ""))
-    if "perturbed" in certificate:
-        check_perturbed(of.flows(), [whole(x) for x in certificate["perturbed"]], powers)
-        done.append(f"perturbed {certificate['perturbed']}")
-    if "stability" in certificate:
-        check_members(certificate["stability"], ("numerator", "denominator", "intervals"))
-        check_stability(of, certificate["stability"])
-        done.append("stability")
-    return certificate, rows, done + [f"{name} not covered" for name in certificate["not_covered"]]
+    of = method_of(certificate)
+    if isinstance(of, NotChecked):
+        return certificate, None, [of]
+    exact, residual, tests = {}, residuals(of), {"symplectic": symplectic, "symmetric": symmetric}
+    for colour, tilde in (("q", ""), ("p", "_tilde")):
+        exact["a" + tilde] = lambda colour=colour: of.entries(colour)
+        exact["b" + tilde] = lambda colour=colour: of.ends(of.weights[colour])
+        exact["c" + tilde] = lambda colour=colour: of.ends(of.apply(colour, of.one))
+    for name, texts in certificate["doubles"].items():
+        check_rounded(texts, exact[name](), nearest_to, name)
+    proved = lambda name: check_property(name, certificate[name], tests[name](of)) if name in tests else further(name, of, certificate)
+    done = ["doubles", *(proved(name) for name in first if name in certificate)]
+    done += [check_order(of, residual, kind, claim) for kind, claim in certificate["order"].items()]
+    done += [proved(name) for name in last if name in certificate]
+    return certificate, exact, done + [f"{name} not covered" for name in missing]
 
-
-def say(text):
-    """One line, whatever a file has in its texts."""
-    print("".join(c if c.isprintable() else "?" for c in text[:1000]), flush=True)
-
-
-def reason(error):
-    if isinstance(error, Rejected):
-        return f"not proved: {error}"
-    if isinstance(error, KeyError):
-        return f"the member {error} is missing"
-    return f"{type(error).__name__}: {error}"
-
-
+# The command.
 def content(path):
     demand(path.stat().st_size <= MOST_BYTES and path.is_file(), f"a file of at most {MOST_BYTES} bytes")
     return path.read_text(encoding="utf-8")
 
+def verdict(path):
+    """The exit status of a file, and what to say of it."""
+    try:
+        certificate, exact, done = check(content(path))
+        table = path.parent.parent / f"{path.stem}.toml"
+        done += [further("table", content(table), certificate, exact)] if exact and table.exists() else []
+    except KeyError as error:
+        return 1, f"WRONG: the member {error} is missing"
+    except WRONG as error:
+        return 1, f"WRONG: {'not proved' if isinstance(error, Rejected) else type(error).__name__}: {error}"
+    status = 2 if any(isinstance(x, NotChecked) for x in done) else 0
+    return status, f"{'NOT ALL CHECKED' if status else 'right'}: {', '.join(done)}"
 
 def main(paths):
-    paths = [Path(path) for path in paths] or sorted((Path(__file__).parent / "certificates").glob("*.json"))
-    wrong = 0
-    for path in paths:
-        try:
-            certificate, rows, done = check(content(path))
-            table = path.parent.parent / f"{path.stem}.toml"
-            if table.exists():
-                check_table(content(table), certificate, rows)
-                done.append("table")
-            verdict = f"right: {', '.join(done)}"
-        except WRONG as error:
-            wrong += 1
-            verdict = f"WRONG: {reason(error)}"
-        say(f"{path.name}: {verdict}")
-    return 1 if wrong else 0
-
+    found = {0}
+    for path in map(Path, paths or sorted((Path(__file__).parent / "certificates").glob("*.json"))):
+        status, text = verdict(path)
+        found.add(status)
+        # One line, whatever a file has in its texts.
+        print("".join(c if c.isprintable() else "?" for c in f"{path.name}: {text}"[:1000]), flush=True)
+    return 1 if 1 in found else max(found)
 
 if __name__ == "__main__":
+    sys.modules["check_certificate"] = sys.modules["__main__"]  # What the further files import.
     sys.stdout.reconfigure(errors="backslashreplace")
     sys.exit(main(sys.argv[1:]))

@@ -1,2 +1,4 @@
-"""What `check_certificate.py` checks certificates with, one concept a file. "HLW" is Hairer, Lubich & Wanner, Geometric numerical
-integration."""
+"""What `check_certificate.py` does not prove itself, one kind of claim a file. Each file imports from it and from the files before.
+
+rootings, splittings, solutions, stability, tables. HLW is Hairer, Lubich & Wanner, Geometric numerical integration.
+"""

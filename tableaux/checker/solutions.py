@@ -2,15 +2,53 @@
 
 from fractions import Fraction
 from functools import lru_cache
+from math import ceil, floor
 
-from .methods import Stages, Weights
-from .numbers import Interval, Number, between, check_decimal, demand, enclosed, rationals, rounded_from, whole
-from .trees import unrooted
-from .words import base_residuals, is_palindrome, product_of, splitting_conditions, splitting_residual
+from check_certificate import Number, Stages, check_members, check_rounded, demand, ends, rationals, residuals, rounded_from, whole
+
+from .rootings import unrooted
+from .splittings import base_residuals, flows, is_palindrome, product_of, splitting_conditions, splitting_residual
 
 MOST_ORDER = {"separable": 10, "nystrom": 8, "composition": 10, "perturbed": 24}
 MOST_UNKNOWNS = 40
 RADIUS = Fraction(1, 1 << 64)  # Half the edge of the cube in which the solution is proved to be.
+UNIT = 1 << 400  # The ends of intervals are whole multiples of 1/UNIT.
+
+
+class Interval(Number):
+    """All numbers between two multiples of 1/UNIT."""
+
+    def __init__(self, low, high):
+        self.low, self.high = low, high
+
+    def __add__(self, other):
+        other = enclosed(other)
+        return Interval(self.low + other.low, self.high + other.high)
+
+    def __mul__(self, other):
+        other = enclosed(other)
+        products = [x * y for x in (self.low, self.high) for y in (other.low, other.high)]
+        return Interval(min(products) // UNIT, -(-max(products) // UNIT))
+
+    def ends(self):
+        return Fraction(self.low, UNIT), Fraction(self.high, UNIT)
+
+    def middle(self):
+        return sum(self.ends()) / 2
+
+    def magnitude(self):
+        return max(-self.low, self.high)
+
+    def is_inside(self, low, high):
+        return low * UNIT <= self.low and self.high <= high * UNIT
+
+
+def between(low, high):
+    return Interval(floor(low * UNIT), ceil(high * UNIT))
+
+
+def enclosed(x):
+    return x if isinstance(x, Interval) else between(x, x)
 
 
 class Jet(Number):
@@ -32,24 +70,30 @@ class Jet(Number):
         return Jet(self.value * other.value, [x * other.value + self.value * y for x, y in pairs])
 
 
+def solution(numbers, layout, weights):
+    """The splitting with these coefficients, and the orders that follow."""
+    found = Solution(numbers, layout, weights)
+    return Stages(layout, found.weights, {}, found.given())
+
+
 class Solution:
     """A splitting whose fractions are affine functions of unknowns: lists with a constant and a factor for each unknown."""
 
     def __init__(self, numbers, layout, weights):
         self.kind, self.orders = numbers["class"], [whole(x) for x in numbers["orders"]]
+        check_members(numbers, ("kind", "class", "orders", "unknowns", *(("weights",) if self.kind == "composition" else ())))
         decimals = numbers["unknowns"]
         demand(self.kind in MOST_ORDER and 0 < len(self.orders) <= 24, "conditions of a class that is known")
         demand(0 < min(self.orders) and max(self.orders) <= MOST_ORDER[self.kind], "conditions of an order that is bounded")
         demand(self.orders == sorted(self.orders, reverse=True), "orders that do not grow with the power of eps")
         demand(len(self.orders) == 1 or self.kind == "perturbed", "one order")
-        demand(layout != "matrices", "a splitting")
         demand(0 < len(decimals) <= MOST_UNKNOWNS, f"between 1 and {MOST_UNKNOWNS} unknowns")
         self.layout, self.affine = layout, {colour: [self.vector(x, decimals) for x in list_] for colour, list_ in weights.items()}
-        flows = Stages(layout, self.affine, {}).flows(is_zero=lambda x: not any(x))
-        self.factors = flows
+        demand(len(weights["q"]) == len(weights["p"]), "lists of one length")
+        self.factors = all_flows = flows(layout, self.affine, is_zero=lambda x: not any(x))
         if self.kind == "composition":
             self.factors = [(None, self.vector(x, decimals)) for x in numbers["weights"]]
-            demand(flows == verlet([x for _, x in self.factors], flows[0][0]), "a composition of Stoermer-Verlet")
+            demand(all_flows == verlet([x for _, x in self.factors], all_flows[0][0]), "a composition of Stoermer-Verlet")
         self.symmetric = is_palindrome(self.factors)
         _, self.weights = self.at(self.solve(decimals))
 
@@ -73,8 +117,8 @@ class Solution:
         (factors, weights), step = self.at(unknowns), 2 if self.symmetric else 1
         if self.kind == "nystrom":
             # One rooting of each tree, as splittings are symplectic (HLW VI.7).
-            sums = Weights(Stages(self.layout, weights, {}))
-            found = [sums.residual(tree) for n in range(1, self.orders[0] + 1, step) for tree in unrooted(n, "nystrom")]
+            residual = residuals(Stages(self.layout, weights, {}))
+            found = [residual(tree) for n in range(1, self.orders[0] + 1, step) for tree in unrooted(n, "nystrom")]
         elif self.kind == "composition":
             found = base_residuals(self.orders[0], step, product_of(factors))
         else:
@@ -108,8 +152,7 @@ class Solution:
         proved = moved and 2 * contraction < enclosed(1).low and near.is_inside(-RADIUS, RADIUS)
         demand(proved, "a solution of the order conditions near the digits")
         found = [x + near for x in y]
-        for decimal, x in zip(decimals, found):
-            check_decimal(decimal, x, "the solution of the order conditions")
+        check_rounded(decimals, [ends(x) for x in found], rounded_from, "the solution of the order conditions")
         return found
 
     def given(self):
@@ -119,7 +162,7 @@ class Solution:
         # Trees with 3 vertices are the same for quadratic T and for all.
         separable = min(order, 3) if self.kind == "nystrom" else order
         powers = self.orders if self.kind == "perturbed" else [separable]
-        return {"general": 1, "separable": even(separable), "nystrom": even(order)}, [even(s) for s in powers]
+        return {"general": 1, "separable": even(separable), "nystrom": even(order), "perturbed": [even(s) for s in powers]}
 
 
 def verlet(weights, outer):

@@ -1,14 +1,19 @@
 """Stability of the oscillator: for z = (h omega)^2, nu = h omega, one step is the matrix [[m11, nu m12], [-nu m21, m22]]."""
 
 from fractions import Fraction
+from functools import lru_cache
 
-from .numbers import Roots, combined, common_divisor, demand, has_root, product, rational, rationals, rounded_from, square_free, trimmed, value
+from check_certificate import (
+    Element, check_members, common_divisor, demand, derivative, primitive, product, rationals, remainder, root_between, rounded_from, value
+)
 
 MOST_STAGES = 40
 
 
-def check_stability(of, claim):
+def stability(of, certificate):
     """The trace, and all step sizes for which the stages exist and all powers of the step are bounded."""
+    claim = certificate["stability"]
+    check_members(claim, ("numerator", "denominator", "intervals"))
     demand(of.s <= MOST_STAGES, f"at most {MOST_STAGES} stages")
     determinant, step = one_step(of)
     trace = combined(step["11"], 1, step["22"], 1)
@@ -17,7 +22,7 @@ def check_stability(of, claim):
     demand(area == product(determinant, determinant), "a step of the oscillator that preserves areas")
     numerator, denominator = (trimmed(rationals(claim[name])) for name in ("numerator", "denominator"))
     demand(denominator and product(numerator, determinant) == product(trace, denominator), "the trace of a step of the oscillator")
-    found = stable_intervals(determinant, trace, common_divisor(step["12"], step["21"]))
+    found = stable_intervals(determinant, trace, common_divisor(primitive(step["12"]), primitive(step["21"])))
     demand(len(found) == len(claim["intervals"]), f"{len(claim['intervals'])} intervals of stable steps")
     for interval, ends in zip(claim["intervals"], found):
         stable = [x is closed for x, (_, closed) in zip(interval[2:], ends)]
@@ -26,8 +31,76 @@ def check_stability(of, claim):
             if isinstance(square, str):
                 demand(text == square, f"the end {square} of stable steps, not {text}")
             else:
-                low, high = rounded_from(text)
+                low, high = rounded_from(text, tie=0)
                 demand(0 < low and low**2 <= square[0] and square[1] <= high**2, f"the end {text} of stable steps")
+    return "stability"
+
+
+# Polynomials and their roots.
+
+
+def combined(f, x, g, y):
+    """x f + y g"""
+    longest = max(len(f), len(g))
+    f, g = (list(h) + [Fraction(0)] * (longest - len(h)) for h in (f, g))
+    return trimmed([x * u + y * v for u, v in zip(f, g)])
+
+
+def trimmed(f):
+    """Without zeros at the end."""
+    return f[: max((k + 1 for k, c in enumerate(f) if c), default=0)]
+
+
+def square_free(f):
+    """The quotient of f and its common divisor with its derivative, with whole coefficients."""
+    rest = primitive(f)
+    divisor = common_divisor(rest, primitive(derivative(rest)))
+    found = []
+    while len(rest) >= len(divisor):
+        found.append(Fraction(rest[-1], divisor[-1]))
+        shift = len(rest) - len(divisor)
+        rest = [c - found[-1] * divisor[k - shift] if k >= shift else c for k, c in enumerate(rest[:-1])]
+    return primitive(found[::-1])
+
+
+def positive_roots(f):
+    """The ends of all positive roots of a polynomial without multiple ones, in order, by Sturm's theorem."""
+    chain = [primitive(f), primitive(derivative(f))]
+    while len(chain[-1]) > 1:
+        rest, divisor = remainder(chain[-2], chain[-1])
+        chain.append(primitive([-c * divisor for c in rest]))
+
+    @lru_cache(maxsize=None)
+    def changes(x):
+        """How often the sign changes in the chain: more often at `low` than at `high`, once for each root above `low` up to `high`."""
+        signs = [y > 0 for y in (value(g, x) for g in chain) if y]
+        return sum(s != t for s, t in zip(signs, signs[1:]))
+
+    found, rest = [], [(Fraction(0), Fraction(2 + max(abs(c) for c in chain[0]) // abs(chain[0][-1])))]
+    while rest:
+        low, high = rest.pop()
+        count = changes(low) - changes(high)
+        if count == 1 and value(f, low):
+            found.append(root_between(chain[0], low, high, "a root between multiples of 2^-250"))
+        elif count:
+            rest += [((low + high) / 2, high), (low, (low + high) / 2)]
+    return found
+
+
+def has_root(f, root):
+    """Whether a divisor f of a polynomial with one root between these ends has it."""
+    return value(f, root[0]) * value(f, root[1]) <= 0
+
+
+# The oscillator.
+
+
+def rational(x):
+    """The value of what is known to be rational."""
+    if isinstance(x, Element) and not any(x.f[1:]):
+        return x.f[0]
+    demand(isinstance(x, Fraction), "a rational number")
+    return x
 
 
 def one_step(of):
@@ -39,7 +112,7 @@ def one_step(of):
         for name, colour, f, sign in (("11", "q", p_u, -1), ("12", "q", v, 1), ("21", "p", u, 1), ("22", "p", q_v, -1)):
             series[name].append(sign * rational(of.dot(of.weights[colour], f)))
         u, v = ([x * -1 for x in of.apply(colour, f)] for colour, f in (("q", p_u), ("p", q_v)))
-    determinant = determinant_of(of) if of.matrices else [Fraction(1)]
+    determinant = determinant_of(of)
     # Numerators have degree s at most.
     return determinant, {name: trimmed(product(determinant, f)[: of.s + 1]) for name, f in series.items()}
 
@@ -48,13 +121,15 @@ def determinant_of(of):
     """det(1 + z A A~) by the method of Leverrier and Faddeev."""
     columns = [of.apply("q", of.apply("p", f)) for f in of.basis]
     matrix = [[rational(x) for x in row] for row in zip(*columns)]
+    if not any(any(row[i:]) for i, row in enumerate(matrix)):
+        return [Fraction(1)]  # Of a splitting.
     found, power = [Fraction(1)], [[Fraction(0)] * of.s] * of.s
     for k in range(1, of.s + 1):
         # M (power + c), and the next c = -tr/k
         power = [[x + found[-1] * (i == j) for j, x in enumerate(row)] for i, row in enumerate(power)]
         power = [[sum(x * y for x, y in zip(row, column)) for column in zip(*power)] for row in matrix]
         found.append(-sum(power[i][i] for i in range(of.s)) / k)
-    return trimmed((-1) ** k * c for k, c in enumerate(found))
+    return trimmed([(-1) ** k * c for k, c in enumerate(found)])
 
 
 def stable_intervals(determinant, trace, turning):
@@ -65,8 +140,8 @@ def stable_intervals(determinant, trace, turning):
     while cuts[0] == 0:
         cuts = cuts[1:]
     cuts = square_free(cuts)
-    roots = Roots(cuts).above(Fraction(0))
-    singular, alone = (common_divisor(cuts, f) for f in (determinant, turning))
+    roots = positive_roots(cuts)
+    singular, alone = (common_divisor(cuts, primitive(f)) for f in (determinant, turning))
     # From zero to the first root, that root, from there to the next one, ...
     lows, highs = [Fraction(0)] + [root[1] for root in roots], [root[0] for root in roots]
     samples = [(low + high) / 2 for low, high in zip(lows, highs + [lows[-1] + 2])]

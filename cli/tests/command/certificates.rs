@@ -49,11 +49,40 @@ fn the_catalogue_is_right() {
     }
 }
 
+/// The first file is short, and alone it proves the claims that need no other. It names the others and is not satisfied.
+#[test]
+fn the_first_file_alone_says_what_it_did_not_check() {
+    let program =
+        std::fs::read_to_string(root().join("tableaux/check_certificate.py")).expect("the program");
+    assert!(program.lines().count() <= 500);
+    let alone = folder("alone").join("check_certificate.py");
+    std::fs::write(&alone, program).expect("written");
+    let arguments = [
+        alone.to_str().expect("a path"),
+        "tableaux/certificates/gauss-3.json",
+        "tableaux/certificates/velocity-verlet.json",
+        "tableaux/certificates/yoshida-1990-order-6-b.json",
+    ];
+    let Some((right, text)) = python(&arguments) else {
+        return;
+    };
+    assert!(!right, "{text}");
+    let expected = [
+        "NOT ALL CHECKED: doubles, symplectic, symmetric, general 6, separable 6, nystrom 6, stability not checked here: needs checker/stability.py",
+        "NOT ALL CHECKED: doubles, palindrome not checked here: needs checker/splittings.py",
+        "NOT ALL CHECKED: solution not checked here: needs checker/solutions.py",
+    ];
+    assert_eq!(text.lines().count(), expected.len(), "{text}");
+    for (line, part) in text.lines().zip(expected) {
+        assert!(line.contains(part), "{part}: {line}");
+    }
+}
+
 /// The numbers of rooted trees with two colours, in all and where the colours alternate (OEIS A000151, A000081, each twice);
 /// the conditions of each order that symplectic methods have for quadratic T (Calvo & Sanz-Serna 1993).
 #[test]
 fn the_trees_are_counted_right() {
-    let program = "import sys; sys.path.insert(0, 'tableaux'); from checker.trees import trees, unrooted; \
+    let program = "import sys; sys.path.insert(0, 'tableaux'); from check_certificate import trees; from checker.rootings import unrooted; \
                    print([len(trees(n, 'general')) for n in range(1, 7)], [len(trees(n, 'separable')) for n in range(1, 10)], \
                          [len(unrooted(n, 'nystrom')) for n in range(1, 9)])";
     let Some((_, text)) = python(&["-c", program]) else {
@@ -141,6 +170,33 @@ fn what_is_not_proved_and_what_is_no_certificate_is_rejected() {
                 "\"general\": {\"order\": 5",
             ),
             "order 5 (general)",
+        ),
+        // With a tree of the sixth order that is indeed violated.
+        (
+            edited(
+                &gauss,
+                "\"general\": {\"order\": 4, \"violated\": \"q[q^4]\", \"residual\": \"-0.00555555555556\"",
+                "\"general\": {\"order\": 5, \"violated\": \"q[q^5]\", \"residual\": \"-0.0138888888889\"",
+            ),
+            "order 5 (general), tree",
+        ),
+        // One node twice.
+        (
+            edited(
+                &gauss,
+                "\"c\": [\"0x1.b0cb174df99c7p-3\", \"0x1.93cd3a2c8198ep-1\"]",
+                "\"c\": [\"0x1.b0cb174df99c7p-3\", \"0x1.b0cb174df99c7p-3\"]",
+            ),
+            "nodes in order",
+        ),
+        // Three roots round to this decimal: 0.99, 1 and 1.01.
+        (
+            edited(
+                reducible,
+                "[\"-1\", \"0\", \"1\"]",
+                "[\"-9999\", \"29999\", \"-30000\", \"10000\"]",
+            ),
+            "one root of the polynomial that rounds to 1.0",
         ),
         (
             edited(&gauss, "\"infinity\"", "\"3\""),

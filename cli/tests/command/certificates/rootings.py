@@ -1,4 +1,4 @@
-"""Prints for how many trees `checker.trees.turned_over` gives one whose condition is equivalent for a symplectic method.
+"""Prints for how many trees `checker.rootings.turned_over` gives one whose condition is equivalent for a symplectic method.
 
     python3 rootings.py FOLDER
 
@@ -12,19 +12,19 @@ from fractions import Fraction
 
 sys.path.insert(0, sys.argv[1])
 
-from checker.methods import Stages, Weights
-from checker.trees import density, trees, turned_over
+from check_certificate import Stages, density, residuals, trees
+from checker.rootings import turned_over
 
 random.seed(1)
 STAGES = range(3)
 b = [Fraction(random.randint(1, 9), 7) for _ in STAGES]
 a = [[Fraction(random.randint(-9, 9), 5) for _ in STAGES] for _ in STAGES]
 a_tilde = [[b[j] - b[j] * a[j][i] / b[i] for j in STAGES] for i in STAGES]
-weights = Weights(Stages("matrices", {"q": b, "p": b}, {"q": a, "p": a_tilde}))
+residual = residuals(Stages("matrices", {"q": b, "p": b}, {"q": a, "p": a_tilde}))
 
 
 def phi(tree):
-    return weights.residual(tree) + Fraction(1, density(tree))
+    return residual(tree) + Fraction(1, density(tree))
 
 
 def is_equivalent(tree, i):

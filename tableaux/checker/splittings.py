@@ -10,9 +10,22 @@ from fractions import Fraction
 from functools import lru_cache
 from itertools import combinations
 
-from .numbers import demand, enclosed
+from check_certificate import Element, demand, is_not_zero, whole
 
 MOST_WORDS = 20000  # Of one length, and of all that an order needs.
+
+
+def is_zero(x):
+    """Whether a number is zero. An element of a field that is not may still have the value zero if its polynomial is a product."""
+    demand(not isinstance(x, Element) or not x or is_not_zero(x), "a number that is not zero, or whose coordinates are")
+    return x == 0 if isinstance(x, (Element, Fraction)) else False
+
+
+def flows(layout, weights, is_zero=is_zero):
+    """The flows of a splitting one after another, with their fractions of the step."""
+    colours = "pq" if layout == "kicks first" else "qp"
+    pairs = zip(*(weights[colour] for colour in colours))
+    return [(colour, x) for pair in pairs for colour, x in zip(colours, pair) if not is_zero(x)]
 
 
 def coefficient(word, factors):
@@ -85,27 +98,33 @@ def base_residuals(order, step, factors):
     return [coefficient(word, factors) - (word == (1,)) for word in words]
 
 
-def check_perturbed(flows, orders, given):
-    """Orders for H_A + eps H_B, in the powers of eps, the last one in all higher powers; `given` are those that are known."""
-    what = f"orders {orders} for H_A + eps H_B"
-    demand(orders and 0 < orders[-1] and orders == sorted(orders, reverse=True) and orders[0] <= 30, what)
-    factors = product_of(flows)
-    for k, order in enumerate(orders, 1):
-        higher = (word for kicks in range(1, k + 1) for word in splitting_words(order + 1, kicks))
-        demand(any(enclosed(splitting_residual(word, factors)).is_not_zero() for word in higher), f"{what} and no higher")
-    if given:
-        demand(all(order <= given[min(k, len(given) - 1)] for k, order in enumerate(orders)), f"{what}, from what was solved")
-        return
-    # Of a symmetric method even degrees follow from odd ones (HLW II.3).
-    for word in splitting_conditions(orders, 2 if is_palindrome(flows) else 1):
-        demand(splitting_residual(word, factors) == 0, f"{what}, word {''.join(word)}")
-
-
 def is_palindrome(factors):
     return factors == factors[::-1]
 
 
-def check_palindrome(flows, claim):
-    pairs = zip(flows, flows[::-1])
-    differ = any(one != other or enclosed(x + y * -1).is_not_zero() for (one, x), (other, y) in pairs)
-    demand(is_palindrome(flows) if claim is True else claim is False and differ, f"palindrome = {claim}")
+def palindrome(of, certificate):
+    """Whether the flows are the same forwards and backwards, so that the method is symmetric."""
+    claim, forwards = certificate["palindrome"], flows(certificate["layout"], of.weights)
+    pairs = zip(forwards, forwards[::-1])
+    differ = any(one != other or is_not_zero(x + y * -1) for (one, x), (other, y) in pairs)
+    demand(is_palindrome(forwards) if claim is True else claim is False and differ, f"palindrome = {claim}")
+    return "palindrome" if claim else "not palindrome"
+
+
+def perturbed(of, certificate):
+    """Orders for H_A + eps H_B, in the powers of eps, the last one in all higher powers, and that none is higher."""
+    orders, all_flows = [whole(x) for x in certificate["perturbed"]], flows(certificate["layout"], of.weights)
+    what = f"orders {orders} for H_A + eps H_B"
+    demand(orders and 0 < orders[-1] and orders == sorted(orders, reverse=True) and orders[0] <= 30, what)
+    factors = product_of(all_flows)
+    for k, order in enumerate(orders, 1):
+        higher = (word for kicks in range(1, k + 1) for word in splitting_words(order + 1, kicks))
+        demand(any(is_not_zero(splitting_residual(word, factors)) for word in higher), f"{what} and no higher")
+    given = of.solved.get("perturbed")
+    if given:
+        demand(all(order <= given[min(k, len(given) - 1)] for k, order in enumerate(orders)), f"{what}, from what was solved")
+    else:
+        # Of a symmetric method even degrees follow from odd ones (HLW II.3).
+        for word in splitting_conditions(orders, 2 if is_palindrome(all_flows) else 1):
+            demand(splitting_residual(word, factors) == 0, f"{what}, word {''.join(word)}")
+    return f"perturbed {orders}"
