@@ -1,4 +1,4 @@
-//! The ensembles that `tests/contest/heyoka.py` integrates with heyoka: the time of the fastest method for an error, on one thread.
+//! The ensembles that `tests/contest/beside_heyoka.py` integrates with heyoka: the time of the fastest method for an error, on one thread.
 //!
 //! `cargo run --release -p symplectic-contest --example beside_heyoka`
 

@@ -1,7 +1,7 @@
 """heyoka's batch mode on the ensembles of the example `beside_heyoka`, one core.
 
     pip install heyoka numpy
-    python tests/contest/heyoka.py [lanes]
+    python tests/contest/beside_heyoka.py [lanes]
 """
 
 import sys
