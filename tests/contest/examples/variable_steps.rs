@@ -160,6 +160,38 @@ fn mean(values: &[f64]) -> String {
     format!("{mean:.0e} ± {:.0e}", (variance / count).sqrt())
 }
 
+/// Orbits of a block of a long run.
+const BLOCK: u32 = 1000;
+
+/// The energy errors after each block of a long run, at the apocentre.
+fn after_blocks(blocks: u32, epsilon: f64) -> Result<Vec<f64>, Error> {
+    let system = Logarithmic::new(Kepler);
+    let extended: State<Vector3<f64>> = system.extend(&start())?;
+    let mut run = Integrator::new(KahanLi8Drift, system, extended, epsilon)?;
+    let errors = (0..=blocks).map(|block| {
+        while run.state().q[2] < f64::from(block * BLOCK) * TAU {
+            run.step()?;
+        }
+        Ok(energy_error(&run.system().reduce(run.state())?))
+    });
+    errors.collect()
+}
+
+/// Prints the mean change of the energy in a block: rounding makes a random walk, with mean 0.
+fn long_run() {
+    const BLOCKS: u32 = 100;
+    let Ok(errors) = after_blocks(BLOCKS, 0.5) else {
+        return;
+    };
+    let changes: Vec<f64> = errors.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let last = errors.last().copied().unwrap_or_default();
+    println!(
+        "\nLogarithmic, Kahan–Li 8, {} orbits: energy error {last:.0e}, mean change in {BLOCK} orbits {}.",
+        BLOCKS * BLOCK,
+        mean(&changes)
+    );
+}
+
 fn main() {
     println!("Kepler, e = {ECCENTRICITY}, 100 orbits from the apocentre to {WANTED:e}.\n");
     println!("| | ms | steps | error | mean energy error ± standard error |");
@@ -205,4 +237,5 @@ fn main() {
             })
         },
     );
+    long_run();
 }
