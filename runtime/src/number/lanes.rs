@@ -57,6 +57,9 @@ pub trait Lanes: Scalar {
 
     /// Whether any number is NaN.
     fn any_nan(self) -> bool;
+
+    /// The number of `yes` in the lanes where this one is below `bound`, and that of `no` in the others; also where one of them is NaN.
+    fn if_below(self, bound: Self, yes: Self, no: Self) -> Self;
 }
 
 /// The lanes of one group, from a list over the stages.
@@ -326,6 +329,11 @@ macro_rules! lanes {
             fn any_nan(self) -> bool {
                 self.0.is_nan().any()
             }
+
+            #[inline(always)]
+            fn if_below(self, bound: Self, yes: Self, no: Self) -> Self {
+                Self(self.0.simd_lt(bound.0).bitselect(yes.0, no.0))
+            }
         }
     };
 }
@@ -391,5 +399,14 @@ mod tests {
         check(F64x2::larger_by_bits, F64x2::larger_by_sums);
         check(F64x4::larger_by_bits, F64x4::larger_by_sums);
         check(F64x8::larger_by_bits, F64x8::larger_by_sums);
+    }
+
+    #[test]
+    fn lanes_are_chosen_where_one_is_below_the_other() {
+        let of = |numbers: [f64; 4]| F64x4::from_array(numbers);
+        let (x, bound) = (of([1.0, 2.0, f64::NAN, 0.0]), of([2.0, 2.0, 1.0, f64::NAN]));
+        let chosen = x.if_below(bound, of([1.0; 4]), of([f64::INFINITY; 4]));
+        let no = f64::INFINITY;
+        assert_eq!(chosen.to_array(), [1.0, no, no, no]);
     }
 }

@@ -187,6 +187,13 @@ impl Lanes for F64x16 {
         let [a, b] = self.0.map(Lanes::any_nan);
         a | b
     }
+
+    #[inline(always)]
+    fn if_below(self, bound: Self, yes: Self, no: Self) -> Self {
+        let (Self([a, b]), Self([c, d])) = (self, bound);
+        let (Self([e, f]), Self([g, h])) = (yes, no);
+        Self([a.if_below(c, e, g), b.if_below(d, f, h)])
+    }
 }
 
 #[cfg(not(target_feature = "avx512f"))]

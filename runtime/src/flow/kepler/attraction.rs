@@ -1,106 +1,168 @@
-//! The gravity between bodies.
+//! The gravity between planets.
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use super::bodies::Bodies;
+use super::groups::{Axes, load, load_one, store};
 use crate::error::Quantity;
 use crate::flow::{FlowError, check_dimension};
+use crate::number::array::array;
 use crate::number::{F64x4, Lanes, Scalar, Vector};
 
-/// Bodies, their positions, the forces on them, and room for those of one body.
+/// The places of n planets, and the forces on them.
 #[derive(Clone, Debug)]
 pub(super) struct Attraction {
-    pub(super) bodies: Bodies,
-    pub(super) positions: Vec<f64>,
-    pub(super) forces: Vec<f64>,
-    /// From a body to each of the ones after it, and a group of lanes more.
-    apart: Vec<[f64; 3]>,
-    /// The squares of the distances, and then the pulls.
-    pulls: Vec<f64>,
-    /// The masses, and zeros.
+    gravity: f64,
+    count: usize,
+    /// The places; planet k is also at k + n, k + 2n, ….
+    places: Axes,
+    /// The masses, likewise.
     masses: Vec<f64>,
+    pub(super) forces: Axes,
+    /// The forces between planets that are some places apart, on the first of each pair; before them the last ones once more.
+    pulls: Axes,
+    /// The sum of the pulls on the second of each pair, with the opposite sign.
+    reactions: Axes,
 }
 
 /// Pairs side by side.
-const WIDTH: usize = F64x4::WIDTH;
+pub(super) type Group = F64x4;
+const WIDTH: usize = Group::WIDTH;
 
 impl Attraction {
-    pub(super) fn new(bodies: Bodies) -> Self {
-        let count = bodies.masses.len();
-        let mut masses = bodies.masses.clone();
-        masses.resize(count + WIDTH, 0.0);
+    pub(super) fn new(bodies: &Bodies) -> Self {
+        let count = bodies.masses.len() - 1;
+        let (padded, half) = (count.next_multiple_of(WIDTH), count / 2);
+        let masses = bodies.masses[1..].iter().cycle().copied();
+        let axes = |length: usize| [0; 3].map(|_| vec![0.0; length]);
         Self {
-            positions: vec![0.0; 3 * count],
-            forces: vec![0.0; 3 * count],
-            apart: vec![[0.0; 3]; count],
-            pulls: vec![1.0; count + WIDTH],
-            masses,
-            bodies,
+            gravity: bodies.gravity,
+            count,
+            places: axes(padded + half),
+            masses: masses.take(padded + half).collect(),
+            forces: axes(padded),
+            pulls: axes(half + padded),
+            reactions: axes(padded),
         }
+    }
+
+    /// The number of planets.
+    pub(super) const fn count(&self) -> usize {
+        self.count
     }
 
     /// Checks that a state is one of these bodies.
     pub(super) fn check<V: Vector<Scalar = f64>>(&self, q: &V, p: &V) -> Result<(), FlowError> {
-        check_dimension(self.positions.len(), q)?;
-        check_dimension(self.positions.len(), p)
+        check_dimension(3 * (self.count + 1), q)?;
+        check_dimension(3 * (self.count + 1), p)
     }
 
-    /// Computes the forces of gravity between the bodies from `first` on, without that between the bodies 0 and 1.
-    pub(super) fn attract(&mut self, first: usize) -> Result<(), FlowError> {
-        self.forces.fill(0.0);
-        let (positions, _) = self.positions.as_chunks::<3>();
-        let (forces, _) = self.forces.as_chunks_mut::<3>();
-        for (i, &[x, y, z]) in positions.iter().enumerate().skip(first) {
-            let from = (i + 1).max(2);
-            let others = positions.get(from..).unwrap_or_default();
-            let pairs = self.apart.iter_mut().zip(&mut self.pulls).zip(others);
-            for ((apart, square), place) in pairs {
-                let [dx, dy, dz] = [place[0] - x, place[1] - y, place[2] - z];
-                *apart = [dx, dy, dz];
-                *square = dx * dx + dy * dy + dz * dz;
+    /// Puts a planet in its place.
+    #[inline(always)]
+    pub(super) fn put(&mut self, planet: usize, place: [f64; 3]) {
+        for (list, x) in self.places.iter_mut().zip(place) {
+            let mut at = planet;
+            while let Some(entry) = list.get_mut(at) {
+                *entry = x;
+                at += self.count;
             }
-            let squares = &self.pulls[..others.len()];
-            if let Some(k) = squares.iter().position(|&square| square == 0.0) {
-                let (first, second) = (i, from + k);
-                return Err(FlowError::Collision { first, second });
+        }
+    }
+
+    /// The place of a planet.
+    #[inline(always)]
+    pub(super) fn place(&self, planet: usize) -> [f64; 3] {
+        let [x, y, z] = &self.places;
+        [x[planet], y[planet], z[planet]]
+    }
+
+    /// The places of planets side by side.
+    #[inline(always)]
+    pub(super) fn places(&self, first: usize) -> [Group; 3] {
+        load(&self.places, first)
+    }
+
+    /// Adds the forces of gravity between the planets. They are not finite where two are in one place.
+    ///
+    /// The planets k and k + d are pairs side by side, for d = 1, …, n/2; for `2d = n` each pair comes twice, once from either side.
+    pub(super) fn attract(&mut self) {
+        let count = self.count;
+        let half = count / 2;
+        let starts = (0..count).step_by(WIDTH);
+        let (gravity, zero) = (Group::from_f64(self.gravity), Group::from_f64(0.0));
+        for apart in 1..=half {
+            for first in starts.clone() {
+                let here: [Group; 3] = load(&self.places, first);
+                let there: [Group; 3] = load(&self.places, first + apart);
+                let own: Group = load_one(&self.masses, first);
+                let other: Group = load_one(&self.masses, first + apart);
+                let way = array(zero, |axis| there[axis] - here[axis]);
+                let pull = pull(gravity * own * other, way, zero);
+                let before: [Group; 3] = load(&self.forces, first);
+                let sum = array(zero, |axis| before[axis] + pull[axis]);
+                store(&mut self.forces, first, sum);
+                store(&mut self.pulls, half + first, pull);
             }
-            // Roots and quotients of a few pairs at once; those after the last pair are not used.
-            let strength = F64x4::from_f64(self.bodies.gravity * self.masses[i]);
-            let (pulls, _) = self.pulls.as_chunks_mut::<WIDTH>();
-            let (masses, _) = self.masses[from..].as_chunks::<WIDTH>();
-            for (pulls, masses) in pulls
-                .iter_mut()
-                .zip(masses)
-                .take(others.len().div_ceil(WIDTH))
-            {
-                let (squares, masses) = (F64x4::from_array(*pulls), F64x4::from_array(*masses));
-                *pulls = (strength * masses / (squares * squares.sqrt())).to_array();
+            if 2 * apart == count {
+                break;
             }
-            let mut own = [0.0; 3];
-            let pairs = self.apart.iter().zip(&self.pulls);
-            for (force, (apart, pull)) in forces.iter_mut().skip(from).zip(pairs) {
-                for axis in 0..3 {
-                    own[axis] += pull * apart[axis];
-                    force[axis] -= pull * apart[axis];
+            for axis in 0..3 {
+                let list = &mut self.pulls[axis][..half + count];
+                for k in 0..apart {
+                    list[half - apart + k] = list[half + count - apart + k];
                 }
             }
-            for (force, own) in forces[i].iter_mut().zip(own) {
-                *force += own;
+            for first in starts.clone() {
+                let back: [Group; 3] = load(&self.pulls, half - apart + first);
+                let before: [Group; 3] = match apart {
+                    1 => [zero; 3],
+                    _ => load(&self.reactions, first),
+                };
+                let sum = array(zero, |axis| before[axis] + back[axis]);
+                store(&mut self.reactions, first, sum);
             }
         }
-        Ok(())
+        for first in starts.clone() {
+            let own: [Group; 3] = load(&self.forces, first);
+            let back: [Group; 3] = load(&self.reactions, first);
+            let force = array(zero, |axis| own[axis] - back[axis]);
+            store(&mut self.forces, first, force);
+        }
     }
 
-    /// Adds `size · forces` to the momenta of planets, if they are finite; that of the centre of mass stays.
-    pub(super) fn kick(&self, size: f64, p: &mut [f64]) -> Result<(), FlowError> {
-        if !self.forces.iter().all(|force| force.is_finite()) {
-            let what = Quantity::Force;
-            return Err(FlowError::NonFinite { what });
+    /// Why forces are not finite: two planets are in one place, or the star, if given, and another planet than the first.
+    #[cold]
+    pub(super) fn failure(&self, star: Option<[f64; 3]>) -> FlowError {
+        let count = self.count;
+        let meets = |place: [f64; 3], mut others: Range<usize>| {
+            others.find(|&other| {
+                let way = array(0.0, |axis| self.place(other)[axis] - place[axis]);
+                let [x, y, z]: [f64; 3] = way;
+                x * x + y * y + z * z == 0.0
+            })
+        };
+        let by_star = star.and_then(|star| Some((0, meets(star, 1..count)?)));
+        let mut pairs =
+            (0..count).filter_map(|i| Some((i + 1, meets(self.place(i), i + 1..count)?)));
+        match by_star.or_else(|| pairs.next()) {
+            Some((first, other)) => FlowError::Collision {
+                first,
+                second: other + 1,
+            },
+            None => FlowError::NonFinite {
+                what: Quantity::Force,
+            },
         }
-        for (p, force) in p.iter_mut().zip(&self.forces).skip(3) {
-            *p += size * force;
-        }
-        Ok(())
     }
+}
+
+/// `strength · way/|way|³`; `more` is added to `|way|²`.
+#[inline(always)]
+pub(super) fn pull<L: Lanes>(strength: L, way: [L; 3], more: L) -> [L; 3] {
+    let [x, y, z] = way;
+    let square = (x * x + y * y) + (z * z + more);
+    let pull = strength / (square * square.sqrt());
+    [pull * x, pull * y, pull * z]
 }

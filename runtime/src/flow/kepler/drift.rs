@@ -4,14 +4,16 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
+use super::groups::{gather, scatter};
 use super::in_lanes::changes;
 use super::orbit::{NoEnd, Orbit};
 use crate::error::Error;
 use crate::flow::{Flow, FlowError, Span, check_count, check_dimension, check_parameter};
 use crate::number::array::array;
-use crate::number::{F64x4, Lanes, Vector};
+use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector};
 
-/// The flow of `H = Σ |p|²/(2m) − mμ/|q|`: bodies in space, each on a Kepler orbit about the origin, any number of them in lanes of `L`.
+/// The flow of `H = Σ |p|²/(2m) − mμ/|q|`: bodies in space, each on a Kepler orbit about the origin, any number of them in lanes of `L`,
+/// and the last ones in fewer lanes.
 ///
 /// Ellipses, parabolas, hyperbolas and lines are one case: with the universal anomaly s, `t' = |q|`, and Stumpff's functions `G_k = s^k c_k(βs²)`,
 /// `β = 2μ/|q| − |v|²`, the end is (Battin, *An introduction to the mathematics and methods of astrodynamics*, 4.5; Rein & Tamayo, *MNRAS*
@@ -44,13 +46,15 @@ use crate::number::{F64x4, Lanes, Vector};
 /// # Ok::<(), symplectic::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct KeplerDrift<L = F64x4> {
+pub struct KeplerDrift<L = F64x8> {
     /// The mass of a body before the others that moves freely.
     free: Option<f64>,
     masses: Vec<f64>,
+    /// `1/m`
+    lighter: Vec<f64>,
     mus: Vec<f64>,
-    /// The states at the end.
-    ends: Vec<f64>,
+    /// Positions and momenta at the end.
+    ends: [Vec<f64>; 2],
     lanes: PhantomData<L>,
 }
 
@@ -83,7 +87,8 @@ impl KeplerDrift {
     fn with(free: Option<f64>, masses: Vec<f64>, mus: Vec<f64>) -> Self {
         Self {
             free,
-            ends: vec![0.0; 6 * masses.len()],
+            ends: [0; 2].map(|_| vec![0.0; 3 * masses.len()]),
+            lighter: masses.iter().map(|mass| mass.recip()).collect(),
             masses,
             mus,
             lanes: PhantomData,
@@ -105,6 +110,7 @@ impl<L: Lanes> KeplerDrift<L> {
         KeplerDrift {
             free: self.free,
             masses: self.masses,
+            lighter: self.lighter,
             mus: self.mus,
             ends: self.ends,
             lanes: PhantomData,
@@ -112,38 +118,35 @@ impl<L: Lanes> KeplerDrift<L> {
     }
 
     /// The ends of the orbits of a group of bodies; lanes without a body have the orbit of the last one.
-    fn group(&mut self, first: usize, h: f64, q: &[f64], p: &[f64]) -> Result<(), FlowError> {
-        let last = self.masses.len() - 1;
-        let body = |lane: usize| (first + lane).min(last);
-        let of = |list: &[f64]| L::from_fn(|lane| list[body(lane)]);
-        let space = |list: &[f64]| -> [L; 3] {
-            array(L::zero(), |axis| {
-                L::from_fn(|lane| list[3 * body(lane) + axis])
-            })
+    fn group<W: Lanes>(
+        &mut self,
+        first: usize,
+        h: f64,
+        q: &[f64],
+        p: &[f64],
+    ) -> Result<usize, FlowError> {
+        let of = |list: &[f64]| {
+            let [lanes] = gather(list[first..].as_chunks().0);
+            lanes
         };
-        let (q, p) = (space(q), space(p));
-        let orbit = Orbit::new(of(&self.mus), of(&self.masses), q, p);
+        let [q, p] = [q, p].map(|list| gather::<W, 3>(&list.as_chunks().0[first..]));
+        let mass = [of(&self.masses), of(&self.lighter)];
+        let orbit = Orbit::new(of(&self.mus), mass, q, p);
         let [a, b, c, d] = changes(&orbit, h).map_err(|(lane, why)| {
-            let free = usize::from(self.free.is_some());
-            let body = body(lane) + free;
+            let body = (first + lane).min(self.masses.len() - 1);
+            let body = body + usize::from(self.free.is_some());
             match why {
                 NoEnd::AtCentre => FlowError::AtCentre { body },
                 NoEnd::Periods(periods) => FlowError::Periods { body, periods },
                 NoEnd::NotFound => FlowError::NoOrbit { body },
             }
         })?;
-        let count = L::WIDTH.min(last + 1 - first);
-        for axis in 0..3 {
-            let (q, p) = (q[axis], p[axis]);
-            let q1 = (q + (a * q + b * p)).to_array();
-            let p1 = (p + (c * q + d * p)).to_array();
-            for lane in 0..count {
-                let place = 6 * (first + lane) + axis;
-                self.ends[place] = q1.as_ref()[lane];
-                self.ends[place + 3] = p1.as_ref()[lane];
-            }
-        }
-        Ok(())
+        let [end_q, end_p] = &mut self.ends;
+        let q1: [W; 3] = array(a, |axis| q[axis] + (a * q[axis] + b * p[axis]));
+        let p1: [W; 3] = array(a, |axis| p[axis] + (c * q[axis] + d * p[axis]));
+        scatter(q1, &mut end_q.as_chunks_mut().0[first..]);
+        scatter(p1, &mut end_p.as_chunks_mut().0[first..]);
+        Ok(W::WIDTH)
     }
 }
 
@@ -155,14 +158,17 @@ impl<V: Vector<Scalar = f64>, L: Lanes> Flow<V> for KeplerDrift<L> {
         check_dimension(3 * count + free, p)?;
         let (free_q, q) = q.as_mut_slice().split_at_mut(free);
         let (free_p, p) = p.as_mut_slice().split_at_mut(free);
-        for first in (0..count).step_by(L::WIDTH) {
-            self.group(first, h, q, p)?;
+        let mut first = 0;
+        while first < count {
+            // The last bodies in no more lanes than they need.
+            first += match count - first {
+                1..=2 if L::WIDTH > 2 => self.group::<F64x2>(first, h, q, p)?,
+                3..=4 if L::WIDTH > 4 => self.group::<F64x4>(first, h, q, p)?,
+                _ => self.group::<L>(first, h, q, p)?,
+            };
         }
-        let bodies = q.chunks_exact_mut(3).zip(p.chunks_exact_mut(3));
-        for ((q, p), end) in bodies.zip(self.ends.chunks_exact(6)) {
-            q.copy_from_slice(&end[..3]);
-            p.copy_from_slice(&end[3..]);
-        }
+        q.copy_from_slice(&self.ends[0]);
+        p.copy_from_slice(&self.ends[1]);
         let mass = self.free.unwrap_or(1.0);
         for (q, p) in free_q.iter_mut().zip(free_p) {
             *q += h * *p / mass;

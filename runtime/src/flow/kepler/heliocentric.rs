@@ -6,6 +6,7 @@ use super::drift::KeplerDrift;
 use crate::error::Error;
 use crate::flow::{Flow, FlowError, Span};
 use crate::number::Vector;
+use crate::number::array::array;
 use crate::state::State;
 
 /// Bodies under their gravity in democratic heliocentric coordinates: positions relative to the star, momenta relative to the centre of mass.
@@ -129,7 +130,8 @@ impl Heliocentric {
     /// The flow of `B`, or of [pairs](Self::of_pairs) a step of order 2: the second part.
     pub fn kick(&self) -> HeliocentricKick {
         HeliocentricKick {
-            attraction: Attraction::new(self.bodies.clone()),
+            star: self.bodies.masses[0],
+            attraction: Attraction::new(&self.bodies),
             pairs: self.pairs,
         }
     }
@@ -142,21 +144,31 @@ impl Heliocentric {
 /// [`FlowError::Collision`] for planets in one place, [`FlowError::NonFinite`] for other forces that are not finite, [`FlowError::Dimension`].
 #[derive(Clone, Debug)]
 pub struct HeliocentricKick {
+    /// Its mass.
+    star: f64,
     attraction: Attraction,
     pairs: bool,
 }
 
 impl HeliocentricKick {
     /// Moves each planet by the velocity that the star has from all planets, or from the others.
-    fn jump(&mut self, size: f64, p: &[f64]) {
-        let positions = &mut self.attraction.positions;
-        let factor = size / self.attraction.bodies.masses[0];
-        for axis in 3..6 {
-            let total: f64 = p.iter().skip(axis).step_by(3).sum();
-            let planets = positions.iter_mut().zip(p).skip(axis).step_by(3);
-            for (q, own) in planets {
-                *q += factor * if self.pairs { total - own } else { total };
-            }
+    fn jump(&mut self, size: f64, p: &[[f64; 3]]) {
+        let factor = size / self.star;
+        let mut total = [0.0; 3];
+        for p in p {
+            total = array(0.0, |axis| total[axis] + p[axis]);
+        }
+        for (i, own) in p.iter().enumerate() {
+            let place = self.attraction.place(i);
+            let other = |axis: usize| {
+                if self.pairs {
+                    total[axis] - own[axis]
+                } else {
+                    total[axis]
+                }
+            };
+            self.attraction
+                .put(i, array(0.0, |axis| place[axis] + factor * other(axis)));
         }
     }
 }
@@ -164,17 +176,37 @@ impl HeliocentricKick {
 impl<V: Vector<Scalar = f64>> Flow<V> for HeliocentricKick {
     fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError> {
         self.attraction.check(q, p)?;
-        let (q, p) = (q.as_mut_slice(), p.as_mut_slice());
-        self.attraction.positions.copy_from_slice(q);
+        let q = q.as_mut_slice()[3..].as_chunks_mut::<3>().0;
+        let p = p.as_mut_slice()[3..].as_chunks_mut::<3>().0;
+        for (i, place) in q.iter().enumerate() {
+            self.attraction.put(i, *place);
+        }
         // The jump of all planets by one vector commutes with the kick.
         let before = if self.pairs { span.size / 2.0 } else { 0.0 };
         if self.pairs {
             self.jump(before, p);
         }
-        self.attraction.attract(1)?;
-        self.attraction.kick(span.size, p)?;
+        self.attraction
+            .forces
+            .iter_mut()
+            .for_each(|list| list.fill(0.0));
+        self.attraction.attract();
+        let mut finite = true;
+        let forces = &self.attraction.forces;
+        let force = |i: usize| -> [f64; 3] { array(0.0, |axis| forces[axis][i]) };
+        for i in 0..p.len() {
+            finite &= force(i).iter().fold(true, |all, x| all & x.is_finite());
+        }
+        if !finite {
+            return Err(self.attraction.failure(None));
+        }
+        for (i, p) in p.iter_mut().enumerate() {
+            *p = array(0.0, |axis| p[axis] + span.size * force(i)[axis]);
+        }
         self.jump(span.size - before, p);
-        q.copy_from_slice(&self.attraction.positions);
+        for (i, q) in q.iter_mut().enumerate() {
+            *q = self.attraction.place(i);
+        }
         Ok(())
     }
 }

@@ -7,8 +7,11 @@ use crate::number::Lanes;
 /// Iterations in lanes; what has not converged then is done one by one.
 const MOST: u32 = 6;
 
-/// The relative change after which the next iterate is exact up to rounding, for the iteration is of order 3.
-const LAST_CHANGE: f64 = 1e-7;
+/// The relative change after which the next iterate is exact up to rounding, for the iteration is of order 6.
+const LAST_CHANGE: f64 = 1e-4;
+
+/// The terms of orders 4 and 5 up to which they are used: far from the solution larger ones lead away from it.
+const LARGEST_TERMS: f64 = 0.2;
 
 /// The residual of Kepler's equation, relative to its terms, up to which an iterate is the solution: rounding makes a tenth of it.
 const RESIDUAL: f64 = 32.0 * f64::EPSILON;
@@ -21,73 +24,116 @@ const LARGEST_ARC: f64 = 32.0;
 
 /// How positions and momenta change in the time `h`, lane by lane; every lane as it would be alone, to the last bit.
 ///
-/// The iteration for the universal anomaly is Halley's, of order 3.
+/// The [series](anomaly) of the universal anomaly from the start is the first iterate, and that from an iterate on is its correction.
 pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (usize, NoEnd)> {
-    let step = L::from_f64(h);
+    let (one, two, of) = (L::one(), L::from_f64(2.0), L::from_f64);
+    let step = of(h);
     let Orbit {
         distance,
+        inverse,
         radial,
         beta,
         mu,
         ..
     } = *orbit;
     let zeta = orbit.zeta();
-    let (half, third) = (L::from_f64(0.5), L::from_f64(1.0 / 3.0));
-    let functions = |s: L| {
+    let mut s = anomaly(beta, inverse, [radial, zeta], step);
+    let mut left = MOST;
+    // A lane that has converged keeps its iterate, and computes the same until the last one has.
+    let ([g0, g1, g2, g3], change, unsettled) = loop {
         let psi = beta * s * s;
-        let quarter = psi * L::from_f64(0.25);
-        g_functions(s, psi, stumpff::quadruple(quarter, stumpff::small(quarter)))
+        let quarter = psi * of(0.25);
+        let c = stumpff::quadruple(quarter, stumpff::small(quarter));
+        let [g1, g2, g3] = g_functions(s, psi, c);
+        let g0 = one - beta * g2;
+        let late = distance * s + (radial * g2 + zeta * g3) - step;
+        let here = distance + (radial * g1 + zeta * g2);
+        let slopes = [radial * g0 + zeta * g1, zeta * g0 - beta * (radial * g1)];
+        let change = anomaly(beta, here.recip(), slopes, -late);
+        let (size, bound) = (change.abs(), s.abs() * of(LAST_CHANGE));
+        let unsettled = size - bound;
+        left -= 1;
+        if left == 0 || unsettled.all_below(0.0) {
+            break ([g0, g1, g2, g3], change, unsettled);
+        }
+        s = size.if_below(bound, s, s + change);
     };
-    // The series of s in h to the third power.
-    let inverse = distance.recip();
-    let u = step * inverse;
-    let slope = half * radial * inverse;
-    let bend = half * third * zeta * inverse;
-    let mut s = u - slope * u * u + (slope * slope + slope * slope - bend) * u * u * u;
-    // 1 where a lane has not converged.
-    let mut open = L::one();
-    for _ in 0..MOST {
-        let [g1, g2, g3] = functions(s);
-        let value = distance * s + (radial * g2 + zeta * g3) - step;
-        let first = distance + (radial * g1 + zeta * g2);
-        let second = radial * (L::one() - beta * g2) + zeta * g1;
-        let change = -value * first / (first * first - half * value * second);
-        s += change * open;
-        let (changes, anomalies, opened) = (change.to_array(), s.to_array(), open.to_array());
-        open = L::from_fn(|lane| {
-            let bound = LAST_CHANGE * anomalies.as_ref()[lane].abs();
-            if changes.as_ref()[lane].abs() <= bound {
-                0.0
-            } else {
-                opened.as_ref()[lane]
-            }
-        });
-        if !open.any_above(0.0) {
-            break;
-        }
-    }
-    let [g1, g2, g3] = functions(s);
+    // The addition theorem: G_k(s + δ) from G_k(s) and G_k(δ), for βδ² < 10⁻⁷.
+    let (square, third) = (of(0.5) * change * change, of(1.0 / 3.0));
+    let bend = beta * square;
+    let d1 = change - third * bend * change;
+    let d2 = square - of(1.0 / 6.0) * bend * square;
+    let d3 = third * square * change;
+    let g2_near = g2 + (g1 * d1 + g0 * d2);
+    let g3 = g3 + (g2 * change + (g1 * d2 + g0 * d3));
+    s += change;
+    // G1 = s − βG3 and G1² = G2(2 − βG2) to rounding: then the flow keeps areas, and errors of many steps have no common sign.
+    let g1 = s - beta * g3;
+    let g2 = g1 * g1 / (two - beta * g2_near);
+
     let (end, least) = orbit.at_end(radial, [g1, g2]);
-    let mut change = orbit.change([g1, g2], end, step - mu * g3);
-    let (first, second) = (distance * s, radial * g2 + zeta * g3);
-    let value = (first + second - step).abs();
-    let terms = first.abs() + (radial * g2).abs() + (zeta * g3).abs() + step.abs();
-    let bound = terms * L::from_f64(RESIDUAL);
-    let (value, bound, left) = (value.to_array(), bound.to_array(), (end - least).to_array());
-    let psi = (beta * s * s).abs().to_array();
-    let arc = (mu * s * s * inverse).to_array();
+    let changes = orbit.change([g1, g2], end, step - mu * g3);
+    let terms = [distance * s, radial * g2, zeta * g3];
+    let late = terms[0] + (terms[1] + terms[2]) - step;
+    let sizes = terms[0].abs() + terms[1].abs() + terms[2].abs() + step.abs();
+    let excess = [
+        unsettled,
+        late.abs() - sizes * of(RESIDUAL),
+        least - end,
+        (beta * s * s).abs() - of(LARGEST_PSI),
+        mu * s * s * inverse - of(LARGEST_ARC),
+    ];
+    if excess.iter().all(|excess| excess.all_below(0.0)) {
+        return Ok(changes);
+    }
+    one_by_one(orbit, h, changes, excess)
+}
+
+/// The universal anomaly in which the time `h` passes, from a point with the reciprocal `1/r` of its distance and the derivatives r' and r''
+/// by the anomaly: its series to the fifth power of `h`.
+///
+/// ```text
+/// h = r s (1 + r's/2r + r''s²/6r − βr's³/24r − βr''s⁴/120r + …)
+/// ```
+#[inline(always)]
+fn anomaly<L: Lanes>(beta: L, inverse: L, [slope, bend]: [L; 2], h: L) -> L {
+    let of = L::from_f64;
+    let u = h * inverse;
+    let square = u * u;
+    let (a, b, psi) = (slope * inverse * u, bend * inverse * square, beta * square);
+    // The terms at s = u, from which those of the inverse series follow.
+    let (x, y) = (of(1.0 / 2.0) * a, of(1.0 / 6.0) * b);
+    let (z, w) = (of(-1.0 / 24.0) * psi * a, of(-1.0 / 120.0) * psi * b);
+    let xx = x * x;
+    let third = (xx + xx) - y;
+    let fourth = x * (of(5.0) * (y - xx)) - z;
+    let fifth = of(3.0) * (y * y) + of(6.0) * (x * z) + xx * (of(14.0) * xx - of(21.0) * y) - w;
+    let higher = fourth + fifth;
+    let higher = higher.abs().if_below(of(LARGEST_TERMS), higher, L::zero());
+    u - u * (x - (third + higher))
+}
+
+/// The lanes in which something is too large, by the iteration that ends for every orbit.
+#[cold]
+#[inline(never)]
+fn one_by_one<L: Lanes>(
+    orbit: &Orbit<L>,
+    h: f64,
+    mut changes: Change<L>,
+    excess: [L; 5],
+) -> Result<Change<L>, (usize, NoEnd)> {
+    let excess = excess.map(L::to_array);
     for lane in 0..L::WIDTH {
-        let in_range = psi.as_ref()[lane] <= LARGEST_PSI && arc.as_ref()[lane] <= LARGEST_ARC;
-        let found = value.as_ref()[lane] <= bound.as_ref()[lane] && left.as_ref()[lane] > 0.0;
-        if !(in_range && found) {
-            let alone = orbit.lane(lane).end(h).map_err(|why| (lane, why))?;
-            for (lanes, alone) in change.iter_mut().zip(alone) {
-                let old = lanes.to_array();
-                *lanes = L::from_fn(|k| if k == lane { alone } else { old.as_ref()[k] });
-            }
+        if excess.iter().all(|excess| excess.as_ref()[lane] < 0.0) {
+            continue;
+        }
+        let alone = orbit.lane(lane).end(h).map_err(|why| (lane, why))?;
+        for (lanes, alone) in changes.iter_mut().zip(alone) {
+            let old = lanes.to_array();
+            *lanes = L::from_fn(|k| if k == lane { alone } else { old.as_ref()[k] });
         }
     }
-    Ok(change)
+    Ok(changes)
 }
 
 impl<L: Lanes> Orbit<L> {
@@ -96,10 +142,11 @@ impl<L: Lanes> Orbit<L> {
         let one = |lanes: L| lanes.to_array().as_ref()[lane];
         Orbit {
             distance: one(self.distance),
+            inverse: one(self.inverse),
             radial: one(self.radial),
             beta: one(self.beta),
             mu: one(self.mu),
-            mass: one(self.mass),
+            mass: self.mass.map(one),
         }
     }
 }

@@ -2,12 +2,16 @@
 
 use alloc::vec::Vec;
 
-use super::attraction::Attraction;
+use num_traits::Zero;
+
+use super::attraction::{Attraction, Group, pull};
 use super::bodies::Bodies;
 use super::drift::KeplerDrift;
+use super::groups::{Axes, gather, load_one, store};
 use crate::error::Error;
 use crate::flow::{Flow, FlowError, Span};
-use crate::number::{Scalar, Vector};
+use crate::number::array::array;
+use crate::number::{Lanes, Scalar, Vector};
 use crate::state::State;
 
 /// Bodies under their gravity, `H = Σ |p|²/(2m) − Σ G m_i m_j/|q_i − q_j|`, in Jacobi coordinates: the position of each body relative to the centre of
@@ -75,8 +79,11 @@ impl Jacobi {
         &self,
         state: &State<V>,
     ) -> Result<State<V>, Error> {
-        let mut state = self.bodies.copy(state)?;
-        to_positions(&self.bodies, state.q.as_mut_slice());
+        let before = state;
+        let mut state = self.bodies.copy(before)?;
+        let places = state.q.as_mut_slice().as_chunks_mut::<3>().0;
+        let put = |planet: usize, place| places[planet + 1] = place;
+        places[0] = to_positions(&self.bodies, before.q.as_slice(), put);
         let p = state.p.as_mut_slice();
         for axis in 0..3 {
             let mut total = p[axis];
@@ -109,9 +116,7 @@ impl Jacobi {
 
     /// The flow of `B`: the second part.
     pub fn kick(&self) -> JacobiKick {
-        JacobiKick {
-            attraction: Attraction::new(self.bodies.clone()),
-        }
+        JacobiKick::new(&self.bodies)
     }
 }
 
@@ -130,18 +135,18 @@ fn to_relative(bodies: &Bodies, p: &mut [f64]) {
     }
 }
 
-/// Positions in space from Jacobi coordinates.
-fn to_positions(bodies: &Bodies, q: &mut [f64]) {
-    let (q, _) = q.as_chunks_mut::<3>();
-    let Some((first, planets)) = q.split_first_mut() else {
-        return;
+/// Hands the positions in space of planets to `put`, the last one first, and returns that of the star.
+#[inline(always)]
+fn to_positions(bodies: &Bodies, q: &[f64], mut put: impl FnMut(usize, [f64; 3])) -> [f64; 3] {
+    let (mut centre, planets) = match q.as_chunks::<3>().0 {
+        [centre, planets @ ..] => (*centre, planets),
+        [] => ([0.0; 3], &[][..]),
     };
-    for (planet, [own, _]) in planets.iter_mut().zip(&bodies.shares[1..]).rev() {
-        for (centre, q) in first.iter_mut().zip(planet) {
-            *centre -= own * *q;
-            *q += *centre;
-        }
+    for (i, (planet, [own, _])) in planets.iter().zip(&bodies.shares[1..]).enumerate().rev() {
+        centre = array(0.0, |axis| centre[axis] - own * planet[axis]);
+        put(i, array(0.0, |axis| centre[axis] + planet[axis]));
     }
+    centre
 }
 
 /// The flow of the gravity between planets in [`Jacobi`] coordinates: a kick.
@@ -151,28 +156,94 @@ fn to_positions(bodies: &Bodies, q: &mut [f64]) {
 /// [`FlowError::Collision`] for bodies in one place, [`FlowError::NonFinite`] for other forces that are not finite, [`FlowError::Dimension`].
 #[derive(Clone, Debug)]
 pub struct JacobiKick {
+    bodies: Bodies,
     attraction: Attraction,
+    /// `G m_i m_0` and `G m_i M_{i−1}`; 0 for the first planet and after the last one.
+    strengths: [Vec<f64>; 2],
+    /// 1 where these are 0.
+    more: Vec<f64>,
+    /// What the strengths do, in Jacobi coordinates.
+    falls: Axes,
+}
+
+impl JacobiKick {
+    fn new(bodies: &Bodies) -> Self {
+        let Bodies {
+            gravity,
+            masses,
+            sums,
+            ..
+        } = bodies;
+        let attraction = Attraction::new(bodies);
+        let length = attraction.forces[0].len();
+        let list = |of: &dyn Fn(usize) -> f64, rest: f64| {
+            let all = (1..=length).map(|i| {
+                let counts = i > 1 && i < masses.len();
+                if counts { of(i) } else { rest }
+            });
+            all.collect()
+        };
+        Self {
+            bodies: bodies.clone(),
+            strengths: [
+                list(&|i| gravity * masses[i] * masses[0], 0.0),
+                list(&|i| gravity * masses[i] * sums[i - 1], 0.0),
+            ],
+            more: list(&|_| 0.0, 1.0),
+            falls: attraction.forces.clone(),
+            attraction,
+        }
+    }
 }
 
 impl<V: Vector<Scalar = f64>> Flow<V> for JacobiKick {
     fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError> {
-        let attraction = &mut self.attraction;
+        let Self {
+            bodies,
+            attraction,
+            strengths: [by_star, by_centre],
+            more,
+            falls,
+        } = self;
         attraction.check(q, p)?;
+        let count = attraction.count();
         let q = q.as_slice();
-        attraction.positions.copy_from_slice(q);
-        to_positions(&attraction.bodies, &mut attraction.positions);
-        attraction.attract(0)?;
-        let Attraction { bodies, forces, .. } = attraction;
-        to_relative(bodies, forces);
-        for i in 2..bodies.masses.len() {
-            let planet = &q[3 * i..3 * i + 3];
-            let square = planet.iter().map(|x| x * x).sum::<f64>();
-            let pull = bodies.gravity * bodies.masses[i] * bodies.sums[i - 1]
-                / (square * Scalar::sqrt(square));
-            for (force, x) in forces[3 * i..].iter_mut().zip(planet) {
-                *force += pull * x;
+        let star = to_positions(bodies, q, |planet, place| attraction.put(planet, place));
+        let planets = &q.as_chunks::<3>().0[1..];
+        let zero = Group::zero();
+        let at: [Group; 3] = array(zero, |axis| Group::from_f64(star[axis]));
+        for first in (0..count).step_by(Group::WIDTH) {
+            let places = attraction.places(first);
+            let more = load_one(more, first);
+            let way = array(zero, |axis| at[axis] - places[axis]);
+            let to_star = pull(load_one(by_star, first), way, more);
+            store(&mut attraction.forces, first, to_star);
+            store(
+                falls,
+                first,
+                pull(load_one(by_centre, first), gather(&planets[first..]), more),
+            );
+        }
+        attraction.attract();
+        // The force on the bodies before a planet is opposite to that on the others.
+        let (mut rest, mut finite) = ([0.0; 3], true);
+        for i in (0..count).rev() {
+            let [own, before] = bodies.shares[i + 1];
+            for axis in 0..3 {
+                let force = attraction.forces[axis][i];
+                rest[axis] += force;
+                let relative = (before * force + own * rest[axis]) + falls[axis][i];
+                falls[axis][i] = relative;
+                finite &= relative.is_finite();
             }
         }
-        self.attraction.kick(span.size, p.as_mut_slice())
+        if !finite {
+            return Err(attraction.failure(Some(star)));
+        }
+        let p = p.as_mut_slice()[3..].as_chunks_mut::<3>().0;
+        for i in 0..count {
+            p[i] = array(0.0, |axis| p[i][axis] + span.size * falls[axis][i]);
+        }
+        Ok(())
     }
 }

@@ -15,7 +15,8 @@
 //! # Rounding
 //!
 //! The universal anomaly is found to the last bits in any case. Steps of less than a third of a period, and of less than a few radii, go in lanes; all
-//! others one by one. Energy and angular momentum, relative to their largest terms, have errors of some ten ε. Where a hyperbola passes its pericentre in
+//! others one by one. Energy and angular momentum, relative to their largest terms, have errors of some ten ε. In many steps of less than a seventh of
+//! a period these have no common sign: their mean is below ε/100, for eccentricities up to 0.3. Where a hyperbola passes its pericentre in
 //! one flow they are larger, up to about `ε(r/a)²` for a fast fall to the centre from the distance r; where half of the digits are lost the flow
 //! fails with [`FlowError::NoOrbit`](super::FlowError::NoOrbit). Over k periods the phase has the error `kε`, and from 2²⁶ periods in one flow on the
 //! error is [`FlowError::Periods`](super::FlowError::Periods). Every body has the same bits for every width of the lanes.
@@ -45,6 +46,7 @@
 mod attraction;
 mod bodies;
 mod drift;
+mod groups;
 mod heliocentric;
 mod in_lanes;
 mod jacobi;

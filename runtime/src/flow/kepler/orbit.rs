@@ -27,27 +27,30 @@ const MOST_PERIODS: f64 = (1_u64 << 26) as f64;
 /// Iterations, each of which halves the change of the one before: more than there are bits and exponents.
 const MOST: u32 = 1200;
 
-/// An orbit: distance, `q·v`, `2μ/r − v²`, μ, and the mass.
+/// An orbit: distance and its reciprocal, `q·v`, `2μ/r − v²`, μ, and the mass with its reciprocal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Orbit<T> {
     pub(super) distance: T,
+    pub(super) inverse: T,
     pub(super) radial: T,
     pub(super) beta: T,
     pub(super) mu: T,
-    pub(super) mass: T,
+    pub(super) mass: [T; 2],
 }
 
 impl<T: Scalar> Orbit<T> {
     #[inline(always)]
-    pub(super) fn new(mu: T, mass: T, q: [T; 3], p: [T; 3]) -> Self {
+    pub(super) fn new(mu: T, mass: [T; 2], q: [T; 3], p: [T; 3]) -> Self {
         let dot = |a: [T; 3], b: [T; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-        let lighter = mass.recip();
         let distance = dot(q, q).sqrt();
+        let inverse = distance.recip();
+        let lighter = mass[1];
         let v = [p[0] * lighter, p[1] * lighter, p[2] * lighter];
         Self {
             distance,
+            inverse,
             radial: dot(q, v),
-            beta: (mu + mu) / distance - dot(v, v),
+            beta: (mu + mu) * inverse - dot(v, v),
             mu,
             mass,
         }
@@ -71,15 +74,14 @@ impl<T: Scalar> Orbit<T> {
     /// The change with `s G` functions `G1`, `G2`, the distance at the end, and g.
     #[inline(always)]
     pub(super) fn change(&self, [g1, g2]: [T; 2], end: T, g: T) -> Change<T> {
-        let Self {
-            distance, mu, mass, ..
-        } = *self;
-        let (inverse, at_end) = (distance.recip(), end.recip());
+        let Self { inverse, mu, .. } = *self;
+        let [mass, lighter] = self.mass;
+        let at_end = end.recip();
         let pull = -mu * g2;
         [
             pull * inverse,
-            g / mass,
-            -mass * mu * g1 * inverse * at_end,
+            g * lighter,
+            -(mass * mu) * (g1 * inverse) * at_end,
             pull * at_end,
         ]
     }
