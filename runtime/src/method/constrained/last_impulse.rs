@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::metric::Point;
-use super::step::{NOISE, PATIENCE, ROUNDING, maximum, result};
+use super::step::{NOISE, PATIENCE, ROUNDING, SETTLED, maximum, result};
 use crate::error::Quantity;
 use crate::method::{Failure, Outcome, Step, StepStatistics, Stopping};
 use crate::number::{Scalar, Summation, Vector};
@@ -71,7 +71,7 @@ impl<T: Scalar> LastImpulse<T> {
                     stage: None,
                 });
             }
-            if residual <= ROUNDING {
+            if residual <= SETTLED || residual <= ROUNDING && sweep > 2 {
                 return Ok(());
             }
             end.normal.solve(&mut self.rates);

@@ -43,6 +43,8 @@ pub(super) struct Workspace<V: Vector> {
     pub(super) defects: Vec<V::Scalar>,
     /// The previous steps of every part of a composition.
     pub(super) histories: Vec<History<V>>,
+    /// Whether the stages of this step start from extrapolated ones.
+    pub(super) extrapolated: bool,
     /// The multipliers at the end of the previous step, which are the starting values of the next without a history.
     pub(super) multipliers: Vec<V::Scalar>,
     pub(super) last_impulse: LastImpulse<V::Scalar>,
@@ -90,6 +92,7 @@ impl<V: Vector> Workspace<V> {
             resolution: Resolution::new(system, q, &gradients),
             metric,
             histories: histories.collect(),
+            extrapolated: false,
             start: point.clone(),
             end: point,
             q: vectors(stages),

@@ -13,6 +13,10 @@ use crate::system::{Class, Gradients, System};
 
 /// A residual of this many units of rounding counts as zero.
 pub(in crate::method) const ROUNDING: f64 = 2.0;
+/// Smaller ones always do; between the two only after a residual that was not much larger. What is left of a residual that still
+/// decreases has a sign, which the energy would follow.
+pub(in crate::method) const SETTLED: f64 = 0.5;
+const STAGNANT: f64 = 16.0;
 /// A residual that no longer decreases is accepted up to this size, in units of rounding.
 pub(in crate::method) const NOISE: f64 = 256.0;
 /// A sweep that leaves more than this fraction of the residual contracts badly.
@@ -62,16 +66,8 @@ impl<V: Vector> Workspace<V> {
             }
         }
         core::mem::swap(&mut self.start, &mut self.end);
-        let extrapolated = self.begin((number, tableau), step, system, &mut work);
-        self.iterate::<R, S>(
-            tableau,
-            step,
-            system,
-            extrapolated,
-            stopping,
-            outcome,
-            &mut work,
-        )?;
+        self.begin((number, tableau), step, system, &mut work);
+        self.iterate::<R, S>(tableau, step, system, stopping, outcome, &mut work)?;
         let momenta = if separable {
             &[]
         } else {
@@ -83,18 +79,18 @@ impl<V: Vector> Workspace<V> {
         Ok(work)
     }
 
-    /// Starting values of the stages and multipliers; returns whether they are extrapolated from previous steps.
+    /// Starting values of the stages and multipliers.
     fn begin<S: System<V>>(
         &mut self,
         (number, tableau): (usize, &ConstrainedTableau),
         step: &Step<'_, V>,
         system: &S,
         work: &mut StepStatistics,
-    ) -> bool {
+    ) {
         let stages = tableau.weights.len();
         let history = &mut self.histories[number];
-        let extrapolated = history.begin(step.size, &mut self.impulses);
-        if !extrapolated {
+        self.extrapolated = history.begin(step.size, &mut self.impulses);
+        if !self.extrapolated {
             let impulses = self.impulses.chunks_exact_mut(self.multipliers.len());
             for (impulses, &weight) in impulses.zip(tableau.weights) {
                 let weight = V::Scalar::weight(step.size, weight);
@@ -127,7 +123,6 @@ impl<V: Vector> Workspace<V> {
             |k| q[k].magnitude() + size * velocity[k].magnitude(),
             &mut self.terms,
         );
-        extrapolated
     }
 
     /// Sweeps until the stages are on the constraints and no longer move. The position after the step is in `outcome`.
@@ -136,7 +131,6 @@ impl<V: Vector> Workspace<V> {
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
         system: &S,
-        extrapolated: bool,
         stopping: Stopping,
         outcome: &mut Outcome<'_, V>,
         work: &mut StepStatistics,
@@ -145,7 +139,7 @@ impl<V: Vector> Workspace<V> {
         let (mut before, mut moved) = (f64::INFINITY, f64::INFINITY);
         let stages = tableau.weights.len();
         // The first sweep with Newton's matrix, which needs good stages.
-        let first = if extrapolated { 1 } else { 2 };
+        let first = if self.extrapolated { 1 } else { 2 };
         // Forces inside the step depend on the multipliers if there are stages between start and end.
         let between = stages > 2 && !self.jacobian_is_costly();
         for sweep in 1..=stopping.max_iterations {
@@ -161,7 +155,7 @@ impl<V: Vector> Workspace<V> {
             };
             let residual = maximum(defect, movement * rate);
             moved = movement;
-            if residual <= ROUNDING {
+            if residual <= SETTLED || residual <= ROUNDING && before <= STAGNANT {
                 return Ok(());
             }
             if residual.is_nan() {
