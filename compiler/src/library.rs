@@ -179,19 +179,19 @@ impl Library {
                 "c",
                 "d",
                 true,
-                "reb_integrator_saba_step: drift by c[i], then interaction by d[i], and back with the same numbers",
+                "reb_integrator_saba_step, and so the steps of leapfrog, JANUS and EOS: drift by c[i], then interaction by d[i], and back with the same numbers",
             ),
             Library::Pyhamsys => (
                 "a",
                 "b",
                 false,
-                "SymplecticIntegrator._integrate_onestep: chi* and chi in turn by alpha_1, alpha_2, …, and back; with two parts, chi*(x) chi(y) is b, a, b",
+                "SymplecticIntegrator._integrate_onestep: chi* and chi in turn by alpha_1, alpha_2, …, and back (version 0.88); with two parts, chi*(x) chi(y) is b, a, b",
             ),
             Library::PyhamsysDriftFirst => (
                 "b",
                 "a",
                 true,
-                "README: chi is exp(h X_A) exp(h X_B) for PEFRL, with H = A(p) + B(q); SymplecticIntegrator._integrate_onestep begins with chi*",
+                "README: chi is exp(h X_A) exp(h X_B) for these methods, with H = A(p) + B(q); SymplecticIntegrator._integrate_onestep begins with chi* (version 0.88)",
             ),
             Library::RungeKuttaJl | Library::Nodepy => return None,
         };

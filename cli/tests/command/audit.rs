@@ -1,5 +1,6 @@
 //! What the tables of other libraries claim and what is proved of them.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::run::{failure, symplectic};
@@ -58,6 +59,25 @@ fn the_libraries_differ_from_their_claims_where_it_is_known() {
             "{row}"
         );
     }
+    let mut tables: BTreeMap<String, usize> = BTreeMap::new();
+    for row in rows {
+        *tables.entry(text(row, "library")).or_default() += 1;
+    }
+    let tables: Vec<String> = tables
+        .into_iter()
+        .map(|(library, count)| format!("{library}: {count}"))
+        .collect();
+    expect_test::expect![[r#"
+        Boost.Numeric.Odeint: 3
+        OrdinaryDiffEqSymplecticRK of SciML: 18
+        PETSc TSBASICSYMPLECTIC: 8
+        Principia: 31
+        REBOUND: 21
+        RungeKutta.jl: 79
+        SUNDIALS ARKODE SPRKStep: 12
+        nodepy: 2
+        pyHamSys: 19"#]]
+    .assert_eq(&tables.join("\n"));
     let mut differences: Vec<String> = Vec::new();
     for row in rows.iter().filter(|row| row["verdict"] != "as_claimed") {
         differences.push(format!(
@@ -74,6 +94,22 @@ fn the_libraries_differ_from_their_claims_where_it_is_known() {
         ));
     }
     expect_test::expect![[r#"
+        RK42: 4 general, proved 1 for T(p) + U(q), 1 for quadratic T, not q[q]
+        LobattoIIIF(2): 4 general, proved 2 for T(p) + U(q), 2 for quadratic T, not q[q,q]
+        LobattoIIIF(3): 6 general, proved 4 for T(p) + U(q), 4 for quadratic T, not q[q^4]
+        LobattoIIIF(4): 8 general, proved 6 for T(p) + U(q), 6 for quadratic T, not q[q^6]
+        LobattoIIIF̄(2): 4 general, proved 2 for T(p) + U(q), 2 for quadratic T, not q[q,q]
+        LobattoIIIF̄(3): 6 general, proved 4 for T(p) + U(q), 4 for quadratic T, not q[q^4]
+        LobattoIIIF̄(4): 8 general, proved 6 for T(p) + U(q), 6 for quadratic T, not q[q^6]
+        LobattoIIIG(2): 4 general, proved 2 for T(p) + U(q), 2 for quadratic T, not q[q,q]
+        LobattoIIIG(3): 6 general, proved 4 for T(p) + U(q), 4 for quadratic T, not q[q^4]
+        LobattoIIIG(4): 8 general, proved 6 for T(p) + U(q), 6 for quadratic T, not q[q^6]
+        LobattoIIIFIIIF̄(2): 4 general, proved 2 for T(p) + U(q), 2 for quadratic T, not q[q,q]
+        LobattoIIIFIIIF̄(3): 6 general, proved 4 for T(p) + U(q), 4 for quadratic T, not q[q^4]
+        LobattoIIIFIIIF̄(4): 8 general, proved 6 for T(p) + U(q), 6 for quadratic T, not q[q^6]
+        LobattoIIIF̄IIIF(2): 4 general, proved 2 for T(p) + U(q), 2 for quadratic T, not q[q,q]
+        LobattoIIIF̄IIIF(3): 6 general, proved 4 for T(p) + U(q), 4 for quadratic T, not q[q^4]
+        LobattoIIIF̄IIIF(4): 8 general, proved 6 for T(p) + U(q), 6 for quadratic T, not q[q^6]
         KraaijevangerSpijker: 2 general, proved 1 for T(p) + U(q), 1 for quadratic T, not q[q]
         McAte4: 4 nystrom, proved 3 for T(p) + U(q), 3 for quadratic T, not p[q,q,q]
         CalvoSanz4: 4 separable, proved 3 for T(p) + U(q), 3 for quadratic T, not p[q,q,q]
@@ -148,6 +184,33 @@ fn the_order_of_chi_decides() {
     assert_eq!((kick.separable.order, drift.separable.order), (2, 2));
 }
 
+/// The methods of pyHamSys for quadratic T have order 4 instead of 6 where the other part goes first.
+#[test]
+fn nystrom_methods_need_their_order_of_flows() {
+    for (own, other, name) in [
+        ("pyhamsys", "pyhamsys-drift-first", "RKN6b"),
+        ("pyhamsys-drift-first", "pyhamsys", "RKN6a"),
+    ] {
+        let text = std::fs::read_to_string(format!("{FOLDER}/{own}.toml")).expect("read");
+        let at = text
+            .find(&format!("[[table]]\nname = \"{name}\""))
+            .expect(name);
+        let end = text[at + 1..]
+            .find("[[table]]")
+            .map_or(text.len(), |end| at + 1 + end);
+        for (convention, order) in [(own, 6), (other, 4)] {
+            let head = format!(
+                "library = \"L\"\nversion = \"V\"\nsource = \"S\"\nconvention = \"{convention}\"\n"
+            );
+            let mut audit = Audit::default();
+            audit
+                .add("tables.toml", &(head + &text[at..end]), &Limits::default())
+                .expect("a row");
+            assert_eq!(audit.rows[0].nystrom.order, order, "{name} {convention}");
+        }
+    }
+}
+
 /// Whether the proof has the claimed order depends on who goes first, and on each digit.
 #[test]
 fn order_of_flows_and_digits_decide() {
@@ -207,6 +270,50 @@ fn order_of_flows_and_digits_decide() {
     assert!(
         wrong.nystrom.order <= 1 && wrong.verdict == Verdict::LessThanClaimed,
         "{wrong:?}"
+    );
+}
+
+/// The table RK42 of RungeKutta.jl has order 1 for one wrong entry: Butcher (2016), p. 102, has 2 in its place.
+#[test]
+fn one_entry_costs_three_orders() {
+    let claim = "convention = \"rungekutta.jl\"";
+    let row = |entry| {
+        let numbers = format!(
+            "a = [\"0\", \"0\", \"0\", \"0\", \"1/4\", \"0\", \"0\", \"0\", \"0\", \"1/2\", \"0\", \"0\", \"1\", \"-2\", \"{entry}\", \"0\"]\n\
+             b = [\"1/6\", \"0\", \"2/3\", \"1/6\"]"
+        );
+        table(claim, "order = 4\nclass = \"general\"", &numbers).expect("a row")
+    };
+    let (butcher, library) = (row("2"), row("1"));
+    assert_eq!(
+        (butcher.general.order, butcher.verdict),
+        (4, Verdict::AsClaimed)
+    );
+    assert_eq!(
+        (library.general.order, library.verdict, library.explained),
+        (1, Verdict::LessThanClaimed, true)
+    );
+    // Σ b c − 1/2 with the last c 0 instead of 1.
+    assert_eq!(library.general.residual.as_deref(), Some("-1/6"));
+}
+
+/// The Lobatto weights integrate polynomials to degree 2s − 3, so that no method with them and C(s − 1) has the order 2s that
+/// RungeKutta.jl claims of Lobatto IIIF: Σ b c² is 1/2 instead of 1/3 with two stages.
+#[test]
+fn lobatto_weights_bound_the_order() {
+    let row = table(
+        "convention = \"rungekutta.jl\"",
+        "order = 4\nclass = \"general\"",
+        "a = [\"1/12\", \"-1/12\", \"7/12\", \"5/12\"]\nb = [\"1/2\", \"1/2\"]",
+    )
+    .expect("a row");
+    assert_eq!((row.general.order, row.explained), (2, true));
+    assert_eq!(
+        (
+            row.general.violated.as_deref(),
+            row.general.residual.as_deref()
+        ),
+        (Some("q[q,q]"), Some("1/6"))
     );
 }
 
