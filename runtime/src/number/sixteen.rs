@@ -187,6 +187,18 @@ impl Lanes for F64x16 {
         let [a, b] = self.0.map(Lanes::any_nan);
         a | b
     }
+
+    #[inline(always)]
+    fn at_most(self, other: Self) -> u32 {
+        let (Self([a, b]), Self([c, d])) = (self, other);
+        a.at_most(c) | b.at_most(d) << F64x8::WIDTH
+    }
+
+    #[inline(always)]
+    fn below(self, other: Self) -> u32 {
+        let (Self([a, b]), Self([c, d])) = (self, other);
+        a.below(c) | b.below(d) << F64x8::WIDTH
+    }
 }
 
 #[cfg(not(target_feature = "avx512f"))]
