@@ -3,6 +3,8 @@
 use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
+use super::coupled::Coupled;
+use super::run::Way;
 use super::{Ensemble, Row};
 use crate::error::Error;
 use crate::integrator::Integrator;
@@ -27,19 +29,19 @@ pub(super) enum Task<'a> {
 /// A few trajectories of an ensemble.
 pub(super) struct Group<'a, M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L, A>
 {
-    ensemble: &'a Ensemble<M, S, V, R, N, L>,
-    members: Vec<Member<M, S, V, R, N, A>>,
+    pub(super) ensemble: &'a Ensemble<M, S, V, R, N, L>,
+    pub(super) members: Vec<Member<M, S, V, R, N, A>>,
 }
 
-struct Member<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, A> {
+pub(super) struct Member<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, A> {
     trajectory: usize,
-    run: Integrator<M, S, V, R, N>,
-    output: A,
-    outcome: Result<(), Error>,
+    pub(super) run: Integrator<M, S, V, R, N>,
+    pub(super) output: A,
+    pub(super) outcome: Result<(), Error>,
 }
 
 /// Outcome of an attempt to run in lanes.
-enum Attempt {
+pub(super) enum Attempt {
     /// All trajectories have ended.
     Ended,
     /// The ensemble was stopped.
@@ -95,7 +97,7 @@ where
         task: &Task<'_>,
         see: &impl Fn(&mut A, &State<V>),
     ) -> ControlFlow<()> {
-        let tried = match self.members.len() > 1 && self.ensemble.goes_in_lanes() {
+        let tried = match self.members.len() > 1 && self.ensemble.way() != Way::Alone {
             true => S::over_lanes::<L, _>(SideBySide {
                 group: self,
                 task,
@@ -189,6 +191,10 @@ where
         let Some(zeros) = same::<_, W>(&like) else {
             return Attempt::Refused;
         };
+        if self.group.ensemble.way() == Way::Coupled {
+            let coupled = Coupled::new(self.group, self.see, zeros);
+            return coupled.map_or(Attempt::Refused, |coupled| coupled.run(self.task));
+        }
         let mut lanes: InLanes<M, S, W, R> = first.over_lanes(zeros);
         let mut live: Vec<usize> = (0..self.group.members.len()).collect();
         self.put_in_lanes(&mut lanes, &live);

@@ -13,12 +13,16 @@
 //!
 //! # Lanes
 //!
-//! Explicit methods advance as many trajectories at once as there are [lanes](Ensemble::in_lanes), if the system is
-//! written for every [`Scalar`](crate::Scalar). The trajectories in the lanes have the same system, the same start time
-//! and consecutive numbers.
+//! A method advances as many trajectories at once as there are [lanes](Ensemble::in_lanes), if the system is written for
+//! every [`Scalar`](crate::Scalar). The trajectories in the lanes have the same system, the same start time and
+//! consecutive numbers.
 //!
-//! All other trajectories run one by one: those of implicit methods, whose stages already use the lanes; those of
-//! closures; and those with a [system](Ensemble::of_families) of their own.
+//! With coupled stages every sweep of the default solver computes the stages of all trajectories, and a trajectory whose
+//! stages have settled waits for the others. A trajectory takes a step alone, and returns to its lane, where its stages
+//! do not settle as after a usual warm start: in its first step, in slow and in failing iterations.
+//!
+//! All other trajectories run one by one: those with another solver, with constraints or with a composition of implicit
+//! methods; those of closures and chains; and those with a [system](Ensemble::of_families) of their own.
 //!
 //! A system rounds differently in lanes if it depends on the number type, as products of large matrices in nalgebra do.
 //! So velocity and force are compared at every start, and trajectories run one by one where they differ. A system for
@@ -33,6 +37,7 @@
 #[cfg(feature = "serde")]
 mod as_bits;
 mod checkpoint;
+mod coupled;
 mod error;
 #[cfg(any(feature = "npz", feature = "parquet"))]
 mod facts;
@@ -481,8 +486,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
     }
 
     /// Stops a run as soon as `stop` returns true; typically it reads a flag. Every thread calls it before each
-    /// trajectory, and for trajectories in lanes before each block of at most 65 536 steps. The steps of an implicit
-    /// method do not call it.
+    /// trajectory, and for trajectories in lanes before each block of at most 65 536 steps; with coupled stages, of 1024.
     ///
     /// Unfinished trajectories have no row.
     ///

@@ -13,6 +13,17 @@ use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::state::State;
 use crate::system::{LaneWork, System};
 
+/// How trajectories run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    /// One by one.
+    Alone,
+    /// In lanes, with explicit steps.
+    Explicit,
+    /// In lanes, with coupled stages.
+    Coupled,
+}
+
 /// Empty work over lanes, to test whether a system is defined over lanes.
 struct Known;
 
@@ -146,9 +157,9 @@ where
         see: impl Fn(&mut A, &State<V>) + Sync,
         show: impl FnMut(Row<V, A>) -> ControlFlow<()>,
     ) -> usize {
-        let width = match self.goes_in_lanes() {
-            true => L::WIDTH,
-            false => 1,
+        let width = match self.way() {
+            Way::Alone => 1,
+            Way::Explicit | Way::Coupled => L::WIDTH,
         };
         let rows = |place: Range<usize>| {
             let mut group = Group::new(self, place, &output);
@@ -160,16 +171,19 @@ where
         self.show_all(width, rows, show)
     }
 
-    /// Whether trajectories can run in lanes.
-    pub(super) fn goes_in_lanes(&self) -> bool {
-        self.in_lanes
-            && V::Scalar::IS_DOUBLE
-            && Integrator::<M, S, V, R, N>::LANEWISE
-            && self
-                .tableau
-                .as_ref()
-                .is_none_or(RunTimeTableau::is_explicit)
-            && S::over_lanes::<L, _>(Known).is_some()
+    /// How trajectories run.
+    pub(super) fn way(&self) -> Way {
+        let possible =
+            self.in_lanes && V::Scalar::IS_DOUBLE && S::over_lanes::<L, _>(Known).is_some();
+        let explicit = self
+            .tableau
+            .as_ref()
+            .is_none_or(RunTimeTableau::is_explicit);
+        match possible {
+            true if Integrator::<M, S, V, R, N>::LANEWISE && explicit => Way::Explicit,
+            true if Integrator::<M, S, V, R, N>::goes_in_lanes() => Way::Coupled,
+            _ => Way::Alone,
+        }
     }
 
     /// Runs all groups of at most `width` trajectories and passes their rows to `show`; a stopped group has no rows.

@@ -12,7 +12,7 @@ use crate::system::System;
 impl<S: System<V>, V: Vector> Ensemble<AtRunTime, S, V> {
     /// [`new`](Ensemble::new) with a tableau at run time and with [`Compensated`](crate::Compensated) sums.
     ///
-    /// Trajectories of an explicit tableau and a separable system run in lanes. Each has the same bits as alone in
+    /// Trajectories run in lanes, whether the stages are explicit or coupled. Each has the same bits as alone in
     /// [`Integrator::at_run_time`](crate::Integrator::at_run_time).
     ///
     /// # Errors

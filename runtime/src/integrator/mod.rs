@@ -10,6 +10,8 @@ pub(crate) mod statistics;
 
 #[cfg(feature = "alloc")]
 pub use checkpoint::{Checkpoint, CheckpointError};
+#[cfg(feature = "alloc")]
+pub(crate) use in_lanes::CoupledLanes;
 pub use retry::Retry;
 pub use statistics::Statistics;
 
@@ -32,6 +34,8 @@ use crate::system::{Class, System};
 
 #[cfg(feature = "alloc")]
 pub(crate) mod checkpoint;
+#[cfg(feature = "alloc")]
+mod in_lanes;
 mod many_steps;
 mod memory;
 mod one_step;

@@ -30,6 +30,15 @@ impl Leg {
     pub(crate) const fn is_done(&self) -> bool {
         self.left == 0
     }
+
+    /// The size of the next step and the time after it, if a step is left; the step counts as taken.
+    pub(crate) fn next_step(&mut self) -> Option<(f64, f64)> {
+        self.left = self.left.checked_sub(1)?;
+        let end = self.end.filter(|_| self.left == 0);
+        let time = end.unwrap_or_else(|| self.clock.next());
+        self.clock.tick();
+        Some((self.size, time))
+    }
 }
 
 /// A saved position of a run.
@@ -65,6 +74,16 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             clock: Clock::new(start, size),
             end: Some(end),
         })
+    }
+
+    /// Whether steps of several runs are taken in [`CoupledLanes`](crate::integrator::CoupledLanes).
+    pub(crate) fn goes_in_lanes() -> bool {
+        <PlanOf<M, S, V> as Plan>::goes_in_lanes::<V, S, N>()
+    }
+
+    /// The times of the steps.
+    pub(crate) const fn clock(&self) -> Clock {
+        self.clock
     }
 
     /// Number of steps of a leg that are taken at once.
@@ -215,7 +234,10 @@ fn words_of<V: Vector, T: StageStorage<V>>(course: &mut StepMemory<V, T>) -> Vec
 }
 
 /// The words of velocity and force at a state.
-fn evaluations<V: Vector, S: System<V>>(system: &S, State { time, q, p }: &State<V>) -> Vec<u64> {
+pub(crate) fn evaluations<V: Vector, S: System<V>>(
+    system: &S,
+    State { time, q, p }: &State<V>,
+) -> Vec<u64> {
     let time = V::Scalar::from_f64(*time);
     let mut found = [q.zeros_like(), q.zeros_like()];
     let [velocity, force] = &mut found;

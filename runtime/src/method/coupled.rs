@@ -6,6 +6,10 @@ use crate::method::{
     EvaluationObserver, Failure, Inside, Interpolation, Outcome, Plan, Solver, StageTableau, Step,
     StepStatistics, Stopping, WarmStart,
 };
+#[cfg(feature = "alloc")]
+use crate::method::{LaneMemory, LaneOutcome};
+#[cfg(feature = "alloc")]
+use crate::number::Lanes;
 use crate::number::{Summation, Vector};
 use crate::system::System;
 
@@ -33,6 +37,37 @@ impl<P: StageTableau> Plan for Coupled<P> {
         N: Solver<V, S>,
     {
         N::take::<P, R>(step, system, memory, kept, stopping, outcome)
+    }
+
+    #[cfg(feature = "alloc")]
+    #[inline]
+    fn goes_in_lanes<V, S, N>() -> bool
+    where
+        V: Vector,
+        S: System<V, Class = P::Class>,
+        N: Solver<V, S>,
+    {
+        N::goes_in_lanes()
+    }
+
+    #[cfg(feature = "alloc")]
+    #[inline]
+    fn take_in_lanes<R, V, S, N, W>(
+        step: &Step<'_, W>,
+        system: &S,
+        memory: &mut LaneMemory<W>,
+        live: u32,
+        stopping: Stopping,
+        outcome: Outcome<'_, W>,
+    ) -> Option<LaneOutcome<W::Scalar>>
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = P::Class> + System<W, Class = P::Class>,
+        N: Solver<V, S>,
+        W: Vector<Scalar: Lanes>,
+    {
+        N::take_in_lanes::<P, R, W>(step, system, memory, live, stopping, outcome)
     }
 
     /// Does nothing: the evaluations are in the memory.

@@ -12,6 +12,8 @@ pub(crate) mod explicit;
 pub(crate) mod interpolation;
 pub(crate) mod kick_drift;
 #[cfg(feature = "alloc")]
+pub(crate) mod lane_stages;
+#[cfg(feature = "alloc")]
 pub(crate) mod nonholonomic;
 pub(crate) mod proved;
 #[cfg(feature = "alloc")]
@@ -41,6 +43,8 @@ pub use explicit::Explicit;
 pub use interpolation::{Inside, Interpolation};
 pub use kick_drift::{Drift, Force, KickDrift};
 #[cfg(feature = "alloc")]
+pub use lane_stages::{LaneMemory, LaneOutcome, LaneStages, StagePart, StageVisit};
+#[cfg(feature = "alloc")]
 pub use nonholonomic::{NonholonomicPlan, NonholonomicStages, consistent_momentum};
 pub use proved::{LowerOrder, Orders, ProvedFor, Symmetry};
 #[cfg(feature = "alloc")]
@@ -63,6 +67,8 @@ pub use work::{Failure, StepStatistics};
 use core::fmt::Debug;
 
 use crate::error::Error;
+#[cfg(feature = "alloc")]
+use crate::number::Lanes;
 use crate::number::{Coefficients, Scalar, Summation, Vector};
 use crate::system::{Class, General, Separable, System};
 
@@ -192,6 +198,42 @@ pub trait Plan {
         V: Vector,
         S: System<V, Class = Self::Class>,
         N: Solver<V, S>;
+
+    /// Whether steps are taken [in lanes](Self::take_in_lanes).
+    #[cfg(feature = "alloc")]
+    #[doc(hidden)]
+    #[inline]
+    fn goes_in_lanes<V, S, N>() -> bool
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
+        false
+    }
+
+    /// Takes a step of the trajectories in the lanes `live`, after a step that has left its stages in `memory`; writes the results of those
+    /// whose stages settle into `outcome`. They have the bits of [`take`](Self::take) with the solver `N`. `None` if that is impossible.
+    #[cfg(feature = "alloc")]
+    #[doc(hidden)]
+    #[inline]
+    fn take_in_lanes<R, V, S, N, W>(
+        _step: &Step<'_, W>,
+        _system: &S,
+        _memory: &mut LaneMemory<W>,
+        _live: u32,
+        _stopping: Stopping,
+        _outcome: Outcome<'_, W>,
+    ) -> Option<LaneOutcome<W::Scalar>>
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Self::Class> + System<W, Class = Self::Class>,
+        N: Solver<V, S>,
+        W: Vector<Scalar: Lanes>,
+    {
+        None
+    }
 
     /// Takes a step from `state`, in place, with the evaluations [kept](WarmStart::evaluation) by the previous step. Does nothing if
     /// [`EVALUATIONS_IN_PLACE`](Self::EVALUATIONS_IN_PLACE) is `None`. `kick_drift` may defer a force and kicks.

@@ -2,11 +2,13 @@
 
 use core::fmt::Debug;
 
-#[cfg(feature = "alloc")]
-use crate::method::RunTimeStages;
 use crate::method::{
     Failure, Inside, Outcome, StageStorage, StageTableau, Step, StepStatistics, Stopping, WarmStart,
 };
+#[cfg(feature = "alloc")]
+use crate::method::{LaneMemory, LaneOutcome, RunTimeStages};
+#[cfg(feature = "alloc")]
+use crate::number::Lanes;
 use crate::number::{Summation, Vector};
 #[cfg(feature = "alloc")]
 use crate::system::Class;
@@ -72,6 +74,56 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
             );
         }
         Ok(StepStatistics::default())
+    }
+
+    /// Whether several trajectories can run [in lanes](Self::take_in_lanes).
+    #[cfg(feature = "alloc")]
+    #[doc(hidden)]
+    #[inline]
+    fn goes_in_lanes() -> bool {
+        false
+    }
+
+    /// [`Plan::take_in_lanes`](crate::emitted::Plan::take_in_lanes)
+    #[cfg(feature = "alloc")]
+    #[doc(hidden)]
+    #[inline]
+    fn take_in_lanes<P, R, W>(
+        _step: &Step<'_, W>,
+        _system: &S,
+        _memory: &mut LaneMemory<W>,
+        _live: u32,
+        _stopping: Stopping,
+        _outcome: Outcome<'_, W>,
+    ) -> Option<LaneOutcome<W::Scalar>>
+    where
+        P: StageTableau,
+        R: Summation,
+        S: System<V, Class = P::Class> + System<W, Class = P::Class>,
+        W: Vector<Scalar: Lanes>,
+    {
+        None
+    }
+
+    /// [`take_in_lanes`](Self::take_in_lanes) of a tableau at run time.
+    #[cfg(feature = "alloc")]
+    #[doc(hidden)]
+    #[inline]
+    fn take_in_lanes_at_run_time<C, R, W>(
+        _step: &Step<'_, W>,
+        _system: &S,
+        _memory: &mut LaneMemory<W>,
+        _live: u32,
+        _stopping: Stopping,
+        _outcome: Outcome<'_, W>,
+    ) -> Option<LaneOutcome<W::Scalar>>
+    where
+        C: Class,
+        R: Summation,
+        S: System<V, Class = C> + System<W, Class = C>,
+        W: Vector<Scalar: Lanes>,
+    {
+        None
     }
 
     /// Adds to `q` and `p` their deviations from the straight line between the ends of the last step. These come from the

@@ -4,7 +4,7 @@ use core::array;
 
 use crate::error::Quantity;
 #[cfg(feature = "alloc")]
-use crate::method::RunTimeTableau;
+use crate::method::{RunTimeTableau, StageVisit};
 use crate::number::{Scalar, Vector, Visit, vector_words};
 
 /// Memory of one [`Plan`](crate::emitted::Plan), made once and used for every step.
@@ -46,6 +46,11 @@ pub trait StageStorage<V: Vector>: Sized + Clone {
 
     /// Passes all numbers that a step leaves for the next one to `visit`: a checkpoint holds them.
     fn words(&mut self, visit: &mut Visit<'_>);
+
+    /// Shows `visit` the stages that can run [in lanes](crate::ensemble::Ensemble::in_lanes), if there are any.
+    #[cfg(feature = "alloc")]
+    #[doc(hidden)]
+    fn stages(&mut self, _visit: &mut StageVisit<'_>) {}
 
     /// The first evaluation that is not finite although its stage value is: the quantity and the number of the stage, from 1. If a force
     /// and a velocity have the same number, the force. `None` if stages are not stored.

@@ -60,6 +60,23 @@ pub trait Lanes: Scalar {
 
     /// The number of `yes` in the lanes where this one is below `bound`, and that of `no` in the others; also where one of them is NaN.
     fn if_below(self, bound: Self, yes: Self, no: Self) -> Self;
+
+    /// The lanes in which the first number is at most the second, as bits; not those with NaN.
+    fn at_most(self, other: Self) -> u32;
+
+    /// The lanes in which the first number is below the second, as bits; not those with NaN.
+    fn below(self, other: Self) -> u32;
+
+    /// The numbers of `yes` in the lanes whose bits are set, and those of `no` in the others.
+    #[inline(always)]
+    fn select(lanes: u32, yes: Self, no: Self) -> Self {
+        let (yes, no) = (yes.to_array(), no.to_array());
+        Self::from_fn(|lane| {
+            let mask = u64::from(lanes >> lane & 1).wrapping_neg();
+            let (yes, no) = (yes.as_ref()[lane].to_bits(), no.as_ref()[lane].to_bits());
+            f64::from_bits(yes & mask | no & !mask)
+        })
+    }
 }
 
 /// The lanes of one group, from a list over the stages.
@@ -334,6 +351,16 @@ macro_rules! lanes {
             fn if_below(self, bound: Self, yes: Self, no: Self) -> Self {
                 Self(self.0.simd_lt(bound.0).bitselect(yes.0, no.0))
             }
+
+            #[inline(always)]
+            fn at_most(self, other: Self) -> u32 {
+                self.0.simd_le(other.0).to_bitmask()
+            }
+
+            #[inline(always)]
+            fn below(self, other: Self) -> u32 {
+                self.0.simd_lt(other.0).to_bitmask()
+            }
         }
     };
 }
@@ -392,6 +419,37 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Compares all pairs of numbers, one per lane, and selects by the result.
+    fn compare<L: Lanes>() {
+        let numbers = [f64::NEG_INFINITY, -1.0, 0.0, 1.0, f64::INFINITY, f64::NAN];
+        let count = numbers.len();
+        for first in 0..count * count {
+            let number = |side: usize, lane: usize| {
+                let pair = (first + lane) % (count * count);
+                numbers[[pair / count, pair % count][side]]
+            };
+            let [a, b] = [0, 1].map(|side| L::from_fn(|lane| number(side, lane)));
+            let (at_most, below) = (a.at_most(b), a.below(b));
+            let chosen = L::select(below, a, b).to_array();
+            assert_eq!(at_most >> L::WIDTH | below >> L::WIDTH, 0);
+            for lane in 0..L::WIDTH {
+                let (a, b) = (number(0, lane), number(1, lane));
+                assert_eq!(at_most >> lane & 1 == 1, a <= b, "{a} {b}");
+                assert_eq!(below >> lane & 1 == 1, a < b, "{a} {b}");
+                let expected = if a < b { a } else { b };
+                assert_eq!(chosen.as_ref()[lane].to_bits(), expected.to_bits());
+            }
+        }
+    }
+
+    #[test]
+    fn lanes_are_compared_one_by_one() {
+        compare::<F64x2>();
+        compare::<F64x4>();
+        compare::<F64x8>();
+        compare::<crate::number::F64x16>();
     }
 
     #[test]

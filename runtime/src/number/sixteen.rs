@@ -194,6 +194,18 @@ impl Lanes for F64x16 {
         let (Self([e, f]), Self([g, h])) = (yes, no);
         Self([a.if_below(c, e, g), b.if_below(d, f, h)])
     }
+
+    #[inline(always)]
+    fn at_most(self, other: Self) -> u32 {
+        let (Self([a, b]), Self([c, d])) = (self, other);
+        a.at_most(c) | b.at_most(d) << F64x8::WIDTH
+    }
+
+    #[inline(always)]
+    fn below(self, other: Self) -> u32 {
+        let (Self([a, b]), Self([c, d])) = (self, other);
+        a.below(c) | b.below(d) << F64x8::WIDTH
+    }
 }
 
 #[cfg(not(target_feature = "avx512f"))]

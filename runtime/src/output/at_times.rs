@@ -64,11 +64,7 @@ where
     check(steps, times)?;
     let direction = steps.direction();
     let mut rest = times;
-    let mut output = Output {
-        ends: Ends::new(),
-        state: steps.integrator().state().clone(),
-        direction,
-    };
+    let mut output = Output::new(steps.integrator(), direction);
     output.show(steps.integrator(), &mut rest, observe)?;
     while !rest.is_empty() {
         steps.step_in_sight(|integrator| output.show(integrator, &mut rest, observe))?;
@@ -104,7 +100,7 @@ pub(crate) fn check_times(direction: f64, times: &[f64], mut before: f64) -> Res
 }
 
 /// Storage for interpolated output.
-struct Output<V> {
+pub(crate) struct Output<V> {
     ends: Ends<V>,
     state: State<V>,
     /// The sign of the step size.
@@ -112,8 +108,30 @@ struct Output<V> {
 }
 
 impl<V: Vector> Output<V> {
+    /// Storage for states like the present one of an integrator; `direction` has the sign of the step size.
+    pub(crate) fn new<M, S, R, N>(integrator: &Integrator<M, S, V, R, N>, direction: f64) -> Self
+    where
+        M: Method,
+        S: System<V>,
+        R: Summation,
+        N: Solver<V, S>,
+    {
+        Self {
+            ends: Ends::new(),
+            state: integrator.state().clone(),
+            direction,
+        }
+    }
+
+    /// Removes the output times up to the time `present` from the list.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn skip(&self, times: &mut &[f64], present: f64) {
+        let seen = (times.iter()).take_while(|&&time| !is_after(self.direction, time, present));
+        *times = &times[seen.count()..];
+    }
+
     /// Observes the states at the output times up to the present time and removes these times from the list.
-    fn show<M, S, R, N>(
+    pub(crate) fn show<M, S, R, N>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
         times: &mut &[f64],

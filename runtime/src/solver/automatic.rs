@@ -3,16 +3,20 @@
 use core::fmt;
 
 use crate::error::Quantity;
-#[cfg(feature = "alloc")]
-use crate::method::RunTimeStages;
 use crate::method::{
     Failure, Inside, Outcome, Solver, StageStorage, StageTableau, Step, StepStatistics, Stopping,
     WarmStart,
 };
+#[cfg(feature = "alloc")]
+use crate::method::{LaneMemory, LaneOutcome, RunTimeStages, StageVisit};
+#[cfg(feature = "alloc")]
+use crate::number::Lanes;
 use crate::number::vector::{same, same_mut};
 use crate::number::{Scalar, Summation, Vector, Visit};
 use crate::solver::FixedPoint;
 use crate::solver::fixed_point::by_stages;
+#[cfg(feature = "alloc")]
+use crate::solver::in_lanes;
 use crate::solver::nystrom::{self, NystromStages, nystrom};
 #[cfg(feature = "alloc")]
 use crate::solver::run_time::by_rows;
@@ -82,6 +86,13 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> StageStorage<V>
         match self {
             Self::InLanes(stages) => stages.words(visit),
             Self::OneByOne(stages) => stages.words(visit),
+        }
+    }
+
+    #[cfg(feature = "alloc")]
+    fn stages(&mut self, visit: &mut StageVisit<'_>) {
+        if let Self::InLanes(stages) = self {
+            stages.stages(visit);
         }
     }
 
@@ -165,6 +176,50 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
         S: System<V, Class = C>,
     {
         by_rows::<C, R, V, S>(step, system, memory, kept, stopping, outcome)
+    }
+
+    #[cfg(feature = "alloc")]
+    fn goes_in_lanes() -> bool {
+        V::Scalar::IS_DOUBLE && !<S as System<V>>::LOCAL_FORCE
+    }
+
+    #[cfg(feature = "alloc")]
+    #[inline]
+    fn take_in_lanes<P, R, W>(
+        step: &Step<'_, W>,
+        system: &S,
+        memory: &mut LaneMemory<W>,
+        live: u32,
+        stopping: Stopping,
+        outcome: Outcome<'_, W>,
+    ) -> Option<LaneOutcome<W::Scalar>>
+    where
+        P: StageTableau,
+        R: Summation,
+        S: System<V, Class = P::Class> + System<W, Class = P::Class>,
+        W: Vector<Scalar: Lanes>,
+    {
+        let taken = in_lanes::take::<P, R, W, S>(step, system, memory, live, stopping, outcome);
+        Some(taken)
+    }
+
+    #[cfg(feature = "alloc")]
+    #[inline]
+    fn take_in_lanes_at_run_time<C, R, W>(
+        step: &Step<'_, W>,
+        system: &S,
+        memory: &mut LaneMemory<W>,
+        live: u32,
+        stopping: Stopping,
+        outcome: Outcome<'_, W>,
+    ) -> Option<LaneOutcome<W::Scalar>>
+    where
+        C: Class,
+        R: Summation,
+        S: System<V, Class = C> + System<W, Class = C>,
+        W: Vector<Scalar: Lanes>,
+    {
+        in_lanes::take_at_run_time::<C, R, W, S>(step, system, memory, live, stopping, outcome)
     }
 
     fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {

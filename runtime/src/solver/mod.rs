@@ -4,6 +4,8 @@ pub(crate) mod automatic;
 pub(crate) mod convergence;
 pub(crate) mod fixed_point;
 #[cfg(feature = "alloc")]
+pub(crate) mod in_lanes;
+#[cfg(feature = "alloc")]
 pub(crate) mod newton;
 pub(crate) mod nystrom;
 pub(crate) mod predictor;

@@ -281,7 +281,7 @@ fn value<R: Summation, T: Scalar>(base: T, low: T, row: &Row, term: impl Fn(usiz
 
 /// `out = base + low + Σ increments`, over the evaluations that enter the result, with the rounding error of the sum in `out_low`.
 #[inline]
-fn total<R: Summation, V: Vector>(
+pub(crate) fn total<R: Summation, V: Vector>(
     (out, out_low): (&mut V, &mut V),
     (base, low): (&V, &V),
     half: &Half,

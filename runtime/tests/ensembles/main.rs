@@ -4,6 +4,7 @@
 mod common;
 
 mod bits;
+mod coupled;
 mod errors;
 mod failures;
 mod outputs;

@@ -17,7 +17,7 @@ use crate::systems::{Bits, HenonHeiles, alone, keep, starts, words};
 const SYSTEM: HenonHeiles = HenonHeiles { amplitude: 0.02 };
 
 /// The coefficients of an emitted method as a value.
-fn tableau<M: Method>(_method: M) -> RunTimeTableau {
+pub fn tableau<M: Method>(_method: M) -> RunTimeTableau {
     let list = |list: &[Coefficient]| list.iter().map(|x| x.double()).collect();
     let matrix = |rows: &[&[Coefficient]]| rows.iter().map(|row| list(row)).collect();
     let coefficients = RunTimeCoefficients {

@@ -72,6 +72,13 @@ pub struct Bits {
     statistics: Statistics,
 }
 
+impl Bits {
+    /// Number of failed attempts at a step.
+    pub fn rejected(&self) -> u64 {
+        self.statistics.rejected
+    }
+}
+
 impl Debug for Bits {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(formatter, "{:?} {:x?}", self.outcome, self.words)

@@ -7,10 +7,12 @@ use super::{Kind, RunTimeTableau, Schedule, Splitting};
 use crate::error::Quantity;
 use crate::method::storage::{first_mismatch, first_non_finite, first_non_finite_of};
 use crate::method::{
-    EvaluationObserver, Failure, Inside, Interpolation, Outcome, Plan, Solver, StageStorage, Step,
-    StepStatistics, Stopping, WarmStart,
+    EvaluationObserver, Failure, Inside, Interpolation, LaneMemory, LaneOutcome, Outcome, Plan,
+    Solver, StagePart, StageStorage, StageVisit, Step, StepStatistics, Stopping, WarmStart,
 };
-use crate::number::{Coefficient, Summation, Vector, Visit, advance, copy, vector_words};
+use crate::number::{
+    Coefficient, Lanes, Scalar, Summation, Vector, Visit, advance, copy, vector_words,
+};
 use crate::system::{Class, System};
 
 /// The plan of [`AtRunTime`](super::AtRunTime) for systems of one class.
@@ -92,6 +94,23 @@ impl<V: Vector, C: Class> StageStorage<V> for RunTimeStages<V, C> {
         }
     }
 
+    fn stages(&mut self, visit: &mut StageVisit<'_>) {
+        let parts = [
+            (StagePart::Positions, &mut self.q),
+            (StagePart::Momenta, &mut self.p),
+            (StagePart::Velocities, &mut self.velocity),
+            (StagePart::Forces, &mut self.force),
+        ];
+        for (part, vectors) in parts {
+            for (stage, vector) in vectors.iter_mut().enumerate() {
+                let numbers = V::Scalar::doubles_mut(vector.as_mut_slice());
+                for (component, number) in numbers.unwrap_or(&mut []).iter_mut().enumerate() {
+                    visit(part, stage, component, number);
+                }
+            }
+        }
+    }
+
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         if self.q.is_empty() {
             // An observer receives the evaluations of a splitting.
@@ -157,6 +176,34 @@ impl<C: Class> Plan for RunTimePlan<C> {
                 N::take_at_run_time::<C, R>(step, system, memory, kept, stopping, outcome)
             }
         }
+    }
+
+    fn goes_in_lanes<V, S, N>() -> bool
+    where
+        V: Vector,
+        S: System<V, Class = C>,
+        N: Solver<V, S>,
+    {
+        N::goes_in_lanes()
+    }
+
+    #[inline]
+    fn take_in_lanes<R, V, S, N, W>(
+        step: &Step<'_, W>,
+        system: &S,
+        memory: &mut LaneMemory<W>,
+        live: u32,
+        stopping: Stopping,
+        outcome: Outcome<'_, W>,
+    ) -> Option<LaneOutcome<W::Scalar>>
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = C> + System<W, Class = C>,
+        N: Solver<V, S>,
+        W: Vector<Scalar: Lanes>,
+    {
+        N::take_in_lanes_at_run_time::<C, R, W>(step, system, memory, live, stopping, outcome)
     }
 
     fn observe<R, V, S, N, W>(

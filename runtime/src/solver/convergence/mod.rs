@@ -6,6 +6,8 @@ mod warm_start;
 pub(crate) use self::cold_start::patiently;
 #[cfg(feature = "alloc")]
 pub(crate) use self::cold_start::{is_last, non_finite};
+#[cfg(feature = "alloc")]
+pub(crate) use self::warm_start::WITHIN_REACH;
 use self::warm_start::hasten;
 use crate::error::Quantity;
 use crate::method::{EvaluationCounts, Failure, StageChange, StepStatistics, Stopping, WarmStart};
@@ -291,7 +293,7 @@ pub(crate) const fn dither_last_sweep(time: f64) -> bool {
 /// Where stages stand still, they stand at one of several roundings that solve the rounded equations. Which one also depends on the
 /// side from which they came. For `(q² + 1)(p² + 1)/2` and Gauss 6 the relative energy drift would be 1e-20 per step.
 #[inline]
-const fn dither_side(time: f64) -> bool {
+pub(crate) const fn dither_side(time: f64) -> bool {
     bits(time) & 2 == 2
 }
 

@@ -9,7 +9,7 @@ use super::{
 
 /// Smallest tolerance, in units of EPSILON, that the [early](PATIENCE) sweeps wait for. If both halves must settle, all sweeps wait
 /// for which [one without progress suffices](STAGNATION). Rounding lets changes shrink to it unless the evaluations are noisy.
-const WITHIN_REACH: f64 = 8.0;
+pub(crate) const WITHIN_REACH: f64 = 8.0;
 
 /// The number of sweeps and the sizes of the stages if the iteration has settled; otherwise the state from which it can go on.
 type Hastened<M> = Result<(u32, [f64; 2]), Begun<M>>;

@@ -243,7 +243,7 @@ impl Terms<&'static [f64]> {
 /// The position of stages: `base + low + size node velocity + factor sum`. `low` is the low part of the base, `velocity` that at the
 /// start of the step, and `node` the stage's fraction of the step.
 #[inline(always)]
-fn position<R: Summation, L: Lanes>(
+pub(crate) fn position<R: Summation, L: Lanes>(
     (base, low): (L, L),
     (size, node): (f64, L),
     velocity: L,
@@ -266,13 +266,13 @@ fn apart<T>(work: impl FnOnce() -> T) -> T {
 
 /// Whether the momenta of the stages of this method are eliminated.
 #[inline(always)]
-const fn eliminates<P: StageTableau>() -> bool {
+pub(crate) const fn eliminates<P: StageTableau>() -> bool {
     P::SECOND_ORDER.is_some() && P::Class::SEPARABLE
 }
 
 /// The coefficients of a method that [`eliminates`] the momenta. They are constants, so that the compiler unrolls sums over stages.
 #[inline(always)]
-const fn tableau<P: StageTableau>() -> SecondOrderTableau {
+pub(crate) const fn tableau<P: StageTableau>() -> SecondOrderTableau {
     match P::SECOND_ORDER {
         Some(tableau) => tableau,
         None => SecondOrderTableau {
@@ -285,12 +285,12 @@ const fn tableau<P: StageTableau>() -> SecondOrderTableau {
 }
 
 /// The matrix `ν E`, which gives starting values from the previous step.
-struct Start<P>(PhantomData<P>);
+pub(crate) struct Start<P>(PhantomData<P>);
 
 impl<P: StageTableau> Start<P> {
-    const OF_INCREMENTS: &'static StartingColumns =
+    pub(crate) const OF_INCREMENTS: &'static StartingColumns =
         &starting_columns(tableau::<P>().columns, &P::POSITIONS);
-    const OF_FORCES: &'static StartingColumns =
+    pub(crate) const OF_FORCES: &'static StartingColumns =
         &weighted(Self::OF_INCREMENTS, P::POSITIONS.weights);
 
     /// The terms from the evaluations of the previous step, with step size `h`.

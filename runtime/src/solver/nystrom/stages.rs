@@ -2,6 +2,8 @@
 
 use super::rows;
 use crate::error::Quantity;
+#[cfg(feature = "alloc")]
+use crate::method::{StagePart, StageVisit};
 use crate::method::{StageStorage, StageTableau};
 use crate::number::words::words;
 use crate::number::{Vector, Visit, vector_words};
@@ -51,6 +53,14 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for NystromStages
         self.lanes.words(visit);
         vector_words(core::array::from_mut(&mut self.start), visit);
         words!(visit: self.of_increments, self.in_rows, self.sweeps, self.eliminated);
+    }
+
+    #[cfg(feature = "alloc")]
+    fn stages(&mut self, visit: &mut StageVisit<'_>) {
+        self.lanes.stages(visit);
+        for (component, number) in self.start.as_mut_slice().iter_mut().enumerate() {
+            visit(StagePart::Start, 0, component, number);
+        }
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {

@@ -105,7 +105,7 @@ where
     S: SystemInLanes<V>,
 {
     /// Whether force and velocity of each stage are evaluated at the same time.
-    const AT_ONE_TIME: bool = same(P::POSITIONS.times, P::MOMENTA.times);
+    const AT_ONE_TIME: bool = are_at_one_time::<P>();
 
     /// Computes new stages from the evaluations; returns their change.
     #[inline(always)]
@@ -181,6 +181,11 @@ where
         let base = (step.q, step.q_low);
         values::<P, V>(&sums, q.as_mut(), base, velocity.as_ref(), sum::<P>);
     }
+}
+
+/// Whether force and velocity of each stage are evaluated at the same time.
+pub(crate) const fn are_at_one_time<P: StageTableau>() -> bool {
+    same(P::POSITIONS.times, P::MOMENTA.times)
 }
 
 /// Whether two lists are equal.

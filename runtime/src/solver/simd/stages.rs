@@ -4,6 +4,8 @@ use core::mem;
 
 use crate::error::Quantity;
 use crate::method::{HalfTableau, StageStorage, StageTableau};
+#[cfg(feature = "alloc")]
+use crate::method::{StagePart, StageVisit};
 use crate::number::{Lanes, Vector, Visit, vector_words};
 
 /// A vector of lanes.
@@ -72,6 +74,30 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SimdStages<V,
             &mut self.force,
         ] {
             vector_words(groups.as_mut(), visit);
+        }
+    }
+
+    #[cfg(feature = "alloc")]
+    fn stages(&mut self, visit: &mut StageVisit<'_>) {
+        let parts = [
+            (StagePart::Positions, &mut self.q, P::POSITIONS.count),
+            (StagePart::Momenta, &mut self.p, P::MOMENTA.count),
+            (StagePart::Velocities, &mut self.velocity, P::MOMENTA.count),
+            (StagePart::Forces, &mut self.force, P::POSITIONS.count),
+        ];
+        for (part, groups, count) in parts {
+            for (group, vector) in groups.as_mut().iter_mut().enumerate() {
+                for (component, lanes) in vector.as_mut_slice().iter_mut().enumerate() {
+                    let numbers = lanes.to_array();
+                    // The last stage fills the lanes of its group.
+                    *lanes = P::Lanes::from_fn(|lane| {
+                        let stage = (group * P::Lanes::WIDTH + lane).min(count - 1);
+                        let mut number = numbers.as_ref()[lane];
+                        visit(part, stage, component, &mut number);
+                        number
+                    });
+                }
+            }
         }
     }
 

@@ -1,0 +1,222 @@
+//! Trajectories with coupled stages in lanes.
+//!
+//! Every step is taken in all lanes. A trajectory whose stages do not settle in its lane takes the step alone and returns.
+
+use core::ops::ControlFlow;
+
+use super::group::{Attempt, Group, Member, Task};
+use crate::error::Error;
+use crate::integrator::CoupledLanes;
+use crate::integrator::side_by_side::evaluations;
+use crate::method::{Method, Solver};
+use crate::number::{Lanes, Summation, Vector};
+use crate::output::at_times::{self, Output};
+use crate::state::State;
+use crate::system::System;
+
+/// Number of steps after which a run asks whether it is stopped.
+const BLOCK: u64 = 1 << 10;
+
+/// The trajectories of a group in lanes.
+pub(super) struct Coupled<'g, 'a, M, S, V, R, N, L, A, F, W>
+where
+    M: Method,
+    S: System<V>,
+    V: Vector,
+    R: Summation,
+    N: Solver<V, S>,
+    W: Vector,
+{
+    group: &'g mut Group<'a, M, S, V, R, N, L, A>,
+    see: &'g F,
+    lanes: CoupledLanes<M, S, V, R, N, W>,
+    /// The lanes whose trajectory has not failed.
+    live: u32,
+    /// Those whose trajectory takes the next step in its lane.
+    ready: u32,
+}
+
+impl<'g, 'a, M, S, V, R, N, L, A, F, W> Coupled<'g, 'a, M, S, V, R, N, L, A, F, W>
+where
+    M: Method,
+    S: System<V> + System<W, Class = <S as System<V>>::Class> + Clone + Send + Sync,
+    V: Vector + Send + Sync,
+    R: Summation,
+    N: Solver<V, S>,
+    L: Lanes,
+    A: Send,
+    F: Fn(&mut A, &State<V>),
+    W: Vector<Scalar = L>,
+{
+    /// Puts the trajectories into lanes; `None` if the system or its lanes do not allow it.
+    pub(super) fn new(
+        group: &'g mut Group<'a, M, S, V, R, N, L, A>,
+        see: &'g F,
+        zeros: &W,
+    ) -> Option<Self> {
+        let first = group.members.first_mut()?;
+        let mut lanes = CoupledLanes::like(&mut first.run, zeros);
+        if !group.members.iter().all(|member| lanes.takes(&member.run)) {
+            return None;
+        }
+        for (lane, member) in group.members.iter_mut().enumerate() {
+            let size = member.run.step_size();
+            lanes.load(lane, &mut member.run, size);
+        }
+        let in_lanes = evaluations(lanes.system(), &lanes.state());
+        let alike = |(lane, member): (usize, &Member<M, S, V, R, N, A>)| {
+            let alone = evaluations(member.run.system(), member.run.state());
+            let in_lane = in_lanes.iter().skip(lane).step_by(L::WIDTH);
+            in_lane.eq(&alone)
+        };
+        if !group.members.iter().enumerate().all(alike) {
+            return None;
+        }
+        let live = (1 << group.members.len()) - 1;
+        Some(Self {
+            group,
+            see,
+            lanes,
+            live,
+            ready: 0,
+        })
+    }
+
+    /// Runs all trajectories.
+    pub(super) fn run(mut self, task: &Task<'_>) -> Attempt {
+        let attempt = match *task {
+            Task::To(_) | Task::Steps(_) => self.take_leg(task),
+            Task::At(times) => self.see_at(times),
+        };
+        for lane in bits(self.ready) {
+            self.lanes.store(lane, &mut self.group.members[lane].run);
+        }
+        attempt
+    }
+
+    fn take_leg(&mut self, task: &Task<'_>) -> Attempt {
+        let run = &self.group.members[0].run;
+        let leg = match *task {
+            Task::To(end) => run.leg_to(end),
+            Task::Steps(count) => Ok(run.leg_of(count)),
+            Task::At(_) => return Attempt::Refused,
+        };
+        let Ok(mut leg) = leg else {
+            return Attempt::Refused;
+        };
+        let mut count = 0;
+        while let Some((size, time)) = leg.next_step() {
+            if count % BLOCK == 0 && self.group.ensemble.is_stopped() {
+                return Attempt::Stopped;
+            }
+            count += 1;
+            self.step(size, time, |member| member.run.advance(size, time));
+            if self.live == 0 {
+                break;
+            }
+        }
+        Attempt::Ended
+    }
+
+    fn see_at(&mut self, times: &[f64]) -> Attempt {
+        let run = &self.group.members[0].run;
+        if at_times::check(run, times).is_err() {
+            return Attempt::Refused;
+        }
+        let (size, mut clock) = (run.step_size(), run.clock());
+        let see = self.see;
+        let mut output = Output::new(run, size);
+        let mut rest = times;
+        for (lane, member) in self.group.members.iter_mut().enumerate() {
+            let Member {
+                run, output: own, ..
+            } = member;
+            let mut seen = times;
+            member.outcome = output.show(run, &mut seen, &mut |state| see(own, state));
+            self.live &= !(u32::from(member.outcome.is_err()) << lane);
+        }
+        output.skip(&mut rest, self.lanes.time());
+        let mut count = 0;
+        while !rest.is_empty() && self.live != 0 {
+            if count % BLOCK == 0 && self.group.ensemble.is_stopped() {
+                return Attempt::Stopped;
+            }
+            count += 1;
+            let time = clock.next();
+            let before = rest;
+            let settled = self.step(size, time, |member| {
+                let Member {
+                    run, output: own, ..
+                } = member;
+                let mut seen = before;
+                let outcome = run.advance_in_sight(size, time, &mut |run| {
+                    output.show(run, &mut seen, &mut |state| see(own, state))?;
+                    Ok(ControlFlow::<()>::Continue(()))
+                });
+                outcome.map(|_| ())
+            });
+            clock.tick();
+            output.skip(&mut rest, time);
+            if rest.len() == before.len() {
+                continue;
+            }
+            for lane in bits(settled) {
+                let Member {
+                    run,
+                    output: own,
+                    outcome,
+                    ..
+                } = &mut self.group.members[lane];
+                self.lanes.store(lane, run);
+                let mut seen = before;
+                *outcome = output.show(run, &mut seen, &mut |state| see(own, state));
+                if outcome.is_err() {
+                    self.live &= !(1 << lane);
+                    self.ready &= !(1 << lane);
+                }
+            }
+        }
+        Attempt::Ended
+    }
+
+    /// Takes a step of every trajectory, by `alone` where it does not succeed in its lane; returns the lanes in which it does.
+    fn step(
+        &mut self,
+        size: f64,
+        time: f64,
+        mut alone: impl FnMut(&mut Member<M, S, V, R, N, A>) -> Result<(), Error>,
+    ) -> u32 {
+        let settled = match self.ready != 0 && time != self.lanes.time() {
+            true => self.lanes.attempt(size, self.ready),
+            false => 0,
+        };
+        for lane in bits(self.ready & !settled) {
+            self.lanes.store(lane, &mut self.group.members[lane].run);
+        }
+        match settled {
+            0 => self.lanes.go_to(size, time),
+            _ => self.lanes.accept(size, time),
+        }
+        for lane in bits(self.live & !settled) {
+            let member = &mut self.group.members[lane];
+            member.outcome = alone(member);
+            let bit = 1 << lane;
+            self.ready &= !bit;
+            match member.outcome {
+                Ok(()) if self.lanes.load(lane, &mut member.run, size) => self.ready |= bit,
+                Ok(()) => (),
+                Err(_) => self.live &= !bit,
+            }
+        }
+        settled
+    }
+}
+
+/// The numbers of the bits that are set.
+fn bits(mut set: u32) -> impl Iterator<Item = usize> {
+    core::iter::from_fn(move || {
+        let first = (set != 0).then(|| set.trailing_zeros() as usize);
+        set &= set.wrapping_sub(1);
+        first
+    })
+}

@@ -1,0 +1,261 @@
+//! Runs with coupled stages in lanes.
+//!
+//! A lane has the bits of its run. Not every step can be taken in lanes: a run leaves its lane for such a step, and returns after it.
+
+use alloc::boxed::Box;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::marker::PhantomData;
+use core::mem;
+
+use num_traits::Zero;
+
+use super::{Integrator, PlanOf};
+use crate::method::lane_stages::set_lane;
+use crate::method::{
+    LaneMemory, LaneOutcome, Method, Outcome, Plan, Solver, Step, Stopping, WarmStart,
+};
+use crate::number::{Lanes, Scalar, Summation, Vector};
+use crate::state::State;
+use crate::system::System;
+
+/// The state of runs: position and momentum, their low parts, and the same at the start of the last step.
+#[derive(Clone, Debug)]
+struct Course<W> {
+    now: Box<[W; 4]>,
+    other: Box<[W; 4]>,
+}
+
+/// Type parameters without stored values.
+type Kind<M, V, R, N> = fn() -> (M, V, R, N);
+
+/// Runs of the same system and the same step size, at the same time.
+pub(crate) struct CoupledLanes<M, S, V, R, N, W: Vector> {
+    system: S,
+    linear_velocity: bool,
+    stopping: Stopping,
+    course: Course<W>,
+    memory: LaneMemory<W>,
+    taken: Option<LaneOutcome<W::Scalar>>,
+    time: f64,
+    last_time: f64,
+    last_size: f64,
+    steps: u64,
+    /// Number of steps when a run came into its lane, or was last copied from it.
+    since: Vec<u64>,
+    /// Number of sweeps since then.
+    sweeps: W::Scalar,
+    /// The largest number of sweeps of a step since then.
+    most: W::Scalar,
+    kind: PhantomData<Kind<M, V, R, N>>,
+}
+
+impl<M, S, V, R, N, W> CoupledLanes<M, S, V, R, N, W>
+where
+    M: Method,
+    S: System<V> + System<W, Class = <S as System<V>>::Class> + Clone,
+    V: Vector,
+    R: Summation,
+    N: Solver<V, S>,
+    W: Vector<Scalar: Lanes>,
+{
+    /// Empty lanes for runs like this one, in vectors like `zeros`.
+    pub(crate) fn like(run: &mut Integrator<M, S, V, R, N>, zeros: &W) -> Self {
+        let vectors = || Box::new(core::array::from_fn(|_| zeros.clone()));
+        let time = run.course.state.time;
+        Self {
+            system: run.system.clone(),
+            linear_velocity: run.course.linear_velocity,
+            stopping: run.stopping,
+            course: Course {
+                now: vectors(),
+                other: vectors(),
+            },
+            memory: LaneMemory::like(&mut run.course.memory, zeros),
+            taken: None,
+            time,
+            last_time: time,
+            last_size: 0.0,
+            steps: 0,
+            since: vec![0; W::Scalar::WIDTH],
+            sweeps: W::Scalar::zero(),
+            most: W::Scalar::zero(),
+            kind: PhantomData,
+        }
+    }
+
+    /// Whether a run can be in these lanes.
+    pub(crate) fn takes(&self, run: &Integrator<M, S, V, R, N>) -> bool {
+        // The last allowed sweep of a step is left to the run.
+        run.course.linear_velocity == self.linear_velocity && self.stopping.max_iterations > 1
+    }
+
+    /// Time of all runs in lanes.
+    pub(crate) const fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// The states of the runs in lanes.
+    pub(crate) fn state(&self) -> State<W> {
+        let [q, p, ..] = &*self.course.now;
+        State::new(self.time, q.clone(), p.clone())
+    }
+
+    /// The system of the runs.
+    pub(crate) const fn system(&self) -> &S {
+        &self.system
+    }
+
+    /// Copies a run into a lane; returns whether its next step, of this size, can be taken there.
+    pub(crate) fn load(
+        &mut self,
+        lane: usize,
+        run: &mut Integrator<M, S, V, R, N>,
+        size: f64,
+    ) -> bool {
+        let course = &mut run.course;
+        let numbers = [
+            &course.state.q,
+            &course.state.p,
+            &course.low.0,
+            &course.low.1,
+            &course.next.0,
+            &course.next.1,
+            &course.next_low.0,
+            &course.next_low.1,
+        ];
+        let Course { now, other } = &mut self.course;
+        for (lanes, numbers) in now.iter_mut().chain(other.iter_mut()).zip(numbers) {
+            let numbers = V::Scalar::doubles(numbers.as_slice()).unwrap_or(&[]);
+            for (lanes, &number) in lanes.as_mut_slice().iter_mut().zip(numbers) {
+                set_lane(lanes, lane, number);
+            }
+        }
+        self.memory.load(lane, &mut course.memory);
+        let WarmStart { stages, scales, .. } = course.kept;
+        for (lanes, scale) in self.memory.scales.iter_mut().zip(scales) {
+            set_lane(lanes, lane, scale);
+        }
+        self.count_from_here(lane);
+        stages && scales[0] > 0.0 && course.last_size == size
+    }
+
+    /// Copies a lane into its run.
+    pub(crate) fn store(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>) {
+        let course = &mut run.course;
+        let numbers = [
+            &mut course.state.q,
+            &mut course.state.p,
+            &mut course.low.0,
+            &mut course.low.1,
+            &mut course.next.0,
+            &mut course.next.1,
+            &mut course.next_low.0,
+            &mut course.next_low.1,
+        ];
+        let Course { now, other } = &self.course;
+        for (lanes, numbers) in now.iter().chain(other.iter()).zip(numbers) {
+            let numbers = V::Scalar::doubles_mut(numbers.as_mut_slice()).unwrap_or(&mut []);
+            for (lanes, number) in lanes.as_slice().iter().zip(numbers) {
+                *number = of_lane(*lanes, lane);
+            }
+        }
+        self.memory.store(lane, &mut course.memory);
+        let steps = self.steps - self.since[lane];
+        if steps > 0 {
+            let counts = self.taken.map(|taken| taken.counts);
+            let sweeps = of_lane(self.sweeps, lane) as u64;
+            let statistics = &mut course.statistics;
+            statistics.steps += steps;
+            statistics.iterations += sweeps;
+            let most = of_lane(self.most, lane) as u32;
+            statistics.most_iterations = statistics.most_iterations.max(most);
+            if let Some(counts) = counts {
+                let per_step = u64::from(counts.begin + counts.finish);
+                statistics.evaluations += steps * per_step + sweeps * u64::from(counts.sweep);
+            }
+        }
+        course.state.time = self.time;
+        course.last_time = self.last_time;
+        course.last_size = self.last_size;
+        course.kept = WarmStart {
+            evaluation: true,
+            stages: true,
+            scales: self.memory.scales.map(|scale| of_lane(scale, lane)),
+        };
+        self.count_from_here(lane);
+    }
+
+    /// Computes a step of the runs in the lanes `live`; returns the lanes in which it succeeds. The others are as before.
+    pub(crate) fn attempt(&mut self, size: f64, live: u32) -> u32 {
+        let [q, p, q_low, p_low] = &*self.course.now;
+        let step = Step {
+            time: self.time,
+            size,
+            q,
+            q_low,
+            p,
+            p_low,
+            linear_velocity: self.linear_velocity,
+        };
+        let [q, p, q_low, p_low] = &mut *self.course.other;
+        let outcome = Outcome { q, q_low, p, p_low };
+        let taken = PlanOf::<M, S, V>::take_in_lanes::<R, V, S, N, W>(
+            &step,
+            &self.system,
+            &mut self.memory,
+            live,
+            self.stopping,
+            outcome,
+        );
+        let Some(taken) = taken else {
+            return 0;
+        };
+        self.taken = Some(taken);
+        taken.settled & live & self.finite()
+    }
+
+    /// The lanes in which the computed state is finite.
+    #[inline]
+    fn finite(&self) -> u32 {
+        let [q, p, ..] = &*self.course.other;
+        let components = q.as_slice().iter().chain(p.as_slice());
+        let zero = W::Scalar::zero();
+        let largest = components.fold(zero, |largest, component| {
+            largest.larger_or_nan(component.abs())
+        });
+        largest.at_most(W::Scalar::from_f64(f64::MAX))
+    }
+
+    /// Makes a computed step, to the time `time`, the present state. Lanes in which it failed have to be [loaded](Self::load) again.
+    pub(crate) fn accept(&mut self, size: f64, time: f64) {
+        // With plain sums all low parts are zero.
+        mem::swap(&mut self.course.now, &mut self.course.other);
+        mem::swap(&mut self.memory.before, &mut self.memory.settled);
+        if let Some(taken) = &self.taken {
+            self.memory.scales = taken.scales;
+            self.sweeps += taken.sweeps;
+            self.most = self.most.larger(taken.sweeps);
+        }
+        self.steps += 1;
+        self.go_to(size, time);
+    }
+
+    /// Sets the time after a step that every run has taken alone.
+    pub(crate) const fn go_to(&mut self, size: f64, time: f64) {
+        self.last_size = size;
+        self.last_time = mem::replace(&mut self.time, time);
+    }
+
+    /// Counts the steps of a lane from here.
+    fn count_from_here(&mut self, lane: usize) {
+        self.since[lane] = self.steps;
+        set_lane(&mut self.sweeps, lane, 0.0);
+        set_lane(&mut self.most, lane, 0.0);
+    }
+}
+
+/// The number of a lane.
+fn of_lane<L: Lanes>(lanes: L, lane: usize) -> f64 {
+    lanes.to_array().as_ref()[lane]
+}

@@ -1,0 +1,258 @@
+//! Coupled stages in lanes: the bits of a single run, for every kind of sweep.
+
+use std::sync::Mutex;
+
+use symplectic::ensemble::Ensemble;
+use symplectic::nalgebra::{DVector, SVector, Vector1};
+use symplectic::simd::{F64x4, F64x16};
+use symplectic::{
+    Compensated, Integrator, Method, Plain, ProvedFor, Retry, Scalar, SeparableHamiltonian, State,
+    Summation, System, Vector,
+};
+
+use crate::common::methods::{
+    Askew, Gauss4, Gauss5, Gauss18, Lobatto3, Lobatto4, Midpoint, Radau3, RadauIIA, Tang, Twins,
+};
+use crate::common::systems::{Kepler, Product};
+use crate::run_time::tableau;
+use crate::systems::{Bits, HenonHeiles, Pendulums, alone, keep, starts};
+
+const SYSTEM: HenonHeiles = HenonHeiles { amplitude: 0.02 };
+
+/// Checks the ends of trajectories in four lanes. Other widths are in `bits`; every combination of them would take long to compile.
+fn check<M, S, V, R>(method: M, system: &S, starts: &[State<V>], size: f64)
+where
+    M: Method + ProvedFor<S::Class>,
+    S: System<V> + Clone + Send + Sync,
+    V: Vector<Scalar = f64> + Send + Sync,
+    R: Summation,
+{
+    let make =
+        |start| Integrator::<M, S, V, R>::with_summation(method, system.clone(), start, size);
+    let expected = alone(starts, make, |run| (run.take_steps(90).map(|_| ()), ()));
+    assert!(expected.iter().any(|(row, ())| row.outcome.is_ok()));
+    let family = [(system.clone(), starts.to_vec())];
+    let ensemble = Ensemble::<M, S, V, R>::with_summation(method, family, size);
+    let ensemble = ensemble.expect("starts").in_lanes::<F64x4>();
+    let mut rows = Vec::new();
+    ensemble.take_steps(90, keep(&mut rows, 0));
+    assert_eq!(rows, expected, "{}", M::NAME);
+}
+
+/// [`check`] with both kinds of sums.
+macro_rules! check {
+    ($system:expr, $starts:expr, $size:expr, $($method:expr),*) => {
+        $(
+            check::<_, _, _, Compensated>($method, &$system, &$starts, $size);
+            check::<_, _, _, Plain>($method, &$system, &$starts, $size);
+        )*
+    };
+}
+
+/// Orbits of every eccentricity up to 0.9: near the pericentre the stages of some do not settle in their lane.
+fn orbits(count: u32) -> Vec<State<SVector<f64, 2>>> {
+    let start = |k: u32| {
+        let e = 0.9 * f64::from(k) / f64::from(count);
+        State::from_arrays(0.0, [1.0 - e, 0.0], [0.0, ((1.0 + e) / (1.0 - e)).sqrt()])
+    };
+    (0..count).map(start).collect()
+}
+
+#[test]
+fn second_order_systems() {
+    // With unit masses, and one that leaves; with velocities that are computed.
+    check!(
+        SYSTEM,
+        starts(19, 7),
+        0.1,
+        Midpoint,
+        Gauss5,
+        Gauss18,
+        Lobatto4
+    );
+    check!(Kepler, orbits(19), 0.05, Gauss4, Radau3);
+    // Many sweeps, whose number depends on the sizes of the stages.
+    check!(Kepler, orbits(33), 0.08, Midpoint);
+}
+
+#[test]
+fn methods_of_other_kinds() {
+    check!(Kepler, orbits(9), 0.05, Tang, Askew, Twins, RadauIIA);
+}
+
+/// H = √(1 + p²) + 1 − cos(q − t/2), whose velocity is not linear.
+#[derive(Clone, Copy, Debug)]
+struct Relativistic;
+
+impl SeparableHamiltonian for Relativistic {
+    type Vector<T: Scalar> = SVector<T, 1>;
+
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
+        velocity[0] = p[0] / (T::one() + p[0] * p[0]).sqrt();
+    }
+
+    fn force<T: Scalar>(&self, time: T, q: &SVector<T, 1>, force: &mut SVector<T, 1>) {
+        force[0] = -(q[0] - time * T::from_f64(0.5)).sin();
+    }
+}
+
+fn points(count: usize) -> Vec<State<Vector1<f64>>> {
+    let start = |k: usize| State::from_arrays(0.5, [0.1 * k as f64], [0.3 - 0.05 * k as f64]);
+    (0..count).map(start).collect()
+}
+
+#[test]
+fn separable_systems() {
+    check!(
+        Relativistic,
+        points(19),
+        0.1,
+        Gauss4,
+        Gauss18,
+        Lobatto3,
+        Twins,
+        RadauIIA
+    );
+}
+
+symplectic::hamiltonian! {
+    Swing
+    q: [x, y], p: [px, py];
+    H = (1 + x^2) (px^2 + py^2)/2 + cos(y) + x cos(3 t)/8 + px y/4
+}
+
+#[test]
+fn systems_that_are_not_separable() {
+    let start = |k: usize| State::from_arrays(0.5, [0.1 * k as f64, 0.2], [0.3, 0.1 * k as f64]);
+    let starts: Vec<_> = (0..19).map(start).collect();
+    check!(Swing, starts, 0.1, Midpoint, Gauss4, Gauss18, Twins);
+    check!(Product, points(9), 0.05, RadauIIA.accept_lower_order());
+}
+
+#[test]
+fn tableaux_at_run_time_of_systems_that_are_not_separable() {
+    let start = |k: usize| State::from_arrays(0.5, [0.1 * k as f64, 0.2], [0.3, 0.1 * k as f64]);
+    let starts: Vec<_> = (0..19).map(start).collect();
+    for tableau in [tableau(Midpoint), tableau(Gauss4), tableau(Gauss18)] {
+        let make = |start| Integrator::at_run_time(&tableau, Swing, start, 0.1);
+        let expected = alone(&starts, make, |run| (run.take_steps(90).map(|_| ()), ()));
+        let ensemble = Ensemble::at_run_time(&tableau, Swing, starts.clone(), 0.1);
+        let mut rows = Vec::new();
+        let ensemble = ensemble.expect("starts");
+        ensemble.take_steps(90, keep(&mut rows, 0));
+        assert_eq!(rows, expected, "{}", tableau.name());
+    }
+}
+
+#[test]
+fn dynamic_vectors() {
+    for dimension in [1, 3, 20] {
+        let start = |k: usize| {
+            let q = DVector::from_fn(dimension, |i, _| 0.3 * ((i * k) as f64 + 0.5).sin());
+            State::new(0.0, q, DVector::from_element(dimension, 0.2))
+        };
+        let starts: Vec<_> = (0..18).map(start).collect();
+        check!(Pendulums, starts, 0.1, Gauss4, Lobatto3);
+    }
+}
+
+#[test]
+fn tolerances_and_bounds() {
+    let starts = orbits(18);
+    // Some of these tolerances are out of reach where positions are large.
+    for (tolerance, sweeps) in [
+        (1e-9, 200),
+        (1.3e-15, 200),
+        (2e-15, 200),
+        (0.0, 5),
+        (0.0, 1),
+    ] {
+        let make = |start| {
+            let mut run = Integrator::plain(Gauss4, Kepler, start, 0.05)?;
+            run.set_tolerance(tolerance)?;
+            run.set_max_iterations(sweeps);
+            Ok(run)
+        };
+        let expected = alone(&starts, make, |run| (run.take_steps(100).map(|_| ()), ()));
+        let ensemble = Ensemble::plain(Gauss4, Kepler, starts.clone(), 0.05);
+        let mut ensemble = ensemble.expect("starts");
+        ensemble.set_tolerance(tolerance).expect("a tolerance");
+        ensemble.set_max_iterations(sweeps);
+        let mut rows = Vec::new();
+        ensemble.take_steps(100, keep(&mut rows, 0));
+        assert_eq!(rows, expected, "{tolerance}, {sweeps} sweeps");
+    }
+}
+
+#[test]
+fn steps_that_are_split_go_on_in_their_lane() {
+    let starts = orbits(10);
+    for halvings in [1, 4] {
+        let make = |start| {
+            let mut run = Integrator::new(Midpoint, Kepler, start, 0.4)?;
+            run.set_retry(Retry::Split { halvings });
+            run.set_max_iterations(14);
+            Ok(run)
+        };
+        let times: Vec<f64> = (1..90).map(|k| 0.13 * f64::from(k)).collect();
+        let expected = alone(&starts, make, |run| {
+            let mut seen = Vec::new();
+            let outcome = run.integrate_at(&times, |state| seen.push(crate::systems::words(state)));
+            (outcome.map(|_| ()), seen)
+        });
+        let ends: Vec<(Bits, ())> = alone(&starts, make, |run| {
+            (run.integrate_to(20.0).map(|_| ()), ())
+        });
+        let split = ends.iter().filter(|(row, ())| row.rejected() > 0);
+        let failed = ends.iter().filter(|(row, ())| row.outcome.is_err());
+        assert!(split.count() > 3 && failed.count() < 10);
+        let mut ensemble = Ensemble::new(Midpoint, Kepler, starts.clone(), 0.4).expect("starts");
+        ensemble.set_retry(Retry::Split { halvings });
+        ensemble.set_max_iterations(14);
+        let see = |seen: &mut Vec<_>, state: &State<_>| seen.push(crate::systems::words(state));
+        let mut rows = Vec::new();
+        ensemble.integrate_at(&times, |_| Vec::new(), see, keep(&mut rows, 0));
+        assert_eq!(rows, expected);
+        let mut rows = Vec::new();
+        ensemble.integrate_to(20.0, keep(&mut rows, 0));
+        assert_eq!(rows, ends);
+    }
+}
+
+/// Counts the forces that are evaluated for each size of a scalar, in bytes.
+struct Counted<'a>(&'a Mutex<[usize; 129]>);
+
+impl Clone for Counted<'_> {
+    fn clone(&self) -> Self {
+        Self(self.0)
+    }
+}
+
+impl SeparableHamiltonian for Counted<'_> {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
+        *velocity = *p;
+    }
+
+    fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
+        self.0.lock().expect("a count")[size_of::<T>()] += 1;
+        let square = q.dot(q);
+        *force = -q * (square * square.sqrt()).recip();
+    }
+}
+
+#[test]
+fn nearly_all_steps_are_taken_in_lanes() {
+    let counts = Mutex::new([0; 129]);
+    let starts: Vec<_> = orbits(30).into_iter().take(16).collect();
+    let ensemble = Ensemble::new(Gauss4, Counted(&counts), starts, 0.01).expect("starts");
+    let ensemble = ensemble.in_lanes::<F64x16>();
+    ensemble.take_steps(1000, |_| std::ops::ControlFlow::Continue(()));
+    let counts = counts.into_inner().expect("counts");
+    // Four stages, and at least two sweeps of every step.
+    assert!(counts[128] > 8 * 999, "{}", counts[128]);
+    // Stages of a trajectory alone in four lanes: the first step, and few others.
+    assert!(counts[32] > 16, "{}", counts[32]);
+    assert!(counts[32] < counts[128] / 100, "{}", counts[32]);
+}
