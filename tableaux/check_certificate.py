@@ -2,7 +2,7 @@
 """Checks certificates of symplectic methods. It shares no code with the compiler that wrote them.
 
     python3 check_certificate.py certificates/gauss-2.json certificates/forest-ruth-1990.json
-    python3 check_certificate.py                      # every certificate and table of the catalogue
+    python3 check_certificate.py                      # every certificate of the catalogue, with its table
 
 This file is the place to start trusting. It needs Python 3.11 and its standard library. A certificate has the exact coefficients of a
 method, and what is claimed of them. From the coefficients alone this file proves
@@ -13,7 +13,7 @@ method, and what is claimed of them. From the coefficients alone this file prove
     `violated`, a tree of the next order, does not hold. Orders with more than MOST_TREES trees: "general 6 (8 is claimed)".
 
 The files of FURTHER check the other claims. If one is missing, the output says "not checked here" and which file is needed. The exit
-status is 0 if all is right, 1 if something is wrong, 2 if a file is missing.  HLW: Hairer, Lubich & Wanner, Geometric numerical integration
+status is 0 if nothing is wrong, 1 if something is wrong, 2 if a file is missing.  HLW: Hairer, Lubich & Wanner, Geometric numerical integration
 """
 import json
 import math
@@ -467,7 +467,6 @@ def check(text):
     done += [proved(name) for name in last if name in certificate]
     return certificate, exact, done + [f"{name} not covered" for name in missing]
 
-# The command.
 def content(path):
     demand(path.stat().st_size <= MOST_BYTES and path.is_file(), f"a file of at most {MOST_BYTES} bytes")
     return path.read_text(encoding="utf-8")
@@ -487,7 +486,8 @@ def verdict(path):
 
 def main(paths):
     found = {0}
-    for path in map(Path, paths or sorted((Path(__file__).parent / "certificates").glob("*.json"))):
+    paths = paths or sorted((Path(__file__).parent / "certificates").glob("*.json")) or sys.exit("no certificates beside this file: name some")
+    for path in map(Path, paths):
         status, text = verdict(path)
         found.add(status)
         # One line, whatever a file has in its texts.

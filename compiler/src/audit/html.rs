@@ -11,9 +11,9 @@ pub(super) fn page(audit: &Audit) -> String {
     let differences: Vec<&Row> = audit.differences().collect();
     let unexplained = audit.unexplained().count();
     let mut body = format!(
-        "<h1>Claims and proofs of symplectic tables</h1>\n<p>{} tables, {} of which prove another order than they claim; {} unexplained. \
+        "<h1>Claims and proofs of symplectic tables</h1>\n<p>{} tables, for {} of which the proved order is not the claimed order; {} unexplained. \
          An order is proved by its order conditions in exact arithmetic, for the exact method near the decimals where the numbers are \
-         decimals. What is seen is the slope of the error of one step of the pendulum in 96 digits, with T = p²/2 and with T = √(1 + p²).</p>\n",
+         decimals. Observed is the slope of the error of one step of the pendulum in 96 digits, with T = p²/2 and with T = √(1 + p²).</p>\n",
         audit.rows.len(),
         differences.len(),
         unexplained
@@ -52,7 +52,7 @@ pub(super) fn page(audit: &Audit) -> String {
         ));
         body.push_str(
             "<table>\n<tr><th>table</th><th>stages</th><th>claim</th><th>T(p) + U(q)</th><th>T quadratic</th><th>first violated condition</th>\
-             <th>seen: p²/2, √(1 + p²)</th><th></th><th>places of an exact method</th><th>stable hω</th></tr>\n",
+             <th>observed: p²/2, √(1 + p²)</th><th></th><th>places of an exact method</th><th>stable hω</th></tr>\n",
         );
         rows.iter().for_each(|row| body.push_str(&line(row)));
         body.push_str("</table>\n");

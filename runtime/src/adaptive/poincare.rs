@@ -153,7 +153,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
         let value = value_at(&self.monitor, room.of_system.q.as_slice());
         let seen = value.map(|value| look(value, &mut room));
         self.room.set(Some(room));
-        // NaN comes from an earlier failed evaluation, whose value is kept.
+        // NaN comes from an earlier failed evaluation, whose value is kept until an error is explained, even if a second attempt succeeds.
         seen.map_err(|value| {
             if !value.is_nan() {
                 self.fault.set(Some(value));

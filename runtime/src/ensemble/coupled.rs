@@ -16,6 +16,8 @@ use crate::system::System;
 
 /// Number of steps after which a run asks whether it is stopped.
 const BLOCK: u64 = 1 << 10;
+/// Largest number of steps between attempts in lanes.
+const MOST_PAUSE: u32 = 63;
 
 /// The trajectories of a group in lanes.
 pub(super) struct Coupled<'g, 'a, M, S, V, R, N, L, A, F, W>
@@ -34,6 +36,9 @@ where
     live: u32,
     /// Those whose trajectory takes the next step in its lane.
     ready: u32,
+    /// Number of steps to be taken alone: more and more after attempts of which none succeeds.
+    pause: u32,
+    last_pause: u32,
 }
 
 impl<'g, 'a, M, S, V, R, N, L, A, F, W> Coupled<'g, 'a, M, S, V, R, N, L, A, F, W>
@@ -59,9 +64,12 @@ where
         if !group.members.iter().all(|member| lanes.takes(&member.run)) {
             return None;
         }
-        for (lane, member) in group.members.iter_mut().enumerate() {
-            let size = member.run.step_size();
-            lanes.load(lane, &mut member.run, size);
+        // Lanes without a trajectory have copies: zeros might be a singular point.
+        let count = group.members.len();
+        for lane in 0..L::WIDTH {
+            let run = &mut group.members[lane % count].run;
+            let size = run.step_size();
+            lanes.load(lane, run, size);
         }
         let in_lanes = evaluations(lanes.system(), &lanes.state());
         let alike = |(lane, member): (usize, &Member<M, S, V, R, N, A>)| {
@@ -79,6 +87,8 @@ where
             lanes,
             live,
             ready: 0,
+            pause: 0,
+            last_pause: 0,
         })
     }
 
@@ -179,17 +189,26 @@ where
         Attempt::Ended
     }
 
-    /// Takes a step of every trajectory, by `alone` where it does not succeed in its lane; returns the lanes in which it does.
+    /// Takes a step of every trajectory, by `alone` if it fails in its lane; returns the lanes whose step succeeded.
     fn step(
         &mut self,
         size: f64,
         time: f64,
         mut alone: impl FnMut(&mut Member<M, S, V, R, N, A>) -> Result<(), Error>,
     ) -> u32 {
-        let settled = match self.ready != 0 && time != self.lanes.time() {
+        let tries = self.pause == 0 && self.ready != 0 && time != self.lanes.time();
+        self.pause = self.pause.saturating_sub(1);
+        let settled = match tries {
             true => self.lanes.attempt(size, self.ready),
             false => 0,
         };
+        if tries {
+            self.last_pause = match settled {
+                0 => (2 * self.last_pause + 1).min(MOST_PAUSE),
+                _ => 0,
+            };
+            self.pause = self.last_pause;
+        }
         for lane in bits(self.ready & !settled) {
             self.lanes.store(lane, &mut self.group.members[lane].run);
         }

@@ -97,7 +97,14 @@ where
         task: &Task<'_>,
         see: &impl Fn(&mut A, &State<V>),
     ) -> ControlFlow<()> {
-        let tried = match self.members.len() > 1 && self.ensemble.way() != Way::Alone {
+        let count = self.members.len();
+        // A sweep in half of the lanes or fewer takes as long as one in all.
+        let enough = match self.ensemble.way() {
+            Way::Alone => false,
+            Way::Explicit => count > 1,
+            Way::Coupled => 2 * count >= L::WIDTH,
+        };
+        let tried = match enough {
             true => S::over_lanes::<L, _>(SideBySide {
                 group: self,
                 task,

@@ -19,7 +19,9 @@
 //!
 //! With coupled stages every sweep of the default solver computes the stages of all trajectories, and a trajectory whose
 //! stages have settled waits for the others. A trajectory takes a step alone, and returns to its lane, where its stages
-//! do not settle as after a usual warm start: in its first step, in slow and in failing iterations.
+//! do not settle as after a usual warm start: in its first step, in slow and in failing iterations. A compiled method
+//! does so in builds for AVX-512, or if lanes [are chosen](Ensemble::in_lanes): in narrower registers a single run, with
+//! the stages of one trajectory in lanes, is as fast.
 //!
 //! All other trajectories run one by one: those with another solver, with constraints or with a composition of implicit
 //! methods; those of closures and chains; and those with a [system](Ensemble::of_families) of their own.
@@ -122,11 +124,19 @@ where
     first: usize,
     stopping: Stopping,
     retry: Retry,
-    in_lanes: bool,
+    lanes: Wanted,
     stop: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
     /// The method, if its tableau is given at run time.
     tableau: Option<RunTimeTableau>,
     kind: PhantomData<Kind<M, R, N, L>>,
+}
+
+/// Whether trajectories run in lanes if they can.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Wanted {
+    No,
+    IfFaster,
+    Yes,
 }
 
 impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V> {
@@ -261,7 +271,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation> Ensemble<M, S, V, R> {
             first: 0,
             stopping: Stopping::DEFAULT,
             retry: Retry::Never,
-            in_lanes: true,
+            lanes: Wanted::IfFaster,
             stop: None,
             tableau: tableau.cloned(),
             kind: PhantomData,
@@ -325,8 +335,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         self.of_kind()
     }
 
-    /// The same ensemble with another lane width than [`DefaultLanes`], for example [`F64x4`](crate::simd::F64x4). The
-    /// results do not depend on it.
+    /// The same ensemble with another lane width than [`DefaultLanes`], for example [`F64x4`](crate::simd::F64x4). Implicit methods then run
+    /// in lanes too where this is no faster: in builds with registers of less than eight doubles. The results do not depend on it.
     ///
     /// ```
     /// # use symplectic::State;
@@ -341,7 +351,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
     /// ```
     pub fn in_lanes<K: Lanes>(self) -> Ensemble<M, S, V, R, N, K> {
         Ensemble {
-            in_lanes: true,
+            lanes: Wanted::Yes,
             ..self.of_kind()
         }
     }
@@ -350,7 +360,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
     #[must_use]
     pub fn one_by_one(self) -> Self {
         Self {
-            in_lanes: false,
+            lanes: Wanted::No,
             ..self
         }
     }
@@ -364,7 +374,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
             first: self.first,
             stopping: self.stopping,
             retry: self.retry,
-            in_lanes: self.in_lanes,
+            lanes: self.lanes,
             stop: self.stop,
             tableau: self.tableau,
             kind: PhantomData,
@@ -453,7 +463,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
             first: self.first.clamp(start, end) - start,
             stopping: self.stopping,
             retry: self.retry,
-            in_lanes: self.in_lanes,
+            lanes: self.lanes,
             stop: self.stop.clone(),
             tableau: self.tableau.clone(),
             kind: PhantomData,

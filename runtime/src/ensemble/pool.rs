@@ -2,6 +2,14 @@
 
 use alloc::vec::Vec;
 
+/// Number of threads that run trajectories.
+pub(super) fn threads() -> usize {
+    #[cfg(feature = "parallel")]
+    return rayon::current_num_threads();
+    #[cfg(not(feature = "parallel"))]
+    return 1;
+}
+
 /// Number of groups of trajectories to run before their rows are shown; adapted so that a batch takes about a second.
 #[cfg(feature = "parallel")]
 pub(super) struct Batch {

@@ -5,7 +5,8 @@ use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
 use super::group::{Group, Task};
-use super::{Ensemble, Row, pool};
+use super::pool::{self, threads};
+use super::{Ensemble, Row, Wanted};
 use crate::error::Error;
 use crate::integrator::Integrator;
 use crate::method::{Method, RunTimeTableau, Solver};
@@ -159,7 +160,12 @@ where
     ) -> usize {
         let width = match self.way() {
             Way::Alone => 1,
-            Way::Explicit | Way::Coupled => L::WIDTH,
+            Way::Explicit => L::WIDTH,
+            // Rather all threads than all lanes.
+            Way::Coupled => {
+                let count = self.starts.len() - self.first;
+                count.div_ceil(threads()).clamp(1, L::WIDTH)
+            }
         };
         let rows = |place: Range<usize>| {
             let mut group = Group::new(self, place, &output);
@@ -173,15 +179,19 @@ where
 
     /// How trajectories run.
     pub(super) fn way(&self) -> Way {
-        let possible =
-            self.in_lanes && V::Scalar::IS_DOUBLE && S::over_lanes::<L, _>(Known).is_some();
+        let possible = self.lanes != Wanted::No
+            && V::Scalar::IS_DOUBLE
+            && S::over_lanes::<L, _>(Known).is_some();
+        // A compiled method has its coupled stages in lanes already.
+        let faster = self.tableau.is_some() || cfg!(target_feature = "avx512f");
+        let coupled = faster || self.lanes == Wanted::Yes;
         let explicit = self
             .tableau
             .as_ref()
             .is_none_or(RunTimeTableau::is_explicit);
         match possible {
             true if Integrator::<M, S, V, R, N>::LANEWISE && explicit => Way::Explicit,
-            true if Integrator::<M, S, V, R, N>::goes_in_lanes() => Way::Coupled,
+            true if coupled && Integrator::<M, S, V, R, N>::goes_in_lanes() => Way::Coupled,
             _ => Way::Alone,
         }
     }

@@ -127,7 +127,7 @@ pub(crate) fn set_lane<L: Lanes>(lanes: &mut L, lane: usize, number: f64) {
     *lanes = L::from_fn(|k| if k == lane { number } else { old.as_ref()[k] });
 }
 
-/// What came of a step of several trajectories.
+/// The result of a step of several trajectories.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneOutcome<L> {
     /// The lanes whose stages have settled, as bits. The trajectories in other lanes have to take the step alone.

@@ -20,7 +20,7 @@ pub trait SplittingPlan {
     /// Number of first evaluations that are skipped if the previous step has [kept](WarmStart::evaluation) them.
     const CARRIED: u32;
 
-    /// Takes the step `span` from `state`, in place, by these `kick_drift`, and shows its evaluations to `witness`.
+    /// Takes the step `span` from `state`, in place, with the kicks and drifts of `kick_drift`, and shows its evaluations to `witness`.
     fn apply<
         R: Summation,
         V: Vector,

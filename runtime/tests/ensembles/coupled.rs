@@ -17,6 +17,11 @@ use crate::common::systems::{Kepler, Product};
 use crate::run_time::tableau;
 use crate::systems::{Bits, HenonHeiles, Pendulums, alone, keep, starts};
 
+symplectic::tableau! {
+    /// Both positions are equal: one force, and two velocities.
+    OneForce { a: [[3/8, 1/8], [3/8, 1/8]], b: [1/2, 1/2], a_tilde: symplectic_partner }
+}
+
 const SYSTEM: HenonHeiles = HenonHeiles { amplitude: 0.02 };
 
 /// Checks the ends of trajectories in four lanes. Other widths are in `bits`; every combination of them would take long to compile.
@@ -77,7 +82,16 @@ fn second_order_systems() {
 
 #[test]
 fn methods_of_other_kinds() {
-    check!(Kepler, orbits(9), 0.05, Tang, Askew, Twins, RadauIIA);
+    check!(
+        Kepler,
+        orbits(9),
+        0.05,
+        Tang,
+        Askew,
+        Twins,
+        RadauIIA,
+        OneForce
+    );
 }
 
 /// H = √(1 + p²) + 1 − cos(q − t/2), whose velocity is not linear.
@@ -175,7 +189,7 @@ fn tolerances_and_bounds() {
         };
         let expected = alone(&starts, make, |run| (run.take_steps(100).map(|_| ()), ()));
         let ensemble = Ensemble::plain(Gauss4, Kepler, starts.clone(), 0.05);
-        let mut ensemble = ensemble.expect("starts");
+        let mut ensemble = ensemble.expect("starts").in_lanes::<F64x4>();
         ensemble.set_tolerance(tolerance).expect("a tolerance");
         ensemble.set_max_iterations(sweeps);
         let mut rows = Vec::new();
@@ -206,7 +220,8 @@ fn steps_that_are_split_go_on_in_their_lane() {
         let split = ends.iter().filter(|(row, ())| row.rejected() > 0);
         let failed = ends.iter().filter(|(row, ())| row.outcome.is_err());
         assert!(split.count() > 3 && failed.count() < 10);
-        let mut ensemble = Ensemble::new(Midpoint, Kepler, starts.clone(), 0.4).expect("starts");
+        let ensemble = Ensemble::new(Midpoint, Kepler, starts.clone(), 0.4);
+        let mut ensemble = ensemble.expect("starts").in_lanes::<F64x4>();
         ensemble.set_retry(Retry::Split { halvings });
         ensemble.set_max_iterations(14);
         let see = |seen: &mut Vec<_>, state: &State<_>| seen.push(crate::systems::words(state));
@@ -245,7 +260,10 @@ impl SeparableHamiltonian for Counted<'_> {
 #[test]
 fn nearly_all_steps_are_taken_in_lanes() {
     let counts = Mutex::new([0; 129]);
-    let starts: Vec<_> = orbits(30).into_iter().take(16).collect();
+    // Sixteen for every thread.
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let some: Vec<_> = orbits(30).into_iter().take(16).collect();
+    let starts = some.iter().cloned().cycle().take(16 * threads).collect();
     let ensemble = Ensemble::new(Gauss4, Counted(&counts), starts, 0.01).expect("starts");
     let ensemble = ensemble.in_lanes::<F64x16>();
     ensemble.take_steps(1000, |_| std::ops::ControlFlow::Continue(()));

@@ -1,8 +1,10 @@
 //! Order, constraints, structure and invariants of constrained steps.
 
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
+use symplectic::system::Gradients;
 use symplectic::{
-    Constrained, Error, Hamiltonian, Integrator, Method, ProvedFor, State, Vector, consistent,
+    Constrained, Error, Hamiltonian, Integrator, Method, ProvedFor, Separable, State, Vector,
+    consistent,
 };
 
 use crate::systems::*;
@@ -344,6 +346,55 @@ fn extrapolation_saves_sweeps() {
     };
     let (equal, unequal) = (sweeps([0.02; 2]), sweeps([0.02, 0.0201]));
     assert!(10 * equal < 9 * unequal, "{equal} {unequal}");
+}
+
+/// A pendulum whose force is NaN at one evaluation.
+#[derive(Clone)]
+struct FailsOnce(std::cell::Cell<u32>);
+
+impl symplectic::System<Vector2<f64>> for FailsOnce {
+    type Class = Constrained<Separable>;
+    type Solver = symplectic::solver::FixedPoint;
+
+    fn velocity(&self, _: f64, _: &Vector2<f64>, p: &Vector2<f64>, velocity: &mut Vector2<f64>) {
+        *velocity = *p;
+    }
+
+    fn force(&self, _: f64, _: &Vector2<f64>, _: &Vector2<f64>, force: &mut Vector2<f64>) {
+        let left = self.0.get();
+        self.0.set(left.wrapping_sub(1));
+        *force = Vector2::new(0.0, if left == 0 { f64::NAN } else { -1.0 });
+    }
+
+    fn constraints(&self) -> usize {
+        1
+    }
+
+    fn constraint_values(&self, q: &Vector2<f64>, values: &mut [f64]) {
+        values[0] = q.norm_squared() - 1.0;
+    }
+
+    fn constraint_gradients(&self, q: &Vector2<f64>, gradients: &mut Gradients<f64>) {
+        for k in 0..2 {
+            gradients.set(0, k, 2.0 * q[k]);
+        }
+    }
+}
+
+/// A step that does not succeed from extrapolated stages is tried from its start.
+#[test]
+fn extrapolation_is_no_risk() {
+    let start: State<Vector2<f64>> = State::from_arrays(0.0, [1.0, 0.0], [0.0, -1.0]);
+    let system = FailsOnce(std::cell::Cell::new(u32::MAX));
+    let mut run = Integrator::new(Lobatto4, system, start, 0.1).expect("a run");
+    run.take_steps(2).expect("steps");
+    let state = run.state().clone();
+    // Two steps are not enough to extrapolate from.
+    run.system().0.set(1);
+    assert!(run.step().is_err() && *run.state() == state);
+    run.take_steps(4).expect("steps");
+    run.system().0.set(1);
+    run.step().expect("a step from the start");
 }
 
 /// A velocity that is linear in the momentum at the start, and affine elsewhere.

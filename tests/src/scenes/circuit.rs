@@ -143,6 +143,5 @@ mod tests {
         let mut run = run.expect("a start");
         let end = run.integrate_to(10.0).expect("steps").clone();
         assert!((end.q - exact(10.0).q).norm() < 1e-4);
-        assert!(run.system().evaluations.get() > 0);
     }
 }

@@ -101,9 +101,9 @@ impl<L: Lanes> KeplerDrift<L> {
     ///
     /// ```
     /// use symplectic::flow::kepler::KeplerDrift;
-    /// use symplectic::simd::F64x8;
+    /// use symplectic::simd::F64x4;
     ///
-    /// let drift = KeplerDrift::new(&[1.0; 8], &[1.0; 8])?.in_lanes::<F64x8>();
+    /// let drift = KeplerDrift::new(&[1.0; 8], &[1.0; 8])?.in_lanes::<F64x4>();
     /// # Ok::<(), symplectic::Error>(())
     /// ```
     pub fn in_lanes<W: Lanes>(self) -> KeplerDrift<W> {
@@ -160,7 +160,7 @@ impl<V: Vector<Scalar = f64>, L: Lanes> Flow<V> for KeplerDrift<L> {
         let (free_p, p) = p.as_mut_slice().split_at_mut(free);
         let mut first = 0;
         while first < count {
-            // The last bodies in no more lanes than they need.
+            // Up to four remaining bodies in two or four lanes.
             first += match count - first {
                 1..=2 if L::WIDTH > 2 => self.group::<F64x2>(first, h, q, p)?,
                 3..=4 if L::WIDTH > 4 => self.group::<F64x4>(first, h, q, p)?,

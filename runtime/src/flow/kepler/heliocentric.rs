@@ -144,7 +144,7 @@ impl Heliocentric {
 /// [`FlowError::Collision`] for planets in one place, [`FlowError::NonFinite`] for other forces that are not finite, [`FlowError::Dimension`].
 #[derive(Clone, Debug)]
 pub struct HeliocentricKick {
-    /// Its mass.
+    /// The mass of the star.
     star: f64,
     attraction: Attraction,
     pairs: bool,

@@ -113,7 +113,7 @@ fn anomaly<L: Lanes>(beta: L, inverse: L, [slope, bend]: [L; 2], h: L) -> L {
     u - u * (x - (third + higher))
 }
 
-/// The lanes in which something is too large, by the iteration that ends for every orbit.
+/// Computes the lanes that exceed a bound again, by the iteration that ends for every orbit.
 #[cold]
 #[inline(never)]
 fn one_by_one<L: Lanes>(

@@ -162,7 +162,7 @@ pub struct JacobiKick {
     strengths: [Vec<f64>; 2],
     /// 1 where these are 0.
     more: Vec<f64>,
-    /// What the strengths do, in Jacobi coordinates.
+    /// The forces with these strengths, in Jacobi coordinates.
     falls: Axes,
 }
 

@@ -22,7 +22,7 @@ struct Stages<V: Vector> {
 /// The stages of the last steps with one tableau, all of the same size.
 ///
 /// With equal steps, the differences between the stages and guesses from the start of the step are smooth functions of time. Those of the next
-/// step follow from the last three with an error of order h³.
+/// step follow from the last three with a relative error of order h³.
 #[derive(Clone, Debug)]
 pub(super) struct History<V: Vector> {
     /// The size of the steps.

@@ -71,7 +71,9 @@ impl<T: Scalar> LastImpulse<T> {
                     stage: None,
                 });
             }
-            if residual <= SETTLED || residual <= ROUNDING && sweep > 2 {
+            if residual <= SETTLED
+                || residual <= ROUNDING && (sweep > 2 || sweep == stopping.max_iterations)
+            {
                 return Ok(());
             }
             end.normal.solve(&mut self.rates);

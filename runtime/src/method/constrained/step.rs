@@ -11,11 +11,11 @@ use crate::number::summation::add;
 use crate::number::{Coefficient, Scalar, Summation, Vector, copy};
 use crate::system::{Class, Gradients, System};
 
-/// A residual of this many units of rounding counts as zero.
+/// A residual of at most this many units of rounding counts as zero if it no longer decreases much.
 pub(in crate::method) const ROUNDING: f64 = 2.0;
-/// Smaller ones always do; between the two only after a residual that was not much larger. What is left of a residual that still
-/// decreases has a sign, which the energy would follow.
+/// A residual of at most this size always does. What is left of a residual that still decreases has a sign, which the energy would follow.
 pub(in crate::method) const SETTLED: f64 = 0.5;
+/// The residual before it, in the same units, up to which a residual decreases no more.
 const STAGNANT: f64 = 16.0;
 /// A residual that no longer decreases is accepted up to this size, in units of rounding.
 pub(in crate::method) const NOISE: f64 = 256.0;
@@ -67,7 +67,16 @@ impl<V: Vector> Workspace<V> {
         }
         core::mem::swap(&mut self.start, &mut self.end);
         self.begin((number, tableau), step, system, &mut work);
-        self.iterate::<R, S>(tableau, step, system, stopping, outcome, &mut work)?;
+        let mut iterated =
+            self.iterate::<R, S>(tableau, step, system, stopping, outcome, &mut work);
+        if self.extrapolated
+            && matches!(iterated, Err(ref failure) if depends_on_the_start(failure))
+        {
+            self.histories[number].forget();
+            self.begin((number, tableau), step, system, &mut work);
+            iterated = self.iterate::<R, S>(tableau, step, system, stopping, outcome, &mut work);
+        }
+        iterated?;
         let momenta = if separable {
             &[]
         } else {
@@ -155,7 +164,8 @@ impl<V: Vector> Workspace<V> {
             };
             let residual = maximum(defect, movement * rate);
             moved = movement;
-            if residual <= SETTLED || residual <= ROUNDING && before <= STAGNANT {
+            let last = before <= STAGNANT || sweep == stopping.max_iterations;
+            if residual <= SETTLED || residual <= ROUNDING && last {
                 return Ok(());
             }
             if residual.is_nan() {
@@ -472,6 +482,14 @@ impl<V: Vector> Workspace<V> {
         };
         Failure::NonFinite { what, stage }
     }
+}
+
+/// Whether an iteration that fails like this may succeed from other starting values.
+const fn depends_on_the_start(failure: &Failure) -> bool {
+    matches!(
+        failure,
+        Failure::NoConvergence { .. } | Failure::NonFinite { .. } | Failure::SingularMatrix
+    )
 }
 
 /// Shows the stages of a completed step.

@@ -93,7 +93,10 @@ where
         let start = start.as_slice();
         let value = |(stage, k): (usize, usize), base, sum| {
             let node = scalar::<W>(tableau::<P>().nodes[stage]);
-            position::<R, _>(base, (step.size, node), start[k], (before, sum))
+            // A velocity of another dimension: the trajectory takes the step alone, which reports it.
+            let velocity = start.get(k).copied();
+            let velocity = velocity.unwrap_or_else(|| scalar::<W>(f64::NAN));
+            position::<R, _>(base, (step.size, node), velocity, (before, sum))
         };
         let LaneStages {
             q, velocity, force, ..

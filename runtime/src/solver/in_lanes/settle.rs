@@ -17,7 +17,7 @@ pub(super) struct Settled<L> {
 }
 
 /// Sweeps from the stages of the previous step, which have the sizes `scales`, until every one of the `live` lanes has settled or is left to
-/// a single run. That also settles in the same sweep if a lane settles here. A lane with NaN never does.
+/// a single run. A lane that settles here does so in the same sweep as its single run. A lane with NaN never does.
 #[inline(always)]
 pub(super) fn settle<C: Class, L: Lanes, W: LaneSweeps<L>>(
     sweeps: &mut W,
