@@ -33,9 +33,9 @@ def table(text, certificate, exact):
         demand(table["exact"]["node_polynomial"] == certificate["numbers"]["polynomial"], "the node polynomial of the certificate")
         for name in ("b", "b_tilde", "a", "a_tilde"):
             demand(functions(table["exact"][name]) == functions(certificate[name]), f"the functions of the certificate for {name}")
-    for name in ("symplectic", "symmetric"):
-        found = table["properties"].get(name, {}).get("holds")
-        demand(name not in certificate or found in (None, certificate[name]), f"{name}: {certificate[name]}, as the certificate says")
+    for name in {"symplectic", "symmetric"} & certificate.keys() & table["properties"].keys():
+        holds = certificate[name]
+        demand(table["properties"][name]["holds"] is holds, f"{name} = {holds}, as the certificate says")
     for kind, claim in certificate["order"].items():
         found = table["order"][kind]
         demand((found["order"], found["refuted_by"]) == (claim["order"], claim["violated"]), f"the order of the certificate ({kind})")

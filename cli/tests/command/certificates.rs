@@ -122,6 +122,26 @@ fn a_wrong_digit_is_found() {
     assert!(matches!(tried, Some(Ok(2000..))), "{text}");
 }
 
+/// A table with another verdict on a property than its certificate.
+#[test]
+fn a_table_has_the_properties_of_its_certificate() {
+    let tables = root().join("tableaux");
+    let folder = folder("properties");
+    let certificate = folder.join("certificates/gauss-2.json");
+    std::fs::create_dir_all(folder.join("certificates")).expect("a folder");
+    std::fs::copy(tables.join("certificates/gauss-2.json"), &certificate).expect("copied");
+    let table = std::fs::read_to_string(tables.join("gauss-2.toml")).expect("the table");
+    let other = table.replacen("{ holds = true", "{ holds = false", 1);
+    for (text, right) in [(&table, true), (&other, false)] {
+        std::fs::write(folder.join("gauss-2.toml"), text).expect("written");
+        let path = certificate.to_str().expect("a path");
+        let Some((found, said)) = python(&["tableaux/check_certificate.py", path]) else {
+            return;
+        };
+        assert_eq!(found, right, "{said}");
+    }
+}
+
 /// Files that claim more than they prove, and files that are no certificates: each is rejected in one line that says why.
 #[test]
 fn what_is_not_proved_and_what_is_no_certificate_is_rejected() {
