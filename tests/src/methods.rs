@@ -102,6 +102,9 @@ symplectic::composition! {
     /// Kahan & Li, order 8 with 17 steps of Störmer–Verlet.
     pub KahanLi8 { base: kahan-li-1997-s17odr8-a }
 
+    /// Kahan & Li, order 8, with a drift first: on Kepler orbits in logarithmic time its only error is that of the time.
+    pub KahanLi8Drift { base: kahan-li-1997-s17odr8-b, exchange: true }
+
     /// Sofroniou & Spaletta, order 10 with 35 steps of Störmer–Verlet.
     pub SofroniouSpaletta10 { base: sofroniou-spaletta-2005-s35odr10 }
 

@@ -9,6 +9,7 @@ mod facts;
 mod peers;
 mod scenes;
 mod sets;
+mod variable_steps;
 
 use std::error::Error;
 use std::fs;

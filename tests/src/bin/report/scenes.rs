@@ -4,6 +4,7 @@
 
 use std::f64::consts::TAU;
 
+use symplectic::adaptive::{DistancePower, PairDistances};
 use symplectic::nalgebra::SVector;
 use symplectic::variational::{DiracIntegrator, DiracRule};
 use symplectic::{Error, Integrator, Separable, State, System, Vector};
@@ -22,6 +23,7 @@ use crate::peers::{with_forest_ruth, with_peers, with_rk4};
 use crate::sets::{
     Set, constrained, coupled, explicit, implicit, more_explicit, newton, nonholonomic,
 };
+use crate::variable_steps::with_variable_steps;
 
 /// A scene: its name on the command line, and the function that adds it to a study.
 pub type Scene = (&'static str, fn(Study) -> Result<Study, Error>);
@@ -97,6 +99,12 @@ fn kepler(
         )
         .conserving("angular momentum", kepler::angular_momentum);
     let problem = sets.iter().fold(problem, |problem, set| set(problem));
+    let problem = if eccentricity > 0.8 {
+        let (run, monitor) = ((&start, end), DistancePower(1.5));
+        with_variable_steps::<_, _, 2, 3>(problem, &kepler::Kepler, monitor, run, 1.0)
+    } else {
+        problem
+    };
     Ok(study.problem(separable::<_, 2, 4>(
         problem,
         kepler::Kepler,
@@ -434,6 +442,13 @@ fn pythagorean_three_body(study: Study) -> Result<Study, Error> {
         "Masses 3, 4, 5 from rest in the corners of a triangle with these sides (Burrau 1913)",
     )
     .needing("steps that follow encounters as near as 4·10⁻⁴; separable, quadratic kinetic energy");
+    let monitor = PairDistances {
+        dimensions: 2,
+        sharpness: 2,
+        exponent: 1.5,
+    };
+    let run = (&start, end);
+    let problem = with_variable_steps::<_, _, 6, 7>(problem, &system, monitor, run, 0.25);
     Ok(study.problem(separable::<_, 6, 12>(
         problem, system, &start, end, first, implicit,
     )))
