@@ -98,7 +98,7 @@ where
         see: &impl Fn(&mut A, &State<V>),
     ) -> ControlFlow<()> {
         let count = self.members.len();
-        // A sweep in half of the lanes or fewer takes as long as one in all.
+        // A sweep takes as long in a few lanes as in all: with fewer than half of them, single runs are as fast.
         let enough = match self.ensemble.way() {
             Way::Alone => false,
             Way::Explicit => count > 1,

@@ -52,7 +52,7 @@ impl<V: Vector> History<V> {
         self.known = 0;
     }
 
-    /// Begins a step of a size. Returns the extrapolated impulses, or `false` if steps of this size are not known.
+    /// Begins a step of a size. Extrapolates the impulses and returns `true`, or `false` if too few steps of this size are known.
     pub(super) fn begin(&mut self, size: f64, impulses: &mut [V::Scalar]) -> bool {
         if self.size != size {
             (self.size, self.known) = (size, 0);
@@ -60,14 +60,13 @@ impl<V: Vector> History<V> {
         let extrapolated = self.known == STEPS;
         if extrapolated {
             let [last, before, first] = &self.steps;
-            let three = V::Scalar::from_f64(3.0);
             let known = last
                 .impulses
                 .iter()
                 .zip(&before.impulses)
                 .zip(&first.impulses);
             for (impulse, ((&last, &before), &first)) in impulses.iter_mut().zip(known) {
-                *impulse = (last - before) * three + first;
+                *impulse = next(last, before, first);
             }
         }
         extrapolated
@@ -77,7 +76,6 @@ impl<V: Vector> History<V> {
     pub(super) fn correct(&mut self, k: usize, guess: &mut V) {
         let extrapolated = self.known == STEPS;
         let [last, before, first] = &mut self.steps;
-        let three = V::Scalar::from_f64(3.0);
         let (last, before) = (
             last.corrections[k].as_slice(),
             before.corrections[k].as_slice(),
@@ -86,7 +84,7 @@ impl<V: Vector> History<V> {
         for ((guess, first), (&last, &before)) in
             (guess.as_mut_slice().iter_mut().zip(first)).zip(last.iter().zip(before))
         {
-            let correction = (last - before) * three + *first;
+            let correction = next(last, before, *first);
             *first = -*guess;
             if extrapolated {
                 *guess += correction;
@@ -120,4 +118,10 @@ impl<V: Vector> History<V> {
             scalar_words(&mut step.impulses, visit);
         }
     }
+}
+
+/// The next value of a sequence by a parabola through the last three.
+#[inline(always)]
+fn next<T: Scalar>(last: T, before: T, first: T) -> T {
+    (last - before) * T::from_f64(3.0) + first
 }
