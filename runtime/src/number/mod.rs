@@ -2,6 +2,7 @@
 
 pub(crate) mod array;
 pub(crate) mod coefficient;
+pub(crate) mod dither;
 pub(crate) mod dual;
 pub(crate) mod elementary;
 #[cfg(feature = "alloc")]

@@ -2,11 +2,12 @@
 
 use super::{
     AMPLIFIED, Begun, CONTRACTION, FAR, Movement, NOISIEST, PATIENCE, ROUNDING, STAGNATION, Sweeps,
-    dither_last_sweep, is_known, known, larger, units,
+    is_known, known, larger, units,
 };
 use crate::error::Quantity;
 use crate::method::{Failure, HalfChange, StageChange, StepStatistics, Stopping, WarmStart};
 use crate::number::Scalar;
+use crate::number::dither::dither_last_sweep;
 use crate::solver::convergence::settling;
 use crate::system::{Class, Separable};
 

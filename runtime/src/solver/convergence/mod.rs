@@ -278,34 +278,6 @@ fn is_square_safe(size: f64) -> bool {
     size > 1e-140 && size < 1e140
 }
 
-/// A pseudo-random bit that depends on the time only, so that it is the same in every run.
-///
-/// Where stages stagnate without standing still, rounding makes them alternate between two values from sweep to sweep.
-/// The side from which the iteration approaches decides at which of the two it ends. The starting values lie on the same side
-/// in every step, so the energy would drift. For Hénon–Heiles and Gauss 8 the relative drift would be 1e-21 per step.
-#[inline]
-pub(crate) const fn dither_last_sweep(time: f64) -> bool {
-    bits(time) & 1 == 1
-}
-
-/// A second pseudo-random bit of the time, independent of [`dither_last_sweep`].
-///
-/// Where stages stand still, they stand at one of several roundings that solve the rounded equations. Which one also depends on the
-/// side from which they came. For `(q² + 1)(p² + 1)/2` and Gauss 6 the relative energy drift would be 1e-20 per step.
-#[inline]
-pub(crate) const fn dither_side(time: f64) -> bool {
-    bits(time) & 2 == 2
-}
-
-/// Mixes all bits of the time into every bit (Appleby, MurmurHash3, final mixing).
-#[inline]
-const fn bits(time: f64) -> u64 {
-    let mut bits = time.to_bits();
-    bits = (bits ^ bits >> 33).wrapping_mul(0xff51_afd7_ed55_8ccd);
-    bits = (bits ^ bits >> 33).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
-    bits ^ bits >> 33
-}
-
 /// The larger of two numbers.
 #[inline(always)]
 fn larger(a: f64, b: f64) -> f64 {

@@ -3,6 +3,7 @@
 use super::cold_start::solve;
 use super::*;
 use crate::method::{EvaluationCounts, HalfChange};
+use crate::number::dither::{dither_last_sweep, dither_side};
 use crate::system::{General, Separable};
 use alloc::vec;
 use alloc::vec::Vec;

@@ -4,8 +4,9 @@
 
 use super::{
     Begun, Class, Movement, PATIENCE, ROUNDING, STAGNATION, Scalar, Stopping, Sweeps, WarmStart,
-    dither_last_sweep, dither_side, is_known, units,
+    is_known, units,
 };
+use crate::number::dither::{dither_last_sweep, dither_side};
 
 /// Smallest tolerance, in units of EPSILON, that the [early](PATIENCE) sweeps wait for. If both halves must settle, all sweeps wait
 /// for which [one without progress suffices](STAGNATION). Rounding lets changes shrink to it unless the evaluations are noisy.

@@ -17,11 +17,12 @@ use crate::method::{
     EvaluationCounts, Failure, Inside, Outcome, SecondOrderTableau, Solver, StageChange,
     StageTableau, Step, StepStatistics, Stopping, WarmStart,
 };
+use crate::number::dither::dither_last_sweep;
 use crate::number::lanes::lanes;
 use crate::number::vector::is_in_place;
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::solver::SimdFixedPoint;
-use crate::solver::convergence::{Begun, Sweeps, dither_last_sweep, patiently, settle};
+use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
 use crate::solver::predictor::{MOST, StartingColumns, starting_columns, starts_at_once, weighted};
 use crate::solver::simd::change::{LaneMovement, part_change};
 use crate::solver::simd::gauss_seidel::{
