@@ -156,14 +156,14 @@ impl<R: Summation, V: Vector, S: System<V>> Sweeps for ByRows<'_, R, V, S> {
                 scale(velocity, step.size, Coefficient::exact(evaluation.factor));
             }
         }
-        let mut unseen = HalfChange::default();
+        let mut ignored = HalfChange::default();
         for (row, q) in positions.rows.iter().zip(&mut *self.q) {
-            relax::<R, V>(q, (step.q, step.q_low), row, self.velocity, &mut unseen);
+            relax::<R, V>(q, (step.q, step.q_low), row, self.velocity, &mut ignored);
         }
         if kept.stages && !positions.extrapolation.is_empty() {
             transform(self.force, &positions.extrapolation);
             for (row, p) in momenta.rows.iter().zip(&mut *self.p) {
-                relax::<R, V>(p, (step.p, step.p_low), row, self.force, &mut unseen);
+                relax::<R, V>(p, (step.p, step.p_low), row, self.force, &mut ignored);
             }
         } else {
             self.p.iter_mut().for_each(|p| copy(p, step.p));

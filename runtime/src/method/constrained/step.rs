@@ -58,7 +58,7 @@ impl<V: Vector> Workspace<V> {
                 scratch,
                 ..
             } = self;
-            metric.look(system, step.time, (step.q, step.p), end, scratch)?;
+            metric.evaluate(system, step.time, (step.q, step.p), end, scratch)?;
             if separable {
                 let at = V::Scalar::from_f64(step.time);
                 system.force(at, step.q, step.p, &mut self.end.force);
@@ -428,7 +428,7 @@ impl<V: Vector> Workspace<V> {
             p,
             ..
         } = self;
-        metric.look(system, end, (outcome.q, &p[last]), point, scratch)?;
+        metric.evaluate(system, end, (outcome.q, &p[last]), point, scratch)?;
         let found = self.last_impulse.find::<R, V, S>(
             step,
             system,

@@ -15,7 +15,7 @@ use crate::system::{Class, Separable};
 ///
 /// A function of its own, so that its variables take no registers in steps that do not need it.
 #[inline(never)]
-pub(crate) fn patiently<C: Class, T: Scalar, W: Sweeps>(
+pub(crate) fn settle_from_cold_start<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
     kept: WarmStart,
     stopping: Stopping,
