@@ -36,6 +36,8 @@ pub(crate) enum Format {
     Petsc,
     /// Python: a RungeKuttaMethod with SymPy entries.
     Nodepy,
+    /// Tab-separated doubles for `from_file` of RungeKutta.jl.
+    Tsv,
     /// A theorem for the proof assistant Coq.
     Coq,
 }
@@ -99,6 +101,7 @@ impl OutputOptions {
             Format::Python => in_language(Language::Python, DEFAULT_DIGITS)?,
             Format::Sundials => in_language(Language::Sundials, DOUBLE_DIGITS)?,
             Format::Petsc => in_language(Language::Petsc, DOUBLE_DIGITS)?,
+            Format::Tsv => in_language(Language::Tsv, DOUBLE_DIGITS)?,
             Format::Coq => in_language(Language::Coq, DEFAULT_DIGITS)?,
             Format::Nodepy => in_language(Language::Nodepy, DEFAULT_DIGITS)?,
         })
