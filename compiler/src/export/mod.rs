@@ -14,7 +14,7 @@ use crate::exact::Exact;
 use crate::tableau::{Tableau, left_out};
 
 pub mod certificate;
-mod columns;
+pub mod columns;
 mod encoding;
 mod entries;
 mod facts;
