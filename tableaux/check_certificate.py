@@ -13,7 +13,7 @@ method, and what is claimed of them. From the coefficients alone this file prove
     `violated`, a tree of the next order, does not hold. Orders with more than MOST_TREES trees: "general 6 (8 is claimed)".
 
 The files of FURTHER check the other claims. If one is missing, the output says "not checked here" and which file is needed. The exit
-status is 0 if nothing is wrong, 1 if something is wrong, 2 if a file is missing.  HLW: Hairer, Lubich & Wanner, Geometric numerical integration
+status is 0 if nothing is wrong, 1 if something is wrong, 2 if a claim is not checked.  HLW: Hairer, Lubich & Wanner, Geometric numerical integration
 """
 import json
 import math
@@ -48,7 +48,7 @@ class Rejected(Exception):
     """A claim that does not hold."""
 
 class NotChecked(str):
-    """What to say of a claim whose file is missing."""
+    """What to say of a claim that is not checked."""
 # The errors of claims that do not hold and of files that are not certificates.
 WRONG = (Rejected, ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RecursionError, TypeError, ValueError)
 

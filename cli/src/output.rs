@@ -6,7 +6,9 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use symplectic_compiler::catalogue::Entry;
-use symplectic_compiler::export::{self, DEFAULT_DIGITS, Language, MAX_DIGITS, TEXT_DIGITS};
+use symplectic_compiler::export::{
+    self, DEFAULT_DIGITS, Language, MAX_DIGITS, TEXT_DIGITS, columns,
+};
 use symplectic_compiler::{Error, ErrorKind, Limits, Tableau};
 
 use crate::report;
@@ -36,6 +38,8 @@ pub(crate) enum Format {
     Petsc,
     /// Python: a RungeKuttaMethod with SymPy entries.
     Nodepy,
+    /// Tab-separated doubles for `from_file` of RungeKutta.jl.
+    Tsv,
     /// A theorem for the proof assistant Coq.
     Coq,
 }
@@ -99,6 +103,7 @@ impl OutputOptions {
             Format::Python => in_language(Language::Python, DEFAULT_DIGITS)?,
             Format::Sundials => in_language(Language::Sundials, DOUBLE_DIGITS)?,
             Format::Petsc => in_language(Language::Petsc, DOUBLE_DIGITS)?,
+            Format::Tsv => in_language(Language::Tsv, DOUBLE_DIGITS)?,
             Format::Coq => in_language(Language::Coq, DEFAULT_DIGITS)?,
             Format::Nodepy => in_language(Language::Nodepy, DEFAULT_DIGITS)?,
         })
@@ -188,24 +193,35 @@ fn document(message: String) -> Error {
     ErrorKind::Document { message }.into()
 }
 
-/// A table with its columns aligned.
+/// A table with its columns aligned on a screen.
 pub(crate) fn aligned<const N: usize>(rows: &[[String; N]]) -> String {
-    let length = |cell: &String| cell.chars().count();
     let mut widths = [0; N];
     for row in rows {
         for (width, cell) in widths.iter_mut().zip(row) {
-            *width = length(cell).max(*width);
+            *width = columns::width(cell).max(*width);
         }
     }
     let mut text = String::new();
     for row in rows {
         let cells = row.iter().zip(widths);
         let cells: Vec<String> = cells
-            .map(|(cell, width)| format!("{cell:width$}"))
+            .map(|(cell, width)| columns::left(cell, width))
             .collect();
         text.push_str("  ");
         text.push_str(cells.join("  ").trim_end());
         text.push('\n');
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::aligned;
+
+    #[test]
+    fn combining_marks_do_not_shift_columns() {
+        let rows =
+            [["IIIF\u{304}", "2"], ["IIIF", "2"], ["I", "4"]].map(|row| row.map(str::to_owned));
+        assert_eq!(aligned(&rows), "  IIIF\u{304}  2\n  IIIF  2\n  I     4\n");
+    }
 }

@@ -40,8 +40,8 @@ pub enum ErrorKind {
     /// A formula that no system can have.
     #[error(transparent)]
     Formula(#[from] FormulaError),
-    /// A method that a library cannot run.
-    #[error("{library} cannot run this method: {reason}")]
+    /// A method that a library, or its file, cannot express.
+    #[error("{library} cannot express this method: {reason}")]
     NotExpressible {
         /// The library.
         library: &'static str,

@@ -4,8 +4,11 @@ from fractions import Fraction
 from functools import lru_cache
 
 from check_certificate import (
-    Element, check_members, common_divisor, demand, derivative, primitive, product, rationals, remainder, root_between, rounded_from, value
+    Element, NotChecked, check_members, common_divisor, demand, derivative, ends, primitive, product, rationals, remainder, root_between,
+    rounded_from, value
 )
+
+from .simple_roots import Undecided, sign, simple_roots
 
 MOST_STAGES = 40
 
@@ -13,21 +16,32 @@ MOST_STAGES = 40
 def stability(of, certificate):
     """The trace, and all step sizes for which the stages exist and all powers of the step are bounded."""
     claim = certificate["stability"]
-    check_members(claim, ("numerator", "denominator", "intervals"))
+    check_members(claim, ("intervals",), ("numerator", "denominator"))
     demand(of.s <= MOST_STAGES, f"at most {MOST_STAGES} stages")
     determinant, step = one_step(of)
-    trace = combined(step["11"], 1, step["22"], 1)
-    turning = [Fraction(0)] + product(step["12"], step["21"])
-    area = combined(product(step["11"], step["22"]), 1, turning, 1)
-    demand(area == product(determinant, determinant), "a step of the oscillator that preserves areas")
-    numerator, denominator = (trimmed(rationals(claim[name])) for name in ("numerator", "denominator"))
-    demand(denominator and product(numerator, determinant) == product(trace, denominator), "the trace of a step of the oscillator")
-    found = stable_intervals(determinant, trace, common_divisor(primitive(step["12"]), primitive(step["21"])))
+    trace = [simple(c) for c in combined(step["11"], 1, step["22"], 1)]
+    if of.matrices:
+        turning = [Fraction(0)] + product(step["12"], step["21"])
+        area = combined(product(step["11"], step["22"]), 1, turning, 1)
+        demand(area == product(determinant, determinant), "a step of the oscillator that preserves areas")
+    # Else the step is a product of shears.
+    if are_rational(trace + determinant):
+        numerator, denominator = (trimmed(rationals(claim[name])) for name in ("numerator", "denominator"))
+        demand(denominator and product(numerator, determinant) == product(trace, denominator), "the trace of a step of the oscillator")
+    else:
+        check_members(claim, ("intervals",))
+    try:
+        if are_rational(trace + determinant + step["12"] + step["21"]):
+            found = stable_intervals(determinant, trace, common_divisor(primitive(step["12"]), primitive(step["21"])))
+        else:
+            found = stable_intervals_of_reals(determinant, trace)
+    except Undecided:
+        return NotChecked("stability not checked: the trace may touch 2 or -2")
     demand(len(found) == len(claim["intervals"]), f"{len(claim['intervals'])} intervals of stable steps")
-    for interval, ends in zip(claim["intervals"], found):
-        stable = [x is closed for x, (_, closed) in zip(interval[2:], ends)]
+    for interval, bounds in zip(claim["intervals"], found):
+        stable = [x is closed for x, (_, closed) in zip(interval[2:], bounds)]
         demand(len(interval) == 4 and all(stable), f"the stable ends of {interval[:2]}")
-        for text, (square, _) in zip(interval, ends):
+        for text, (square, _) in zip(interval, bounds):
             if isinstance(square, str):
                 demand(text == square, f"the end {square} of stable steps, not {text}")
             else:
@@ -95,12 +109,13 @@ def has_root(f, root):
 # The oscillator.
 
 
-def rational(x):
-    """The value of what is known to be rational."""
-    if isinstance(x, Element) and not any(x.f[1:]):
-        return x.f[0]
-    demand(isinstance(x, Fraction), "a rational number")
-    return x
+def simple(x):
+    """A number, as a fraction if it is known to be one."""
+    return x.f[0] if isinstance(x, Element) and not any(x.f[1:]) else x
+
+
+def are_rational(numbers):
+    return all(isinstance(x, (int, Fraction)) for x in numbers)
 
 
 def one_step(of):
@@ -110,7 +125,7 @@ def one_step(of):
     for _ in range(of.s + 1):
         p_u, q_v = of.apply("p", u), of.apply("q", v)
         for name, colour, f, sign in (("11", "q", p_u, -1), ("12", "q", v, 1), ("21", "p", u, 1), ("22", "p", q_v, -1)):
-            series[name].append(sign * rational(of.dot(of.weights[colour], f)))
+            series[name].append(simple(sign * of.dot(of.weights[colour], f)))
         u, v = ([x * -1 for x in of.apply(colour, f)] for colour, f in (("q", p_u), ("p", q_v)))
     determinant = determinant_of(of)
     # Numerators have degree s at most.
@@ -119,16 +134,18 @@ def one_step(of):
 
 def determinant_of(of):
     """det(1 + z A A~) by the method of Leverrier and Faddeev."""
+    if not of.matrices:
+        return [Fraction(1)]
     columns = [of.apply("q", of.apply("p", f)) for f in of.basis]
-    matrix = [[rational(x) for x in row] for row in zip(*columns)]
+    matrix = [[simple(x) for x in row] for row in zip(*columns)]
     if not any(any(row[i:]) for i, row in enumerate(matrix)):
-        return [Fraction(1)]  # Of a splitting.
+        return [Fraction(1)]  # Of a composition.
     found, power = [Fraction(1)], [[Fraction(0)] * of.s] * of.s
     for k in range(1, of.s + 1):
         # M (power + c), and the next c = -tr/k
         power = [[x + found[-1] * (i == j) for j, x in enumerate(row)] for i, row in enumerate(power)]
         power = [[sum(x * y for x, y in zip(row, column)) for column in zip(*power)] for row in matrix]
-        found.append(-sum(power[i][i] for i in range(of.s)) / k)
+        found.append(sum(power[i][i] for i in range(of.s)) * Fraction(-1, k))
     return trimmed([(-1) ** k * c for k, c in enumerate(found)])
 
 
@@ -137,17 +154,42 @@ def stable_intervals(determinant, trace, turning):
     inside = product(combined(determinant, 2, trace, -1), combined(determinant, 2, trace, 1))
     cuts = product(inside, determinant)
     demand(any(cuts), "a trace that is not 2 or -2 for all step sizes")
-    while cuts[0] == 0:
-        cuts = cuts[1:]
-    cuts = square_free(cuts)
+    cuts = square_free(without_roots_at_zero(cuts))
     roots = positive_roots(cuts)
     singular, alone = (common_divisor(cuts, primitive(f)) for f in (determinant, turning))
-    # From zero to the first root, that root, from there to the next one, ...
+    at_roots = [has_root(alone, root) and not has_root(singular, root) for root in roots]
+    return cells(roots, at_roots, lambda x: value(inside, x) > 0)
+
+
+def stable_intervals_of_reals(determinant, trace):
+    """The same, if all roots are simple. Then none is stable: where the step is 1 or -1, |trace| - 2 touches zero."""
+    factors = [combined(determinant, 2, trace, -1), combined(determinant, 2, trace, 1), determinant]
+    demand(all(map(any, factors)), "a trace that is not 2 or -2 for all step sizes")
+    factors = [[near(c) for c in without_roots_at_zero(f)] for f in factors]
+    roots = sorted(root for f in factors for root in simple_roots(f))
+    if any(x[1] >= y[0] for x, y in zip(roots, roots[1:])):
+        raise Undecided
+    return cells(roots, [False] * len(roots), lambda x: sign(factors[0], x) == sign(factors[1], x))
+
+
+def without_roots_at_zero(f):
+    return f[next(k for k, c in enumerate(f) if c) :]
+
+
+def near(x):
+    """The ends of an exact number, as near to each other as for a number of size 1."""
+    size = max(map(abs, x.f)) or 1 if isinstance(x, Element) else 1
+    scale = 1 << max(0, int(1 / size).bit_length())
+    return tuple(end / scale for end in ends(x * scale))
+
+
+def cells(roots, at_roots, is_stable):
+    """Intervals of stable cells: from zero to the first root, that root, from there to the next one, ..."""
     lows, highs = [Fraction(0)] + [root[1] for root in roots], [root[0] for root in roots]
     samples = [(low + high) / 2 for low, high in zip(lows, highs + [lows[-1] + 2])]
-    stable = [value(inside, samples[0]) > 0]
-    for root, sample in zip(roots, samples[1:]):
-        stable += [has_root(alone, root) and not has_root(singular, root), value(inside, sample) > 0]
+    stable = [is_stable(samples[0])]
+    for at_root, sample in zip(at_roots, samples[1:]):
+        stable += [at_root, is_stable(sample)]
     found, start = [], None
     for k, here in enumerate(stable + [False]):
         if here and start is None:

@@ -53,6 +53,8 @@ Definition sum {K : Algebra} {I : Type} (f : I -> K) (indices : list I) : K :=
 (** The colour of a vertex: [position] for dH/dp, the derivative of q, and [momentum] for -dH/dq, that of p. *)
 Inductive colour := position | momentum.
 
+Definition other (c : colour) : colour := match c with position => momentum | momentum => position end.
+
 (** A rooted tree is a vertex, or a tree [t] with another tree [u] joined to its root by an edge. *)
 Inductive tree :=
 | vertex (c : colour)
@@ -140,6 +142,15 @@ Section Claims.
     exists s : label M -> label M, Permutation (map s (stages M)) (stages M) /\
     forall c i, In i (stages M) -> b M c (s i) = b M c i /\
     forall j, In j (stages M) -> a M c i j + a M c (s i) (s j) = b M c j.
+
+  (** The same for separable H. There V_i depends only on P_i, and F_i only on Q_i: [used position] has the stages whose V_i is used,
+      [used momentum] those whose F_i is, and each of the two lists has an order of its own. *)
+  Definition is_symmetric_for_separable : Prop :=
+    exists (used unused : colour -> list (label M)) (s : colour -> label M -> label M), forall c,
+    Permutation (used c ++ unused c) (stages M) /\ Permutation (map (s c) (used c)) (used c) /\
+    (forall i, In i (unused c) -> b M c i = 0 /\ forall j, In j (used (other c)) -> a M c j i = 0) /\
+    (forall i, In i (used c) -> b M c (s c i) = b M c i /\
+      forall j, In j (used (other c)) -> a M c j i + a M c (s (other c) j) (s c i) = b M c i).
 End Claims.
 
 (** ** 4. Tables: what a file has *)

@@ -8,8 +8,6 @@ From Coq Require Import Arith Bool Lia List QArith Ring.
 From SPRK Require Import Definitions Orders.
 Import ListNotations.
 
-Definition other (c : colour) : colour := match c with position => momentum | momentum => position end.
-
 Fixpoint recoloured (c : colour) (t : tree) : tree :=
   match t with vertex _ => vertex c | join t u => join (recoloured c t) u end.
 

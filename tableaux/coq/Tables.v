@@ -202,6 +202,25 @@ Section Tables.
       is_zero (plus (-1) (w c i) (w c (image i))) &&
       is_zero (plus (-1) (w c j) (plus 1 (entry c i j) (entry c (image i) (image j)))))) [position; momentum].
 
+  (** The used stages of a splitting are n successive ones after the first m, for each colour; the symmetry reverses them. *)
+  Definition of_colour (drifts kicks : nat * nat) (c : colour) : nat * nat :=
+    match c with position => drifts | momentum => kicks end.
+  Definition used_stages (range : nat * nat) : list nat := seq (fst range) (snd range).
+  Definition unused_stages (range : nat * nat) : list nat :=
+    seq 0 (fst range) ++ seq (fst range + snd range) (s - (fst range + snd range)).
+  Definition mirrored (range : nat * nat) (i : nat) : nat := 2 * fst range + snd range - 1 - i.
+
+  Definition table_symmetric_for_separable (drifts kicks : nat * nat) : bool :=
+    let range := of_colour drifts kicks in
+    forallb (fun c =>
+      Nat.leb (fst (range c) + snd (range c)) s &&
+      forallb (fun i => is_zero (w c i) && forallb (fun j => is_zero (entry c j i)) (used_stages (range (other c))))
+        (unused_stages (range c)) &&
+      forallb (fun i => is_zero (plus (-1) (w c i) (w c (mirrored (range c) i))) &&
+        forallb (fun j => is_zero (plus (-1) (w c i)
+          (plus 1 (entry c j i) (entry c (mirrored (range (other c)) j) (mirrored (range c) i)))))
+        (used_stages (range (other c)))) (used_stages (range c))) [position; momentum].
+
   Context {K : Algebra} (x : K) (Hx : is_root r x).
   Let M := method T x.
   Add Ring K_ring : (ring_laws K).
@@ -299,12 +318,52 @@ Section Tables.
         rewrite !plus_value, (rational_opposite 1), rational_one in H.
         apply equal_from_zero. rewrite <- H. simpl. unfold w, entry. ring.
   Qed.
+
+  Lemma parts_of_a_sequence m n t : (m + n <= t)%nat ->
+    Permutation (seq m n ++ seq 0 m ++ seq (m + n) (t - (m + n))) (seq 0 t).
+  Proof.
+    intros H. rewrite app_assoc.
+    transitivity ((seq 0 m ++ seq m n) ++ seq (m + n) (t - (m + n))); [apply Permutation_app_tail, Permutation_app_comm|].
+    replace (seq m n) with (seq (0 + m) n) by reflexivity. rewrite <- seq_app.
+    replace (seq (m + n) (t - (m + n))) with (seq (0 + (m + n)) (t - (m + n))) by reflexivity. rewrite <- seq_app.
+    replace (m + n + (t - (m + n)))%nat with t by lia. reflexivity.
+  Qed.
+
+  Lemma reversed_sequence m n : Permutation (map (fun i => 2 * m + n - 1 - i)%nat (seq m n)) (seq m n).
+  Proof.
+    apply Permutation_sym, NoDup_Permutation_bis; [apply seq_NoDup | now rewrite map_length |].
+    intros i Hi. apply in_seq in Hi. apply in_map_iff. exists (2 * m + n - 1 - i)%nat. split; [lia|]. apply in_seq. lia.
+  Qed.
+
+  Theorem table_symmetric_for_separable_sound drifts kicks :
+    table_symmetric_for_separable drifts kicks = true -> is_symmetric_for_separable M.
+  Proof.
+    unfold table_symmetric_for_separable. set (range := of_colour drifts kicks). intros H.
+    exists (fun c => used_stages (range c)), (fun c => unused_stages (range c)), (fun c => mirrored (range c)).
+    intros c. rewrite forallb_forall in H.
+    assert (Hc : In c [position; momentum]) by (destruct c; simpl; tauto).
+    specialize (H c Hc).
+    apply andb_prop in H; destruct H as [H Hused]. apply andb_prop in H; destruct H as [Hfits Hunused].
+    apply Nat.leb_le in Hfits. rewrite forallb_forall in Hunused, Hused.
+    split; [now apply parts_of_a_sequence|]. split; [apply reversed_sequence|]. split; intros i Hi.
+    - specialize (Hunused i Hi). apply andb_prop in Hunused; destruct Hunused as [Hb Ha].
+      rewrite forallb_forall in Ha.
+      split; [exact (is_zero_value _ x Hb) | intros j Hj; exact (is_zero_value _ x (Ha j Hj))].
+    - specialize (Hused i Hi). apply andb_prop in Hused; destruct Hused as [Hb Ha]. rewrite forallb_forall in Ha. split.
+      + apply (is_zero_value _ x) in Hb. rewrite !plus_value, (rational_opposite 1), rational_one in Hb.
+        apply equal_from_zero. rewrite <- Hb. simpl. unfold w. ring.
+      + intros j Hj. specialize (Ha j Hj). apply (is_zero_value _ x) in Ha.
+        rewrite !plus_value, (rational_opposite 1), rational_one in Ha.
+        apply equal_from_zero. rewrite <- Ha. simpl. unfold w, entry. ring.
+  Qed.
 End Tables.
 
+Definition no_stages : nat * nat := (0, 0)%nat.
 Definition no_images : list nat := [].
 
-(** Proves by computation what a file claims of a table; [images] are the images of the stages under the symmetry. *)
-Ltac compute_claims Hx images :=
+(** Proves by computation what a file claims of a table; [images] are the images of the stages under the symmetry, [drifts] and
+    [kicks] the used stages of a splitting. *)
+Ltac compute_claims Hx images drifts kicks :=
   cbv zeta;
   lazymatch goal with
   | |- context [is_symplectic (method ?T ?x)] =>
@@ -320,6 +379,10 @@ Ltac compute_claims Hx images :=
   | |- is_symplectic_for_separable (method ?T ?x) =>
       apply (table_symplectic_for_separable_sound T x Hx); vm_cast_no_check (eq_refl true)
   | |- is_symmetric (method ?T ?x) => apply (table_symmetric_sound T x images); vm_cast_no_check (eq_refl true)
+  | |- is_symmetric_for_separable (method ?T ?x) =>
+      apply (table_symmetric_for_separable_sound T x drifts kicks); vm_cast_no_check (eq_refl true)
   end.
-Ltac prove_table images := intros K x Hx; compute_claims Hx images.
-Ltac prove_rational_table images := intros K; compute_claims (@zero_is_root K) images.
+Ltac prove_table images := intros K x Hx; compute_claims Hx images no_stages no_stages.
+Ltac prove_rational_table images := intros K; compute_claims (@zero_is_root K) images no_stages no_stages.
+Ltac prove_splitting drifts kicks := intros K x Hx; compute_claims Hx no_images drifts kicks.
+Ltac prove_rational_splitting drifts kicks := intros K; compute_claims (@zero_is_root K) no_images drifts kicks.

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Lets Coq check the theorem of every method of the catalogue, for two minutes at most: bash tableaux/coq/catalogue.sh
+# Lets Coq check the theorem of every method of the catalogue, for two minutes of processor time at most: bash tableaux/coq/catalogue.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 library=$(mktemp -d)
@@ -15,7 +15,7 @@ for table in "$OLDPWD"/tableaux/*.toml; do
     file="${name//-/_}.v"
     if ! "$program" show "$name" --format coq >"$file" 2>error; then
         echo "$name: no theorem: $(head -1 error)"
-    elif time=$( { time timeout 120 coqc -R . SPRK "$file" >output 2>&1; } 2>&1 ); then
+    elif time=$( { ulimit -t 120; time coqc -R . SPRK "$file" >output 2>&1; } 2>&1 ); then
         echo "$name: $(head -1 output), $time s"
     else
         echo "$name: not accepted in two minutes"

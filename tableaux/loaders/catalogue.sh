@@ -22,7 +22,7 @@ write() {
             continue
         fi
         rm "$1.$format"
-        sed -n 's/^error: [A-Za-z]* cannot run this method: //p' error."$1" >"$1.$format.refused"
+        sed -n 's/^error: [A-Za-z]* cannot express this method: //p' error."$1" >"$1.$format.refused"
     done
     rm -f error."$1"
 }

@@ -24,6 +24,9 @@ system!(PLANETS: Planets<N> { m: [N], G: 1 } q: [N; 3], p: [N; 3];
 system!(WARPED: Warped { lambda: 1/4, k: [2, 2] } q: [x, y], p: [px, py];
     H = (1 + lambda x^2) (px^2 + py^2)/2 + k[0, 0] x^2/2 + k[1, 1] y^4/4 + k[0, 1] x^5 y/(1 + y^2)^(3/2));
 system!(DRIVEN: Driven { k: 1/3 } q: [x], p: [y]; H = y^2/2 + (1 + k t) x^2/2 + t x^4/(1 + x^2));
+system!(MOLECULE: Molecule<N> { m: [N], springs: pairs, stiffness: [springs], length: [springs], G: 1/8 } q: [N; 3], p: [N; 3];
+    H = sum(i: |p[i]|^2 / (2 m[i])) + sum(s = (i, j) in springs: stiffness[s] (|q[i] - q[j]| - length[s])^2/2)
+        - sum(i < j: G m[i] m[j] / |q[i] - q[j]|));
 system!(PENDULUM: Pendulum { g: 9.81 } q: [a], p: [pa]; H = pa^2/2 - g cos(a) + exp(-t) sin(a)/8);
 
 symplectic::tableau! { Verlet { base: stormer-verlet } }
@@ -36,8 +39,9 @@ enum Value {
     Number(f64),
     Array(&'static [f64]),
     Matrix([[f64; 2]; 2]),
+    Pairs(&'static [(usize, usize)]),
 }
-use Value::{Array, Length, Matrix, Number};
+use Value::{Array, Length, Matrix, Number, Pairs};
 
 /// Steps of a system from a start.
 struct Case {
@@ -98,6 +102,36 @@ fn planets() -> Case {
     }
 }
 
+const BONDS: [(usize, usize); 4] = [(0, 1), (2, 0), (3, 2), (1, 3)];
+const STIFFNESS: [f64; 4] = [40.0, 1.0, 2.5, 0.3];
+const LENGTHS: [f64; 4] = [0.96, 1.1, 1.0, 2.0];
+const ATOMS: [f64; 4] = [16.0, 1.0, 1.25, 3.0];
+
+/// Bonds in a list.
+fn molecule(springs: &'static [(usize, usize)]) -> Case {
+    Case {
+        method: "forest-ruth-1990",
+        formula: MOLECULE,
+        kind: "Molecule",
+        values: vec![
+            ("N", Length(4)),
+            ("m", Array(&ATOMS)),
+            ("springs", Pairs(springs)),
+            ("stiffness", Array(&STIFFNESS)),
+            ("length", Array(&LENGTHS)),
+            ("G", Number(0.125)),
+        ],
+        start: [
+            vec![0.0, 0.1, 0.0, 1.0, 0.0, -0.2, -0.3, 1.0, 0.1, 0.4, 1.5, 0.9],
+            vec![
+                0.2, 0.0, 0.1, -0.1, 0.3, 0.0, 0.0, -0.2, 0.05, -0.1, 0.0, 0.2,
+            ],
+        ],
+        h: 0.01,
+        steps: 1000,
+    }
+}
+
 /// H depends on time.
 fn driven() -> Case {
     Case {
@@ -147,6 +181,10 @@ fn forms_of_systems() {
         (planets(), "planets", "python", "py"),
         (warped(), "warped", "c", "c"),
         (pendulum(), "pendulum", "python", "py"),
+        (molecule(&BONDS), "molecule", "c", "c"),
+        (molecule(&BONDS), "molecule", "rust", "rs"),
+        (molecule(&BONDS), "molecule", "julia", "jl"),
+        (molecule(&BONDS), "molecule", "python", "py"),
     ] {
         let text = stepper(&folder(&format!("form-{name}-{language}")), &case, language);
         let start = text.find("The system").expect("a system");
@@ -169,6 +207,13 @@ fn splittings_have_the_bits_of_the_runtime() {
     agree(
         &case,
         &runtime!(case, Forest, system, SMatrix<f64, 3, 3>),
+        0.0,
+    );
+    let case = molecule(&BONDS);
+    let system = Molecule::new(ATOMS, BONDS.to_vec(), STIFFNESS.to_vec(), LENGTHS.to_vec());
+    agree(
+        &case,
+        &runtime!(case, Forest, system, SMatrix<f64, 3, 4>),
         0.0,
     );
     let case = driven();
@@ -209,6 +254,37 @@ fn parameters_are_felt() {
     for language in [c, rust, python] {
         let found = language(&folder, &case).into_iter().flatten();
         assert!(found.zip(&other).all(|(x, y)| x != *y));
+    }
+}
+
+/// A pair with an index out of range is an error of the step, as in the runtime.
+#[test]
+fn pairs_out_of_range_are_errors() {
+    for pair in [[(4, 0); 4], [(0, 4); 4]] {
+        let case = molecule(Vec::leak(pair.to_vec()));
+        let folder = folder("pairs-out-of-range");
+        for (language, message) in [
+            (c as fn(&Path, &Case) -> Option<Vec<f64>>, ""),
+            (rust, "NotFinite"),
+            (python, "out of range"),
+        ] {
+            match std::panic::catch_unwind(|| language(&folder, &case)) {
+                // There is no compiler here.
+                Ok(found) => assert_eq!(found, None),
+                Err(panic) => {
+                    let panic = panic.downcast_ref::<String>().expect("a message");
+                    assert!(panic.contains(message), "{panic}");
+                }
+            }
+        }
+        let system = Molecule::new(ATOMS, pair.to_vec(), STIFFNESS.to_vec(), LENGTHS.to_vec());
+        let [q, p] = [0, 1].map(|half| SMatrix::<f64, 3, 4>::from_column_slice(&case.start[half]));
+        let mut integrator = Integrator::new(Forest, system, State::new(0.0, q, p), case.h);
+        assert!(
+            integrator
+                .as_mut()
+                .is_ok_and(|integrator| integrator.step().is_err())
+        );
     }
 }
 
@@ -254,8 +330,6 @@ fn systems_that_do_not_fit_are_refused() {
         let message = refusal("stormer-verlet", &formula, &[]);
         assert!(message.contains(what), "{message}");
     }
-    let springs = "M { springs: pairs } q: [..], p: [..]; H = sum(i: p[i]^2/2) + sum(s = (i, j) in springs: (q[i] - q[j])^2/2)";
-    assert!(refusal("gauss-2", springs, &[]).contains("lists of pairs"));
     let lagrangian = "L q: [x], v: [u]; L = u^4/4 + u^2/2 - x^2";
     assert!(refusal("gauss-2", lagrangian, &[]).contains("no formula of H"));
     assert!(
@@ -296,7 +370,12 @@ fn stepper(folder: &Path, case: &Case, language: &str) -> String {
     let mut text = emit(case.method, language, &["--system", &file]);
     // In Rust lengths are constants of the file.
     for (name, value) in &case.values {
-        if let ("rust", Length(n)) = (language, value) {
+        let length = match value {
+            Length(n) => Some(*n),
+            Pairs(list) => Some(list.len()),
+            _ => None,
+        };
+        if let ("rust", Some(n)) = (language, length) {
             let line = format!("pub const LENGTH_{name}: usize = ");
             assert!(text.contains(&line));
             text = text.replace(&format!("{line}2;"), &format!("{line}{n};"));
@@ -328,6 +407,12 @@ fn c(folder: &Path, case: &Case) -> Option<Vec<f64>> {
             Array(list) => {
                 let numbers = braces(format!("{list:?}"));
                 writeln!(arrays, "    static const double {field}[] = {numbers};").expect("text");
+                (*field).to_owned()
+            }
+            Pairs(list) => {
+                let pairs = braces(format!("{list:?}").replace('(', "[").replace(')', "]"));
+                writeln!(arrays, "    static const size_t {field}[][2] = {pairs};").expect("text");
+                write!(fields, ".{field}_count = {}, ", list.len()).expect("text");
                 (*field).to_owned()
             }
             Matrix(matrix) => braces(format!("[{}]", rows(matrix).join(", "))),
@@ -367,6 +452,7 @@ fn rust(folder: &Path, case: &Case) -> Option<Vec<f64>> {
             Length(_) => return None,
             Number(x) => format!("{x:?}"),
             Array(list) => format!("{list:?}"),
+            Pairs(list) => format!("{list:?}"),
             Matrix(matrix) => format!("{matrix:?}"),
         };
         Some(format!("{field}: {value}"))
@@ -399,6 +485,7 @@ fn python(folder: &Path, case: &Case) -> Option<Vec<f64>> {
         Number(x) if *field == "lambda" => format!("lambda_={x:?}"),
         Number(x) => format!("{field}={x:?}"),
         Array(list) => format!("{field}={list:?}"),
+        Pairs(list) => format!("{field}={list:?}"),
         Matrix(matrix) => format!("{field}={matrix:?}"),
     });
     let arguments = arguments.collect::<Vec<_>>().join(", ");

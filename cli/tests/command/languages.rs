@@ -23,6 +23,7 @@ fn forms() {
         ("forest-ruth-1990", "petsc", "c"),
         ("gauss-2", "petsc", "c"),
         ("gauss-2", "nodepy", "py"),
+        ("gauss-2", "tsv", "tsv"),
         ("kahan-li-1997-s31odr10-a", "latex", "tex"),
     ] {
         let text = stdout(&["show", method, "--format", format]);
@@ -40,11 +41,12 @@ fn what_a_library_cannot_run_is_refused() {
         ("lobatto-3", "sundials", "this one is implicit"),
         ("lobatto-3", "petsc", "this one is implicit"),
         ("lobatto-3", "nodepy", "not partitioned ones"),
+        ("lobatto-3", "tsv", "`--format julia` writes both tableaux"),
     ] {
         let (status, message) = failure(&["show", method, "--format", format]);
         assert_eq!(status, Some(2), "{method} {format}");
         assert!(
-            message.contains("cannot run this method") && message.contains(reason),
+            message.contains("cannot express this method") && message.contains(reason),
             "{message}"
         );
     }

@@ -1,7 +1,14 @@
 //! Aligned columns on a screen.
 
 /// The number of columns of a text on a screen: combining marks, as in `b̃`, take none.
-pub(super) fn width(text: &str) -> usize {
+///
+/// ```
+/// use symplectic_compiler::export::columns::{left, width};
+///
+/// assert_eq!(width("IIIF\u{304}"), 4);
+/// assert_eq!(left("IIIF\u{304}", 6), "IIIF\u{304}  ");
+/// ```
+pub fn width(text: &str) -> usize {
     text.chars()
         .filter(|c| !('\u{300}'..='\u{36f}').contains(c))
         .count()
@@ -12,8 +19,8 @@ pub(super) fn right(text: &str, to: usize) -> String {
     format!("{}{text}", " ".repeat(to.saturating_sub(width(text))))
 }
 
-/// The text padded with spaces on the right, up to a width.
-pub(super) fn left(text: &str, to: usize) -> String {
+/// The text padded with spaces on the right, up to a [width].
+pub fn left(text: &str, to: usize) -> String {
     format!("{text}{}", " ".repeat(to.saturating_sub(width(text))))
 }
 

@@ -6,7 +6,7 @@
 //! | JSON | [`json::write`] | [`json::read`] | short exact forms, decimals, doubles, the properties |
 //! | TOML | [`toml::write`] | [`toml::read`] | all exact data, decimals, the properties |
 //! | certificate | [`certificate::write`] | `tableaux/check_certificate.py` | all exact data, doubles, what is proved |
-//! | LaTeX, C, Fortran, Julia, Python, SUNDIALS, PETSc, nodepy, Coq | [`Language::write`] | that language | the coefficients |
+//! | LaTeX, C, Fortran, Julia, Python, SUNDIALS, PETSc, nodepy, RungeKutta.jl, Coq | [`Language::write`] | that language | the coefficients |
 //! | C, Rust, Julia, Python | [`Stepper::write`] | that language | a program that takes steps |
 
 use crate::coefficients::Coefficients;
@@ -14,7 +14,7 @@ use crate::exact::Exact;
 use crate::tableau::{Tableau, left_out};
 
 pub mod certificate;
-mod columns;
+pub mod columns;
 mod encoding;
 mod entries;
 mod facts;

@@ -9,6 +9,7 @@ mod numbers;
 mod parser;
 mod source;
 mod tokens;
+mod tsv;
 mod value;
 
 pub(crate) use numbers::{Numbers, Origin, half};
@@ -27,7 +28,8 @@ use crate::tableau::Tableau;
 /// Reads a table in the form of a library.
 ///
 /// The letters and the order of kicks and drifts are those of [`Library::stepping`]. Butcher tables have `A` or `a`, `b`, optionally
-/// `c`, and optionally `a_tilde`, `b_tilde`. Matrices are read row by row. Everything else in the file is skipped.
+/// `c`, and optionally `a_tilde`, `b_tilde`. Matrices are read row by row. Everything else in the file is skipped. For RungeKutta.jl
+/// the file may also be the tab-separated one of its `to_file`.
 ///
 /// ```
 /// use symplectic_compiler::{Library, Limits, import};
@@ -116,6 +118,9 @@ pub(crate) fn value_of(
 
 /// The numbers of a table.
 fn read(library: Library, input: Input<'_>, limits: &Limits) -> Result<Numbers, Error> {
+    if library == Library::RungeKuttaJl && tsv::is_tsv(input.text) {
+        return tsv::read(input, limits);
+    }
     let source = Source::scan(input, library.notation())?;
     let list = |name: &str| -> Result<Vec<Value>, Error> {
         source

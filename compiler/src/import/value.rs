@@ -65,6 +65,18 @@ impl Value {
         })
     }
 
+    /// A literal that prints a binary floating-point number with so many binary digits: short ones are exact, others may be off by a
+    /// unit of the last binary place.
+    pub fn rounded(text: &str, bits: u32) -> Result<Self, ErrorKind> {
+        let mut value = Value::decimal(text)?;
+        if !value.is_exact() {
+            let unit = BigRational::new(BigInt::one(), BigInt::one() << (bits - 1));
+            value.error = value.rational().abs() * unit;
+            value.text = None;
+        }
+        Ok(value)
+    }
+
     /// The number `numerator·2^exponent` of a hexadecimal constant, which is considered rounded if it has many digits.
     pub fn binary(numerator: BigInt, exponent: i64) -> Result<Self, ErrorKind> {
         let twos = numerator.trailing_zeros().unwrap_or(0);

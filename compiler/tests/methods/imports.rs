@@ -45,6 +45,7 @@ fn exports_are_read_back() {
             (Language::Petsc, Library::Petsc),
             (Language::Nodepy, Library::Nodepy),
             (Language::Julia, Library::RungeKuttaJl),
+            (Language::Tsv, Library::RungeKuttaJl),
         ] {
             let Ok(text) = language.write(&tableau, 40) else {
                 continue;
@@ -629,5 +630,57 @@ fn any_text_has_an_answer() {
                 );
             }
         }
+    }
+}
+
+/// The tab-separated file of RungeKutta.jl: its doubles, bit for bit, where they are no method; long decimals are rounded numbers of
+/// the type in the first line.
+#[test]
+fn tab_separated_tables_are_read() {
+    let jl = |text: &str| read(Library::RungeKuttaJl, text);
+    // No exact method is near: the numbers are those of the file.
+    let text = "# 1 2 Float64\n# a comment\n0.6\t0.1 0.5 # 1/10\n\n-0.0078125\t1.0e-3\t-8.8125e-3\n0.0\t0.123456789012345\t-1.5\n";
+    let table = jl(text).expect("read");
+    let doubles = table.to_f64();
+    assert_eq!(doubles.a, [[0.1, 0.5], [1e-3, -8.8125e-3]]);
+    assert_eq!(doubles.b, [0.123456789012345, -1.5]);
+    let written = Language::Tsv.write(&table, 17).expect("written");
+    let again = jl(&written).expect("read again").to_f64();
+    assert_eq!(again, doubles);
+    // Of Gauss's method, 53 and 256 binary digits.
+    let gauss = catalogue::find("gauss-2").expect("known");
+    let gauss = gauss.derive().expect("derived");
+    let third = "0.3333333333333333333333333333333333333333333333333333333333333333333333333333348";
+    let radau = format!(
+        "# 3 2 BigFloat\n0.0\t0.25\t-0.25\n0.{}7\t0.25\t0.41{}7\n0.0\t0.25\t0.75\n",
+        "6".repeat(76),
+        "6".repeat(75)
+    );
+    let read_gauss = jl(&Language::Tsv.write(&gauss, 17).expect("written")).expect("read");
+    assert_eq!(read_gauss.exact_forms(), gauss.exact_forms());
+    // Radau IA: 2/3 and 5/12.
+    assert_eq!(jl(&radau).expect("read").orders().general.order, 3);
+    // The last digits of a number of 256 binary digits are noise.
+    let text = format!("# 2 1 BigFloat\n{third}\t{third}\n0.0\t1.0\n");
+    assert_eq!(jl(&text).expect("read").to_f64().a, [[1.0 / 3.0]]);
+
+    for (text, message) in [
+        ("# 2 1\n0.5 x\n0 1", "table, line 2, column 5: "),
+        ("0.5 NaN\n0 1", "table, column 5: "),
+        ("0.5 Inf\n0 1", "table, column 5: "),
+        (
+            "# 2 2 Float64\n0.5 0.5\n0 1",
+            "table, column 1: 2 stages need 3 rows of numbers, and the file has 2",
+        ),
+        (
+            "0.5 0.5\n0 1 2",
+            "table, line 2, column 1: row 2 has 3 numbers, and a file of 2 rows has as many columns",
+        ),
+        ("0.5 0.25\n0 1", "c_1 is 1/2, and row 1 sums to 1/4"),
+        ("0.5", "there is no table"),
+        ("# 2 0 Float64", "there is no table"),
+    ] {
+        let error = jl(text).expect_err(text).to_string();
+        assert!(error.contains(message), "{text}:\n{error}");
     }
 }

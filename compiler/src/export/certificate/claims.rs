@@ -74,7 +74,7 @@ pub(super) fn of(tableau: &Tableau, staircase: Option<Staircase>) -> Vec<(&'stat
             false => missing.push("order (perturbed)".to_owned()),
         }
     }
-    match stability(tableau) {
+    match stability(tableau, staircase) {
         Some(found) => claims.push(("stability", found)),
         None => missing.push("stability".to_owned()),
     }
@@ -115,16 +115,21 @@ fn class_order(found: &ClassOrder) -> Option<Fact> {
     })
 }
 
-/// The trace and all stable steps, for an area-preserving method with rational functions.
-fn stability(tableau: &Tableau) -> Option<Fact> {
+/// All stable steps of an area-preserving method, and the trace if it is rational. Those of a solution of order conditions, which are
+/// verified here, the checker proves: it needs no zeros for a splitting.
+fn stability(tableau: &Tableau, staircase: Option<Staircase>) -> Option<Fact> {
     let StableSteps::All(found) = tableau.stable_steps() else {
         return None;
     };
     let Stability {
         trace, intervals, ..
     } = &*found;
-    let (numerator, denominator) = trace.rational.as_ref()?;
-    if !found.preserves_area || found.evidence != Evidence::Proved {
+    let is_known = match found.evidence {
+        Evidence::Proved => true,
+        Evidence::Verified { .. } => staircase.is_some(),
+        _ => false,
+    };
+    if !found.preserves_area || !is_known {
         return None;
     }
     let list = |texts: Vec<BigRational>| List(texts.iter().map(|x| Text(x.to_string())).collect());
@@ -136,9 +141,13 @@ fn stability(tableau: &Tableau) -> Option<Fact> {
             Literal(i.high_closed.to_string()),
         ])
     };
-    Some(Table(vec![
-        ("numerator", list(numerator.coefficients())),
-        ("denominator", list(denominator.coefficients())),
-        ("intervals", List(intervals.iter().map(interval).collect())),
-    ]))
+    let mut members = Vec::new();
+    if let Some((numerator, denominator)) = &trace.rational {
+        members.extend([
+            ("numerator", list(numerator.coefficients())),
+            ("denominator", list(denominator.coefficients())),
+        ]);
+    }
+    members.push(("intervals", List(intervals.iter().map(interval).collect())));
+    Some(Table(members))
 }

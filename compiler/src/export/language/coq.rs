@@ -1,5 +1,7 @@
 //! A theorem for Coq, which `tableaux/coq` proves by computation.
 
+use std::ops::Range;
+
 use num_rational::BigRational;
 
 use super::polynomials::{Halves, Polynomials};
@@ -8,10 +10,11 @@ use crate::algebra::NodeAlgebra;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::error::{Error, ErrorKind};
 use crate::evidence::Evidence;
+use crate::exact::over_algebra;
 use crate::order::{HamiltonianClass, TreeRule, Trees};
-use crate::pair::Pair;
+use crate::pair::{Pair, Staircase};
 use crate::properties::{Property, images};
-use crate::tableau::left_out;
+use crate::tableau::{Tableau, left_out};
 
 /// Wider lists have one item per line.
 const WIDEST: usize = 100;
@@ -90,33 +93,24 @@ fn in_number(
     let row = |row: &Vec<Polynomial>| list(row.iter().map(|f| polynomial(f, degree)), 4);
     let [a, a_tilde] = [0, 1].map(|half| list(coefficients.a[half].iter().map(row), 4));
     let [b, b_tilde] = [0, 1].map(|half| row(&coefficients.b[half]));
-    let symmetric = is_proved(&table.tableau.properties().symmetric);
-    let images = symmetric
-        .then(|| images(&table.tableau.numbers()))
-        .flatten();
     let each = (coefficients.b[0].len() * degree).pow(2);
     let mut claims = claims(table, |class, order| affordable(class, order, each));
-    if images.is_some() {
-        claims.push("is_symmetric M".to_owned());
-    }
-    let images = images.map_or("no_images".to_owned(), |images| {
-        let images: Vec<String> = images.iter().map(ToString::to_string).collect();
-        format!("[{}]%nat", images.join("; "))
-    });
+    let (symmetry, proof) = symmetry(table, coefficients);
+    claims.extend(symmetry.map(str::to_owned));
     let name = &table.name;
     let (remark, hypothesis, method, tactic) = if degree == 1 {
         (
             "The entries are rational: polynomials in x = 0.".to_owned(),
             "forall K : Algebra,".to_owned(),
             format!("method {name}_table (@zero K)"),
-            format!("prove_rational_table {images}"),
+            format!("prove_rational_{proof}"),
         )
     } else {
         (
             format!("The entries are polynomials in x = {number}; coefficients of 1, x, ..."),
             format!("forall (K : Algebra) (x : K), is_root (reduction {name}_table) x ->"),
             format!("method {name}_table x"),
-            format!("prove_table {images}"),
+            format!("prove_{proof}"),
         )
     };
     Theorem {
@@ -133,6 +127,57 @@ fn in_number(
         claims,
         tactic,
     }
+}
+
+/// The symmetry that is claimed, and the tactic that proves it.
+fn symmetry(
+    table: &Table<'_>,
+    coefficients: &Halves<Polynomial>,
+) -> (Option<&'static str>, String) {
+    let tableau = table.tableau;
+    if is_proved(&tableau.properties().symmetric)
+        && let Some(images) = images(&tableau.numbers())
+    {
+        let images: Vec<String> = images.iter().map(ToString::to_string).collect();
+        let tactic = format!("table [{}]%nat", images.join("; "));
+        return (Some("is_symmetric M"), tactic);
+    }
+    if is_proved(&tableau.separable_properties().symmetric)
+        && let Some([drifts, kicks]) = used_stages(tableau, &coefficients.b)
+    {
+        let range = |used: Range<usize>| format!("({}, {})%nat", used.start, used.len());
+        let tactic = format!("splitting {} {}", range(drifts), range(kicks));
+        return (Some("is_symmetric_for_separable M"), tactic);
+    }
+    (None, "table no_images".to_owned())
+}
+
+/// The stages of a splitting with the same flows from both ends that drift and those that kick, without those of no time at either end.
+fn used_stages(
+    tableau: &Tableau,
+    [drifts, kicks]: &[Vec<Polynomial>; 2],
+) -> Option<[Range<usize>; 2]> {
+    let drift_first = over_algebra!(tableau, pair => pair.staircase())? == Staircase::DriftsFirst;
+    // Twice the stage, and one more for its second flow.
+    let place = |stage: usize, is_drift: bool| 2 * stage + usize::from(is_drift != drift_first);
+    let places = |weights: &[Polynomial], is_drift: bool| -> Vec<usize> {
+        let used = (0..weights.len()).filter(|&stage| !weights[stage].is_zero());
+        used.map(|stage| place(stage, is_drift)).collect()
+    };
+    let used = [places(drifts, true), places(kicks, false)].concat();
+    let (first, last) = (*used.iter().min()?, *used.iter().max()?);
+    let stages = |is_drift: bool| {
+        let within = |&stage: &usize| (first..=last).contains(&place(stage, is_drift));
+        let stages: Vec<usize> = (0..drifts.len()).filter(within).collect();
+        let start = stages.first().copied().unwrap_or(0);
+        start..start + stages.len()
+    };
+    let used = [stages(true), stages(false)];
+    let is_palindrome = [drifts, kicks].iter().zip(&used).all(|(weights, used)| {
+        let weights = &weights[used.clone()];
+        weights.iter().eq(weights.iter().rev())
+    });
+    is_palindrome.then_some(used)
 }
 
 fn in_nodes(table: &Table<'_>, pair: &Pair<NodeAlgebra>) -> Theorem {

@@ -9,6 +9,7 @@
 //! | SUNDIALS | a function that makes a table of ARKODE | splittings; Runge–Kutta methods whose stages follow one another |
 //! | PETSc | a function that registers the method | splittings; Runge–Kutta methods with a regular matrix |
 //! | nodepy | a `RungeKuttaMethod` with entries of SymPy | Runge–Kutta methods |
+//! | TSV of RungeKutta.jl | doubles, as its `from_file` reads them | Runge–Kutta methods |
 //! | Coq | the exact table, and a theorem of its orders, symplecticity and symmetry | exact ones with algebraic coefficients |
 
 mod c;
@@ -22,6 +23,7 @@ mod polynomials;
 mod python;
 mod sundials;
 pub(in crate::export) mod table;
+mod tsv;
 
 pub(in crate::export) use c::{comment, hexadecimal};
 
@@ -48,13 +50,15 @@ pub enum Language {
     Petsc,
     /// Python for nodepy.
     Nodepy,
+    /// Tab-separated doubles for RungeKutta.jl.
+    Tsv,
     /// A theorem for Coq.
     Coq,
 }
 
 impl Language {
     /// All languages.
-    pub const ALL: [Language; 9] = [
+    pub const ALL: [Language; 10] = [
         Language::Latex,
         Language::C,
         Language::Fortran,
@@ -63,6 +67,7 @@ impl Language {
         Language::Sundials,
         Language::Petsc,
         Language::Nodepy,
+        Language::Tsv,
         Language::Coq,
     ];
 
@@ -79,7 +84,7 @@ impl Language {
     /// ```
     ///
     /// # Errors
-    /// [`ErrorKind::NotExpressible`] for a method that the library cannot run, and [`ErrorKind::NoTheorem`] for a method whose
+    /// [`ErrorKind::NotExpressible`] for a method that the library, or its file, cannot express, and [`ErrorKind::NoTheorem`] for a method whose
     /// coefficients are not exactly known algebraic numbers.
     pub fn write(self, tableau: &Tableau, digits: usize) -> Result<String, Error> {
         let table = Table::new(tableau, digits);
@@ -92,6 +97,7 @@ impl Language {
             Language::Sundials => sundials::write(&table),
             Language::Petsc => petsc::write(&table),
             Language::Nodepy => nodepy::write(&table),
+            Language::Tsv => tsv::write(&table),
             Language::Coq => coq::write(&table),
         }
     }

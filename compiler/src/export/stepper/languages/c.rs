@@ -1,7 +1,7 @@
 //! C99.
 
 use super::Notation;
-use super::formulas::{Field, FieldShape, Formulas, Functions};
+use super::formulas::{Count, Field, FieldShape, Formulas, Functions};
 use crate::export::language::{comment, hexadecimal};
 
 pub(super) const NOTATION: Notation = Notation {
@@ -50,12 +50,20 @@ pub(super) const FORMULAS: Formulas = Formulas {
     set: "@target@ = @value@;",
     result: "return @value@;",
     range: "for (size_t @index@ = @start@; @before@ < @limit@; @index@++) {",
+    pairs: &[
+        "for (size_t @index@ = 0; @index@ < @count@; @index@++) {",
+        "const size_t @first@ = @list@[@index@][0], @second@ = @list@[@index@][1];",
+        "if (@first@ >= @bodies@ || @second@ >= @bodies@) @outside@",
+    ],
+    outside: "{ for (size_t i = 0; i < @dimension@; i++) @vector@[i] = NAN; return; }",
+    outside_energy: "return NAN;",
     end: "}",
     member: "s->@name@",
     matrix: ["@member@[@row@ * @columns@ + @j@]", "@member@[@i@][@j@]"],
     length_member: "s->@name@",
     length: "n",
     named_length: "@name@",
+    count: Count::Length("@name@_count"),
     multiple: "@count@ * @length@",
     first: 0,
     infinity: "INFINITY",
@@ -97,6 +105,10 @@ fn declare(fields: &[Field], _least: usize) -> String {
                 let names = lengths.iter().map(|name| name.trim_start_matches("s->"));
                 let lengths = names.collect::<Vec<_>>().join(" x ");
                 format!("    const double *{name}; /* {lengths} numbers{rows} */\n")
+            }
+            FieldShape::Pairs { count } => {
+                let count = count.trim_start_matches("s->");
+                format!("    const size_t (*{name})[2]; /* {count} pairs of indices from 0 */\n")
             }
         }
     };

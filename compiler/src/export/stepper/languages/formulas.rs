@@ -39,6 +39,13 @@ pub(in super::super) struct Formulas {
     pub result: &'static str,
     /// A loop begins: from `start` up to but excluding `end`, which is `last + 1`; or while `before < limit`.
     pub range: &'static str,
+    /// A loop over a list of pairs begins: the line of the loop, and lines in it that name both indices and leave the function if one is
+    /// not less than the number of `bodies`.
+    pub pairs: &'static [&'static str],
+    /// Leaves a function that writes a derivative, without a result.
+    pub outside: &'static str,
+    /// The same, where the energy is returned.
+    pub outside_energy: &'static str,
     /// A loop ends.
     pub end: &'static str,
     /// A parameter.
@@ -51,6 +58,8 @@ pub(in super::super) struct Formulas {
     pub length: &'static str,
     /// The name of a length with a name.
     pub named_length: &'static str,
+    /// The number of pairs in a list.
+    pub count: Count,
     /// A multiple of a length.
     pub multiple: &'static str,
     /// The first index.
@@ -79,6 +88,14 @@ pub(in super::super) struct Functions {
     pub prefix: &'static str,
 }
 
+/// The number of pairs in a list.
+pub(in super::super) enum Count {
+    /// A length with this name.
+    Length(&'static str),
+    /// An expression of the list.
+    Expression(&'static str),
+}
+
 /// A length that the formula leaves open, or a parameter.
 pub(in super::super) struct Field {
     /// Its name in the language.
@@ -98,6 +115,8 @@ pub(in super::super) enum FieldShape {
         lengths: Vec<String>,
         is_fixed: bool,
     },
+    /// A list of pairs of indices, with the number of pairs.
+    Pairs { count: String },
 }
 
 impl Field {

@@ -1,6 +1,6 @@
 //! Julia.
 
-use super::formulas::{Field, FieldShape, Formulas, Functions};
+use super::formulas::{Count, Field, FieldShape, Formulas, Functions};
 use super::{Notation, shortest};
 use crate::export::language::table::comments;
 
@@ -45,12 +45,20 @@ pub(super) const FORMULAS: Formulas = Formulas {
     set: "@target@ = @value@",
     result: "return @value@",
     range: "for @index@ in @start@:@last@",
+    pairs: &[
+        "for @index@ in 0:length(@list@) - 1",
+        "@first@, @second@ = @list@[@index@ + 1] .- 1",
+        "0 <= @first@ < @bodies@ && 0 <= @second@ < @bodies@ || @outside@",
+    ],
+    outside: OUTSIDE,
+    outside_energy: OUTSIDE,
     end: "end",
     member: "s.@name@",
     matrix: ["@member@[@i@, @j@]"; 2],
     length_member: "s.@name@",
     length: "n",
     named_length: "@name@",
+    count: Count::Expression("length(s.@name@)"),
     multiple: "@count@ * @length@",
     first: 1,
     infinity: "Inf",
@@ -118,6 +126,8 @@ pub(super) const FORMULAS: Formulas = Formulas {
 
 const TOO_FEW: &str = "    @length@ < @least@ && throw(ArgumentError(\"the formula needs at least @least@ coordinates\"))\n";
 
+const OUTSIDE: &str = "throw(ArgumentError(\"a pair has an index out of range\"))";
+
 fn declare(fields: &[Field], _least: usize) -> String {
     let field = |field: &Field| {
         let kind = match &field.shape {
@@ -125,11 +135,16 @@ fn declare(fields: &[Field], _least: usize) -> String {
             FieldShape::Number(_) => "Float64",
             FieldShape::Array { lengths, .. } if lengths.len() == 1 => "Vector{Float64}",
             FieldShape::Array { .. } => "Matrix{Float64}",
+            FieldShape::Pairs { .. } => "Vector{Tuple{Int, Int}}",
+        };
+        let remark = match field.shape {
+            FieldShape::Pairs { .. } => " # pairs of indices from 1",
+            _ => "",
         };
         let default = field
             .default()
             .map_or_else(String::new, |value| format!(" = {value}"));
-        format!("    {}::{kind}{default}\n", field.name)
+        format!("    {}::{kind}{default}{remark}\n", field.name)
     };
     match fields {
         [] => "struct @Type@ end\n".to_owned(),

@@ -1,6 +1,6 @@
 //! Python.
 
-use super::formulas::{Field, Formulas, Functions};
+use super::formulas::{Count, Field, Formulas, Functions};
 use super::{Notation, shortest};
 use crate::export::language::table::comments;
 
@@ -45,12 +45,20 @@ pub(super) const FORMULAS: Formulas = Formulas {
     set: "@target@ = @value@",
     result: "return @value@",
     range: "for @index@ in range(@start@, @end@):",
+    pairs: &[
+        "for @index@, (@first@, @second@) in enumerate(@list@):",
+        "if not (0 <= @first@ < @bodies@ and 0 <= @second@ < @bodies@):",
+        "    @outside@",
+    ],
+    outside: OUTSIDE,
+    outside_energy: OUTSIDE,
     end: "",
     member: "self.@name@",
     matrix: ["@member@[@i@][@j@]"; 2],
     length_member: "self.@name@",
     length: "n",
     named_length: "@name@",
+    count: Count::Expression("len(self.@name@)"),
     multiple: "(@count@ * @length@)",
     first: 0,
     infinity: "math.inf",
@@ -92,6 +100,8 @@ pub(super) const FORMULAS: Formulas = Formulas {
 const TOO_FEW: &str = "        if @length@ < @least@:
             raise ValueError(\"the formula needs at least @least@ coordinates\")
 ";
+
+const OUTSIDE: &str = "raise ValueError(\"a pair has an index out of range\")";
 
 fn declare(fields: &[Field], _least: usize) -> String {
     if fields.is_empty() {

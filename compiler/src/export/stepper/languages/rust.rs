@@ -1,6 +1,6 @@
 //! Rust.
 
-use super::formulas::{Field, FieldShape, Formulas, Functions};
+use super::formulas::{Count, Field, FieldShape, Formulas, Functions};
 use super::{Notation, shortest};
 use crate::export::language::table::comments;
 
@@ -45,12 +45,21 @@ pub(super) const FORMULAS: Formulas = Formulas {
     set: "@target@ = @value@;",
     result: "@value@",
     range: "for @index@ in @start@..@end@ {",
+    pairs: &[
+        "for (@index@, &(@first@, @second@)) in @list@.iter().enumerate() {",
+        "if @first@ >= @bodies@ || @second@ >= @bodies@ {",
+        "    return @outside@;",
+        "}",
+    ],
+    outside: "[f64::NAN; DIMENSION]",
+    outside_energy: "f64::NAN",
     end: "}",
     member: "self.@name@",
     matrix: ["@member@[@i@][@j@]"; 2],
     length_member: "@name@",
     length: "LENGTH",
     named_length: "LENGTH_@name@",
+    count: Count::Length("LENGTH_@name@"),
     multiple: "@count@ * @length@",
     first: 0,
     infinity: "f64::INFINITY",
@@ -79,8 +88,12 @@ fn declare(fields: &[Field], least: usize) -> String {
     for field in fields {
         if let FieldShape::Length = field.shape {
             let (name, value) = (&field.name, least.max(2));
+            let small = match name.contains(char::is_lowercase) {
+                true => "#[allow(non_upper_case_globals)]\n",
+                false => "",
+            };
             text.push_str(&format!(
-                "/// A length that the formula leaves open: set it here.\npub const {name}: usize = {value};\n\n"
+                "/// A length that the formula leaves open: set it here.\n{small}pub const {name}: usize = {value};\n\n"
             ));
         }
     }
@@ -93,6 +106,7 @@ fn declare(fields: &[Field], least: usize) -> String {
                     format!("[{kind}; {length}]")
                 })
             }
+            FieldShape::Pairs { count } => format!("[(usize, usize); {count}]"),
         };
         Some(format!("    pub {name}: {kind},\n"))
     });

@@ -23,10 +23,6 @@ use crate::formula::{Layout, Shape, Structure, System};
 
 /// Refuses systems that are more than a formula of H.
 pub(super) fn check(system: &System) -> Result<(), Error> {
-    let has_pairs = system
-        .parameters
-        .iter()
-        .any(|parameter| matches!(parameter.shape, Shape::Pairs));
     let what = if system.without_hamiltonian().is_some() {
         "a Lagrangian that is not quadratic in the velocities: there is no formula of H"
     } else if !system.functions.is_empty() {
@@ -35,8 +31,6 @@ pub(super) fn check(system: &System) -> Result<(), Error> {
         "constraints: take the macro `hamiltonian!`"
     } else if !system.is_free() {
         "friction or applied forces, which H does not contain: take the macro `hamiltonian!`"
-    } else if has_pairs {
-        "lists of pairs: take an array of numbers for all pairs, or the macro `hamiltonian!`"
     } else {
         return Ok(());
     };
@@ -120,19 +114,23 @@ struct Text<'a> {
 }
 
 impl Text<'_> {
-    fn writer<'a>(&'a self, operations: &'a Operations<'a>) -> Writer<'a> {
+    /// A writer of statements in a function that `outside` leaves without a result.
+    fn writer<'a>(&'a self, operations: &'a Operations<'a>, outside: String) -> Writer<'a> {
         Writer {
             system: self.system,
             names: self.names,
             notation: self.notation,
             operations,
+            outside,
         }
     }
 
     /// The body of a function that writes a derivative.
     fn derivative(&self, roots: &[Id], into: &str, parts: &[Scatter], reads: &[&str]) -> String {
         let operations = Operations::new(&self.system.graph, roots);
-        let writer = self.writer(&operations);
+        let dimension = self.dimension();
+        let vector = [("vector", into), ("dimension", &dimension)];
+        let writer = self.writer(&operations, fill(self.notation.outside, &vector));
         // Entries that are set once need no zero first.
         let once = each_once(self.system, parts);
         let goals = parts.iter().map(|part| Goal {
@@ -147,9 +145,7 @@ impl Text<'_> {
         };
         let mut body = String::new();
         if !once && !self.notation.clear.is_empty() {
-            let dimension = self.dimension();
-            let clear = [("vector", into), ("dimension", &dimension)];
-            writer.line(&mut body, 0, &fill(self.notation.clear, &clear));
+            writer.line(&mut body, 0, &fill(self.notation.clear, &vector));
         }
         body.push_str(&writer.write(&goals, &|place, value| {
             let target = writer.entry(into, &parts[place].target);
@@ -164,7 +160,8 @@ impl Text<'_> {
             loops: Vec::new(),
             value: operations.of(self.system.energy),
         };
-        let body = self.writer(&operations).write(&[goal], &|_, value| {
+        let writer = self.writer(&operations, self.notation.outside_energy.to_owned());
+        let body = writer.write(&[goal], &|_, value| {
             fill(self.notation.result, &[("value", value)])
         });
         self.function(&body, self.notation.too_few_for_energy, "", &["q", "p"])
@@ -241,8 +238,11 @@ impl Text<'_> {
                         .iter()
                         .all(|length| matches!(length, Length::Fixed(_))),
                 },
-                // Refused before.
-                Shape::Pairs => FieldShape::Length,
+                Shape::Pairs => FieldShape::Pairs {
+                    count: self
+                        .names
+                        .length(&Length::PairsOf(parameter.name.clone()), self.notation),
+                },
             },
         });
         lengths.chain(parameters).collect()

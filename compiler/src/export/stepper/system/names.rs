@@ -1,6 +1,6 @@
 //! Names of the formula in a language.
 
-use super::super::languages::formulas::Formulas;
+use super::super::languages::formulas::{Count, Formulas};
 use super::super::template::fill;
 use crate::formula::syntax::Length;
 use crate::formula::{Shape, System};
@@ -15,6 +15,8 @@ pub(super) struct Names {
     pub lengths: Vec<(Length, String)>,
     /// The parameters.
     pub parameters: Vec<String>,
+    /// The expressions for the numbers of pairs, by the names of the lists in the formula.
+    counts: Vec<(String, String)>,
 }
 
 impl Names {
@@ -26,10 +28,16 @@ impl Names {
             .iter()
             .flat_map(|parameter| match &parameter.shape {
                 Shape::Array(lengths) => lengths.clone(),
-                Shape::Number(_) | Shape::Pairs => Vec::new(),
+                Shape::Number(_) => Vec::new(),
+                Shape::Pairs => vec![Length::PairsOf(parameter.name.clone())],
             });
         for length in [system.layout.length()].into_iter().chain(arrays) {
-            if !matches!(length, Length::Fixed(_)) && !open.contains(&length) {
+            let is_named = match &length {
+                Length::Fixed(_) => false,
+                Length::PairsOf(_) => matches!(notation.count, Count::Length(_)),
+                _ => true,
+            };
+            if is_named && !open.contains(&length) {
                 open.push(length);
             }
         }
@@ -37,6 +45,9 @@ impl Names {
         let lengths = open.into_iter().map(|length| {
             let name = match &length {
                 Length::Generic(name) => fill(notation.named_length, &[("name", name)]),
+                Length::PairsOf(list) => match notation.count {
+                    Count::Length(name) | Count::Expression(name) => fill(name, &[("name", list)]),
+                },
                 _ => notation.length.to_owned(),
             };
             let name = free(&name, notation.words, &mut taken);
@@ -44,9 +55,17 @@ impl Names {
         });
         let lengths = lengths.collect();
         let parameters = system.parameters.iter();
-        let parameters = parameters
+        let parameters: Vec<String> = parameters
             .map(|parameter| free(&parameter.name, notation.words, &mut taken))
             .collect();
+        let lists = system.parameters.iter().zip(&parameters);
+        let lists = lists.filter(|(parameter, _)| matches!(parameter.shape, Shape::Pairs));
+        let counts = match notation.count {
+            Count::Length(_) => Vec::new(),
+            Count::Expression(count) => lists
+                .map(|(list, name)| (list.name.clone(), fill(count, &[("name", name)])))
+                .collect(),
+        };
         Names {
             kind: free(
                 &system.name,
@@ -56,6 +75,7 @@ impl Names {
             prefix: snake(&plain(&system.name)),
             lengths,
             parameters,
+            counts,
         }
     }
 
@@ -64,10 +84,12 @@ impl Names {
         if let Length::Fixed(n) = length {
             return n.to_string();
         }
-        let found = self.lengths.iter().find(|(known, _)| known == length);
-        found.map_or_else(String::new, |(_, name)| {
-            fill(notation.length_member, &[("name", name)])
-        })
+        if let Some((_, name)) = self.lengths.iter().find(|(known, _)| known == length) {
+            return fill(notation.length_member, &[("name", name)]);
+        }
+        let of = |list: &String| *length == Length::PairsOf(list.clone());
+        let found = self.counts.iter().find(|(list, _)| of(list));
+        found.map_or_else(String::new, |(_, count)| count.clone())
     }
 }
 

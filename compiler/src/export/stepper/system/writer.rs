@@ -22,6 +22,8 @@ pub(super) struct Writer<'a> {
     pub names: &'a Names,
     pub notation: &'a Formulas,
     pub operations: &'a Operations<'a>,
+    /// Leaves the function where a pair has an index out of range.
+    pub outside: String,
 }
 
 /// How tightly an expression is bound.
@@ -90,7 +92,7 @@ impl Writer<'_> {
                     self.line(text, depth, &fill(self.notation.increase, &values));
                 }
                 Statement::Loop(over, inner) => {
-                    self.line(text, depth, &self.range(*over));
+                    self.begin(text, depth, *over);
                     self.block(text, depth + 1, &known, inner, use_value);
                     if !self.notation.end.is_empty() {
                         self.line(text, depth, self.notation.end);
@@ -104,11 +106,36 @@ impl Writer<'_> {
         }
     }
 
-    fn range(&self, over: LoopId) -> String {
-        let LoopRange::Between(start, end) = &self.system.graph.get_loop(over).range else {
-            // Lists of pairs are refused before.
-            return String::new();
-        };
+    /// The beginning of a loop.
+    fn begin(&self, text: &mut String, depth: usize, over: LoopId) {
+        match &self.system.graph.get_loop(over).range {
+            LoopRange::Between(start, end) => {
+                self.line(text, depth, &self.range(over, start, end));
+            }
+            LoopRange::List(parameter) => {
+                let name = &self.names.parameters[*parameter];
+                let list = fill(self.notation.member, &[("name", name)]);
+                let pairs = Length::PairsOf(self.system.parameters[*parameter].name.clone());
+                let [bodies, count] = [self.system.layout.length(), pairs]
+                    .map(|length| self.names.length(&length, self.notation));
+                let [first, second] = [0, 1].map(|slot| pair_name(over, slot));
+                let values = [
+                    ("index", &index_letter(over)[..]),
+                    ("first", &first),
+                    ("second", &second),
+                    ("list", &list),
+                    ("count", &count),
+                    ("bodies", &bodies),
+                    ("outside", &self.outside),
+                ];
+                for (number, line) in self.notation.pairs.iter().enumerate() {
+                    self.line(text, depth + number.min(1), &fill(line, &values));
+                }
+            }
+        }
+    }
+
+    fn range(&self, over: LoopId, start: &Index, end: &Index) -> String {
         let letter = index_letter(over);
         let limit = Index::of(end.base.clone());
         let before = Index {
@@ -138,6 +165,7 @@ impl Writer<'_> {
         let base = match &index.base {
             Base::Start => return constant.to_string(),
             Base::End(length) => self.names.length(length, self.notation),
+            Base::Pair(id, slot @ (0 | 1)) => pair_name(*id, *slot),
             Base::Loop(id) | Base::Pair(id, _) => index_letter(*id),
         };
         let base = match scale {
@@ -285,6 +313,11 @@ impl Writer<'_> {
             Operation::User(..) | Operation::Total(..) => (String::new(), Strength::Atom),
         }
     }
+}
+
+/// The first or the second index of a pair.
+fn pair_name(over: LoopId, slot: usize) -> String {
+    format!("{}_{slot}", index_letter(over))
 }
 
 fn name(number: usize) -> String {
