@@ -22,7 +22,10 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use symplectic::ensemble::{Ensemble, EnsembleError};
 use symplectic::nalgebra::DVector;
-use symplectic::{AtRunTime, Error as RunError, Hamiltonian, RunTimeTableau, State, Summation};
+use symplectic::{
+    AtRunTime, Class, Error as RunError, General, Hamiltonian, RunTimeTableau, Separable, State,
+    Summation,
+};
 use symplectic_compiler::export::read_text;
 use symplectic_compiler::formula::{Form, Structure, System};
 use symplectic_compiler::{Error, ErrorKind};
@@ -31,7 +34,7 @@ use self::method::Method;
 use self::output::{Facts, Results, Seen, Target, Trajectory};
 use self::setup::{File, Setup, Starts, Sums, Times};
 use self::starts::{Coordinates, MOST, Reader};
-use self::system::{GeneralFormula, SeparableFormula, Tapes};
+use self::system::{Formula, Tapes};
 use self::unroll::{MOST_STEPS, Refusal};
 use crate::output::print;
 
@@ -141,8 +144,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         target: Target::open(named(path, arguments.shard))?,
     };
     match structure.split {
-        Ok(_) => run.with_sums(SeparableFormula, starts),
-        Err(_) => run.with_sums(GeneralFormula, starts),
+        Ok(_) => run.with_sums::<Separable>(starts),
+        Err(_) => run.with_sums::<General>(starts),
     }
 }
 
@@ -294,15 +297,11 @@ fn times(file: &File<'_>, setup: &Setup) -> Result<Option<Vec<f64>>, Error> {
 }
 
 impl Run<'_> {
-    fn with_sums<S>(
-        self,
-        system: impl Fn(Arc<Tapes>) -> S,
-        starts: States,
-    ) -> Result<ExitCode, Error>
+    fn with_sums<C: Class>(self, starts: States) -> Result<ExitCode, Error>
     where
-        S: Hamiltonian<Vector<f64> = Vector> + Clone + Send + Sync,
+        Formula<C>: Hamiltonian<Vector<f64> = Vector>,
     {
-        let system = system(Arc::clone(&self.tapes));
+        let system = Formula::<C>::new(Arc::clone(&self.tapes));
         let tableau: &RunTimeTableau = &self.method.tableau;
         let size = *self.setup.step_size.get_ref();
         match self.setup.sums {

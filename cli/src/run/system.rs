@@ -1,9 +1,11 @@
 //! A formula as a system for integrators.
 
+use std::marker::PhantomData;
+use std::slice;
 use std::sync::Arc;
 
 use symplectic::nalgebra::DVector;
-use symplectic::{General, Hamiltonian, Scalar, SeparableHamiltonian, State};
+use symplectic::{Class, Hamiltonian, Scalar, State};
 use symplectic_compiler::formula::derivative::gradient;
 use symplectic_compiler::formula::graph::{Half, integer};
 use symplectic_compiler::formula::{Structure, System};
@@ -60,12 +62,17 @@ impl Tapes {
 
     fn energy<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>) -> T {
         let mut energy = T::zero();
-        self.energy.run(at(time, q, p), |_, value| energy = value);
+        self.energy
+            .run(1, |_| at((time, q, p)), |_, _, value| energy = value);
         energy
     }
 }
 
-fn at<'a, T: Scalar>(time: T, q: &'a DVector<T>, p: &'a DVector<T>) -> At<'a, T> {
+/// A time, with the positions and the momenta.
+type Point<'a, T> = (T, &'a DVector<T>, &'a DVector<T>);
+
+#[inline(always)]
+fn at<'a, T: Scalar>((time, q, p): Point<'a, T>) -> At<'a, T> {
     At {
         time,
         q: q.as_slice(),
@@ -73,52 +80,68 @@ fn at<'a, T: Scalar>(time: T, q: &'a DVector<T>, p: &'a DVector<T>) -> At<'a, T>
     }
 }
 
+/// Writes the results at each point into its vector.
 #[inline(always)]
-fn fill<T: Scalar>(tape: &Tape, at: At<'_, T>, vector: &mut DVector<T>) {
-    let components = vector.as_mut_slice();
-    tape.run(at, |k, value| {
-        if let Some(component) = components.get_mut(k) {
-            *component = value;
+fn fill<'a, T: Scalar>(
+    tape: &Tape,
+    point: impl Fn(usize) -> Point<'a, T>,
+    vectors: &mut [DVector<T>],
+) {
+    tape.run(
+        vectors.len(),
+        |k| at(point(k)),
+        |vector, k, value| {
+            if let Some(component) = vectors[vector].as_mut_slice().get_mut(k) {
+                *component = value;
+            }
+        },
+    );
+}
+
+/// A system of class `C`. The tapes of a separable system read no momentum for the force, and no position for the velocity.
+#[derive(Debug)]
+pub(super) struct Formula<C> {
+    tapes: Arc<Tapes>,
+    class: PhantomData<fn() -> C>,
+}
+
+impl<C> Formula<C> {
+    pub(super) fn new(tapes: Arc<Tapes>) -> Self {
+        Formula {
+            tapes,
+            class: PhantomData,
         }
-    });
-}
-
-/// A separable system, `H = T(t, p) + U(t, q)`.
-#[derive(Debug, Clone)]
-pub(super) struct SeparableFormula(pub(super) Arc<Tapes>);
-
-impl SeparableHamiltonian for SeparableFormula {
-    type Vector<T: Scalar> = DVector<T>;
-
-    fn velocity<T: Scalar>(&self, time: T, p: &DVector<T>, velocity: &mut DVector<T>) {
-        // The tape of the velocity reads no position.
-        fill(&self.0.velocity, at(time, p, p), velocity);
-    }
-
-    fn force<T: Scalar>(&self, time: T, q: &DVector<T>, force: &mut DVector<T>) {
-        // The tape of the force reads no momentum.
-        fill(&self.0.force, at(time, q, q), force);
-    }
-
-    fn energy<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>) -> Option<T> {
-        Some(self.0.energy(time, q, p))
     }
 }
 
-/// Any other system.
-#[derive(Debug, Clone)]
-pub(super) struct GeneralFormula(pub(super) Arc<Tapes>);
+impl<C> Clone for Formula<C> {
+    fn clone(&self) -> Self {
+        Self::new(Arc::clone(&self.tapes))
+    }
+}
 
-impl Hamiltonian for GeneralFormula {
-    type Class = General;
+impl<C: Class> Hamiltonian for Formula<C> {
+    type Class = C;
     type Vector<T: Scalar> = DVector<T>;
 
     fn velocity<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>, out: &mut DVector<T>) {
-        fill(&self.0.velocity, at(time, q, p), out);
+        fill(&self.tapes.velocity, |_| (time, q, p), slice::from_mut(out));
     }
 
     fn force<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>, out: &mut DVector<T>) {
-        fill(&self.0.force, at(time, q, p), out);
+        fill(&self.tapes.force, |_| (time, q, p), slice::from_mut(out));
+    }
+
+    fn velocities<'a, T: Scalar>(
+        &self,
+        at: impl Fn(usize) -> Point<'a, T>,
+        out: &mut [DVector<T>],
+    ) {
+        fill(&self.tapes.velocity, at, out);
+    }
+
+    fn forces<'a, T: Scalar>(&self, at: impl Fn(usize) -> Point<'a, T>, out: &mut [DVector<T>]) {
+        fill(&self.tapes.force, at, out);
     }
 
     fn slopes<T: Scalar>(
@@ -130,7 +153,7 @@ impl Hamiltonian for GeneralFormula {
     ) {
         let (velocity, force) = (velocity.as_mut_slice(), force.as_mut_slice());
         let count = velocity.len();
-        self.0.slopes.run(at(time, q, p), |k, value| {
+        let write = |_, k: usize, value| {
             let component = match k.checked_sub(count) {
                 None => velocity.get_mut(k),
                 Some(k) => force.get_mut(k),
@@ -138,10 +161,11 @@ impl Hamiltonian for GeneralFormula {
             if let Some(component) = component {
                 *component = value;
             }
-        });
+        };
+        self.tapes.slopes.run(1, |_| at((time, q, p)), write);
     }
 
     fn energy<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>) -> Option<T> {
-        Some(self.0.energy(time, q, p))
+        Some(self.tapes.energy(time, q, p))
     }
 }

@@ -332,7 +332,7 @@ impl<'a> Unrolled<'a> {
             _ => None,
         };
         if let [Some(a), Some(b), Some(c)] = numbers.map(constant) {
-            return self.constant(apply(code, a, || b, || c));
+            return self.constant(apply(code, [a, b, c]));
         }
         self.add(Value::Step(code, numbers))
     }

@@ -142,6 +142,38 @@ pub trait Hamiltonian {
         self.force(time, q, p, force);
     }
 
+    /// [`velocity`](Self::velocity) at every stage, with the same bits; `at` returns the time, the positions and the momenta of a stage.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn velocities<'a, T: Scalar>(
+        &self,
+        at: impl Fn(usize) -> (T, &'a Self::Vector<T>, &'a Self::Vector<T>),
+        velocities: &mut [Self::Vector<T>],
+    ) where
+        Self::Vector<T>: 'a,
+    {
+        for (stage, velocity) in velocities.iter_mut().enumerate() {
+            let (time, q, p) = at(stage);
+            self.velocity(time, q, p, velocity);
+        }
+    }
+
+    /// [`force`](Self::force) at every stage: see [`velocities`](Self::velocities).
+    #[doc(hidden)]
+    #[inline(always)]
+    fn forces<'a, T: Scalar>(
+        &self,
+        at: impl Fn(usize) -> (T, &'a Self::Vector<T>, &'a Self::Vector<T>),
+        forces: &mut [Self::Vector<T>],
+    ) where
+        Self::Vector<T>: 'a,
+    {
+        for (stage, force) in forces.iter_mut().enumerate() {
+            let (time, q, p) = at(stage);
+            self.force(time, q, p, force);
+        }
+    }
+
     /// H at `(time, q, p)`, if the system knows it. No method needs it.
     fn energy<T: Scalar>(&self, _time: T, _q: &Self::Vector<T>, _p: &Self::Vector<T>) -> Option<T> {
         None

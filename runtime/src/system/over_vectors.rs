@@ -76,6 +76,32 @@ pub trait System<V: Vector>: Sized {
         self.force(time, q, p, force);
     }
 
+    /// [`velocity`](Self::velocity) at every stage, with the same bits; `at` returns the time, the positions and the momenta of a stage.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn velocities<'a>(&self, at: impl Fn(usize) -> (V::Scalar, &'a V, &'a V), velocities: &mut [V])
+    where
+        V: 'a,
+    {
+        for (stage, velocity) in velocities.iter_mut().enumerate() {
+            let (time, q, p) = at(stage);
+            self.velocity(time, q, p, velocity);
+        }
+    }
+
+    /// [`force`](Self::force) at every stage: see [`velocities`](Self::velocities).
+    #[doc(hidden)]
+    #[inline(always)]
+    fn forces<'a>(&self, at: impl Fn(usize) -> (V::Scalar, &'a V, &'a V), forces: &mut [V])
+    where
+        V: 'a,
+    {
+        for (stage, force) in forces.iter_mut().enumerate() {
+            let (time, q, p) = at(stage);
+            self.force(time, q, p, force);
+        }
+    }
+
     /// H at `(time, q, p)`, if the system knows it. No method needs it.
     fn energy(&self, _time: V::Scalar, _q: &V, _p: &V) -> Option<V::Scalar> {
         None
@@ -226,6 +252,22 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
     #[inline(always)]
     fn slopes(&self, time: V::Scalar, q: &V, p: &V, slopes: (&mut V, &mut V)) {
         Hamiltonian::slopes::<V::Scalar>(self, time, q, p, slopes);
+    }
+
+    #[inline(always)]
+    fn velocities<'a>(&self, at: impl Fn(usize) -> (V::Scalar, &'a V, &'a V), velocities: &mut [V])
+    where
+        V: 'a,
+    {
+        Hamiltonian::velocities::<V::Scalar>(self, at, velocities);
+    }
+
+    #[inline(always)]
+    fn forces<'a>(&self, at: impl Fn(usize) -> (V::Scalar, &'a V, &'a V), forces: &mut [V])
+    where
+        V: 'a,
+    {
+        Hamiltonian::forces::<V::Scalar>(self, at, forces);
     }
 
     fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
