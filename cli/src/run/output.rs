@@ -12,15 +12,8 @@ use symplectic_compiler::{Error, ErrorKind};
 use super::starts::Coordinates;
 use super::system::Tapes;
 
-/// An output state with its energy.
-#[derive(Debug, Clone)]
-pub(super) struct Seen {
-    pub(super) state: State<DVector<f64>>,
-    pub(super) energy: f64,
-}
-
 /// A trajectory with its states at the output times.
-pub(super) type Trajectory = Row<DVector<f64>, Vec<Seen>>;
+pub(super) type Trajectory = Row<DVector<f64>, Vec<State<DVector<f64>>>>;
 
 /// The metadata in the file.
 pub(super) struct Facts<'a> {
@@ -41,6 +34,8 @@ pub(super) struct Results<'a> {
     pub(super) rows: &'a [Trajectory],
     /// The start of each trajectory.
     pub(super) starts: &'a [State<DVector<f64>>],
+    /// The values of the parameters that vary, for each trajectory of the whole run.
+    pub(super) parameters: &'a [Vec<f64>],
     /// The output times; `None` for the end only.
     pub(super) times: Option<&'a [f64]>,
 }
@@ -140,15 +135,27 @@ impl Results<'_> {
     pub(super) fn energy_errors(&self) -> Vec<Vec<f64>> {
         let pairs = self.rows.iter().zip(self.starts);
         let errors = pairs.map(|(row, start)| {
-            let first = self.tapes.energy_at(start);
+            let energy_at = |state| self.tapes.energy_at(state, self.parameters(row));
+            let first = energy_at(start);
             let scale = if first == 0.0 { 1.0 } else { first.abs() };
             let error = |energy: f64| (energy - first) / scale;
             match self.times {
-                None => vec![error(self.tapes.energy_at(&row.state))],
-                Some(_) => row.output.iter().map(|seen| error(seen.energy)).collect(),
+                None => vec![error(energy_at(&row.state))],
+                Some(_) => row
+                    .output
+                    .iter()
+                    .map(|seen| error(energy_at(seen)))
+                    .collect(),
             }
         });
         errors.collect()
+    }
+
+    /// The values of the parameters that vary.
+    pub(super) fn parameters(&self, row: &Trajectory) -> &[f64] {
+        self.parameters
+            .get(row.trajectory)
+            .map_or(&[], Vec::as_slice)
     }
 
     fn write_npz(&self, out: &mut impl Write) -> io::Result<()> {
@@ -172,7 +179,7 @@ impl Results<'_> {
         file.text("version", env!("CARGO_PKG_VERSION"))?;
         for (name, names) in ["positions", "momenta"]
             .into_iter()
-            .zip(&self.coordinates.0)
+            .zip(&self.coordinates.halves)
         {
             let names: Vec<&str> = names.iter().map(String::as_str).collect();
             file.texts(name, &names)?;
@@ -187,6 +194,14 @@ impl Results<'_> {
                 .copied()
                 .collect();
             file.doubles(name, &[count, dimension], &all)?;
+        }
+        let names = &self.coordinates.parameters;
+        if !names.is_empty() {
+            let texts: Vec<&str> = names.iter().map(String::as_str).collect();
+            file.texts("parameter_names", &texts)?;
+            let rows = self.rows.iter();
+            let all: Vec<f64> = rows.flat_map(|row| self.parameters(row)).copied().collect();
+            file.doubles("parameters", &[count, names.len()], &all)?;
         }
         file.rows(self.rows)?;
         let Some(times) = self.times else {
@@ -204,7 +219,7 @@ impl Results<'_> {
                 .zip(all.chunks_mut((steps * dimension).max(1)))
             {
                 for (seen, place) in row.output.iter().zip(places.chunks_mut(dimension.max(1))) {
-                    place.copy_from_slice(half_of(&seen.state, half));
+                    place.copy_from_slice(half_of(seen, half));
                 }
             }
             file.doubles(name, &[count, steps, dimension], &all)?;

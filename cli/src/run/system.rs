@@ -10,7 +10,7 @@ use symplectic_compiler::formula::derivative::gradient;
 use symplectic_compiler::formula::graph::{Half, integer};
 use symplectic_compiler::formula::{Structure, System};
 
-use super::tape::{At, Tape};
+use super::tape::{At, Parameters, Tape};
 use super::unroll::{Refusal, Unrolled};
 use super::values::Values;
 
@@ -56,14 +56,15 @@ impl Tapes {
     }
 
     /// H at a state.
-    pub(super) fn energy_at(&self, state: &State<DVector<f64>>) -> f64 {
-        self.energy(state.time, &state.q, &state.p)
+    pub(super) fn energy_at(&self, state: &State<DVector<f64>>, parameters: &[f64]) -> f64 {
+        let parameters = Parameters::Own(parameters.into());
+        self.energy(&parameters, (state.time, &state.q, &state.p))
     }
 
-    fn energy<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>) -> T {
+    fn energy<T: Scalar>(&self, parameters: &Parameters, point: Point<'_, T>) -> T {
         let mut energy = T::zero();
-        self.energy
-            .run(1, |_| at((time, q, p)), |_, _, value| energy = value);
+        let write = |_, _, value| energy = value;
+        self.energy.run(1, |_| at(parameters, point), write);
         energy
     }
 }
@@ -72,8 +73,9 @@ impl Tapes {
 type Point<'a, T> = (T, &'a DVector<T>, &'a DVector<T>);
 
 #[inline(always)]
-fn at<'a, T: Scalar>((time, q, p): Point<'a, T>) -> At<'a, T> {
+fn at<'a, T: Scalar>(parameters: &'a Parameters, (time, q, p): Point<'a, T>) -> At<'a, T> {
     At {
+        parameters,
         time,
         q: q.as_slice(),
         p: p.as_slice(),
@@ -82,14 +84,14 @@ fn at<'a, T: Scalar>((time, q, p): Point<'a, T>) -> At<'a, T> {
 
 /// Writes the results at each point into its vector.
 #[inline(always)]
-fn fill<'a, T: Scalar>(
-    tape: &Tape,
+fn fill<'a: 'p, 'p, T: Scalar>(
+    (tape, parameters): (&Tape, &'p Parameters),
     point: impl Fn(usize) -> Point<'a, T>,
     vectors: &mut [DVector<T>],
 ) {
     tape.run(
         vectors.len(),
-        |k| at(point(k)),
+        |k| at(parameters, point(k)),
         |vector, k, value| {
             if let Some(component) = vectors[vector].as_mut_slice().get_mut(k) {
                 *component = value;
@@ -102,13 +104,15 @@ fn fill<'a, T: Scalar>(
 #[derive(Debug)]
 pub(super) struct Formula<C> {
     tapes: Arc<Tapes>,
+    parameters: Parameters,
     class: PhantomData<fn() -> C>,
 }
 
 impl<C> Formula<C> {
-    pub(super) fn new(tapes: Arc<Tapes>) -> Self {
+    pub(super) fn new(tapes: Arc<Tapes>, parameters: Parameters) -> Self {
         Formula {
             tapes,
+            parameters,
             class: PhantomData,
         }
     }
@@ -116,7 +120,7 @@ impl<C> Formula<C> {
 
 impl<C> Clone for Formula<C> {
     fn clone(&self) -> Self {
-        Self::new(Arc::clone(&self.tapes))
+        Self::new(Arc::clone(&self.tapes), self.parameters.clone())
     }
 }
 
@@ -124,12 +128,21 @@ impl<C: Class> Hamiltonian for Formula<C> {
     type Class = C;
     type Vector<T: Scalar> = DVector<T>;
 
+    const JOINS: bool = true;
+
+    fn join<'a>(systems: impl Iterator<Item = &'a Self>) -> Option<Self> {
+        let mut systems = systems.peekable();
+        let tapes = Arc::clone(&systems.peek()?.tapes);
+        let parameters = Parameters::join(systems.map(|system| &system.parameters))?;
+        Some(Self::new(tapes, parameters))
+    }
+
     fn velocity<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>, out: &mut DVector<T>) {
-        fill(&self.tapes.velocity, |_| (time, q, p), slice::from_mut(out));
+        self.velocities(|_| (time, q, p), slice::from_mut(out));
     }
 
     fn force<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>, out: &mut DVector<T>) {
-        fill(&self.tapes.force, |_| (time, q, p), slice::from_mut(out));
+        self.forces(|_| (time, q, p), slice::from_mut(out));
     }
 
     fn velocities<'a, T: Scalar>(
@@ -137,11 +150,11 @@ impl<C: Class> Hamiltonian for Formula<C> {
         at: impl Fn(usize) -> Point<'a, T>,
         out: &mut [DVector<T>],
     ) {
-        fill(&self.tapes.velocity, at, out);
+        fill((&self.tapes.velocity, &self.parameters), at, out);
     }
 
     fn forces<'a, T: Scalar>(&self, at: impl Fn(usize) -> Point<'a, T>, out: &mut [DVector<T>]) {
-        fill(&self.tapes.force, at, out);
+        fill((&self.tapes.force, &self.parameters), at, out);
     }
 
     fn slopes<T: Scalar>(
@@ -162,10 +175,11 @@ impl<C: Class> Hamiltonian for Formula<C> {
                 *component = value;
             }
         };
-        self.tapes.slopes.run(1, |_| at((time, q, p)), write);
+        let at = |_| at(&self.parameters, (time, q, p));
+        self.tapes.slopes.run(1, at, write);
     }
 
     fn energy<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>) -> Option<T> {
-        Some(self.tapes.energy(time, q, p))
+        Some(self.tapes.energy(&self.parameters, (time, q, p)))
     }
 }

@@ -3,7 +3,10 @@
 //! A tape runs on SIMD lanes: each operation is applied to all trajectories in the lanes before the next one is read.
 //! It has the operations that the macro emits for the same formula.
 
+use std::sync::Arc;
+
 use symplectic::Scalar;
+use symplectic::simd::MOST_LANES;
 
 /// The operation of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -74,6 +77,8 @@ pub(super) enum Input {
     Time,
     Position(usize),
     Momentum(usize),
+    /// A parameter that varies between trajectories.
+    Parameter(usize),
 }
 
 /// The operations that compute a list of results.
@@ -88,9 +93,44 @@ pub(super) struct Tape {
     pub(super) registers: usize,
 }
 
+/// The parameters that vary between trajectories.
+#[derive(Debug, Clone)]
+pub(super) enum Parameters {
+    /// Of one trajectory.
+    Own(Arc<[f64]>),
+    /// Of the trajectory in each lane.
+    InLanes(Arc<[[f64; MOST_LANES]]>),
+}
+
+impl Parameters {
+    #[inline(always)]
+    fn get<T: Scalar>(&self, k: usize) -> T {
+        match self {
+            Parameters::Own(numbers) => T::from_f64(numbers[k]),
+            Parameters::InLanes(numbers) => T::from_lanes(&numbers[k]),
+        }
+    }
+
+    /// The parameters of several trajectories, each in its lane.
+    pub(super) fn join<'a>(all: impl Iterator<Item = &'a Self>) -> Option<Self> {
+        let mut joined: Vec<[f64; MOST_LANES]> = Vec::new();
+        for (lane, parameters) in all.enumerate() {
+            let Parameters::Own(own) = parameters else {
+                return None;
+            };
+            joined.resize(own.len(), [f64::NAN; MOST_LANES]);
+            for (numbers, own) in joined.iter_mut().zip(own.iter()) {
+                *numbers.get_mut(lane)? = *own;
+            }
+        }
+        Some(Parameters::InLanes(joined.into()))
+    }
+}
+
 /// The point of evaluation.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct At<'a, T> {
+    pub(super) parameters: &'a Parameters,
     pub(super) time: T,
     pub(super) q: &'a [T],
     pub(super) p: &'a [T],
@@ -109,6 +149,7 @@ impl<T: Scalar> At<'_, T> {
             Input::Time => self.time,
             Input::Position(k) => entry(self.q, k),
             Input::Momentum(k) => entry(self.p, k),
+            Input::Parameter(k) => self.parameters.get(k),
         }
     }
 }
@@ -234,9 +275,12 @@ impl<T: Scalar, const POINTS: usize> Use<T> for AtPoints<'_, T, POINTS> {
     #[inline(always)]
     fn with(self, operation: impl Fn(T, T, T) -> T) {
         let (registers, [a, b, c]) = (self.registers, self.operands);
-        for point in 0..POINTS {
+        let value = |registers: &[[T; POINTS]], point: usize| {
             let [a, b, c] = [a, b, c].map(|place| registers[place][point]);
-            registers[self.into][point] = operation(a, b, c);
+            operation(a, b, c)
+        };
+        for point in 0..POINTS {
+            registers[self.into][point] = value(registers, point);
         }
     }
 }
@@ -285,5 +329,76 @@ fn dispatch<T: Scalar, U: Use<T>>(code: Code, to: U) -> U::Output {
         Code::Cosh => to.with(|a, _, _| a.cosh()),
         Code::Tanh => to.with(|a, _, _| a.tanh()),
         Code::Atan2 => to.with(|a, b, _| a.atan2(b)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use symplectic::simd::{F64x8, Lanes};
+
+    /// A tape for (x + c) p² with this number of registers.
+    fn tape(registers: Register) -> Tape {
+        let step = |code, into, operands| Step {
+            code,
+            into,
+            operands,
+        };
+        let (last, spare) = (registers - 1, registers - 2);
+        Tape {
+            inputs: vec![Input::Position(0), Input::Momentum(0), Input::Parameter(0)],
+            steps: vec![
+                step(Code::Add, last, [0, 2, 0]),
+                step(Code::Multiply, spare, [1, 1, 1]),
+                step(Code::Multiply, last, [last, spare, last]),
+            ],
+            results: vec![last, 1],
+            registers: usize::from(registers),
+        }
+    }
+
+    #[test]
+    fn several_points_have_the_values_of_each_point() {
+        let parameters = Parameters::Own([0.1].into());
+        for registers in [5, 8, 9, 16, 17, 32, 33, 64, 65, 256, 257, 1000] {
+            let tape = tape(registers);
+            for count in 0..10 {
+                let q: Vec<f64> = (0..count).map(|k| 0.3 + k as f64).collect();
+                let p: Vec<f64> = (0..count).map(|k| 0.7 - k as f64).collect();
+                let at = |k: usize| At {
+                    parameters: &parameters,
+                    time: 0.0,
+                    q: &q[k..=k],
+                    p: &p[k..=k],
+                };
+                let mut found = vec![[f64::NAN; 2]; count];
+                tape.run(count, at, |point, k, value| found[point][k] = value);
+                let expected = q.iter().zip(&p).map(|(q, p)| [(q + 0.1) * (p * p), *p]);
+                assert!(found.into_iter().eq(expected), "{registers}, {count}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_lane_has_its_own_parameters() {
+        let own: Vec<_> = (0..8)
+            .map(|lane| Parameters::Own([lane as f64].into()))
+            .collect();
+        let joined = Parameters::join(own.iter()).expect("eight lanes");
+        let (q, p) = ([F64x8::from_f64(0.5)], [F64x8::from_f64(2.0)]);
+        let at = |_| At {
+            parameters: &joined,
+            time: F64x8::from_f64(0.0),
+            q: &q,
+            p: &p,
+        };
+        let mut found = None;
+        tape(8).run(1, at, |_, k, value| {
+            if k == 0 {
+                found = Some(value.to_array());
+            }
+        });
+        assert_eq!(found, Some([2.0, 6.0, 10.0, 14.0, 18.0, 22.0, 26.0, 30.0]));
+        assert!(Parameters::join([joined.clone()].iter()).is_none());
     }
 }

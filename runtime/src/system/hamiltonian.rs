@@ -142,6 +142,20 @@ pub trait Hamiltonian {
         self.force(time, q, p, force);
     }
 
+    /// Whether trajectories with different parameters run in lanes side by side: see [`join`](Self::join).
+    #[doc(hidden)]
+    const JOINS: bool = false;
+
+    /// A system with the parameters of each of these systems in one lane, where it has the bits of that system. The systems differ only in
+    /// the values of parameters, and there is one for each lane. Needed only with [`JOINS`](Self::JOINS)` = true`.
+    #[doc(hidden)]
+    fn join<'a>(_systems: impl Iterator<Item = &'a Self>) -> Option<Self>
+    where
+        Self: Sized + 'a,
+    {
+        None
+    }
+
     /// [`velocity`](Self::velocity) at every stage, with the same bits; `at` returns the time, the positions and the momenta of a stage.
     #[doc(hidden)]
     #[inline(always)]

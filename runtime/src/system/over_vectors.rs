@@ -179,6 +179,19 @@ pub trait System<V: Vector>: Sized {
         None
     }
 
+    /// Whether trajectories of systems with different parameters run in lanes side by side.
+    #[doc(hidden)]
+    const JOINS: bool = false;
+
+    /// A system with the parameters of each of these systems in one lane.
+    #[doc(hidden)]
+    fn join<'a>(_systems: impl Iterator<Item = &'a Self>) -> Option<Self>
+    where
+        Self: 'a,
+    {
+        None
+    }
+
     // The following items make a `Chain` fast; no other system implements them.
 
     /// Whether there is a [`local_force`](Self::local_force).
@@ -326,6 +339,15 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
     #[inline(always)]
     fn nonholonomic_rows(&self, q: &V, rows: &mut Gradients<V::Scalar>) {
         Hamiltonian::nonholonomic_rows::<V::Scalar>(self, q, rows);
+    }
+
+    const JOINS: bool = H::JOINS;
+
+    fn join<'a>(systems: impl Iterator<Item = &'a Self>) -> Option<Self>
+    where
+        Self: 'a,
+    {
+        H::join(systems)
     }
 
     #[inline(always)]

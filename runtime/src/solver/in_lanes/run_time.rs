@@ -235,8 +235,9 @@ fn extrapolate_all<W: Vector<Scalar: Lanes>, const N: usize>(
     let n = shortest(out).min(shortest(before));
     let before: [&[W::Scalar]; N] = array(&[][..], |j| &before[j].as_slice()[..n]);
     let matrix: [[f64; N]; N] = array([0.0; N], |i| array(0.0, |j| matrix[i][j]));
+    let terms = |k: usize| -> [W::Scalar; N] { array(W::Scalar::zero(), |j| before[j][k]) };
     for k in 0..n {
-        let terms: [W::Scalar; N] = array(W::Scalar::zero(), |j| before[j][k]);
+        let terms = terms(k);
         for (out, row) in out.iter_mut().zip(&matrix) {
             let product = |j: usize| (W::Scalar::from_f64(row[j]), terms[j]);
             out.as_mut_slice()[k] = sum_of_products(None, N, product);
