@@ -26,6 +26,29 @@ pub(super) struct Facts<'a> {
     pub(super) setup: &'a str,
 }
 
+/// A fact in the metadata.
+pub(super) enum Fact<'a> {
+    Text(&'a str),
+    Integers([u64; 3]),
+    Number(f64),
+}
+
+impl Facts<'_> {
+    /// All facts, by name.
+    pub(super) fn all(&self) -> [(&'static str, Fact<'_>); 8] {
+        [
+            ("method", Fact::Text(self.method)),
+            ("definition", Fact::Text(self.definition)),
+            ("orders", Fact::Integers(self.orders)),
+            ("step_size", Fact::Number(self.step_size)),
+            ("sums", Fact::Text(self.sums)),
+            ("formula", Fact::Text(self.formula)),
+            ("setup", Fact::Text(self.setup)),
+            ("version", Fact::Text(env!("CARGO_PKG_VERSION"))),
+        ]
+    }
+}
+
 /// The results of a run.
 pub(super) struct Results<'a> {
     pub(super) coordinates: &'a Coordinates,
@@ -159,24 +182,14 @@ impl Results<'_> {
     }
 
     fn write_npz(&self, out: &mut impl Write) -> io::Result<()> {
-        let Facts {
-            method,
-            definition,
-            orders,
-            step_size,
-            sums,
-            formula,
-            setup,
-        } = self.facts;
         let mut file = Npz::new(out);
-        file.text("method", method)?;
-        file.text("definition", definition)?;
-        file.integers("orders", &[3], &orders)?;
-        file.doubles("step_size", &[], &[step_size])?;
-        file.text("sums", sums)?;
-        file.text("formula", formula)?;
-        file.text("setup", setup)?;
-        file.text("version", env!("CARGO_PKG_VERSION"))?;
+        for (name, fact) in self.facts.all() {
+            match fact {
+                Fact::Text(text) => file.text(name, text)?,
+                Fact::Integers(integers) => file.integers(name, &[integers.len()], &integers)?,
+                Fact::Number(number) => file.doubles(name, &[], &[number])?,
+            }
+        }
         for (name, names) in ["positions", "momenta"]
             .into_iter()
             .zip(&self.coordinates.halves)

@@ -10,7 +10,7 @@ use toml::{Spanned, Value};
 
 use super::parameters::{self, Varied};
 use super::random;
-use super::setup::{File, Grid, Random, Setup, Starts};
+use super::setup::{File, Grid, Setup, Starts};
 use super::spec::Spec;
 
 /// Largest number of starts of a run.
@@ -116,7 +116,7 @@ impl Reader<'_> {
 
     fn refuse_needless_random(&self, any: bool) -> Result<(), Error> {
         let span = self.setup.starts.span();
-        match (any, self.setup.random) {
+        match (any, &self.setup.random) {
             (true, None) => Err(self.file.error(
                 span,
                 "these starts are random: give their number and a seed, `random = { seed = 1, count = 1000 }`",
@@ -124,6 +124,10 @@ impl Reader<'_> {
             (false, Some(_)) => Err(self.file.error(
                 span,
                 "`random` is given, but no start is random: write `{ uniform = [low, high] }` or `{ normal = [mean, deviation] }` for a coordinate",
+            )),
+            (true, Some(random)) if random.get_ref().count == 0 => Err(self.file.error(
+                random.span(),
+                "the count is 0, so there are no starts: write a number of at least 1, the random starts at each point of the grid",
             )),
             _ => Ok(()),
         }
@@ -172,8 +176,8 @@ impl Reader<'_> {
             let axes = [parameter_axes.clone(), self.axes(grid, &coordinates)?].concat();
             let is_random = axes.iter().any(|(_, spec)| spec.is_random());
             any_random |= is_random;
-            let count = match self.setup.random {
-                Some(Random { count, .. }) if is_random => count,
+            let count = match &self.setup.random {
+                Some(random) if is_random => random.get_ref().count,
                 _ => 1,
             };
             self.product(&axes, count, &mut draws, &mut rows)?;
@@ -286,7 +290,8 @@ impl Reader<'_> {
             let message = format!("more than {MOST} starts: split the run into several files");
             return Err(self.file.error(self.setup.starts.span(), message));
         }
-        let seed = self.setup.random.map_or(0, |random| random.seed);
+        let random = self.setup.random.as_ref();
+        let seed = random.map_or(0, |random| random.get_ref().seed);
         let points = lengths.iter().product::<usize>();
         for point in 0..points {
             for _ in 0..count {

@@ -15,7 +15,7 @@ use symplectic::nalgebra::DVector;
 use symplectic_compiler::formula::{Parameter, Shape};
 use symplectic_compiler::{Error, ErrorKind};
 
-use super::output::{Facts, Results, Trajectory};
+use super::output::{Fact, Results, Trajectory};
 use super::starts::{Coordinates, MOST, Reader};
 
 /// Lines that are written to a Parquet file at once.
@@ -82,26 +82,12 @@ impl Results<'_> {
     /// As [`write_csv`](Self::write_csv); where there is no energy error it is NaN, where there is no error it is null.
     pub(super) fn write_parquet(&self, out: &mut (impl Write + Send)) -> io::Result<()> {
         let mut file = Parquet::new(out);
-        let Facts {
-            method,
-            definition,
-            orders,
-            step_size,
-            sums,
-            formula,
-            setup,
-        } = self.facts;
-        for (name, text) in [
-            ("method", method),
-            ("definition", definition),
-            ("orders", &format!("{orders:?}")),
-            ("step_size", &format!("{step_size:?}")),
-            ("sums", sums),
-            ("formula", formula),
-            ("setup", setup),
-            ("version", env!("CARGO_PKG_VERSION")),
-        ] {
-            file.note(name, text);
+        for (name, fact) in self.facts.all() {
+            match fact {
+                Fact::Text(text) => file.note(name, text),
+                Fact::Integers(integers) => file.note(name, &format!("{integers:?}")),
+                Fact::Number(number) => file.note(name, &format!("{number:?}")),
+            }
         }
         let names = header(self.coordinates);
         let mut lines = self.lines();

@@ -29,6 +29,27 @@ fn wrong_files_are_refused_at_their_place() {
             "3:",
             "known here: blanes-moan-2002-s6, blanes-moan-2002-s10",
         ),
+        (
+            replaced(
+                "\"blanes-moan-2002-s10\"",
+                "{ basis = \"polynomial(2)\", nodes = \"gaus(2)\" }",
+            ),
+            "3:50",
+            "unknown quadrature rule `gaus`",
+        ),
+        (
+            replaced(
+                "\"blanes-moan-2002-s10\"",
+                "{ basis = \"polynomial(2)\", nods = \"gauss(2)\" }",
+            ),
+            "3:48",
+            "a method has no key `nods`",
+        ),
+        (
+            replaced("\"blanes-moan-2002-s10\"", "3"),
+            "3:14",
+            "expected the name of a method of the catalogue",
+        ),
         (replaced("= 0.05", "= 0"), "4:", "the step size is 0"),
         (
             replaced("= 10.0", "= -10.0"),
@@ -59,6 +80,15 @@ fn wrong_files_are_refused_at_their_place() {
             ),
             "7:",
             "`random = { seed = 1, count = 1000 }`",
+        ),
+        (
+            replaced(
+                "a = { from = -1, to = 1, count = 11 }",
+                "a = { normal = [0, 1] }",
+            )
+            .replace("parameters.g = 4", "random = { seed = 1, count = 0 }"),
+            "6:",
+            "the count is 0, so there are no starts",
         ),
         (
             quartic,
