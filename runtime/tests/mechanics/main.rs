@@ -8,6 +8,7 @@ mod discrete_lagrangians;
 mod forces;
 mod formulas;
 mod friction;
+mod galerkin;
 mod hamilton_jacobi;
 mod holonomic;
 mod lagrangians;
