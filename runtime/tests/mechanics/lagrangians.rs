@@ -13,7 +13,7 @@ symplectic::tableau! {
     pub Gauss2 { basis: polynomial(2), nodes: gauss(2) }
     Gauss3 { basis: polynomial(3), nodes: gauss(3) }
     Gauss4 { basis: polynomial(4), nodes: gauss(4) }
-    Gauss6 { basis: polynomial(6), nodes: gauss(6) }
+    pub Gauss6 { basis: polynomial(6), nodes: gauss(6) }
     Lobatto2 { basis: polynomial(2), nodes: lobatto(2) }
     Lobatto3 { basis: polynomial(3), nodes: lobatto(3) }
     Lobatto4 { basis: polynomial(4), nodes: lobatto(4) }
