@@ -86,3 +86,72 @@ pub fn rounded(matrix: impl Fn(u32) -> Vec<Vec<Interval>>) -> Option<Vec<Vec<f64
     }
     finest
 }
+
+#[cfg(test)]
+mod tests {
+    use num_bigint::BigInt;
+    use num_rational::BigRational;
+
+    use super::*;
+
+    fn enclosing(matrix: &[&[BigRational]], bits: u32) -> Vec<Vec<Interval>> {
+        let row = |row: &&[BigRational]| row.iter().map(|x| Interval::enclosing(x, bits)).collect();
+        matrix.iter().map(row).collect()
+    }
+
+    /// Hilbert's matrix of size 4: its inverse has the integers 16, −120, …, and its determinant is 1/6048000.
+    #[test]
+    fn the_inverse_of_a_matrix_of_hilbert() {
+        let entry = |i: i64, j: i64| ratio(1, i + j + 1);
+        let rows = [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| entry(i, j)));
+        let rows: Vec<&[BigRational]> = rows.iter().map(|row| &row[..]).collect();
+        let inverse = Inverse::of(enclosing(&rows, 192)).expect("regular");
+        assert!(inverse.determinant.contains(&ratio(1, 6_048_000)));
+        let expected = [
+            [16, -120, 240, -140],
+            [-120, 1200, -2700, 1680],
+            [240, -2700, 6480, -4200],
+            [-140, 1680, -4200, 2800],
+        ];
+        for (found, expected) in inverse.rows.iter().zip(expected) {
+            for (found, expected) in found.iter().zip(expected) {
+                assert!(found.contains(&ratio(expected, 1)));
+                assert!(found.width() < power_of_half(100));
+            }
+        }
+        let doubles = rounded(|bits| enclosing(&rows, bits)).expect("regular");
+        assert_eq!(doubles, expected.map(|row| row.map(|x| x as f64).to_vec()));
+    }
+
+    fn power_of_half(bits: u32) -> BigRational {
+        BigRational::new(BigInt::from(1), BigInt::from(1) << bits)
+    }
+
+    /// Rows are exchanged where a pivot vanishes, and the sign of the determinant follows.
+    #[test]
+    fn a_pivot_that_vanishes() {
+        let [zero, two, three] = [0, 2, 3].map(|x| ratio(x, 1));
+        let matrix: [&[BigRational]; 2] = [&[zero.clone(), two], &[three, zero]];
+        let inverse = Inverse::of(enclosing(&matrix, 64)).expect("regular");
+        assert!(inverse.determinant.contains(&ratio(-6, 1)));
+        assert!(inverse.rows[0][1].contains(&ratio(1, 3)));
+        assert!(inverse.rows[1][0].contains(&ratio(1, 2)));
+    }
+
+    /// No precision proves a singular matrix regular; a nearly singular one needs more places than the first that are tried.
+    #[test]
+    fn matrices_that_are_singular_or_nearly_so() {
+        let [one, two, four] = [1, 2, 4].map(|x| ratio(x, 1));
+        let singular: [&[BigRational]; 2] = [&[one.clone(), two.clone()], &[two.clone(), four]];
+        assert!(Inverse::of(enclosing(&singular, 192)).is_none());
+        assert_eq!(rounded(|bits| enclosing(&singular, bits)), None);
+        // (1/3, 2/3; 1, 2 + ε): the rounding errors of 1/3 hide ε = 2⁻³⁰⁰ from 192 places.
+        let (third, small) = (ratio(1, 3), power_of_half(300));
+        let nearly: [&[BigRational]; 2] = [&[third.clone(), third * &two], &[one, two + small]];
+        assert!(Inverse::of(enclosing(&nearly, 192)).is_none());
+        let found = rounded(|bits| enclosing(&nearly, bits)).expect("regular");
+        // (6/ε + 3, −2/ε; −3/ε, 1/ε)
+        let large = 2.0_f64.powi(300);
+        assert_eq!(found, [[6.0 * large, -2.0 * large], [-3.0 * large, large]]);
+    }
+}

@@ -477,6 +477,19 @@ pub enum Error {
         method: &'static str,
     },
 
+    /// A Galerkin method with more nodes than functions, and a Lagrangian whose `∂²L/∂v∂v` is singular: the steps would leave the primary
+    /// constraints on the momenta.
+    #[error(
+        "{method} has more nodes than functions, and the Lagrangian is degenerate: ∂L/∂v does not determine component {component} of the \
+         velocity, and momenta would leave its primary constraints; take a method with as many functions as nodes"
+    )]
+    DegenerateLagrangian {
+        /// Name of the method.
+        method: &'static str,
+        /// The component of the velocity, from 0.
+        component: usize,
+    },
+
     /// The momentum at the start violates a primary constraint of the Lagrangian.
     #[error(
         "no velocity has this momentum: component {component} violates a primary constraint by {value:e}; start from \

@@ -5,23 +5,19 @@ use symplectic::variational::{
     LagrangianIntegrator, generating_function, momentum_of_velocity, velocity_of_momentum,
 };
 use symplectic::{
-    Error, General, Hamiltonian, Integrator, Lagrangian, Method, ProvedFor, Quantity, Scalar,
-    State, System,
+    Error, General, Integrator, Lagrangian, Method, ProvedFor, Quantity, Scalar, State, System,
 };
 
 symplectic::tableau! {
     Gauss1 { basis: polynomial(1), nodes: gauss(1) }
-    Gauss2 { basis: polynomial(2), nodes: gauss(2) }
+    pub Gauss2 { basis: polynomial(2), nodes: gauss(2) }
     Gauss3 { basis: polynomial(3), nodes: gauss(3) }
     Gauss4 { basis: polynomial(4), nodes: gauss(4) }
-    Gauss6 { basis: polynomial(6), nodes: gauss(6) }
+    pub Gauss6 { basis: polynomial(6), nodes: gauss(6) }
     Lobatto2 { basis: polynomial(2), nodes: lobatto(2) }
     Lobatto3 { basis: polynomial(3), nodes: lobatto(3) }
     Lobatto4 { basis: polynomial(4), nodes: lobatto(4) }
-    OneOfTwo { basis: polynomial(1), quadrature: gauss(2) }
-    TwoOfThree { basis: polynomial(2), quadrature: gauss(3) }
-    ThreeOfFour { basis: polynomial(3), quadrature: lobatto(4) }
-    Uneven { basis: polynomial(2), quadrature: [0, 1/4, 1] }
+    pub TwoOfThree { basis: polynomial(2), quadrature: gauss(3) }
     Cosine { basis: [1, cos(pi*t)], nodes: [0, 1] }
 }
 
@@ -29,8 +25,8 @@ type V2<T> = SVector<T, 2>;
 
 /// A relativistic particle in Kepler's potential with friction: L = −√(1 − |v|²) + 1/|q|, f = −friction v.
 #[derive(Clone, Copy)]
-struct Particle {
-    friction: f64,
+pub struct Particle {
+    pub friction: f64,
 }
 
 impl Lagrangian for Particle {
@@ -76,13 +72,13 @@ symplectic::hamiltonian! {
     H = px^2/(2 l^2) - l cos(x)
 }
 
-fn near_perihelion() -> State<Vector2<f64>> {
+pub fn near_perihelion() -> State<Vector2<f64>> {
     let (q, v) = (Vector2::new(2.0, 0.0), Vector2::new(0.1, 0.6));
     let p = momentum_of_velocity(&Particle { friction: 0.0 }, 0.0, &q, &v).expect("a momentum");
     State::new(0.0, q, p)
 }
 
-fn distance<const N: usize>(a: &State<SVector<f64, N>>, b: &State<SVector<f64, N>>) -> f64 {
+pub fn distance<const N: usize>(a: &State<SVector<f64, N>>, b: &State<SVector<f64, N>>) -> f64 {
     (a.q - b.q).amax().max((a.p - b.p).amax())
 }
 
@@ -120,10 +116,10 @@ fn the_steps_are_those_of_the_hamiltonian() {
     each!(Gauss1 Gauss2 Gauss3 Gauss4 Gauss6 Lobatto2 Lobatto3 Lobatto4 Cosine);
 }
 
-type Run<L> = LagrangianIntegrator<L>;
+pub type Run<L> = LagrangianIntegrator<L>;
 
 /// The slope of the errors at t = 4, against a run of order 12 by the Hamiltonian.
-fn slope<L, S, const N: usize>(
+pub fn slope<L, S, const N: usize>(
     make: impl Fn(State<SVector<f64, N>>, f64) -> Result<Run<L>, Error>,
     system: S,
     start: &State<SVector<f64, N>>,
@@ -172,116 +168,6 @@ fn orders_where_l_depends_on_time() {
     each! { Gauss1 128 2; Gauss2 64 4; Gauss3 64 6; Lobatto2 128 2; Lobatto3 64 4; }
 }
 
-#[test]
-fn galerkin_orders() {
-    macro_rules! each {
-        ($($method:ident $steps:literal $order:literal;)*) => {$(
-            let particle = Particle { friction: 0.0 };
-            let make = |start, h| Run::galerkin($method, particle, start, h);
-            let system = Relativistic { friction: 0.0 };
-            let found = slope(make, system, &near_perihelion(), $steps);
-            assert!((found - f64::from($order)).abs() < 0.05, "{}: {found}", $method::NAME);
-        )*};
-    }
-    // min(2s, order of the quadrature formula)
-    each! { OneOfTwo 256 2; TwoOfThree 32 4; ThreeOfFour 12 6; Uneven 256 3; Gauss2 32 4; }
-}
-
-symplectic::lagrangian! {
-    /// The system of Hénon and Heiles.
-    HenonHeiles q: [x, y], v: [vx, vy];
-    L = (vx^2 + vy^2)/2 - (x^2 + y^2)/2 - x^2 y + y^3/3
-}
-
-#[test]
-fn galerkin_is_the_tableau_for_a_quadratic_kinetic_energy_only() {
-    let steps =
-        |mut run: Run<_>| -> State<Vector2<f64>> { run.integrate_to(5.0).expect("a run").clone() };
-    let start = State::from_arrays(0.0, [0.1, 0.2], [0.3, -0.2]);
-    let tableau = Run::new(TwoOfThree, HenonHeiles, start.clone(), 0.5).expect("a start");
-    let galerkin = Run::galerkin(TwoOfThree, HenonHeiles, start, 0.5).expect("a start");
-    assert!(distance(&steps(tableau), &steps(galerkin)) < 1e-14);
-
-    let ends = |run: Result<Run<Particle>, Error>| {
-        run.expect("a start")
-            .integrate_to(5.0)
-            .expect("a run")
-            .clone()
-    };
-    let (particle, start) = (Particle { friction: 0.0 }, near_perihelion());
-    let tableau = ends(Run::new(TwoOfThree, particle, start.clone(), 0.5));
-    let galerkin = ends(Run::galerkin(TwoOfThree, particle, start, 0.5));
-    assert!(distance(&tableau, &galerkin) > 1e-7);
-}
-
-/// Equations (30) of Leok & Zhang with the Hamiltonian, for ψ = 1, x − 1/2 and the Gauss formula with three nodes, at the step that (38) takes
-/// with the Lagrangian: their Proposition 2.
-/// No path inside a step is uniform: its velocity is a combination of t and t².
-#[test]
-fn a_basis_without_constants_has_no_galerkin_step() {
-    symplectic::tableau! { NoConstants { basis: [t, t^2], quadrature: gauss(3) } }
-    let particle = Particle { friction: 0.0 };
-    let refused = Run::galerkin(NoConstants, particle, near_perihelion(), 0.1);
-    assert!(matches!(
-        refused.err(),
-        Some(Error::NoConstants {
-            method: "NoConstants"
-        })
-    ));
-}
-
-#[test]
-fn galerkin_steps_obey_the_hamiltonian_equations() {
-    let (h, particle, system) = (
-        0.5,
-        Particle { friction: 0.0 },
-        Relativistic { friction: 0.0 },
-    );
-    let start = near_perihelion();
-    let mut run = Run::galerkin(TwoOfThree, particle, start.clone(), h).expect("a start");
-    let end = run.step().expect("a step").clone();
-
-    let far = 0.15_f64.sqrt();
-    let nodes = [0.5 - far, 0.5, 0.5 + far];
-    let weights = [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0];
-    // ∫_0^1 ψ_2 = 0, so V_1 is the mean velocity. V_2 is not seen at the ends; its own equation gives it, by Newton's iteration with differences.
-    let first = (end.q - start.q) / h;
-    let residuals = |second: Vector2<f64>| {
-        let (mut impulse, mut one, mut two) =
-            (Vector2::zeros(), Vector2::zeros(), Vector2::zeros());
-        for (c, b) in nodes.into_iter().zip(weights) {
-            let q = start.q + first * (h * c) + second * (h * (c * c - c) / 2.0);
-            let v = first + second * (c - 0.5);
-            let p = momentum_of_velocity(&particle, 0.0, &q, &v).expect("a momentum");
-            let (mut velocity, mut force) = (Vector2::zeros(), Vector2::zeros());
-            Hamiltonian::velocity(&system, 0.0, &q, &p, &mut velocity);
-            Hamiltonian::force(&system, 0.0, &q, &p, &mut force);
-            // The third line of (30): Σ_i ψ_i(c_j) V_i = ∂H/∂p.
-            assert!((velocity - v).amax() < 1e-14);
-            impulse += force * (h * b);
-            one += p * b - force * (h * b * (1.0 - c));
-            two += p * (b * (c - 0.5)) + force * (h * b * (c * c - c) / 2.0);
-        }
-        (impulse, one - start.p, two)
-    };
-    let mut second = Vector2::zeros();
-    for _ in 0..20 {
-        let two = residuals(second).2;
-        let step = 1e-4;
-        let along = |k: usize| {
-            let mut moved = second;
-            moved[k] += step;
-            (residuals(moved).2 - two) / step
-        };
-        let slopes = SMatrix::<f64, 2, 2>::from_columns(&[along(0), along(1)]);
-        second -= slopes.try_inverse().expect("regular") * two;
-    }
-    let (impulse, one, two) = residuals(second);
-    assert!(two.amax() < 1e-15);
-    assert!(one.amax() < 1e-14, "{one}");
-    assert!((start.p + impulse - end.p).amax() < 1e-14);
-}
-
 /// The map of a step, by central differences, is symplectic.
 #[test]
 fn steps_are_symplectic() {
@@ -328,7 +214,7 @@ fn the_action_is_that_of_the_generating_function() -> Result<(), Error> {
 }
 
 /// Two vortices by a Lagrangian that is linear in the velocities: L = y1 x1' + y2 x2' + ln |r1 − r2|.
-struct Vortices;
+pub struct Vortices;
 
 impl Lagrangian for Vortices {
     type Vector<T: Scalar> = SVector<T, 4>;
@@ -405,8 +291,8 @@ fn formulas() -> Result<(), Error> {
 }
 
 /// L without a velocity, and one that is not finite.
-struct Wrong {
-    strange: bool,
+pub struct Wrong {
+    pub strange: bool,
 }
 
 impl Lagrangian for Wrong {

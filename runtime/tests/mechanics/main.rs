@@ -1,16 +1,23 @@
 //! Systems with constraints, and with friction.
 
+mod balances;
+mod chains;
 mod circuits;
+mod constrained_orders;
 mod cotangent_lift;
+mod dependent_constraints;
 mod dirac;
 mod dirac_forms;
 mod discrete_lagrangians;
+mod emitted_inverse;
 mod forces;
 mod formulas;
 mod friction;
+mod galerkin;
 mod hamilton_jacobi;
 mod holonomic;
 mod lagrangians;
+mod multipliers;
 mod newmark;
 mod nonholonomic;
 mod nonholonomic_formulas;

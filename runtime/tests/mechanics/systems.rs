@@ -11,6 +11,9 @@ symplectic::tableau! {
     pub Lobatto3 { basis: polynomial(3), nodes: lobatto(3), require: [constrained, order == 4] }
     pub Lobatto4 { basis: polynomial(4), nodes: lobatto(4), require: [constrained, order == 6] }
     pub Lobatto5 { basis: polynomial(5), nodes: lobatto(5), require: [constrained, order == 8] }
+    pub Lobatto6 { basis: polynomial(6), nodes: lobatto(6), require: [constrained, order == 10] }
+    pub Lobatto7 { basis: polynomial(7), nodes: lobatto(7), require: [constrained, order == 12] }
+    pub Lobatto8 { basis: polynomial(8), nodes: lobatto(8), require: [constrained, order == 14] }
     pub NewtonCotes4 { basis: polynomial(4), nodes: newton-cotes(4), require: [constrained, order == 2] }
     pub ClenshawCurtis5 { basis: polynomial(5), nodes: clenshaw-curtis(5), require: [constrained, order == 4] }
     /// Not symmetric.

@@ -98,7 +98,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     ///
     /// # Errors
     ///
-    /// As for [`new`](Self::new), and [`Error::NoConstants`].
+    /// As for [`new`](Self::new); [`Error::NoConstants`]; for r > s [`Error::DegenerateLagrangian`] if `∂²L/∂v∂v` is singular at the start.
     ///
     /// ```
     /// symplectic::tableau! { Rectangular { basis: polynomial(2), quadrature: gauss(3) } }
@@ -127,7 +127,22 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         step_size: f64,
     ) -> Result<Self, Error> {
         let coefficients = StageCoefficients::galerkin::<M>()?;
-        Self::by(coefficients, lagrangian, state, step_size)
+        let run = Self::by(coefficients, lagrangian, state, step_size)?;
+        if M::FUNCTIONS < M::STAGES {
+            let State { time, q, p } = &run.state;
+            let found = velocity_of_momentum(&run.lagrangian, *time, q, p);
+            if let Err(Error::NoVelocity {
+                component: Some(component),
+                ..
+            }) = found
+            {
+                return Err(Error::DegenerateLagrangian {
+                    method: M::NAME,
+                    component,
+                });
+            }
+        }
+        Ok(run)
     }
 
     fn by(

@@ -1,0 +1,80 @@
+//! Orders of constrained steps, with and without an applied force.
+
+use symplectic::{
+    Constrained, Hamiltonian, Integrator, Method, ProvedFor, State, Vector, consistent,
+    system::Unconstrained,
+};
+
+use crate::forces::Resisted;
+use crate::holonomic::distance;
+use crate::systems::*;
+
+/// The state at a time.
+fn end<M, S, C, V>(method: M, system: S, start: &State<V>, (time, steps): (f64, u32)) -> State<V>
+where
+    M: Method + ProvedFor<Constrained<C>>,
+    V: Vector<Scalar = f64>,
+    S: Hamiltonian<Class = Constrained<C>, Vector<f64> = V>,
+    C: symplectic::Class + Unconstrained,
+{
+    let size = time / f64::from(steps);
+    let mut run = Integrator::new(method, system, start.clone(), size).expect("consistent");
+    run.integrate_to(time).expect("converges").clone()
+}
+
+/// The slope of the error at a time between a number of steps and twice as many, against Lobatto with six stages.
+fn slope<M, S, C, V>(method: M, system: S, start: &State<V>, (time, steps): (f64, u32)) -> f64
+where
+    M: Method + ProvedFor<Constrained<C>>,
+    V: Vector<Scalar = f64>,
+    S: Hamiltonian<Class = Constrained<C>, Vector<f64> = V> + Copy,
+    C: symplectic::Class + Unconstrained,
+{
+    let reference = end(Lobatto6, system, start, (time, 96));
+    let [coarse, fine] = [steps, 2 * steps]
+        .map(|steps| distance(&end(method, system, start, (time, steps)), &reference));
+    // A rounding error of a hundredth changes the slope by 0.015.
+    assert!(
+        fine > 100.0 * f64::EPSILON,
+        "{}: {fine:e} is lost in rounding errors",
+        M::NAME
+    );
+    (coarse / fine).log2()
+}
+
+macro_rules! orders {
+    ($($name:ident: $system:expr, $start:expr, [$($method:ident $steps:literal $order:literal,)*];)*) => {$(
+        #[test]
+        fn $name() {
+            $(
+                let found = slope($method, $system, &$start, (1.0, $steps));
+                let near = (found - f64::from($order)).abs() < 0.05;
+                assert!(near, "{}: {found} instead of {}", stringify!($method), $order);
+            )*
+        }
+    )*};
+}
+
+orders! {
+    orders_on_the_double_spherical_pendulum: DoubleSpherical, double_start(), [
+        Euler 640 1, Rattle 40 2, Lobatto3 40 4, Lobatto4 20 6, Quarter 80 2, NewtonCotes4 80 2, ClenshawCurtis5 32 4, Waves 80 2,
+        Rattle4 80 4, Rattle6 60 6,
+    ];
+    orders_with_a_kinetic_energy_that_depends_on_the_place: Bead, sphere_start(), [
+        Euler 320 1, Rattle 40 2, Lobatto3 32 4, Lobatto4 10 6, Lobatto5 7 8, Rattle4 80 4,
+    ];
+    orders_with_a_velocity_that_is_not_linear: Relativistic,
+        consistent(&Relativistic, sphere_start()).expect("regular"), [
+        Euler 320 1, Rattle 40 2, Lobatto3 32 4, Lobatto4 8 6, Lobatto5 4 8, Rattle4 80 4,
+    ];
+    orders_with_an_applied_force: Resisted::new(), sphere_start(), [
+        Rattle 64 2, Lobatto3 16 4, Lobatto4 8 6, Lobatto5 4 8, Rattle4 64 4,
+    ];
+}
+
+/// At t = 1 the errors of order 8 reach rounding errors before the slope is 8. At t = 3/2 they are larger.
+#[test]
+fn order_eight_on_the_double_spherical_pendulum() {
+    let found = slope(Lobatto5, DoubleSpherical, &double_start(), (1.5, 24));
+    assert!((found - 8.0).abs() < 0.05, "{found}");
+}
