@@ -142,7 +142,7 @@ macro_rules! if_alloc {
 
 /// Doubles side by side.
 pub mod simd {
-    pub use crate::number::{DefaultLanes, F64x2, F64x4, F64x8, F64x16, Lanes};
+    pub use crate::number::{DefaultLanes, F64x2, F64x4, F64x8, F64x16, Lanes, MOST_LANES};
 }
 
 /// What emitted code names; not for people.

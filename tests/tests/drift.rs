@@ -5,7 +5,8 @@
 use symplectic::nalgebra::Vector2;
 use symplectic::{Error, Integrator, State};
 use symplectic_tests::drift::ensemble;
-use symplectic_tests::methods::Gauss6;
+use symplectic_tests::methods::{Gauss6, Lobatto5};
+use symplectic_tests::scenes::double_pendulum::{OnRods, neighbours};
 use symplectic_tests::scenes::henon_heiles::{HenonHeiles, start};
 
 const STEP_SIZE: f64 = 1.0 / 16.0;
@@ -53,5 +54,20 @@ fn without_the_momentum_stages_it_is_as_small() -> Result<(), Error> {
     )?[0];
     assert!(second_order.spread < 1e-15, "{second_order:?}");
     assert!(second_order.significance.abs() < 4.07, "{second_order:?}");
+    Ok(())
+}
+
+/// The iteration for the multipliers leaves a residual. If it had the same sign in every step, the mean would be 5 standard errors.
+#[test]
+fn constrained_steps_leave_a_small_random_walk() -> Result<(), Error> {
+    let orbits = neighbours([1.0, 0.5], 16);
+    let step_size = 1.0 / 128.0;
+    let on_rods = ensemble(
+        |start| Integrator::new(Lobatto5, OnRods::new(), start, step_size),
+        &orbits,
+        &[1 << 13],
+    )?[0];
+    assert!(on_rods.spread < 1e-15, "{on_rods:?}");
+    assert!(on_rods.significance.abs() < 4.07, "{on_rods:?}");
     Ok(())
 }

@@ -1,14 +1,15 @@
 //! The method of a run.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use symplectic::{Orders, RunTimeCoefficients, RunTimeTableau};
 use symplectic_compiler::export::read_text;
 use symplectic_compiler::order::HamiltonianClass;
 use symplectic_compiler::{Definition, Error, Key, Limits, Tableau, catalogue, check};
-use toml::Value;
+use toml::{Spanned, Value};
 
-use super::setup::{File, Setup};
+use super::setup::{File, Setup, Wanted};
 
 /// A method and its definition.
 pub(super) struct Method {
@@ -54,11 +55,9 @@ impl Method {
     }
 }
 
-fn derive(file: &File<'_>, method: &Value) -> Result<Tableau, Error> {
-    let expected = "expected the name of a method of the catalogue, the name of a `.toml` or `.json` file, or a table with the keys of `symplectic derive`";
-    let refused = |message: String| symplectic_compiler::ErrorKind::Document { message };
+fn derive(file: &File<'_>, method: &Wanted) -> Result<Tableau, Error> {
     match method {
-        Value::String(name) if name.ends_with(".toml") || name.ends_with(".json") => {
+        Wanted::Named(name) if name.ends_with(".toml") || name.ends_with(".json") => {
             let path = file.beside(Path::new(name));
             check(
                 &path.display().to_string(),
@@ -66,21 +65,22 @@ fn derive(file: &File<'_>, method: &Value) -> Result<Tableau, Error> {
                 &Limits::default(),
             )
         }
-        Value::String(name) => {
+        Wanted::Named(name) => {
             let entry = catalogue::find(name).ok_or_else(|| catalogue::unknown(name))?;
             Ok(entry.derive()?.named(entry.name))
         }
-        Value::Table(parts) => {
+        Wanted::Defined(parts) => {
             let mut given = Vec::new();
             for (name, value) in parts {
                 let key = Key::find(name).ok_or_else(|| {
                     let known: Vec<&str> = Key::ALL.iter().map(|key| key.name()).collect();
-                    refused(format!(
+                    let message = format!(
                         "a method has no key `{name}`; its keys are {}",
                         known.join(", ")
-                    ))
+                    );
+                    file.error(value.span(), message)
                 })?;
-                let text = match value {
+                let text = match value.get_ref() {
                     Value::String(text) => text.clone(),
                     Value::Boolean(true) => "true".to_owned(),
                     Value::Boolean(false) => continue,
@@ -88,8 +88,18 @@ fn derive(file: &File<'_>, method: &Value) -> Result<Tableau, Error> {
                 };
                 given.push((key, text));
             }
-            Definition::new(given).derive(&Limits::default())
+            let derived = Definition::new(given).derive(&Limits::default());
+            derived.map_err(|error| in_value(file, parts, error))
         }
-        _ => Err(refused(expected.to_owned()).into()),
+    }
+}
+
+/// Moves the place of an error from a value of the definition to the file.
+fn in_value(file: &File<'_>, parts: &BTreeMap<String, Spanned<Value>>, error: Error) -> Error {
+    let place = error.place.as_ref();
+    let found = place.and_then(|place| Some((parts.get(&place.input)?, place.text.clone())));
+    match found {
+        Some((value, text)) => file.inside(value.span(), &text, error),
+        None => error,
     }
 }

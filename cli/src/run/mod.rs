@@ -5,6 +5,7 @@ mod output;
 mod parameters;
 mod random;
 mod setup;
+mod spec;
 mod starts;
 mod system;
 mod table;
@@ -22,16 +23,20 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use symplectic::ensemble::{Ensemble, EnsembleError};
 use symplectic::nalgebra::DVector;
-use symplectic::{AtRunTime, Error as RunError, Hamiltonian, RunTimeTableau, State, Summation};
+use symplectic::{
+    AtRunTime, Class, Compensated, Error as RunError, General, Hamiltonian, Plain, Separable,
+    State, Summation,
+};
 use symplectic_compiler::export::read_text;
 use symplectic_compiler::formula::{Form, Structure, System};
 use symplectic_compiler::{Error, ErrorKind};
 
 use self::method::Method;
-use self::output::{Facts, Results, Seen, Target, Trajectory};
+use self::output::{Facts, Results, Target, Trajectory};
 use self::setup::{File, Setup, Starts, Sums, Times};
-use self::starts::{Coordinates, MOST, Reader};
-use self::system::{GeneralFormula, SeparableFormula, Tapes};
+use self::starts::{Coordinates, MOST, Reader, Start};
+use self::system::{Formula, Tapes};
+use self::tape::Parameters;
 use self::unroll::{MOST_STEPS, Refusal};
 use crate::output::print;
 
@@ -103,7 +108,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     };
     let (coordinates, starts) = reader.read()?;
     let bodies = coordinates.dimension() / system.layout.components().max(1);
-    let values = parameters::read(&file, &setup, &system, bodies)?;
+    let values = parameters::read(&file, &setup, &system, bodies, &coordinates.parameters)?;
     let tapes = Tapes::new(&mut system, &structure, &values).map_err(|refusal| {
         let message = match refusal {
             Refusal::TooLong => format!(
@@ -141,8 +146,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         target: Target::open(named(path, arguments.shard))?,
     };
     match structure.split {
-        Ok(_) => run.with_sums(SeparableFormula, starts),
-        Err(_) => run.with_sums(GeneralFormula, starts),
+        Ok(_) => run.with_class::<Separable>(starts),
+        Err(_) => run.with_class::<General>(starts),
     }
 }
 
@@ -294,36 +299,40 @@ fn times(file: &File<'_>, setup: &Setup) -> Result<Option<Vec<f64>>, Error> {
 }
 
 impl Run<'_> {
-    fn with_sums<S>(
-        self,
-        system: impl Fn(Arc<Tapes>) -> S,
-        starts: States,
-    ) -> Result<ExitCode, Error>
+    fn with_class<C: Class>(self, starts: Vec<Start>) -> Result<ExitCode, Error>
     where
-        S: Hamiltonian<Vector<f64> = Vector> + Clone + Send + Sync,
+        Formula<C>: Hamiltonian<Vector<f64> = Vector>,
     {
-        let system = system(Arc::clone(&self.tapes));
-        let tableau: &RunTimeTableau = &self.method.tableau;
-        let size = *self.setup.step_size.get_ref();
         match self.setup.sums {
-            Sums::Compensated => {
-                let made = Ensemble::at_run_time(tableau, system, starts, size);
-                self.integrate(made)
-            }
-            Sums::Plain => {
-                let made = Ensemble::plain_at_run_time(tableau, system, starts, size);
-                self.integrate(made)
-            }
+            Sums::Compensated => self.integrate::<C, Compensated>(starts),
+            Sums::Plain => self.integrate::<C, Plain>(starts),
         }
     }
 
-    fn integrate<S, R: Summation>(
-        self,
-        made: Result<Ensemble<AtRunTime, S, Vector, R>, EnsembleError>,
-    ) -> Result<ExitCode, Error>
+    fn integrate<C: Class, R: Summation>(self, starts: Vec<Start>) -> Result<ExitCode, Error>
     where
-        S: Hamiltonian<Vector<f64> = Vector> + Clone + Send + Sync,
+        Formula<C>: Hamiltonian<Vector<f64> = Vector>,
     {
+        let mut parameters: Vec<Vec<f64>> = Vec::new();
+        let mut families: Vec<(Formula<C>, States)> = Vec::new();
+        let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        for start in starts {
+            let before = parameters.last().map(|before| bits(before));
+            match families.last_mut() {
+                Some((_, family)) if before == Some(bits(&start.parameters)) => {
+                    family.push(start.state);
+                }
+                _ => {
+                    let own = Parameters::Own(start.parameters.as_slice().into());
+                    let system = Formula::new(Arc::clone(&self.tapes), own);
+                    families.push((system, vec![start.state]));
+                }
+            }
+            parameters.push(start.parameters);
+        }
+        let size = *self.setup.step_size.get_ref();
+        let made: Result<Ensemble<AtRunTime, _, Vector, R>, _> =
+            Ensemble::families_at_run_time(&self.method.tableau, families, size);
         let mut ensemble = made.map_err(|error| self.refused(&error))?;
         if let Some(Shard { part, count }) = self.shard {
             ensemble = ensemble
@@ -337,12 +346,7 @@ impl Run<'_> {
             progress.inc(1);
             ControlFlow::Continue(())
         };
-        let see = |seen: &mut Vec<Seen>, state: &State<Vector>| {
-            seen.push(Seen {
-                energy: self.tapes.energy_at(state),
-                state: state.clone(),
-            });
-        };
+        let see = |seen: &mut States, state: &State<Vector>| seen.push(state.clone());
         match &self.times {
             Some(times) => {
                 ensemble.integrate_at(times, |_| Vec::new(), see, keep);
@@ -384,6 +388,7 @@ impl Run<'_> {
             tapes: &self.tapes,
             rows: &rows,
             starts: ensemble.starts(),
+            parameters: &parameters,
             times: self.times.as_deref(),
         };
         let failed = rows.iter().filter(|row| row.outcome.is_err()).count();

@@ -12,15 +12,8 @@ use symplectic_compiler::{Error, ErrorKind};
 use super::starts::Coordinates;
 use super::system::Tapes;
 
-/// An output state with its energy.
-#[derive(Debug, Clone)]
-pub(super) struct Seen {
-    pub(super) state: State<DVector<f64>>,
-    pub(super) energy: f64,
-}
-
 /// A trajectory with its states at the output times.
-pub(super) type Trajectory = Row<DVector<f64>, Vec<Seen>>;
+pub(super) type Trajectory = Row<DVector<f64>, Vec<State<DVector<f64>>>>;
 
 /// The metadata in the file.
 pub(super) struct Facts<'a> {
@@ -33,6 +26,29 @@ pub(super) struct Facts<'a> {
     pub(super) setup: &'a str,
 }
 
+/// A fact in the metadata.
+pub(super) enum Fact<'a> {
+    Text(&'a str),
+    Integers([u64; 3]),
+    Number(f64),
+}
+
+impl Facts<'_> {
+    /// All facts, by name.
+    pub(super) fn all(&self) -> [(&'static str, Fact<'_>); 8] {
+        [
+            ("method", Fact::Text(self.method)),
+            ("definition", Fact::Text(self.definition)),
+            ("orders", Fact::Integers(self.orders)),
+            ("step_size", Fact::Number(self.step_size)),
+            ("sums", Fact::Text(self.sums)),
+            ("formula", Fact::Text(self.formula)),
+            ("setup", Fact::Text(self.setup)),
+            ("version", Fact::Text(env!("CARGO_PKG_VERSION"))),
+        ]
+    }
+}
+
 /// The results of a run.
 pub(super) struct Results<'a> {
     pub(super) coordinates: &'a Coordinates,
@@ -41,6 +57,8 @@ pub(super) struct Results<'a> {
     pub(super) rows: &'a [Trajectory],
     /// The start of each trajectory.
     pub(super) starts: &'a [State<DVector<f64>>],
+    /// The values of the parameters that vary, for each trajectory of the whole run.
+    pub(super) parameters: &'a [Vec<f64>],
     /// The output times; `None` for the end only.
     pub(super) times: Option<&'a [f64]>,
 }
@@ -140,39 +158,41 @@ impl Results<'_> {
     pub(super) fn energy_errors(&self) -> Vec<Vec<f64>> {
         let pairs = self.rows.iter().zip(self.starts);
         let errors = pairs.map(|(row, start)| {
-            let first = self.tapes.energy_at(start);
+            let energy_at = |state| self.tapes.energy_at(state, self.parameters(row));
+            let first = energy_at(start);
             let scale = if first == 0.0 { 1.0 } else { first.abs() };
             let error = |energy: f64| (energy - first) / scale;
             match self.times {
-                None => vec![error(self.tapes.energy_at(&row.state))],
-                Some(_) => row.output.iter().map(|seen| error(seen.energy)).collect(),
+                None => vec![error(energy_at(&row.state))],
+                Some(_) => row
+                    .output
+                    .iter()
+                    .map(|seen| error(energy_at(seen)))
+                    .collect(),
             }
         });
         errors.collect()
     }
 
+    /// The values of the parameters that vary.
+    pub(super) fn parameters(&self, row: &Trajectory) -> &[f64] {
+        self.parameters
+            .get(row.trajectory)
+            .map_or(&[], Vec::as_slice)
+    }
+
     fn write_npz(&self, out: &mut impl Write) -> io::Result<()> {
-        let Facts {
-            method,
-            definition,
-            orders,
-            step_size,
-            sums,
-            formula,
-            setup,
-        } = self.facts;
         let mut file = Npz::new(out);
-        file.text("method", method)?;
-        file.text("definition", definition)?;
-        file.integers("orders", &[3], &orders)?;
-        file.doubles("step_size", &[], &[step_size])?;
-        file.text("sums", sums)?;
-        file.text("formula", formula)?;
-        file.text("setup", setup)?;
-        file.text("version", env!("CARGO_PKG_VERSION"))?;
+        for (name, fact) in self.facts.all() {
+            match fact {
+                Fact::Text(text) => file.text(name, text)?,
+                Fact::Integers(integers) => file.integers(name, &[integers.len()], &integers)?,
+                Fact::Number(number) => file.doubles(name, &[], &[number])?,
+            }
+        }
         for (name, names) in ["positions", "momenta"]
             .into_iter()
-            .zip(&self.coordinates.0)
+            .zip(&self.coordinates.halves)
         {
             let names: Vec<&str> = names.iter().map(String::as_str).collect();
             file.texts(name, &names)?;
@@ -187,6 +207,14 @@ impl Results<'_> {
                 .copied()
                 .collect();
             file.doubles(name, &[count, dimension], &all)?;
+        }
+        let names = &self.coordinates.parameters;
+        if !names.is_empty() {
+            let texts: Vec<&str> = names.iter().map(String::as_str).collect();
+            file.texts("parameter_names", &texts)?;
+            let rows = self.rows.iter();
+            let all: Vec<f64> = rows.flat_map(|row| self.parameters(row)).copied().collect();
+            file.doubles("parameters", &[count, names.len()], &all)?;
         }
         file.rows(self.rows)?;
         let Some(times) = self.times else {
@@ -204,7 +232,7 @@ impl Results<'_> {
                 .zip(all.chunks_mut((steps * dimension).max(1)))
             {
                 for (seen, place) in row.output.iter().zip(places.chunks_mut(dimension.max(1))) {
-                    place.copy_from_slice(half_of(&seen.state, half));
+                    place.copy_from_slice(half_of(seen, half));
                 }
             }
             file.doubles(name, &[count, steps, dimension], &all)?;

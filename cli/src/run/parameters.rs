@@ -1,5 +1,7 @@
 //! The parameters of a formula.
 
+use std::ops::Range;
+
 use symplectic_compiler::Error;
 use symplectic_compiler::formula::evaluate::Real;
 use symplectic_compiler::formula::syntax::Length;
@@ -7,15 +9,56 @@ use symplectic_compiler::formula::{Parameter, Shape, System};
 use toml::Value;
 
 use super::setup::{self, File, Setup};
-use super::values::Values;
+use super::values::{Entry, Values};
 
-/// Reads all parameters; their lengths determine the lengths that the formula leaves open.
+/// A parameter, or an entry of one, that varies between trajectories.
+pub(super) struct Varied<'a> {
+    /// Its name in results, such as `mu` or `m[1]`.
+    pub(super) name: String,
+    pub(super) value: &'a Value,
+    /// The place of the parameter in the file.
+    pub(super) span: Range<usize>,
+}
+
+/// The entries of `[parameters]` that are given by a table, as in `{ from = 0, to = 1, count = 11 }`, in the order of the file.
+pub(super) fn varied(setup: &Setup) -> Vec<Varied<'_>> {
+    fn collect<'a>(name: String, value: &'a Value, span: &Range<usize>, all: &mut Vec<Varied<'a>>) {
+        match value {
+            Value::Table(_) => all.push(Varied {
+                name,
+                value,
+                span: span.clone(),
+            }),
+            Value::Array(entries) => {
+                for (k, entry) in entries.iter().enumerate() {
+                    collect(format!("{name}[{k}]"), entry, span, all);
+                }
+            }
+            _ => (),
+        }
+    }
+    let mut given: Vec<_> = setup.parameters.iter().collect();
+    given.sort_by_key(|(_, value)| value.span().start);
+    let mut all = Vec::new();
+    for (name, value) in given {
+        collect(name.clone(), value.get_ref(), &value.span(), &mut all);
+    }
+    all
+}
+
+/// Reads all parameters; their lengths determine the lengths that the formula leaves open. `varied` are the names of those that vary
+/// between trajectories.
 pub(super) fn read(
     file: &File<'_>,
     setup: &Setup,
     system: &System,
     bodies: usize,
+    varied: &[String],
 ) -> Result<Values, Error> {
+    let entry = |name: &str, value: Option<&Value>| match varied.iter().position(|v| v == name) {
+        Some(k) => Some(Entry::Varied(k)),
+        None => number(value?).map(Entry::Number),
+    };
     let mut values = Values {
         bodies,
         pairs: vec![Vec::new(); system.parameters.len()],
@@ -53,18 +96,21 @@ pub(super) fn read(
     for Parameter { name, shape } in &system.parameters {
         let rows = match shape {
             Shape::Pairs => Vec::new(),
-            Shape::Number(default) => match (setup.parameters.get(name), default) {
-                (None, Some(default)) => vec![vec![<f64 as Real>::number(default)]],
-                _ => {
-                    let (value, span) = given(file, setup, name, "a number")?;
-                    let refused =
-                        || file.error(span, format!("`{name}`: expected a finite number"));
-                    vec![vec![number(value).ok_or_else(refused)?]]
-                }
-            },
+            Shape::Number(default) => {
+                let own = setup.parameters.get(name);
+                let entry = entry(name, own.map(|value| value.get_ref()));
+                vec![vec![match (entry, own, default) {
+                    (Some(entry), ..) => entry,
+                    (None, None, Some(default)) => Entry::Number(<f64 as Real>::number(default)),
+                    _ => {
+                        let (_, span) = given(file, setup, name, "a number")?;
+                        return Err(file.error(span, format!("`{name}`: expected a finite number")));
+                    }
+                }]]
+            }
             Shape::Array(lengths) => {
                 let (value, span) = given(file, setup, name, "a list of numbers")?;
-                let rows = array(value, lengths.len()).ok_or_else(|| {
+                let rows = array(name, value, lengths.len(), entry).ok_or_else(|| {
                     let what = [
                         "a list of finite numbers",
                         "a list of lists of finite numbers",
@@ -114,7 +160,7 @@ fn given<'a>(
     setup: &'a Setup,
     name: &str,
     what: &str,
-) -> Result<(&'a Value, std::ops::Range<usize>), Error> {
+) -> Result<(&'a Value, Range<usize>), Error> {
     match setup.parameters.get(name) {
         Some(value) => Ok((value.get_ref(), value.span())),
         None => Err(file.error(
@@ -136,12 +182,24 @@ fn pairs(value: &Value, bodies: usize) -> Option<Vec<[usize; 2]>> {
     value.as_array()?.iter().map(pair).collect()
 }
 
-fn array(value: &Value, dimensions: usize) -> Option<Vec<Vec<f64>>> {
-    let row = |value: &Value| -> Option<Vec<f64>> {
+/// The rows of an array, from its entries by name.
+fn array(
+    name: &str,
+    value: &Value,
+    dimensions: usize,
+    entry: impl Fn(&str, Option<&Value>) -> Option<Entry>,
+) -> Option<Vec<Vec<Entry>>> {
+    let row = |(k, value): (usize, &Value)| -> Option<Vec<Entry>> {
+        let name = format!("{name}[{k}]");
         match dimensions {
-            1 => Some(vec![number(value)?]),
-            _ => value.as_array()?.iter().map(number).collect(),
+            1 => Some(vec![entry(&name, Some(value))?]),
+            _ => {
+                let entries = value.as_array()?.iter().enumerate();
+                entries
+                    .map(|(k, value)| entry(&format!("{name}[{k}]"), Some(value)))
+                    .collect()
+            }
         }
     };
-    value.as_array()?.iter().map(row).collect()
+    value.as_array()?.iter().enumerate().map(row).collect()
 }

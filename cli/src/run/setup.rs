@@ -15,8 +15,7 @@ use toml::{Spanned, Value};
 pub(super) struct Setup {
     /// The formula of the system.
     pub(super) system: Spanned<String>,
-    /// The method: a name of the catalogue, a file, or the keys of a definition.
-    pub(super) method: Spanned<Value>,
+    pub(super) method: Spanned<Wanted>,
     pub(super) step_size: Spanned<f64>,
     #[serde(default)]
     pub(super) start_time: f64,
@@ -29,8 +28,39 @@ pub(super) struct Setup {
     #[serde(default)]
     pub(super) parameters: BTreeMap<String, Spanned<Value>>,
     pub(super) starts: Spanned<Starts>,
-    pub(super) random: Option<Random>,
+    pub(super) random: Option<Spanned<Random>>,
     pub(super) output: Output,
+}
+
+/// The method as given.
+#[derive(Debug)]
+pub(super) enum Wanted {
+    /// A name of the catalogue, or of a file.
+    Named(String),
+    /// The keys of a definition.
+    Defined(BTreeMap<String, Spanned<Value>>),
+}
+
+impl<'de> Deserialize<'de> for Wanted {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Any;
+        impl<'de> Visitor<'de> for Any {
+            type Value = Wanted;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("the name of a method of the catalogue, the name of a `.toml` or `.json` file, or a table with the keys of `symplectic derive`")
+            }
+
+            fn visit_str<E>(self, name: &str) -> Result<Wanted, E> {
+                Ok(Wanted::Named(name.to_owned()))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Wanted, A::Error> {
+                BTreeMap::deserialize(MapAccessDeserializer::new(map)).map(Wanted::Defined)
+            }
+        }
+        deserializer.deserialize_any(Any)
+    }
 }
 
 /// The summation of steps.

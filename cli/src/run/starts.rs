@@ -8,21 +8,24 @@ use symplectic_compiler::formula::syntax::Length;
 use symplectic_compiler::formula::{Layout, System};
 use toml::{Spanned, Value};
 
+use super::parameters::{self, Varied};
 use super::random;
-use super::setup::{Evenly, File, Grid, Random, Setup, Starts, number};
+use super::setup::{File, Grid, Setup, Starts};
+use super::spec::Spec;
 
 /// Largest number of starts of a run.
 pub(super) const MOST: usize = 1 << 22;
 
-const EXPECTED: &str = "expected a number, { from, to, count } with a count up to 4194304, { values = [...] }, { uniform = [low, high] } or { normal = [mean, deviation] }";
-
-/// The names of all components of the position and the momentum.
+/// The names of all components of the position and the momentum, and of the parameters that vary between trajectories.
 #[derive(Debug, Clone)]
-pub(super) struct Coordinates(pub(super) [Vec<String>; 2]);
+pub(super) struct Coordinates {
+    pub(super) halves: [Vec<String>; 2],
+    pub(super) parameters: Vec<String>,
+}
 
 impl Coordinates {
     /// The coordinates of a number of bodies.
-    pub(super) fn new(system: &System, bodies: usize) -> Self {
+    pub(super) fn new(system: &System, bodies: usize, parameters: Vec<String>) -> Self {
         let names = |half| {
             let of = |body| {
                 let name = system.layout.name(half, body);
@@ -35,17 +38,25 @@ impl Coordinates {
             };
             (0..bodies).flat_map(of).collect()
         };
-        Coordinates([names(Half::Q), names(Half::P)])
+        Coordinates {
+            halves: [names(Half::Q), names(Half::P)],
+            parameters,
+        }
     }
 
     /// The dimension of the position.
     pub(super) fn dimension(&self) -> usize {
-        self.0[0].len()
+        self.halves[0].len()
     }
 
-    /// All names, positions first.
+    /// The names of the coordinates, positions first.
     pub(super) fn all(&self) -> impl Iterator<Item = &String> {
-        self.0.iter().flatten()
+        self.halves.iter().flatten()
+    }
+
+    /// The names of the numbers that a start consists of: coordinates, then parameters.
+    pub(super) fn with_parameters(&self) -> impl Iterator<Item = &String> {
+        self.all().chain(&self.parameters)
     }
 
     /// The list of names, truncated if there are many.
@@ -57,47 +68,13 @@ impl Coordinates {
     }
 }
 
-/// The start values of a coordinate.
+/// The start of a trajectory, with any number of bodies.
 #[derive(Debug, Clone)]
-enum Spec {
-    Values(Vec<f64>),
-    Uniform([f64; 2]),
-    Normal([f64; 2]),
+pub(super) struct Start {
+    pub(super) state: State<DVector<f64>>,
+    /// The values of the parameters that vary.
+    pub(super) parameters: Vec<f64>,
 }
-
-impl Spec {
-    fn read(value: &Value) -> Option<Self> {
-        if let Some(value) = number(value) {
-            return Some(Spec::Values(vec![value]));
-        }
-        let table = value.as_table()?;
-        let numbers = |key: &str| -> Option<Vec<f64>> {
-            let list = table.get(key)?.as_array()?;
-            list.iter().map(number).collect()
-        };
-        let pair = |key: &str| numbers(key).and_then(|list| <[f64; 2]>::try_from(list).ok());
-        let range = || value.clone().try_into::<Evenly>().ok();
-        match table.len() {
-            1 => (numbers("values")
-                .filter(|list| !list.is_empty())
-                .map(Spec::Values))
-            .or_else(|| pair("uniform").map(Spec::Uniform))
-            .or_else(|| pair("normal").map(Spec::Normal)),
-            _ => range()
-                .filter(|range| range.count <= MOST)
-                .map(Evenly::numbers)
-                .filter(|list| !list.is_empty())
-                .map(Spec::Values),
-        }
-    }
-
-    fn is_random(&self) -> bool {
-        !matches!(self, Spec::Values(_))
-    }
-}
-
-/// A start with any number of bodies.
-type Start = State<DVector<f64>>;
 
 /// Reads the starts of a system, whose number of bodies is not yet known.
 pub(super) struct Reader<'a> {
@@ -112,6 +89,13 @@ impl Reader<'_> {
         let rows = match self.setup.starts.get_ref() {
             Starts::File(name) => {
                 self.refuse_needless_random(false)?;
+                if let Some(varied) = parameters::varied(self.setup).first() {
+                    let message = format!(
+                        "`{}` varies, but the starts are in a file: write its values into a column of that file",
+                        varied.name
+                    );
+                    return Err(self.file.error(varied.span.clone(), message));
+                }
                 self.of_table(&self.file.beside(name))?
             }
             Starts::Grids(grids) => self.of_grids(grids)?,
@@ -119,19 +103,20 @@ impl Reader<'_> {
         let (coordinates, rows) = rows;
         let half = coordinates.dimension();
         let time = self.setup.start_time;
-        let state = |row: Vec<f64>| {
-            State::new(
+        let start = |row: Vec<f64>| Start {
+            state: State::new(
                 time,
                 DVector::from_column_slice(&row[..half]),
-                DVector::from_column_slice(&row[half..]),
-            )
+                DVector::from_column_slice(&row[half..2 * half]),
+            ),
+            parameters: row[2 * half..].to_vec(),
         };
-        Ok((coordinates, rows.into_iter().map(state).collect()))
+        Ok((coordinates, rows.into_iter().map(start).collect()))
     }
 
     fn refuse_needless_random(&self, any: bool) -> Result<(), Error> {
         let span = self.setup.starts.span();
-        match (any, self.setup.random) {
+        match (any, &self.setup.random) {
             (true, None) => Err(self.file.error(
                 span,
                 "these starts are random: give their number and a seed, `random = { seed = 1, count = 1000 }`",
@@ -139,6 +124,10 @@ impl Reader<'_> {
             (false, Some(_)) => Err(self.file.error(
                 span,
                 "`random` is given, but no start is random: write `{ uniform = [low, high] }` or `{ normal = [mean, deviation] }` for a coordinate",
+            )),
+            (true, Some(random)) if random.get_ref().count == 0 => Err(self.file.error(
+                random.span(),
+                "the count is 0, so there are no starts: write a number of at least 1, the random starts at each point of the grid",
             )),
             _ => Ok(()),
         }
@@ -170,16 +159,25 @@ impl Reader<'_> {
         let listed = first
             .and_then(|list| list.get_ref().as_array())
             .map(Vec::len);
-        let coordinates = Coordinates::new(self.system, self.bodies(listed)?);
+        let varied = parameters::varied(self.setup);
+        let names = varied.iter().map(|varied| varied.name.clone()).collect();
+        let coordinates = Coordinates::new(self.system, self.bodies(listed)?, names);
+        let coordinate_count = coordinates.all().count();
+        let mut parameter_axes = Vec::new();
+        for (k, Varied { name, value, span }) in varied.iter().enumerate() {
+            let spec = Spec::read(value, name)
+                .map_err(|message| self.file.error(span.clone(), message))?;
+            parameter_axes.push((coordinate_count + k, spec));
+        }
         let mut rows = Vec::new();
         let mut draws = 0;
         let mut any_random = false;
         for grid in grids {
-            let axes = self.axes(grid, &coordinates)?;
+            let axes = [parameter_axes.clone(), self.axes(grid, &coordinates)?].concat();
             let is_random = axes.iter().any(|(_, spec)| spec.is_random());
             any_random |= is_random;
-            let count = match self.setup.random {
-                Some(Random { count, .. }) if is_random => count,
+            let count = match &self.setup.random {
+                Some(random) if is_random => random.get_ref().count,
                 _ => 1,
             };
             self.product(&axes, count, &mut draws, &mut rows)?;
@@ -194,15 +192,11 @@ impl Reader<'_> {
         entries.sort_by_key(|(_, value)| value.span().start);
         let mut axes = Vec::new();
         for (name, value) in entries {
-            let read = |value: &Value, name: &str| {
-                let refused = || format!("`{name}`: {EXPECTED}");
-                Spec::read(value).ok_or_else(refused)
-            };
             let places = self.leaves(name, value.get_ref(), coordinates);
             let leaves = places.map_err(|message| self.file.error(value.span(), message))?;
             for (place, name, leaf) in leaves {
-                let spec =
-                    read(leaf, &name).map_err(|message| self.file.error(value.span(), message))?;
+                let spec = Spec::read(leaf, &name)
+                    .map_err(|message| self.file.error(value.span(), message))?;
                 if axes.iter().any(|(found, _)| *found == place) {
                     let message = format!("`{name}` is given twice: leave out one of the two");
                     return Err(self.file.error(value.span(), message));
@@ -296,7 +290,8 @@ impl Reader<'_> {
             let message = format!("more than {MOST} starts: split the run into several files");
             return Err(self.file.error(self.setup.starts.span(), message));
         }
-        let seed = self.setup.random.map_or(0, |random| random.seed);
+        let random = self.setup.random.as_ref();
+        let seed = random.map_or(0, |random| random.get_ref().seed);
         let points = lengths.iter().product::<usize>();
         for point in 0..points {
             for _ in 0..count {

@@ -1,14 +1,16 @@
 //! A formula as a system for integrators.
 
+use std::marker::PhantomData;
+use std::slice;
 use std::sync::Arc;
 
 use symplectic::nalgebra::DVector;
-use symplectic::{General, Hamiltonian, Scalar, SeparableHamiltonian, State};
+use symplectic::{Class, Hamiltonian, Scalar, State};
 use symplectic_compiler::formula::derivative::gradient;
 use symplectic_compiler::formula::graph::{Half, integer};
 use symplectic_compiler::formula::{Structure, System};
 
-use super::tape::{At, Tape};
+use super::tape::{At, Parameters, Tape};
 use super::unroll::{Refusal, Unrolled};
 use super::values::Values;
 
@@ -54,71 +56,105 @@ impl Tapes {
     }
 
     /// H at a state.
-    pub(super) fn energy_at(&self, state: &State<DVector<f64>>) -> f64 {
-        self.energy(state.time, &state.q, &state.p)
+    pub(super) fn energy_at(&self, state: &State<DVector<f64>>, parameters: &[f64]) -> f64 {
+        let parameters = Parameters::Own(parameters.into());
+        self.energy(&parameters, (state.time, &state.q, &state.p))
     }
 
-    fn energy<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>) -> T {
+    fn energy<T: Scalar>(&self, parameters: &Parameters, point: Point<'_, T>) -> T {
         let mut energy = T::zero();
-        self.energy.run(at(time, q, p), |_, value| energy = value);
+        let write = |_, _, value| energy = value;
+        self.energy.run(1, |_| at(parameters, point), write);
         energy
     }
 }
 
-fn at<'a, T: Scalar>(time: T, q: &'a DVector<T>, p: &'a DVector<T>) -> At<'a, T> {
+/// A time, with the positions and the momenta.
+type Point<'a, T> = (T, &'a DVector<T>, &'a DVector<T>);
+
+#[inline(always)]
+fn at<'a, T: Scalar>(parameters: &'a Parameters, (time, q, p): Point<'a, T>) -> At<'a, T> {
     At {
+        parameters,
         time,
         q: q.as_slice(),
         p: p.as_slice(),
     }
 }
 
+/// Writes the results at each point into its vector.
 #[inline(always)]
-fn fill<T: Scalar>(tape: &Tape, at: At<'_, T>, vector: &mut DVector<T>) {
-    let components = vector.as_mut_slice();
-    tape.run(at, |k, value| {
-        if let Some(component) = components.get_mut(k) {
-            *component = value;
+fn fill<'a: 'p, 'p, T: Scalar>(
+    (tape, parameters): (&Tape, &'p Parameters),
+    point: impl Fn(usize) -> Point<'a, T>,
+    vectors: &mut [DVector<T>],
+) {
+    tape.run(
+        vectors.len(),
+        |k| at(parameters, point(k)),
+        |vector, k, value| {
+            if let Some(component) = vectors[vector].as_mut_slice().get_mut(k) {
+                *component = value;
+            }
+        },
+    );
+}
+
+/// A system of class `C`. The tapes of a separable system read no momentum for the force, and no position for the velocity.
+#[derive(Debug)]
+pub(super) struct Formula<C> {
+    tapes: Arc<Tapes>,
+    parameters: Parameters,
+    class: PhantomData<fn() -> C>,
+}
+
+impl<C> Formula<C> {
+    pub(super) fn new(tapes: Arc<Tapes>, parameters: Parameters) -> Self {
+        Formula {
+            tapes,
+            parameters,
+            class: PhantomData,
         }
-    });
-}
-
-/// A separable system, `H = T(t, p) + U(t, q)`.
-#[derive(Debug, Clone)]
-pub(super) struct SeparableFormula(pub(super) Arc<Tapes>);
-
-impl SeparableHamiltonian for SeparableFormula {
-    type Vector<T: Scalar> = DVector<T>;
-
-    fn velocity<T: Scalar>(&self, time: T, p: &DVector<T>, velocity: &mut DVector<T>) {
-        // The tape of the velocity reads no position.
-        fill(&self.0.velocity, at(time, p, p), velocity);
-    }
-
-    fn force<T: Scalar>(&self, time: T, q: &DVector<T>, force: &mut DVector<T>) {
-        // The tape of the force reads no momentum.
-        fill(&self.0.force, at(time, q, q), force);
-    }
-
-    fn energy<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>) -> Option<T> {
-        Some(self.0.energy(time, q, p))
     }
 }
 
-/// Any other system.
-#[derive(Debug, Clone)]
-pub(super) struct GeneralFormula(pub(super) Arc<Tapes>);
+impl<C> Clone for Formula<C> {
+    fn clone(&self) -> Self {
+        Self::new(Arc::clone(&self.tapes), self.parameters.clone())
+    }
+}
 
-impl Hamiltonian for GeneralFormula {
-    type Class = General;
+impl<C: Class> Hamiltonian for Formula<C> {
+    type Class = C;
     type Vector<T: Scalar> = DVector<T>;
+
+    const JOINS: bool = true;
+
+    fn join<'a>(systems: impl Iterator<Item = &'a Self>) -> Option<Self> {
+        let mut systems = systems.peekable();
+        let tapes = Arc::clone(&systems.peek()?.tapes);
+        let parameters = Parameters::join(systems.map(|system| &system.parameters))?;
+        Some(Self::new(tapes, parameters))
+    }
 
     fn velocity<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>, out: &mut DVector<T>) {
-        fill(&self.0.velocity, at(time, q, p), out);
+        self.velocities(|_| (time, q, p), slice::from_mut(out));
     }
 
     fn force<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>, out: &mut DVector<T>) {
-        fill(&self.0.force, at(time, q, p), out);
+        self.forces(|_| (time, q, p), slice::from_mut(out));
+    }
+
+    fn velocities<'a, T: Scalar>(
+        &self,
+        at: impl Fn(usize) -> Point<'a, T>,
+        out: &mut [DVector<T>],
+    ) {
+        fill((&self.tapes.velocity, &self.parameters), at, out);
+    }
+
+    fn forces<'a, T: Scalar>(&self, at: impl Fn(usize) -> Point<'a, T>, out: &mut [DVector<T>]) {
+        fill((&self.tapes.force, &self.parameters), at, out);
     }
 
     fn slopes<T: Scalar>(
@@ -130,7 +166,7 @@ impl Hamiltonian for GeneralFormula {
     ) {
         let (velocity, force) = (velocity.as_mut_slice(), force.as_mut_slice());
         let count = velocity.len();
-        self.0.slopes.run(at(time, q, p), |k, value| {
+        let write = |_, k: usize, value| {
             let component = match k.checked_sub(count) {
                 None => velocity.get_mut(k),
                 Some(k) => force.get_mut(k),
@@ -138,10 +174,12 @@ impl Hamiltonian for GeneralFormula {
             if let Some(component) = component {
                 *component = value;
             }
-        });
+        };
+        let at = |_| at(&self.parameters, (time, q, p));
+        self.tapes.slopes.run(1, at, write);
     }
 
     fn energy<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>) -> Option<T> {
-        Some(self.0.energy(time, q, p))
+        Some(self.tapes.energy(&self.parameters, (time, q, p)))
     }
 }

@@ -12,9 +12,10 @@ use parquet::record::Field;
 use symplectic::State;
 use symplectic::ensemble::{Parquet, ParquetColumn};
 use symplectic::nalgebra::DVector;
+use symplectic_compiler::formula::{Parameter, Shape};
 use symplectic_compiler::{Error, ErrorKind};
 
-use super::output::{Facts, Results, Trajectory};
+use super::output::{Fact, Results, Trajectory};
 use super::starts::{Coordinates, MOST, Reader};
 
 /// Lines that are written to a Parquet file at once.
@@ -24,6 +25,7 @@ const GROUP: usize = 1 << 16;
 struct Line<'a> {
     row: &'a Trajectory,
     start: &'a State<DVector<f64>>,
+    parameters: &'a [f64],
     state: &'a State<DVector<f64>>,
     energy_error: Option<f64>,
     /// Why the trajectory ended there.
@@ -39,6 +41,7 @@ impl Results<'_> {
             let line = |state, energy_error, failure| Line {
                 row,
                 start,
+                parameters: self.parameters(row),
                 state,
                 energy_error,
                 failure,
@@ -49,7 +52,7 @@ impl Results<'_> {
                 return lines;
             }
             let seen = row.output.iter().zip(errors);
-            lines.extend(seen.map(|(seen, error)| line(&seen.state, Some(error), None)));
+            lines.extend(seen.map(|(state, error)| line(state, Some(error), None)));
             if failure.is_some() {
                 lines.push(line(&row.state, None, failure));
             }
@@ -65,6 +68,7 @@ impl Results<'_> {
             let energy_error = line.energy_error.map(|error| format!("{error:e}"));
             let mut cells = vec![line.row.trajectory.to_string()];
             cells.extend(numbers(line.start));
+            cells.extend(line.parameters.iter().map(f64::to_string));
             cells.push(line.state.time.to_string());
             cells.extend(numbers(line.state));
             cells.push(energy_error.unwrap_or_default());
@@ -78,32 +82,18 @@ impl Results<'_> {
     /// As [`write_csv`](Self::write_csv); where there is no energy error it is NaN, where there is no error it is null.
     pub(super) fn write_parquet(&self, out: &mut (impl Write + Send)) -> io::Result<()> {
         let mut file = Parquet::new(out);
-        let Facts {
-            method,
-            definition,
-            orders,
-            step_size,
-            sums,
-            formula,
-            setup,
-        } = self.facts;
-        for (name, text) in [
-            ("method", method),
-            ("definition", definition),
-            ("orders", &format!("{orders:?}")),
-            ("step_size", &format!("{step_size:?}")),
-            ("sums", sums),
-            ("formula", formula),
-            ("setup", setup),
-            ("version", env!("CARGO_PKG_VERSION")),
-        ] {
-            file.note(name, text);
+        for (name, fact) in self.facts.all() {
+            match fact {
+                Fact::Text(text) => file.note(name, text),
+                Fact::Integers(integers) => file.note(name, &format!("{integers:?}")),
+                Fact::Number(number) => file.note(name, &format!("{number:?}")),
+            }
         }
         let names = header(self.coordinates);
         let mut lines = self.lines();
         loop {
             let group: Vec<Line<'_>> = lines.by_ref().take(GROUP).collect();
-            let columns = columns(&group, self.coordinates.all().count());
+            let columns = columns(&group, self.coordinates);
             let columns: Vec<_> = names.iter().map(String::as_str).zip(columns).collect();
             file.group(&columns)?;
             if group.len() < GROUP {
@@ -125,6 +115,7 @@ fn header(coordinates: &Coordinates) -> Vec<String> {
     let own = |name: &str| [name.to_owned()].into_iter();
     own("trajectory")
         .chain(starts)
+        .chain(coordinates.parameters.iter().cloned())
         .chain(own("time"))
         .chain(coordinates.all().cloned())
         .chain(["energy_error", "steps", "error"].map(str::to_owned))
@@ -138,8 +129,9 @@ pub(super) fn twin(coordinates: &Coordinates) -> Option<String> {
     names.find(|name| !known.insert(name.clone()))
 }
 
-/// The columns of lines with this number of coordinates, in the order of the [`header`].
-fn columns(lines: &[Line<'_>], count: usize) -> Vec<ParquetColumn> {
+/// The columns of lines, in the order of the [`header`].
+fn columns(lines: &[Line<'_>], names: &Coordinates) -> Vec<ParquetColumn> {
+    let count = names.all().count();
     let integers =
         |of: fn(&Line<'_>) -> u64| ParquetColumn::Integers(lines.iter().map(of).collect());
     let doubles =
@@ -149,6 +141,8 @@ fn columns(lines: &[Line<'_>], count: usize) -> Vec<ParquetColumn> {
     };
     let mut columns = vec![integers(|line| line.row.trajectory as u64)];
     columns.extend((0..count).map(|k| coordinate(|line| line.start, k)));
+    let parameters = 0..names.parameters.len();
+    columns.extend(parameters.map(|k| doubles(&|line| line.parameters[k])));
     columns.push(doubles(&|line| line.state.time));
     columns.extend((0..count).map(|k| coordinate(|line| line.state, k)));
     columns.push(doubles(&|line| line.energy_error.unwrap_or(f64::NAN)));
@@ -242,7 +236,20 @@ impl Reader<'_> {
         let components = self.system.layout.components();
         let listed = names.iter().filter(|name| name.starts_with("q[")).count();
         let bodies = self.bodies(Some(listed / components.max(1)))?;
-        Ok(Coordinates::new(self.system, bodies))
+        let mut parameters: Vec<String> = Vec::new();
+        for Parameter { name, shape } in &self.system.parameters {
+            let is_column = names.contains(&name.as_str());
+            if is_column && matches!(shape, Shape::Number(_)) {
+                if let Some(value) = self.setup.parameters.get(name) {
+                    let message = format!(
+                        "`{name}` is also a column of the file with the starts: leave out one of the two"
+                    );
+                    return Err(self.file.error(value.span(), message));
+                }
+                parameters.push(name.clone());
+            }
+        }
+        Ok(Coordinates::new(self.system, bodies, parameters))
     }
 }
 
@@ -255,16 +262,18 @@ fn refused(path: &Path, message: impl Display) -> Error {
 fn places(coordinates: &Coordinates, names: &[&str]) -> Result<Vec<usize>, String> {
     let mut places = Vec::new();
     for name in names {
-        let place = coordinates.all().position(|known| known == name);
+        let place = coordinates
+            .with_parameters()
+            .position(|known| known == name);
         let place = place.filter(|place| !places.contains(place)).ok_or_else(|| {
             format!(
-                "the column `{name}` is not a coordinate, or occurs twice; the coordinates are {}",
+                "the column `{name}` is not a coordinate and no parameter that is a number, or occurs twice; the coordinates are {}",
                 coordinates.listed()
             )
         })?;
         places.push(place);
     }
-    let mut missing = coordinates.all().enumerate();
+    let mut missing = coordinates.with_parameters().enumerate();
     match missing.find(|(k, _)| !places.contains(k)) {
         Some((_, name)) => Err(format!("the column `{name}` is missing")),
         None => Ok(places),

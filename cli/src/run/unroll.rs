@@ -11,7 +11,7 @@ use symplectic_compiler::formula::graph::{Half, Id, LoopId};
 use symplectic_compiler::formula::operations::{Op, Operation, Operations};
 
 use super::tape::{Code, Input, Register, Step, Tape, apply};
-use super::values::{Indices, Values};
+use super::values::{Entry, Indices, Values};
 
 /// Largest number of operations of a formula with unrolled loops.
 pub(super) const MOST_STEPS: usize = 60_000;
@@ -38,6 +38,8 @@ enum Value {
     Time,
     Position(usize),
     Momentum(usize),
+    /// A parameter that varies between trajectories.
+    Parameter(usize),
     Step(Code, [Number; 3]),
 }
 
@@ -246,7 +248,10 @@ impl<'a> Unrolled<'a> {
                 let Some(&value) = row.and_then(|row| row.get(places[1])) else {
                     return Ok(None);
                 };
-                return self.constant(value).map(Some);
+                return match value {
+                    Entry::Number(value) => self.constant(value).map(Some),
+                    Entry::Varied(k) => self.add(Value::Parameter(k)).map(Some),
+                };
             }
             Operation::Coordinate(coordinate) => {
                 let index = self
@@ -332,7 +337,7 @@ impl<'a> Unrolled<'a> {
             _ => None,
         };
         if let [Some(a), Some(b), Some(c)] = numbers.map(constant) {
-            return self.constant(apply(code, a, || b, || c));
+            return self.constant(apply(code, [a, b, c]));
         }
         self.add(Value::Step(code, numbers))
     }
@@ -457,6 +462,7 @@ impl<'a> Assembly<'a> {
                 Value::Time => Input::Time,
                 Value::Position(k) => Input::Position(k),
                 Value::Momentum(k) => Input::Momentum(k),
+                Value::Parameter(k) => Input::Parameter(k),
             };
             if self.left[number] > 0 {
                 let register = self.new_register()?;

@@ -14,9 +14,17 @@ pub(super) struct Values {
     /// The values of lengths that the formula leaves open.
     pub(super) lengths: HashMap<Length, usize>,
     /// The rows of each parameter. A number has one row of one column; a one-dimensional array has rows of one column.
-    pub(super) parameters: Vec<Vec<Vec<f64>>>,
+    pub(super) parameters: Vec<Vec<Vec<Entry>>>,
     /// The pairs of each parameter that is a list of pairs.
     pub(super) pairs: Vec<Vec<[usize; 2]>>,
+}
+
+/// An entry of a parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Entry {
+    Number(f64),
+    /// The number of a parameter that varies between trajectories.
+    Varied(usize),
 }
 
 /// The index of each loop being unrolled; for a list of pairs, the number of the pair.

@@ -56,7 +56,7 @@ pub(super) fn parted_mut<W: Vector<Scalar = f64>>(
 }
 
 /// Work vectors for evaluations of a system.
-pub(super) struct Room<S: Hamiltonian> {
+pub(super) struct Workspace<S: Hamiltonian> {
     pub(super) q: S::Vector<f64>,
     pub(super) p: S::Vector<f64>,
     /// The velocity or the force.
@@ -65,7 +65,7 @@ pub(super) struct Room<S: Hamiltonian> {
     dual_p: S::Vector<HyperDual>,
 }
 
-impl<S: Hamiltonian> Room<S> {
+impl<S: Hamiltonian> Workspace<S> {
     pub(super) fn new(dimension: usize) -> Result<Self, Error> {
         let zeros = alloc::vec![0.0; dimension];
         let duals = alloc::vec![HyperDual::zero(); dimension];

@@ -4,7 +4,7 @@ use alloc::boxed::Box;
 use core::cell::Cell;
 use core::fmt;
 
-use super::extended::{Room, energy_of, extended, parted, parted_mut, reduced};
+use super::extended::{Workspace, energy_of, extended, parted, parted_mut, reduced};
 use crate::error::Error;
 use crate::number::{Scalar, Vector};
 use crate::solver::FixedPoint;
@@ -76,7 +76,7 @@ use crate::system::{Hamiltonian, Separable, System};
 pub struct Logarithmic<S: Hamiltonian<Class = Separable>> {
     system: S,
     /// Work vectors for evaluations of the system; `None` before the first evaluation and during each.
-    room: Cell<Option<Box<Room<S>>>>,
+    workspace: Cell<Option<Box<Workspace<S>>>>,
     /// The name and the value of the argument of a logarithm that was not positive in the last failed evaluation.
     fault: Cell<Option<(&'static str, f64)>>,
 }
@@ -92,7 +92,7 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
         }
         Self {
             system,
-            room: Cell::new(None),
+            workspace: Cell::new(None),
             fault: Cell::new(None),
         }
     }
@@ -148,22 +148,27 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
         &self.system
     }
 
-    /// Calls `look` with the work vectors for `dimension` components; `None` if the system has another dimension.
-    fn in_room<T>(&self, dimension: usize, look: impl FnOnce(&mut Room<S>) -> T) -> Option<T> {
-        let room = self.room.take();
-        let mut room = match room.filter(|room| room.q.dimension() == dimension) {
-            Some(room) => room,
-            None => Box::new(Room::new(dimension).ok()?),
+    /// Calls `evaluate` with the work vectors for `dimension` components; `None` if the system has another dimension.
+    fn with_workspace<T>(
+        &self,
+        dimension: usize,
+        evaluate: impl FnOnce(&mut Workspace<S>) -> T,
+    ) -> Option<T> {
+        let workspace = self.workspace.take();
+        let mut workspace = match workspace.filter(|workspace| workspace.q.dimension() == dimension)
+        {
+            Some(workspace) => workspace,
+            None => Box::new(Workspace::new(dimension).ok()?),
         };
-        let seen = look(&mut room);
-        self.room.set(Some(room));
-        Some(seen)
+        let value = evaluate(&mut workspace);
+        self.workspace.set(Some(workspace));
+        Some(value)
     }
 
     /// `T + B`; `None` if it is not positive. Leaves the velocity in the work vectors.
-    fn kinetic(&self, room: &mut Room<S>, p: &[f64], b: f64) -> Option<f64> {
-        room.set_p(p);
-        let Room { q, p, slope, .. } = room;
+    fn kinetic(&self, workspace: &mut Workspace<S>, p: &[f64], b: f64) -> Option<f64> {
+        workspace.set_p(p);
+        let Workspace { q, p, slope, .. } = workspace;
         Hamiltonian::velocity(&self.system, 0.0, q, p, slope);
         let products = p
             .as_slice()
@@ -175,10 +180,10 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
     }
 
     /// `−U` and `∂ ln(−U)/∂t`; `None` if U is not negative.
-    fn potential(&self, room: &mut Room<S>, q: &[f64], time: f64) -> Option<(f64, f64)> {
-        room.set_q(q);
-        room.p.as_mut_slice().fill(0.0);
-        let found = room.energy(&self.system, time);
+    fn potential(&self, workspace: &mut Workspace<S>, q: &[f64], time: f64) -> Option<(f64, f64)> {
+        workspace.set_q(q);
+        workspace.p.as_mut_slice().fill(0.0);
+        let found = workspace.energy(&self.system, time);
         let depth = self.positive(POTENTIAL, -found.real())?;
         Some((depth, -found.first() / depth))
     }
@@ -208,10 +213,10 @@ where
 
     fn velocity(&self, _time: f64, _q: &W, p: &W, velocity: &mut W) {
         let (p, b) = parted(p);
-        let found = self.in_room(p.len(), |room| {
-            let sum = self.kinetic(room, p, b)?;
+        let found = self.with_workspace(p.len(), |workspace| {
+            let sum = self.kinetic(workspace, p, b)?;
             let (out, last) = parted_mut(velocity)?;
-            for (out, v) in out.iter_mut().zip(room.slope.as_slice()) {
+            for (out, v) in out.iter_mut().zip(workspace.slope.as_slice()) {
                 *out = v / sum;
             }
             *last = 1.0 / sum;
@@ -224,9 +229,9 @@ where
 
     fn force(&self, _time: f64, q: &W, _p: &W, force: &mut W) {
         let (q, time) = parted(q);
-        let found = self.in_room(q.len(), |room| {
-            let (depth, slope) = self.potential(room, q, time)?;
-            let Room { q, p, slope: f, .. } = room;
+        let found = self.with_workspace(q.len(), |workspace| {
+            let (depth, slope) = self.potential(workspace, q, time)?;
+            let Workspace { q, p, slope: f, .. } = workspace;
             Hamiltonian::force(&self.system, time, q, p, f);
             let (out, last) = parted_mut(force)?;
             for (out, f) in out.iter_mut().zip(f.as_slice()) {
@@ -244,9 +249,9 @@ where
     fn energy(&self, _time: f64, q: &W, p: &W) -> Option<f64> {
         let ((q, time), (p, b)) = (parted(q), parted(p));
         let fault = self.fault.get();
-        let found = self.in_room(q.len(), |room| {
-            let sum = self.kinetic(room, p, b)?;
-            let (depth, _) = self.potential(room, q, time)?;
+        let found = self.with_workspace(q.len(), |workspace| {
+            let sum = self.kinetic(workspace, p, b)?;
+            let (depth, _) = self.potential(workspace, q, time)?;
             Some(Scalar::ln(sum / depth))
         });
         // This evaluation is not part of a step.

@@ -4,7 +4,7 @@ use alloc::boxed::Box;
 use core::cell::Cell;
 use core::fmt;
 
-use super::extended::{Room, energy_of, extended, parted, parted_mut, reduced};
+use super::extended::{Workspace, energy_of, extended, parted, parted_mut, reduced};
 use super::monitor::{Monitor, Slopes, value_at};
 use crate::error::Error;
 use crate::number::Vector;
@@ -64,13 +64,13 @@ pub struct Poincare<S: Hamiltonian, W> {
     system: S,
     monitor: W,
     /// Work vectors for evaluations of system and monitor; `None` before the first evaluation and during each.
-    room: Cell<Option<Box<Rooms<S>>>>,
+    workspace: Cell<Option<Box<Workspaces<S>>>>,
     /// The value of the monitor in the last failed evaluation, unless it was NaN.
     fault: Cell<Option<f64>>,
 }
 
-struct Rooms<S: Hamiltonian> {
-    of_system: Room<S>,
+struct Workspaces<S: Hamiltonian> {
+    of_system: Workspace<S>,
     of_monitor: Slopes<S::Vector<f64>>,
 }
 
@@ -86,7 +86,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
         Self {
             system,
             monitor,
-            room: Cell::new(None),
+            workspace: Cell::new(None),
             fault: Cell::new(None),
         }
     }
@@ -129,37 +129,39 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
         &self.monitor
     }
 
-    /// Calls `look` with σ and the work vectors, which hold the state; `None` if σ is not finite and positive, or the system has another
+    /// Calls `evaluate` with σ and the work vectors, which hold the state; `None` if σ is not finite and positive, or the system has another
     /// dimension.
     fn at_state<T>(
         &self,
         (q, p): (&[f64], &[f64]),
-        look: impl FnOnce(f64, &mut Rooms<S>) -> T,
+        evaluate: impl FnOnce(f64, &mut Workspaces<S>) -> T,
     ) -> Option<T> {
-        let room = self.room.take();
-        let mut room = match room.filter(|room| room.of_system.q.dimension() == q.len()) {
-            Some(room) => room,
-            None => {
-                let of_system = Room::new(q.len()).ok()?;
-                let of_monitor = Slopes::like(&of_system.q);
-                Box::new(Rooms {
-                    of_system,
-                    of_monitor,
-                })
-            }
-        };
-        room.of_system.set_q(q);
-        room.of_system.set_p(p);
-        let value = value_at(&self.monitor, room.of_system.q.as_slice());
-        let seen = value.map(|value| look(value, &mut room));
-        self.room.set(Some(room));
+        let workspace = self.workspace.take();
+        let mut workspace =
+            match workspace.filter(|workspace| workspace.of_system.q.dimension() == q.len()) {
+                Some(workspace) => workspace,
+                None => {
+                    let of_system = Workspace::new(q.len()).ok()?;
+                    let of_monitor = Slopes::like(&of_system.q);
+                    Box::new(Workspaces {
+                        of_system,
+                        of_monitor,
+                    })
+                }
+            };
+        workspace.of_system.set_q(q);
+        workspace.of_system.set_p(p);
+        let value = value_at(&self.monitor, workspace.of_system.q.as_slice());
+        let value = value.map(|value| evaluate(value, &mut workspace));
+        self.workspace.set(Some(workspace));
         // NaN comes from an earlier failed evaluation, whose value is kept until an error is explained, even if a second attempt succeeds.
-        seen.map_err(|value| {
-            if !value.is_nan() {
-                self.fault.set(Some(value));
-            }
-        })
-        .ok()
+        value
+            .map_err(|value| {
+                if !value.is_nan() {
+                    self.fault.set(Some(value));
+                }
+            })
+            .ok()
     }
 }
 
@@ -174,8 +176,8 @@ where
 
     fn velocity(&self, _time: f64, q: &V, p: &V, velocity: &mut V) {
         let ((q, time), (p, _)) = (parted(q), parted(p));
-        let found = self.at_state((q, p), |monitor, room| {
-            let Room { q, p, slope, .. } = &mut room.of_system;
+        let found = self.at_state((q, p), |monitor, workspace| {
+            let Workspace { q, p, slope, .. } = &mut workspace.of_system;
             Hamiltonian::velocity(&self.system, time, q, p, slope);
             let (out, last) = parted_mut(velocity)?;
             for (out, v) in out.iter_mut().zip(slope.as_slice()) {
@@ -191,10 +193,10 @@ where
 
     fn force(&self, _time: f64, q: &V, p: &V, force: &mut V) {
         let ((q, time), (p, momentum)) = (parted(q), parted(p));
-        let found = self.at_state((q, p), |monitor, room| {
-            let energy = room.of_system.energy(&self.system, time);
-            let Room { q, p, slope, .. } = &mut room.of_system;
-            let gradient = room.of_monitor.gradient(&self.monitor, q);
+        let found = self.at_state((q, p), |monitor, workspace| {
+            let energy = workspace.of_system.energy(&self.system, time);
+            let Workspace { q, p, slope, .. } = &mut workspace.of_system;
+            let gradient = workspace.of_monitor.gradient(&self.monitor, q);
             Hamiltonian::force(&self.system, time, q, p, slope);
             let excess = energy.real() + momentum;
             let (out, last) = parted_mut(force)?;
@@ -214,8 +216,8 @@ where
     fn energy(&self, _time: f64, q: &V, p: &V) -> Option<f64> {
         let ((q, time), (p, momentum)) = (parted(q), parted(p));
         let fault = self.fault.get();
-        let found = self.at_state((q, p), |monitor, room| {
-            let energy = room.of_system.energy(&self.system, time);
+        let found = self.at_state((q, p), |monitor, workspace| {
+            let energy = workspace.of_system.energy(&self.system, time);
             monitor * (energy.real() + momentum)
         });
         // This evaluation is not part of a step.
@@ -238,7 +240,7 @@ impl<S: Hamiltonian + Clone, W: Clone> Clone for Poincare<S, W> {
         Self {
             system: self.system.clone(),
             monitor: self.monitor.clone(),
-            room: Cell::new(None),
+            workspace: Cell::new(None),
             fault: Cell::new(None),
         }
     }

@@ -59,13 +59,14 @@ where
         see: &'g F,
         zeros: &W,
     ) -> Option<Self> {
+        let count = group.members.len();
+        // Lanes without a trajectory have copies: zeros might be a singular point.
+        let system = group.system((0..L::WIDTH).map(|lane| lane % count))?;
         let first = group.members.first_mut()?;
-        let mut lanes = CoupledLanes::like(&mut first.run, zeros);
+        let mut lanes = CoupledLanes::like(&mut first.run, system, zeros);
         if !group.members.iter().all(|member| lanes.takes(&member.run)) {
             return None;
         }
-        // Lanes without a trajectory have copies: zeros might be a singular point.
-        let count = group.members.len();
         for lane in 0..L::WIDTH {
             let run = &mut group.members[lane % count].run;
             let size = run.step_size();

@@ -127,6 +127,15 @@ where
         }
     }
 
+    /// The system whose lanes have the parameters of the members at these places; `None` if there is none.
+    pub(super) fn system(&self, mut places: impl Iterator<Item = usize>) -> Option<S> {
+        let system = |place: usize| self.members[place].run.system();
+        match <S as System<V>>::JOINS {
+            true => <S as System<V>>::join(places.map(system)),
+            false => places.next().map(|place| system(place).clone()),
+        }
+    }
+
     /// The rows of all trajectories.
     pub(super) fn rows(self) -> Vec<Row<V, A>> {
         let row = |member: Member<M, S, V, R, N, A>| Row {
@@ -204,7 +213,9 @@ where
         }
         let mut lanes: InLanes<M, S, W, R> = first.over_lanes(zeros);
         let mut live: Vec<usize> = (0..self.group.members.len()).collect();
-        self.put_in_lanes(&mut lanes, &live);
+        if self.put_in_lanes(&mut lanes, &live).is_none() {
+            return Attempt::Refused;
+        }
         let alike = |&place: &usize| lanes.evaluates_like(place, &self.group.members[place].run);
         if !live.iter().all(alike) {
             return Attempt::Refused;
@@ -224,17 +235,21 @@ where
     R: Summation,
     N: Solver<V, S>,
     L: Lanes,
+    A: Send,
     F: Fn(&mut A, &State<V>),
 {
-    /// Copies the live trajectories into the lanes, cyclically, so that no lane is empty.
-    fn put_in_lanes<W>(&self, lanes: &mut InLanes<M, S, W, R>, live: &[usize])
+    /// Copies the live trajectories into the lanes, cyclically, so that no lane is empty; `None` if their systems do not join.
+    fn put_in_lanes<W>(&self, lanes: &mut InLanes<M, S, W, R>, live: &[usize]) -> Option<()>
     where
         W: Vector<Scalar = L>,
         S: System<W>,
     {
-        for (lane, &place) in (0..L::WIDTH).zip(live.iter().cycle()) {
+        let places = live.iter().copied().cycle().take(L::WIDTH);
+        lanes.set_system(self.group.system(places.clone())?);
+        for (lane, place) in places.enumerate() {
             lanes.set_lane(lane, &self.group.members[place].run);
         }
+        Some(())
     }
 
     /// Copies the lanes back to the live trajectories.
@@ -290,10 +305,13 @@ where
                 }
                 member.outcome.is_ok()
             });
-            if live.is_empty() {
+            if self.put_in_lanes(lanes, live).is_none() {
+                for &place in live.iter() {
+                    let member = &mut self.group.members[place];
+                    member.outcome = member.run.take_leg(&mut leg.clone());
+                }
                 return Attempt::Ended;
             }
-            self.put_in_lanes(lanes, live);
         }
         self.take_from_lanes(lanes, live);
         Attempt::Ended

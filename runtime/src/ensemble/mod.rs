@@ -1,7 +1,7 @@
 //! Ensembles: many trajectories at once, in SIMD lanes and on all cores.
 //!
 //! An [`Ensemble`] consists of a method, a system and many starts. Every trajectory has the same bits as alone in an
-//! [`Integrator`], whatever the number of lanes and threads, and however the ensemble is split or resumed.
+//! [`Integrator`](crate::Integrator), whatever the number of lanes and threads, and however the ensemble is split or resumed.
 //!
 //! | What | Where |
 //! |---|---|
@@ -24,7 +24,8 @@
 //! the stages of one trajectory in lanes, is as fast.
 //!
 //! All other trajectories run one by one: those with another solver, with constraints or with a composition of implicit
-//! methods; those of closures and chains; and those with a [system](Ensemble::of_families) of their own.
+//! methods; those of closures and chains; and those with a [system](Ensemble::of_families) of their own, except in
+//! `symplectic run`, where a formula has a parameter in each lane.
 //!
 //! A system rounds differently in lanes if it depends on the number type, as products of large matrices in nalgebra do.
 //! So velocity and force are compared at every start, and trajectories run one by one where they differ. A system for
@@ -45,11 +46,13 @@ mod error;
 mod facts;
 mod group;
 mod histogram;
+mod make;
 mod moments;
 #[cfg(feature = "npz")]
 mod npz;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod parts;
 mod pool;
 mod row;
 mod run;
@@ -72,9 +75,8 @@ use core::marker::PhantomData;
 use core::ops::Range;
 
 use crate::error::Error;
-use crate::integrator::validation::{check_kinetic, check_step_size};
-use crate::integrator::{Integrator, Retry};
-use crate::method::{Method, ProvedFor, RunTimeTableau, Solver, Stopping};
+use crate::integrator::Retry;
+use crate::method::{Method, RunTimeTableau, Solver, Stopping};
 use crate::number::{Compensated, DefaultLanes, Lanes, Plain, Summation, Vector};
 use crate::state::State;
 use crate::system::System;
@@ -139,176 +141,8 @@ enum Wanted {
     Yes,
 }
 
-impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V> {
-    /// The trajectories of a system from `starts`, with [`Compensated`] sums; a negative `step_size` goes backward.
-    /// Trajectories have the numbers of their starts, from 0.
-    ///
-    /// # Errors
-    ///
-    /// [`EnsembleError::Empty`] without starts, [`EnsembleError::All`] for a step size that is zero or not finite,
-    /// [`EnsembleError::Dimension`] for a start with another dimension than the first, [`EnsembleError::Start`] for a
-    /// start that [`Integrator::new`] rejects.
-    ///
-    /// ```
-    /// use symplectic::ensemble::{Ensemble, EnsembleError};
-    /// use symplectic::{Error, State};
-    ///
-    /// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
-    /// symplectic::hamiltonian! { Pendulum q: [a], p: [pa]; H = pa^2/2 - cos(a) }
-    ///
-    /// let starts = [0.1, f64::NAN].map(|a| State::from_arrays(0.0, [a], [0.0]));
-    /// let error = Ensemble::new(VelocityVerlet, Pendulum, starts.to_vec(), 0.01).unwrap_err();
-    /// assert!(matches!(error, EnsembleError::Start { trajectory: 1, error: Error::NonFiniteState { .. } }));
-    /// ```
-    pub fn new(
-        method: M,
-        system: S,
-        starts: Vec<State<V>>,
-        step_size: f64,
-    ) -> Result<Self, EnsembleError>
-    where
-        M: ProvedFor<S::Class>,
-    {
-        Self::of_families(method, [(system, starts)], step_size)
-    }
-
-    /// [`new`](Self::new) for several systems, for example with different parameters, each with its starts. The
-    /// trajectories are numbered consecutively.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`new`](Self::new).
-    ///
-    /// ```
-    /// use core::ops::ControlFlow;
-    /// use symplectic::State;
-    /// use symplectic::ensemble::{Ensemble, EnsembleError};
-    ///
-    /// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
-    /// symplectic::hamiltonian! { Oscillator { omega } q: [x], p: [px]; H = px^2/2 + (omega x)^2/2 }
-    ///
-    /// # fn main() -> Result<(), EnsembleError> {
-    /// let family = |omega: f64| (Oscillator { omega }, vec![State::from_arrays(0.0, [1.0], [0.0])]);
-    /// let ensemble = Ensemble::of_families(VelocityVerlet, [1.0, 2.0, 3.0].map(family), 1e-3)?;
-    /// ensemble.integrate_to(1.0, |row| {
-    ///     assert!((row.state.q[0] - f64::cos(row.trajectory as f64 + 1.0)).abs() < 1e-5);
-    ///     ControlFlow::Continue(())
-    /// });
-    /// # Ok(())
-    /// # }
-    /// ```
-    pub fn of_families(
-        method: M,
-        families: impl IntoIterator<Item = (S, Vec<State<V>>)>,
-        step_size: f64,
-    ) -> Result<Self, EnsembleError>
-    where
-        M: ProvedFor<S::Class>,
-    {
-        Self::with_summation(method, families, step_size)
-    }
-}
-
-impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V, Plain> {
-    /// [`new`](Ensemble::new) with [`Plain`] sums.
-    ///
-    /// # Errors
-    ///
-    /// As for [`new`](Ensemble::new).
-    pub fn plain(
-        method: M,
-        system: S,
-        starts: Vec<State<V>>,
-        step_size: f64,
-    ) -> Result<Self, EnsembleError>
-    where
-        M: ProvedFor<S::Class>,
-    {
-        Self::with_summation(method, [(system, starts)], step_size)
-    }
-}
-
-impl<M: Method, S: System<V>, V: Vector, R: Summation> Ensemble<M, S, V, R> {
-    /// [`of_families`](Ensemble::of_families) with the [`Summation`] of the type.
-    ///
-    /// # Errors
-    ///
-    /// As for [`new`](Ensemble::new).
-    pub fn with_summation(
-        _method: M,
-        families: impl IntoIterator<Item = (S, Vec<State<V>>)>,
-        step_size: f64,
-    ) -> Result<Self, EnsembleError>
-    where
-        M: ProvedFor<S::Class>,
-    {
-        Self::of(families, step_size, None)
-    }
-
-    /// An ensemble with the method `M`, or with a tableau at run time.
-    fn of(
-        families: impl IntoIterator<Item = (S, Vec<State<V>>)>,
-        step_size: f64,
-        tableau: Option<&RunTimeTableau>,
-    ) -> Result<Self, EnsembleError> {
-        check_step_size(step_size).map_err(EnsembleError::All)?;
-        let mut systems: Vec<(S, usize)> = Vec::new();
-        let mut starts: Vec<State<V>> = Vec::new();
-        for (system, mut own) in families {
-            let before = starts.len();
-            starts.append(&mut own);
-            check_starts::<M, S, V, R>(&system, &starts, before, step_size, tableau)?;
-            systems.push((system, starts.len()));
-        }
-        if starts.is_empty() {
-            return Err(EnsembleError::Empty);
-        }
-        Ok(Self {
-            systems,
-            starts,
-            step_size,
-            offset: 0,
-            first: 0,
-            stopping: Stopping::DEFAULT,
-            retry: Retry::Never,
-            lanes: Wanted::IfFaster,
-            stop: None,
-            tableau: tableau.cloned(),
-            kind: PhantomData,
-        })
-    }
-}
-
-/// Checks the starts from index `first`, which all belong to `system`.
-fn check_starts<M: Method, S: System<V>, V: Vector, R: Summation>(
-    system: &S,
-    starts: &[State<V>],
-    first: usize,
-    step_size: f64,
-    tableau: Option<&RunTimeTableau>,
-) -> Result<(), EnsembleError> {
-    for (trajectory, start) in starts.iter().enumerate().skip(first) {
-        let (found, expected) = (start.q.dimension(), starts[0].q.dimension());
-        if found != expected {
-            return Err(EnsembleError::Dimension {
-                trajectory,
-                found,
-                expected,
-            });
-        }
-        let kinetic = || match tableau {
-            Some(tableau) => check_kinetic::<V, S>(tableau, system, start),
-            None => Ok(()),
-        };
-        Integrator::<M, S, V, R>::check(system, start, step_size)
-            .and_then(|()| kinetic())
-            .map_err(|error| EnsembleError::Start { trajectory, error })?;
-    }
-    Ok(())
-}
-
 impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>, L: Lanes> Ensemble<M, S, V, Plain, N, L> {
-    /// Sets the tolerance of every trajectory: see [`Integrator::set_tolerance`].
+    /// Sets the tolerance of every trajectory: see [`Integrator::set_tolerance`](crate::Integrator::set_tolerance).
     ///
     /// # Errors
     ///
@@ -330,7 +164,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         self.of_kind()
     }
 
-    /// The same ensemble with Newton's iteration: see [`Integrator::by_newton`].
+    /// The same ensemble with Newton's iteration: see [`Integrator::by_newton`](crate::Integrator::by_newton).
     pub fn by_newton(self) -> Ensemble<M, S, V, R, crate::solver::Newton, L> {
         self.of_kind()
     }
@@ -381,112 +215,12 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         }
     }
 
-    /// Part `part`, from 0, of `count` parts of almost equal size. The trajectories keep their numbers.
-    ///
-    /// The parts are consecutive. On several machines, for example with `--array` of Slurm, each machine runs one part;
-    /// the rows of all parts in order are those of the whole ensemble.
-    ///
-    /// # Errors
-    ///
-    /// [`EnsembleError::Shard`] unless `part < count`.
-    ///
-    /// ```
-    /// use core::ops::ControlFlow;
-    /// # use symplectic::State;
-    /// # use symplectic::ensemble::{Ensemble, EnsembleError};
-    /// # symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
-    /// # symplectic::hamiltonian! { Pendulum q: [a], p: [pa]; H = pa^2/2 - cos(a) }
-    /// # fn main() -> Result<(), EnsembleError> {
-    /// let whole = || {
-    ///     let starts = (0..10).map(|k| State::from_arrays(0.0, [0.1 * f64::from(k)], [0.0])).collect();
-    ///     Ensemble::new(VelocityVerlet, Pendulum, starts, 0.01)
-    /// };
-    /// let mut seen = Vec::new();
-    /// for part in 0..3 {
-    ///     whole()?.shard(part, 3)?.integrate_to(1.0, |row| {
-    ///         seen.push(row.trajectory);
-    ///         ControlFlow::Continue(())
-    ///     });
-    /// }
-    /// assert_eq!(seen, Vec::from_iter(0..10));
-    /// assert!(whole()?.shard(3, 3).is_err());
-    /// # Ok(())
-    /// # }
-    /// ```
-    pub fn shard(mut self, part: usize, count: usize) -> Result<Self, EnsembleError> {
-        let Range { start, end } = self.places_of(part, count)?;
-        self.starts.truncate(end);
-        self.starts.drain(..start);
-        for (_, last) in &mut self.systems {
-            *last = (*last).min(end).saturating_sub(start);
-        }
-        self.offset += start;
-        self.first = self.first.clamp(start, end) - start;
-        Ok(self)
-    }
-
-    /// A copy of the part that [`shard`](Self::shard) returns; only the starts of the part are copied.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`shard`](Self::shard).
-    ///
-    /// ```
-    /// # use symplectic::State;
-    /// # use symplectic::ensemble::{Ensemble, EnsembleError};
-    /// # symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
-    /// # symplectic::hamiltonian! { Pendulum q: [a], p: [pa]; H = pa^2/2 - cos(a) }
-    /// # let starts = (0..10).map(|k| State::from_arrays(0.0, [0.1 * f64::from(k)], [0.0])).collect();
-    /// let ensemble = Ensemble::new(VelocityVerlet, Pendulum, starts, 0.01)?;
-    /// let second = ensemble.to_shard(1, 2)?;
-    /// assert_eq!((second.trajectories(), ensemble.trajectories()), (5..10, 0..10));
-    /// # Ok::<(), EnsembleError>(())
-    /// ```
-    pub fn to_shard(&self, part: usize, count: usize) -> Result<Self, EnsembleError>
-    where
-        S: Clone,
-    {
-        let Range { start, end } = self.places_of(part, count)?;
-        // Copy only the systems of these starts; every start may have its own system.
-        let first = self.systems.partition_point(|(_, last)| *last <= start);
-        let after = &self.systems[first..];
-        let count = after.partition_point(|(_, last)| *last < end) + 1;
-        let mut systems: Vec<_> = after.iter().take(count).cloned().collect();
-        for (_, last) in &mut systems {
-            *last = (*last).min(end) - start;
-        }
-        Ok(Self {
-            systems,
-            starts: self.starts[start..end].to_vec(),
-            step_size: self.step_size,
-            offset: self.offset + start,
-            first: self.first.clamp(start, end) - start,
-            stopping: self.stopping,
-            retry: self.retry,
-            lanes: self.lanes,
-            stop: self.stop.clone(),
-            tableau: self.tableau.clone(),
-            kind: PhantomData,
-        })
-    }
-
-    /// The range of starts of a part.
-    fn places_of(&self, part: usize, count: usize) -> Result<Range<usize>, EnsembleError> {
-        if part >= count {
-            return Err(EnsembleError::Shard { part, count });
-        }
-        let total = self.starts.len();
-        // The product may overflow `usize`.
-        let bound = |part: usize| (part as u128 * total as u128 / count as u128) as usize;
-        Ok(bound(part)..bound(part + 1))
-    }
-
-    /// Sets the retry policy for failed steps: see [`Integrator::set_retry`].
+    /// Sets the retry policy for failed steps: see [`Integrator::set_retry`](crate::Integrator::set_retry).
     pub const fn set_retry(&mut self, retry: Retry) {
         self.retry = retry;
     }
 
-    /// Sets the maximum number of sweeps per step: see [`Integrator::set_max_iterations`].
+    /// Sets the maximum number of sweeps per step: see [`Integrator::set_max_iterations`](crate::Integrator::set_max_iterations).
     pub const fn set_max_iterations(&mut self, max_iterations: u32) {
         self.stopping.max_iterations = if max_iterations == 0 {
             1

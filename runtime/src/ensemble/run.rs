@@ -236,9 +236,13 @@ where
         self.stop.as_ref().is_some_and(|stop| stop())
     }
 
-    /// The end of a group of at most `width` trajectories with the same system and the same start time.
+    /// The end of a group of at most `width` trajectories with the same start time and, unless systems [join](System::join), the same
+    /// system.
     fn end_of_group(&self, first: usize, width: usize) -> usize {
-        let systems_end = self.family_of(first).1;
+        let systems_end = match S::JOINS {
+            true => self.starts.len(),
+            false => self.family_of(first).1,
+        };
         let most = (first + width).min(systems_end);
         let time = self.starts[first].time.to_bits();
         let others = first + 1..most;

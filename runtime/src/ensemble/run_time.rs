@@ -58,7 +58,7 @@ impl<S: System<V>, V: Vector> Ensemble<AtRunTime, S, V> {
         starts: Vec<State<V>>,
         step_size: f64,
     ) -> Result<Self, EnsembleError> {
-        Self::of_tableau(tableau, system, starts, step_size)
+        Self::families_at_run_time(tableau, [(system, starts)], step_size)
     }
 }
 
@@ -74,18 +74,22 @@ impl<S: System<V>, V: Vector> Ensemble<AtRunTime, S, V, Plain> {
         starts: Vec<State<V>>,
         step_size: f64,
     ) -> Result<Self, EnsembleError> {
-        Self::of_tableau(tableau, system, starts, step_size)
+        Self::families_at_run_time(tableau, [(system, starts)], step_size)
     }
 }
 
 impl<S: System<V>, V: Vector, R: Summation> Ensemble<AtRunTime, S, V, R> {
-    fn of_tableau(
+    /// [`of_families`](Ensemble::of_families) with a tableau at run time and with the [`Summation`] of the type.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`at_run_time`](Ensemble::at_run_time).
+    pub fn families_at_run_time(
         tableau: &RunTimeTableau,
-        system: S,
-        starts: Vec<State<V>>,
+        families: impl IntoIterator<Item = (S, Vec<State<V>>)>,
         step_size: f64,
     ) -> Result<Self, EnsembleError> {
         check_orders::<V, S>(tableau).map_err(EnsembleError::All)?;
-        Self::of([(system, starts)], step_size, Some(tableau))
+        Self::of(families, step_size, Some(tableau))
     }
 }

@@ -1,6 +1,6 @@
 //! A drift by the velocity of a system.
 
-use super::kick::{add, room};
+use super::kick::{add, work_vector};
 use super::{Flow, FlowError, Span};
 use crate::error::Quantity;
 use crate::number::Vector;
@@ -43,7 +43,7 @@ impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> Flow<V> for Drift
         if S::UNIT_MASSES {
             return add(Quantity::Velocity, span.size, p, q);
         }
-        let velocity = room(&mut self.velocity, q, p)?;
+        let velocity = work_vector(&mut self.velocity, q, p)?;
         self.system.velocity(span.middle(), q, p, velocity);
         add(Quantity::Velocity, span.size, velocity, q)
     }

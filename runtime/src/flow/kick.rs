@@ -37,14 +37,14 @@ impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> Kick<S, V> {
 
 impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> Flow<V> for Kick<S, V> {
     fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError> {
-        let force = room(&mut self.force, q, p)?;
+        let force = work_vector(&mut self.force, q, p)?;
         self.system.force(span.middle(), q, p, force);
         add(Quantity::Force, span.size, force, p)
     }
 }
 
 /// The work vector `kept`, made anew if it has not as many components as the state.
-pub(super) fn room<'a, V: Vector>(
+pub(super) fn work_vector<'a, V: Vector>(
     kept: &'a mut Option<V>,
     q: &V,
     p: &V,

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::kick::{add, room};
+use super::kick::{add, work_vector};
 use super::{Flow, FlowError, Linear, Span, check_dimension, check_parameter};
 use crate::error::{Error, Quantity};
 use crate::number::Vector;
@@ -55,7 +55,7 @@ pub struct MollifiedKick<S, V> {
     /// A, row by row.
     mean: Vec<f64>,
     /// The mean positions, and the force there.
-    room: (Option<V>, Option<V>),
+    work_vectors: (Option<V>, Option<V>),
 }
 
 impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> MollifiedKick<S, V> {
@@ -78,7 +78,7 @@ impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> MollifiedKick<S, 
                 value: duration,
                 range: "so short that the fast motion is finite, and known to three digits",
             })?,
-            room: (None, None),
+            work_vectors: (None, None),
         })
     }
 }
@@ -90,8 +90,8 @@ impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> Flow<V> for Molli
         if n == 0 {
             return Ok(());
         }
-        let place = room(&mut self.room.0, q, p)?;
-        let force = room(&mut self.room.1, q, p)?;
+        let place = work_vector(&mut self.work_vectors.0, q, p)?;
+        let force = work_vector(&mut self.work_vectors.1, q, p)?;
         let rows = || self.mean.chunks_exact(n);
         for (place, row) in place.as_mut_slice().iter_mut().zip(rows()) {
             *place = row.iter().zip(q.as_slice()).map(|(a, q)| a * q).sum();

@@ -53,18 +53,18 @@ pub(crate) struct CoupledLanes<M, S, V, R, N, W: Vector> {
 impl<M, S, V, R, N, W> CoupledLanes<M, S, V, R, N, W>
 where
     M: Method,
-    S: System<V> + System<W, Class = <S as System<V>>::Class> + Clone,
+    S: System<V> + System<W, Class = <S as System<V>>::Class>,
     V: Vector,
     R: Summation,
     N: Solver<V, S>,
     W: Vector<Scalar: Lanes>,
 {
-    /// Empty lanes for runs like this one, in vectors like `zeros`.
-    pub(crate) fn like(run: &mut Integrator<M, S, V, R, N>, zeros: &W) -> Self {
+    /// Empty lanes for runs like this one, of a system with the parameters of each of them, in vectors like `zeros`.
+    pub(crate) fn like(run: &mut Integrator<M, S, V, R, N>, system: S, zeros: &W) -> Self {
         let vectors = || Box::new(core::array::from_fn(|_| zeros.clone()));
         let time = run.course.state.time;
         Self {
-            system: run.system.clone(),
+            system,
             linear_velocity: run.course.linear_velocity,
             stopping: run.stopping,
             course: Course {

@@ -135,7 +135,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 
     /// Takes steps in the memory of `next`.
     #[inline]
-    fn run_here(&mut self, clock: &Clock, steps: u64, size: f64, moves: impl KickDrift) {
+    fn run_here(&mut self, clock: &Clock, steps: u64, size: f64, kick_drift: impl KickDrift) {
         let StepMemory {
             next,
             next_low,
@@ -143,7 +143,15 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             ..
         } = &mut self.course;
         let system = &self.system;
-        Self::run(system, clock, steps, size, (next, next_low), memory, moves);
+        Self::run(
+            system,
+            clock,
+            steps,
+            size,
+            (next, next_low),
+            memory,
+            kick_drift,
+        );
     }
 
     /// Takes steps with `next` moved out of the memory of the integrator, so that it stays in registers from step to step.
@@ -183,7 +191,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         size: f64,
         ((q, p), (q_low, p_low)): (&mut (V, V), &mut (V, V)),
         memory: &mut MemoryOf<M, S, V, N>,
-        mut moves: impl KickDrift,
+        mut kick_drift: impl KickDrift,
     ) {
         for number in 0..steps {
             // The compiler removes this if the system does not depend on time.
@@ -196,12 +204,19 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             };
             let span = Span { time, size };
             <PlanOf<M, S, V> as Plan>::take_in_place::<R, V, S, N, _>(
-                span, system, memory, state, &mut moves,
+                span,
+                system,
+                memory,
+                state,
+                &mut kick_drift,
             );
         }
         let state = Outcome { q, q_low, p, p_low };
         <PlanOf<M, S, V> as Plan>::settle_in_place::<R, V, S, N, _>(
-            system, memory, state, &mut moves,
+            system,
+            memory,
+            state,
+            &mut kick_drift,
         );
     }
 

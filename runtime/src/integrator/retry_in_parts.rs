@@ -46,8 +46,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         let (state, low) = (self.course.state.clone(), self.course.low.clone());
         let statistics = self.course.statistics;
         for (failed, parts) in (1..).zip(self.retry.parts()) {
-            let mut unseen = |_: &Self| Ok(ControlFlow::<Infallible>::Continue(()));
-            if self.take_in_parts(size, time, parts, &mut unseen).is_ok() {
+            let mut ignore = |_: &Self| Ok(ControlFlow::<Infallible>::Continue(()));
+            if self.take_in_parts(size, time, parts, &mut ignore).is_ok() {
                 self.course.statistics.rejected += failed;
                 return Ok(parts);
             }

@@ -172,6 +172,11 @@ where
     R: Summation,
     N: Solver<W, S>,
 {
+    /// Sets the system, with the parameters of the run in each lane.
+    pub(crate) fn set_system(&mut self, system: S) {
+        self.system = system;
+    }
+
     /// Copies a run into a lane. The run has to be at the same step as the runs in the other lanes.
     pub(crate) fn set_lane<V: Vector, O: Solver<V, S>>(
         &mut self,

@@ -10,6 +10,10 @@ use crate::number::array::array;
 use crate::number::scalar::elementary;
 use crate::number::words::{Visit, words};
 
+/// The largest number of [`Lanes`].
+#[doc(hidden)]
+pub const MOST_LANES: usize = 16;
+
 /// Several doubles side by side, in one register of the processor if its registers are wide enough.
 ///
 /// Every lane has the bits of the same computation with a single double, and all lanes are computed at once. Only `tan`, inverse and
@@ -211,6 +215,11 @@ macro_rules! lanes {
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
                 Self(<$inner>::splat(value))
+            }
+
+            #[inline(always)]
+            fn from_lanes(numbers: &[f64; MOST_LANES]) -> Self {
+                Self::from_fn(|lane| numbers[lane])
             }
 
             #[inline]

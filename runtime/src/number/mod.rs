@@ -2,6 +2,7 @@
 
 pub(crate) mod array;
 pub(crate) mod coefficient;
+pub(crate) mod dither;
 pub(crate) mod dual;
 pub(crate) mod elementary;
 #[cfg(feature = "alloc")]
@@ -18,7 +19,7 @@ pub(crate) mod vector;
 pub(crate) mod words;
 
 pub use coefficient::{Coefficient, Coefficients};
-pub use lanes::{F64x2, F64x4, F64x8, Lanes};
+pub use lanes::{F64x2, F64x4, F64x8, Lanes, MOST_LANES};
 pub use linear_combination::{
     advance, combine, copy, copy_to, factors, increment, relative, scale, total, transform,
     weighted_total, weights,

@@ -5,9 +5,9 @@ use core::ops::Neg;
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
 use num_traits::{Float, One, Zero};
 
-use crate::number::Coefficient;
 use crate::number::array::array;
 use crate::number::words::{Visit, words};
+use crate::number::{Coefficient, MOST_LANES};
 
 /// A real number, or a type that behaves like one: f32, f64, a dual number, SIMD lanes.
 ///
@@ -52,6 +52,13 @@ pub trait Scalar:
 
     /// The scalar nearest to `value`, as a constant: all derivatives are zero and all lanes equal.
     fn from_f64(value: f64) -> Self;
+
+    /// A constant with these numbers in its lanes; the first number, if there are no lanes.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn from_lanes(numbers: &[f64; MOST_LANES]) -> Self {
+        Self::from_f64(numbers[0])
+    }
 
     /// The scalar nearest to a coefficient of a method, as a constant: its nearest double, or its nearest single for f32.
     ///

@@ -6,7 +6,7 @@ use num_traits::{One, Zero};
 
 use crate::number::array::array;
 use crate::number::words::{Visit, words};
-use crate::number::{F64x8, Lanes, Scalar};
+use crate::number::{F64x8, Lanes, MOST_LANES, Scalar};
 
 /// Sixteen doubles side by side, [`Lanes`], as two groups of eight.
 ///
@@ -94,6 +94,11 @@ macro_rules! by_halves {
 
 impl Scalar for F64x16 {
     const EPSILON: f64 = f64::EPSILON;
+
+    #[inline(always)]
+    fn from_lanes(numbers: &[f64; MOST_LANES]) -> Self {
+        Self::from_fn(|lane| numbers[lane])
+    }
 
     fn as_words(&mut self, visit: &mut Visit<'_>) {
         let mut lanes = self.to_array();

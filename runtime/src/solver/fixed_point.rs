@@ -13,7 +13,7 @@ use crate::method::{
 use crate::number::summation::Overrelaxed;
 use crate::number::vector::{LIGHT, is_in_place};
 use crate::number::{Scalar, Summation, Vector};
-use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
+use crate::solver::convergence::{Begun, Sweeps, settle, settle_from_cold_start};
 #[cfg(feature = "alloc")]
 use crate::solver::run_time::by_rows;
 use crate::system::{Class, System};
@@ -180,7 +180,7 @@ where
         begun: Begun<StageChange>,
     ) -> Result<StepStatistics, Failure> {
         if !is_in_place(self.step.q) || size_of::<P::Stages<V>>() > LIGHT {
-            return patiently::<C, T, _>(self, kept, stopping, begun);
+            return settle_from_cold_start::<C, T, _>(self, kept, stopping, begun);
         }
         let mut stages = mem::replace(self.stages, StageStorage::like(&V::blank()));
         let (system, sums) = (self.system, PhantomData);
@@ -191,7 +191,7 @@ where
                 stages: &mut stages,
                 sums,
             };
-            patiently::<C, T, _>(&mut there, kept, stopping, begun)
+            settle_from_cold_start::<C, T, _>(&mut there, kept, stopping, begun)
         });
         *self.stages = stages;
         made

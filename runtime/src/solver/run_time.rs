@@ -89,31 +89,23 @@ impl<R: Summation, V: Vector, S: System<V>> ByRows<'_, R, V, S> {
         let Coupled { positions, momenta } = self.coupled;
         let step = self.step;
         // In a separable system the other argument is not read, so any vector will do.
-        for (i, (force, evaluation)) in self
-            .force
-            .iter_mut()
-            .zip(&positions.evaluations)
-            .enumerate()
-        {
-            let p = self.p.get(i).unwrap_or(step.p);
-            let time = step.at(Coefficient::exact(evaluation.time));
-            self.system.force(time, &self.q[i], p, force);
-            scale(force, step.size, Coefficient::exact(evaluation.factor));
-        }
+        let (q, p) = (&*self.q, &*self.p);
+        let at = |i: usize| {
+            let time = step.at(Coefficient::exact(positions.evaluations[i].time));
+            (time, &q[i], p.get(i).unwrap_or(step.p))
+        };
+        self.system.forces(at, self.force);
+        increments(positions, step.size, self.force);
         for (row, p) in momenta.rows.iter().zip(&mut *self.p) {
             relax::<T, V>(p, (step.p, step.p_low), row, self.force, &mut change.p);
         }
-        for (i, (velocity, evaluation)) in self
-            .velocity
-            .iter_mut()
-            .zip(&momenta.evaluations)
-            .enumerate()
-        {
-            let q = self.q.get(i).unwrap_or(step.q);
-            let time = step.at(Coefficient::exact(evaluation.time));
-            self.system.velocity(time, q, &self.p[i], velocity);
-            scale(velocity, step.size, Coefficient::exact(evaluation.factor));
-        }
+        let (q, p) = (&*self.q, &*self.p);
+        let at = |i: usize| {
+            let time = step.at(Coefficient::exact(momenta.evaluations[i].time));
+            (time, q.get(i).unwrap_or(step.q), &p[i])
+        };
+        self.system.velocities(at, self.velocity);
+        increments(momenta, step.size, self.velocity);
         for (row, q) in positions.rows.iter().zip(&mut *self.q) {
             relax::<T, V>(q, (step.q, step.q_low), row, self.velocity, &mut change.q);
         }
@@ -152,18 +144,16 @@ impl<R: Summation, V: Vector, S: System<V>> Sweeps for ByRows<'_, R, V, S> {
             let time = step.at(Coefficient::exact(time));
             self.system.velocity(time, step.q, step.p, first);
             others.iter_mut().for_each(|other| copy(other, first));
-            for (velocity, evaluation) in self.velocity.iter_mut().zip(&momenta.evaluations) {
-                scale(velocity, step.size, Coefficient::exact(evaluation.factor));
-            }
+            increments(momenta, step.size, self.velocity);
         }
-        let mut unseen = HalfChange::default();
+        let mut ignored = HalfChange::default();
         for (row, q) in positions.rows.iter().zip(&mut *self.q) {
-            relax::<R, V>(q, (step.q, step.q_low), row, self.velocity, &mut unseen);
+            relax::<R, V>(q, (step.q, step.q_low), row, self.velocity, &mut ignored);
         }
         if kept.stages && !positions.extrapolation.is_empty() {
             transform(self.force, &positions.extrapolation);
             for (row, p) in momenta.rows.iter().zip(&mut *self.p) {
-                relax::<R, V>(p, (step.p, step.p_low), row, self.force, &mut unseen);
+                relax::<R, V>(p, (step.p, step.p_low), row, self.force, &mut ignored);
             }
         } else {
             self.p.iter_mut().for_each(|p| copy(p, step.p));
@@ -188,6 +178,14 @@ impl<R: Summation, V: Vector, S: System<V>> Sweeps for ByRows<'_, R, V, S> {
 
     fn change(&self, movement: &StageChange) -> StageChange {
         *movement
+    }
+}
+
+/// Scales the evaluations of a half to increments.
+#[inline]
+fn increments<V: Vector>(half: &Half, size: f64, evaluations: &mut [V]) {
+    for (vector, evaluation) in evaluations.iter_mut().zip(&half.evaluations) {
+        scale(vector, size, Coefficient::exact(evaluation.factor));
     }
 }
 

@@ -142,6 +142,52 @@ pub trait Hamiltonian {
         self.force(time, q, p, force);
     }
 
+    /// Whether trajectories with different parameters run in lanes side by side: see [`join`](Self::join).
+    #[doc(hidden)]
+    const JOINS: bool = false;
+
+    /// A system with the parameters of each of these systems in one lane, where it has the bits of that system. The systems differ only in
+    /// the values of parameters, and there is one for each lane. Needed only with [`JOINS`](Self::JOINS)` = true`.
+    #[doc(hidden)]
+    fn join<'a>(_systems: impl Iterator<Item = &'a Self>) -> Option<Self>
+    where
+        Self: Sized + 'a,
+    {
+        None
+    }
+
+    /// [`velocity`](Self::velocity) at every stage, with the same bits; `at` returns the time, the positions and the momenta of a stage.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn velocities<'a, T: Scalar>(
+        &self,
+        at: impl Fn(usize) -> (T, &'a Self::Vector<T>, &'a Self::Vector<T>),
+        velocities: &mut [Self::Vector<T>],
+    ) where
+        Self::Vector<T>: 'a,
+    {
+        for (stage, velocity) in velocities.iter_mut().enumerate() {
+            let (time, q, p) = at(stage);
+            self.velocity(time, q, p, velocity);
+        }
+    }
+
+    /// [`force`](Self::force) at every stage: see [`velocities`](Self::velocities).
+    #[doc(hidden)]
+    #[inline(always)]
+    fn forces<'a, T: Scalar>(
+        &self,
+        at: impl Fn(usize) -> (T, &'a Self::Vector<T>, &'a Self::Vector<T>),
+        forces: &mut [Self::Vector<T>],
+    ) where
+        Self::Vector<T>: 'a,
+    {
+        for (stage, force) in forces.iter_mut().enumerate() {
+            let (time, q, p) = at(stage);
+            self.force(time, q, p, force);
+        }
+    }
+
     /// H at `(time, q, p)`, if the system knows it. No method needs it.
     fn energy<T: Scalar>(&self, _time: T, _q: &Self::Vector<T>, _p: &Self::Vector<T>) -> Option<T> {
         None

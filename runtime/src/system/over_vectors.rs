@@ -76,6 +76,32 @@ pub trait System<V: Vector>: Sized {
         self.force(time, q, p, force);
     }
 
+    /// [`velocity`](Self::velocity) at every stage, with the same bits; `at` returns the time, the positions and the momenta of a stage.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn velocities<'a>(&self, at: impl Fn(usize) -> (V::Scalar, &'a V, &'a V), velocities: &mut [V])
+    where
+        V: 'a,
+    {
+        for (stage, velocity) in velocities.iter_mut().enumerate() {
+            let (time, q, p) = at(stage);
+            self.velocity(time, q, p, velocity);
+        }
+    }
+
+    /// [`force`](Self::force) at every stage: see [`velocities`](Self::velocities).
+    #[doc(hidden)]
+    #[inline(always)]
+    fn forces<'a>(&self, at: impl Fn(usize) -> (V::Scalar, &'a V, &'a V), forces: &mut [V])
+    where
+        V: 'a,
+    {
+        for (stage, force) in forces.iter_mut().enumerate() {
+            let (time, q, p) = at(stage);
+            self.force(time, q, p, force);
+        }
+    }
+
     /// H at `(time, q, p)`, if the system knows it. No method needs it.
     fn energy(&self, _time: V::Scalar, _q: &V, _p: &V) -> Option<V::Scalar> {
         None
@@ -150,6 +176,19 @@ pub trait System<V: Vector>: Sized {
     #[doc(hidden)]
     #[inline(always)]
     fn over_lanes<L: Lanes, W: LaneWork<V, Self, L>>(_work: W) -> Option<W::Output> {
+        None
+    }
+
+    /// Whether trajectories of systems with different parameters run in lanes side by side.
+    #[doc(hidden)]
+    const JOINS: bool = false;
+
+    /// A system with the parameters of each of these systems in one lane.
+    #[doc(hidden)]
+    fn join<'a>(_systems: impl Iterator<Item = &'a Self>) -> Option<Self>
+    where
+        Self: 'a,
+    {
         None
     }
 
@@ -228,6 +267,22 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
         Hamiltonian::slopes::<V::Scalar>(self, time, q, p, slopes);
     }
 
+    #[inline(always)]
+    fn velocities<'a>(&self, at: impl Fn(usize) -> (V::Scalar, &'a V, &'a V), velocities: &mut [V])
+    where
+        V: 'a,
+    {
+        Hamiltonian::velocities::<V::Scalar>(self, at, velocities);
+    }
+
+    #[inline(always)]
+    fn forces<'a>(&self, at: impl Fn(usize) -> (V::Scalar, &'a V, &'a V), forces: &mut [V])
+    where
+        V: 'a,
+    {
+        Hamiltonian::forces::<V::Scalar>(self, at, forces);
+    }
+
     fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {
         Hamiltonian::energy::<V::Scalar>(self, time, q, p)
     }
@@ -284,6 +339,15 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
     #[inline(always)]
     fn nonholonomic_rows(&self, q: &V, rows: &mut Gradients<V::Scalar>) {
         Hamiltonian::nonholonomic_rows::<V::Scalar>(self, q, rows);
+    }
+
+    const JOINS: bool = H::JOINS;
+
+    fn join<'a>(systems: impl Iterator<Item = &'a Self>) -> Option<Self>
+    where
+        Self: 'a,
+    {
+        H::join(systems)
     }
 
     #[inline(always)]

@@ -60,7 +60,7 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
     where
         L: DiscreteLagrangian<Vector<f64> = V>,
     {
-        let mut derivatives = self.room::<L>()?;
+        let mut derivatives = self.derivatives_like::<L>()?;
         derivatives.first(lagrangian, self.at());
         let (mut p0, mut p1) = (self.q0.zeros_like(), self.q0.zeros_like());
         let pairs = p0.as_mut_slice().iter_mut().zip(&derivatives.start);
@@ -78,7 +78,7 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
     where
         L: DiscreteLagrangian<Vector<f64> = V>,
     {
-        let mut derivatives = self.room::<L>()?;
+        let mut derivatives = self.derivatives_like::<L>()?;
         derivatives.second(lagrangian, self.at());
         let mut factors = Factors::new(self.q0.dimension());
         Ok(factors.factor(&derivatives.mixed).is_ok())
@@ -139,10 +139,13 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
             q0: self.q1,
             q1: q2,
         };
-        let (mut ours, mut theirs) = (self.room::<L>()?, self.room::<K>()?);
+        let (mut ours, mut theirs) = (self.derivatives_like::<L>()?, self.derivatives_like::<K>()?);
         ours.second(one, self.at());
         theirs.second(other, self.at());
-        let (mut next_ours, mut next_theirs) = (following.room::<L>()?, following.room::<K>()?);
+        let (mut next_ours, mut next_theirs) = (
+            following.derivatives_like::<L>()?,
+            following.derivatives_like::<K>()?,
+        );
         next_ours.first(one, following.at());
         next_theirs.first(other, following.at());
         let differences = |a: &[f64], b: &[f64]| {
@@ -169,7 +172,7 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
         }
     }
 
-    fn room<L>(&self) -> Result<Derivatives<L>, Error>
+    fn derivatives_like<L>(&self) -> Result<Derivatives<L>, Error>
     where
         L: DiscreteLagrangian<Vector<f64> = V>,
     {

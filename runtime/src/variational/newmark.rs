@@ -97,7 +97,7 @@ pub struct Newmark<S: Hamiltonian<Class = Separable>> {
     /// `βh²`
     shift: f64,
     /// Memory to solve for `q(x)`; `None` before the first evaluation and during one.
-    room: Cell<Option<Box<Room<S>>>>,
+    workspace: Cell<Option<Box<Workspace<S>>>>,
 }
 
 impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
@@ -114,7 +114,7 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
         Ok(Self {
             system,
             shift: beta * step_size * step_size,
-            room: Cell::default(),
+            workspace: Cell::default(),
         })
     }
 
@@ -176,26 +176,27 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
         (force, acceleration)
     }
 
-    /// The result of `look` at `q(x)`.
+    /// The result of `evaluate` at `q(x)`.
     fn at_position<T>(
         &self,
         time: f64,
         x: &S::Vector<f64>,
-        look: impl FnOnce(&S::Vector<f64>) -> T,
+        evaluate: impl FnOnce(&S::Vector<f64>) -> T,
     ) -> Result<T, Error> {
         if self.shift == 0.0 {
-            return Ok(look(x));
+            return Ok(evaluate(x));
         }
-        let room = self.room.take();
-        let room = room.filter(|room| room.position.dimension() == x.dimension());
-        let mut room = match room {
-            Some(room) => room,
-            None => Box::new(Room::new(x)?),
+        let workspace = self.workspace.take();
+        let workspace =
+            workspace.filter(|workspace| workspace.position.dimension() == x.dimension());
+        let mut workspace = match workspace {
+            Some(workspace) => workspace,
+            None => Box::new(Workspace::new(x)?),
         };
-        let outcome = room.solve(&self.system, time, self.shift, x);
-        let seen = outcome.map(|()| look(&room.position));
-        self.room.set(Some(room));
-        seen.map_err(|residual| Error::NewmarkPosition { time, residual })
+        let outcome = workspace.solve(&self.system, time, self.shift, x);
+        let value = outcome.map(|()| evaluate(&workspace.position));
+        self.workspace.set(Some(workspace));
+        value.map_err(|residual| Error::NewmarkPosition { time, residual })
     }
 }
 
@@ -223,8 +224,8 @@ impl<S: Hamiltonian<Class = Separable>> System<S::Vector<f64>> for Newmark<S> {
         _p: &S::Vector<f64>,
         force: &mut S::Vector<f64>,
     ) {
-        let look = |q: &S::Vector<f64>| Hamiltonian::force(&self.system, time, q, q, force);
-        if self.at_position(time, q, look).is_err() {
+        let evaluate = |q: &S::Vector<f64>| Hamiltonian::force(&self.system, time, q, q, force);
+        if self.at_position(time, q, evaluate).is_err() {
             force.as_mut_slice().fill(f64::NAN);
         }
     }
@@ -236,9 +237,9 @@ impl<S: Hamiltonian<Class = Separable>> System<S::Vector<f64>> for Newmark<S> {
         _p: &S::Vector<f64>,
         applied: &mut S::Vector<f64>,
     ) {
-        let look =
+        let evaluate =
             |q: &S::Vector<f64>| Hamiltonian::applied_force(&self.system, time, q, q, applied);
-        if self.at_position(time, q, look).is_err() {
+        if self.at_position(time, q, evaluate).is_err() {
             applied.as_mut_slice().fill(f64::NAN);
         }
     }
@@ -247,12 +248,13 @@ impl<S: Hamiltonian<Class = Separable>> System<S::Vector<f64>> for Newmark<S> {
         if S::FORCED {
             return None;
         }
-        let look = |q: &S::Vector<f64>| {
+        let evaluate = |q: &S::Vector<f64>| {
             let (force, acceleration) = self.acceleration(time, q);
             let energy = Hamiltonian::energy(&self.system, time, q, p)?;
             Some(energy + self.shift * 0.5 * dot(&force, &acceleration))
         };
-        self.at_position(time, q, look).unwrap_or(Some(f64::NAN))
+        self.at_position(time, q, evaluate)
+            .unwrap_or(Some(f64::NAN))
     }
 }
 
@@ -261,7 +263,7 @@ impl<S: Hamiltonian<Class = Separable> + Clone> Clone for Newmark<S> {
         Self {
             system: self.system.clone(),
             shift: self.shift,
-            room: Cell::default(),
+            workspace: Cell::default(),
         }
     }
 }
@@ -279,7 +281,7 @@ impl<S: Hamiltonian<Class = Separable> + fmt::Debug> fmt::Debug for Newmark<S> {
 const MAX_ITERATIONS: u32 = 40;
 
 /// The unknown of `q − βh² a(q) = x`, and memory to evaluate the left-hand side with its derivatives.
-struct Room<S: Hamiltonian> {
+struct Workspace<S: Hamiltonian> {
     position: S::Vector<f64>,
     q: S::Vector<HyperDual>,
     force: S::Vector<HyperDual>,
@@ -289,7 +291,7 @@ struct Room<S: Hamiltonian> {
     factors: Factors,
 }
 
-impl<S: Hamiltonian> Room<S> {
+impl<S: Hamiltonian> Workspace<S> {
     fn new(prototype: &S::Vector<f64>) -> Result<Self, Error> {
         let n = prototype.dimension();
         let zeros = || S::Vector::from_slice(&vec![HyperDual::zero(); n]);

@@ -1,13 +1,14 @@
 //! Coupled stages in lanes: the bits of a single run, for every kind of sweep.
 
 use std::sync::Mutex;
+use std::sync::atomic::AtomicUsize;
 
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{DVector, SVector, Vector1};
 use symplectic::simd::{F64x4, F64x16};
 use symplectic::{
-    Compensated, Integrator, Method, Plain, ProvedFor, Retry, Scalar, SeparableHamiltonian, State,
-    Summation, System, Vector,
+    Compensated, Hamiltonian, Integrator, Method, Plain, ProvedFor, Retry, Scalar,
+    SeparableHamiltonian, State, Summation,
 };
 
 use crate::common::methods::{
@@ -15,7 +16,7 @@ use crate::common::methods::{
 };
 use crate::common::systems::{Kepler, Product};
 use crate::run_time::tableau;
-use crate::systems::{Bits, HenonHeiles, Pendulums, alone, keep, starts};
+use crate::systems::{Bits, Counted, HenonHeiles, Pendulums, alone, keep, on_threads, starts};
 
 symplectic::tableau! {
     /// Both positions are equal: one force, and two velocities.
@@ -24,32 +25,60 @@ symplectic::tableau! {
 
 const SYSTEM: HenonHeiles = HenonHeiles { amplitude: 0.02 };
 
-/// Checks the ends of trajectories in four lanes. Other widths are in `bits`; every combination of them would take long to compile.
-fn check<M, S, V, R>(method: M, system: &S, starts: &[State<V>], size: f64)
+/// Checks the ends of trajectories in sixteen lanes; returns the number of forces evaluated there. Other widths are in `bits`; every
+/// combination of them would take long to compile.
+fn forces_in_lanes<M, H, R>(
+    method: M,
+    system: &H,
+    starts: &[State<H::Vector<f64>>],
+    size: f64,
+) -> usize
 where
-    M: Method + ProvedFor<S::Class>,
-    S: System<V> + Clone + Send + Sync,
-    V: Vector<Scalar = f64> + Send + Sync,
+    M: Method + ProvedFor<H::Class>,
+    H: Hamiltonian + Clone + Send + Sync,
+    H::Vector<f64>: Send + Sync,
     R: Summation,
 {
-    let make =
-        |start| Integrator::<M, S, V, R>::with_summation(method, system.clone(), start, size);
+    let make = |start| {
+        Integrator::<M, H, H::Vector<f64>, R>::with_summation(method, system.clone(), start, size)
+    };
     let expected = alone(starts, make, |run| (run.take_steps(90).map(|_| ()), ()));
     assert!(expected.iter().any(|(row, ())| row.outcome.is_ok()));
-    let family = [(system.clone(), starts.to_vec())];
-    let ensemble = Ensemble::<M, S, V, R>::with_summation(method, family, size);
-    let ensemble = ensemble.expect("starts").in_lanes::<F64x4>();
+    let in_lanes = AtomicUsize::new(0);
+    let counted = Counted {
+        system: system.clone(),
+        in_lanes: &in_lanes,
+    };
+    let family = [(counted, starts.to_vec())];
+    let ensemble = Ensemble::<M, _, H::Vector<f64>, R>::with_summation(method, family, size);
+    let ensemble = ensemble.expect("starts").in_lanes::<F64x16>();
     let mut rows = Vec::new();
-    ensemble.take_steps(90, keep(&mut rows, 0));
+    on_threads(1, || {
+        ensemble.take_steps(90, keep(&mut rows, 0));
+    });
     assert_eq!(rows, expected, "{}", M::NAME);
+    in_lanes.into_inner()
+}
+
+/// Checks the ends of trajectories, and that steps are taken in lanes.
+fn check<M, H, R>(method: M, system: &H, starts: &[State<H::Vector<f64>>], size: f64)
+where
+    M: Method + ProvedFor<H::Class>,
+    H: Hamiltonian + Clone + Send + Sync,
+    H::Vector<f64>: Send + Sync,
+    R: Summation,
+{
+    let in_lanes = forces_in_lanes::<M, H, R>(method, system, starts, size);
+    // A force of each of two groups is compared with doubles. Of slow iterations few succeed in lanes.
+    assert!(in_lanes > 20, "{}: {in_lanes}", M::NAME);
 }
 
 /// [`check`] with both kinds of sums.
 macro_rules! check {
     ($system:expr, $starts:expr, $size:expr, $($method:expr),*) => {
         $(
-            check::<_, _, _, Compensated>($method, &$system, &$starts, $size);
-            check::<_, _, _, Plain>($method, &$system, &$starts, $size);
+            check::<_, _, Compensated>($method, &$system, &$starts, $size);
+            check::<_, _, Plain>($method, &$system, &$starts, $size);
         )*
     };
 }
@@ -82,16 +111,11 @@ fn second_order_systems() {
 
 #[test]
 fn methods_of_other_kinds() {
-    check!(
-        Kepler,
-        orbits(9),
-        0.05,
-        Tang,
-        Askew,
-        Twins,
-        RadauIIA,
-        OneForce
-    );
+    check!(Kepler, orbits(9), 0.05, Tang, Askew, Twins, RadauIIA);
+    // With fewer forces than velocities there is no place for positions only: these trajectories run one by one.
+    let starts = orbits(9);
+    let in_lanes = forces_in_lanes::<_, _, Plain>(OneForce, &Kepler, &starts, 0.05);
+    assert_eq!(in_lanes, 0);
 }
 
 /// H = √(1 + p²) + 1 − cos(q − t/2), whose velocity is not linear.
@@ -150,11 +174,20 @@ fn tableaux_at_run_time_of_systems_that_are_not_separable() {
     for tableau in [tableau(Midpoint), tableau(Gauss4), tableau(Gauss18)] {
         let make = |start| Integrator::at_run_time(&tableau, Swing, start, 0.1);
         let expected = alone(&starts, make, |run| (run.take_steps(90).map(|_| ()), ()));
-        let ensemble = Ensemble::at_run_time(&tableau, Swing, starts.clone(), 0.1);
+        let in_lanes = AtomicUsize::new(0);
+        let counted = Counted {
+            system: Swing,
+            in_lanes: &in_lanes,
+        };
+        let ensemble = Ensemble::at_run_time(&tableau, counted, starts.clone(), 0.1);
         let mut rows = Vec::new();
-        let ensemble = ensemble.expect("starts");
-        ensemble.take_steps(90, keep(&mut rows, 0));
+        let ensemble = ensemble.expect("starts").in_lanes::<F64x16>();
+        on_threads(1, || {
+            ensemble.take_steps(90, keep(&mut rows, 0));
+        });
         assert_eq!(rows, expected, "{}", tableau.name());
+        let in_lanes = in_lanes.into_inner();
+        assert!(in_lanes > 20, "{}: {in_lanes}", tableau.name());
     }
 }
 
@@ -235,15 +268,15 @@ fn steps_that_are_split_go_on_in_their_lane() {
 }
 
 /// Counts the forces that are evaluated for each size of a scalar, in bytes.
-struct Counted<'a>(&'a Mutex<[usize; 129]>);
+struct BySize<'a>(&'a Mutex<[usize; 129]>);
 
-impl Clone for Counted<'_> {
+impl Clone for BySize<'_> {
     fn clone(&self) -> Self {
         Self(self.0)
     }
 }
 
-impl SeparableHamiltonian for Counted<'_> {
+impl SeparableHamiltonian for BySize<'_> {
     type Vector<T: Scalar> = SVector<T, 2>;
 
     fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
@@ -264,7 +297,7 @@ fn nearly_all_steps_are_taken_in_lanes() {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let some: Vec<_> = orbits(30).into_iter().take(16).collect();
     let starts = some.iter().cloned().cycle().take(16 * threads).collect();
-    let ensemble = Ensemble::new(Gauss4, Counted(&counts), starts, 0.01).expect("starts");
+    let ensemble = Ensemble::new(Gauss4, BySize(&counts), starts, 0.01).expect("starts");
     let ensemble = ensemble.in_lanes::<F64x16>();
     ensemble.take_steps(1000, |_| std::ops::ControlFlow::Continue(()));
     let counts = counts.into_inner().expect("counts");
@@ -273,4 +306,57 @@ fn nearly_all_steps_are_taken_in_lanes() {
     // Stages of a trajectory alone in four lanes: the first step, and few others.
     assert!(counts[32] > 16, "{}", counts[32]);
     assert!(counts[32] < counts[128] / 100, "{}", counts[32]);
+}
+
+/// The rows of an ensemble of Kepler orbits by Gauss's method from the row `first` on, and the number of forces in lanes.
+fn gauss(count: usize, threads: usize, first: usize) -> (Vec<(Bits, ())>, usize) {
+    let in_lanes = AtomicUsize::new(0);
+    let system = Counted {
+        system: Kepler,
+        in_lanes: &in_lanes,
+    };
+    let make = || {
+        let starts = orbits(80).into_iter().take(count).collect();
+        let ensemble = Ensemble::new(Gauss4, system.clone(), starts, 0.05);
+        ensemble.expect("starts").in_lanes::<F64x16>()
+    };
+    let checkpoint = make().checkpoint(first).expect("f64");
+    let mut resumed = make();
+    resumed.restore(&checkpoint).expect("the same run");
+    let mut rows = Vec::new();
+    on_threads(threads, || {
+        resumed.take_steps(60, keep(&mut rows, first));
+    });
+    (rows, in_lanes.into_inner())
+}
+
+#[test]
+fn any_number_of_threads_and_a_resumed_run() {
+    let make = |start| Integrator::new(Gauss4, Kepler, start, 0.05);
+    let expected = alone(&orbits(80), make, |run| {
+        (run.take_steps(60).map(|_| ()), ())
+    });
+    for threads in [1, 2, 4] {
+        // Also from the middle of a group.
+        for first in [0, 5, 16, 79] {
+            let (rows, in_lanes) = gauss(80, threads, first);
+            assert_eq!(
+                rows,
+                expected[first..],
+                "{threads} threads, from row {first}"
+            );
+            // A single trajectory is no group.
+            assert_eq!(in_lanes > 60, first < 79, "{in_lanes}");
+        }
+    }
+}
+
+#[test]
+fn fewer_trajectories_than_half_the_lanes_run_one_by_one() {
+    let in_lanes = |count| gauss(count, 1, 0).1;
+    assert_eq!(in_lanes(7), 0);
+    assert!(in_lanes(8) > 60);
+    // The same for what is left of full groups.
+    assert_eq!(in_lanes(16 + 7), in_lanes(16));
+    assert!(in_lanes(16 + 8) > in_lanes(16));
 }

@@ -8,6 +8,7 @@ mod coupled;
 mod errors;
 mod failures;
 mod outputs;
+mod parameters;
 mod restart;
 mod run_time;
 mod systems;

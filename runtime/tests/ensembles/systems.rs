@@ -2,10 +2,13 @@
 
 use std::fmt::Debug;
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use symplectic::ensemble::Row;
 use symplectic::nalgebra::{DVector, SVector, Vector2};
-use symplectic::{Error, Integrator, Scalar, SeparableHamiltonian, State, Statistics, Vector};
+use symplectic::{
+    Error, Hamiltonian, Integrator, Scalar, SeparableHamiltonian, State, Statistics, Vector,
+};
 
 /// H = |p|²/2 + |q|²/2 + x²y − y³/3 + a x cos 3t: beyond the energy 1/6 trajectories escape to infinity, in a finite time.
 #[derive(Clone, Copy, Debug)]
@@ -46,6 +49,52 @@ impl SeparableHamiltonian for Pendulums {
     }
 }
 
+/// A system that counts the forces evaluated in sixteen lanes. Only trajectories have so many: stages have at most eight.
+#[derive(Debug)]
+pub struct Counted<'a, S> {
+    pub system: S,
+    pub in_lanes: &'a AtomicUsize,
+}
+
+impl<S: Clone> Clone for Counted<'_, S> {
+    fn clone(&self) -> Self {
+        Self {
+            system: self.system.clone(),
+            in_lanes: self.in_lanes,
+        }
+    }
+}
+
+impl<S: Hamiltonian> Hamiltonian for Counted<'_, S> {
+    type Class = S::Class;
+    type Vector<T: Scalar> = S::Vector<T>;
+
+    const UNIT_MASSES: bool = S::UNIT_MASSES;
+
+    fn velocity<T: Scalar>(
+        &self,
+        time: T,
+        q: &S::Vector<T>,
+        p: &S::Vector<T>,
+        velocity: &mut S::Vector<T>,
+    ) {
+        self.system.velocity(time, q, p, velocity);
+    }
+
+    fn force<T: Scalar>(
+        &self,
+        time: T,
+        q: &S::Vector<T>,
+        p: &S::Vector<T>,
+        force: &mut S::Vector<T>,
+    ) {
+        let is_counted = size_of::<T>() == 16 * size_of::<f64>();
+        self.in_lanes
+            .fetch_add(usize::from(is_counted), Ordering::Relaxed);
+        self.system.force(time, q, p, force);
+    }
+}
+
 /// Starts of [`HenonHeiles`]: the first few stay, each `escape`-th of the others leaves.
 pub fn starts(count: usize, escape: usize) -> Vec<State<Vector2<f64>>> {
     let start = |k: usize| {
@@ -62,6 +111,20 @@ pub fn starts(count: usize, escape: usize) -> Vec<State<Vector2<f64>>> {
         )
     };
     (0..count).map(start).collect()
+}
+
+/// Calls `work` with this number of threads, if there are threads.
+pub fn on_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
+    #[cfg(feature = "parallel")]
+    {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
+        pool.expect("threads").install(work)
+    }
+    #[cfg(not(feature = "parallel"))]
+    {
+        let _ = count;
+        work()
+    }
 }
 
 /// What came of a trajectory, in bits.

@@ -136,6 +136,16 @@ pub fn on_rods(state: &State<SVector<f64, 2>>) -> State<SVector<f64, 4>> {
     )
 }
 
+/// The states of [`OnRods`] at rest beside these angles: their rounding errors are independent.
+pub fn neighbours([first, second]: [f64; 2], orbits: u32) -> Vec<State<SVector<f64, 4>>> {
+    let at_rest = |k: u32| {
+        let mut angles = start::<f64>();
+        angles.q = [first + 1e-3 * f64::from(k), second].into();
+        on_rods(&angles)
+    };
+    (0..orbits).map(at_rest).collect()
+}
+
 /// At rest with the angles (1, 1/2).
 pub fn start<T: Scalar>() -> State<SVector<T, 2>> {
     State::new(

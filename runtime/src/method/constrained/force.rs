@@ -111,8 +111,8 @@ fn multipliers<V: Vector, S: System<V>>(
 ) -> Result<(Vec<V::Scalar>, Point<V>), Error> {
     let (metric, mut point) = Metric::new(system, time, q, p);
     let mut scratch = core::array::from_fn(|_| q.zeros_like());
-    let looked = metric.look(system, time, (q, p), &mut point, &mut scratch);
-    looked.map_err(|failure| error(failure, time).named(|k| system.constraint_name(k)))?;
+    let evaluated = metric.evaluate(system, time, (q, p), &mut point, &mut scratch);
+    evaluated.map_err(|failure| error(failure, time).named(|k| system.constraint_name(k)))?;
     let mut velocity = q.zeros_like();
     system.velocity(V::Scalar::from_f64(time), q, p, &mut velocity);
     // A time in which the state changes little.

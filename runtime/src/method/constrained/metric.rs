@@ -71,7 +71,7 @@ impl<T: Scalar> Metric<T> {
     }
 
     /// Evaluates the gradients at `q`, and factors `G M⁻¹ Gᵀ` there.
-    pub(in crate::method) fn look<V: Vector<Scalar = T>, S: System<V>>(
+    pub(in crate::method) fn evaluate<V: Vector<Scalar = T>, S: System<V>>(
         &self,
         system: &S,
         time: f64,

@@ -70,20 +70,20 @@ impl<V: Vector> Examined<V> {
             rate_terms: vec![Terms::default(); constraints],
             rate_scales: vec![0.0; constraints],
         };
-        examined.look(system, time, q, p)?;
+        examined.examine(system, time, q, p)?;
         Ok(examined)
     }
 
     /// Evaluates everything at a state.
-    fn look<S: System<V>>(&mut self, system: &S, time: f64, q: &V, p: &V) -> Result<(), Error> {
+    fn examine<S: System<V>>(&mut self, system: &S, time: f64, q: &V, p: &V) -> Result<(), Error> {
         let Self {
             metric,
             point,
             scratch,
             ..
         } = self;
-        let looked = metric.look(system, time, (q, p), point, scratch);
-        looked.map_err(|failure| error(failure, time).named(|k| system.constraint_name(k)))?;
+        let evaluated = metric.evaluate(system, time, (q, p), point, scratch);
+        evaluated.map_err(|failure| error(failure, time).named(|k| system.constraint_name(k)))?;
         system.constraint_values(q, &mut self.values);
         let velocity = &mut self.scratch[0];
         system.velocity(V::Scalar::from_f64(time), q, p, velocity);
@@ -165,7 +165,7 @@ impl<V: Vector> Examined<V> {
             self.point.normal.solve(&mut multipliers);
             let gradients = &self.point.gradients;
             gradients.subtract_transposed(&multipliers, p.as_mut_slice());
-            self.look(system, time, q, p)?;
+            self.examine(system, time, q, p)?;
         }
         Ok(())
     }
@@ -343,7 +343,7 @@ where
         examined.metric.apply(system, time, (&q, &p), &mut change);
         let pairs = q.as_mut_slice().iter_mut().zip(change.as_slice());
         pairs.for_each(|(q, &change)| *q += change);
-        examined.look(system, time, &q, &p)?;
+        examined.examine(system, time, &q, &p)?;
     }
     examined.project_momentum(system, time, &q, &mut p)?;
     let found = is_finite(&q) && is_finite(&p);

@@ -27,7 +27,7 @@ pub(in crate::method) const PATIENCE: u32 = 4;
 impl<V: Vector> Workspace<V> {
     /// Takes the step of a number in its composition; `carried` means that the previous step ended where this one starts.
     ///
-    /// Stages and multipliers start from those of the last three steps if these had the same size. A sweep evaluates the forces at the
+    /// Stages and multipliers start from those of the last five steps if these had the same size. A sweep evaluates the forces at the
     /// stages, computes the stages with the present multipliers, and corrects the multipliers by a Newton step, or, in the first sweep without
     /// previous steps, by
     ///
@@ -58,7 +58,7 @@ impl<V: Vector> Workspace<V> {
                 scratch,
                 ..
             } = self;
-            metric.look(system, step.time, (step.q, step.p), end, scratch)?;
+            metric.evaluate(system, step.time, (step.q, step.p), end, scratch)?;
             if separable {
                 let at = V::Scalar::from_f64(step.time);
                 system.force(at, step.q, step.p, &mut self.end.force);
@@ -98,7 +98,8 @@ impl<V: Vector> Workspace<V> {
     ) {
         let stages = tableau.weights.len();
         let history = &mut self.histories[number];
-        self.extrapolated = history.begin(step.size, &mut self.impulses);
+        let weights = history.begin(step.time, step.size, &mut self.impulses);
+        self.extrapolated = weights.is_some();
         if !self.extrapolated {
             let impulses = self.impulses.chunks_exact_mut(self.multipliers.len());
             for (impulses, &weight) in impulses.zip(tableau.weights) {
@@ -118,12 +119,12 @@ impl<V: Vector> Workspace<V> {
             for (out, (&q, &velocity)) in self.q[i].as_mut_slice().iter_mut().zip(pairs) {
                 *out = velocity.fused(factor, q);
             }
-            history.correct(i - 1, &mut self.q[i]);
+            history.correct(weights, i - 1, &mut self.q[i]);
         }
         for (i, p) in self.p[..stages].iter_mut().enumerate() {
             copy(p, step.p);
             if !S::Class::SEPARABLE {
-                history.correct(stages - 1 + i, p);
+                history.correct(weights, stages - 1 + i, p);
             }
         }
         let size = step.size.abs();
@@ -427,7 +428,7 @@ impl<V: Vector> Workspace<V> {
             p,
             ..
         } = self;
-        metric.look(system, end, (outcome.q, &p[last]), point, scratch)?;
+        metric.evaluate(system, end, (outcome.q, &p[last]), point, scratch)?;
         let found = self.last_impulse.find::<R, V, S>(
             step,
             system,

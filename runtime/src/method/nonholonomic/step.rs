@@ -37,7 +37,7 @@ impl<V: Vector> Workspace<V> {
                 scratch,
                 ..
             } = self;
-            metric.look(system, step.time, (step.q, step.p), end, scratch)?;
+            metric.evaluate(system, step.time, (step.q, step.p), end, scratch)?;
         }
         core::mem::swap(&mut self.start, &mut self.end);
         self.begin(tableau, step, system, &mut work);
@@ -306,7 +306,7 @@ impl<V: Vector> Workspace<V> {
         } = self;
         let stages = tableau.weights.len();
         let time = step.time + step.size;
-        metric.look(system, time, (outcome.q, &p[stages - 1]), end, scratch)?;
+        metric.evaluate(system, time, (outcome.q, &p[stages - 1]), end, scratch)?;
         let (kick, velocity) = (&mut kick[..stages + 2], &mut scratch[0]);
         let found = last_impulse
             .find::<R, V, S>(step, system, end, kick, velocity, stopping, outcome, work);

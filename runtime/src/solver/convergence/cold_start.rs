@@ -2,11 +2,12 @@
 
 use super::{
     AMPLIFIED, Begun, CONTRACTION, FAR, Movement, NOISIEST, PATIENCE, ROUNDING, STAGNATION, Sweeps,
-    dither_last_sweep, is_known, known, larger, units,
+    is_known, known, larger, units,
 };
 use crate::error::Quantity;
 use crate::method::{Failure, HalfChange, StageChange, StepStatistics, Stopping, WarmStart};
 use crate::number::Scalar;
+use crate::number::dither::dither_last_sweep;
 use crate::solver::convergence::settling;
 use crate::system::{Class, Separable};
 
@@ -14,7 +15,7 @@ use crate::system::{Class, Separable};
 ///
 /// A function of its own, so that its variables take no registers in steps that do not need it.
 #[inline(never)]
-pub(crate) fn patiently<C: Class, T: Scalar, W: Sweeps>(
+pub(crate) fn settle_from_cold_start<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
     kept: WarmStart,
     stopping: Stopping,

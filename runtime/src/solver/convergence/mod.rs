@@ -3,12 +3,12 @@
 mod cold_start;
 mod warm_start;
 
-pub(crate) use self::cold_start::patiently;
+pub(crate) use self::cold_start::settle_from_cold_start;
 #[cfg(feature = "alloc")]
 pub(crate) use self::cold_start::{is_last, non_finite};
 #[cfg(feature = "alloc")]
 pub(crate) use self::warm_start::WITHIN_REACH;
-use self::warm_start::hasten;
+use self::warm_start::settle_from_warm_start;
 use crate::error::Quantity;
 use crate::method::{EvaluationCounts, Failure, StageChange, StepStatistics, Stopping, WarmStart};
 use crate::number::Scalar;
@@ -79,13 +79,13 @@ pub(crate) trait Sweeps {
 
     /// Number of first sweeps after a warm start whose change need not be measured, because further sweeps follow.
     #[inline(always)]
-    fn unseen(&self) -> u32 {
+    fn unexamined(&self) -> u32 {
         0
     }
 
     /// A sweep whose change is not needed.
     #[inline(always)]
-    fn sweep_unseen(&mut self) {
+    fn sweep_unexamined(&mut self) {
         self.sweep();
     }
 
@@ -99,7 +99,7 @@ pub(crate) trait Sweeps {
     /// The change of all stages together in a sweep; see [`MEASURED`](Self::MEASURED) for the size.
     fn change(&self, movement: &Self::Movement) -> StageChange;
 
-    /// [`patiently`], on a copy of the stages if that keeps the original in registers.
+    /// [`settle_from_cold_start`], on a copy of the stages if that keeps the original in registers.
     fn go_on<C: Class, T: Scalar>(
         &mut self,
         kept: WarmStart,
@@ -109,7 +109,7 @@ pub(crate) trait Sweeps {
     where
         Self: Sized,
     {
-        patiently::<C, T, _>(self, kept, stopping, begun)
+        settle_from_cold_start::<C, T, _>(self, kept, stopping, begun)
     }
 
     /// Whether the positions, and if `both` the momenta, have these sizes up to a factor of two.
@@ -196,7 +196,7 @@ pub(crate) struct Begun<M> {
     /// Number of sweeps made.
     iterations: u32,
     /// The change of the first sweep, if it was not examined but may be needed. It is not kept if that sweep was
-    /// [unseen](Sweeps::unseen). A change then counts as noise if it is small compared with the examined changes.
+    /// [unexamined](Sweeps::unexamined). A change then counts as noise if it is small compared with the examined changes.
     first: Option<M>,
     /// The change of the sweep before the one that is examined next, if known.
     before: Option<M>,
@@ -230,7 +230,7 @@ pub(crate) fn settle<C: Class, T: Scalar>(
     kept: WarmStart,
     stopping: Stopping,
 ) -> Result<StepStatistics, Failure> {
-    match hasten::<C, T, _>(sweeps, kept, stopping) {
+    match settle_from_warm_start::<C, T, _>(sweeps, kept, stopping) {
         Ok((iterations, scales)) => {
             let counts = sweeps.evaluations();
             Ok(StepStatistics {
@@ -276,34 +276,6 @@ pub(crate) fn is_next_within(before: f64, this: f64, bound: f64) -> bool {
 #[inline(always)]
 fn is_square_safe(size: f64) -> bool {
     size > 1e-140 && size < 1e140
-}
-
-/// A pseudo-random bit that depends on the time only, so that it is the same in every run.
-///
-/// Where stages stagnate without standing still, rounding makes them alternate between two values from sweep to sweep.
-/// The side from which the iteration approaches decides at which of the two it ends. The starting values lie on the same side
-/// in every step, so the energy would drift. For Hénon–Heiles and Gauss 8 the relative drift would be 1e-21 per step.
-#[inline]
-pub(crate) const fn dither_last_sweep(time: f64) -> bool {
-    bits(time) & 1 == 1
-}
-
-/// A second pseudo-random bit of the time, independent of [`dither_last_sweep`].
-///
-/// Where stages stand still, they stand at one of several roundings that solve the rounded equations. Which one also depends on the
-/// side from which they came. For `(q² + 1)(p² + 1)/2` and Gauss 6 the relative energy drift would be 1e-20 per step.
-#[inline]
-pub(crate) const fn dither_side(time: f64) -> bool {
-    bits(time) & 2 == 2
-}
-
-/// Mixes all bits of the time into every bit (Appleby, MurmurHash3, final mixing).
-#[inline]
-const fn bits(time: f64) -> u64 {
-    let mut bits = time.to_bits();
-    bits = (bits ^ bits >> 33).wrapping_mul(0xff51_afd7_ed55_8ccd);
-    bits = (bits ^ bits >> 33).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
-    bits ^ bits >> 33
 }
 
 /// The larger of two numbers.

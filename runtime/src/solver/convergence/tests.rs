@@ -3,6 +3,7 @@
 use super::cold_start::solve;
 use super::*;
 use crate::method::{EvaluationCounts, HalfChange};
+use crate::number::dither::{dither_last_sweep, dither_side};
 use crate::system::{General, Separable};
 use alloc::vec;
 use alloc::vec::Vec;
@@ -17,8 +18,8 @@ struct Scripted<'a, const STOPS_AT_ROUNDING: bool> {
     begun: usize,
     /// Number of sweeps before the over-relaxed sweep.
     beyond: Option<usize>,
-    /// The number of sweeps that may be unseen, and the number that were.
-    unseen: [u32; 2],
+    /// The number of sweeps that may be unexamined, and the number that were.
+    unexamined: [u32; 2],
     time: f64,
 }
 
@@ -30,7 +31,7 @@ impl<'a, const STOPS_AT_ROUNDING: bool> Scripted<'a, STOPS_AT_ROUNDING> {
             made: 0,
             begun: 0,
             beyond: None,
-            unseen: [0; 2],
+            unexamined: [0; 2],
             time,
         }
     }
@@ -75,12 +76,12 @@ impl<const STOPS_AT_ROUNDING: bool> Sweeps for Scripted<'_, STOPS_AT_ROUNDING> {
         StageChange { q, p }
     }
 
-    fn unseen(&self) -> u32 {
-        self.unseen[0]
+    fn unexamined(&self) -> u32 {
+        self.unexamined[0]
     }
 
-    fn sweep_unseen(&mut self) {
-        self.unseen[1] += 1;
+    fn sweep_unexamined(&mut self) {
+        self.unexamined[1] += 1;
         self.sweep();
     }
 
@@ -100,7 +101,7 @@ fn made<C: Class, W: Sweeps>(
     kept: WarmStart,
     stopping: Stopping,
 ) -> Result<(u32, [f64; 2]), Failure> {
-    hasten::<C, f64, _>(sweeps, kept, stopping).or_else(|begun| {
+    settle_from_warm_start::<C, f64, _>(sweeps, kept, stopping).or_else(|begun| {
         let mut work = StepStatistics::default();
         solve::<C, f64, _>(sweeps, kept, stopping, begun, &mut work)?;
         assert_eq!(work.evaluations, work.iterations);
@@ -186,26 +187,26 @@ fn what_stagnates_after_another_step_has_one_sweep_more_at_half_of_all_times() {
     assert!(after(true, 4).is_err());
 }
 
-/// The number of sweeps of an iteration that may leave `unseen` sweeps unexamined, and the number that it left.
+/// The number of sweeps of an iteration that may leave `unexamined` sweeps unexamined, and the number that it left.
 fn passing_over<const STOPS_AT_ROUNDING: bool>(
-    unseen: u32,
+    unexamined: u32,
     changes: &[f64],
     bound: usize,
 ) -> (Option<u32>, u32) {
     let changes: Vec<_> = changes.iter().map(|&change| [change; 2]).collect();
     let mut script = Scripted::<STOPS_AT_ROUNDING>::new(&changes, &[1.0], time(false));
-    script.unseen[0] = unseen;
+    script.unexamined[0] = unexamined;
     let settled = made::<Separable, _>(&mut script, stages([1.0; 2]), at_most(bound));
-    (settled.ok().map(|x| x.0), script.unseen[1])
+    (settled.ok().map(|x| x.0), script.unexamined[1])
 }
 
 #[test]
 fn sweeps_that_others_follow_are_not_looked_at() {
     fn check<const STOPS_AT_ROUNDING: bool>(changes: [f64; 12], sweeps: u32, looks: u32) {
-        for unseen in 0..sweeps {
-            let settled = Some(sweeps.max(unseen + looks));
-            let found = passing_over::<STOPS_AT_ROUNDING>(unseen, &changes, 20);
-            assert_eq!(found, (settled, unseen), "{STOPS_AT_ROUNDING}");
+        for unexamined in 0..sweeps {
+            let settled = Some(sweeps.max(unexamined + looks));
+            let found = passing_over::<STOPS_AT_ROUNDING>(unexamined, &changes, 20);
+            assert_eq!(found, (settled, unexamined), "{STOPS_AT_ROUNDING}");
         }
         // At least two sweeps are examined, and the bound is kept.
         for bound in 2..=sweeps as usize {
@@ -244,14 +245,14 @@ fn to_a_tolerance_there_are_more_sweeps_where_both_halves_count() {
             tolerance: 1e3 * f64::EPSILON,
             ..at_most(20)
         };
-        let hastened = hasten::<C, f64, _>(&mut script, stages([1.0; 2]), stopping);
-        if let Ok((iterations, _)) = hastened {
+        let settled = settle_from_warm_start::<C, f64, _>(&mut script, stages([1.0; 2]), stopping);
+        if let Ok((iterations, _)) = settled {
             assert_eq!(iterations, sweeps as u32);
         }
         let mut script = Scripted::<true>::new(&changes, &[1.0], 1.0);
         let settled = made::<C, _>(&mut script, stages([1.0; 2]), stopping);
         assert_eq!(settled.map(|x| x.0), Ok(sweeps as u32));
-        hastened.is_ok()
+        settled.is_ok()
     }
     for sweeps in 1..=19 {
         assert_eq!(check::<Separable>(sweeps), sweeps < 10, "{sweeps}");
@@ -546,7 +547,7 @@ fn others<C: Class, const STOPS_AT_ROUNDING: bool>(before: f64) -> usize {
         let mut script =
             Scripted::<STOPS_AT_ROUNDING>::new(changes, &[1.0], time(seed.is_multiple_of(2)));
         let bound = at_most(changes.len());
-        let quick = hasten::<C, f64, _>(&mut script, kept, bound).is_ok();
+        let quick = settle_from_warm_start::<C, f64, _>(&mut script, kept, bound).is_ok();
         (script.made, script.begun) = (0, 0);
         let made = made::<C, _>(&mut script, kept, bound).map(|x| x.0);
         assert_eq!(script.begun, 1);
@@ -555,10 +556,10 @@ fn others<C: Class, const STOPS_AT_ROUNDING: bool>(before: f64) -> usize {
     let (mut quick, mut others) = (0, 0);
     for seed in 0..1000 {
         let changes = shrinking(seed);
-        let (hastened, after) = scripted(seed, &changes, stages([before; 2]));
+        let (settled, after) = scripted(seed, &changes, stages([before; 2]));
         let (hastened_alone, alone) = scripted(seed, &changes, WarmStart::default());
         assert!(!hastened_alone);
-        quick += usize::from(hastened);
+        quick += usize::from(settled);
         others += usize::from(after != alone);
     }
     // Sequences with small factors reach 64 units in nine sweeps, more of them in fifteen. Of those with little noise, some reach one.

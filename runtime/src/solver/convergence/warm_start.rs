@@ -4,23 +4,24 @@
 
 use super::{
     Begun, Class, Movement, PATIENCE, ROUNDING, STAGNATION, Scalar, Stopping, Sweeps, WarmStart,
-    dither_last_sweep, dither_side, is_known, units,
+    is_known, units,
 };
+use crate::number::dither::{dither_last_sweep, dither_side};
 
 /// Smallest tolerance, in units of EPSILON, that the [early](PATIENCE) sweeps wait for. If both halves must settle, all sweeps wait
 /// for which [one without progress suffices](STAGNATION). Rounding lets changes shrink to it unless the evaluations are noisy.
 pub(crate) const WITHIN_REACH: f64 = 8.0;
 
 /// The number of sweeps and the sizes of the stages if the iteration has settled; otherwise the state from which it can go on.
-type Hastened<M> = Result<(u32, [f64; 2]), Begun<M>>;
+type Settled<M> = Result<(u32, [f64; 2]), Begun<M>>;
 
 /// Iterates from the stages of the previous step.
 #[inline(always)]
-pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
+pub(super) fn settle_from_warm_start<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
     kept: WarmStart,
     stopping: Stopping,
-) -> Hastened<W::Movement> {
+) -> Settled<W::Movement> {
     let both = W::both::<C>();
     let goes_on = kept.stages && kept.scales[0] > 0.0;
     // The last allowed sweep is left to the cold start, which examines it.
@@ -30,12 +31,12 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
     sweeps.begin(kept);
     let late = stopping.max_iterations.min(PATIENCE);
     // At least two early sweeps are examined.
-    let unseen = sweeps.unseen().min(late - 2);
-    for _ in 0..unseen {
-        sweeps.sweep_unseen();
+    let unexamined = sweeps.unexamined().min(late - 2);
+    for _ in 0..unexamined {
+        sweeps.sweep_unexamined();
     }
     let mut begun = Begun {
-        iterations: unseen,
+        iterations: unexamined,
         ..Begun::NOTHING
     };
     let bound = stopping.max_iterations.min(STAGNATION);
@@ -53,7 +54,7 @@ pub(super) fn hasten<C: Class, T: Scalar, W: Sweeps>(
     let [q, p] = units::<T>(WITHIN_REACH, kept.scales);
     let tolerance = stopping.tolerance;
     if tolerance >= q && (!both || tolerance >= p) {
-        let settled = to_tolerance(sweeps, tolerance, unseen, near_by, both);
+        let settled = to_tolerance(sweeps, tolerance, unexamined, near_by, both);
         settled.map(|iterations| (iterations, kept.scales))
     } else {
         to_rounding::<T, W>(sweeps, kept.scales, begun, late, both)
@@ -90,7 +91,7 @@ fn to_rounding<T: Scalar, W: Sweeps>(
     mut begun: Begun<W::Movement>,
     late: u32,
     both: bool,
-) -> Hastened<W::Movement> {
+) -> Settled<W::Movement> {
     let mut size = Size::of::<T>(scales);
     while begun.iterations + 1 < late {
         let this = sweeps.sweep();
@@ -143,7 +144,7 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
     mut begun: Begun<W::Movement>,
     [near_by, bound]: [u32; 2],
     both: bool,
-) -> Hastened<W::Movement> {
+) -> Settled<W::Movement> {
     let mut size = Size::of::<T>(scales);
     let mut this = loop {
         let this = sweeps.sweep();
@@ -189,9 +190,9 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
         return Err(begun);
     }
     // Any nonzero change is below infinity.
-    let moves = this.shrinks(f64::INFINITY, size.weights, both);
-    if moves && dither_last_sweep(sweeps.time()) {
-        sweeps.sweep_unseen();
+    let is_moving = this.shrinks(f64::INFINITY, size.weights, both);
+    if is_moving && dither_last_sweep(sweeps.time()) {
+        sweeps.sweep_unexamined();
         begun.iterations += 1;
     }
     Ok((begun.iterations, size.scales))

@@ -1,16 +1,23 @@
 //! Coupled stages of a tableau that is known only at run time.
 
+use alloc::vec::Vec;
 use core::marker::PhantomData;
 
-use super::{LaneSweeps, Sums, keep, largest, relax, scale, settle::settle, sum, transform};
+use num_traits::Zero;
+
+use super::{
+    LaneSweeps, Sums, keep, largest, relax, scale, settle::settle, shortest, sum, transform,
+};
 use crate::method::run_time::{Coupled, Half, Row, Schedule};
 use crate::method::{
     EvaluationCounts, LaneMemory, LaneOutcome, LaneStages, Outcome, Step, Stopping,
 };
-use crate::number::summation::Overrelaxed;
-use crate::number::{Coefficient, Lanes, Summation, Vector, copy};
+use crate::number::array::array;
+use crate::number::linear_combination::{sum_of_products, value};
+use crate::number::summation::{Overrelaxed, moved};
+use crate::number::{Coefficient, Lanes, Scalar, Summation, Vector, copy};
 use crate::solver::run_time::total;
-use crate::solver::simd::change::LaneMovement;
+use crate::solver::simd::change::{LaneMovement, noted};
 use crate::system::{Class, System};
 
 /// Takes a step of the trajectories in the lanes `live`, after a step that has left its stages in `memory`. `None` if stages are not
@@ -81,6 +88,40 @@ struct ByRows<'a, R, W, S> {
     sums: PhantomData<R>,
 }
 
+/// Computes `$all` with the constant `$n = $count` up to eight, so that its sums are straight-line code, or else `$any`.
+macro_rules! by_count {
+    ($count:expr, |$n:ident| $all:expr, $any:expr) => {
+        by_count!($count, |$n| $all, $any, 1 2 3 4 5 6 7 8)
+    };
+    ($count:expr, |$n:ident| $all:expr, $any:expr, $($number:literal)*) => {
+        match $count {
+            $($number => {
+                const $n: usize = $number;
+                $all
+            })*
+            _ => $any,
+        }
+    };
+}
+
+/// Computes new stage values from the terms in the rows; returns the largest change of each trajectory.
+#[inline(always)]
+fn relax_rows<R: Summation, W: Vector<Scalar: Lanes>>(
+    rows: &[Row],
+    out: &mut [W],
+    base: (&W, &W),
+    terms: &[W],
+) -> W::Scalar {
+    let count = terms.len();
+    // Stages that all depend on each other, as those of Gauss methods do.
+    let is_full = rows.len() == count && rows.iter().all(|row| row.len() == count);
+    by_count!(
+        if is_full { count } else { 0 },
+        |N| relax_all::<R, W, N>(rows, out, base, terms),
+        relax::<R, W>(&sums::<R>(rows), out, base, terms, sum)
+    )
+}
+
 /// The sums of a half.
 #[inline(always)]
 fn sums<R: Summation>(
@@ -93,6 +134,34 @@ fn sums<R: Summation>(
     }
 }
 
+/// [`relax`] where each of the `N` stages has all `N` terms.
+#[inline(never)]
+fn relax_all<R: Summation, W: Vector<Scalar: Lanes>, const N: usize>(
+    rows: &[Row],
+    out: &mut [W],
+    (base, low): (&W, &W),
+    terms: &[W],
+) -> W::Scalar {
+    let n = shortest(out).min(shortest(terms));
+    let n = n.min(base.dimension()).min(low.dimension());
+    let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
+    let factors: [[f64; N]; N] = array([0.0; N], |i| array(0.0, |j| rows[i][j].1));
+    let terms: [&[W::Scalar]; N] = array(&[][..], |j| &terms[j].as_slice()[..n]);
+    let mut largest = None;
+    for k in 0..n {
+        let terms: [W::Scalar; N] = array(W::Scalar::zero(), |j| terms[j][k]);
+        for (out, factors) in out.iter_mut().zip(&factors) {
+            let factors = array(W::Scalar::zero(), |j| W::Scalar::from_f64(factors[j]));
+            let new = value::<R, _, N>(base[k], low[k], &factors, |j| terms[j]);
+            let component = &mut out.as_mut_slice()[k];
+            let new = moved(R::BEYOND, *component, new);
+            largest = Some(noted(largest, (new - *component).abs()));
+            *component = new;
+        }
+    }
+    largest.unwrap_or_else(W::Scalar::zero)
+}
+
 impl<R, W, S> ByRows<'_, R, W, S>
 where
     R: Summation,
@@ -102,15 +171,15 @@ where
     #[inline(always)]
     fn positions<T: Summation>(&mut self) -> W::Scalar {
         let base = (self.step.q, self.step.q_low);
-        let sums = sums::<T>(&self.coupled.positions.rows);
-        relax::<T, W>(&sums, &mut self.now.q, base, &self.now.velocity, sum)
+        let rows = &self.coupled.positions.rows;
+        relax_rows::<T, W>(rows, &mut self.now.q, base, &self.now.velocity)
     }
 
     #[inline(always)]
     fn momenta<T: Summation>(&mut self) -> W::Scalar {
         let base = (self.step.p, self.step.p_low);
-        let sums = sums::<T>(&self.coupled.momenta.rows);
-        relax::<T, W>(&sums, &mut self.now.p, base, &self.now.force, sum)
+        let rows = &self.coupled.momenta.rows;
+        relax_rows::<T, W>(rows, &mut self.now.p, base, &self.now.force)
     }
 
     #[inline(always)]
@@ -118,21 +187,20 @@ where
         let (step, system) = (self.step, self.system);
         let Coupled { positions, momenta } = self.coupled;
         let LaneStages { q, p, force, .. } = &mut *self.now;
-        for (i, (force, evaluation)) in force.iter_mut().zip(&positions.evaluations).enumerate() {
-            let p = p.get(i).unwrap_or(step.p);
-            let time = step.at(Coefficient::exact(evaluation.time));
-            system.force(time, &q[i], p, force);
-            scale(force, step.size * evaluation.factor);
-        }
+        let at = |i: usize| {
+            let time = step.at(Coefficient::exact(positions.evaluations[i].time));
+            (time, &q[i], p.get(i).unwrap_or(step.p))
+        };
+        system.forces(at, force);
+        increments(positions, step.size, force);
         let change = self.momenta::<T>();
         let LaneStages { q, p, velocity, .. } = &mut *self.now;
-        for (i, (velocity, evaluation)) in velocity.iter_mut().zip(&momenta.evaluations).enumerate()
-        {
-            let q = q.get(i).unwrap_or(step.q);
-            let time = step.at(Coefficient::exact(evaluation.time));
-            system.velocity(time, q, &p[i], velocity);
-            scale(velocity, step.size * evaluation.factor);
-        }
+        let at = |i: usize| {
+            let time = step.at(Coefficient::exact(momenta.evaluations[i].time));
+            (time, q.get(i).unwrap_or(step.q), &p[i])
+        };
+        system.velocities(at, velocity);
+        increments(momenta, step.size, velocity);
         LaneMovement {
             q: self.positions::<T>(),
             p: change,
@@ -140,9 +208,41 @@ where
     }
 }
 
+/// Scales the evaluations of a half to increments.
+#[inline(always)]
+fn increments<W: Vector>(half: &Half, size: f64, evaluations: &mut [W]) {
+    for (vector, evaluation) in evaluations.iter_mut().zip(&half.evaluations) {
+        scale(vector, size * evaluation.factor);
+    }
+}
+
 /// Extrapolates the increments of a half from those of the previous step.
-fn extrapolate<W: Vector>(half: &Half, out: &mut [W], before: &[W]) {
-    transform(out, before, |i, j| half.extrapolation[i][j]);
+fn extrapolate<W: Vector<Scalar: Lanes>>(half: &Half, out: &mut [W], before: &[W]) {
+    by_count!(
+        before.len(),
+        |N| extrapolate_all::<W, N>(&half.extrapolation, out, before),
+        transform(out, before, |i, j| half.extrapolation[i][j])
+    );
+}
+
+/// [`transform`] of `N` vectors.
+#[inline(never)]
+fn extrapolate_all<W: Vector<Scalar: Lanes>, const N: usize>(
+    matrix: &[Vec<f64>],
+    out: &mut [W],
+    before: &[W],
+) {
+    let n = shortest(out).min(shortest(before));
+    let before: [&[W::Scalar]; N] = array(&[][..], |j| &before[j].as_slice()[..n]);
+    let matrix: [[f64; N]; N] = array([0.0; N], |i| array(0.0, |j| matrix[i][j]));
+    let terms = |k: usize| -> [W::Scalar; N] { array(W::Scalar::zero(), |j| before[j][k]) };
+    for k in 0..n {
+        let terms = terms(k);
+        for (out, row) in out.iter_mut().zip(&matrix) {
+            let product = |j: usize| (W::Scalar::from_f64(row[j]), terms[j]);
+            out.as_mut_slice()[k] = sum_of_products(None, N, product);
+        }
+    }
 }
 
 impl<R, W, S> LaneSweeps<W::Scalar> for ByRows<'_, R, W, S>
@@ -162,9 +262,7 @@ where
             let time = step.at(Coefficient::exact(momenta.evaluations[0].time));
             self.system.velocity(time, step.q, step.p, first);
             others.iter_mut().for_each(|other| copy(other, first));
-            for (velocity, evaluation) in self.now.velocity.iter_mut().zip(&momenta.evaluations) {
-                scale(velocity, step.size * evaluation.factor);
-            }
+            increments(momenta, step.size, &mut self.now.velocity);
         }
         self.positions::<R>();
         if positions.extrapolation.is_empty() {

@@ -3,9 +3,8 @@
 use super::LaneSweeps;
 use crate::method::Stopping;
 use crate::number::Lanes;
-use crate::solver::convergence::{
-    PATIENCE, ROUNDING, STAGNATION, WITHIN_REACH, dither_last_sweep, dither_side,
-};
+use crate::number::dither::{dither_last_sweep, dither_side};
+use crate::solver::convergence::{PATIENCE, ROUNDING, STAGNATION, WITHIN_REACH};
 use crate::solver::simd::change::LaneMovement;
 use crate::system::Class;
 

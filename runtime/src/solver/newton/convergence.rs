@@ -3,10 +3,11 @@
 use super::linear_solver::LinearSolver;
 use super::sweep::ByIncrements;
 use crate::method::{Failure, StageChange, StageTableau, StepStatistics, Stopping, WarmStart};
+use crate::number::dither::dither_last_sweep;
 use crate::number::{Scalar, Summation, Vector};
 use crate::solver::convergence::settling;
 use crate::solver::convergence::{
-    CONTRACTION, NOISIEST, PATIENCE, ROUNDING, STAGNATION, dither_last_sweep, is_last, non_finite,
+    CONTRACTION, NOISIEST, PATIENCE, ROUNDING, STAGNATION, is_last, non_finite,
 };
 use crate::system::{Class, Separable, System};
 

@@ -84,7 +84,7 @@ pub struct FixedPointThenNewtonMemory<
     /// Whether the previous step used Newton's iteration.
     was_newton: bool,
     /// Number of further steps that use Newton's iteration.
-    waiting: u32,
+    newton_steps: u32,
 }
 
 impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> Clone
@@ -107,14 +107,14 @@ impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStora
             fixed_point: StageStorage::like(prototype),
             newton: StageStorage::like(prototype),
             was_newton: false,
-            waiting: 0,
+            newton_steps: 0,
         }
     }
 
     fn words(&mut self, visit: &mut Visit<'_>) {
         self.fixed_point.words(visit);
         self.newton.words(visit);
-        words!(visit: self.was_newton, self.waiting);
+        words!(visit: self.was_newton, self.newton_steps);
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
@@ -163,7 +163,7 @@ where
         // A warm start is valid only if the same solver took the previous step.
         let if_kept = |is: bool| if is { kept } else { WarmStart::default() };
         let mut rejected = 0;
-        if memory.waiting == 0 {
+        if memory.newton_steps == 0 {
             let taken = by_stages::<P, R, V, S>(
                 step,
                 system,
@@ -178,9 +178,9 @@ where
             }
             // The stages have diverged: clear them.
             memory.fixed_point = StageStorage::like(step.q);
-            (rejected, memory.waiting) = (1, PATIENCE + 1);
+            (rejected, memory.newton_steps) = (1, PATIENCE + 1);
         }
-        memory.waiting -= 1;
+        memory.newton_steps -= 1;
         let kept = if_kept(memory.was_newton);
         let newton = &mut memory.newton;
         let mut work = Newton::<L>::take::<P, R>(step, system, newton, kept, stopping, outcome)?;

@@ -58,7 +58,7 @@ pub struct NewtonMemory<V: Vector, P, S: System<V>, L: LinearSolver<V, S>> {
     /// The first change of this step, if it began with extrapolated starting values.
     pub(super) first_change: Option<f64>,
     /// Number of steps before starting values are extrapolated again.
-    pub(super) waiting: u32,
+    pub(super) pause: u32,
     plan: PhantomData<(P, S)>,
 }
 
@@ -147,7 +147,7 @@ impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStora
             steps_in_full: 0,
             residuals: [zeros(unknowns), zeros(positions * n)],
             first_change: None,
-            waiting: 0,
+            pause: 0,
             plan: PhantomData,
         }
     }
@@ -167,7 +167,7 @@ impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStora
         L::words(&mut self.linear, visit);
         words!(
             visit: self.factored, self.stale, self.contraction, self.factorisations, self.steps_in_full,
-            self.first_change, self.waiting,
+            self.first_change, self.pause,
         );
     }
 

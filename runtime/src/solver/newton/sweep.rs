@@ -109,7 +109,7 @@ where
             evaluations.for_each(clear);
         }
         let extrapolates = attempt.kept
-            && memory.waiting == 0
+            && memory.pause == 0
             && !P::MOMENTA.extrapolation.is_empty()
             && !P::POSITIONS.extrapolation.is_empty();
         memory.first_change = extrapolates.then_some(f64::NAN);
@@ -196,14 +196,14 @@ where
         if memory.contraction > GOOD {
             memory.stale = true;
         }
-        memory.waiting = memory.waiting.saturating_sub(1);
+        memory.pause = memory.pause.saturating_sub(1);
         if let Some(first) = memory.first_change {
             let change = StageChange {
                 q: moved(&memory.q, step.q),
                 p: moved(&memory.p, step.p),
             };
             if first > size::<P::Class>(&change) {
-                memory.waiting = PATIENCE;
+                memory.pause = PATIENCE;
             }
         }
         memory.factorisations

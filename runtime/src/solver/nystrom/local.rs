@@ -121,7 +121,7 @@ where
 
     /// Like [`walk`](Self::walk), but returns how far the next positions can differ from those of the forces, up to rounding.
     #[inline(always)]
-    fn moves(&mut self, terms: &Terms<impl AsRef<[f64]>>) -> P::Lanes {
+    fn movement(&mut self, terms: &Terms<impl AsRef<[f64]>>) -> P::Lanes {
         let changes = self.walk::<false>(terms);
         let factor = P::Lanes::from_f64(terms.factor);
         sum_of_products(None, terms.columns.len(), |j| {
@@ -275,18 +275,18 @@ where
     #[inline(always)]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
         let h = self.positions.lanes.step.size;
-        let q = apart(|| self.moves(&Terms::new::<P>(R::COMPENSATED, h)));
+        let q = apart(|| self.movement(&Terms::new::<P>(R::COMPENSATED, h)));
         // Positions stand for both halves.
         LaneMovement { q, p: q }
     }
 
     #[inline(always)]
-    fn unseen(&self) -> u32 {
+    fn unexamined(&self) -> u32 {
         self.sweeps_before.saturating_sub(Self::SEEN)
     }
 
     #[inline(always)]
-    fn sweep_unseen(&mut self) {
+    fn sweep_unexamined(&mut self) {
         let h = self.positions.lanes.step.size;
         apart(|| {
             self.walk::<false>(&Terms::new::<P>(R::COMPENSATED, h));

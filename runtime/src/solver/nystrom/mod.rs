@@ -17,11 +17,12 @@ use crate::method::{
     EvaluationCounts, Failure, Inside, Outcome, SecondOrderTableau, Solver, StageChange,
     StageTableau, Step, StepStatistics, Stopping, WarmStart,
 };
+use crate::number::dither::dither_last_sweep;
 use crate::number::lanes::lanes;
 use crate::number::vector::is_in_place;
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::solver::SimdFixedPoint;
-use crate::solver::convergence::{Begun, Sweeps, dither_last_sweep, patiently, settle};
+use crate::solver::convergence::{Begun, Sweeps, settle, settle_from_cold_start};
 use crate::solver::predictor::{MOST, StartingColumns, starting_columns, starts_at_once, weighted};
 use crate::solver::simd::change::{LaneMovement, part_change};
 use crate::solver::simd::gauss_seidel::{
@@ -442,13 +443,18 @@ where
     ) -> Result<StepStatistics, Failure> {
         let start = self.start;
         self.lanes.elsewhere(begun.is_nothing(), |lanes| {
-            let patiently = |start| {
-                patiently::<C, T, _>(&mut Positions { lanes, start }, kept, stopping, begun)
+            let settle_from_cold_start = |start| {
+                settle_from_cold_start::<C, T, _>(
+                    &mut Positions { lanes, start },
+                    kept,
+                    stopping,
+                    begun,
+                )
             };
             // A copy, so that no pointer prevents the start from staying in registers from step to step.
             match is_in_place(start) {
-                true => patiently(&start.clone()),
-                false => patiently(start),
+                true => settle_from_cold_start(&start.clone()),
+                false => settle_from_cold_start(start),
             }
         })
     }

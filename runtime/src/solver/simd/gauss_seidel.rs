@@ -16,7 +16,7 @@ use crate::number::linear_combination::sum_of_products;
 use crate::number::summation::{Overrelaxed, add, moved};
 use crate::number::vector::{LIGHT, is_in_place};
 use crate::number::{Lanes, Scalar, Summation, Vector};
-use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
+use crate::solver::convergence::{Begun, Sweeps, settle, settle_from_cold_start};
 use crate::solver::simd::change::{LaneMovement, noted, part_change};
 use crate::solver::simd::stages::{Laned, SimdStages};
 use crate::system::SystemInLanes;
@@ -221,7 +221,7 @@ where
         begun: Begun<Self::Movement>,
     ) -> Result<StepStatistics, Failure> {
         self.elsewhere(begun.is_nothing(), |mut lanes| {
-            patiently::<C, T, _>(&mut lanes, kept, stopping, begun)
+            settle_from_cold_start::<C, T, _>(&mut lanes, kept, stopping, begun)
         })
     }
 

@@ -10,7 +10,7 @@ use crate::method::{
 };
 use crate::number::{Scalar, Summation, Vector};
 use crate::solver::SimdFixedPoint;
-use crate::solver::convergence::{Begun, Sweeps, patiently, settle};
+use crate::solver::convergence::{Begun, Sweeps, settle, settle_from_cold_start};
 use crate::solver::predictor::{Starting, starts_at_once};
 use crate::solver::simd::change::LaneMovement;
 use crate::solver::simd::gauss_seidel::{
@@ -264,7 +264,7 @@ where
         begun: Begun<Self::Movement>,
     ) -> Result<StepStatistics, Failure> {
         self.0.elsewhere(begun.is_nothing(), |lanes| {
-            patiently::<C, T, _>(&mut Halves(lanes), kept, stopping, begun)
+            settle_from_cold_start::<C, T, _>(&mut Halves(lanes), kept, stopping, begun)
         })
     }
 

@@ -67,7 +67,7 @@ pub fn primary_constraints<L: Lagrangian>(
     v: &L::Vector<f64>,
 ) -> Result<Vec<PrimaryConstraint<L::Vector<f64>>>, Error> {
     let n = q.dimension();
-    let mut derivatives = room::<L>(q, v)?;
+    let mut derivatives = derivatives_like::<L>(q, v)?;
     derivatives.second(lagrangian, time, q.as_slice(), v.as_slice());
     let mut linear = RankElimination::new(n, n);
     for row in 0..n {
@@ -96,7 +96,10 @@ const NOT_FINITE: Error = Error::NonFiniteState {
     what: Quantity::Lagrangian,
 };
 
-fn room<L: Lagrangian>(q: &L::Vector<f64>, v: &L::Vector<f64>) -> Result<Derivatives<L>, Error> {
+fn derivatives_like<L: Lagrangian>(
+    q: &L::Vector<f64>,
+    v: &L::Vector<f64>,
+) -> Result<Derivatives<L>, Error> {
     let (position, momentum) = (q.dimension(), v.dimension());
     if position != momentum {
         return Err(Error::Dimension { position, momentum });

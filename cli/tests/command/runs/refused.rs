@@ -1,0 +1,204 @@
+//! What is refused, before anything is run.
+
+use std::fs;
+
+use super::{PENDULUM, call, folder};
+
+#[test]
+fn wrong_files_are_refused_at_their_place() {
+    let folder = folder("wrong");
+    let replaced = |from: &str, to: &str| {
+        assert!(PENDULUM.contains(from), "{from}");
+        PENDULUM.replace(from, to)
+    };
+    let quartic = PENDULUM.replace("pa^2/2", "pa^4/4").replace(
+        "blanes-moan-2002-s10",
+        "mclachlan-atela-1992-order-4-optimal",
+    );
+    let two = PENDULUM.replace("H = pa^2/2 - g cos(a)", "H = pa^2/2 - g cos(a) + a pa");
+    for (setup, place, message) in [
+        (replaced("end =", "ende ="), "5:", "unknown field `ende`"),
+        (
+            replaced("pa = 0.5", "pb = 0.5"),
+            "9:",
+            "there is no coordinate `pb`; the coordinates are a, pa",
+        ),
+        (replaced("pa = 0.5", ""), "7:", "give no value for `pa`"),
+        (
+            replaced("-s10", "-s9"),
+            "3:",
+            "known here: blanes-moan-2002-s6, blanes-moan-2002-s10",
+        ),
+        (
+            replaced(
+                "\"blanes-moan-2002-s10\"",
+                "{ basis = \"polynomial(2)\", nodes = \"gaus(2)\" }",
+            ),
+            "3:50",
+            "unknown quadrature rule `gaus`",
+        ),
+        (
+            replaced(
+                "\"blanes-moan-2002-s10\"",
+                "{ basis = \"polynomial(2)\", nods = \"gauss(2)\" }",
+            ),
+            "3:48",
+            "a method has no key `nods`",
+        ),
+        (
+            replaced("\"blanes-moan-2002-s10\"", "3"),
+            "3:14",
+            "expected the name of a method of the catalogue",
+        ),
+        (replaced("= 0.05", "= 0"), "4:", "the step size is 0"),
+        (
+            replaced("= 10.0", "= -10.0"),
+            "5:",
+            "cannot reach the time -10",
+        ),
+        (replaced("pa = 0.5", "pa = nan"), "7:", "trajectory 0: "),
+        (replaced("cos(a)", "cos(b)"), "2:72", "unknown name `b`"),
+        (
+            replaced("{ g: 9.81 }", "{ g }").replace("parameters.g = 4", ""),
+            "2:",
+            "the parameter `g` has no value",
+        ),
+        (
+            replaced("parameters.g", "parameters.h"),
+            "6:",
+            "there is no parameter `h`; the parameters are g",
+        ),
+        (
+            replaced("count = 11", "count = 0"),
+            "8:",
+            "`a`: expected a number",
+        ),
+        (
+            replaced(
+                "a = { from = -1, to = 1, count = 11 }",
+                "a = { normal = [0, 1] }",
+            ),
+            "7:",
+            "`random = { seed = 1, count = 1000 }`",
+        ),
+        (
+            replaced(
+                "a = { from = -1, to = 1, count = 11 }",
+                "a = { normal = [0, 1] }",
+            )
+            .replace("parameters.g = 4", "random = { seed = 1, count = 0 }"),
+            "6:",
+            "the count is 0, so there are no starts",
+        ),
+        (
+            quartic,
+            "3:",
+            "has order 4 if the kinetic energy is quadratic",
+        ),
+        (two, "3:", "for separable H only"),
+    ] {
+        let output = call(&folder, &setup, &[]);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}: {error}");
+        assert!(
+            error.contains(message) && error.contains(&format!("setup.toml:{place}")),
+            "{place} {message}: {error}"
+        );
+    }
+    for (file, message) in [
+        ("nowhere/out.csv", "nothing was computed"),
+        ("out.txt", "must end in .npz, .parquet or .csv"),
+    ] {
+        let output = call(&folder, &replaced("out.csv", file), &[]);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert!(
+            output.status.code() == Some(2) && error.contains(message),
+            "{error}"
+        );
+    }
+    // A table has a column for the time.
+    let timed = replaced("[a]", "[time]").replace("cos(a)", "cos(time)");
+    let timed = timed.replace("a = {", "time = {");
+    for (file, status) in [("out.csv", 2), ("out.parquet", 2), ("out.npz", 0)] {
+        let output = call(&folder, &timed.replace("out.csv", file), &[]);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(status), "{error}");
+        assert_eq!(error.contains("would have the name `time`"), status == 2);
+    }
+    // A line of a CSV file.
+    let table = "starts.csv";
+    let setup = &PENDULUM[..PENDULUM.find("[starts]").expect("a table")];
+    let setup = format!("starts = '{table}'\noutput.file = 'out.csv'\n{setup}");
+    for (text, message) in [
+        (
+            "a,pa\n0,1\n0,nan\n",
+            "column `pa`: expected a finite number, found `nan`",
+        ),
+        ("a,pb\n0,1\n", "line 1: the column `pb` is not a coordinate"),
+        ("a\n0\n", "line 1: the column `pa` is missing"),
+    ] {
+        fs::write(folder.join(table), text).expect("a file");
+        let output = call(&folder, &setup, &[]);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert!(
+            output.status.code() == Some(2) && error.contains(message),
+            "{error}"
+        );
+    }
+}
+
+/// What would lose something, or take all memory, is refused before anything is run.
+#[test]
+fn nothing_is_lost_and_nothing_is_endless() {
+    let folder = folder("refused");
+    fs::write(folder.join("starts.csv"), "a,pa\n1,0\n").expect("a file");
+    fs::create_dir_all(folder.join("there.csv")).expect("a folder");
+    let starts = "[starts]\n    a = { from = -1, to = 1, count = 11 }\n    pa = 0.5\n";
+    assert!(PENDULUM.contains(starts));
+    let of_file = PENDULUM
+        .replace(&format!("    {starts}"), "")
+        .replace("step_size", "starts = \"starts.csv\"\n    step_size");
+    let cases = [
+        (
+            of_file.replace("out.csv", "starts.csv"),
+            "would overwrite the file of the starts",
+        ),
+        (PENDULUM.replace("out.csv", "there.csv"), "is a folder"),
+        (
+            PENDULUM.replace("count = 11", "count = 1000000000000"),
+            "up to 4194304",
+        ),
+        (
+            PENDULUM.replace(
+                "end = 10.0",
+                "times = { from = 0, to = 1, count = 1000000000000 }",
+            ),
+            "more than 4194304 entries",
+        ),
+        (
+            PENDULUM
+                .replace(
+                    "end = 10.0",
+                    "times = { from = 0, to = 1, count = 4000000 }",
+                )
+                .replace("count = 11", "count = 1000"),
+            "components in all: give fewer",
+        ),
+        (
+            PENDULUM.replace("end = 10.0", "end = 1e300"),
+            "more than 2^53 steps",
+        ),
+        (
+            PENDULUM.replace("g = 4", "g = inf"),
+            "expected a finite number",
+        ),
+    ];
+    for (setup, told) in cases {
+        let output = call(&folder, &setup, &[]);
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{told}: {errors}");
+        assert!(errors.contains(told), "{told}: {errors}");
+    }
+    let kept = fs::read_to_string(folder.join("starts.csv")).expect("the starts");
+    assert_eq!(kept, "a,pa\n1,0\n");
+}
