@@ -10,7 +10,7 @@ method, and what is claimed of them. From the coefficients alone this file prove
   * the doubles: none is nearer to the exact coefficient;
   * that a method is `symplectic` and `symmetric` or not;
   * the `order` for each class of Hamiltonians: all order conditions up to it, from trees that this file makes itself, and that of
-    `violated`, a tree of the next order, does not hold. Orders with more than MOST_TREES trees: "general 6 (8 is claimed)".
+    `violated`, a tree of the next order, does not hold. With more than MOST_TREES trees of one order, FURTHER has another proof.
 
 The files of FURTHER check the other claims. If one is missing, the output says "not checked here" and which file is needed. The exit
 status is 0 if nothing is wrong, 1 if something is wrong, 2 if a claim is not checked.  HLW: Hairer, Lubich & Wanner, Geometric numerical integration
@@ -26,6 +26,7 @@ from itertools import accumulate
 from pathlib import Path
 
 FURTHER = {  # Claims, and the files in the folder `checker` with a function of that name for them.
+    "assumptions": "assumptions",  # Orders that have too many trees.
     "solution": "solutions",  # The coefficients are the solution of order conditions.
     "palindrome": "splittings",  # The flows of a splitting are the same forwards and backwards.
     "perturbed": "splittings",  # The orders of a splitting for H_A + eps H_B.
@@ -49,7 +50,7 @@ class Rejected(Exception):
 
 class NotChecked(str):
     """What to say of a claim that is not checked."""
-# The errors of claims that do not hold and of files that are not certificates.
+# What claims that do not hold and files that are no certificates raise.
 WRONG = (Rejected, ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RecursionError, TypeError, ValueError)
 
 def demand(holds, claim):
@@ -81,8 +82,7 @@ def value(f, x):
         total, power = total * x.numerator + c * power, power * x.denominator
     return Fraction(total * x.denominator, divisor * power)
 
-def derivative(f):
-    return [k * c for k, c in enumerate(f)][1:]
+def derivative(f): return [k * c for k, c in enumerate(f)][1:]
 
 def product(f, g):
     found = [0] * max(len(f) + len(g) - 1, 0)
@@ -163,9 +163,7 @@ def enclosed(f, x):
 def ends(x):
     return x.ends() if isinstance(x, Number) else (x, x)
 
-def is_not_zero(x):
-    low, high = ends(x)
-    return low > 0 or high < 0
+def is_not_zero(x): return ends(x)[0] > 0 or ends(x)[1] < 0
 
 def rounded_from(decimal, tie=TIE):
     """The numbers that round to a decimal: half a unit of its last place to both sides."""
@@ -388,7 +386,6 @@ def check_property(name, claim, residuals):
     return name if claim else f"not {name}"
 
 def check_order(of, residual, kind, claim):
-    """Says up to which order the conditions were checked."""
     check_members(claim, ("order", "violated", "residual"))
     order, checked = whole(claim["order"]), 0
     what, tree = f"order {order} ({kind})", read_tree(claim["violated"])
@@ -402,7 +399,8 @@ def check_order(of, residual, kind, claim):
         checked += 1
         for tree in trees(checked, kind):
             demand(residual(tree) == 0, f"{what}, tree {tree}")
-    return f"{kind} {checked}" + (f" ({order} is claimed)" if checked < order else "")
+    found = f"{kind} {order}"
+    return found if checked == order else further("assumptions", of, order, found)
 
 def further(claim, *arguments):
     """What another file says of a claim, or that it is missing."""
@@ -464,6 +462,8 @@ def check(text):
     proved = lambda name: check_property(name, certificate[name], tests[name](of)) if name in tests else further(name, of, certificate)
     done = ["doubles", *(proved(name) for name in first if name in certificate)]
     done += [check_order(of, residual, kind, claim) for kind, claim in certificate["order"].items()]
+    claimed = [certificate["order"][kind]["order"] for kind in CLASSES if kind in certificate["order"]]
+    demand(claimed == sorted(claimed), "orders that do not fall where the class of Hamiltonians gets smaller")
     done += [proved(name) for name in last if name in certificate]
     return certificate, exact, done + [f"{name} not covered" for name in missing]
 

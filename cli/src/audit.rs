@@ -55,6 +55,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         "library",
         "table",
         "claim",
+        "every H",
         "T(p) + U(q)",
         "T quadratic",
         "observed: p²/2, √(1 + p²)",
@@ -115,7 +116,7 @@ fn shown(name: &str) -> String {
     name.replace(|c: char| c.is_control(), "\u{fffd}")
 }
 
-fn line(row: &Row) -> [String; 7] {
+fn line(row: &Row) -> [String; 8] {
     let seen = |seen: Option<f64>| seen.map_or("–".to_owned(), |seen| format!("{seen:.2}"));
     let verdict = match row.verdict {
         Verdict::AsClaimed => "",
@@ -127,6 +128,7 @@ fn line(row: &Row) -> [String; 7] {
         shown(&row.library),
         shown(&row.name),
         format!("{} {}", row.claim.order, row.claim.class),
+        row.general.order.to_string(),
         row.separable.order.to_string(),
         row.nystrom.order.to_string(),
         format!(

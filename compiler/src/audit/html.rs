@@ -51,7 +51,7 @@ pub(super) fn page(audit: &Audit) -> String {
             escape(&first.convention)
         ));
         body.push_str(
-            "<table>\n<tr><th>table</th><th>stages</th><th>claim</th><th>T(p) + U(q)</th><th>T quadratic</th><th>first violated condition</th>\
+            "<table>\n<tr><th>table</th><th>stages</th><th>claim</th><th>every H</th><th>T(p) + U(q)</th><th>T quadratic</th><th>first violated condition</th>\
              <th>observed: p²/2, √(1 + p²)</th><th></th><th>places of an exact method</th><th>stable hω</th></tr>\n",
         );
         rows.iter().for_each(|row| body.push_str(&line(row)));
@@ -124,6 +124,7 @@ fn line(row: &Row) -> String {
         row.name.clone(),
         row.stages.to_string(),
         format!("{} ({})", row.claim.order, row.claim.class),
+        format!("{}, {}", row.general.order, row.general.evidence),
         format!("{}, {}", row.separable.order, row.separable.evidence),
         format!("{}, {}", row.nystrom.order, row.nystrom.evidence),
         violated,

@@ -1,8 +1,11 @@
 """Changes digits of certificates and tables, one at a time, and prints those changes with which the program calls them right.
 
-    python3 mutations.py FOLDER all-of NAME... sampled STEP NAME...
+    python3 mutations.py FOLDER all-of NAME... sampled STEP NAME... random COUNT
+
+`random` changes this many digits of each certificate of the folder, the same ones in each run.
 """
 
+import random
 import re
 import sys
 from pathlib import Path
@@ -55,9 +58,23 @@ def main(folder, *names):
         except check.WRONG:
             return False
 
+    def report(path, text, place, other):
+        line = text[:place].count("\n") + 1
+        print(f"{path.name}, line {line}: {other.splitlines()[line - 1]}")
+
     step, tried, names = 1, 0, list(names)
     while names:
         name = names.pop(0)
+        if name == "random":
+            count = int(names.pop(0))
+            for path in sorted((Path(folder) / "certificates").glob("*.json")):
+                text = path.read_text(encoding="utf-8")
+                for place in random.Random(path.stem).sample(list(in_certificate(text)), count):
+                    tried += 1
+                    other = changed(text, place)
+                    if is_right(check.check, other):
+                        report(path, text, place, other)
+            continue
         if name in ("all-of", "sampled"):
             step = 1 if name == "all-of" else int(names.pop(0))
             continue
@@ -75,8 +92,7 @@ def main(folder, *names):
                 tried += 1
                 other = changed(text, place)
                 if is_right(is_checked, other):
-                    line = text[:place].count("\n") + 1
-                    print(f"{path.name}, line {line}: {other.splitlines()[line - 1]}")
+                    report(path, text, place, other)
     print(f"{tried} changes")
 
 

@@ -1,8 +1,7 @@
 //! Certificates: the claims about a method, in a form that an independent program can check.
 //!
 //! The format is described in the chapter on file formats of the book; `tableaux/check_certificate.py` is such a program. A certificate
-//! contains the proved claims, and names the others. The program proves all of them again, except orders with very many trees, which it
-//! reports.
+//! contains the proved claims, and names the others. The program proves all of them again.
 
 mod claims;
 mod numbers;
@@ -10,6 +9,7 @@ mod numbers;
 use self::numbers::Numbers;
 use super::facts::Fact;
 use super::language::hexadecimal;
+use crate::algebra::field::MAX_DEGREE;
 use crate::error::{Error, ErrorKind};
 use crate::pair::Staircase;
 use crate::tableau::Tableau;
@@ -22,8 +22,9 @@ const VERSION: usize = 1;
 /// Writes the certificate of a tableau as JSON.
 ///
 /// # Errors
-/// [`ErrorKind::NotCertified`] for a method whose coefficients are neither algebraic numbers of a known field nor the solution
-/// of order conditions: methods with functions such as π, and long compositions of compositions.
+/// [`ErrorKind::NotCertified`] for a method whose coefficients are neither in one field of algebraic numbers of degree at most 32 nor the
+/// solution of order conditions: methods with functions such as π, and compositions of compositions, as triple jumps of order 8, whose
+/// field has degree 105.
 ///
 /// ```
 /// use symplectic_compiler::{catalogue, export::certificate};
@@ -36,7 +37,10 @@ const VERSION: usize = 1;
 /// ```
 pub fn write(tableau: &Tableau) -> Result<String, Error> {
     let Some(numbers) = Numbers::of(tableau) else {
-        let message = "there is no certificate of this method: its coefficients are neither algebraic numbers of a known field nor the solution of order conditions".to_owned();
+        let message = format!(
+            "there is no certificate of this method: its coefficients are neither in one field of algebraic numbers of degree at most {MAX_DEGREE} \
+             nor the solution of order conditions"
+        );
         return Err(ErrorKind::NotCertified { message }.into());
     };
     let mut members = vec![
