@@ -15,15 +15,16 @@ const STEPS: usize = 5;
 /// What the last steps contribute to the next, the last step first.
 type Weights = [f64; STEPS];
 
-/// A parabola through the last three steps. It misses by the third difference Δ³ of the sequence.
-const PARABOLA: Weights = [3.0, -3.0, 1.0, 0.0, 0.0];
+/// The quartic through the last five steps, less or plus an eighth of its difference from the parabola through the last three: errors of either
+/// sign.
+const SIDES: [Weights; 2] = [
+    [4.75, -9.125, 8.875, -4.375, 0.875],
+    [5.25, -10.875, 11.125, -5.625, 1.125],
+];
 
-/// Twice the quartic through the last five steps, less the parabola: misses by −Δ³, up to the fifth difference.
-const MIRRORED: Weights = [7.0, -17.0, 19.0, -10.0, 2.0];
-
-/// Steps are too long if the two extrapolations of the impulses are further apart than this fraction of the largest impulse. The iteration
-/// could then end at another solution of the equations.
-const APART: f64 = 0.1;
+/// Steps are too long if the two extrapolations of the impulses are further apart than this fraction of the largest impulse, a quarter of the
+/// difference between quartic and parabola. The iteration could then end at another solution of the equations.
+const APART: f64 = 0.0125;
 
 /// What is extrapolated of a step.
 #[derive(Clone, Debug)]
@@ -37,8 +38,8 @@ struct Stages<V: Vector> {
 /// The stages of the last steps with one tableau, all of the same size.
 ///
 /// With equal steps, the differences between the stages and guesses from the start of the step are smooth functions of time. Those of the next
-/// step follow from the last ones with a relative error of order h³. [`dither_side`] chooses the sign of this error: the iteration ends within
-/// a rounding error of its limit, on the side from which it came.
+/// step follow from the last ones with a relative error of order h³. [`dither_side`] chooses its sign: the iteration ends within a rounding
+/// error of its limit, on the side from which it came.
 #[derive(Clone, Debug)]
 pub(super) struct History<V: Vector> {
     /// The size of the steps.
@@ -82,17 +83,15 @@ impl<V: Vector> History<V> {
         if self.known < STEPS {
             return None;
         }
-        let is_mirrored = dither_side(time);
+        let side = usize::from(dither_side(time));
         let (mut largest, mut apart) = (0.0, 0.0);
         for (k, impulse) in impulses.iter_mut().enumerate() {
-            let last = |step: usize| self.steps[step].impulses[k];
-            let (parabola, mirrored) = (next(PARABOLA, last), next(MIRRORED, last));
-            largest = maximum(largest, parabola.magnitude());
-            apart = maximum(apart, (mirrored - parabola).magnitude());
-            *impulse = if is_mirrored { mirrored } else { parabola };
+            let sides = SIDES.map(|weights| next(weights, |step| self.steps[step].impulses[k]));
+            largest = maximum(largest, sides[0].magnitude());
+            apart = maximum(apart, (sides[1] - sides[0]).magnitude());
+            *impulse = sides[side];
         }
-        let weights = if is_mirrored { MIRRORED } else { PARABOLA };
-        (apart <= APART * largest).then_some(weights)
+        (apart <= APART * largest).then_some(SIDES[side])
     }
 
     /// Notes the guess of stage value `k`, and corrects it if there are weights.
@@ -145,24 +144,21 @@ fn next<T: Scalar>(weights: Weights, last: impl Fn(usize) -> T) -> T {
 
 #[cfg(test)]
 mod tests {
-    use super::{MIRRORED, PARABOLA, STEPS, next};
+    use super::{SIDES, next};
 
     #[test]
-    fn both_continue_parabolas_and_miss_a_third_difference_by_opposite_errors() {
-        let values = |power: i32| [0, 1, 2, 3, 4].map(|k| f64::from(-1 - k).powi(power));
-        let extrapolated = |weights, power| next(weights, |step: usize| values(power)[step]);
-        for power in 1..3 {
-            assert_eq!(extrapolated(PARABOLA, power), 0.0);
-            assert_eq!(extrapolated(MIRRORED, power), 0.0);
-        }
+    fn both_continue_parabolas_and_miss_other_sequences_by_opposite_errors() {
+        let errors = |power: i32| {
+            let value = |step: usize| (-1.0 - step as f64).powi(power);
+            SIDES.map(|weights| next(weights, value))
+        };
+        assert_eq!(SIDES.map(|weights| next(weights, |_| 1.0)), [1.0; 2]);
+        assert_eq!([errors(1), errors(2)], [[0.0; 2]; 2]);
         // The third difference of t³ is 6.
-        assert_eq!(extrapolated(PARABOLA, 3), -6.0);
-        assert_eq!(extrapolated(MIRRORED, 3), 6.0);
-        // The errors of t⁴ cancel too, those of t⁵ do not.
-        let both = |power| extrapolated(PARABOLA, power) + extrapolated(MIRRORED, power);
-        assert_eq!(both(4), 0.0);
-        assert_eq!(both(5), -2.0 * 120.0);
-        assert_eq!(next(MIRRORED, |_| 1.0), 1.0);
-        assert_eq!(PARABOLA.len(), STEPS);
+        assert_eq!(errors(3), [-0.75, 0.75]);
+        let [less, more] = errors(4);
+        assert!(less != 0.0 && less == -more);
+        // The fifth difference of t⁵ is 120: no quartic continues it.
+        assert_eq!(errors(5).iter().sum::<f64>(), -240.0);
     }
 }
