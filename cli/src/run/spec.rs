@@ -46,6 +46,15 @@ impl Spec {
         }
     }
 
+    /// Whether all numbers are finite.
+    pub(super) fn is_finite(&self) -> bool {
+        let numbers = match self {
+            Spec::Values(values) => &values[..],
+            Spec::Uniform(pair) | Spec::Normal(pair) => pair,
+        };
+        numbers.iter().all(|number| number.is_finite())
+    }
+
     /// Whether the value is drawn for every start.
     pub(super) fn is_random(&self) -> bool {
         !matches!(self, Spec::Values(_))

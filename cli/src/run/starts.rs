@@ -167,6 +167,10 @@ impl Reader<'_> {
         for (k, Varied { name, value, span }) in varied.iter().enumerate() {
             let spec = Spec::read(value, name)
                 .map_err(|message| self.file.error(span.clone(), message))?;
+            if !spec.is_finite() {
+                let message = format!("`{name}` has a value that is not finite");
+                return Err(self.file.error(span.clone(), message));
+            }
             parameter_axes.push((coordinate_count + k, spec));
         }
         let mut rows = Vec::new();

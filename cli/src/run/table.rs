@@ -267,7 +267,7 @@ fn places(coordinates: &Coordinates, names: &[&str]) -> Result<Vec<usize>, Strin
             .position(|known| known == name);
         let place = place.filter(|place| !places.contains(place)).ok_or_else(|| {
             format!(
-                "the column `{name}` is not a coordinate and no parameter that is a number, or occurs twice; the coordinates are {}",
+                "the column `{name}` is neither a coordinate nor a parameter that is a number, or it occurs twice; the coordinates are {}",
                 coordinates.listed()
             )
         })?;

@@ -192,6 +192,14 @@ fn nothing_is_lost_and_nothing_is_endless() {
             PENDULUM.replace("g = 4", "g = inf"),
             "expected a finite number",
         ),
+        (
+            PENDULUM.replace("g = 4", "g = { values = [1, inf] }"),
+            "`g` has a value that is not finite",
+        ),
+        (
+            PENDULUM.replace("g = 4", "g = { uniform = [nan, 1] }"),
+            "`g` has a value that is not finite",
+        ),
     ];
     for (setup, told) in cases {
         let output = call(&folder, &setup, &[]);

@@ -14,9 +14,9 @@ use crate::system::{Class, Gradients, System};
 /// A residual of at most this many units of rounding counts as zero if it no longer decreases much.
 pub(in crate::method) const ROUNDING: f64 = 2.0;
 /// A residual of at most this size always does. What is left of a residual that still decreases has a sign, which the energy would follow: with
-/// 1/2, and 16 times [`STAGNANT`], the drift of a double pendulum on rods would be up to 10⁻²¹ in a step.
+/// 1/2 the relative drift for a double pendulum on rods would be up to 10⁻²¹ in a step.
 pub(in crate::method) const SETTLED: f64 = 0.125;
-/// The residual before it, in the same units, up to which a residual decreases no more.
+/// The residual before it, in the same units, up to which a residual decreases no more. With 128 that drift would be 4·10⁻²².
 const STAGNANT: f64 = 48.0;
 /// A residual that no longer decreases is accepted up to this size, in units of rounding.
 pub(in crate::method) const NOISE: f64 = 256.0;

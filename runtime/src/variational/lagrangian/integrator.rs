@@ -98,7 +98,8 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     ///
     /// # Errors
     ///
-    /// As for [`new`](Self::new); [`Error::NoConstants`]; for r > s [`Error::DegenerateLagrangian`] if `∂²L/∂v∂v` is singular at the start.
+    /// As for [`new`](Self::new); [`Error::NoConstants`]; for r > s [`Error::DegenerateLagrangian`] if `∂²L/∂v∂v` is singular where
+    /// Newton's iteration for the velocity at the start, from v = 0, needs it.
     ///
     /// ```
     /// symplectic::tableau! { Rectangular { basis: polynomial(2), quadrature: gauss(3) } }
