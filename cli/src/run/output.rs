@@ -4,6 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use symplectic::State;
 use symplectic::ensemble::{Npz, Row};
 use symplectic::nalgebra::DVector;
@@ -11,6 +12,7 @@ use symplectic_compiler::{Error, ErrorKind};
 
 use super::starts::Coordinates;
 use super::system::Tapes;
+use super::tape::Parameters;
 
 /// A trajectory with its states at the output times.
 pub(super) type Trajectory = Row<DVector<f64>, Vec<State<DVector<f64>>>>;
@@ -156,9 +158,10 @@ impl Drop for Target {
 impl Results<'_> {
     /// `(H − H₀)/|H₀|`, or `H − H₀` if the energy at the start is zero.
     pub(super) fn energy_errors(&self) -> Vec<Vec<f64>> {
-        let pairs = self.rows.iter().zip(self.starts);
+        let pairs = self.rows.par_iter().zip(self.starts);
         let errors = pairs.map(|(row, start)| {
-            let energy_at = |state| self.tapes.energy_at(state, self.parameters(row));
+            let parameters = Parameters::Own(self.parameters(row).into());
+            let energy_at = |state| self.tapes.energy_at(state, &parameters);
             let first = energy_at(start);
             let scale = if first == 0.0 { 1.0 } else { first.abs() };
             let error = |energy: f64| (energy - first) / scale;

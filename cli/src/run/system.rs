@@ -56,9 +56,8 @@ impl Tapes {
     }
 
     /// H at a state.
-    pub(super) fn energy_at(&self, state: &State<DVector<f64>>, parameters: &[f64]) -> f64 {
-        let parameters = Parameters::Own(parameters.into());
-        self.energy(&parameters, (state.time, &state.q, &state.p))
+    pub(super) fn energy_at(&self, state: &State<DVector<f64>>, parameters: &Parameters) -> f64 {
+        self.energy(parameters, (state.time, &state.q, &state.p))
     }
 
     fn energy<T: Scalar>(&self, parameters: &Parameters, point: Point<'_, T>) -> T {
