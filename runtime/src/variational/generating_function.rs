@@ -73,7 +73,17 @@ impl<V: Vector> GeneratingFunction<V> {
 /// energies at the two times have to be equal.
 ///
 /// With friction, an [applied force](crate::Hamiltonian::applied_force) or constraints no such function exists, and the call does not
-/// compile.
+/// compile:
+///
+/// ```compile_fail,E0080
+/// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
+/// symplectic::hamiltonian! { Resisted q: [x], p: [px]; H = (px^2 + x^2)/2  force: { x = -px^3 } }
+/// use symplectic::nalgebra::Vector1;
+/// use symplectic::variational::generating_function;
+///
+/// let (q0, p1) = (Vector1::new(1.0), Vector1::new(0.0));
+/// let generating = generating_function(Midpoint, &Resisted, 0.0, &q0, &p1, 0.1);
+/// ```
 ///
 /// # Errors
 ///
