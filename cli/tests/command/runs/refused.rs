@@ -134,7 +134,10 @@ fn wrong_files_are_refused_at_their_place() {
             "a,pa\n0,1\n0,nan\n",
             "column `pa`: expected a finite number, found `nan`",
         ),
-        ("a,pb\n0,1\n", "line 1: the column `pb` is not a coordinate"),
+        (
+            "a,pb\n0,1\n",
+            "line 1: the column `pb` is neither a coordinate nor",
+        ),
         ("a\n0\n", "line 1: the column `pa` is missing"),
     ] {
         fs::write(folder.join(table), text).expect("a file");

@@ -93,7 +93,7 @@ fn starts_are_read_from_parquet() {
             "start 0, column `pa`: expected a finite number, found `NaN`",
         ),
         ("missing", "the column `pa` is missing"),
-        ("other", "the column `b` is not a coordinate"),
+        ("other", "the column `b` is neither a coordinate nor"),
         (
             "text",
             "start 0, column `pa`: expected a finite number, found `\"half\"`",
