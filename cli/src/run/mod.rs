@@ -315,11 +315,15 @@ impl Run<'_> {
     {
         let mut parameters: Vec<Vec<f64>> = Vec::new();
         let mut families: Vec<(Formula<C>, States)> = Vec::new();
-        let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        let same_bits = |a: &[f64], b: &[f64]| {
+            let bits = |x: &f64| x.to_bits();
+            a.iter().map(bits).eq(b.iter().map(bits))
+        };
         for start in starts {
-            let before = parameters.last().map(|before| bits(before));
+            let before = parameters.last();
+            let is_of_family = before.is_some_and(|before| same_bits(before, &start.parameters));
             match families.last_mut() {
-                Some((_, family)) if before == Some(bits(&start.parameters)) => {
+                Some((_, family)) if is_of_family => {
                     family.push(start.state);
                 }
                 _ => {

@@ -65,8 +65,8 @@ impl Value {
         })
     }
 
-    /// A literal that prints a binary floating-point number with so many binary digits: short ones are exact, others may be off by a
-    /// unit of the last binary place.
+    /// The decimal of a floating-point number with `bits` binary digits. A short decimal is exact; another may be off by one unit of the last
+    /// binary digit.
     pub fn rounded(text: &str, bits: u32) -> Result<Self, ErrorKind> {
         let mut value = Value::decimal(text)?;
         if !value.is_exact() {
