@@ -57,7 +57,7 @@ pub(crate) struct Arguments {
     threads: Option<u16>,
 }
 
-/// Largest number of components of all stored states.
+/// Largest number of coordinates and parameters in all stored rows.
 const MOST_NUMBERS: u128 = 1 << 28;
 
 /// One of several parts.
@@ -129,9 +129,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     refuse_twins(&file, &setup, &coordinates, &path)?;
     let seen = times.as_ref().map_or(1, Vec::len) as u128 * starts.len() as u128;
     let parts = arguments.shard.map_or(1, |shard| shard.count) as u128;
-    if seen * 2 * coordinates.dimension() as u128 / parts > MOST_NUMBERS {
+    let columns = 2 * coordinates.dimension() + coordinates.parameters.len();
+    if seen * columns as u128 / parts > MOST_NUMBERS {
         let message = format!(
-            "the output states have more than {MOST_NUMBERS} components in all: give fewer `times`, or run parts with `--shard`"
+            "the output has more than {MOST_NUMBERS} numbers in all: give fewer `times`, or run parts with `--shard`"
         );
         return Err(file.error(setup.starts.span(), message));
     }
@@ -177,7 +178,7 @@ fn refuse_twins(
     match table::twin(coordinates) {
         Some(name) if is_table => {
             let message = format!(
-                "two columns of the table would have the name `{name}`: give the coordinate another name, or write a `.npz` file"
+                "two columns of the table would have the name `{name}`: give the coordinate or the parameter another name, or write a `.npz` file"
             );
             Err(file.error(setup.output.file.span(), message))
         }

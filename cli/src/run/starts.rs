@@ -304,8 +304,8 @@ impl Reader<'_> {
                 for ((place, spec), length) in axes.iter().zip(&lengths).rev() {
                     let choice = rest % length;
                     rest /= length;
-                    // A separate draw for every start and coordinate, independent of the order of the keys.
-                    let draw = *draws * axes.len() as u64 + *place as u64;
+                    // A separate draw for every start and coordinate, independent of the order of the keys and of other coordinates.
+                    let draw = (*draws << 32) + *place as u64;
                     row[*place] = match spec {
                         Spec::Values(values) => values[choice],
                         Spec::Uniform([low, high]) => {

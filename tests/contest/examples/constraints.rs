@@ -7,8 +7,7 @@
 
 #![allow(clippy::print_stdout, reason = "it prints")]
 
-use std::time::Instant;
-
+use cpu_time::ThreadTime;
 use symplectic::nalgebra::{DVector, SVector};
 use symplectic::{Error, Integrator, State};
 
@@ -51,12 +50,12 @@ symplectic::lagrangian! {
 /// Number of runs of each program, in turn.
 const RUNS: usize = 9;
 
-/// The median times of two programs that run in turn, in seconds.
+/// The median CPU times of two programs that run in turn, in seconds.
 fn medians(mut programs: [Box<dyn FnMut() + '_>; 2]) -> [f64; 2] {
     let mut times = [Vec::new(), Vec::new()];
     for _ in 0..RUNS {
         for (program, times) in programs.iter_mut().zip(&mut times) {
-            let start = Instant::now();
+            let start = ThreadTime::now();
             program();
             times.push(start.elapsed().as_secs_f64());
         }
@@ -219,7 +218,7 @@ fn chains() -> Result<(), Error> {
         );
         let mut run = Integrator::new(Rattle, chain, start, 0.002)?;
         run.take_steps(2)?;
-        let start = Instant::now();
+        let start = ThreadTime::now();
         run.take_steps(100)?;
         println!(
             "chain of {links} links, RATTLE: {:.0} ns a link and step",

@@ -12,6 +12,7 @@ use cpu_time::ThreadTime;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::Vector2;
+use symplectic::solver::FixedPoint;
 use symplectic::{
     Compensated, Integrator, Method, Plain, ProvedFor, Separable, State, Summation, System,
 };
@@ -23,7 +24,8 @@ const ROUNDS: usize = 9;
 
 type Start = State<Vector2<f64>>;
 
-/// Prints a row: medians of a loop of single runs, of an ensemble on one thread, and of an ensemble on all threads.
+/// Prints a row: medians of a loop of single runs without lanes, of the same loop with the default solver, of an ensemble
+/// on one thread, and of an ensemble on all threads.
 fn row<M, S, R>(
     name: &str,
     method: M,
@@ -41,15 +43,24 @@ fn row<M, S, R>(
         step_size,
     )
     .expect("starts");
+    let integrator = |start: &Start| {
+        Integrator::<M, S, Vector2<f64>, R>::with_summation(
+            method,
+            system,
+            start.clone(),
+            step_size,
+        )
+        .expect("a start")
+    };
+    let without_lanes = || {
+        for start in starts {
+            let mut run = integrator(start).with_solver(FixedPoint);
+            black_box(run.take_steps(steps).expect("steps"));
+        }
+    };
     let single = || {
         for start in starts {
-            let run = Integrator::<M, S, Vector2<f64>, R>::with_summation(
-                method,
-                system,
-                start.clone(),
-                step_size,
-            );
-            black_box(run.expect("a start").take_steps(steps).expect("steps"));
+            black_box(integrator(start).take_steps(steps).expect("steps"));
         }
     };
     let many = || {
@@ -58,22 +69,23 @@ fn row<M, S, R>(
             ControlFlow::Continue(())
         });
     };
-    let mut times = [(); 3].map(|()| Vec::new());
+    let mut times = [(); 4].map(|()| Vec::new());
     for _ in 0..ROUNDS {
-        times[0].push(seconds_of_thread(single));
-        times[1].push(alone.install(|| seconds_of_thread(many)));
+        times[0].push(seconds_of_thread(without_lanes));
+        times[1].push(seconds_of_thread(single));
+        times[2].push(alone.install(|| seconds_of_thread(many)));
         // As a program calls it: from outside, on the threads of rayon.
-        times[2].push(seconds(many));
+        times[3].push(seconds(many));
     }
     let per_step = 1e9 / (starts.len() as f64 * steps as f64);
-    let [single, one, all] = times.map(|mut times| {
+    let [without, single, one, all] = times.map(|mut times| {
         times.sort_by(f64::total_cmp);
         times[ROUNDS / 2] * per_step
     });
     println!(
-        "| {name} | {single:.1} | {one:.1} | {:.1} × | {all:.1} | {:.1} × |",
-        single / one,
-        single / all
+        "| {name} | {without:.1} | {single:.1} | {one:.1} | {:.1} × | {all:.1} | {:.1} × |",
+        without / one,
+        without / all
     );
 }
 
@@ -106,8 +118,8 @@ fn main() {
     println!(
         "Nanoseconds a step of one trajectory, medians of {ROUNDS} rounds: CPU time of one thread, elapsed time of all.\n"
     );
-    println!("| | single runs | 1 thread | | {cores} threads | |");
-    println!("|---|---:|---:|---:|---:|---:|");
+    println!("| | single runs without lanes | single runs | 1 thread | | {cores} threads | |");
+    println!("|---|---:|---:|---:|---:|---:|---:|");
     macro_rules! problem {
         ($name:literal, $problem:expr, $h:literal, $steps:literal) => {
             row::<_, _, Plain>(

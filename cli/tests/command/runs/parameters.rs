@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{PENDULUM, array, call, columns, csv, doubles, folder};
+use super::{CLOUD, PENDULUM, array, call, columns, csv, doubles, folder};
 
 /// The lines of a table without its header, the number of the trajectory, and the column of the parameter, which comes after the starts.
 fn lines(table: &str, with_parameter: bool) -> Vec<String> {
@@ -108,6 +108,20 @@ fn random_parameters_and_parts() {
     let part = fs::read_to_string(folder.join("out.1-of-3.csv")).expect("a part");
     let own: Vec<&str> = whole.lines().skip(1 + 13).take(13).collect();
     assert_eq!(part.lines().skip(1).collect::<Vec<_>>(), own);
+}
+
+#[test]
+fn random_coordinates_do_not_depend_on_a_random_parameter() {
+    let folder = folder("parameters-beside");
+    let spring = CLOUD
+        .replace("x^2/2\"", "k x^2/2\"\n    parameters.k = 1")
+        .replace("Oscillator q", "Oscillator { k: 1 } q")
+        .replace("4000", "20");
+    let starts = |setup: &str| columns(&csv(&folder, setup), &["x_start", "px_start"]);
+    let fixed = starts(&spring);
+    assert_eq!(fixed.len(), 20);
+    let varied = spring.replace("parameters.k = 1", "parameters.k = { uniform = [1, 2] }");
+    assert_eq!(starts(&varied), fixed);
 }
 
 #[test]

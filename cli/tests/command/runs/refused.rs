@@ -185,7 +185,7 @@ fn nothing_is_lost_and_nothing_is_endless() {
                     "times = { from = 0, to = 1, count = 4000000 }",
                 )
                 .replace("count = 11", "count = 1000"),
-            "components in all: give fewer",
+            "numbers in all: give fewer",
         ),
         (
             PENDULUM.replace("end = 10.0", "end = 1e300"),
