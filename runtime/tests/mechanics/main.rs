@@ -11,6 +11,7 @@ mod dirac_forms;
 mod discrete_lagrangians;
 mod emitted_inverse;
 mod forces;
+mod forces_of_time;
 mod formulas;
 mod friction;
 mod galerkin;
