@@ -88,8 +88,9 @@ pub enum Error {
 
     /// An evaluation of the system changed the dimension of its output vector.
     #[error(
-        "step {step} of size {step_size} at time {time}: the {what} at stage {stage} has dimension {found} instead \
-         of {expected}; the system has to write into the vector it is given without resizing it"
+        "step {step} of size {step_size} at time {time}: the {what}{} has dimension {found} instead \
+         of {expected}; the system has to write into the vector it is given without resizing it",
+        AtStage(*.stage)
     )]
     EvaluationDimension {
         /// Time at the start of the step.
@@ -100,8 +101,24 @@ pub enum Error {
         step: u64,
         /// The quantity that has the wrong dimension.
         what: Quantity,
-        /// Its stage, from 1, among the stages that the plan stores.
-        stage: usize,
+        /// Its stage, from 1, among the stages that the plan stores; `None` outside the stages.
+        stage: Option<usize>,
+        /// Dimension of the state.
+        expected: usize,
+        /// Dimension of the evaluation.
+        found: usize,
+    },
+
+    /// An evaluation of the system at a given state changed the dimension of its output vector.
+    #[error(
+        "the {what} of the state at time {time} has dimension {found} instead of {expected}; the system has to write into the vector it \
+         is given without resizing it"
+    )]
+    ResizedEvaluation {
+        /// The time of the state.
+        time: f64,
+        /// The quantity that has the wrong dimension.
+        what: Quantity,
         /// Dimension of the state.
         expected: usize,
         /// Dimension of the evaluation.

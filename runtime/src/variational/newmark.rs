@@ -122,7 +122,8 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`]; [`Error::NonFiniteState`] for the state or its force; [`Error::NewmarkMasses`] if the velocity is not `M⁻¹p`
+    /// [`Error::Dimension`]; [`Error::NonFiniteState`] for the state or its force; [`Error::ResizedEvaluation`];
+    /// [`Error::NewmarkMasses`] if the velocity is not `M⁻¹p`
     /// with a constant M.
     pub fn shift(&self, state: &State<S::Vector<f64>>) -> Result<State<S::Vector<f64>>, Error> {
         let State { time, q, p } = state;
@@ -134,7 +135,21 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
                 linear: found.linear,
             });
         }
-        let (_, acceleration) = self.acceleration(*time, q);
+        let (force, acceleration) = self.acceleration(*time, q);
+        for (what, found) in [
+            (Quantity::Force, &force),
+            (Quantity::Velocity, &acceleration),
+        ] {
+            let (expected, found) = (q.dimension(), found.dimension());
+            if found != expected {
+                return Err(Error::ResizedEvaluation {
+                    time: *time,
+                    what,
+                    expected,
+                    found,
+                });
+            }
+        }
         if !is_finite(&acceleration) {
             let what = Quantity::Force;
             return Err(Error::NonFiniteState { what });

@@ -30,3 +30,4 @@ mod scales;
 mod start;
 mod symmetry;
 mod systems;
+mod wrong_dimension;
