@@ -580,9 +580,9 @@ pub enum Error {
         pivot: f64,
     },
 
-    /// β of Newmark's method is negative or not finite.
+    /// β of Newmark's method is not finite.
     #[error(
-        "β of Newmark's method is {value}; it must be finite and not negative, and 1/4 or more for steps of any size"
+        "β of Newmark's method is {value}; it must be finite, and 1/4 or more for steps of any size"
     )]
     NewmarkBeta {
         /// The β given.

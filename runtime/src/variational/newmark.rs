@@ -41,12 +41,13 @@ use crate::system::{Hamiltonian, Separable, System};
 /// | 1/6 | linear acceleration; stable for hω < 2√3 |
 /// | 1/4 | average acceleration: linear oscillators are stable at every step size |
 ///
-/// All of them have order 2. For β < 0 the stability limit is lower than that of Störmer–Verlet; such a β is refused.
+/// Every β has order 2. For β < 1/4 a linear oscillator is stable for `(hω)² < 4/(1 − 4β)`. β < 0 lowers this limit; no method in use has
+/// such a β.
 ///
 /// # Energy
 ///
-/// [`energy`](System::energy) is the Hamiltonian of the shifted system, `H(q, p) + βh²/2 ∇V·M⁻¹∇V`. If V is convex, the potential in x is
-/// the minimum of `V(q) + |q − x|²/(2βh²)`, in the norm of M. With an [applied force](Hamiltonian::applied_force) there is no energy.
+/// [`energy`](System::energy) is the Hamiltonian of the shifted system, `H(q, p) + βh²/2 ∇V·M⁻¹∇V`. If β > 0 and V is convex, the potential in x
+/// is the minimum of `V(q) + |q − x|²/(2βh²)`, in the norm of M. With an [applied force](Hamiltonian::applied_force) there is no energy.
 ///
 /// # Step size
 ///
@@ -105,10 +106,10 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::NewmarkBeta`] if `beta` is negative or not finite; [`Error::StepSize`].
+    /// [`Error::NewmarkBeta`] if `beta` is not finite; [`Error::StepSize`].
     pub fn new(system: S, beta: f64, step_size: f64) -> Result<Self, Error> {
         check_step_size(step_size)?;
-        if !(beta >= 0.0 && beta.is_finite()) {
+        if !beta.is_finite() {
             return Err(Error::NewmarkBeta { value: beta });
         }
         Ok(Self {
