@@ -470,7 +470,8 @@ pub enum Error {
     /// position at its end.
     #[error(
         "step {step} of size {step_size} at time {time}: the Lagrangian does not determine component {component} at the end of the step \
-         (pivot {pivot:e}); take a Lagrangian that determines every velocity, or keep away from this position"
+         (pivot {pivot:e}); take a Lagrangian that determines every velocity, or keep away from this position. If ∂²L/∂v∂v is singular, \
+         `primary_constraints` returns what the momenta then obey, and `DiracIntegrator` steps such a Lagrangian"
     )]
     IrregularLagrangian {
         /// Time at the start of the step.
@@ -498,7 +499,8 @@ pub enum Error {
     /// constraints on the momenta.
     #[error(
         "{method} has more nodes than functions, and the Lagrangian is degenerate: ∂L/∂v does not determine component {component} of the \
-         velocity, and momenta would leave its primary constraints; take a method with as many functions as nodes"
+         velocity, and momenta would leave the primary constraint on this component of p, which `primary_constraints` returns; take a \
+         method with as many functions as nodes"
     )]
     DegenerateLagrangian {
         /// Name of the method.
