@@ -11,7 +11,7 @@
 //! or rational in one transcendental number. For other expressions it remains undecided.
 //!
 //! Symplectic Euler has one stage, `Q_1 = q0`, and `φ(q1) = 0` takes the place of the conditions on stages (GNI VII.1): its end
-//! is a second stage of weight 0, with `X = 1`.
+//! is a second stage of weight 0. Its adjoint has the stage `Q_1 = q1`, and the start is a stage of weight 0 before it.
 
 use num_rational::BigRational;
 use num_traits::One;
@@ -26,7 +26,7 @@ use crate::coefficients::Coefficients;
 /// Decides the conditions one after another.
 pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
     if examined.numbers.b.len() == 1 {
-        return with_its_end(examined);
+        return with_an_end(examined);
     }
     let ends = [
         end_stages::first_row_zero(examined),
@@ -73,10 +73,19 @@ pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
     Property::holding(evidence, Some(format!("det (A Ã) ≈ {determinant}")))
 }
 
-/// Decides it for one stage: `a_11 = 0`, `b_1 = b̃_1 = 1`, and so `ã_11 = 1`.
-fn with_its_end<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
-    let needed = [
+/// Decides it for one stage: `b_1 = b̃_1 = 1`, and `a_11 = 0`, `ã_11 = 1` or `a_11 = 1`, `ã_11 = 0`.
+fn with_an_end<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
+    let (at_start, at_end) = (
         end_stages::first_row_zero(examined),
+        end_stages::stiffly_accurate(examined),
+    );
+    let (end, witness) = if at_end.holds {
+        (at_end, "q0 is a stage of weight 0 before it")
+    } else {
+        (at_start, "q1 is a second stage, of weight 0")
+    };
+    let needed = [
+        end,
         consistent::decide(examined),
         symplectic::decide(examined),
     ];
@@ -86,8 +95,7 @@ fn with_its_end<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
     let evidence = needed.iter().fold(Evidence::Proved, |evidence, property| {
         evidence.and(property.evidence)
     });
-    let witness = "q1 is a second stage, of weight 0".to_owned();
-    Property::holding(evidence, Some(witness))
+    Property::holding(evidence, Some(witness.to_owned()))
 }
 
 /// Two stages, counted from 1, that coincide.
@@ -216,7 +224,7 @@ mod tests {
     #[test]
     fn what_refutes_it_is_named() {
         for (definition, witness) in [
-            ("basis: polynomial(1), nodes: [1]", "a_11 = 1"),
+            ("basis: polynomial(1), nodes: [1/2]", "a_11 = 1/2"),
             ("basis: polynomial(2), nodes: gauss(2)", "a_11 = "),
             (
                 "basis: polynomial(2), nodes: radau-left(2)",
@@ -282,9 +290,12 @@ mod tests {
     }
 
     #[test]
-    fn symplectic_euler_ends_on_the_constraints() {
-        let found = property("basis: polynomial(1), nodes: [0]");
-        assert!(found.holds && found.evidence == Evidence::Proved, "{found}");
+    fn symplectic_euler_and_its_adjoint_end_on_the_constraints() {
+        for (node, witness) in [(0, "q1 is a second stage"), (1, "q0 is a stage")] {
+            let found = property(&format!("basis: polynomial(1), nodes: [{node}]"));
+            assert!(found.holds && found.evidence == Evidence::Proved, "{found}");
+            assert!(found.to_string().contains(witness), "{found}");
+        }
     }
 
     #[test]
