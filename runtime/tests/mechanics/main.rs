@@ -10,6 +10,7 @@ mod dirac;
 mod dirac_forms;
 mod discrete_lagrangians;
 mod emitted_inverse;
+mod equivariance;
 mod forces;
 mod forces_of_time;
 mod formulas;
