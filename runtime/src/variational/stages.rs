@@ -94,8 +94,9 @@ impl<V: Vector> StagesOfStep<V> {
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Takes one step and returns its stages, for balances of energy and momentum, and for the discrete action.
     ///
-    /// The stages are computed again, to rounding, by fixed-point iteration, and memory is allocated. Use it for tests and reports, not for
-    /// every step of a long run.
+    /// The solver of the step keeps its stages in a form of its own. So they are computed once more, to rounding and from no starting
+    /// values, by fixed-point iteration: together two to four times as many evaluations as a step. Memory is allocated. Use it for tests and
+    /// reports, not for every step of a long run.
     ///
     /// # Errors
     ///
