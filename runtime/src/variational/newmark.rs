@@ -242,6 +242,8 @@ impl<S: Hamiltonian<Class = Separable>> System<S::Vector<f64>> for Newmark<S> {
     ) {
         let evaluate = |q: &S::Vector<f64>| Hamiltonian::force(&self.system, time, q, q, force);
         if self.at_position(time, q, evaluate).is_err() {
+            // A wrong dimension may be why there is no position; the step finds it here.
+            Hamiltonian::force(&self.system, time, q, q, force);
             force.as_mut_slice().fill(f64::NAN);
         }
     }

@@ -7,12 +7,12 @@ use symplectic::solver::FixedPoint;
 use symplectic::system::Gradients;
 use symplectic::variational::{
     DiracIntegrator, DiracRule, DiracSystem, DiscreteLagrangian, DiscretePath,
-    LagrangianIntegrator, VariationalIntegrator, momentum_of_velocity,
+    LagrangianIntegrator, Newmark, VariationalIntegrator, momentum_of_velocity,
 };
 use symplectic::{
-    Class, Constrained, Damped, Error, General, Integrator, Lagrangian, Method, Nonholonomic,
-    ProvedFor, Quantity, Scalar, Separable, State, System, consistent, consistent_momentum,
-    constraint_force,
+    Class, Constrained, Damped, Error, General, Hamiltonian, Integrator, Lagrangian, Method,
+    Nonholonomic, ProvedFor, Quantity, Scalar, Separable, State, System, consistent,
+    consistent_momentum, constraint_force,
 };
 
 use crate::forces::{Gauss2, Lobatto2, Lobatto3, Midpoint};
@@ -371,6 +371,37 @@ fn forces_of_lagrangians() -> Result<(), Error> {
             .and_then(|mut run| run.step().map(|_| ()))
             .expect_err("resized");
         assert_resized(&error, Quantity::Lagrangian, to);
+    }
+    Ok(())
+}
+
+/// The particle by its Hamiltonian.
+struct Resized {
+    to: usize,
+}
+
+impl Hamiltonian for Resized {
+    type Class = Separable;
+    type Vector<T: Scalar> = DVector<T>;
+
+    fn velocity<T: Scalar>(&self, _: T, _: &DVector<T>, p: &DVector<T>, velocity: &mut DVector<T>) {
+        *velocity = p.clone();
+    }
+
+    fn force<T: Scalar>(&self, _: T, _: &DVector<T>, _: &DVector<T>, force: &mut DVector<T>) {
+        *force = DVector::from_element(self.to, T::one());
+    }
+}
+
+#[test]
+fn the_shift_of_newmark() -> Result<(), Error> {
+    for to in WRONG {
+        let newmark = Newmark::new(Resized { to }, 0.25, 0.1)?;
+        let error = newmark.shift(&start()).expect_err("resized");
+        assert_resized(&error, Quantity::Force, to);
+        let mut run = Integrator::new(Lobatto2, newmark, start(), 0.1)?;
+        let error = run.step().map(|_| ()).expect_err("resized");
+        assert_resized(&error, Quantity::Force, to);
     }
     Ok(())
 }
