@@ -28,6 +28,8 @@ const UPWARD: &[(&str, &str)] = &[
     ("method/damped.rs", "solver"),
     // With its rows for gradients it is one too.
     ("method/nonholonomic/rows.rs", "solver"),
+    // With its dimensions checked it is one, too.
+    ("method/constrained/of_dimension.rs", "solver"),
 ];
 
 fn level(room: &str) -> Option<usize> {

@@ -171,6 +171,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         counted(Integrator::new(TripleRattle, links(), start(), 0.01)?)?,
         0
     );
+    // One constraint.
+    let pendulum = State::new(0.0, DVector::from_vec(vec![1.0, 0.0]), DVector::zeros(2));
+    let one = Integrator::new(Lobatto3, Links::new(Vec::new()), pendulum, 0.01)?;
+    assert_eq!(counted(one)?, 0);
 
     let start = || {
         State::new(

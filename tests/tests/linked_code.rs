@@ -1,4 +1,5 @@
-//! What a scene does not need stays out of its program: a separable scene with an explicit method contains no solver.
+//! What a scene does not need stays out of its program: a separable scene with an explicit method contains no solver, and one without
+//! constraints and friction nothing of these.
 
 use std::collections::BTreeSet;
 use std::error::Error;
@@ -11,6 +12,14 @@ const SOLVERS: [&str; 3] = [
     "symplectic::method::change::",
     "symplectic::method::coupled::",
     "symplectic::solver::",
+];
+
+/// The modules with what only constraints, friction and Lagrangians need.
+const MECHANICS: [&str; 4] = [
+    "symplectic::method::constrained::",
+    "symplectic::method::nonholonomic::",
+    "symplectic::method::damped::",
+    "symplectic::variational::",
 ];
 
 /// The names of the functions in a program, without their hashes.
@@ -86,6 +95,29 @@ fn an_explicit_formula_has_only_its_velocity_and_force_in_it() -> Result<(), Box
         };
         assert!(!explicit.iter().any(of_formula), "{function}");
         assert!(newton.iter().any(of_formula), "{function}");
+    }
+    Ok(())
+}
+
+/// No force and no constraint: no code for them.
+#[test]
+fn a_scene_without_constraints_has_nothing_of_them_in_it() -> Result<(), Box<dyn Error>> {
+    for program in [
+        env!("CARGO_BIN_EXE_explicit_scene"),
+        env!("CARGO_BIN_EXE_implicit_scene"),
+        env!("CARGO_BIN_EXE_explicit_formula"),
+        env!("CARGO_BIN_EXE_newton_formula"),
+    ] {
+        let names = functions(program)?;
+        for module in MECHANICS {
+            let found: Vec<&String> = names.iter().filter(|name| name.contains(module)).collect();
+            assert!(found.is_empty(), "{program}: {found:?}");
+        }
+    }
+    // The same look finds each of them where it is.
+    let names = functions(env!("CARGO_BIN_EXE_mechanics_scenes"))?;
+    for module in MECHANICS {
+        assert!(names.iter().any(|name| is_of(name, module)), "{module}");
     }
     Ok(())
 }

@@ -22,7 +22,7 @@ pub(super) fn code(
 ) -> Option<TokenStream> {
     let qualifies = |tableau: &Tableau| tableau.properties().constrained.holds;
     let tableau_of = |numbers: &Coefficients<Number<'_>>| match numbers.b.len() {
-        1 => Some(with_its_end()),
+        1 => Some(with_an_end(numbers.a[0][0].is_zero())),
         _ => constants(numbers, &multiplier_matrix(numbers)?),
     };
     if qualifies(tableau) {
@@ -36,20 +36,25 @@ pub(super) fn code(
     Some(steps("CONSTRAINED", &tableaux, Some(&list(substeps))))
 }
 
-/// Symplectic Euler with the end of the step as a second stage of weight 0. With one stage, the property `constrained` admits no other
-/// coefficients.
-fn with_its_end() -> TokenStream {
+/// Symplectic Euler, whose stage is at the start, with the end of the step as a second stage of weight 0; or its adjoint, whose stage is at
+/// the end, with the start as a first stage of weight 0. With one stage, the property `constrained` admits no other coefficients.
+fn with_an_end(at_start: bool) -> TokenStream {
     let [zero, one] = [0.0, 1.0].map(|value| {
         let value = literal::double(value);
         quote!(::symplectic::emitted::Coefficient::exact(#value))
     });
+    let (weights, momentum_node) = if at_start {
+        (quote!(#one, #zero), &one)
+    } else {
+        (quote!(#zero, #one), &zero)
+    };
     quote! {
         ::symplectic::emitted::ConstrainedTableau {
             positions: &[&[#zero, #zero], &[#one, #one]],
             momenta: &[&[#one, #zero], &[#one, #zero]],
-            weights: &[#one, #zero],
+            weights: &[#weights],
             nodes: &[#zero, #one],
-            momentum_nodes: &[#one, #one],
+            momentum_nodes: &[#momentum_node, #momentum_node],
             multipliers: &[&[1.0]],
         }
     }

@@ -7,11 +7,17 @@
 //! For small steps `φ(Q_i)` depends on `Λ_1 … Λ_{s−1}` through `−h² X ⊗ G M⁻¹ Gᵀ` with the matrix
 //! `X = (A Ã)_ik`, `i = 2..s`, `k = 1..s−1`: the multipliers exist and are unique iff X is invertible.
 //!
+//! Enclosures prove `det X ≠ 0`. Whether `det X = 0` is decided exactly if the coefficients are in a field of constants: rational, algebraic,
+//! or rational in one transcendental number. For other expressions it remains undecided.
+//!
 //! Symplectic Euler has one stage, `Q_1 = q0`, and `φ(q1) = 0` takes the place of the conditions on stages (GNI VII.1): its end
-//! is a second stage of weight 0, with `X = 1`.
+//! is a second stage of weight 0. Its adjoint has the stage `Q_1 = q1`, and the start is a stage of weight 0 before it.
+
+use num_rational::BigRational;
+use num_traits::One;
 
 use super::{Evidence, Examined, Property, Zero, consistent, end_stages, symplectic};
-use crate::algebra::{Number, StageAlgebra};
+use crate::algebra::{Field, Number, StageAlgebra};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::inverse::{self, BITS, Inverse};
 use crate::arithmetic::rational::ratio;
@@ -20,7 +26,7 @@ use crate::coefficients::Coefficients;
 /// Decides the conditions one after another.
 pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
     if examined.numbers.b.len() == 1 {
-        return with_its_end(examined);
+        return with_an_end(examined);
     }
     let ends = [
         end_stages::first_row_zero(examined),
@@ -54,6 +60,9 @@ pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
         .iter()
         .find_map(|&bits| Inverse::of(feedback(examined.numbers, bits)));
     let Some(Inverse { determinant, .. }) = found else {
+        if is_singular(examined) {
+            return Property::refuted("det (A Ã) = 0".to_owned());
+        }
         let witness = "det (A Ã) cannot be told from zero".to_owned();
         return Property::undecided(BITS[BITS.len() - 1], witness);
     };
@@ -64,10 +73,19 @@ pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
     Property::holding(evidence, Some(format!("det (A Ã) ≈ {determinant}")))
 }
 
-/// Decides it for one stage: `a_11 = 0`, `b_1 = b̃_1 = 1`, and so `ã_11 = 1`.
-fn with_its_end<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
-    let needed = [
+/// Decides it for one stage: `b_1 = b̃_1 = 1`, and `a_11 = 0`, `ã_11 = 1` or `a_11 = 1`, `ã_11 = 0`.
+fn with_an_end<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
+    let (at_start, at_end) = (
         end_stages::first_row_zero(examined),
+        end_stages::stiffly_accurate(examined),
+    );
+    let (end, witness) = if at_end.holds {
+        (at_end, "q0 is a stage of weight 0 before it")
+    } else {
+        (at_start, "q1 is a second stage, of weight 0")
+    };
+    let needed = [
+        end,
         consistent::decide(examined),
         symplectic::decide(examined),
     ];
@@ -77,8 +95,7 @@ fn with_its_end<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
     let evidence = needed.iter().fold(Evidence::Proved, |evidence, property| {
         evidence.and(property.evidence)
     });
-    let witness = "q1 is a second stage, of weight 0".to_owned();
-    Property::holding(evidence, Some(witness))
+    Property::holding(evidence, Some(witness.to_owned()))
 }
 
 /// Two stages, counted from 1, that coincide.
@@ -90,6 +107,50 @@ fn equal_stages<A: StageAlgebra>(examined: &Examined<'_, A>) -> Option<(usize, u
         [i, j, ..] => Some((i + 1, j + 1)),
         _ => None,
     })
+}
+
+/// With more stages the rational functions of an elimination may become too long.
+const MOST_STAGES: usize = 12;
+
+/// Whether `det X = 0` by exact arithmetic, which needs a field of constants whose equations are decided.
+///
+/// The first row and the last column of `A Ã` are zero, so `det X = ± det (A Ã + 𝟙 𝟙ᵀ)`. This is the determinant of a linear map, in any
+/// basis of the functions of the stages.
+fn is_singular<A: StageAlgebra>(examined: &Examined<'_, A>) -> bool {
+    let pair = examined.pair;
+    let (algebra, stages) = (&*pair.algebra, pair.algebra.stages());
+    let field = algebra.constants();
+    if algebra.verified_bits().is_some() || field.is_costly() && stages > MOST_STAGES {
+        return false;
+    }
+    let one = algebra.constant(&BigRational::one());
+    let (ones, sums) = (algebra.coordinates(&one), algebra.functional(&one));
+    let [a, a_tilde] = [&pair.a, &pair.a_tilde].map(|m| algebra.operator(m));
+    let entry = |i: usize, k: usize| {
+        let products = (0..stages).map(|j| field.multiply(&a[i][j], &a_tilde[j][k]));
+        let first = field.multiply(&ones[i], &sums[k]);
+        products.fold(first, |sum, product| field.add(&sum, &product))
+    };
+    let row = |i| (0..stages).map(|k| entry(i, k)).collect();
+    let mut rows: Vec<Vec<_>> = (0..stages).map(row).collect();
+    for column in 0..stages {
+        let candidates: Vec<_> = rows[column..].iter().map(|row| &row[column]).collect();
+        let Some(pivot) = field.pivot(&candidates) else {
+            return candidates.iter().all(|x| field.zero(x) == Zero::Yes);
+        };
+        rows.swap(column, column + pivot);
+        let reference = rows[column].clone();
+        let Some(inverse) = field.inverse(&reference[column]) else {
+            return false;
+        };
+        for row in &mut rows[column + 1..] {
+            let factor = field.multiply(&row[column], &inverse);
+            for (x, r) in row.iter_mut().zip(&reference) {
+                *x = field.subtract(x, &field.multiply(&factor, r));
+            }
+        }
+    }
+    false
 }
 
 /// The matrix X, in enclosures with this many binary places.
@@ -163,7 +224,7 @@ mod tests {
     #[test]
     fn what_refutes_it_is_named() {
         for (definition, witness) in [
-            ("basis: polynomial(1), nodes: [1]", "a_11 = 1"),
+            ("basis: polynomial(1), nodes: [1/2]", "a_11 = 1/2"),
             ("basis: polynomial(2), nodes: gauss(2)", "a_11 = "),
             (
                 "basis: polynomial(2), nodes: radau-left(2)",
@@ -182,10 +243,59 @@ mod tests {
         }
     }
 
+    /// Three stages with `a_2j = c b_j` up to `change` in `a_21`: `det X = b_1 b_2 (Σ_j a_2j²/b_j − c_2²)` is zero without the change,
+    /// and `5/9 change²` with it.
+    fn three_stages(c: &str, change: &str) -> Property {
+        // ã_ij = b_j (1 − a_ji/b_i)
+        property(&format!(
+            "a: [[0, 0, 0], [{c}/6 + {change}, 2/3*{c}, {c}/6], [1/6, 2/3, 1/6]], b: [1/6, 2/3, 1/6], \
+             a_tilde: [[1/6, 2/3 - 2/3*{c} - 4*{change}, 0], [1/6, 2/3 - 2/3*{c}, 0], [1/6, 2/3 - 2/3*{c}, 0]], \
+             b_tilde: [1/6, 2/3, 1/6]"
+        ))
+    }
+
+    /// No two stages coincide, and yet the multipliers are not unique.
     #[test]
-    fn symplectic_euler_ends_on_the_constraints() {
-        let found = property("basis: polynomial(1), nodes: [0]");
-        assert!(found.holds && found.evidence == Evidence::Proved, "{found}");
+    fn a_zero_determinant_is_decided_exactly() {
+        for c in ["1/2", "sqrt(3)/3", "cos(1)"] {
+            let found = three_stages(c, "0");
+            assert_eq!(found.to_string(), "no, refuted: det (A Ã) = 0", "{c}");
+            let found = three_stages(c, "1/10^30");
+            assert!(found.holds, "{c}: {found}");
+            assert!(
+                found.witness.expect("a determinant").contains("e-61"),
+                "{c}"
+            );
+        }
+    }
+
+    /// Expressions of two transcendental numbers have no exact arithmetic.
+    #[test]
+    fn a_zero_determinant_of_expressions_remains_undecided() {
+        let c = "cos(1)*exp(1)/3";
+        let found = three_stages(c, "0");
+        assert!(!found.holds, "{found}");
+        assert_eq!(
+            found.evidence,
+            Evidence::Undecided { bits: 4096 },
+            "{found}"
+        );
+        assert!(
+            found
+                .to_string()
+                .contains("det (A Ã) cannot be told from zero"),
+            "{found}"
+        );
+        assert!(three_stages(c, "1/10^30").holds);
+    }
+
+    #[test]
+    fn symplectic_euler_and_its_adjoint_end_on_the_constraints() {
+        for (node, witness) in [(0, "q1 is a second stage"), (1, "q0 is a stage")] {
+            let found = property(&format!("basis: polynomial(1), nodes: [{node}]"));
+            assert!(found.holds && found.evidence == Evidence::Proved, "{found}");
+            assert!(found.to_string().contains(witness), "{found}");
+        }
     }
 
     #[test]

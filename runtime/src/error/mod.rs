@@ -88,8 +88,9 @@ pub enum Error {
 
     /// An evaluation of the system changed the dimension of its output vector.
     #[error(
-        "step {step} of size {step_size} at time {time}: the {what} at stage {stage} has dimension {found} instead \
-         of {expected}; the system has to write into the vector it is given without resizing it"
+        "step {step} of size {step_size} at time {time}: the {what}{} has dimension {found} instead \
+         of {expected}; the system has to write into the vector it is given without resizing it",
+        AtStage(*.stage)
     )]
     EvaluationDimension {
         /// Time at the start of the step.
@@ -100,8 +101,24 @@ pub enum Error {
         step: u64,
         /// The quantity that has the wrong dimension.
         what: Quantity,
-        /// Its stage, from 1, among the stages that the plan stores.
-        stage: usize,
+        /// Its stage, from 1, among the stages that the plan stores; `None` outside the stages.
+        stage: Option<usize>,
+        /// Dimension of the state.
+        expected: usize,
+        /// Dimension of the evaluation.
+        found: usize,
+    },
+
+    /// An evaluation of the system at a given state changed the dimension of its output vector.
+    #[error(
+        "the {what} of the state at time {time} has dimension {found} instead of {expected}; the system has to write into the vector it \
+         is given without resizing it"
+    )]
+    ResizedEvaluation {
+        /// The time of the state.
+        time: f64,
+        /// The quantity that has the wrong dimension.
+        what: Quantity,
         /// Dimension of the state.
         expected: usize,
         /// Dimension of the evaluation.
@@ -453,7 +470,8 @@ pub enum Error {
     /// position at its end.
     #[error(
         "step {step} of size {step_size} at time {time}: the Lagrangian does not determine component {component} at the end of the step \
-         (pivot {pivot:e}); take a Lagrangian that determines every velocity, or keep away from this position"
+         (pivot {pivot:e}); take a Lagrangian that determines every velocity, or keep away from this position. If ∂²L/∂v∂v is singular, \
+         `primary_constraints` returns what the momenta then obey, and `DiracIntegrator` steps such a Lagrangian"
     )]
     IrregularLagrangian {
         /// Time at the start of the step.
@@ -481,7 +499,8 @@ pub enum Error {
     /// constraints on the momenta.
     #[error(
         "{method} has more nodes than functions, and the Lagrangian is degenerate: ∂L/∂v does not determine component {component} of the \
-         velocity, and momenta would leave its primary constraints; take a method with as many functions as nodes"
+         velocity, and momenta would leave the primary constraint on this component of p, which `primary_constraints` returns; take a \
+         method with as many functions as nodes"
     )]
     DegenerateLagrangian {
         /// Name of the method.
@@ -563,9 +582,9 @@ pub enum Error {
         pivot: f64,
     },
 
-    /// β of Newmark's method is negative or not finite.
+    /// β of Newmark's method is not finite.
     #[error(
-        "β of Newmark's method is {value}; it must be finite and not negative, and 1/4 or more for steps of any size"
+        "β of Newmark's method is {value}; it must be finite, and 1/4 or more for steps of any size"
     )]
     NewmarkBeta {
         /// The β given.

@@ -58,6 +58,8 @@ impl<V: Vector, S: System<V, Class = Damped>> System<V> for AsSeparable<'_, S> {
 struct DampedKicks<'a, C> {
     /// The change of the momentum by a kick of the system.
     change: &'a mut C,
+    /// The dimension of the first change of a wrong dimension.
+    resized: &'a mut Option<usize>,
 }
 
 impl<C: Vector> KickDrift for DampedKicks<'_, C> {
@@ -89,6 +91,11 @@ impl<C: Vector> KickDrift for DampedKicks<'_, C> {
         if let Some(change) = same_mut::<C, V>(self.change)
             && system.kick(V::Scalar::from_f64(time), position, force, p, change)
         {
+            let found = change.dimension();
+            if found != p.dimension() {
+                self.resized.get_or_insert(found);
+                return;
+            }
             let momenta = p.as_mut_slice().iter_mut().zip(p_low.as_mut_slice());
             for ((p, low), &change) in momenta.zip(change.as_slice()) {
                 (*p, *low) = add::<R, _>(*p, *low, 1, |_| change);
@@ -141,6 +148,8 @@ impl<C: Vector> KickDrift for DampedKicks<'_, C> {
 pub struct DampedMemory<V> {
     evaluations: Evaluations<V>,
     change: V,
+    /// The dimension of the first change of the momentum of a wrong dimension, in the last step.
+    resized: Option<usize>,
 }
 
 impl<V: Vector> StageStorage<V> for DampedMemory<V> {
@@ -148,6 +157,7 @@ impl<V: Vector> StageStorage<V> for DampedMemory<V> {
         Self {
             evaluations: Evaluations::like(prototype),
             change: prototype.zeros_like(),
+            resized: None,
         }
     }
 
@@ -161,7 +171,8 @@ impl<V: Vector> StageStorage<V> for DampedMemory<V> {
 
     #[inline]
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
-        self.evaluations.mismatch(dimension)
+        let kick = self.resized.map(|found| (Quantity::Momentum, 1, found));
+        kick.or_else(|| self.evaluations.mismatch(dimension))
     }
 }
 
@@ -197,8 +208,10 @@ impl<M: Method> Plan for DampedPlan<M> {
         let DampedMemory {
             evaluations,
             change,
+            resized,
         } = memory;
-        let mut kick_drift = DampedKicks { change };
+        *resized = None;
+        let mut kick_drift = DampedKicks { change, resized };
         let separable = AsSeparable(system);
         Ok(M::Separable::take_by::<R, V, _, _, ()>(
             step,
@@ -227,8 +240,10 @@ impl<M: Method> Plan for DampedPlan<M> {
         let DampedMemory {
             evaluations,
             change,
+            resized,
         } = memory;
-        let mut kick_drift = DampedKicks { change };
+        *resized = None;
+        let mut kick_drift = DampedKicks { change, resized };
         let separable = AsSeparable(system);
         let kept = WarmStart::default();
         M::Separable::take_by::<R, V, _, _, W>(
@@ -257,6 +272,11 @@ impl<M: Method> Plan for DampedPlan<M> {
         let own_kicks = system.kick(V::Scalar::from_f64(0.0), q, rate, momentum, &mut applied);
         if S::FORCED && own_kicks {
             system.applied_force(V::Scalar::from_f64(time), q, momentum, &mut applied);
+            if applied.dimension() != rate.dimension() {
+                // Dense output refuses a rate of this dimension.
+                *rate = applied;
+                return;
+            }
             let pairs = rate.as_mut_slice().iter_mut().zip(applied.as_slice());
             pairs.for_each(|(rate, &applied)| *rate += applied);
         }

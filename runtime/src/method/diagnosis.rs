@@ -109,7 +109,7 @@ impl Attempt {
                 step_size,
                 step,
                 what,
-                stage,
+                stage: Some(stage),
                 expected: dimension,
                 found,
             };

@@ -92,6 +92,17 @@ impl<V: Vector> Ends<V> {
             integrator.system().velocity(at, q, p, velocity);
             integrator.momentum_rate(time, q, p, force);
             for (what, value) in [(Quantity::Velocity, velocity), (Quantity::Force, force)] {
+                if value.dimension() != q.dimension() {
+                    return Err(Error::EvaluationDimension {
+                        time,
+                        step_size: last.size,
+                        step: integrator.steps(),
+                        what,
+                        stage: None,
+                        expected: q.dimension(),
+                        found: value.dimension(),
+                    });
+                }
                 if !is_finite(value) {
                     return Err(Error::NonFinite {
                         time,

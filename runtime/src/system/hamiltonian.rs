@@ -204,6 +204,9 @@ pub trait Hamiltonian {
     /// where a method has its order for general Hamiltonians (Marsden & West, 2001, Example 3.2.5). A separable system with a force that
     /// depends on time and positions only stays separable.
     ///
+    /// The time of a stage is `t0 + c_i h`, even if the nodes c̃ of the momenta differ, as in Störmer–Verlet: time counts as one more
+    /// position, with velocity 1. So the order holds for forces of time and momentum, too.
+    ///
     /// ```
     /// use symplectic::nalgebra::SVector;
     /// use symplectic::{Error, General, Hamiltonian, Integrator, Scalar, State};

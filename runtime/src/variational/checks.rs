@@ -55,13 +55,14 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] if the positions differ in dimension.
+    /// [`Error::Dimension`] if the positions differ in dimension; [`Error::ResizedEvaluation`] if a force does.
     pub fn momenta<L>(&self, lagrangian: &L) -> Result<(V, V), Error>
     where
         L: DiscreteLagrangian<Vector<f64> = V>,
     {
         let mut derivatives = self.derivatives_like::<L>()?;
         derivatives.first(lagrangian, self.at());
+        derivatives.check(self.time)?;
         let (mut p0, mut p1) = (self.q0.zeros_like(), self.q0.zeros_like());
         let pairs = p0.as_mut_slice().iter_mut().zip(&derivatives.start);
         pairs.for_each(|(p, start)| *p = -start);
@@ -73,13 +74,14 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] if the positions differ in dimension.
+    /// [`Error::Dimension`] if the positions differ in dimension; [`Error::ResizedEvaluation`] if a force does.
     pub fn is_regular<L>(&self, lagrangian: &L) -> Result<bool, Error>
     where
         L: DiscreteLagrangian<Vector<f64> = V>,
     {
         let mut derivatives = self.derivatives_like::<L>()?;
         derivatives.second(lagrangian, self.at());
+        derivatives.check(self.time)?;
         let mut factors = Factors::new(self.q0.dimension());
         Ok(factors.factor(&derivatives.mixed).is_ok())
     }
@@ -101,7 +103,7 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] if the positions differ in dimension.
+    /// [`Error::Dimension`] if the positions differ in dimension; [`Error::ResizedEvaluation`] if a force does.
     pub fn momentum_maps<L>(
         &self,
         lagrangian: &L,
@@ -127,7 +129,7 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] if the positions differ in dimension.
+    /// [`Error::Dimension`] if the positions differ in dimension; [`Error::ResizedEvaluation`] if a force does.
     pub fn difference<L, K>(&self, one: &L, other: &K, q2: &V) -> Result<(f64, f64), Error>
     where
         L: DiscreteLagrangian<Vector<f64> = V>,
@@ -142,12 +144,16 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
         let (mut ours, mut theirs) = (self.derivatives_like::<L>()?, self.derivatives_like::<K>()?);
         ours.second(one, self.at());
         theirs.second(other, self.at());
+        ours.check(self.time)?;
+        theirs.check(self.time)?;
         let (mut next_ours, mut next_theirs) = (
             following.derivatives_like::<L>()?,
             following.derivatives_like::<K>()?,
         );
         next_ours.first(one, following.at());
         next_theirs.first(other, following.at());
+        next_ours.check(following.time)?;
+        next_theirs.check(following.time)?;
         let differences = |a: &[f64], b: &[f64]| {
             let pairs = a.iter().zip(b);
             pairs.fold(0.0_f64, |largest, (a, b)| largest.max(Float::abs(a - b)))

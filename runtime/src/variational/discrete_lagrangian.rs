@@ -5,7 +5,8 @@ use alloc::vec::Vec;
 
 use num_traits::Zero;
 
-use crate::error::Error;
+use super::failure::Failure;
+use crate::error::{Error, Quantity};
 use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
 
@@ -88,6 +89,8 @@ pub(super) struct Derivatives<L: DiscreteLagrangian> {
     q1: L::Vector<HyperDual>,
     minus: L::Vector<HyperDual>,
     plus: L::Vector<HyperDual>,
+    /// The dimension of a discrete force, if it is wrong.
+    resized: Option<usize>,
     /// Ld.
     pub(super) value: f64,
     /// `D1 Ld + f_d⁻`
@@ -108,6 +111,7 @@ impl<L: DiscreteLagrangian> Derivatives<L> {
             q1: zeros()?,
             minus: zeros()?,
             plus: zeros()?,
+            resized: None,
             value: 0.0,
             start: vec![0.0; n],
             end: vec![0.0; n],
@@ -187,7 +191,33 @@ impl<L: DiscreteLagrangian> Derivatives<L> {
         self.value.is_finite() && numbers.all(|number| number.is_finite())
     }
 
+    /// Why the last evaluation is not finite.
+    pub(super) fn failure(&self) -> Failure {
+        let stage = None;
+        match self.resized {
+            Some(found) => Failure::Resized {
+                stage,
+                expected: self.start.len(),
+                found,
+            },
+            None => Failure::NonFinite { stage },
+        }
+    }
+
+    /// [`Error::ResizedEvaluation`] if the last evaluation of the forces has a wrong dimension.
+    pub(super) fn check(&self, time: f64) -> Result<(), Error> {
+        self.resized.map_or(Ok(()), |found| {
+            Err(Error::ResizedEvaluation {
+                time,
+                what: Quantity::DiscreteLagrangian,
+                expected: self.start.len(),
+                found,
+            })
+        })
+    }
+
     fn place(&mut self, at: At<'_, L::Vector<f64>>) {
+        self.resized = None;
         for (dual, from) in [(&mut self.q0, at.q0), (&mut self.q1, at.q1)] {
             let pairs = dual.as_mut_slice().iter_mut().zip(from.as_slice());
             pairs.for_each(|(dual, &value)| *dual = HyperDual::from_f64(value));
@@ -218,6 +248,14 @@ impl<L: DiscreteLagrangian> Derivatives<L> {
         let [time, size] = [at.time, at.size].map(HyperDual::from_f64);
         let (q0, q1) = (&self.q0, &self.q1);
         lagrangian.forces(time, size, q0, q1, &mut self.minus, &mut self.plus);
+        for force in [&mut self.minus, &mut self.plus] {
+            let found = force.dimension();
+            if found != q0.dimension() {
+                self.resized = Some(found);
+                force.clone_from(q0);
+                (force.as_mut_slice()).fill(HyperDual::from_f64(f64::NAN));
+            }
+        }
     }
 
     fn add_forces(&mut self, lagrangian: &L, at: At<'_, L::Vector<f64>>) {

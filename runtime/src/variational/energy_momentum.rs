@@ -170,7 +170,7 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
         };
         self.derivatives.first(&self.lagrangian, at);
         if !(self.derivatives.is_finite() && energy.is_finite()) {
-            return Err(self.error(Failure::NonFinite { stage: None }));
+            return Err(self.error(self.derivatives.failure()));
         }
         let Derivatives {
             start, end: last, ..
@@ -220,7 +220,7 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
         for _ in 0..MAX_ITERATIONS {
             let found = self.evaluate(size);
             if !(self.derivatives.is_finite() && found.is_finite()) {
-                return Err(Failure::NonFinite { stage: None });
+                return Err(self.derivatives.failure());
             }
             let missing = energy.map(|energy| found - energy);
             if missing.is_none() {

@@ -9,6 +9,12 @@ pub(super) enum Failure {
     NonFinite {
         stage: Option<usize>,
     },
+    /// An evaluation has a wrong dimension.
+    Resized {
+        stage: Option<usize>,
+        expected: usize,
+        found: usize,
+    },
     Singular(Singular),
     NotFound {
         residual: f64,
@@ -26,6 +32,19 @@ impl Failure {
                 step,
                 what,
                 stage,
+            },
+            Self::Resized {
+                stage,
+                expected,
+                found,
+            } => Error::EvaluationDimension {
+                time,
+                step_size,
+                step,
+                what,
+                stage,
+                expected,
+                found,
             },
             Self::Singular(Singular { component, pivot }) => Error::IrregularLagrangian {
                 time,

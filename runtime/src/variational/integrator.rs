@@ -194,7 +194,7 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
         }
         let mut numbers = p.as_slice().iter();
         if !(self.derivatives.value.is_finite() && numbers.all(|number| number.is_finite())) {
-            return Err(Failure::NonFinite { stage: None });
+            return Err(self.derivatives.failure());
         }
         core::mem::swap(q, &mut self.q1);
         Ok(())
@@ -214,7 +214,7 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
             };
             self.derivatives.second(&self.lagrangian, at);
             if !self.derivatives.is_finite() {
-                return Err(Failure::NonFinite { stage: None });
+                return Err(self.derivatives.failure());
             }
             self.factors
                 .factor(&self.derivatives.mixed)

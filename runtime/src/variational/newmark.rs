@@ -41,12 +41,13 @@ use crate::system::{Hamiltonian, Separable, System};
 /// | 1/6 | linear acceleration; stable for hω < 2√3 |
 /// | 1/4 | average acceleration: linear oscillators are stable at every step size |
 ///
-/// All of them have order 2. For β < 0 the stability limit is lower than that of Störmer–Verlet; such a β is refused.
+/// Every β has order 2. For β < 1/4 a linear oscillator is stable for `(hω)² < 4/(1 − 4β)`. β < 0 lowers this limit; no method in use has
+/// such a β.
 ///
 /// # Energy
 ///
-/// [`energy`](System::energy) is the Hamiltonian of the shifted system, `H(q, p) + βh²/2 ∇V·M⁻¹∇V`. If V is convex, the potential in x is
-/// the minimum of `V(q) + |q − x|²/(2βh²)`, in the norm of M. With an [applied force](Hamiltonian::applied_force) there is no energy.
+/// [`energy`](System::energy) is the Hamiltonian of the shifted system, `H(q, p) + βh²/2 ∇V·M⁻¹∇V`. If β > 0 and V is convex, the potential in x
+/// is the minimum of `V(q) + |q − x|²/(2βh²)`, in the norm of M. With an [applied force](Hamiltonian::applied_force) there is no energy.
 ///
 /// # Step size
 ///
@@ -105,10 +106,10 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::NewmarkBeta`] if `beta` is negative or not finite; [`Error::StepSize`].
+    /// [`Error::NewmarkBeta`] if `beta` is not finite; [`Error::StepSize`].
     pub fn new(system: S, beta: f64, step_size: f64) -> Result<Self, Error> {
         check_step_size(step_size)?;
-        if !(beta >= 0.0 && beta.is_finite()) {
+        if !beta.is_finite() {
             return Err(Error::NewmarkBeta { value: beta });
         }
         Ok(Self {
@@ -122,7 +123,8 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`]; [`Error::NonFiniteState`] for the state or its force; [`Error::NewmarkMasses`] if the velocity is not `M⁻¹p`
+    /// [`Error::Dimension`]; [`Error::NonFiniteState`] for the state or its force; [`Error::ResizedEvaluation`];
+    /// [`Error::NewmarkMasses`] if the velocity is not `M⁻¹p`
     /// with a constant M.
     pub fn shift(&self, state: &State<S::Vector<f64>>) -> Result<State<S::Vector<f64>>, Error> {
         let State { time, q, p } = state;
@@ -134,7 +136,21 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
                 linear: found.linear,
             });
         }
-        let (_, acceleration) = self.acceleration(*time, q);
+        let (force, acceleration) = self.acceleration(*time, q);
+        for (what, found) in [
+            (Quantity::Force, &force),
+            (Quantity::Velocity, &acceleration),
+        ] {
+            let (expected, found) = (q.dimension(), found.dimension());
+            if found != expected {
+                return Err(Error::ResizedEvaluation {
+                    time: *time,
+                    what,
+                    expected,
+                    found,
+                });
+            }
+        }
         if !is_finite(&acceleration) {
             let what = Quantity::Force;
             return Err(Error::NonFiniteState { what });
@@ -226,6 +242,8 @@ impl<S: Hamiltonian<Class = Separable>> System<S::Vector<f64>> for Newmark<S> {
     ) {
         let evaluate = |q: &S::Vector<f64>| Hamiltonian::force(&self.system, time, q, q, force);
         if self.at_position(time, q, evaluate).is_err() {
+            // A wrong dimension may be why there is no position; the step finds it here.
+            Hamiltonian::force(&self.system, time, q, q, force);
             force.as_mut_slice().fill(f64::NAN);
         }
     }

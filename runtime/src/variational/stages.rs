@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use super::two_ends::{dot, solve};
-use crate::error::Error;
+use crate::error::{Error, Quantity};
 use crate::integrator::Integrator;
 use crate::method::diagnosis::{Attempt, FirstFault};
 use crate::method::{Failure, Method, Plan, Solver, StageView, Step, Stopping};
@@ -94,12 +94,13 @@ impl<V: Vector> StagesOfStep<V> {
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Takes one step and returns its stages, for balances of energy and momentum, and for the discrete action.
     ///
-    /// The stages are computed again, to rounding, by fixed-point iteration, and memory is allocated. Use it for tests and reports, not for
-    /// every step of a long run.
+    /// The solver of the step keeps its stages in a form of its own. So they are computed once more, to rounding and from no starting
+    /// values, by fixed-point iteration: together two to four times as many evaluations as a step. Memory is allocated. Use it for tests and
+    /// reports, not for every step of a long run.
     ///
     /// # Errors
     ///
-    /// Those of [`step`](Self::step); [`Error::OtherClass`] for a system of class [`Damped`](crate::Damped), whose kicks are exact flows
+    /// Those of [`step`](Self::step), [`Error::EvaluationDimension`] for the applied force too; [`Error::OtherClass`] for a system of class [`Damped`](crate::Damped), whose kicks are exact flows
     /// without stages. The state is then unchanged.
     ///
     /// ```
@@ -149,7 +150,7 @@ fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
             class: "General",
         });
     }
-    let mut stages = Vec::new();
+    let (mut stages, mut mismatch) = (Vec::new(), None);
     let mut add = |view: StageView<'_, V>| {
         let [mut velocity, mut force, mut applied] = core::array::from_fn(|_| step.q.zeros_like());
         let (q, p) = (view.q, view.p);
@@ -157,6 +158,16 @@ fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
         system.velocity(momentum_time, q, p, &mut velocity);
         system.force(time, q, p, &mut force);
         system.applied_force(time, q, p, &mut applied);
+        let evaluations = [
+            (Quantity::Velocity, &velocity),
+            (Quantity::Force, &force),
+            (Quantity::Force, &applied),
+        ];
+        for (what, found) in evaluations.map(|(what, vector)| (what, vector.dimension())) {
+            if found != q.dimension() {
+                mismatch.get_or_insert((what, stages.len() + 1, found));
+            }
+        }
         stages.push(StageOfStep {
             weight: view.weight,
             time: view.time,
@@ -189,6 +200,17 @@ fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
                 });
             }
         }
+    }
+    if let Some((what, stage, found)) = mismatch {
+        return Err(Error::EvaluationDimension {
+            time: step.time,
+            step_size: step.size,
+            step: number,
+            what,
+            stage: Some(stage),
+            expected: step.q.dimension(),
+            found,
+        });
     }
     Ok(StagesOfStep { stages })
 }

@@ -179,3 +179,36 @@ fn the_angular_momentum_that_friction_takes() -> Result<(), Error> {
     assert!((slope - 4.0).abs() < 0.05, "{slope}: {errors:?}");
     Ok(())
 }
+
+/// The stages are found once more, from rest, by fixed-point iteration: the evaluations of a step with its stages over those of a step.
+#[test]
+fn stages_cost_evaluations() -> Result<(), Error> {
+    let evaluations = std::cell::Cell::new(0_u32);
+    let count = || evaluations.set(evaluations.get() + 1);
+    let system = symplectic::separable::<SVector<f64, 1>, _, _>(
+        |_, p, velocity| {
+            count();
+            *velocity = *p;
+        },
+        |_, q, force| {
+            count();
+            force[0] = -q[0].sin();
+        },
+    );
+    let start = State::from_arrays(0.0, [0.4], [0.9]);
+    let mut run = Integrator::new(Gauss3, system, start, 0.1)?;
+    let mut costs = [0; 2];
+    for step in 0..20 {
+        evaluations.set(0);
+        run.step()?;
+        let without = evaluations.replace(0);
+        run.step_with_stages()?;
+        if step >= 10 {
+            costs[0] += without;
+            costs[1] += evaluations.get();
+        }
+    }
+    let ratio = f64::from(costs[1]) / f64::from(costs[0]);
+    assert!((2.0..4.0).contains(&ratio), "{ratio} {costs:?}");
+    Ok(())
+}

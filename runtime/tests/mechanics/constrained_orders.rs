@@ -57,15 +57,15 @@ macro_rules! orders {
 
 orders! {
     orders_on_the_double_spherical_pendulum: DoubleSpherical, double_start(), [
-        Euler 640 1, Rattle 40 2, Lobatto3 40 4, Lobatto4 20 6, Quarter 80 2, NewtonCotes4 80 2, ClenshawCurtis5 32 4, Waves 80 2,
+        Euler 640 1, AdjointEuler 640 1, HalfSteps 40 2, Rattle 40 2, Lobatto3 40 4, Lobatto4 20 6, Quarter 80 2, NewtonCotes4 80 2, ClenshawCurtis5 32 4, Waves 80 2,
         Rattle4 80 4, Rattle6 60 6,
     ];
     orders_with_a_kinetic_energy_that_depends_on_the_place: Bead, sphere_start(), [
-        Euler 320 1, Rattle 40 2, Lobatto3 32 4, Lobatto4 10 6, Lobatto5 7 8, Rattle4 80 4,
+        Euler 320 1, AdjointEuler 320 1, HalfSteps 40 2, Rattle 40 2, Lobatto3 32 4, Lobatto4 10 6, Lobatto5 7 8, Rattle4 80 4,
     ];
     orders_with_a_velocity_that_is_not_linear: Relativistic,
         consistent(&Relativistic, sphere_start()).expect("regular"), [
-        Euler 320 1, Rattle 40 2, Lobatto3 32 4, Lobatto4 8 6, Lobatto5 4 8, Rattle4 80 4,
+        Euler 320 1, AdjointEuler 320 1, HalfSteps 40 2, Rattle 40 2, Lobatto3 32 4, Lobatto4 8 6, Lobatto5 4 8, Rattle4 80 4,
     ];
     orders_with_an_applied_force: Resisted::new(), sphere_start(), [
         Rattle 64 2, Lobatto3 16 4, Lobatto4 8 6, Lobatto5 4 8, Rattle4 64 4,

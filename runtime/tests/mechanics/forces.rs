@@ -33,14 +33,6 @@ symplectic::hamiltonian! {
     force: { x = f cos(omega t) }
 }
 
-symplectic::hamiltonian! {
-    /// Friction that depends on time, and drives where it is negative.
-    pub Pumped
-    q: [x], p: [px];
-    H = (px^2 + x^4)/2
-    force: { x = -0.5 sin(2 t) px }
-}
-
 pub fn ring_start() -> State<Vector2<f64>> {
     State::from_arrays(0.0, [1.25, 0.0], [0.0, 0.5])
 }
@@ -50,7 +42,7 @@ fn distance<const N: usize>(a: &State<SVector<f64, N>>, b: &State<SVector<f64, N
 }
 
 /// How the error of steps of a method falls from one number of steps to twice as many.
-fn slope<M, S, const N: usize>(
+pub fn slope<M, S, const N: usize>(
     method: M,
     system: impl Fn() -> S,
     start: &State<SVector<f64, N>>,
@@ -113,16 +105,6 @@ fn orders_with_a_force_of_the_time() {
     }
 }
 
-/// Störmer–Verlet reads two clocks, and keeps its order with a force of time and momentum: the time of the force is a position.
-#[test]
-fn two_clocks_keep_the_order() {
-    let start = State::from_arrays(0.0, [1.0], [0.5]);
-    let mut run = Integrator::new(Gauss4, Pumped, start.clone(), 1.0 / 64.0).expect("a run");
-    let end = run.integrate_to(4.0).expect("steps").clone();
-    let found = slope(Lobatto2, || Pumped, &start, &end, 256);
-    assert!((found - 2.0).abs() < 0.05, "{found}");
-}
-
 /// `H_d⁺(q0, p1) = p1·q1 − L_d(q0, q1)`
 #[test]
 fn the_action_is_that_of_the_generating_function() -> Result<(), Error> {
@@ -155,7 +137,7 @@ symplectic::composition! {
     pub FourthRattle { base: lobatto-2, weights: triple_jump(4) }
 }
 
-fn swing() -> State<Vector3<f64>> {
+pub fn swing() -> State<Vector3<f64>> {
     State::from_arrays(0.0, [0.6, 0.0, -0.8], [0.4, 0.7, 0.3])
 }
 

@@ -1,7 +1,7 @@
 //! Galerkin methods with s basis functions and r ≥ s nodes (Leok & Zhang, 2011; Tang).
 
 use symplectic::nalgebra::{DMatrix, DVector, SVector, Vector2};
-use symplectic::variational::momentum_of_velocity;
+use symplectic::variational::{momentum_of_velocity, primary_constraints};
 use symplectic::{Error, Hamiltonian, Method, State};
 
 use crate::lagrangians::{
@@ -230,6 +230,20 @@ fn degenerate_lagrangians_need_as_many_functions_as_nodes() -> Result<(), Error>
         text.contains("more nodes than functions") && text.contains("component 1"),
         "{text}"
     );
+    let constraints = primary_constraints(
+        &Wrong { strange: false },
+        0.0,
+        &[1.0, 0.0].into(),
+        &[0.5, 0.5].into(),
+    )?;
+    let constraints: Vec<_> = constraints
+        .into_iter()
+        .map(|found| (found.direction.into(), found.value))
+        .collect();
+    assert!(
+        text.contains("`primary_constraints`") && constraints == [([0.0, 1.0], 0.0)],
+        "{text}"
+    );
     // With as many functions as nodes the steps keep the constraints.
     let mut run = Run::galerkin(Gauss2, Vortices, vortices, 0.1)?;
     for _ in 0..10 {
@@ -237,5 +251,69 @@ fn degenerate_lagrangians_need_as_many_functions_as_nodes() -> Result<(), Error>
         let off = [p[0] - q[1], p[1], p[2] - q[3], p[3]];
         assert!(off.iter().all(|off| off.abs() < 1e-15), "{off:?}");
     }
+    Ok(())
+}
+
+symplectic::lagrangian! {
+    /// Degenerate at rest only.
+    Quartic q: [x], v: [vx];
+    L = vx^4/4 - x^2/2
+}
+
+symplectic::lagrangian! {
+    /// A mass that vanishes at x = 0.
+    Massless q: [x, y], v: [vx, vy];
+    L = x vx^2/2 + vy^2/2 - x
+}
+
+/// What counts is the velocity of the state, not rest.
+#[test]
+fn a_lagrangian_that_is_degenerate_elsewhere_is_stepped() -> Result<(), Error> {
+    let start = State::from_arrays(0.0, [0.1], [8.0]);
+    let error = |steps: u32| -> Result<f64, Error> {
+        let mut run = Run::galerkin(TwoOfThree, Quartic, start.clone(), 2.0 / f64::from(steps))?;
+        let energy = run.energy()?;
+        run.integrate_to(2.0)?;
+        Ok((run.energy()? - energy).abs())
+    };
+    let found = (error(16)? / error(32)?).log2();
+    assert!((found - 4.0).abs() < 0.1, "{found}");
+    Ok(())
+}
+
+/// Where the mass vanishes, the momentum of x is zero: the start is refused for r > s, and the first step fails for r = s.
+#[test]
+fn a_lagrangian_that_is_degenerate_at_the_start_is_refused() -> Result<(), Error> {
+    let start = State::from_arrays(0.0, [0.0, 1.0], [0.0, 0.5]);
+    let (method, component) = ("TwoOfThree", 0);
+    let refused = Run::galerkin(TwoOfThree, Massless, start.clone(), 0.1).err();
+    assert_eq!(
+        refused,
+        Some(Error::DegenerateLagrangian { method, component })
+    );
+    let mut run = Run::galerkin(Gauss2, Massless, start.clone(), 0.1)?;
+    let error = run.step().map(|_| ()).expect_err("singular");
+    assert!(
+        matches!(
+            error,
+            Error::IrregularLagrangian {
+                component: 0,
+                step: 1,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    assert!(
+        error.to_string().contains("`primary_constraints`"),
+        "{error}"
+    );
+    assert_eq!(*run.state(), start);
+    let found = primary_constraints(&Massless, 0.0, &start.q, &[3.0, 0.5].into())?;
+    let found: Vec<_> = found
+        .into_iter()
+        .map(|found| (found.direction.into(), found.value))
+        .collect();
+    assert_eq!(found, [([1.0, 0.0], 0.0)]);
     Ok(())
 }

@@ -25,7 +25,7 @@ symplectic::hamiltonian! {
     H = sqrt(1 + px^2) + x^2/2
 }
 
-const BETAS: [f64; 4] = [0.0, 1.0 / 12.0, 1.0 / 6.0, 0.25];
+const BETAS: [f64; 5] = [-1.0 / 6.0, 0.0, 1.0 / 12.0, 1.0 / 6.0, 0.25];
 
 fn near(a: f64, b: f64) -> State<Vector2<f64>> {
     State::from_arrays(
@@ -74,7 +74,7 @@ fn textbook(beta: f64, h: f64, state: &mut State<Vector2<f64>>) {
 
 #[test]
 fn steps_are_those_of_the_textbook() -> Result<(), Error> {
-    for beta in [0.0, 1.0 / 12.0, 1.0 / 6.0, 0.25, 0.5] {
+    for beta in [-1.0 / 6.0, 0.0, 1.0 / 12.0, 1.0 / 6.0, 0.25, 0.5] {
         let mut expected = near(0.0, 0.0);
         let mut found = run(beta, &expected, 0.2)?;
         for _ in 0..50 {
@@ -144,7 +144,8 @@ fn defect(
 
 #[test]
 fn the_shifted_form_is_preserved() -> Result<(), Error> {
-    for (beta, changes) in [(0.0, false), (1.0 / 12.0, true), (0.25, true)] {
+    let shifts = [-1.0 / 6.0, 1.0 / 12.0, 0.25].map(|beta| (beta, true));
+    for (beta, changes) in [(0.0, false)].into_iter().chain(shifts) {
         let newmark = Newmark::new(Well, beta, 0.2)?;
         let step = |state: &State<Vector2<f64>>| {
             let mut run = Integrator::new(Lobatto2, newmark.clone(), state.clone(), 0.2)?;
@@ -228,9 +229,12 @@ fn average_acceleration_is_stable() -> Result<(), Error> {
         verlet.take_steps(1000),
         Err(Error::NonFinite { .. })
     ));
-    // β = 1/6: stable below hω = 2√3, and not above.
-    for (h, stable) in [(0.0346, true), (0.0347, false)] {
-        let newmark = Newmark::new(Oscillator::new(), 1.0 / 6.0, h)?;
+    // (hω)² < 4/(1 − 4β): stable below hω = 2√3 and √2.4, and not above.
+    let limits = [(1.0 / 6.0, 0.034_64), (-1.0 / 6.0, 0.015_49)];
+    for (beta, h, stable) in limits.into_iter().flat_map(|(beta, limit)| {
+        [(limit - 1e-5, true), (limit + 1e-4, false)].map(|(h, stable)| (beta, h, stable))
+    }) {
+        let newmark = Newmark::new(Oscillator::new(), beta, h)?;
         let mut run = Integrator::new(Lobatto2, newmark.clone(), newmark.shift(&start)?, h)?;
         let end = newmark.unshift(run.take_steps(500)?)?;
         assert_eq!(end.q[0].abs() < 100.0, stable, "{h}: {}", end.q[0]);
@@ -290,7 +294,7 @@ fn forces_of_the_time() -> Result<(), Error> {
 
 #[test]
 fn refusals() -> Result<(), Error> {
-    for value in [-0.1, f64::INFINITY] {
+    for value in [f64::NEG_INFINITY, f64::INFINITY] {
         let outcome = Newmark::new(Well, value, 0.1);
         assert_eq!(outcome.err(), Some(Error::NewmarkBeta { value }));
     }

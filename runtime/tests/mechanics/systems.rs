@@ -7,6 +7,8 @@ use symplectic::{Constrained, General, Hamiltonian, Scalar, Separable, State, co
 symplectic::tableau! {
     /// Symplectic Euler.
     pub Euler { basis: polynomial(1), nodes: [0], require: [constrained, order == 1] }
+    /// Its adjoint.
+    pub AdjointEuler { basis: polynomial(1), nodes: [1], require: [constrained, order == 1] }
     pub Rattle { basis: polynomial(2), nodes: lobatto(2), require: [constrained, order == 2] }
     pub Lobatto3 { basis: polynomial(3), nodes: lobatto(3), require: [constrained, order == 4] }
     pub Lobatto4 { basis: polynomial(4), nodes: lobatto(4), require: [constrained, order == 6] }
@@ -23,6 +25,10 @@ symplectic::tableau! {
 }
 
 symplectic::composition! {
+    /// The middle of a step is on the constraints.
+    pub HalfSteps { base: symplectic-euler, weights: [adjoint(1/2), 1/2], require: [order == 2] }
+    /// Its tableau is that of RATTLE.
+    pub OtherHalfSteps { base: symplectic-euler, weights: [1/2, adjoint(1/2)], require: [constrained, order == 2] }
     pub Rattle4 { base: lobatto-2, weights: triple_jump(4), require: [order == 4] }
     pub Rattle6 { base: lobatto-2, weights: triple_jump(6), require: [order == 6] }
 }

@@ -352,7 +352,7 @@ fn a_result_resized_by_the_system_is_an_error() {
             step_size: 0.1,
             step: 1,
             what: Quantity::Force,
-            stage: 1,
+            stage: Some(1),
             expected: 2,
             found: to,
         };

@@ -525,7 +525,7 @@ fn what_cannot_be_answered_is_an_error() {
             step_size: 0.1,
             step: 1,
             what: Quantity::Force,
-            stage: 1,
+            stage: Some(1),
             expected: 2,
             found: 3
         })

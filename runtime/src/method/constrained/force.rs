@@ -4,6 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::metric::{Metric, Point};
+use super::of_dimension::OfDimension;
 use super::start::error;
 use crate::error::{Error, Quantity};
 use crate::method::storage::is_finite;
@@ -32,7 +33,8 @@ pub struct ConstraintForce<V: Vector> {
 ///
 /// # Errors
 ///
-/// [`Error::InconsistentStart`] if the state is not on the constraints; [`Error::DependentConstraints`]; [`Error::NonFiniteState`].
+/// [`Error::InconsistentStart`] if the state is not on the constraints; [`Error::DependentConstraints`]; [`Error::NonFiniteState`];
+/// [`Error::ResizedEvaluation`].
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -74,9 +76,11 @@ where
 {
     let State { time, q, p } = state;
     super::check_start(system, *time, q, p)?;
+    let system = &OfDimension::new(system, q.dimension());
     let mut force = q.zeros_like();
     system.force(V::Scalar::from_f64(*time), q, p, &mut force);
-    let (multipliers, point) = multipliers(system, *time, (q, p), &force)?;
+    let found = multipliers(system, *time, (q, p), &force);
+    let (multipliers, point) = system.check(*time, found)?;
     force.as_mut_slice().fill(V::Scalar::from_f64(0.0));
     (point.gradients).subtract_transposed(&multipliers, force.as_mut_slice());
     if !is_finite(&force) {
@@ -94,6 +98,7 @@ pub(in crate::method) fn add_to_force<V: Vector, S: System<V>>(
     at: (&V, &V),
     force: &mut V,
 ) {
+    let system = &OfDimension::new(system, at.0.dimension());
     match multipliers(system, time, at, force) {
         Ok((multipliers, point)) => {
             (point.gradients).subtract_transposed(&multipliers, force.as_mut_slice());

@@ -10,7 +10,7 @@ use super::metric::{Metric, Point};
 use super::newton::StageJacobian;
 use super::resolution::Resolution;
 use crate::error::Quantity;
-use crate::method::storage::{first_mismatch, first_non_finite};
+use crate::method::storage::{first_non_finite, first_non_finite_of};
 use crate::method::{Method, StageStorage};
 use crate::number::{Scalar, Vector, Visit, scalar_words, vector_words};
 use crate::system::{Class, Gradients, System, Terms};
@@ -59,6 +59,8 @@ pub(super) struct Workspace<V: Vector> {
 pub struct ConstrainedStages<V: Vector> {
     /// None until the system is known.
     pub(super) workspace: Option<Workspace<V>>,
+    /// The first evaluation of a wrong dimension in the last step, and its dimension.
+    pub(super) resized: Option<(Quantity, usize)>,
     /// The result of a substep: position and momentum, each with its compensation.
     pub(super) between: [V; 4],
 }
@@ -116,6 +118,7 @@ impl<V: Vector> StageStorage<V> for ConstrainedStages<V> {
     fn like(prototype: &V) -> Self {
         Self {
             workspace: None,
+            resized: None,
             between: array::from_fn(|_| prototype.zeros_like()),
         }
     }
@@ -149,9 +152,15 @@ impl<V: Vector> StageStorage<V> for ConstrainedStages<V> {
         )
     }
 
-    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
-        let [velocity, force, _] = &self.workspace.as_ref()?.scratch;
-        first_mismatch(array::from_ref(force), array::from_ref(velocity), dimension)
+    fn mismatch(&self, _dimension: usize) -> Option<(Quantity, usize, usize)> {
+        let (what, found) = self.resized?;
+        // NaN took its place.
+        let workspace = self.workspace.as_ref()?;
+        let increments = match what {
+            Quantity::Force => &workspace.kick[..],
+            _ => &workspace.drift[..],
+        };
+        Some((what, first_non_finite_of(increments).unwrap_or(1), found))
     }
 
     fn forget(&mut self, _prototype: &V) {}

@@ -14,6 +14,7 @@ mod memory;
 mod metric;
 mod newton;
 mod normal_matrix;
+mod of_dimension;
 mod resolution;
 mod start;
 mod step;
@@ -23,6 +24,7 @@ pub use force::{ConstraintForce, constraint_force};
 pub(super) use last_impulse::LastImpulse;
 pub use memory::ConstrainedStages;
 pub(super) use metric::{Metric, Point};
+pub(super) use of_dimension::OfDimension;
 pub(crate) use start::check_start;
 pub use start::consistent;
 pub(super) use start::{CONSISTENT, Examined, check_numbers};
@@ -56,7 +58,8 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
     {
-        memory.workspace = Some(Workspace::new::<M, S>(system, time, q, p));
+        let system = &OfDimension::new(system, q.dimension());
+        memory.workspace = Some(Workspace::new::<M, _>(system, time, q, p));
     }
 
     fn check<V, S>(system: &S, time: f64, q: &V, p: &V) -> Result<(), Error>
@@ -152,19 +155,23 @@ impl<V: Vector> ConstrainedStages<V> {
     ) -> Result<StepStatistics, Failure> {
         let ConstrainedStages {
             workspace,
+            resized,
             between: [q, q_low, p, p_low],
         } = self;
+        let system = &OfDimension::new(system, step.q.dimension());
         let workspace = workspace
-            .get_or_insert_with(|| Workspace::new::<M, S>(system, step.time, step.q, step.p));
+            .get_or_insert_with(|| Workspace::new::<M, _>(system, step.time, step.q, step.p));
         let between = Outcome { q, q_low, p, p_low };
         let take = |number: usize, part: &Step<'_, V>, carried, here: &mut Outcome<'_, V>| {
             let tableau = M::CONSTRAINED[number].tableau;
             let taken =
-                workspace.take::<R, S>((number, tableau), part, system, carried, stopping, here);
+                workspace.take::<R, _>((number, tableau), part, system, carried, stopping, here);
             show_stages::<V, S>(tableau, part, (&workspace.q, &workspace.p), &mut show);
             taken
         };
-        in_turn(M::CONSTRAINED, step, kept, between, outcome, take)
+        let taken = in_turn(M::CONSTRAINED, step, kept, between, outcome, take);
+        *resized = system.resized();
+        taken
     }
 }
 

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use core::array;
 
 use super::metric::{Metric, Point};
+use super::of_dimension::OfDimension;
 use super::resolution::Resolution;
 use crate::error::{Error, Quantity};
 use crate::method::Failure;
@@ -209,7 +210,8 @@ pub(crate) fn check_start<V: Vector, S: System<V>>(
     q: &V,
     p: &V,
 ) -> Result<(), Error> {
-    let examined = Examined::new(system, time, q, p)?;
+    let system = &OfDimension::new(system, q.dimension());
+    let examined = system.check(time, Examined::new(system, time, q, p))?;
     check_gradients(system, q, &examined.point)?;
     let (position, momentum) = (examined.position(), examined.momentum());
     if position.1 <= CONSISTENT && momentum.1 <= CONSISTENT {
@@ -284,8 +286,8 @@ fn check_gradients<V: Vector, S: System<V>>(
 ///
 /// # Errors
 ///
-/// [`Error::NoConsistentState`] if the iteration does not converge; [`Error::DependentConstraints`], [`Error::NonFiniteState`], and the
-/// errors of a system whose constraints or gradients are wrong.
+/// [`Error::NoConsistentState`] if the iteration does not converge; [`Error::DependentConstraints`], [`Error::NonFiniteState`],
+/// [`Error::ResizedEvaluation`], and the errors of a system whose constraints or gradients are wrong.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -325,8 +327,18 @@ where
     S: System<V, Class = Constrained<C>>,
     C: Class + Unconstrained,
 {
-    let State { time, mut q, mut p } = state;
+    let State { time, q, p } = state;
     check_numbers(&q, &p)?;
+    let system = &OfDimension::new(system, q.dimension());
+    system.check(time, moved_onto(system, time, q, p))
+}
+
+fn moved_onto<V: Vector, S: System<V>>(
+    system: &S,
+    time: f64,
+    mut q: V,
+    mut p: V,
+) -> Result<State<V>, Error> {
     let mut examined = Examined::new(system, time, &q, &p)?;
     let mut best = f64::INFINITY;
     for _ in 0..ITERATIONS {

@@ -30,7 +30,9 @@ pub use start::consistent_momentum;
 use core::marker::PhantomData;
 
 use crate::error::Error;
-use crate::method::constrained::{add_to_force, in_turn, show_stages, taken_once_more};
+use crate::method::constrained::{
+    OfDimension, add_to_force, in_turn, show_stages, taken_once_more,
+};
 use crate::method::{
     EvaluationObserver, Failure, Inside, Interpolation, Method, Outcome, Plan, Solver,
     StageStorage, StageView, Step, StepStatistics, Stopping, WarmStart, check_no_friction,
@@ -55,7 +57,9 @@ impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
         S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
     {
-        memory.workspace = Some(Workspace::new::<M, _>(&RowsAsGradients(system), time, q, p));
+        let system = &RowsAsGradients(system);
+        let system = &OfDimension::new(system, q.dimension());
+        memory.workspace = Some(Workspace::new::<M, _>(system, time, q, p));
     }
 
     fn check<V, S>(system: &S, time: f64, q: &V, p: &V) -> Result<(), Error>
@@ -157,9 +161,11 @@ impl<V: Vector> NonholonomicStages<V> {
     {
         let NonholonomicStages {
             workspace,
+            resized,
             between: [q, q_low, p, p_low],
         } = self;
         let system = &RowsAsGradients(system);
+        let system = &OfDimension::new(system, step.q.dimension());
         let workspace = workspace
             .get_or_insert_with(|| Workspace::new::<M, _>(system, step.time, step.q, step.p));
         let between = Outcome { q, q_low, p, p_low };
@@ -170,6 +176,8 @@ impl<V: Vector> NonholonomicStages<V> {
             show_stages::<V, RowsAsGradients<'_, S>>(tableau, part, places, &mut show);
             taken
         };
-        in_turn(M::NONHOLONOMIC, step, kept, between, outcome, take)
+        let taken = in_turn(M::NONHOLONOMIC, step, kept, between, outcome, take);
+        *resized = system.resized();
+        taken
     }
 }

@@ -2,7 +2,7 @@
 
 use super::rows::RowsAsGradients;
 use crate::error::Error;
-use crate::method::constrained::{CONSISTENT, Examined, check_numbers};
+use crate::method::constrained::{CONSISTENT, Examined, OfDimension, check_numbers};
 use crate::number::Vector;
 use crate::state::State;
 use crate::system::{Class, Nonholonomic, System, Unconstrained};
@@ -14,7 +14,8 @@ pub(super) fn check_start<V: Vector, S: System<V>>(
     q: &V,
     p: &V,
 ) -> Result<(), Error> {
-    let examined = Examined::new(system, time, q, p)?;
+    let system = &OfDimension::new(system, q.dimension());
+    let examined = system.check(time, Examined::new(system, time, q, p))?;
     let (constraint, rate) = examined.momentum();
     if rate <= CONSISTENT {
         return Ok(());
@@ -38,7 +39,7 @@ pub(super) fn check_start<V: Vector, S: System<V>>(
 /// # Errors
 ///
 /// [`Error::NoConsistentState`] if the iteration does not converge; [`Error::DependentConstraints`],
-/// [`Error::NonFiniteState`], and the errors of a system whose rows are wrong.
+/// [`Error::NonFiniteState`], [`Error::ResizedEvaluation`], and the errors of a system whose rows are wrong.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -79,8 +80,10 @@ where
     let State { time, q, mut p } = state;
     check_numbers(&q, &p)?;
     let system = &RowsAsGradients(system);
-    let mut examined = Examined::new(system, time, &q, &p)?;
-    examined.project_momentum(system, time, &q, &mut p)?;
+    let system = &OfDimension::new(system, q.dimension());
+    let mut examined = system.check(time, Examined::new(system, time, &q, &p))?;
+    let projected = examined.project_momentum(system, time, &q, &mut p);
+    system.check(time, projected)?;
     let (constraint, rate) = examined.momentum();
     if rate <= CONSISTENT {
         check_numbers(&q, &p)?;

@@ -62,11 +62,11 @@ impl<L: DiracSystem> Equations<L> {
         self.add_impulse(system, n)?;
         for point in self.rule.points() {
             self.go(q0, point.place * part.size);
-            self.add_point(system, part, *point);
+            self.add_point(system, part, *point)?;
             self.add_discrete_constraint(system, part.size, *point)?;
         }
         self.look_at(q0, part.size);
-        self.add_end(system, part);
+        self.add_end(system, part)?;
         self.add_constraint_at_end(system, part.size)
     }
 
@@ -84,7 +84,12 @@ impl<L: DiracSystem> Equations<L> {
     }
 
     /// The contribution of a point of the rule to `D1 Ld` and `−D2 Ld`.
-    fn add_point(&mut self, system: &L, part: Part, Point { weight, place }: Point) {
+    fn add_point(
+        &mut self,
+        system: &L,
+        part: Part,
+        Point { weight, place }: Point,
+    ) -> Result<(), Failure> {
         let n = self.q.len();
         let time = match place {
             1.0 => part.end,
@@ -93,6 +98,9 @@ impl<L: DiracSystem> Equations<L> {
         let u = &self.unknowns[..n];
         self.derivatives.second(system, time, &self.q, u);
         let d = &self.derivatives;
+        if !d.is_finite() {
+            return Err(Failure::Evaluation(d.failure(None)));
+        }
         let way = place * part.size;
         // The weights of `L_q + f` in the two derivatives.
         let impulses = [weight * (part.size - way), weight * way];
@@ -119,6 +127,7 @@ impl<L: DiracSystem> Equations<L> {
             (self.linear).add_right(k, momentum - start, size(impulses[0]));
             (self.linear).add_right(n + k, momentum + end, size(impulses[1]));
         }
+        Ok(())
     }
 
     /// The contribution of a point of the rule to `w_d·u`.
@@ -148,11 +157,14 @@ impl<L: DiracSystem> Equations<L> {
     }
 
     /// L_v(q1, v1).
-    fn add_end(&mut self, system: &L, part: Part) {
+    fn add_end(&mut self, system: &L, part: Part) -> Result<(), Failure> {
         let n = self.q.len();
         self.derivatives
             .second(system, part.end, &self.q, &self.velocity);
         let d = &self.derivatives;
+        if !d.is_finite() {
+            return Err(Failure::Evaluation(d.failure(None)));
+        }
         for k in 0..n {
             let mut size = Float::abs(d.momentum[k]);
             for j in 0..n {
@@ -168,6 +180,7 @@ impl<L: DiracSystem> Equations<L> {
             }
             self.linear.add_right(n + k, -d.momentum[k], size);
         }
+        Ok(())
     }
 
     /// `−w(q1)ᵀμ` and `w(q1)·v1`.

@@ -1,12 +1,15 @@
 //! Why a step failed.
 
 use crate::error::{Error, Quantity};
+use crate::variational;
 
 /// Maximum number of Newton iterations; 2 to 6 are typical.
 pub(super) const MAX_ITERATIONS: u32 = 40;
 
 /// Why a step failed.
 pub(super) enum Failure {
+    /// An evaluation of the Lagrangian.
+    Evaluation(variational::failure::Failure),
     NonFinite,
     MovingRows,
     Dependent {
@@ -35,6 +38,7 @@ impl Failure {
                 what: Quantity::Lagrangian,
                 stage: None,
             },
+            Self::Evaluation(failure) => failure.error(Quantity::Lagrangian, time, step_size, step),
             Self::MovingRows => Error::MovingGradients { time },
             Self::Dependent { constraint } => Error::DependentConstraints {
                 time,

@@ -69,6 +69,7 @@ pub fn primary_constraints<L: Lagrangian>(
     let n = q.dimension();
     let mut derivatives = derivatives_like::<L>(q, v)?;
     derivatives.second(lagrangian, time, q.as_slice(), v.as_slice());
+    derivatives.check(time)?;
     let mut linear = RankElimination::new(n, n);
     for row in 0..n {
         for column in 0..n {
@@ -76,7 +77,7 @@ pub fn primary_constraints<L: Lagrangian>(
             linear.add(row, column, entry);
         }
     }
-    if !(derivatives.is_finite() && linear.is_finite()) {
+    if !linear.is_finite() {
         return Err(NOT_FINITE);
     }
     linear.eliminate(0..n, 0..n);
@@ -120,6 +121,7 @@ pub(super) fn consistent_velocity<L: DiracSystem>(
     let (mut v, mut settled) = (vec![0.0; n], false);
     for _ in 0..MAX_ITERATIONS {
         derivatives.second(system, *time, q, &v);
+        derivatives.check(*time)?;
         linear.clear();
         for (k, &p) in p.iter().enumerate() {
             let momentum = derivatives.momentum[k];

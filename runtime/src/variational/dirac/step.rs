@@ -73,7 +73,7 @@ impl<L: DiracSystem> Equations<L> {
         self.derivatives
             .first(system, part.end, &self.q, &self.velocity);
         if !self.derivatives.is_finite() {
-            return Err(Failure::NonFinite);
+            return Err(Failure::Evaluation(self.derivatives.failure(None)));
         }
         q.as_mut_slice().copy_from_slice(&self.q);
         p.as_mut_slice().copy_from_slice(&self.derivatives.momentum);

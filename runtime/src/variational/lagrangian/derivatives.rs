@@ -5,10 +5,11 @@ use alloc::vec::Vec;
 
 use num_traits::Zero;
 
-use crate::error::Error;
+use crate::error::{Error, Quantity};
 use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
 use crate::system::Lagrangian;
+use crate::variational::failure::Failure;
 
 /// The momentum and its rate at a state of positions and velocities, with their Jacobians, and memory to evaluate them. Matrices are by
 /// rows.
@@ -18,6 +19,8 @@ pub(crate) struct Derivatives<L: Lagrangian> {
     force: L::Vector<HyperDual>,
     /// Position, velocity, `∂L/∂v` and `∂L/∂q` in doubles.
     doubles: [L::Vector<f64>; 4],
+    /// The dimension of an evaluation of the Lagrangian, if it is wrong.
+    resized: Option<usize>,
     /// L.
     pub(crate) value: f64,
     /// `∂L/∂v`
@@ -45,6 +48,7 @@ impl<L: Lagrangian> Derivatives<L> {
             v: zeros()?,
             force: zeros()?,
             doubles: [double()?, double()?, double()?, double()?],
+            resized: None,
             value: 0.0,
             momentum: vec![0.0; n],
             rate: vec![0.0; n],
@@ -57,6 +61,7 @@ impl<L: Lagrangian> Derivatives<L> {
 
     /// Evaluates the value, the momentum and its rate.
     pub(crate) fn first(&mut self, lagrangian: &L, time: f64, q: &[f64], v: &[f64]) {
+        self.resized = None;
         if self.gradient(lagrangian, time, q, v) {
             if L::FORCED {
                 self.place(q, v);
@@ -89,6 +94,12 @@ impl<L: Lagrangian> Derivatives<L> {
         }
         // L may be NaN where its gradient is finite: ln x at x < 0.
         self.value = lagrangian.lagrangian(time, at, velocity);
+        let found = [by_velocity.dimension(), by_position.dimension()];
+        if let Some(found) = found.into_iter().find(|&found| found != q.len()) {
+            self.resized = Some(found);
+            self.value = f64::NAN;
+            return true;
+        }
         self.momentum.copy_from_slice(by_velocity.as_slice());
         self.rate.copy_from_slice(by_position.as_slice());
         true
@@ -103,6 +114,7 @@ impl<L: Lagrangian> Derivatives<L> {
 
     /// Evaluates everything: n(2n + 1) evaluations of L for n components, and n of a force.
     pub(crate) fn second(&mut self, lagrangian: &L, time: f64, q: &[f64], v: &[f64]) {
+        self.resized = None;
         self.place(q, v);
         let n = q.len();
         for row in 0..n {
@@ -145,6 +157,33 @@ impl<L: Lagrangian> Derivatives<L> {
         self.value.is_finite() && numbers.all(|number| number.is_finite())
     }
 
+    /// Why the last evaluation is not [finite](Self::is_finite): `stage` is its number, from 1.
+    pub(crate) fn failure(&self, stage: Option<usize>) -> Failure {
+        match self.resized {
+            Some(found) => Failure::Resized {
+                stage,
+                expected: self.rate.len(),
+                found,
+            },
+            None => Failure::NonFinite { stage },
+        }
+    }
+
+    /// The error if the evaluation at a state is not [finite](Self::is_finite).
+    pub(crate) fn check(&self, time: f64) -> Result<(), Error> {
+        let what = Quantity::Lagrangian;
+        match self.resized {
+            Some(found) => Err(Error::ResizedEvaluation {
+                time,
+                what,
+                expected: self.rate.len(),
+                found,
+            }),
+            None if self.is_finite() => Ok(()),
+            None => Err(Error::NonFiniteState { what }),
+        }
+    }
+
     fn place(&mut self, q: &[f64], v: &[f64]) {
         for (duals, values) in [(&mut self.q, q), (&mut self.v, v)] {
             let pairs = duals.as_mut_slice().iter_mut().zip(values);
@@ -156,6 +195,12 @@ impl<L: Lagrangian> Derivatives<L> {
         self.force.as_mut_slice().fill(HyperDual::zero());
         let time = HyperDual::from_f64(time);
         lagrangian.force(time, &self.q, &self.v, &mut self.force);
+        let found = self.force.dimension();
+        if found != self.q.dimension() {
+            self.resized = Some(found);
+            self.force.clone_from(&self.q);
+            (self.force.as_mut_slice()).fill(HyperDual::from_f64(f64::NAN));
+        }
     }
 
     fn add_force_and_slopes(&mut self, lagrangian: &L, time: f64) {

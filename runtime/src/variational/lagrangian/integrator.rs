@@ -99,7 +99,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     /// # Errors
     ///
     /// As for [`new`](Self::new); [`Error::NoConstants`]; for r > s [`Error::DegenerateLagrangian`] if `∂²L/∂v∂v` is singular where
-    /// Newton's iteration for the velocity at the start, from v = 0, needs it.
+    /// Newton's iteration for the velocity at the start needs it, from v = 0 and from v = p.
     ///
     /// ```
     /// symplectic::tableau! { Rectangular { basis: polynomial(2), quadrature: gauss(3) } }
@@ -128,19 +128,23 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         step_size: f64,
     ) -> Result<Self, Error> {
         let coefficients = StageCoefficients::galerkin::<M>()?;
-        let run = Self::by(coefficients, lagrangian, state, step_size)?;
+        let mut run = Self::by(coefficients, lagrangian, state, step_size)?;
         if M::FUNCTIONS < M::STAGES {
             let State { time, q, p } = &run.state;
-            let found = velocity_of_momentum(&run.lagrangian, *time, q, p);
-            if let Err(Error::NoVelocity {
-                component: Some(component),
-                ..
-            }) = found
-            {
-                return Err(Error::DegenerateLagrangian {
-                    method: M::NAME,
-                    component,
-                });
+            let near = |velocity| velocity_near(&run.lagrangian, *time, q, p, velocity);
+            // L may be degenerate at rest only, as v⁴ is.
+            match near(q.zeros_like()).or_else(|error| near(p.clone()).map_err(|_| error)) {
+                Ok(velocity) => run.stages.begin_with(velocity.as_slice()),
+                Err(Error::NoVelocity {
+                    component: Some(component),
+                    ..
+                }) => {
+                    return Err(Error::DegenerateLagrangian {
+                        method: M::NAME,
+                        component,
+                    });
+                }
+                Err(_) => {}
             }
         }
         Ok(run)

@@ -3,7 +3,7 @@
 use num_traits::Float;
 
 use super::derivatives::Derivatives;
-use crate::error::{Error, Quantity};
+use crate::error::Error;
 use crate::integrator::validation::check_state;
 use crate::number::Vector;
 use crate::system::Lagrangian;
@@ -13,7 +13,8 @@ use crate::variational::regular::Factors;
 ///
 /// # Errors
 ///
-/// [`Error::Dimension`] if `q` and `v` differ, [`Error::NonFiniteState`] if `q`, `v` or the momentum is not finite.
+/// [`Error::Dimension`] if `q` and `v` differ, [`Error::NonFiniteState`] if `q`, `v` or the momentum is not finite,
+/// [`Error::ResizedEvaluation`].
 ///
 /// ```
 /// # use symplectic::nalgebra::SVector;
@@ -45,10 +46,7 @@ pub fn momentum_of_velocity<L: Lagrangian>(
     check_state(time, q, v, q.dimension())?;
     let mut derivatives = Derivatives::new(q.dimension())?;
     derivatives.first(lagrangian, time, q.as_slice(), v.as_slice());
-    if !derivatives.is_finite() {
-        let what = Quantity::Lagrangian;
-        return Err(Error::NonFiniteState { what });
-    }
+    derivatives.check(time)?;
     let mut momentum = q.zeros_like();
     momentum
         .as_mut_slice()
@@ -61,7 +59,7 @@ pub fn momentum_of_velocity<L: Lagrangian>(
 ///
 /// # Errors
 ///
-/// [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`], [`Error::NoVelocity`] if L does not determine the velocity or no
+/// [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`], [`Error::ResizedEvaluation`], [`Error::NoVelocity`] if L does not determine the velocity or no
 /// velocity is found.
 ///
 /// ```
@@ -143,6 +141,7 @@ pub(super) fn velocity_near<L: Lagrangian>(
         }
         last = changed;
     }
+    derivatives.check(time)?;
     Err(not_found(None))
 }
 

@@ -239,9 +239,7 @@ impl<L: Lagrangian> Stages<L> {
                 self.derivatives.first(lagrangian, time, &self.q, &self.v);
             }
             if !self.derivatives.is_finite() {
-                return Err(Failure::NonFinite {
-                    stage: Some(stage + 1),
-                });
+                return Err(self.derivatives.failure(Some(stage + 1)));
             }
             self.values[stage] = self.derivatives.value;
             self.rates[stage * n..][..n].copy_from_slice(&self.derivatives.rate);

@@ -1,0 +1,407 @@
+//! Systems that change the dimension of the vector they write into: nothing is cut off, and nothing panics.
+
+use std::cell::Cell;
+
+use symplectic::nalgebra::DVector;
+use symplectic::solver::FixedPoint;
+use symplectic::system::Gradients;
+use symplectic::variational::{
+    DiracIntegrator, DiracRule, DiracSystem, DiscreteLagrangian, DiscretePath,
+    LagrangianIntegrator, Newmark, VariationalIntegrator, momentum_of_velocity,
+};
+use symplectic::{
+    Class, Constrained, Damped, Error, General, Hamiltonian, Integrator, Lagrangian, Method,
+    Nonholonomic, ProvedFor, Quantity, Scalar, Separable, State, System, consistent,
+    consistent_momentum, constraint_force,
+};
+
+use crate::forces::{Gauss2, Lobatto2, Lobatto3, Midpoint};
+
+type Vector = DVector<f64>;
+
+/// Which evaluation gets a wrong dimension, and which dimension.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Fault {
+    None,
+    Velocity(usize),
+    Force(usize),
+    Applied(usize),
+    Kick(usize),
+}
+
+/// The numbers of constraints of a class.
+trait Kind: Class {
+    const HOLONOMIC: usize = 0;
+    const ROLLING: usize = 0;
+}
+
+impl Kind for General {}
+impl Kind for Damped {}
+impl<C> Kind for Constrained<C>
+where
+    Self: Class,
+{
+    const HOLONOMIC: usize = 1;
+}
+impl<C> Kind for Nonholonomic<C>
+where
+    Self: Class,
+{
+    const ROLLING: usize = 1;
+}
+
+/// A particle in the plane, |p|²/2 + |q|²/2: free, on the line y = 0, or with y' = 0.
+struct Particle<C> {
+    fault: Cell<Fault>,
+    /// The evaluations before this time are right.
+    from: f64,
+    class: core::marker::PhantomData<C>,
+}
+
+impl<C> Particle<C> {
+    const fn new(fault: Fault, from: f64) -> Self {
+        Self {
+            fault: Cell::new(fault),
+            from,
+            class: core::marker::PhantomData,
+        }
+    }
+
+    fn fault(&self, time: f64) -> Fault {
+        if time >= self.from {
+            self.fault.get()
+        } else {
+            Fault::None
+        }
+    }
+}
+
+impl<C: Kind> System<Vector> for Particle<C> {
+    type Class = C;
+    type Solver = FixedPoint;
+
+    const FORCED: bool = true;
+
+    fn velocity(&self, time: f64, _: &Vector, p: &Vector, velocity: &mut Vector) {
+        *velocity = match self.fault(time) {
+            Fault::Velocity(to) => DVector::from_element(to, 1.0),
+            _ => p.clone(),
+        };
+    }
+
+    fn force(&self, time: f64, q: &Vector, _: &Vector, force: &mut Vector) {
+        *force = match self.fault(time) {
+            Fault::Force(to) => DVector::from_element(to, 1.0),
+            _ => -q,
+        };
+    }
+
+    fn applied_force(&self, time: f64, q: &Vector, _: &Vector, applied: &mut Vector) {
+        *applied = match self.fault(time) {
+            Fault::Applied(to) => DVector::from_element(to, 1.0),
+            _ => q * 0.0,
+        };
+    }
+
+    fn kick(
+        &self,
+        duration: f64,
+        _: &Vector,
+        force: &Vector,
+        _: &Vector,
+        change: &mut Vector,
+    ) -> bool {
+        *change = match self.fault.get() {
+            Fault::Kick(to) => DVector::from_element(to, 1.0),
+            _ => force * duration,
+        };
+        true
+    }
+
+    fn constraints(&self) -> usize {
+        C::HOLONOMIC
+    }
+
+    fn constraint_values(&self, q: &Vector, values: &mut [f64]) {
+        values[0] = q[1];
+    }
+
+    fn constraint_gradients(&self, _: &Vector, gradients: &mut Gradients<f64>) {
+        gradients.set(0, 1, 1.0);
+    }
+
+    fn nonholonomic_constraints(&self) -> usize {
+        C::ROLLING
+    }
+
+    fn nonholonomic_rows(&self, _: &Vector, rows: &mut Gradients<f64>) {
+        rows.set(0, 1, 1.0);
+    }
+}
+
+fn start() -> State<Vector> {
+    State::new(
+        0.0,
+        DVector::from_vec(vec![1.0, 0.0]),
+        DVector::from_vec(vec![0.5, 0.0]),
+    )
+}
+
+/// Dimensions smaller and larger than that of the state.
+const WRONG: [usize; 3] = [0, 1, 3];
+
+fn assert_resized(error: &Error, what: Quantity, to: usize) {
+    match *error {
+        Error::EvaluationDimension {
+            what: named,
+            expected,
+            found,
+            ..
+        }
+        | Error::ResizedEvaluation {
+            what: named,
+            expected,
+            found,
+            ..
+        } => {
+            assert_eq!((named, expected, found), (what, 2, to), "{error}");
+        }
+        _ => panic!("{error}"),
+    }
+}
+
+/// A fault at the start is found there. A later one is beyond the times at which the start is examined, t = 0 and 1: the step fails and leaves the state, and succeeds without the fault.
+fn refuses<M, C>(method: M)
+where
+    M: Method + ProvedFor<C>,
+    C: Kind,
+{
+    for to in WRONG {
+        for (fault, what) in [
+            (Fault::Velocity(to), Quantity::Velocity),
+            (Fault::Force(to), Quantity::Force),
+        ] {
+            let error = Integrator::new(method, Particle::<C>::new(fault, 0.0), start(), 0.1);
+            let Err(error) = error else {
+                panic!("{fault:?} was not found");
+            };
+            assert_resized(&error, what, to);
+            let mut run = Integrator::new(method, Particle::<C>::new(fault, 1.55), start(), 0.1)
+                .expect("right at the start");
+            let error = run.integrate_to(2.0).map(|_| ()).expect_err("resized");
+            assert_resized(&error, what, to);
+            let Error::EvaluationDimension {
+                stage: Some(stage),
+                step: 16,
+                ..
+            } = error
+            else {
+                panic!("{error:?}");
+            };
+            assert!(stage >= 1);
+            let before = run.state().clone();
+            assert!((before.time - 1.5).abs() < 1e-12);
+            run.system().fault.set(Fault::None);
+            run.step().expect("healed");
+            assert!(run.state().time > before.time);
+        }
+    }
+}
+
+#[test]
+fn constrained_steps() {
+    refuses::<_, Constrained<Separable>>(Lobatto2);
+    refuses::<_, Constrained<Separable>>(Lobatto3);
+    refuses::<_, Constrained<General>>(Lobatto3);
+}
+
+#[test]
+fn nonholonomic_steps() {
+    refuses::<_, Nonholonomic<Separable>>(Midpoint);
+    refuses::<_, Nonholonomic<Separable>>(Lobatto2);
+    refuses::<_, Nonholonomic<General>>(Midpoint);
+}
+
+/// Of the nodes 0, 1/4 and 1/2 the second is the first with a wrong force, and the third the first with a wrong velocity.
+#[test]
+fn the_stage_is_named() -> Result<(), Error> {
+    let stage = |from: f64, fault| -> Result<_, Error> {
+        let system = Particle::<Constrained<General>>::new(fault, from + 4.0);
+        let mut run = Integrator::new(Lobatto3, system, start(), 0.5)?;
+        run.integrate_to(4.0)?;
+        match run.step() {
+            Err(Error::EvaluationDimension { stage, .. }) => Ok(stage),
+            other => panic!("{:?}", other.map(|_| ())),
+        }
+    };
+    assert_eq!(stage(0.2, Fault::Force(3))?, Some(2));
+    assert_eq!(stage(0.4, Fault::Velocity(1))?, Some(3));
+    Ok(())
+}
+
+#[test]
+fn functions_of_states() {
+    for to in WRONG {
+        for (fault, what) in [
+            (Fault::Velocity(to), Quantity::Velocity),
+            (Fault::Force(to), Quantity::Force),
+        ] {
+            let holonomic = Particle::<Constrained<Separable>>::new(fault, 0.0);
+            let error = consistent(&holonomic, start()).expect_err("resized");
+            assert_resized(&error, what, to);
+            let error = constraint_force(&holonomic, &start()).expect_err("resized");
+            assert_resized(&error, what, to);
+            let rolling = Particle::<Nonholonomic<Separable>>::new(fault, 0.0);
+            let error = consistent_momentum(&rolling, start()).expect_err("resized");
+            assert_resized(&error, what, to);
+        }
+    }
+}
+
+#[test]
+fn the_applied_force_of_balances() -> Result<(), Error> {
+    fn check<M, C>(method: M) -> Result<(), Error>
+    where
+        M: Method + ProvedFor<C>,
+        C: Kind,
+    {
+        for to in WRONG {
+            let system = Particle::<C>::new(Fault::Applied(to), 0.0);
+            let mut run = Integrator::new(method, system, start(), 0.1)?;
+            let error = run.step_with_stages().map(|_| ()).expect_err("resized");
+            assert_resized(&error, Quantity::Force, to);
+            assert_eq!(*run.state(), start());
+            run.system().fault.set(Fault::None);
+            assert_eq!(run.step_with_stages()?.work(), 0.0);
+        }
+        Ok(())
+    }
+    check::<_, General>(Gauss2)?;
+    check::<_, Constrained<General>>(Lobatto3)?;
+    check::<_, Nonholonomic<General>>(Midpoint)
+}
+
+#[test]
+fn kicks_with_friction_and_their_dense_output() -> Result<(), Error> {
+    for to in WRONG {
+        let system = Particle::<Damped>::new(Fault::Kick(to), 0.0);
+        let mut run = Integrator::new(Lobatto2, system, start(), 0.1)?;
+        let error = run.step().map(|_| ()).expect_err("resized");
+        assert_resized(&error, Quantity::Momentum, to);
+        assert_eq!(*run.state(), start());
+        run.system().fault.set(Fault::Applied(to));
+        run.step()?;
+        let error = run.dense().map(|_| ()).expect_err("resized");
+        assert_resized(&error, Quantity::Force, to);
+    }
+    Ok(())
+}
+
+/// The same particle by its Lagrangian, with a force of a wrong dimension.
+struct Forced {
+    to: usize,
+}
+
+impl Lagrangian for Forced {
+    type Vector<T: Scalar> = DVector<T>;
+
+    const FORCED: bool = true;
+
+    fn lagrangian<T: Scalar>(&self, _: T, q: &DVector<T>, v: &DVector<T>) -> T {
+        (v.dot(v) - q.dot(q)) * T::from_f64(0.5)
+    }
+
+    fn force<T: Scalar>(&self, _: T, _: &DVector<T>, _: &DVector<T>, force: &mut DVector<T>) {
+        *force = DVector::from_element(self.to, T::one());
+    }
+}
+
+impl DiracSystem for Forced {}
+
+impl DiscreteLagrangian for Forced {
+    type Vector<T: Scalar> = DVector<T>;
+
+    const FORCED: bool = true;
+
+    fn value<T: Scalar>(&self, _: T, h: T, q0: &DVector<T>, q1: &DVector<T>) -> T {
+        let difference = q1 - q0;
+        difference.dot(&difference) / (h + h)
+    }
+
+    fn forces<T: Scalar>(
+        &self,
+        _: T,
+        _: T,
+        _: &DVector<T>,
+        _: &DVector<T>,
+        _minus: &mut DVector<T>,
+        plus: &mut DVector<T>,
+    ) {
+        *plus = DVector::from_element(self.to, T::one());
+    }
+}
+
+#[test]
+fn forces_of_lagrangians() -> Result<(), Error> {
+    for to in WRONG {
+        let v = DVector::from_vec(vec![0.5, 0.0]);
+        let error = momentum_of_velocity(&Forced { to }, 0.0, &start().q, &v).expect_err("resized");
+        assert_resized(&error, Quantity::Lagrangian, to);
+        let run = VariationalIntegrator::new(Forced { to }, start(), 0.1);
+        let error = run
+            .and_then(|mut run| run.step().map(|_| ()))
+            .expect_err("resized");
+        assert_resized(&error, Quantity::DiscreteLagrangian, to);
+        let q1 = DVector::from_vec(vec![1.05, 0.0]);
+        let path = DiscretePath {
+            time: 0.0,
+            step_size: 0.1,
+            q0: &start().q,
+            q1: &q1,
+        };
+        let error = path.momenta(&Forced { to }).expect_err("resized");
+        assert_resized(&error, Quantity::DiscreteLagrangian, to);
+        let run = LagrangianIntegrator::new(Gauss2, Forced { to }, start(), 0.1);
+        let error = run
+            .and_then(|mut run| run.step().map(|_| ()))
+            .expect_err("resized");
+        assert_resized(&error, Quantity::Lagrangian, to);
+        let run = DiracIntegrator::new(DiracRule::Midpoint, Forced { to }, start(), 0.1);
+        let error = run
+            .and_then(|mut run| run.step().map(|_| ()))
+            .expect_err("resized");
+        assert_resized(&error, Quantity::Lagrangian, to);
+    }
+    Ok(())
+}
+
+/// The particle by its Hamiltonian.
+struct Resized {
+    to: usize,
+}
+
+impl Hamiltonian for Resized {
+    type Class = Separable;
+    type Vector<T: Scalar> = DVector<T>;
+
+    fn velocity<T: Scalar>(&self, _: T, _: &DVector<T>, p: &DVector<T>, velocity: &mut DVector<T>) {
+        *velocity = p.clone();
+    }
+
+    fn force<T: Scalar>(&self, _: T, _: &DVector<T>, _: &DVector<T>, force: &mut DVector<T>) {
+        *force = DVector::from_element(self.to, T::one());
+    }
+}
+
+#[test]
+fn the_shift_of_newmark() -> Result<(), Error> {
+    for to in WRONG {
+        let newmark = Newmark::new(Resized { to }, 0.25, 0.1)?;
+        let error = newmark.shift(&start()).expect_err("resized");
+        assert_resized(&error, Quantity::Force, to);
+        let mut run = Integrator::new(Lobatto2, newmark, start(), 0.1)?;
+        let error = run.step().map(|_| ()).expect_err("resized");
+        assert_resized(&error, Quantity::Force, to);
+    }
+    Ok(())
+}
