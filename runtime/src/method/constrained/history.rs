@@ -86,10 +86,11 @@ impl<V: Vector> History<V> {
         let side = usize::from(dither_side(time));
         let (mut largest, mut apart) = (0.0, 0.0);
         for (k, impulse) in impulses.iter_mut().enumerate() {
-            let sides = SIDES.map(|weights| next(weights, |step| self.steps[step].impulses[k]));
-            largest = maximum(largest, sides[0].magnitude());
-            apart = maximum(apart, (sides[1] - sides[0]).magnitude());
-            *impulse = sides[side];
+            let last = |step: usize| self.steps[step].impulses[k];
+            let (less, more) = (next(SIDES[0], last), next(SIDES[1], last));
+            largest = maximum(largest, less.magnitude());
+            apart = maximum(apart, (more - less).magnitude());
+            *impulse = if side == 0 { less } else { more };
         }
         (apart <= APART * largest).then_some(SIDES[side])
     }
@@ -138,8 +139,11 @@ impl<V: Vector> History<V> {
 /// The next value of a sequence, where `last(k)` is the one k steps before the last.
 #[inline(always)]
 fn next<T: Scalar>(weights: Weights, last: impl Fn(usize) -> T) -> T {
-    let terms = (1..STEPS).map(|k| last(k) * T::from_f64(weights[k]));
-    terms.fold(last(0) * T::from_f64(weights[0]), |sum, term| sum + term)
+    let mut sum = last(0) * T::from_f64(weights[0]);
+    for (k, &weight) in weights.iter().enumerate().skip(1) {
+        sum += last(k) * T::from_f64(weight);
+    }
+    sum
 }
 
 #[cfg(test)]
