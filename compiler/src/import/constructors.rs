@@ -11,8 +11,7 @@ use super::tokens::{Spanned, Token};
 pub(super) fn name_lists(tokens: &mut Vec<Spanned>) {
     let mut written: Vec<Spanned> = Vec::with_capacity(tokens.len());
     let mut letter: Option<String> = None;
-    let mut rest = tokens.iter();
-    while let Some(token) = rest.next() {
+    for token in tokens.iter() {
         written.push(token.clone());
         let declared = match &written[..] {
             [.., before, last] => match (&before.token, &last.token) {
