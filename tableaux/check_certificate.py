@@ -28,6 +28,7 @@ from pathlib import Path
 FURTHER = {  # Claims, and the files in the folder `checker` with a function of that name for them.
     "assumptions": "assumptions",  # Orders that have too many trees.
     "solution": "solutions",  # The coefficients are the solution of order conditions.
+    "symmetric": "symmetry",  # With the stages in an order that is given.
     "palindrome": "splittings",  # The flows of a splitting are the same forwards and backwards.
     "perturbed": "splittings",  # The orders of a splitting for H_A + eps H_B.
     "stability": "stability",  # All stable step sizes of the oscillator.
@@ -71,8 +72,7 @@ def whole(x):
 def rationals(texts):
     demand(isinstance(texts, list) and len(texts) <= 1000, "a list of rational numbers")
     for text in texts:
-        known = isinstance(text, str) and re.fullmatch(r"-?[0-9]{1,500}(/[0-9]{1,500})?", text)
-        demand(known, f"a rational number, not {str(text):.40}")
+        demand(isinstance(text, str) and re.fullmatch(r"-?[0-9]{1,500}(/[0-9]{1,500})?", text), f"a rational number, not {str(text):.40}")
     return [Fraction(text) for text in texts]
 
 # Polynomials: lists of the coefficients of 1, x, x^2, ..., whole or rational.
@@ -183,13 +183,12 @@ def nearest_to(text):
 
 def check_rounded(text, x, rounding, what):
     """Checks the text of a number, or texts of a vector or a matrix, against the ends of what they say."""
-    if isinstance(x, list):
-        demand(isinstance(text, list) and len(text) == len(x), f"as many entries in {what} as stages")
-        for k, (entry, y) in enumerate(zip(text, x), 1):
-            check_rounded(entry, y, rounding, f"{what}[{k}]")
-        return
-    low, high = rounding(text)
-    demand(low <= x[0] and x[1] <= high, f"{what} = {text}")
+    if not isinstance(x, list):
+        low, high = rounding(text)
+        return demand(low <= x[0] and x[1] <= high, f"{what} = {text}")
+    demand(isinstance(text, list) and len(text) == len(x), f"as many entries in {what} as stages")
+    for k, (entry, y) in enumerate(zip(text, x), 1):
+        check_rounded(entry, y, rounding, f"{what}[{k}]")
 
 # Numbers that are not rational. They have + and *, with rationals too.
 class Number:
@@ -459,7 +458,8 @@ def check(text):
         exact["c" + tilde] = lambda colour=colour: of.ends(of.apply(colour, of.one))
     for name, texts in certificate["doubles"].items():
         check_rounded(texts, exact[name](), nearest_to, name)
-    proved = lambda name: check_property(name, certificate[name], tests[name](of)) if name in tests else further(name, of, certificate)
+    here = lambda name: name in tests and type(certificate[name]) is not list  # An order of the stages is.
+    proved = lambda name: check_property(name, certificate[name], tests[name](of)) if here(name) else further(name, of, certificate)
     done = ["doubles", *(proved(name) for name in first if name in certificate)]
     done += [check_order(of, residual, kind, claim) for kind, claim in certificate["order"].items()]
     claimed = [certificate["order"][kind]["order"] for kind in CLASSES if kind in certificate["order"]]

@@ -13,7 +13,7 @@ use crate::output;
 ///
 /// A file contains the library, its version and source, the `convention` by which it uses the numbers of its tables, and
 /// these tables with their claims; `tableaux/libraries/` contains such files. Next to each proved order the output shows
-/// the order observed in steps of the pendulum. The exit status is 1 if a proved order differs from the observed order.
+/// the order observed in steps of a pendulum of its class. The exit status is 1 if a proved order differs from the observed order.
 #[derive(Args)]
 pub(crate) struct Arguments {
     /// Files, or folders with files named .toml.
@@ -58,7 +58,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         "every H",
         "T(p) + U(q)",
         "T quadratic",
-        "observed: p²/2, √(1 + p²)",
+        "observed for each",
         "",
     ]
     .map(str::to_owned);
@@ -131,11 +131,9 @@ fn line(row: &Row) -> [String; 8] {
         row.general.order.to_string(),
         row.separable.order.to_string(),
         row.nystrom.order.to_string(),
-        format!(
-            "{}, {}",
-            seen(row.seen_quadratic),
-            seen(row.seen_relativistic)
-        ),
+        [row.seen_coupled, row.seen_relativistic, row.seen_quadratic]
+            .map(seen)
+            .join(", "),
         format!("{verdict}{unexplained}"),
     ]
 }

@@ -49,10 +49,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
                 "the result is the exact method near the decimals{distance}"
             ));
         }
-        ImportOrigin::Decimals => {
-            report::warning(
-                "no exact method was found near the decimals; they are taken as exact numbers",
-            );
+        ImportOrigin::Decimals { separable, nystrom } => {
+            report::warning(&format!(
+                "no exact method was found near the decimals; they are taken as exact numbers; up to their rounding they have order \
+                 {separable} for T(p) + U(q), and {nystrom} for quadratic T"
+            ));
         }
     }
     if let Some(name) = &arguments.name {

@@ -145,7 +145,7 @@ def determinant_of(of):
         # M (power + c), and the next c = -tr/k
         power = [[x + found[-1] * (i == j) for j, x in enumerate(row)] for i, row in enumerate(power)]
         power = [[sum(x * y for x, y in zip(row, column)) for column in zip(*power)] for row in matrix]
-        found.append(sum(power[i][i] for i in range(of.s)) * Fraction(-1, k))
+        found.append(simple(sum(power[i][i] for i in range(of.s)) * Fraction(-1, k)))
     return trimmed([(-1) ** k * c for k, c in enumerate(found)])
 
 

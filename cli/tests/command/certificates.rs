@@ -429,6 +429,61 @@ fn what_is_not_proved_and_what_is_no_certificate_is_rejected() {
     assert_eq!(text.lines().count(), cases.len() + 1, "{text}");
 }
 
+/// Gauss with 3 stages, the last two of them exchanged: the certificate gives the order of the stages for symmetry, and no other order
+/// will do.
+#[test]
+fn symmetry_in_another_order_of_the_stages_is_checked() {
+    let a = "[[5/36, 5/36 - sqrt(15)/30, 2/9 - sqrt(15)/15], [5/36 + sqrt(15)/30, 5/36, 2/9 + sqrt(15)/15], \
+             [5/36 + sqrt(15)/24, 5/36 - sqrt(15)/24, 2/9]]";
+    let text = stdout(&[
+        "derive",
+        "--a",
+        a,
+        "--b",
+        "5/18, 5/18, 4/9",
+        "--format",
+        "toml",
+        "--name",
+        "gauss",
+    ]);
+    let folder = folder("reordered");
+    let table = folder.join("gauss.toml");
+    std::fs::write(&table, text).expect("written");
+    let certificate = stdout(&["certify", table.to_str().expect("a path")]);
+    let order = "\"symmetric\": [2, 1, 3]";
+    assert!(certificate.contains(order), "{certificate}");
+    for (stages, part) in [
+        (
+            "[2, 1, 3]",
+            "right: doubles, symplectic, symmetric, general 6,",
+        ),
+        ("[3, 2, 1]", "WRONG: not proved: symmetric, stage 1"),
+        ("[1, 2, 3]", "WRONG: not proved: symmetric, stages 1 and 2"),
+        (
+            "[2, 2, 3]",
+            "WRONG: not proved: symmetric: an order of the stages",
+        ),
+        (
+            "[2, 1]",
+            "WRONG: not proved: symmetric: an order of the stages",
+        ),
+        (
+            "[2, 1, 0]",
+            "WRONG: not proved: symmetric: an order of the stages",
+        ),
+        ("true", "WRONG: not proved: symmetric = True"),
+    ] {
+        let path = folder.join("gauss.json");
+        let changed = certificate.replace(order, &format!("\"symmetric\": {stages}"));
+        std::fs::write(&path, changed).expect("written");
+        let path = path.to_str().expect("a path");
+        let Some((_, said)) = python(&["tableaux/check_certificate.py", path]) else {
+            return;
+        };
+        assert!(said.contains(part), "{stages}: {said}");
+    }
+}
+
 /// The order 11 of Gauss with 4 stages, with a tree of the next order that is violated. For other Hamiltonians the trees are too many, and the
 /// simplifying assumptions prove 8.
 #[test]

@@ -38,9 +38,28 @@ fn the_command_imports() {
     let output = symplectic(&["import", "--from", "sundials", path]);
     let remark = String::from_utf8_lossy(&output.stderr);
     assert!(
-        remark.contains("no exact method was found near the decimals"),
+        remark.contains("no exact method was found near the decimals")
+            && remark.contains(
+                "up to their rounding they have order 0 for T(p) + U(q), and 0 for quadratic T"
+            ),
         "{remark}"
     );
+    // Its free coefficients make q[p,p,p] differ by 2·10⁻²⁰ from 1/4: not the condition that SciML's order of steps violates.
+    let mcate4 = "a = [0.515352837431122936, -0.085782019412973646, 0.441583023616466524, 0.128846158365384185]\n\
+                  b = [0.134496199277431089, -0.224819803079420806, 0.756320000515668291, 0.334003603286321425]\n";
+    std::fs::write(&file, mcate4).expect("written");
+    let output = symplectic(&["import", "--from", "sciml", path]);
+    let text = String::from_utf8_lossy(&output.stdout);
+    for class in ["separable", "nystrom"] {
+        let line = text
+            .lines()
+            .find(|line| line.trim_start().starts_with(class));
+        let line = line.expect("an order");
+        assert!(
+            line.contains("  3, certified; not 4: p[q,q,q] has the weight 0.2606"),
+            "{line}"
+        );
+    }
     std::fs::write(&file, "double a[] = {1, one};\ndouble ahat[] = {1, 0};\n").expect("written");
     let (status, message) = failure(&["import", "--from", "sundials", path]);
     let message = message.replace(path, "ruth.c");

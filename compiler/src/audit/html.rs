@@ -13,7 +13,7 @@ pub(super) fn page(audit: &Audit) -> String {
     let mut body = format!(
         "<h1>Claims and proofs of symplectic tables</h1>\n<p>{} tables, for {} of which the proved order is not the claimed order; {} unexplained. \
          An order is proved by its order conditions in exact arithmetic, for the exact method near the decimals where the numbers are \
-         decimals. Observed is the slope of the error of one step of the pendulum in 96 digits, with T = p²/2 and with T = √(1 + p²).</p>\n",
+         decimals. Observed is the slope of the error of one step in 96 digits, for H = √(1 + p²) (2 − cos q), for H = √(1 + p²) − cos q and for H = p²/2 − cos q.</p>\n",
         audit.rows.len(),
         differences.len(),
         unexplained
@@ -52,7 +52,7 @@ pub(super) fn page(audit: &Audit) -> String {
         ));
         body.push_str(
             "<table>\n<tr><th>table</th><th>stages</th><th>claim</th><th>every H</th><th>T(p) + U(q)</th><th>T quadratic</th><th>first violated condition</th>\
-             <th>observed: p²/2, √(1 + p²)</th><th></th><th>places of an exact method</th><th>stable hω</th></tr>\n",
+             <th>observed for each</th><th></th><th>places of an exact method</th><th>stable hω</th></tr>\n",
         );
         rows.iter().for_each(|row| body.push_str(&line(row)));
         body.push_str("</table>\n");
@@ -71,12 +71,13 @@ fn difference(row: &Row) -> String {
         _ => String::new(),
     };
     format!(
-        "{} {}: claimed {} for {} H, proved {}{violated}. Orders for T(p) + U(q) and for quadratic T: {}, {}; seen {}.",
+        "{} {}: claimed {} for {} H, proved {}{violated}. Orders for every H, for T(p) + U(q) and for quadratic T: {}, {}, {}; observed {}.",
         row.library,
         row.name,
         row.claim.order,
         row.claim.class,
         proved.order,
+        row.general.order,
         row.separable.order,
         row.nystrom.order,
         seen(row)
@@ -85,11 +86,8 @@ fn difference(row: &Row) -> String {
 
 fn seen(row: &Row) -> String {
     let shown = |seen: Option<f64>| seen.map_or("–".to_owned(), |seen| format!("{seen:.2}"));
-    format!(
-        "{}, {}",
-        shown(row.seen_quadratic),
-        shown(row.seen_relativistic)
-    )
+    let seen = [row.seen_coupled, row.seen_relativistic, row.seen_quadratic];
+    seen.map(shown).join(", ")
 }
 
 fn line(row: &Row) -> String {

@@ -18,7 +18,7 @@
 //!
 //! For each table the order for each class of Hamiltonians is proved, with the first violated order condition, and whether
 //! it is symmetric and symplectic. Its decimals are compared with those of the exact method near them. The report also has the order
-//! that is [observed](crate::Tableau::observed_order) on the pendulum. A difference between claim and proof that is not observed
+//! that is [observed](crate::Tableau::observed_order) on a pendulum of each class. A difference between claim and proof that is not observed
 //! is reported as unexplained.
 
 mod file;

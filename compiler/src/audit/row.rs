@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::import::{Numbers, Origin};
 use crate::library::Library;
 use crate::limits::Limits;
-use crate::order::{ClassOrder, HamiltonianClass, Kinetic};
+use crate::order::{ClassOrder, HamiltonianClass, Pendulum};
 use crate::stability::evidence_text;
 
 /// The largest accepted difference between the observed and the proved order.
@@ -111,10 +111,12 @@ pub struct Row {
     pub right_places: Option<(u32, u32)>,
     /// The stable steps `hω` on the oscillator.
     pub stable: String,
-    /// The order observed on the pendulum with `T = p²/2`.
+    /// The order observed on the pendulum with `H = p²/2 − cos q`.
     pub seen_quadratic: Option<f64>,
-    /// The order observed on the pendulum with `T = √(1 + p²)`.
+    /// The order observed on the pendulum with `H = √(1 + p²) − cos q`.
     pub seen_relativistic: Option<f64>,
+    /// The order observed on the pendulum with `H = √(1 + p²) (2 − cos q)`, which is not separable.
+    pub seen_coupled: Option<f64>,
     /// The proved order compared with the claim.
     pub verdict: Verdict,
     /// Whether the proved orders agree with the observed orders, and with those of the printed numbers up to their rounding.
@@ -133,18 +135,14 @@ impl Row {
         let read = numbers.derive(limits)?;
         let tableau = &read.tableau;
         let orders = tableau.orders();
-        let [general, mut separable, mut nystrom] =
-            HamiltonianClass::ALL.map(|class| ProvedOrder::new(orders.class(class)));
+        let mut proved = HamiltonianClass::ALL.map(|class| ProvedOrder::new(orders.class(class)));
         // The conditions violated by the printed numbers, rather than those that the exact method near them violates by less.
         let within = match &read.origin {
             Origin::Exact => None,
             Origin::Refined(within) | Origin::Decimals(within) => Some(within),
         };
         let mut agree = true;
-        for (found, (order, violated)) in [&mut separable, &mut nystrom]
-            .into_iter()
-            .zip(within.into_iter().flatten())
-        {
+        for (found, (order, violated)) in proved.iter_mut().zip(within.into_iter().flatten()) {
             if let Some(violated) = violated {
                 found.violated = Some(violated.tree.to_string());
                 found.residual = Some(violated.residual.clone());
@@ -156,9 +154,11 @@ impl Row {
             // Conditions of the decimals are computed up to a limit; the order of the exact method may be higher.
             agree &= found.order == *order || violated.is_none() && found.order > *order;
         }
-        let seen = |kinetic, order: usize| tableau.observed_order(kinetic, order);
-        let seen_quadratic = seen(Kinetic::Quadratic, nystrom.order);
-        let seen_relativistic = seen(Kinetic::Relativistic, separable.order);
+        let [general, separable, nystrom] = proved;
+        let seen = |pendulum, order: usize| tableau.observed_order(pendulum, order);
+        let seen_coupled = seen(Pendulum::Coupled, general.order);
+        let seen_relativistic = seen(Pendulum::Relativistic, separable.order);
+        let seen_quadratic = seen(Pendulum::Quadratic, nystrom.order);
         let agrees = |seen: Option<f64>, proved: usize| {
             seen.is_some_and(|seen| (seen - proved as f64).abs() <= TOLERANCE)
         };
@@ -203,7 +203,8 @@ impl Row {
             },
             explained: agree
                 && agrees(seen_quadratic, nystrom.order)
-                && agrees(seen_relativistic, separable.order),
+                && agrees(seen_relativistic, separable.order)
+                && agrees(seen_coupled, general.order),
             symmetric: separable_properties.symmetric.holds,
             symplectic: separable_properties.symplectic.holds,
             stable: tableau.stable_steps().to_string(),
@@ -213,6 +214,7 @@ impl Row {
             nystrom,
             seen_quadratic,
             seen_relativistic,
+            seen_coupled,
         })
     }
 

@@ -5,6 +5,8 @@
 //! decimal is a rational number, `sqrt(2)` is a root. If decimals are rounded, the table is that of the exact method that is
 //! [proved](crate::certify) to be near them.
 
+mod constructors;
+mod fortran;
 mod numbers;
 mod parser;
 mod source;
@@ -72,7 +74,12 @@ pub enum ImportOrigin {
         distance: Option<f64>,
     },
     /// The decimals themselves, because no exact method was found near them.
-    Decimals,
+    Decimals {
+        /// The order for separable `H`, up to the rounding of the decimals.
+        separable: usize,
+        /// The order for quadratic `T`, likewise.
+        nystrom: usize,
+    },
 }
 
 /// Reads a table like [`import`], and returns the origin of its coefficients.
@@ -102,7 +109,9 @@ pub fn import_with_origin(
         Origin::Refined(_) => ImportOrigin::NearDecimals {
             distance: numbers.largest_error(&read.tableau).map(|x| to_f64(&x)),
         },
-        Origin::Decimals(_) => ImportOrigin::Decimals,
+        Origin::Decimals([_, (separable, _), (nystrom, _)]) => {
+            ImportOrigin::Decimals { separable, nystrom }
+        }
     };
     Ok((read.tableau, origin))
 }
@@ -128,6 +137,18 @@ fn read(library: Library, input: Input<'_>, limits: &Limits) -> Result<Numbers, 
             .ok_or_else(|| missing(input, library, name))
     };
     let found = |name: &str| source.has(name);
+    if library == Library::Odeint
+        && let Some(rows) = source.rows("a")?
+    {
+        let matrix = below_diagonal(rows, list("b")?.len())
+            .map_err(|message| input.error(&source.place("a"), ErrorKind::Document { message }))?;
+        let positions = half(matrix, list("b")?, source.list("c")?, limits)
+            .map_err(|kind| input.error(&source.place("b"), kind))?;
+        return Ok(Numbers::RungeKutta {
+            positions,
+            momenta: None,
+        });
+    }
     if let Some(stepping) = library.stepping()
         && found(stepping.drift)
         && found(stepping.kick)
@@ -164,6 +185,22 @@ fn read(library: Library, input: Input<'_>, limits: &Limits) -> Result<Numbers, 
         return Err(input.error(&source.place("a_tilde"), ErrorKind::Document { message }));
     }
     Ok(Numbers::RungeKutta { positions, momenta })
+}
+
+/// The matrix of an explicit method, row by row, from its rows below the diagonal.
+fn below_diagonal(rows: Vec<Vec<Value>>, stages: usize) -> Result<Vec<Value>, String> {
+    let lengths: Vec<usize> = rows.iter().map(Vec::len).collect();
+    if !lengths.iter().copied().eq(1..stages) {
+        return Err(format!(
+            "the rows of `a` have {lengths:?} entries; {stages} weights need rows of 1, 2, … entries"
+        ));
+    }
+    let mut matrix = vec![source::zero(); stages];
+    for mut row in rows {
+        row.resize_with(stages, source::zero);
+        matrix.extend(row);
+    }
+    Ok(matrix)
 }
 
 /// The error for a missing part of a file of a library.

@@ -50,9 +50,9 @@ pub(crate) enum Origin {
     Decimals(Within),
 }
 
-/// The orders of decimals up to their rounding, with the first conditions that are violated by more than that: for separable `H` and
-/// for quadratic `T`.
-pub(crate) type Within = [(usize, Option<ViolatedCondition>); 2];
+/// The orders of decimals up to their rounding, with the first conditions that are violated by more than that, for each class as in
+/// [`HamiltonianClass::ALL`].
+pub(crate) type Within = [(usize, Option<ViolatedCondition>); 3];
 
 /// An imported table.
 pub(crate) struct Read {
@@ -174,7 +174,7 @@ impl Numbers {
             });
         }
         let within = self.orders_within();
-        let (separable, nystrom) = (within[0].0, within[1].0);
+        let (separable, nystrom) = (within[1].0, within[2].0);
         let claims = [("nystrom", nystrom), ("separable", separable)];
         // The order for separable H is at most the order for quadratic T.
         let skipped = usize::from(nystrom <= separable);
@@ -192,14 +192,25 @@ impl Numbers {
     fn orders_within(&self) -> Within {
         /// The allowed residual of a condition, in units of the largest error of a coefficient.
         const UNITS: i64 = 50;
+        /// The highest order of conditions for every `H` that are evaluated: 4 116 at this order, five times as many at the next.
+        const MOST_GENERAL: usize = 7;
         let all = self.all();
         let error = all.iter().map(|value| &value.error).max();
         let error = error.cloned().unwrap_or_default() * ratio(UNITS, 1);
         let least = BigRational::new(BigInt::one(), BigInt::from(10).pow(10));
         let tolerance = error.max(least);
         let pair = self.rational_pair();
-        let classes = [HamiltonianClass::Separable, HamiltonianClass::Nystrom];
-        classes.map(|class| order_within(&pair, class, &tolerance))
+        let within = |class, limit| order_within(&pair, class, &tolerance, limit);
+        let limit = OrderOptions::default().limit;
+        let nystrom = within(HamiltonianClass::Nystrom, limit);
+        // The orders for larger classes are not higher.
+        let separable = within(HamiltonianClass::Separable, limit.min(nystrom.0 + 1));
+        let general = match self {
+            // Without colours, alternating colours are all trees.
+            Numbers::RungeKutta { momenta: None, .. } => separable.clone(),
+            _ => within(HamiltonianClass::General, MOST_GENERAL.min(separable.0 + 1)),
+        };
+        [general, separable, nystrom]
     }
 
     fn rational_pair(&self) -> Pair<Dense<Rationals>> {

@@ -1,5 +1,6 @@
 //! The expressions of a table in any of the languages.
 
+mod fortran;
 mod names;
 
 use std::ops::Range;
@@ -373,7 +374,9 @@ impl Parser<'_, '_> {
             }
             items.push(item);
             // White space or the end of a line separates the numbers of a matrix.
-            let line = matches!(self.peek(), Some(Token::Line));
+            let before = self.at.checked_sub(1).and_then(|at| self.tokens.get(at));
+            let line = before.is_some_and(|before| matches!(before.token, Token::Line))
+                || matches!(self.peek(), Some(Token::Line));
             let apart = self.tokens.get(self.at).is_some_and(|next| next.apart);
             let ends = matches!(self.symbol(), Some(c) if c == close || c == ',' || c == ';');
             if !ends && !(spaces && (line || apart)) {

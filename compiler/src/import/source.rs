@@ -12,8 +12,10 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::rc::Rc;
 
+use super::constructors::name_lists;
+use super::fortran::{data_statements, is_fortran};
 use super::parser::{Item, Parser};
-use super::tokens::{Kind, Spanned, Token, is_fortran, tokenize};
+use super::tokens::{Kind, Spanned, Token, tokenize};
 use super::value::Value;
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Input, shown};
@@ -82,6 +84,11 @@ impl<'a> Source<'a> {
         let mut source = Source::empty(input, notation);
         source.fortran = is_fortran(input.text, notation);
         source.tokens = tokenize(input, 0..input.text.len(), notation, Kind::File)?;
+        if source.fortran {
+            data_statements(&mut source.tokens);
+        } else if notation == Notation::C {
+            name_lists(&mut source.tokens);
+        }
         let mut depth = 0_usize;
         for token in &source.tokens {
             if let Token::Symbol(')' | ']' | '}') = token.token {
@@ -111,6 +118,7 @@ impl<'a> Source<'a> {
                 assigned.refuse(span, CHANGED);
             }
         }
+        source.drop_prefix();
         Ok(source)
     }
 
@@ -157,13 +165,43 @@ impl<'a> Source<'a> {
     /// The left side of an assignment, if one begins at a name.
     fn assignment(&self, at: usize, name: &str) -> Option<Target> {
         let (after, brackets, index) = self.brackets(at)?;
-        let equals = self.symbol(after) == Some('=');
-        equals.then(|| Target {
+        let value = match self.symbol(after) {
+            Some('=') => self.skip_lines(after + 1),
+            Some('{') if self.initialises(at) => after,
+            _ => return None,
+        };
+        Some(Target {
             name: name.to_owned(),
             index,
             brackets,
-            value: self.skip_lines(after + 1),
+            value,
         })
+    }
+
+    /// Whether braces after a name and its size are its value in C++: `double a[2]{1.0, 0.0}`, `std::vector<double> a{1.0}`.
+    fn initialises(&self, at: usize) -> bool {
+        /// What precedes the name of a type or a block.
+        const OTHERS: [&str; 12] = [
+            "struct",
+            "class",
+            "enum",
+            "union",
+            "namespace",
+            "public",
+            "private",
+            "protected",
+            "virtual",
+            "else",
+            "do",
+            "try",
+        ];
+        let before = at.checked_sub(1).and_then(|at| self.tokens.get(at));
+        let declared = before.is_some_and(|before| match &before.token {
+            Token::Name(word) => !OTHERS.contains(&word.as_str()),
+            Token::Symbol(c) => matches!(c, '>' | ','),
+            _ => false,
+        });
+        self.notation == Notation::C && declared && self.symbol(at + 1) != Some('(')
     }
 
     /// Whether the value of a name is changed here: `a += 1`, `a .*= 2`, `a[1]++`, `push!(a, 1)`.
@@ -204,7 +242,7 @@ impl<'a> Source<'a> {
             brackets,
             value,
         } = target;
-        let list = matches!(self.symbol(value), Some('{' | '['));
+        let list = matches!(self.symbol(value), Some('{' | '[')) || self.is_reshaped(value);
         // The size of a list in its declaration.
         let declared = list && (self.notation == Notation::C || self.fortran);
         let unclear = brackets > 0 && !declared && (list || brackets > 1 || index.is_none());
@@ -226,6 +264,49 @@ impl<'a> Source<'a> {
                 assigned.refuse(span.clone(), why);
             }
         }
+    }
+
+    /// Whether the value is a matrix that Fortran forms of a list.
+    fn is_reshaped(&self, value: usize) -> bool {
+        let name = self.tokens.get(value).map(|found| &found.token);
+        self.fortran && matches!(name, Some(Token::Name(name)) if name == "reshape")
+    }
+
+    /// Drops the name of the method from the lists `gauss_2_a`, `gauss_2_b` of C, if a text has one such table and no other.
+    fn drop_prefix(&mut self) {
+        let own = ["a", "A", "b"].into_iter().any(|name| self.has(name));
+        if own || self.notation != Notation::C || self.fortran {
+            return;
+        }
+        let prefixes = self.names.keys().filter_map(|key| key.strip_suffix("_a"));
+        let mut prefixes = prefixes.filter(|prefix| self.has(&format!("{prefix}_b")));
+        let (Some(prefix), None) = (prefixes.next().map(str::to_owned), prefixes.next()) else {
+            return;
+        };
+        for name in ["a", "b", "c", "a_tilde", "b_tilde", "c_tilde"] {
+            if let Some(assigned) = self.names.remove(&format!("{prefix}_{name}")) {
+                self.names.entry(name.to_owned()).or_insert(assigned);
+            }
+        }
+    }
+
+    /// The lists `a1`, `a2`, … if each is filled entry by entry, as rows of a matrix.
+    ///
+    /// # Errors
+    /// The errors of [`list`](Self::list).
+    pub fn rows(&self, name: &str) -> Result<Option<Vec<Vec<Value>>>, Error> {
+        let numbered = self.numbered(name);
+        let filled = numbered.values().all(|row| {
+            let assigned = self.names.get(row);
+            assigned.is_some_and(|assigned| assigned.whole.is_none())
+        });
+        if numbered.is_empty() || !filled || self.names.contains_key(name) {
+            return Ok(None);
+        }
+        let rows = numbered
+            .values()
+            .map(|row| Ok(self.list(row)?.unwrap_or_default()));
+        rows.collect::<Result<_, Error>>().map(Some)
     }
 
     /// Whether a comma outside brackets forms a tuple rather than separating declarations.
@@ -262,7 +343,8 @@ impl<'a> Source<'a> {
         });
         let numbered = || {
             let (_, first) = self.numbered(name).into_iter().next()?;
-            self.names.get(&first)?.whole.as_ref()
+            let first = self.names.get(&first)?;
+            first.whole.as_ref().or(first.elements.values().next())
         };
         own.or_else(numbered).map_or(0..0, |(span, _)| span.clone())
     }

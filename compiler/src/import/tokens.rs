@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use num_bigint::BigInt;
 
+use super::fortran;
 use super::value::Value;
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Input, shown};
@@ -43,17 +44,6 @@ pub(super) enum Kind {
     Number,
 }
 
-/// Whether a text is Fortran: it has declarations with ` :: ` or lines continued by `&`, and no braces.
-pub(super) fn is_fortran(text: &str, notation: Notation) -> bool {
-    let continued = |line: &str| {
-        let line = line.trim_end();
-        line.ends_with('&') && !line.ends_with("&&")
-    };
-    matches!(notation, Notation::C | Notation::Julia)
-        && !text.contains(['{', '}'])
-        && (text.contains(" :: ") || text.lines().any(continued))
-}
-
 /// Reads the tokens of a part of a text.
 pub(super) fn tokenize(
     input: Input<'_>,
@@ -69,11 +59,13 @@ pub(super) fn tokenize(
         };
         return Err(input.error(&(0..1), kind));
     }
+    let fortran = kind == Kind::File && fortran::is_fortran(input.text, notation);
     let mut reader = Reader {
         input,
         notation,
         kind,
-        fortran: kind == Kind::File && is_fortran(input.text, notation),
+        fortran,
+        fixed: fortran && fortran::is_fixed(input.text),
         at: range.start,
         end: range.end,
     };
@@ -84,9 +76,9 @@ pub(super) fn tokenize(
     while reader.at < reader.end {
         let start = reader.at;
         let continues = reader.fortran && fresh && !tokens.is_empty();
-        if continues && reader.rest().starts_with('&') {
+        if let Some(mark) = reader.continuation().filter(|_| continues) {
             // The previous line continues here.
-            if matches!(
+            while matches!(
                 tokens.last(),
                 Some(Spanned {
                     token: Token::Line,
@@ -95,7 +87,7 @@ pub(super) fn tokenize(
             ) {
                 tokens.pop();
             }
-            reader.skip(1);
+            reader.skip(mark);
             (apart, fresh) = (true, false);
             continue;
         }
@@ -119,6 +111,8 @@ struct Reader<'a> {
     notation: Notation,
     kind: Kind,
     fortran: bool,
+    /// Whether columns have a meaning in Fortran.
+    fixed: bool,
     at: usize,
     end: usize,
 }
@@ -130,6 +124,19 @@ impl<'a> Reader<'a> {
 
     fn skip(&mut self, bytes: usize) {
         self.at = (self.at + bytes).min(self.end);
+    }
+
+    /// The bytes up to the first character of a line of Fortran that continues the previous line, if this line does.
+    fn continuation(&self) -> Option<usize> {
+        let rest = self.rest();
+        if rest.starts_with('&') {
+            return Some(1);
+        }
+        (self.fixed && self.begins_line() && fortran::continues(rest.lines().next()?)).then_some(6)
+    }
+
+    fn begins_line(&self) -> bool {
+        self.input.text[..self.at].is_empty() || self.input.text[..self.at].ends_with('\n')
     }
 
     /// Skips the accepted characters.
@@ -196,7 +203,8 @@ impl<'a> Reader<'a> {
             (Notation::Julia, '%') => begins(),
             _ => false,
         };
-        let line = line || self.fortran && first == '!';
+        let column = self.fixed && matches!(first, 'c' | 'C' | '*') && self.begins_line();
+        let line = line || self.fortran && first == '!' || column;
         if !line {
             return Ok(false);
         }
@@ -249,7 +257,8 @@ impl<'a> Reader<'a> {
         }
         if first == '\n' {
             self.skip(1);
-            return Ok((self.notation != Notation::C).then_some(Token::Line));
+            let ends = self.notation != Notation::C || self.fortran;
+            return Ok(ends.then_some(Token::Line));
         }
         if self.continued(first) {
             return Ok(None);
@@ -276,6 +285,7 @@ impl<'a> Reader<'a> {
         }
         // `'` directly after a matrix transposes it.
         let transposed = self.notation == Notation::Julia
+            && !self.fortran
             && first == '\''
             && !apart
             && last.is_some_and(|last| match last.token {
@@ -302,12 +312,27 @@ impl<'a> Reader<'a> {
                 });
                 match link {
                     Some(link) => self.skip(link.len()),
-                    None => return Ok(Some(Token::Name(self.input.text[name].to_owned()))),
+                    None => {
+                        let name = &self.input.text[name];
+                        let plain = match self.fortran {
+                            true => name.to_ascii_lowercase(),
+                            false => name.to_owned(),
+                        };
+                        return Ok(Some(Token::Name(plain)));
+                    }
                 }
             }
         }
-        for (mark, symbol) in [("//", '÷'), ("**", '^'), (":=", '='), ("==", '≡')] {
-            if rest.starts_with(mark) {
+        let marks = [
+            ("//", '÷', true),
+            ("**", '^', true),
+            (":=", '=', true),
+            ("==", '≡', true),
+            ("(/", '[', self.fortran),
+            ("/)", ']', self.fortran),
+        ];
+        for (mark, symbol, known) in marks {
+            if known && rest.starts_with(mark) {
                 self.skip(2);
                 return Ok(Some(Token::Symbol(symbol)));
             }

@@ -20,19 +20,25 @@ use crate::quadrature::check_stages;
 /// A word of the text and its bytes.
 type Word<'a> = (&'a str, Range<usize>);
 
-/// Whether the text is such a file: its first line is the one of `to_file`, or its first number stands alone.
+/// Whether the text is such a file: it begins with a number, or its first line is the one of `to_file` with a type of numbers, and no
+/// assignment follows.
 pub(super) fn is_tsv(text: &str) -> bool {
-    header(text).is_some()
-        || rows(text)
-            .next()
-            .is_some_and(|row| row[0].0.parse::<f64>().is_ok())
+    const TYPES: [&str; 5] = ["Float16", "Float32", "Float64", "BigFloat", "Rational{"];
+    let kind = header(text).and_then(|(_, kind)| kind);
+    let whole = kind.is_some_and(|kind| TYPES.iter().any(|known| kind.starts_with(known)));
+    match rows(text).next() {
+        Some(row) if whole => row.iter().all(|(word, _)| !word.contains('=')),
+        Some(row) => row[0].0.parse::<f64>().is_ok(),
+        None => whole,
+    }
 }
 
 /// The stages and the type in the first line.
 fn header(text: &str) -> Option<(usize, Option<&str>)> {
     let mut words = text.lines().next()?.strip_prefix('#')?.split_whitespace();
     let _order: usize = words.next()?.parse().ok()?;
-    Some((words.next()?.parse().ok()?, words.next()))
+    let header = (words.next()?.parse().ok()?, words.next());
+    words.next().is_none().then_some(header)
 }
 
 /// The words of each line that has any outside comments.

@@ -36,6 +36,23 @@ pub(super) struct Term<'a> {
     pub(super) weight: BigRational,
 }
 
+/// The index of the first residual, value minus required value, that is not negligible: at least `2⁻²⁰` of the largest. Residuals far
+/// below the others are those of rounded numbers, or zero.
+pub(super) fn leading<'a>(
+    residuals: impl Iterator<Item = (&'a Number<'a>, &'a BigRational)>,
+) -> usize {
+    const NEGLIGIBLE: u64 = 20;
+    let size = |(value, wanted): (&Number<'_>, &BigRational)| -> u64 {
+        let value = value.enclose(BITS.start).with_bits(BITS.start);
+        let residual = value.subtract(&Interval::enclosing(wanted, BITS.start));
+        residual.low.bits().max(residual.high.bits())
+    };
+    let sizes: Vec<u64> = residuals.map(size).collect();
+    let largest = sizes.iter().copied().max().unwrap_or(0);
+    let leading = |&size: &u64| size + NEGLIGIBLE >= largest;
+    sizes.iter().position(leading).unwrap_or(0)
+}
+
 /// The square root of the weighted sum of squares to [`DIGITS`] digits; `None` if it is too close to the midpoint of
 /// two decimals, or to zero.
 pub(super) fn norm(terms: &[Term<'_>]) -> Option<Decimal> {
@@ -68,6 +85,24 @@ pub(super) fn norm(terms: &[Term<'_>]) -> Option<Decimal> {
 mod tests {
     use super::*;
     use crate::arithmetic::rational::ratio;
+
+    /// The residual of rounded numbers is passed over, unless there is no other.
+    #[test]
+    fn leading_residuals_are_not_those_of_roundings() {
+        let values = |residuals: &[(i64, i32)]| -> Vec<(Number<'static>, BigRational)> {
+            let value =
+                |&(numerator, twos)| ratio(1, 4) + ratio(numerator, 1) / ratio(2, 1).pow(twos);
+            let number = |residual| (Number::Rational(value(residual)), ratio(1, 4));
+            residuals.iter().map(number).collect()
+        };
+        let leading = |residuals: &[(i64, i32)]| {
+            let values = values(residuals);
+            leading(values.iter().map(|(value, wanted)| (value, wanted)))
+        };
+        assert_eq!(leading(&[(1, 66), (1, 60), (-1, 5), (1, 4)]), 2);
+        assert_eq!(leading(&[(1, 66), (1, 60)]), 0);
+        assert_eq!(leading(&[(1, 100), (-1, 66), (1, 60)]), 1);
+    }
 
     #[test]
     fn norms_are_rounded_correctly() {

@@ -23,7 +23,7 @@
 //! order are not enumerated if they take more than ten million products of a coefficient and a stage, or four million if numbers are
 //! expressions. Then only the simplifying assumptions give information about that order.
 //!
-//! The order [observed](Tableau::observed_order) in a step of the pendulum does not use any of this.
+//! The order [observed](Tableau::observed_order) in a step of a pendulum does not use any of this.
 //!
 //! Splittings also have an order for perturbed systems, a [`PerturbedOrder`], from words instead of trees.
 
@@ -48,7 +48,7 @@ pub use class::HamiltonianClass;
 pub use enumeration::{TreeRule, Trees};
 pub(crate) use inherited::GivenOrder;
 pub use modified::ModifiedTerm;
-pub use observed::Kinetic;
+pub use observed::Pendulum;
 pub(crate) use perturbed::listed;
 pub use perturbed::{PerturbedOrder, PowerOrder, ViolatedWord};
 pub(crate) use plan::Plan;
@@ -277,8 +277,7 @@ fn class_order<A: StageAlgebra>(
             break;
         }
         let conditions = weights.conditions(order, representatives);
-        let mut first = None;
-        let mut terms = Vec::new();
+        let (mut refuted, mut terms) = (false, Vec::new());
         // The evidence of this order counts only if all of its conditions hold.
         let mut held = evidence;
         for condition in conditions {
@@ -286,27 +285,27 @@ fn class_order<A: StageAlgebra>(
             match value.difference(&wanted) {
                 Zero::Yes => continue,
                 Zero::Within(bits) => held = held.and(Evidence::Verified { bits }),
-                Zero::No => {
-                    first.get_or_insert(condition);
-                }
+                Zero::No => refuted = true,
             }
             terms.push((condition, value, wanted));
         }
-        let Some(first) = first else {
+        if !refuted {
             evidence = held;
             continue;
-        };
+        }
+        let residuals = terms.iter().map(|(_, value, wanted)| (value, wanted));
+        let (first, value, _) = &terms[error_constant::leading(residuals)];
+        let violated = ViolatedCondition::new(
+            &*pair.algebra,
+            weights.tree(*first),
+            &weights.terms(*first),
+            value,
+        );
         let term = |(condition, value, wanted)| Term {
             value,
             wanted,
             weight: unrooted::weight(class, &weights.tree(condition), representatives),
         };
-        let violated = ViolatedCondition::new(
-            &*pair.algebra,
-            weights.tree(first),
-            &weights.terms(first),
-            &weights.value(first),
-        );
         let terms: Vec<Term<'_>> = terms.into_iter().map(term).collect();
         return ClassOrder {
             order: order - 1,
@@ -325,17 +324,17 @@ fn class_order<A: StageAlgebra>(
 }
 
 /// The order for a class up to a tolerance of the conditions, for rounded numbers, and the first condition that is violated
-/// by more than that; the order is at most [`OrderOptions::limit`].
+/// by more than that; the order is at most `limit`.
 pub(crate) fn order_within<A: StageAlgebra>(
     pair: &Pair<A>,
     class: HamiltonianClass,
     tolerance: &BigRational,
+    limit: usize,
 ) -> (usize, Option<ViolatedCondition>) {
     let pair = pair.enclosed(BITS);
     let symplecticity = Symplecticity::of(&pair);
     let representatives = symplecticity.evidence(class) == Some(Evidence::Proved);
     let mut weights = Weights::new(&pair, TreeRule::Class(class));
-    let limit = OrderOptions::default().limit;
     for order in 1..=limit {
         if !weights.affordable(order) {
             return (order - 1, None);

@@ -3,9 +3,11 @@
 use num_rational::BigRational;
 
 use crate::evidence::Evidence;
+use crate::exact::Exact;
 use crate::export::facts::Fact;
 use crate::order::{ClassOrder, HamiltonianClass};
 use crate::pair::Staircase;
+use crate::properties::images;
 use crate::stability::{Stability, StabilityInterval, StableSteps};
 use crate::tableau::Tableau;
 
@@ -39,15 +41,18 @@ pub(super) fn of(tableau: &Tableau, staircase: Option<Staircase>) -> Vec<(&'stat
             found.evidence,
         );
         let found = properties.symmetric;
-        // In a certificate, symmetric means: with the stages in reverse order. A witness means another order.
-        match found.holds && found.witness.is_some() {
-            true => missing.push("symmetric".to_owned()),
-            false => note(
+        // A witness means that the order of the stages is not the reverse one; the checker does not look for it.
+        match (found.holds && found.witness.is_some(), found.evidence) {
+            (true, Evidence::Proved) => match order_of_stages(tableau) {
+                Some(order) => claims.push(("symmetric", order)),
+                None => missing.push("symmetric".to_owned()),
+            },
+            (_, evidence) => note(
                 &mut claims,
                 &mut missing,
                 "symmetric",
                 found.holds,
-                found.evidence,
+                evidence,
             ),
         }
     }
@@ -80,6 +85,16 @@ pub(super) fn of(tableau: &Tableau, staircase: Option<Staircase>) -> Vec<(&'stat
     }
     claims.push(("not_covered", List(missing.into_iter().map(Text).collect())));
     claims
+}
+
+/// The order of the stages, counted from 1, with which the method is symmetric; `None` if its matrices are functions of the nodes.
+fn order_of_stages(tableau: &Tableau) -> Option<Fact> {
+    let images = match &tableau.exact {
+        Exact::Field(_) => images(&tableau.numbers())?,
+        _ => return None,
+    };
+    let stages = images.into_iter().map(|i| Literal((i + 1).to_string()));
+    Some(List(stages.collect()))
 }
 
 fn is_proved(evidence: Evidence) -> bool {

@@ -1,26 +1,34 @@
 //! LaTeX.
 
-use super::table::{Entry, Table, comments};
-use crate::expression::{Expression, ExpressionKind, Input, Operator, parse_list};
+mod formula;
+mod legend;
 
-/// Longer exact forms are replaced by decimals.
-const LONGEST_EXACT: usize = 28;
+use self::formula::width;
+use self::legend::Legend;
+use super::table::{Entry, Table, comments};
+
 /// For methods with more stages, drifts and kicks in two columns replace the matrices.
 const MOST_COLUMNS: usize = 8;
 /// The digits in a line of text: 345 pt in the class `article`, 5 pt each.
 const LINE: f64 = 69.0;
 
 pub(super) fn write(table: &Table<'_>) -> String {
-    let halves = halves(table);
+    let mut legend = Legend::new(table);
+    let halves = halves(table, &mut legend);
     let widths: Vec<f64> = halves.iter().map(Half::width).collect();
     let wide = widths.iter().any(|&width| width > LINE);
     let many = table.tableau.stages() > MOST_COLUMNS;
-    let flows = flows(table).filter(|_| wide || many);
+    let mut legend_of_flows = Legend::new(table);
+    let flows = flows(table, &mut legend_of_flows).filter(|_| wide || many);
+    if flows.is_some() {
+        legend = legend_of_flows;
+    }
     let lists = flows.or_else(|| wide.then(|| halves.iter().map(Half::lists).collect()));
     let text = comments("%", &table.description());
     if let Some(lists) = lists {
         return format!(
-            "{text}% needs \\usepackage{{booktabs}} and \\usepackage{{longtable}}\n{{\\renewcommand{{\\arraystretch}}{{1.5}}\n{lists}}}\n"
+            "{text}% needs \\usepackage{{booktabs}} and \\usepackage{{longtable}}\n{{\\renewcommand{{\\arraystretch}}{{1.5}}\n{lists}}}\n{legend}",
+            legend = legend.text()
         );
     }
     let stretch = "\\[\n\\renewcommand{\\arraystretch}{1.5}\n";
@@ -31,8 +39,9 @@ pub(super) fn write(table: &Table<'_>) -> String {
     };
     let arrays: Vec<String> = halves.iter().map(Half::array).collect();
     format!(
-        "{text}% needs \\usepackage{{amsmath}} and \\usepackage{{booktabs}}\n{stretch}{}\\]\n",
-        arrays.join(&between)
+        "{text}% needs \\usepackage{{amsmath}} and \\usepackage{{booktabs}}\n{stretch}{}\\]\n{}",
+        arrays.join(&between),
+        legend.text()
     )
 }
 
@@ -46,9 +55,11 @@ struct Half {
 }
 
 /// The tableaux for positions and momenta, or the one for both.
-fn halves(table: &Table<'_>) -> Vec<Half> {
-    let half = |letters, nodes: &[Entry], matrix: &[Vec<Entry>], weights: &[Entry]| {
-        let numbers = |entries: &[Entry]| entries.iter().map(number).collect();
+fn halves(table: &Table<'_>, legend: &mut Legend<'_>) -> Vec<Half> {
+    let mut half = |letters, nodes: &[Entry], matrix: &[Vec<Entry>], weights: &[Entry]| {
+        let mut numbers = |entries: &[Entry]| -> Vec<String> {
+            entries.iter().map(|entry| legend.cell(entry)).collect()
+        };
         Half {
             letters,
             nodes: numbers(nodes),
@@ -108,7 +119,7 @@ impl Half {
 }
 
 /// The drifts and kicks of a method that consists of them, two per line.
-fn flows(table: &Table<'_>) -> Option<String> {
+fn flows(table: &Table<'_>, legend: &mut Legend<'_>) -> Option<String> {
     let drifts_first = table.begins_with_a_drift()?;
     let [drifts, kicks] = table.drifts_and_kicks(drifts_first)?;
     let (drifts, kicks) = (("b_i", drifts), ("\\tilde b_i", kicks));
@@ -118,7 +129,7 @@ fn flows(table: &Table<'_>) -> Option<String> {
         [kicks, drifts]
     };
     let rows = first.1.iter().zip(&second.1).zip(1..);
-    let rows = rows.map(|((x, y), i)| [i.to_string(), number(x), number(y)]);
+    let rows = rows.map(|((x, y), i)| [i.to_string(), legend.cell(x), legend.cell(y)]);
     Some(list(["i", first.0, second.0], rows))
 }
 
@@ -130,186 +141,4 @@ fn list(head: [&str; 3], rows: impl Iterator<Item = [String; 3]>) -> String {
         "\\begin{{longtable}}{{ccc}}\n\\toprule\n{}\\midrule\n\\endhead\n\\bottomrule\n\\endfoot\n{rows}\\end{{longtable}}\n",
         line(head)
     )
-}
-
-/// The width of a formula, in digits: about that of Computer Modern.
-fn width(formula: &str) -> f64 {
-    let mut rest = formula;
-    let mut sum = 0.0;
-    while let Some(c) = rest.chars().next() {
-        rest = &rest[c.len_utf8()..];
-        sum += match c {
-            '\\' => {
-                let end = rest.find(|c: char| !c.is_ascii_alphabetic());
-                let (name, after) = rest.split_at(end.unwrap_or(rest.len()));
-                rest = after;
-                if name == "frac" {
-                    let above = group(&mut rest);
-                    let below = group(&mut rest);
-                    0.8 * width(above).max(width(below)) + 0.5
-                } else {
-                    1.5
-                }
-            }
-            '+' | '-' => 1.6,
-            ' ' | '.' => 0.5,
-            '{' | '}' | '^' => 0.0,
-            _ => 1.0,
-        };
-    }
-    sum
-}
-
-/// What the braces at the start of a text hold; the text goes on behind them.
-fn group<'a>(rest: &mut &'a str) -> &'a str {
-    let mut depth = 0;
-    let end = rest.char_indices().find_map(|(at, c)| {
-        depth += match c {
-            '{' => 1,
-            '}' => -1,
-            _ => 0,
-        };
-        (depth == 0).then_some(at)
-    });
-    let (held, after) = rest.split_at(end.unwrap_or(rest.len()));
-    *rest = after.strip_prefix('}').unwrap_or(after);
-    held.strip_prefix('{').unwrap_or(held)
-}
-
-/// The exact form if it is short, otherwise the decimal.
-fn number(entry: &Entry) -> String {
-    let short = entry.exact.as_deref();
-    let short = short.filter(|exact| exact.len() <= LONGEST_EXACT);
-    short
-        .and_then(exact)
-        .unwrap_or_else(|| entry.decimal.clone())
-}
-
-/// An exact form; `None` if a part of it has no LaTeX notation.
-fn exact(text: &str) -> Option<String> {
-    let input = Input {
-        name: "entry",
-        text,
-    };
-    let list = parse_list(input).ok()?;
-    let [expression] = &list[..] else {
-        return None;
-    };
-    rendered(expression, 0)
-}
-
-/// The precedence of an operator.
-fn strength(operator: Operator) -> u8 {
-    match operator {
-        Operator::Add | Operator::Subtract => 1,
-        Operator::Multiply => 2,
-        // A fraction needs no parentheses.
-        Operator::Divide => 4,
-        Operator::Power => 3,
-    }
-}
-
-/// An expression, in parentheses if the surrounding operator binds tighter.
-fn rendered(expression: &Expression, around: u8) -> Option<String> {
-    let (text, own) = match &expression.kind {
-        ExpressionKind::Number(value) if value.is_integer() => (value.to_string(), 5),
-        ExpressionKind::Number(value) => {
-            let (p, q) = (value.numer(), value.denom());
-            (format!("\\frac{{{p}}}{{{q}}}"), 4)
-        }
-        ExpressionKind::Name(name) if name == "pi" => ("\\pi".to_owned(), 5),
-        ExpressionKind::Name(name) => (name.clone(), 5),
-        ExpressionKind::Call {
-            function,
-            arguments,
-            ..
-        } => {
-            let [argument] = &arguments[..] else {
-                return None;
-            };
-            let argument = rendered(argument, 0)?;
-            match function.as_str() {
-                "sqrt" => (format!("\\sqrt{{{argument}}}"), 5),
-                "cos" | "sin" | "exp" => (format!("\\{function}\\left({argument}\\right)"), 5),
-                _ => return None,
-            }
-        }
-        ExpressionKind::Negate(inner) => (format!("-{}", rendered(inner, 2)?), 1),
-        ExpressionKind::Binary {
-            operator,
-            left,
-            right,
-        } => {
-            if let (Operator::Divide, ExpressionKind::Negate(inner)) = (operator, &left.kind) {
-                // The sign stands before the fraction, so the result binds like a sum.
-                let (above, below) = (rendered(inner, 0)?, rendered(right, 0)?);
-                return Some(parenthesised(
-                    format!("-\\frac{{{above}}}{{{below}}}"),
-                    1,
-                    around,
-                ));
-            }
-            let own = strength(*operator);
-            let (left, right) = match operator {
-                Operator::Divide => (rendered(left, 0)?, rendered(right, 0)?),
-                Operator::Power => (rendered(left, 4)?, rendered(right, 0)?),
-                Operator::Subtract => (rendered(left, own)?, rendered(right, own + 1)?),
-                _ => (rendered(left, own)?, rendered(right, own)?),
-            };
-            let text = match operator {
-                Operator::Add => format!("{left} + {right}"),
-                Operator::Subtract => format!("{left} - {right}"),
-                Operator::Multiply if right.starts_with(|c: char| c.is_ascii_digit()) => {
-                    format!("{left} \\cdot {right}")
-                }
-                Operator::Multiply => format!("{left} {right}"),
-                Operator::Divide => format!("\\frac{{{left}}}{{{right}}}"),
-                Operator::Power => format!("{left}^{{{right}}}"),
-            };
-            (text, own)
-        }
-    };
-    Some(parenthesised(text, own, around))
-}
-
-/// A text in parentheses, if the surrounding operator binds tighter than its own.
-fn parenthesised(text: String, own: u8, around: u8) -> String {
-    if own < around {
-        format!("\\left({text}\\right)")
-    } else {
-        text
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{exact, width};
-
-    #[test]
-    fn exact_forms() {
-        for (text, expected) in [
-            ("1/2 - sqrt(3)/6", "\\frac{1}{2} - \\frac{\\sqrt{3}}{6}"),
-            ("-1/24", "-\\frac{1}{24}"),
-            ("2*sqrt(15)/3", "\\frac{2 \\sqrt{15}}{3}"),
-            ("1/(2 - 2^(1/3))", "\\frac{1}{2 - 2^{\\frac{1}{3}}}"),
-            ("(1 - sqrt(2))^2", "\\left(1 - \\sqrt{2}\\right)^{2}"),
-            ("1 - (1 - pi)", "1 - \\left(1 - \\pi\\right)"),
-        ] {
-            assert_eq!(exact(text).as_deref(), Some(expected), "{text}");
-        }
-        assert_eq!(exact("root(x^3 - 2, 1)"), None);
-    }
-
-    #[test]
-    fn widths() {
-        for (formula, expected) in [
-            ("12", 2.0),
-            ("-0.5", 4.1),
-            ("\\frac{1}{24}", 2.1),
-            ("\\frac{1}{2 - \\frac{1}{3}}", 4.42),
-            ("1 - \\sqrt{2}", 6.1),
-        ] {
-            assert!((width(formula) - expected).abs() < 1e-12, "{formula}");
-        }
-    }
 }

@@ -13,6 +13,11 @@ use crate::library::Notation;
 impl Parser<'_, '_> {
     /// A variable, an element, a call, or a list preceded by the type of its entries.
     pub(super) fn named(&mut self, name: &str, span: Range<usize>) -> Result<Item, Error> {
+        if self.source.fortran
+            && let Some(item) = self.fortran_call(name, &span)?
+        {
+            return Ok(item);
+        }
         // `big"0.5"`
         if let Some(Token::Text(range)) = self.peek().cloned()
             && !self.tokens[self.at].apart
@@ -44,7 +49,13 @@ impl Parser<'_, '_> {
             self.at += 1;
         }
         let mathematica = self.source.notation == Notation::Mathematica;
+        let entry = self.source.fortran && self.source.has(name);
         match self.source_symbol(self.at) {
+            Some('(') if entry => {
+                self.at += 1;
+                let items = self.items(')')?;
+                self.element(name, span, items)
+            }
             Some('(') => {
                 self.at += 1;
                 if name == "convert" {
@@ -142,7 +153,7 @@ impl Parser<'_, '_> {
             }
             (None, Some(index)) => {
                 let list = self.source.list_within(name, self.depth)?;
-                let one_based = self.source.notation == Notation::Julia;
+                let one_based = self.source.notation == Notation::Julia || self.source.fortran;
                 let found = index
                     .checked_sub(usize::from(one_based))
                     .and_then(|index| list.and_then(|list| list.get(index).cloned()));
