@@ -146,7 +146,7 @@ pub enum ErrorKind {
         found: String,
     },
     /// A value of the wrong kind.
-    #[error("{found} where {expected} is needed")]
+    #[error("found {found}, expected {expected}")]
     Type {
         /// What stands there.
         found: String,

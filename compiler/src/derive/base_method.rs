@@ -497,7 +497,7 @@ fn read_fraction(item: &Expression, input: Input<'_>) -> Result<(Constant, bool)
         if Scheme::NAMES.contains(&function.as_str()) {
             let kind = ErrorKind::Type {
                 found: format!("`{function}` among others"),
-                expected: format!("`weights: {function}(4)` alone, or a list of fractions,"),
+                expected: format!("`weights: {function}(4)` alone, or a list of fractions"),
             };
             return Err(input.error(&item.span, kind));
         }

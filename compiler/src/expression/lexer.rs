@@ -119,7 +119,7 @@ pub(crate) fn number(input: Input<'_>, span: Range<usize>) -> Result<BigRational
         .ok_or_else(|| {
             let kind = ErrorKind::Type {
                 found: format!("a number with the exponent {}", super::shown(exponent)),
-                expected: format!("one from -{limit} to {limit}"),
+                expected: format!("an exponent from -{limit} to {limit}"),
             };
             input.error(&span, kind)
         })?;

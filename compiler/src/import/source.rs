@@ -554,7 +554,7 @@ pub(super) fn value_of(
     };
     match parser.quoted(range.clone())? {
         Item::One(value) => Ok(value),
-        Item::Many(_) => Err(source.wrong(&range, "a list where a number is needed".to_owned())),
+        Item::Many(_) => Err(source.wrong(&range, "found a list, expected a number".to_owned())),
     }
 }
 

@@ -346,7 +346,7 @@ mod tests {
             ("chebyshev(10)", "nodes, column 1: `chebyshev(10)` has only"),
             (
                 "gauss(1/2)",
-                "nodes, column 7: 1/2 where a whole number is needed",
+                "nodes, column 7: found 1/2, expected a whole number",
             ),
             (
                 "gauss()",
@@ -374,7 +374,7 @@ mod tests {
             ),
             (
                 "0, t",
-                "nodes, column 4: an expression that depends on `t` where a constant is needed",
+                "nodes, column 4: found an expression that depends on `t`, expected a constant",
             ),
         ];
         for (text, message) in cases {

@@ -83,7 +83,7 @@ impl Requirement {
                     };
                     let kind = ErrorKind::Type {
                         found,
-                        expected: "an order, a whole number of at most 19 digits,".to_owned(),
+                        expected: "an order, a whole number of at most 19 digits".to_owned(),
                     };
                     input.error(&(start..text.len()), kind)
                 })?;
@@ -98,7 +98,7 @@ impl Requirement {
             if text.trim_start().starts_with("order") {
                 let kind = ErrorKind::Type {
                     found: shown(text.trim()),
-                    expected: "`order >= 4`, `order == 4`, or the same with a class, as in `order(separable) >= 4`,"
+                    expected: "`order >= 4`, `order == 4`, or the same with a class, as in `order(separable) >= 4`"
                         .to_owned(),
                 };
                 return input.error(&(0..text.len()), kind);
@@ -106,7 +106,7 @@ impl Requirement {
             if text.trim().parse::<u64>().is_ok() {
                 let kind = ErrorKind::Type {
                     found: shown(text.trim()),
-                    expected: "a requirement; several orders stand in brackets, as in `order(perturbed) >= (8, 4)`,"
+                    expected: "a requirement; several orders stand in brackets, as in `order(perturbed) >= (8, 4)`"
                         .to_owned(),
                 };
                 return input.error(&(0..text.len()), kind);
@@ -435,33 +435,36 @@ mod tests {
     #[test]
     fn what_is_wrong_with_a_requirement_is_said_where_it_is() {
         for (text, message) in [
-            ("order >=", "require, column 9: nothing where an order"),
+            (
+                "order >=",
+                "require, column 9: found nothing, expected an order, a whole number of at most 19 digits",
+            ),
             (
                 "order >= 99999999999999999999999",
                 "a whole number of at most 19 digits",
             ),
-            ("stable_to(0)", "0 where a positive bound on hω is needed"),
+            ("stable_to(0)", "found 0, expected a positive bound on hω"),
             (
                 "stable_to(-1/2)",
-                "-1/2 where a positive bound on hω is needed",
+                "found -1/2, expected a positive bound on hω",
             ),
             ("stable_to(1 +)", "require, column 14: "),
             ("stable_t(1)", "unknown property `stable_t(1)`"),
             (
                 "order(perturbed) >= (4, 8)",
-                "require, column 20: (4, 8) where an order in each power of ε, none above the one before, as in (8, 4), is needed",
+                "require, column 20: found (4, 8), expected an order in each power of ε, none above the one before, as in (8, 4)",
             ),
             (
                 "order(perturbed) == (8, two)",
-                "require, column 20: (8, two) where",
+                "require, column 20: found (8, two), expected",
             ),
             (
                 "order(perturbed) >= ()",
-                "() where an order in each power of ε",
+                "found (), expected an order in each power of ε, none above the one before, as in (8, 4)",
             ),
             (
                 "order(perturbed) >=",
-                "nothing where an order in each power of ε",
+                "found nothing, expected an order in each power",
             ),
         ] {
             let error = Requirement::parse(text).expect_err(text).to_string();

@@ -25,8 +25,7 @@ pub(super) fn read(text: &str) -> Result<Vec<usize>, ErrorKind> {
             "" => "nothing".to_owned(),
             _ => shown(whole),
         },
-        expected: "an order in each power of ε, none above the one before, as in (8, 4),"
-            .to_owned(),
+        expected: "an order in each power of ε, none above the one before, as in (8, 4)".to_owned(),
     })
 }
 

@@ -117,7 +117,7 @@ impl Expression {
                     Some(_) => ErrorKind::Type {
                         found: format!("the exponent {found}"),
                         expected: format!(
-                            "a whole number from -{limit} to {limit}, or `sqrt`, `cbrt` or `exp`,"
+                            "a whole number from -{limit} to {limit}, or `sqrt`, `cbrt` or `exp`"
                         ),
                     },
                     None => ErrorKind::Exponent {
@@ -309,12 +309,15 @@ mod tests {
             ),
             (
                 "root(pi*t, 1)",
-                "column 6: pi*t where a polynomial in t with rational coefficients is needed",
+                "column 6: found pi*t, expected a polynomial in t with rational coefficients",
             ),
-            ("root(t^2 - 2, 1/2)", "column 15: 1/2 where a whole number"),
+            (
+                "root(t^2 - 2, 1/2)",
+                "column 15: found 1/2, expected a whole number",
+            ),
             (
                 "root(3, 1)",
-                "column 1: a polynomial that is constant where",
+                "column 1: found a constant, expected a polynomial of degree at least 1",
             ),
             (
                 "root(t)",
@@ -342,11 +345,11 @@ mod tests {
             ),
             (
                 "t^t",
-                "column 3: an expression that depends on `t` where a constant is needed",
+                "column 3: found an expression that depends on `t`, expected a constant",
             ),
             (
                 "2^(1/2)",
-                "column 3: the exponent 1/2 where a whole number from -400 to 400",
+                "column 3: found the exponent 1/2, expected a whole number from -400 to 400, or `sqrt`, `cbrt` or `exp`",
             ),
             ("0^-1", "column 1: division by zero"),
             ("exp(10^9)", "column 1: exp(1000000000) is too large"),
@@ -376,7 +379,7 @@ mod tests {
         assert_eq!(
             error.map_err(|e| e.to_string()),
             Err(
-                "nodes, column 1: an expression that depends on `t` where a constant is needed"
+                "nodes, column 1: found an expression that depends on `t`, expected a constant"
                     .to_owned()
             )
         );

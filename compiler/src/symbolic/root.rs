@@ -81,8 +81,8 @@ impl Constant {
         let degree = polynomial.degree().unwrap_or(0);
         if degree == 0 {
             return Err(ErrorKind::Type {
-                found: "a polynomial that is constant".to_owned(),
-                expected: "one of degree at least 1".to_owned(),
+                found: "a constant".to_owned(),
+                expected: "a polynomial of degree at least 1".to_owned(),
             });
         }
         check("the degree", degree, MAX_ROOT_DEGREE)?;

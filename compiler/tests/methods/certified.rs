@@ -232,7 +232,7 @@ fn what_does_not_fit_is_told_at_its_part() {
     let told = wrong("separable(4)", "general(4)");
     assert!(
         told.ends_with(
-            "general(4) where `separable(6)`, `nystrom(6)` or `perturbed(8, 6, 4)` is needed"
+            "found general(4), expected `separable(6)`, `nystrom(6)` or `perturbed(8, 6, 4)`"
         ),
         "{told}"
     );

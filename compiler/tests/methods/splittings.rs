@@ -463,7 +463,7 @@ fn what_is_wrong_is_said_where_it_stands() {
         ),
         (
             "kick: 1, drift: 1, first: last",
-            "first, column 1: last where `kick` or `drift` is needed",
+            "first, column 1: found last, expected `kick` or `drift`",
         ),
         (
             "kick: 1, drift: 1, basis: polynomial(1)",
@@ -524,7 +524,7 @@ fn what_is_wrong_is_said_where_it_stands() {
         ),
         (
             "base: stormer-verlet, weights: [triple_jump(4), 1]",
-            "weights, column 2: `triple_jump` among others where ",
+            "weights, column 2: found `triple_jump` among others, expected ",
         ),
         (
             "base: stormer-verlet, weights: suzuki(4), symmetric: true",

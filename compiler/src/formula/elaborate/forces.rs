@@ -73,7 +73,7 @@ impl Elaborator<'_> {
         if parts.len() != coordinates.len() {
             let kind = ErrorKind::Type {
                 found: format!("a force with {} components", parts.len()),
-                expected: format!("as many as the position has, {}", coordinates.len()),
+                expected: format!("one with {}, as the position has", coordinates.len()),
             };
             return self.error(value, kind);
         }

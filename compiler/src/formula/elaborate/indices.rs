@@ -151,7 +151,7 @@ impl Elaborator<'_> {
         let refused = |this: &Self| {
             let kind = ErrorKind::Type {
                 found: format!("the index `{}`", this.text(written)),
-                expected: "a number or an index of a sum, with a number added or subtracted,"
+                expected: "a number or an index of a sum, with a number added or subtracted"
                     .to_owned(),
             };
             this.error(written, kind)

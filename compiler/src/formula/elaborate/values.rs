@@ -35,7 +35,7 @@ impl Elaborator<'_> {
         found: &Value,
         expected: &str,
     ) -> Result<T, Error> {
-        let found = format!("`{}` is {}", self.text(at), self.shape(found));
+        let found = format!("`{}`, {}", self.text(at), self.shape(found));
         let expected = expected.to_owned();
         self.error(at, ErrorKind::Type { found, expected })
     }
