@@ -2,7 +2,7 @@
 
 use symplectic::nalgebra::{DMatrix, DVector, SVector, Vector2};
 use symplectic::variational::{momentum_of_velocity, primary_constraints};
-use symplectic::{Error, Hamiltonian, Method, State};
+use symplectic::{Error, Hamiltonian, Lagrangian, Method, Scalar, State};
 
 use crate::lagrangians::{
     Gauss2, Particle, Relativistic, Run, TwoOfThree, Vortices, Wrong, distance, near_perihelion,
@@ -270,14 +270,53 @@ symplectic::lagrangian! {
 #[test]
 fn a_lagrangian_that_is_degenerate_elsewhere_is_stepped() -> Result<(), Error> {
     let start = State::from_arrays(0.0, [0.1], [8.0]);
-    let error = |steps: u32| -> Result<f64, Error> {
-        let mut run = Run::galerkin(TwoOfThree, Quartic, start.clone(), 2.0 / f64::from(steps))?;
-        let energy = run.energy()?;
-        run.integrate_to(2.0)?;
-        Ok((run.energy()? - energy).abs())
-    };
-    let found = (error(16)? / error(32)?).log2();
-    assert!((found - 4.0).abs() < 0.1, "{found}");
+    macro_rules! check {
+        ($method:ident) => {
+            let error = |steps: u32| -> Result<f64, Error> {
+                let h = 2.0 / f64::from(steps);
+                let mut run = Run::galerkin($method, Quartic, start.clone(), h)?;
+                let energy = run.energy()?;
+                run.integrate_to(2.0)?;
+                Ok((run.energy()? - energy).abs())
+            };
+            let found = (error(16)? / error(32)?).log2();
+            assert!((found - 4.0).abs() < 0.1, "{}: {found}", $method::NAME);
+        };
+    }
+    check!(TwoOfThree);
+    check!(Gauss2);
+    Ok(())
+}
+
+/// L = v⁴/4, which counts its evaluations.
+struct Counted(std::cell::Cell<u32>);
+
+impl Lagrangian for Counted {
+    type Vector<T: Scalar> = SVector<T, 1>;
+
+    fn lagrangian<T: Scalar>(&self, _: T, _: &SVector<T, 1>, v: &SVector<T, 1>) -> T {
+        self.0.set(self.0.get() + 1);
+        v[0].powi(4) * T::from_f64(0.25)
+    }
+}
+
+/// The stages of a free particle all have the velocity of the start. An evaluation with second derivatives takes three of L at each stage,
+/// and the one that confirms it takes one.
+#[test]
+fn the_first_step_begins_with_the_velocity_of_the_start() -> Result<(), Error> {
+    let start = State::from_arrays(0.0, [0.0], [8.0]);
+    macro_rules! check {
+        ($($method:ident)*) => {$(
+            let free = Counted(std::cell::Cell::new(0));
+            let mut run = Run::galerkin($method, free, start.clone(), 0.1)?;
+            run.lagrangian().0.set(0);
+            let state = run.step()?;
+            assert!((state.q[0] - 0.2).abs() < 1e-15 && state.p == start.p);
+            let stages = u32::try_from($method::STAGES).expect("few");
+            assert_eq!(run.lagrangian().0.get(), 4 * stages, "{}", $method::NAME);
+        )*};
+    }
+    check! { OneOfTwo TwoOfThree TwoOfFive ThreeOfFour Uneven Gauss2 }
     Ok(())
 }
 
