@@ -134,7 +134,7 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
                 linear: found.linear,
             });
         }
-        let (_, acceleration) = self.acceleration(*time, q)?;
+        let [_, acceleration] = self.acceleration(*time, q)?;
         if !is_finite(&acceleration) {
             let what = Quantity::Force;
             return Err(Error::NonFiniteState { what });
@@ -168,16 +168,12 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
         &self.system
     }
 
-    /// `(force, M⁻¹ force)` at a position q.
+    /// The force and `M⁻¹ force` at a position q.
     ///
     /// # Errors
     ///
     /// [`Error::ResizedEvaluation`].
-    fn acceleration(
-        &self,
-        time: f64,
-        q: &S::Vector<f64>,
-    ) -> Result<(S::Vector<f64>, S::Vector<f64>), Error> {
+    fn acceleration(&self, time: f64, q: &S::Vector<f64>) -> Result<[S::Vector<f64>; 2], Error> {
         let check = |what, evaluation: &S::Vector<f64>| {
             let (expected, found) = (q.dimension(), evaluation.dimension());
             if found == expected {
@@ -195,7 +191,7 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
         check(Quantity::Force, &force)?;
         Hamiltonian::velocity(&self.system, time, q, &force, &mut acceleration);
         check(Quantity::Velocity, &acceleration)?;
-        Ok((force, acceleration))
+        Ok([force, acceleration])
     }
 
     /// The result of `evaluate` at `q(x)`.
@@ -273,7 +269,7 @@ impl<S: Hamiltonian<Class = Separable>> System<S::Vector<f64>> for Newmark<S> {
             return None;
         }
         let evaluate = |q: &S::Vector<f64>| {
-            let Ok((force, acceleration)) = self.acceleration(time, q) else {
+            let Ok([force, acceleration]) = self.acceleration(time, q) else {
                 return Some(f64::NAN);
             };
             let energy = Hamiltonian::energy(&self.system, time, q, p)?;
