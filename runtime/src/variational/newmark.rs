@@ -46,7 +46,8 @@ use crate::system::{Hamiltonian, Separable, System};
 /// # Energy
 ///
 /// [`energy`](System::energy) is the Hamiltonian of the shifted system, `H(q, p) + βh²/2 ∇V·M⁻¹∇V`. If β > 0 and V is convex, the
-/// potential in x is the minimum of `V(q) + |q − x|²/(2βh²)`, in the norm of M. With an [applied force](Hamiltonian::applied_force) there is no energy.
+/// potential in x is the minimum of `V(q) + |q − x|²/(2βh²)`, in the norm of M. With an [applied force](Hamiltonian::applied_force)
+/// there is no energy.
 ///
 /// # Step size
 ///

@@ -145,7 +145,8 @@ fn violation(
     sums[0].amax().max(impulse.amax())
 }
 
-/// (30) holds with the Hamiltonian at the step that (38) takes with the Lagrangian: Proposition 2 of Leok & Zhang, for (s, r) = (2, 3) and (3, 4).
+/// (30) holds with the Hamiltonian at the step that (38) takes with the Lagrangian: Proposition 2 of Leok & Zhang, for (s, r) = (2, 3) and
+/// (3, 4).
 #[test]
 fn steps_obey_the_hamiltonian_equations() {
     let start = near_perihelion();
@@ -175,8 +176,8 @@ fn steps_obey_the_hamiltonian_equations() {
     assert!(others.iter().all(|&other| other > 1e-10), "{others:?}");
 }
 
-/// With more and more Gauss nodes, the steps of two functions converge geometrically to that with exact integrals, Tang's (2.16)–(2.19): each two
-/// nodes more gain a factor of more than a thousand.
+/// With more and more Gauss nodes, the steps of two functions converge geometrically to that with exact integrals, Tang's (2.16)–(2.19): each
+/// two nodes more gain a factor of more than a thousand.
 #[test]
 fn more_nodes_converge_to_exact_integrals() {
     let (h, start) = (2.0, near_perihelion());

@@ -171,7 +171,8 @@ fn assert_resized(error: &Error, what: Quantity, to: usize) {
     }
 }
 
-/// A fault at the start is found there. A later one is beyond the times at which the start is examined, t = 0 and 1: the step fails and leaves the state, and succeeds without the fault.
+/// A fault at the start is found there. A later one is beyond the times at which the start is examined, t = 0 and 1: the step fails and
+/// leaves the state, and succeeds without the fault.
 fn refuses<M, C>(method: M)
 where
     M: Method + ProvedFor<C>,
