@@ -51,7 +51,7 @@ fn an_explicit_scene_has_no_solver_in_it() -> Result<(), Box<dyn Error>> {
     for module in SOLVERS {
         assert_eq!(of(&explicit, module), Vec::<String>::new(), "{module}");
     }
-    // The same looks find the solver where it is, and the drifts and kicks where those are.
+    // The same searches find the solver where it is, and the drifts and kicks where those are.
     for module in [
         "symplectic::method::coupled::",
         "symplectic::solver::nystrom::",
@@ -87,7 +87,7 @@ fn an_explicit_formula_has_only_its_velocity_and_force_in_it() -> Result<(), Box
     for module in SOLVERS {
         assert!(!has(&explicit, module), "{module}");
     }
-    // In the other program the same look finds all of them.
+    // In the other program the same search finds all of them.
     assert!(has(&newton, "symplectic::solver::newton::"));
     for function in ["energy", "second_derivatives", "half_bandwidth"] {
         let of_formula = |name: &String| {
@@ -114,7 +114,7 @@ fn a_scene_without_constraints_has_nothing_of_them_in_it() -> Result<(), Box<dyn
             assert!(found.is_empty(), "{program}: {found:?}");
         }
     }
-    // The same look finds each of them where it is.
+    // The same search finds each of them where it is.
     let names = functions(env!("CARGO_BIN_EXE_mechanics_scenes"))?;
     for module in MECHANICS {
         assert!(names.iter().any(|name| is_of(name, module)), "{module}");

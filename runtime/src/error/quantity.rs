@@ -18,6 +18,8 @@ pub enum Quantity {
     Force,
     /// A derivative of the velocity or the force.
     Derivative,
+    /// The change of the momentum by a kick.
+    Kick,
     /// H.
     Energy,
     /// A constraint: φ, or a row of w.
@@ -41,6 +43,7 @@ impl fmt::Display for Quantity {
             Self::Velocity => "velocity",
             Self::Force => "force",
             Self::Derivative => "derivative of the velocity or the force",
+            Self::Kick => "change of the momentum by a kick",
             Self::Energy => "energy",
             Self::Constraint => "constraint",
             Self::Attitude => "attitude",

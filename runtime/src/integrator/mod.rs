@@ -114,7 +114,8 @@ impl<M: Method, S: System<V>, V: Vector> Integrator<M, S, V> {
     /// # Errors
     ///
     /// [`Error::StepSize`], [`Error::Dimension`] if the dimensions of `q` and `p` differ, [`Error::NonFiniteState`],
-    /// [`Error::NotQuadraticKinetic`], [`Error::NotUnitMasses`].
+    /// [`Error::NotQuadraticKinetic`], [`Error::NotUnitMasses`]. With constraints also [`Error::InconsistentStart`],
+    /// [`Error::DependentConstraints`] and [`Error::ResizedEvaluation`].
     pub fn new(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error>
     where
         M: ProvedFor<S::Class>,

@@ -171,7 +171,7 @@ impl<V: Vector> StageStorage<V> for DampedMemory<V> {
 
     #[inline]
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
-        let kick = self.resized.map(|found| (Quantity::Momentum, 1, found));
+        let kick = self.resized.map(|found| (Quantity::Kick, 0, found));
         kick.or_else(|| self.evaluations.mismatch(dimension))
     }
 }
@@ -263,17 +263,22 @@ impl<M: Method> Plan for DampedPlan<M> {
         S: System<V, Class = Damped>,
     {
         system.force(V::Scalar::from_f64(time), q, momentum, rate);
+        if rate.dimension() != q.dimension() {
+            // Dense output refuses a rate of this dimension.
+            return;
+        }
         let pairs = rate.as_mut_slice().iter_mut().zip(momentum.as_slice());
         for (k, (rate, &p)) in pairs.enumerate() {
             *rate -= V::Scalar::from_f64(system.friction(k)) * p;
         }
         // Only a system that makes its own kicks leaves the applied force out of its force.
-        let mut applied = rate.zeros_like();
+        let mut applied = q.zeros_like();
         let own_kicks = system.kick(V::Scalar::from_f64(0.0), q, rate, momentum, &mut applied);
         if S::FORCED && own_kicks {
+            // A kick may have resized it.
+            applied = q.zeros_like();
             system.applied_force(V::Scalar::from_f64(time), q, momentum, &mut applied);
-            if applied.dimension() != rate.dimension() {
-                // Dense output refuses a rate of this dimension.
+            if applied.dimension() != q.dimension() {
                 *rate = applied;
                 return;
             }

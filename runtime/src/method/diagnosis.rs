@@ -109,7 +109,7 @@ impl Attempt {
                 step_size,
                 step,
                 what,
-                stage: Some(stage),
+                stage: (stage > 0).then_some(stage),
                 expected: dimension,
                 found,
             };

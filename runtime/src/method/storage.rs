@@ -61,8 +61,8 @@ pub trait StageStorage<V: Vector>: Sized + Clone {
         None
     }
 
-    /// The first evaluation whose dimension is not `dimension`: the quantity, the number of the stage, from 1, and the
-    /// dimension found.
+    /// The first evaluation whose dimension is not `dimension`: the quantity, the number of the stage, from 1, or 0 outside the
+    /// stages, and the dimension found.
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)>;
 }
 

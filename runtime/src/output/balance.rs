@@ -7,8 +7,8 @@ use crate::state::State;
 /// Examples: the energy and the [work](crate::variational::StagesOfStep::work) of an applied force; a momentum map and
 /// its [impulse](crate::variational::StagesOfStep::impulse). With no supply it is an [`Invariant`](crate::Invariant).
 ///
-/// The observer itself is one sum. The supplies of a run by [`step_with_stages`](crate::Integrator::step_with_stages) cost two to four times
-/// as many evaluations as its steps.
+/// The observer itself is one sum. The supplies of a run come from [`step_with_stages`](crate::Integrator::step_with_stages), for Gauss
+/// methods by two to four times as many evaluations as a step, for explicit methods by many more.
 ///
 /// ```
 /// use symplectic::State;

@@ -93,12 +93,9 @@ impl<V: Vector> Ends<V> {
             integrator.momentum_rate(time, q, p, force);
             for (what, value) in [(Quantity::Velocity, velocity), (Quantity::Force, force)] {
                 if value.dimension() != q.dimension() {
-                    return Err(Error::EvaluationDimension {
+                    return Err(Error::ResizedEvaluation {
                         time,
-                        step_size: last.size,
-                        step: integrator.steps(),
                         what,
-                        stage: None,
                         expected: q.dimension(),
                         found: value.dimension(),
                     });
@@ -175,7 +172,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// # Errors
     ///
     /// [`Error::NoStep`] before the first step and after every call that discards it, such as a new state, another
-    /// solver or a failed step. [`Error::NonFinite`] if a derivative at an end is not finite.
+    /// solver or a failed step. [`Error::NonFinite`] if a derivative at an end is not finite, [`Error::ResizedEvaluation`] if it has a
+    /// wrong dimension.
     pub fn dense(&self) -> Result<DenseOutput<'_, M, S, V, R, N>, Error> {
         let mut ends = Ends::new();
         ends.evaluate(self)?;

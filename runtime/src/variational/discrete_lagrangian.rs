@@ -196,6 +196,7 @@ impl<L: DiscreteLagrangian> Derivatives<L> {
         let stage = None;
         match self.resized {
             Some(found) => Failure::Resized {
+                what: Quantity::Force,
                 stage,
                 expected: self.start.len(),
                 found,
@@ -209,7 +210,7 @@ impl<L: DiscreteLagrangian> Derivatives<L> {
         self.resized.map_or(Ok(()), |found| {
             Err(Error::ResizedEvaluation {
                 time,
-                what: Quantity::DiscreteLagrangian,
+                what: Quantity::Force,
                 expected: self.start.len(),
                 found,
             })

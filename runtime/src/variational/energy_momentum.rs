@@ -132,8 +132,8 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
     /// # Errors
     ///
     /// [`Error::NoEnergyStep`] if Newton's iteration finds no step that conserves the discrete energy; [`Error::NoEndOfStep`],
-    /// [`Error::IrregularLagrangian`], [`Error::NonFinite`] if a step of the previous size has no end; [`Error::TimeResolution`]. The state
-    /// is then unchanged.
+    /// [`Error::IrregularLagrangian`], [`Error::NonFinite`] if a step of the previous size has no end; [`Error::EvaluationDimension`],
+    /// [`Error::TimeResolution`]. The state is then unchanged.
     pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
         let (time, before) = (self.state.time, self.step_size);
         // First the end of a step of the previous size, then that of a step with the energy E.

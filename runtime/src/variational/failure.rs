@@ -11,6 +11,7 @@ pub(super) enum Failure {
     },
     /// An evaluation has a wrong dimension.
     Resized {
+        what: Quantity,
         stage: Option<usize>,
         expected: usize,
         found: usize,
@@ -34,6 +35,7 @@ impl Failure {
                 stage,
             },
             Self::Resized {
+                what,
                 stage,
                 expected,
                 found,

@@ -125,8 +125,8 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
     ///
     /// # Errors
     ///
-    /// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::TimeResolution`]; the state is then
-    /// unchanged.
+    /// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::EvaluationDimension`],
+    /// [`Error::TimeResolution`]; the state is then unchanged.
     pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
         self.one_step()?;
         Ok(&self.state)

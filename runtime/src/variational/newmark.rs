@@ -20,7 +20,7 @@ use crate::state::State;
 use crate::system::linearity::non_linear_velocity;
 use crate::system::{Hamiltonian, Separable, System};
 
-/// A system `H = pᵀM⁻¹p/2 + V(q)` in the shifted positions in which Newmark's method with `γ = 1/2` and any `β ≥ 0` is Störmer–Verlet
+/// A system `H = pᵀM⁻¹p/2 + V(q)` in the shifted positions in which Newmark's method with `γ = 1/2` and any β is Störmer–Verlet
 /// (Newmark 1959; Marsden & West 2001, 2.6.3; Skeel, Zhang & Schlick 1997):
 ///
 /// ```text
@@ -41,13 +41,13 @@ use crate::system::{Hamiltonian, Separable, System};
 /// | 1/6 | linear acceleration; stable for hω < 2√3 |
 /// | 1/4 | average acceleration: linear oscillators are stable at every step size |
 ///
-/// Every β has order 2. For β < 1/4 a linear oscillator is stable for `(hω)² < 4/(1 − 4β)`. β < 0 lowers this limit; no method in use has
-/// such a β.
+/// Every β has order 2. For β < 1/4 a linear oscillator is stable for `(hω)² < 4/(1 − 4β)`. β < 0 lowers this limit.
 ///
 /// # Energy
 ///
-/// [`energy`](System::energy) is the Hamiltonian of the shifted system, `H(q, p) + βh²/2 ∇V·M⁻¹∇V`. If β > 0 and V is convex, the potential in x
-/// is the minimum of `V(q) + |q − x|²/(2βh²)`, in the norm of M. With an [applied force](Hamiltonian::applied_force) there is no energy.
+/// [`energy`](System::energy) is the Hamiltonian of the shifted system, `H(q, p) + βh²/2 ∇V·M⁻¹∇V`. If β > 0 and V is convex, the
+/// potential in x is the minimum of `V(q) + |q − x|²/(2βh²)`, in the norm of M. With an [applied force](Hamiltonian::applied_force)
+/// there is no energy.
 ///
 /// # Step size
 ///
@@ -124,8 +124,7 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
     /// # Errors
     ///
     /// [`Error::Dimension`]; [`Error::NonFiniteState`] for the state or its force; [`Error::ResizedEvaluation`];
-    /// [`Error::NewmarkMasses`] if the velocity is not `M⁻¹p`
-    /// with a constant M.
+    /// [`Error::NewmarkMasses`] if the velocity is not `M⁻¹p` with a constant M.
     pub fn shift(&self, state: &State<S::Vector<f64>>) -> Result<State<S::Vector<f64>>, Error> {
         let State { time, q, p } = state;
         check_state(*time, q, p, q.dimension())?;
@@ -136,21 +135,7 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
                 linear: found.linear,
             });
         }
-        let (force, acceleration) = self.acceleration(*time, q);
-        for (what, found) in [
-            (Quantity::Force, &force),
-            (Quantity::Velocity, &acceleration),
-        ] {
-            let (expected, found) = (q.dimension(), found.dimension());
-            if found != expected {
-                return Err(Error::ResizedEvaluation {
-                    time: *time,
-                    what,
-                    expected,
-                    found,
-                });
-            }
-        }
+        let [_, acceleration] = self.acceleration(*time, q)?;
         if !is_finite(&acceleration) {
             let what = Quantity::Force;
             return Err(Error::NonFiniteState { what });
@@ -184,12 +169,30 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
         &self.system
     }
 
-    /// `(force, M⁻¹ force)` at a position q.
-    fn acceleration(&self, time: f64, q: &S::Vector<f64>) -> (S::Vector<f64>, S::Vector<f64>) {
+    /// The force and `M⁻¹ force` at a position q.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::ResizedEvaluation`].
+    fn acceleration(&self, time: f64, q: &S::Vector<f64>) -> Result<[S::Vector<f64>; 2], Error> {
+        let check = |what, evaluation: &S::Vector<f64>| {
+            let (expected, found) = (q.dimension(), evaluation.dimension());
+            if found == expected {
+                return Ok(());
+            }
+            Err(Error::ResizedEvaluation {
+                time,
+                what,
+                expected,
+                found,
+            })
+        };
         let (mut force, mut acceleration) = (q.zeros_like(), q.zeros_like());
         Hamiltonian::force(&self.system, time, q, q, &mut force);
+        check(Quantity::Force, &force)?;
         Hamiltonian::velocity(&self.system, time, q, &force, &mut acceleration);
-        (force, acceleration)
+        check(Quantity::Velocity, &acceleration)?;
+        Ok([force, acceleration])
     }
 
     /// The result of `evaluate` at `q(x)`.
@@ -267,7 +270,9 @@ impl<S: Hamiltonian<Class = Separable>> System<S::Vector<f64>> for Newmark<S> {
             return None;
         }
         let evaluate = |q: &S::Vector<f64>| {
-            let (force, acceleration) = self.acceleration(time, q);
+            let Ok([force, acceleration]) = self.acceleration(time, q) else {
+                return Some(f64::NAN);
+            };
             let energy = Hamiltonian::energy(&self.system, time, q, p)?;
             Some(energy + self.shift * 0.5 * dot(&force, &acceleration))
         };
@@ -328,7 +333,9 @@ impl<S: Hamiltonian> Workspace<S> {
         self.position.as_mut_slice().copy_from_slice(x.as_slice());
         let mut residual = f64::NAN;
         for _ in 0..MAX_ITERATIONS {
-            self.linearise(system, time, shift);
+            if !self.linearise(system, time, shift) {
+                return Err(residual);
+            }
             self.factors.factor(&self.matrix).map_err(|_| residual)?;
             let position = self.position.as_mut_slice();
             let places = x.as_slice().iter().zip(self.q.as_slice());
@@ -343,8 +350,9 @@ impl<S: Hamiltonian> Workspace<S> {
         Err(residual)
     }
 
-    /// Writes the matrix `1 − βh² ∂a/∂q`; each evaluation of the acceleration gives two columns.
-    fn linearise(&mut self, system: &S, time: f64, shift: f64) {
+    /// Writes the matrix `1 − βh² ∂a/∂q`; each evaluation of the acceleration gives two columns. Returns whether force and acceleration
+    /// have the dimension of the position.
+    fn linearise(&mut self, system: &S, time: f64, shift: f64) -> bool {
         let n = self.position.dimension();
         let time = HyperDual::from_f64(time);
         let pairs = self
@@ -360,7 +368,15 @@ impl<S: Hamiltonian> Workspace<S> {
                 dual.set_second(1.0);
             }
             system.force(time, &self.q, &self.q, &mut self.force);
+            if self.force.dimension() != n {
+                self.force.clone_from(&self.q);
+                return false;
+            }
             system.velocity(time, &self.q, &self.force, &mut self.acceleration);
+            if self.acceleration.dimension() != n {
+                self.acceleration.clone_from(&self.q);
+                return false;
+            }
             let rows = self.matrix.chunks_exact_mut(n).enumerate();
             for ((i, row), a) in rows.zip(self.acceleration.as_slice()) {
                 let entry = |j: usize, slope: f64| f64::from(i == j) - shift * slope;
@@ -374,5 +390,6 @@ impl<S: Hamiltonian> Workspace<S> {
                 dual.set_second(0.0);
             }
         }
+        true
     }
 }

@@ -94,14 +94,14 @@ impl<V: Vector> StagesOfStep<V> {
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Takes one step and returns its stages, for balances of energy and momentum, and for the discrete action.
     ///
-    /// The solver of the step keeps its stages in a form of its own. So they are computed once more, to rounding and from no starting
-    /// values, by fixed-point iteration: together two to four times as many evaluations as a step. Memory is allocated. Use it for tests and
-    /// reports, not for every step of a long run.
+    /// The solver of the step keeps its stages in a form of its own. So they are computed again, to rounding and from no starting values.
+    /// For Gauss methods two to four times as many evaluations as a step, for explicit methods many more. Memory is allocated. Use it for
+    /// tests and reports, not for every step of a long run.
     ///
     /// # Errors
     ///
-    /// Those of [`step`](Self::step), [`Error::EvaluationDimension`] for the applied force too; [`Error::OtherClass`] for a system of class [`Damped`](crate::Damped), whose kicks are exact flows
-    /// without stages. The state is then unchanged.
+    /// Those of [`step`](Self::step), [`Error::EvaluationDimension`] for the applied force too; [`Error::OtherClass`] for a system of
+    /// class [`Damped`](crate::Damped), whose kicks are exact flows without stages. The state is then unchanged.
     ///
     /// ```
     /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }

@@ -334,6 +334,30 @@ fn momenta_that_are_not_linear_contradict_the_midpoint_rule() {
     );
 }
 
+/// L = v²/2 + ln x is NaN for x < 0, but has derivatives there.
+struct Logarithm;
+
+impl Lagrangian for Logarithm {
+    type Vector<T: Scalar> = SVector<T, 1>;
+
+    fn lagrangian<T: Scalar>(&self, _: T, q: &SVector<T, 1>, v: &SVector<T, 1>) -> T {
+        v[0] * v[0] * T::from_f64(0.5) + q[0].ln()
+    }
+}
+
+impl DiracSystem for Logarithm {}
+
+/// The first iterate, with the velocity of the start, ends at x = −0.1. The middle m of the step solves 4m² − 1.8m − 1/4 = 0.
+#[test]
+fn an_iterate_outside_the_domain_of_the_lagrangian_is_left() -> Result<(), Error> {
+    let start = State::from_arrays(0.0, [1.0], [-2.2]);
+    let mut run = DiracIntegrator::new(DiracRule::Midpoint, Logarithm, start, 0.5)?;
+    let middle = (1.8 + (1.8_f64.powi(2) + 4.0).sqrt()) / 8.0;
+    let end = run.step()?.q[0];
+    assert!((end - (2.0 * middle - 1.0)).abs() < 1e-15, "{end}");
+    Ok(())
+}
+
 /// L = |v|²/2 with rows that are told: two equal ones, one that vanishes at x = 1, more than components, one out of place.
 #[derive(Clone, Copy, PartialEq)]
 enum Rows {

@@ -2,7 +2,7 @@
 
 use symplectic::nalgebra::{DMatrix, DVector, SVector, Vector2};
 use symplectic::variational::{momentum_of_velocity, primary_constraints};
-use symplectic::{Error, Hamiltonian, Method, State};
+use symplectic::{Error, Hamiltonian, Lagrangian, Method, Scalar, State};
 
 use crate::lagrangians::{
     Gauss2, Particle, Relativistic, Run, TwoOfThree, Vortices, Wrong, distance, near_perihelion,
@@ -145,7 +145,8 @@ fn violation(
     sums[0].amax().max(impulse.amax())
 }
 
-/// (30) holds with the Hamiltonian at the step that (38) takes with the Lagrangian: Proposition 2 of Leok & Zhang, for (s, r) = (2, 3) and (3, 4).
+/// (30) holds with the Hamiltonian at the step that (38) takes with the Lagrangian: Proposition 2 of Leok & Zhang, for (s, r) = (2, 3) and
+/// (3, 4).
 #[test]
 fn steps_obey_the_hamiltonian_equations() {
     let start = near_perihelion();
@@ -175,8 +176,8 @@ fn steps_obey_the_hamiltonian_equations() {
     assert!(others.iter().all(|&other| other > 1e-10), "{others:?}");
 }
 
-/// With more and more Gauss nodes, the steps of two functions converge geometrically to that with exact integrals, Tang's (2.16)–(2.19): each two
-/// nodes more gain a factor of more than a thousand.
+/// With more and more Gauss nodes, the steps of two functions converge geometrically to that with exact integrals, Tang's (2.16)–(2.19): each
+/// two nodes more gain a factor of more than a thousand.
 #[test]
 fn more_nodes_converge_to_exact_integrals() {
     let (h, start) = (2.0, near_perihelion());
@@ -270,14 +271,53 @@ symplectic::lagrangian! {
 #[test]
 fn a_lagrangian_that_is_degenerate_elsewhere_is_stepped() -> Result<(), Error> {
     let start = State::from_arrays(0.0, [0.1], [8.0]);
-    let error = |steps: u32| -> Result<f64, Error> {
-        let mut run = Run::galerkin(TwoOfThree, Quartic, start.clone(), 2.0 / f64::from(steps))?;
-        let energy = run.energy()?;
-        run.integrate_to(2.0)?;
-        Ok((run.energy()? - energy).abs())
-    };
-    let found = (error(16)? / error(32)?).log2();
-    assert!((found - 4.0).abs() < 0.1, "{found}");
+    macro_rules! check {
+        ($method:ident) => {
+            let error = |steps: u32| -> Result<f64, Error> {
+                let h = 2.0 / f64::from(steps);
+                let mut run = Run::galerkin($method, Quartic, start.clone(), h)?;
+                let energy = run.energy()?;
+                run.integrate_to(2.0)?;
+                Ok((run.energy()? - energy).abs())
+            };
+            let found = (error(16)? / error(32)?).log2();
+            assert!((found - 4.0).abs() < 0.1, "{}: {found}", $method::NAME);
+        };
+    }
+    check!(TwoOfThree);
+    check!(Gauss2);
+    Ok(())
+}
+
+/// L = v⁴/4, which counts its evaluations.
+struct Counted(std::cell::Cell<u32>);
+
+impl Lagrangian for Counted {
+    type Vector<T: Scalar> = SVector<T, 1>;
+
+    fn lagrangian<T: Scalar>(&self, _: T, _: &SVector<T, 1>, v: &SVector<T, 1>) -> T {
+        self.0.set(self.0.get() + 1);
+        v[0].powi(4) * T::from_f64(0.25)
+    }
+}
+
+/// The stages of a free particle all have the velocity of the start. An evaluation with second derivatives takes three of L at each stage,
+/// and the one that confirms it takes one.
+#[test]
+fn the_first_step_begins_with_the_velocity_of_the_start() -> Result<(), Error> {
+    let start = State::from_arrays(0.0, [0.0], [8.0]);
+    macro_rules! check {
+        ($($method:ident)*) => {$(
+            let free = Counted(std::cell::Cell::new(0));
+            let mut run = Run::galerkin($method, free, start.clone(), 0.1)?;
+            run.lagrangian().0.set(0);
+            let state = run.step()?;
+            assert!((state.q[0] - 0.2).abs() < 1e-15 && state.p == start.p);
+            let stages = u32::try_from($method::STAGES).expect("few");
+            assert_eq!(run.lagrangian().0.get(), 4 * stages, "{}", $method::NAME);
+        )*};
+    }
+    check! { OneOfTwo TwoOfThree TwoOfFive ThreeOfFour Uneven Gauss2 }
     Ok(())
 }
 

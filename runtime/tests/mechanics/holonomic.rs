@@ -331,6 +331,46 @@ fn extrapolation_saves_sweeps() {
     assert!(10 * equal < 9 * unequal, "{equal} {unequal}");
 }
 
+/// The adjoint of symplectic Euler takes about as many sweeps and evaluations as symplectic Euler: without stages of steps before, and for
+/// a velocity that depends on the momentum in any way. The bounds leave a tenth more.
+#[test]
+fn the_adjoint_takes_as_many_sweeps() -> Result<(), Error> {
+    fn work<M, S, C, V>(method: M, system: S, start: State<V>) -> Result<[u64; 2], Error>
+    where
+        V: Vector<Scalar = f64>,
+        S: Hamiltonian<Class = Constrained<C>, Vector<f64> = V>,
+        C: symplectic::Class + symplectic::system::Unconstrained,
+        M: Method + ProvedFor<Constrained<C>>,
+    {
+        let mut run = Integrator::new(method, system, start, 0.02)?;
+        for number in 0..100 {
+            run.set_step_size([0.02, 0.0201][number % 2])?;
+            run.step()?;
+        }
+        let done = run.statistics();
+        Ok([done.iterations, done.evaluations])
+    }
+    macro_rules! both {
+        ($system:ident, $start:expr) => {
+            [
+                work(Euler, $system, $start)?,
+                work(AdjointEuler, $system, $start)?,
+            ]
+        };
+    }
+    let counts = [
+        both!(DoubleSpherical, double_start()),
+        both!(Bead, sphere_start()),
+        both!(Relativistic, consistent(&Relativistic, sphere_start())?),
+    ];
+    for [euler, adjoint] in counts {
+        for (euler, adjoint) in euler.into_iter().zip(adjoint) {
+            assert!(10 * adjoint <= 11 * euler, "{counts:?}");
+        }
+    }
+    Ok(())
+}
+
 /// A pendulum whose force is NaN at one evaluation.
 #[derive(Clone)]
 struct FailsOnce(std::cell::Cell<u32>);

@@ -351,6 +351,13 @@ fn errors() {
         })
     ));
     assert!(matches!(
+        velocity_of_momentum(&Wrong { strange: true }, 0.0, &q, &p),
+        Err(Error::NoVelocity {
+            component: None,
+            ..
+        })
+    ));
+    assert!(matches!(
         Run::new(Gauss2, particle, near_perihelion(), 0.0),
         Err(Error::StepSize { .. })
     ));

@@ -98,6 +98,10 @@ pub(in crate::method) fn add_to_force<V: Vector, S: System<V>>(
     at: (&V, &V),
     force: &mut V,
 ) {
+    if force.dimension() != at.0.dimension() {
+        // Dense output refuses it.
+        return;
+    }
     let system = &OfDimension::new(system, at.0.dimension());
     match multipliers(system, time, at, force) {
         Ok((multipliers, point)) => {

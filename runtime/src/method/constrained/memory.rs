@@ -160,7 +160,7 @@ impl<V: Vector> StageStorage<V> for ConstrainedStages<V> {
             Quantity::Force => &workspace.kick[..],
             _ => &workspace.drift[..],
         };
-        Some((what, first_non_finite_of(increments).unwrap_or(1), found))
+        Some((what, first_non_finite_of(increments).unwrap_or(0), found))
     }
 
     fn forget(&mut self, _prototype: &V) {}

@@ -36,8 +36,8 @@ impl<V: Vector> Workspace<V> {
     /// h b_k Λ_k += (b_k/h) Σ_i (X⁻¹)_ki S⁻¹ φ(Q_i)      S = G M⁻¹ Gᵀ at q0
     /// ```
     ///
-    /// until the residuals are rounding errors. Stages between start and end follow the new multipliers at once. Then `Q_s = q1`, and the last
-    /// multiplier follows from `G velocity(q1, p1) = 0`.
+    /// with 1 in place of a weight `b_k = 0`, until the residuals are rounding errors. Stages between start and end follow the new
+    /// multipliers at once. Then `Q_s = q1`, and the last multiplier follows from `G velocity(q1, p1) = 0`.
     pub(super) fn take<R: Summation, S: System<V>>(
         &mut self,
         (number, tableau): (usize, &ConstrainedTableau),
@@ -384,9 +384,12 @@ impl<V: Vector> Workspace<V> {
         }
         self.changes.fill(V::Scalar::from_f64(0.0));
         for (k, row) in tableau.multipliers.iter().enumerate() {
-            let weight = tableau.weights[k].double() / step.size;
+            let weight = match tableau.weights[k].double() {
+                0.0 => 1.0,
+                weight => weight,
+            };
             for (i, &entry) in row.iter().enumerate() {
-                let factor = V::Scalar::from_f64(weight * entry);
+                let factor = V::Scalar::from_f64(weight / step.size * entry);
                 for c in 0..constraints {
                     self.changes[k * constraints + c] += factor * self.defects[i * constraints + c];
                 }

@@ -6,6 +6,7 @@ use super::failure::Failure;
 use super::step::Equations;
 use super::{DiracRule, DiracSystem};
 use crate::method::symmetric_steps::Part;
+use crate::variational;
 
 /// A point of a quadrature rule.
 #[derive(Clone, Copy, Debug)]
@@ -98,8 +99,9 @@ impl<L: DiracSystem> Equations<L> {
         let u = &self.unknowns[..n];
         self.derivatives.second(system, time, &self.q, u);
         let d = &self.derivatives;
-        if !d.is_finite() {
-            return Err(Failure::Evaluation(d.failure(None)));
+        // The value of L does not matter here, and need not be finite.
+        if let resized @ variational::failure::Failure::Resized { .. } = d.failure(None) {
+            return Err(Failure::Evaluation(resized));
         }
         let way = place * part.size;
         // The weights of `L_q + f` in the two derivatives.
@@ -162,8 +164,8 @@ impl<L: DiracSystem> Equations<L> {
         self.derivatives
             .second(system, part.end, &self.q, &self.velocity);
         let d = &self.derivatives;
-        if !d.is_finite() {
-            return Err(Failure::Evaluation(d.failure(None)));
+        if let resized @ variational::failure::Failure::Resized { .. } = d.failure(None) {
+            return Err(Failure::Evaluation(resized));
         }
         for k in 0..n {
             let mut size = Float::abs(d.momentum[k]);

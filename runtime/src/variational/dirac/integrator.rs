@@ -112,7 +112,7 @@ impl<L: DiracSystem> DiracIntegrator<L> {
     ///
     /// [`Error::StepSize`], [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`]; [`Error::PrimaryConstraint`] if no
     /// velocity has this momentum, [`Error::InconsistentVelocity`] if that velocity violates the constraints, [`Error::NoVelocity`] if none
-    /// is found; [`Error::ConstraintCount`] and [`Error::GradientPlace`] if the rows are wrong.
+    /// is found; [`Error::ConstraintCount`] and [`Error::GradientPlace`] if the rows are wrong; [`Error::ResizedEvaluation`].
     pub fn new(
         rule: DiracRule,
         system: L,
@@ -165,7 +165,8 @@ impl<L: DiracSystem> DiracIntegrator<L> {
     /// # Errors
     ///
     /// [`Error::ContradictoryStep`], [`Error::UndeterminedPosition`], [`Error::DependentConstraints`], [`Error::MovingGradients`],
-    /// [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::TimeResolution`]; the state is then unchanged.
+    /// [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::EvaluationDimension`], [`Error::TimeResolution`]; the state is then
+    /// unchanged.
     pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
         self.one_step()?;
         Ok(&self.state)

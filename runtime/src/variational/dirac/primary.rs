@@ -32,7 +32,8 @@ pub struct PrimaryConstraint<V> {
 ///
 /// # Errors
 ///
-/// [`Error::Dimension`] if `q` and `v` differ; [`Error::NonFiniteState`] if a derivative of L is not finite.
+/// [`Error::Dimension`] if `q` and `v` differ; [`Error::NonFiniteState`] if a derivative of L is not finite;
+/// [`Error::ResizedEvaluation`].
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -121,7 +122,7 @@ pub(super) fn consistent_velocity<L: DiracSystem>(
     let (mut v, mut settled) = (vec![0.0; n], false);
     for _ in 0..MAX_ITERATIONS {
         derivatives.second(system, *time, q, &v);
-        derivatives.check(*time)?;
+        derivatives.check_dimension(*time)?;
         linear.clear();
         for (k, &p) in p.iter().enumerate() {
             let momentum = derivatives.momentum[k];

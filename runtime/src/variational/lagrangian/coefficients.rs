@@ -27,6 +27,8 @@ pub(super) struct StageCoefficients {
     pub(super) end: Vec<f64>,
     pub(super) weights: Vec<f64>,
     pub(super) nodes: Vec<f64>,
+    /// The unknowns of a velocity that is 1 at all stages.
+    pub(super) constant: Vec<f64>,
     /// The matrix that extrapolates the unknowns to the next step, for its starting values.
     pub(super) next: Vec<Vec<f64>>,
 }
@@ -46,6 +48,7 @@ impl StageCoefficients {
             start: vec![1.0; stages],
             end: doubles(tableau.b),
             weights: doubles(tableau.b_tilde),
+            constant: vec![1.0; stages],
             next: extrapolation(&nodes).unwrap_or_else(|| identity(stages)),
             nodes,
         }
@@ -87,7 +90,13 @@ impl StageCoefficients {
             let nodes = function.iter().zip(&weights);
             nodes.map(|(psi, b)| b * psi).collect()
         });
+        let constant = basis.iter().map(|function| {
+            let nodes = || function.iter().zip(&weights);
+            let square: f64 = nodes().map(|(psi, b)| b * psi * psi).sum();
+            nodes().map(|(psi, b)| b * psi).sum::<f64>() / square
+        });
         Ok(Self {
+            constant: constant.collect(),
             forces: forces.collect(),
             momenta: momenta.collect(),
             velocities: (0..weights.len())

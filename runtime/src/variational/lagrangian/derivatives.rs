@@ -19,8 +19,8 @@ pub(crate) struct Derivatives<L: Lagrangian> {
     force: L::Vector<HyperDual>,
     /// Position, velocity, `∂L/∂v` and `∂L/∂q` in doubles.
     doubles: [L::Vector<f64>; 4],
-    /// The dimension of an evaluation of the Lagrangian, if it is wrong.
-    resized: Option<usize>,
+    /// An evaluation of a wrong dimension, and its dimension.
+    resized: Option<(Quantity, usize)>,
     /// L.
     pub(crate) value: f64,
     /// `∂L/∂v`
@@ -94,11 +94,16 @@ impl<L: Lagrangian> Derivatives<L> {
         }
         // L may be NaN where its gradient is finite: ln x at x < 0.
         self.value = lagrangian.lagrangian(time, at, velocity);
-        let found = [by_velocity.dimension(), by_position.dimension()];
-        if let Some(found) = found.into_iter().find(|&found| found != q.len()) {
-            self.resized = Some(found);
-            self.value = f64::NAN;
-            return true;
+        for (what, derivative) in [
+            (Quantity::Momentum, &*by_velocity),
+            (Quantity::Force, &*by_position),
+        ] {
+            let found = derivative.dimension();
+            if found != q.len() {
+                self.resized = Some((what, found));
+                self.value = f64::NAN;
+                return true;
+            }
         }
         self.momentum.copy_from_slice(by_velocity.as_slice());
         self.rate.copy_from_slice(by_position.as_slice());
@@ -160,7 +165,8 @@ impl<L: Lagrangian> Derivatives<L> {
     /// Why the last evaluation is not [finite](Self::is_finite): `stage` is its number, from 1.
     pub(crate) fn failure(&self, stage: Option<usize>) -> Failure {
         match self.resized {
-            Some(found) => Failure::Resized {
+            Some((what, found)) => Failure::Resized {
+                what,
                 stage,
                 expected: self.rate.len(),
                 found,
@@ -171,17 +177,24 @@ impl<L: Lagrangian> Derivatives<L> {
 
     /// The error if the evaluation at a state is not [finite](Self::is_finite).
     pub(crate) fn check(&self, time: f64) -> Result<(), Error> {
+        self.check_dimension(time)?;
+        if self.is_finite() {
+            return Ok(());
+        }
         let what = Quantity::Lagrangian;
-        match self.resized {
-            Some(found) => Err(Error::ResizedEvaluation {
+        Err(Error::NonFiniteState { what })
+    }
+
+    /// The error if the evaluation at a state has a wrong dimension.
+    pub(crate) fn check_dimension(&self, time: f64) -> Result<(), Error> {
+        self.resized.map_or(Ok(()), |(what, found)| {
+            Err(Error::ResizedEvaluation {
                 time,
                 what,
                 expected: self.rate.len(),
                 found,
-            }),
-            None if self.is_finite() => Ok(()),
-            None => Err(Error::NonFiniteState { what }),
-        }
+            })
+        })
     }
 
     fn place(&mut self, q: &[f64], v: &[f64]) {
@@ -197,7 +210,7 @@ impl<L: Lagrangian> Derivatives<L> {
         lagrangian.force(time, &self.q, &self.v, &mut self.force);
         let found = self.force.dimension();
         if found != self.q.dimension() {
-            self.resized = Some(found);
+            self.resized = Some((Quantity::Force, found));
             self.force.clone_from(&self.q);
             (self.force.as_mut_slice()).fill(HyperDual::from_f64(f64::NAN));
         }

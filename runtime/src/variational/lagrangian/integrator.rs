@@ -96,6 +96,8 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     /// For r = s it is the Runge–Kutta method. For r > s, `tableau! { … basis: …, quadrature: … }`, it is that method only if
     /// `L = v·Mv/2 − U(q)`. On other systems both have the order of `M` and differ by their errors. There are s unknown velocities, not r.
     ///
+    /// Newton's iteration of the first step begins at rest, or with the velocity of the start if that cannot be found from rest.
+    ///
     /// # Errors
     ///
     /// As for [`new`](Self::new); [`Error::NoConstants`]; for r > s [`Error::DegenerateLagrangian`] if `∂²L/∂v∂v` is singular where
@@ -129,22 +131,22 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     ) -> Result<Self, Error> {
         let coefficients = StageCoefficients::galerkin::<M>()?;
         let mut run = Self::by(coefficients, lagrangian, state, step_size)?;
-        if M::FUNCTIONS < M::STAGES {
-            let State { time, q, p } = &run.state;
-            let near = |velocity| velocity_near(&run.lagrangian, *time, q, p, velocity);
+        let State { time, q, p } = &run.state;
+        let near = |velocity| velocity_near(&run.lagrangian, *time, q, p, velocity);
+        if let Err(error) = near(q.zeros_like()) {
             // L may be degenerate at rest only, as v⁴ is.
-            match near(q.zeros_like()).or_else(|error| near(p.clone()).map_err(|_| error)) {
-                Ok(velocity) => run.stages.begin_with(velocity.as_slice()),
-                Err(Error::NoVelocity {
-                    component: Some(component),
-                    ..
-                }) => {
-                    return Err(Error::DegenerateLagrangian {
-                        method: M::NAME,
-                        component,
-                    });
-                }
-                Err(_) => {}
+            if let Ok(velocity) = near(p.clone()) {
+                run.stages.begin_with(velocity.as_slice());
+            } else if let Error::NoVelocity {
+                component: Some(component),
+                ..
+            } = error
+                && M::FUNCTIONS < M::STAGES
+            {
+                return Err(Error::DegenerateLagrangian {
+                    method: M::NAME,
+                    component,
+                });
             }
         }
         Ok(run)
@@ -192,8 +194,8 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     ///
     /// # Errors
     ///
-    /// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::TimeResolution`]; the state is then
-    /// unchanged.
+    /// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::EvaluationDimension`],
+    /// [`Error::TimeResolution`]; the state is then unchanged.
     pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
         self.one_step()?;
         Ok(&self.state)

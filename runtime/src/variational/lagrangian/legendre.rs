@@ -59,8 +59,8 @@ pub fn momentum_of_velocity<L: Lagrangian>(
 ///
 /// # Errors
 ///
-/// [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`], [`Error::ResizedEvaluation`], [`Error::NoVelocity`] if L does not determine the velocity or no
-/// velocity is found.
+/// [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`], [`Error::ResizedEvaluation`], [`Error::NoVelocity`] if L does
+/// not determine the velocity or no velocity is found.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -114,6 +114,7 @@ pub(super) fn velocity_near<L: Lagrangian>(
         derivatives.second(lagrangian, time, q.as_slice(), velocity.as_slice());
         let pairs = velocity.as_mut_slice().iter_mut();
         let pairs = pairs.zip(change.as_mut_slice());
+        derivatives.check_dimension(time)?;
         if !derivatives.is_finite() {
             for (velocity, change) in pairs {
                 *change *= 0.5;
@@ -141,7 +142,6 @@ pub(super) fn velocity_near<L: Lagrangian>(
         }
         last = changed;
     }
-    derivatives.check(time)?;
     Err(not_found(None))
 }
 

@@ -81,10 +81,13 @@ impl<L: Lagrangian> Stages<L> {
         })
     }
 
-    /// Begins with this velocity at every stage of a Runge–Kutta method.
+    /// Begins with this velocity at every stage.
     pub(super) fn begin_with(&mut self, velocity: &[f64]) {
-        for unknowns in self.before.chunks_exact_mut(velocity.len().max(1)) {
-            unknowns.copy_from_slice(velocity);
+        let unknowns = self.before.chunks_exact_mut(velocity.len().max(1));
+        for (unknowns, factor) in unknowns.zip(&self.coefficients.constant) {
+            for (unknown, component) in unknowns.iter_mut().zip(velocity) {
+                *unknown = factor * component;
+            }
         }
         self.unknowns.copy_from_slice(&self.before);
     }
