@@ -562,6 +562,11 @@ fn the_command_writes_the_certificate_of_a_method_and_of_a_file() {
         ),
         (vec!["certify", "gauß-2"], 2, "gauß-2"),
         (
+            vec!["certify", "my-method"],
+            2,
+            "or a file named .toml or .json",
+        ),
+        (
             vec!["certify", "missing.toml"],
             2,
             "cannot read `missing.toml`",
