@@ -57,11 +57,11 @@ fn is_declaration(line: &str) -> bool {
         let name = inside.split([')', ',']).next().unwrap_or_default();
         name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.contains('=')
     });
-    let keyword = |word: &&str| {
-        let rest = line.strip_prefix(*word);
+    let keyword = |word: &str| {
+        let rest = line.strip_prefix(word);
         rest.is_some_and(|rest| !rest.trim_start().starts_with('='))
     };
-    data || parameter || KEYWORDS.iter().any(|word| keyword(&word))
+    data || parameter || KEYWORDS.iter().any(|word| keyword(word))
 }
 
 /// The names of lists with a lower bound of their own, as in `x(0:1)` and `dimension(0:1) :: x`.
