@@ -46,11 +46,9 @@ MOST_VERTICES = 60  # Of a tree in a file.
 UNIT = 1 << 250  # Irrational roots are known between two neighbouring multiples of 1/UNIT.
 TIE = Fraction(1, 1 << 240)  # What is nearer to the middle between two decimals may be rounded to both.
 
-class Rejected(Exception):
-    """A claim that does not hold."""
+class Rejected(Exception): """A claim that does not hold."""
 
-class NotChecked(str):
-    """What to say of a claim that is not checked."""
+class NotChecked(str): """What to say of a claim that is not checked."""
 # What claims that do not hold and files that are no certificates raise.
 WRONG = (Rejected, ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RecursionError, TypeError, ValueError)
 
@@ -436,7 +434,7 @@ def method_of(certificate):
     return Stages(layout, weights, matrices)
 
 def check(text):
-    """Returns a certificate, functions for the ends of its coefficients, by name, and what was checked. Raises one of WRONG."""
+    """Returns a certificate, its method with functions for the ends of the coefficients, by name, and what was checked, or raises one of WRONG."""
     certificate = read(text)
     demand(certificate["format"] == "symplectic certificate" and whole(certificate["version"]) == 1, "a certificate of version 1")
     demand(certificate["layout"] in ("matrices", "kicks first", "drifts first"), "a layout that is known")
@@ -447,18 +445,20 @@ def check(text):
     check_members(certificate["doubles"], ("c", "c_tilde", "b", "b_tilde", *matrices), ("a", "a_tilde"))
     check_members(certificate["order"], (), CLASSES)
     missing = certificate["not_covered"]
-    demand(isinstance(missing, list) and all(name in NOT_COVERED for name in missing), "not_covered as a list of claims")
+    covered = {*certificate, *(f"order ({kind})" for kind in (*certificate["order"], *certificate))}
+    listed = isinstance(missing, list) and len(missing) == len({*missing}) and {*missing} <= NOT_COVERED - covered
+    demand(listed, "not_covered as a list of claims that are not made, each once")
     of = method_of(certificate)
     if isinstance(of, NotChecked):
         return certificate, None, [of]
-    exact, residual, tests = {}, residuals(of), {"symplectic": symplectic, "symmetric": symmetric}
+    exact, residual, tests = {"method": of}, residuals(of), {"symplectic": symplectic, "symmetric": symmetric}
     for colour, tilde in (("q", ""), ("p", "_tilde")):
         exact["a" + tilde] = lambda colour=colour: of.entries(colour)
         exact["b" + tilde] = lambda colour=colour: of.ends(of.weights[colour])
         exact["c" + tilde] = lambda colour=colour: of.ends(of.apply(colour, of.one))
     for name, texts in certificate["doubles"].items():
         check_rounded(texts, exact[name](), nearest_to, name)
-    here = lambda name: name in tests and type(certificate[name]) is not list  # An order of the stages is.
+    here = lambda name: name in tests and (name != "symmetric" or type(certificate[name]) is not list)  # An order of the stages is.
     proved = lambda name: check_property(name, certificate[name], tests[name](of)) if here(name) else further(name, of, certificate)
     done = ["doubles", *(proved(name) for name in first if name in certificate)]
     done += [check_order(of, residual, kind, claim) for kind, claim in certificate["order"].items()]
@@ -473,14 +473,15 @@ def content(path):
 
 def verdict(path):
     """The exit status of a file, and what to say of it."""
+    table, file = path.resolve().parent.parent / f"{path.stem}.toml", ""
     try:
         certificate, exact, done = check(content(path))
-        table = path.parent.parent / f"{path.stem}.toml"
-        done += [further("table", content(table), certificate, exact)] if exact and table.exists() else []
-    except KeyError as error:
-        return 1, f"WRONG: the member {error} is missing"
+        if exact and path.resolve().parent.name == "certificates" and table.exists():
+            file = f"{table.name}: "
+            done.append(further("table", content(table), certificate, exact))
     except WRONG as error:
-        return 1, f"WRONG: {'not proved' if isinstance(error, Rejected) else type(error).__name__}: {error}"
+        what = f"{'not proved' if isinstance(error, Rejected) else type(error).__name__}: {error}"
+        return 1, f"WRONG: {file}{f'the member {error} is missing' if isinstance(error, KeyError) else what}"
     status = 2 if any(isinstance(x, NotChecked) for x in done) else 0
     return status, f"{'NOT ALL CHECKED' if status else 'right'}: {', '.join(done)}"
 
@@ -490,8 +491,7 @@ def main(paths):
     for path in map(Path, paths):
         status, text = verdict(path)
         found.add(status)
-        # One line, whatever a file has in its texts.
-        print("".join(c if c.isprintable() else "?" for c in f"{path.name}: {text}"[:1000]), flush=True)
+        print("".join(c if c.isprintable() else "?" for c in f"{path.name}: {text}"[:1000]), flush=True)  # One line, whatever the texts are.
     return 1 if 1 in found else max(found)
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use symplectic_compiler::{Error, Tableau, catalogue, check, export};
+use symplectic_compiler::{Error, ErrorKind, Tableau, catalogue, check, export};
 
 use crate::output;
 
@@ -43,8 +43,14 @@ fn tableau(method: &Path, max_stages: Option<u16>) -> Result<Tableau, Error> {
         .iter()
         .any(|known| method.extension().is_some_and(|e| e == *known));
     if !is_file {
-        let entry = catalogue::find(&name).ok_or_else(|| catalogue::unknown(&name))?;
-        return entry.derive();
+        let unknown = || {
+            let mut error = catalogue::unknown(&name);
+            if let ErrorKind::Unknown { known, .. } = &mut *error.kind {
+                known.push_str(", or a file named .toml or .json");
+            }
+            error
+        };
+        return catalogue::find(&name).ok_or_else(unknown)?.derive();
     }
     let tableau = check(
         &name,

@@ -1,5 +1,7 @@
 //! Fortran: how a text is recognised, its fixed form, and its `data` statements.
 
+use std::collections::BTreeSet;
+
 use num_bigint::BigInt;
 use num_traits::{ToPrimitive, Zero};
 
@@ -8,11 +10,16 @@ use super::tokens::{Spanned, Token};
 use super::value::Value;
 use crate::library::Notation;
 
-/// Whether a text is Fortran. It has no braces, and one of these: a declaration with ` :: `, a line continued by `&`, a `data`
+/// Whether a text is Fortran. It has no braces outside comments, and one of these: a declaration with ` :: `, a line continued by `&`, a `data`
 /// statement, a line that begins with a keyword of Fortran, an element that gets a value with an exponent `d`; where the language is
 /// otherwise C, any element in round brackets that gets a value, in a text without `;`.
 pub(super) fn is_fortran(text: &str, notation: Notation) -> bool {
-    let possible = matches!(notation, Notation::C | Notation::Julia) && !text.contains(['{', '}']);
+    let braces = |line: &str| {
+        line.split('!')
+            .next()
+            .is_some_and(|code| code.contains(['{', '}']))
+    };
+    let possible = matches!(notation, Notation::C | Notation::Julia) && !text.lines().any(braces);
     let c = notation == Notation::C && !text.contains(';');
     possible
         && (text.contains(" :: ")
@@ -44,7 +51,58 @@ fn is_declaration(line: &str) -> bool {
         let first = |c: char| c.is_ascii_alphabetic();
         rest.matches('/').count() > 1 && name.starts_with(first) && !name.contains('=')
     });
-    data || KEYWORDS.iter().any(|word| line.starts_with(word))
+    // `parameter (a1 = 0.5d0)`
+    let parameter = line.strip_prefix("parameter").is_some_and(|rest| {
+        let inside = rest.trim_start().strip_prefix('(').unwrap_or_default();
+        let name = inside.split([')', ',']).next().unwrap_or_default();
+        name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.contains('=')
+    });
+    let keyword = |word: &str| {
+        let rest = line.strip_prefix(word);
+        rest.is_some_and(|rest| !rest.trim_start().starts_with('='))
+    };
+    data || parameter || KEYWORDS.iter().any(|word| keyword(word))
+}
+
+/// The names of lists with a lower bound of their own, as in `x(0:1)` and `dimension(0:1) :: x`.
+pub(super) fn bounded(tokens: &[Spanned]) -> BTreeSet<String> {
+    let is = |at: usize, symbol: char| matches!(tokens.get(at), Some(found) if matches!(found.token, Token::Symbol(c) if c == symbol));
+    let one = |at: usize| matches!(&tokens[at].token, Token::Number(value) if value.constant.to_string() == "1");
+    let mut names = BTreeSet::new();
+    // The name before each open bracket, and the first token of the present dimension.
+    let mut open: Vec<(Option<&String>, usize)> = Vec::new();
+    let mut all = false;
+    for (at, found) in tokens.iter().enumerate() {
+        match &found.token {
+            Token::Line => all = false,
+            Token::Name(name) if all => _ = names.insert(name.clone()),
+            Token::Symbol('(') => {
+                let before = at.checked_sub(1).map(|at| &tokens[at].token);
+                let name = match before {
+                    Some(Token::Name(name)) => Some(name),
+                    _ => None,
+                };
+                open.push((name, at + 1));
+            }
+            Token::Symbol(')') => _ = open.pop(),
+            Token::Symbol(',') => {
+                if let Some((_, first)) = open.last_mut() {
+                    *first = at + 1;
+                }
+            }
+            Token::Symbol(':') if !is(at + 1, ':') => {
+                if let Some(&(Some(name), first)) = open.last()
+                    && first < at
+                    && !(first + 1 == at && one(first))
+                {
+                    all |= name == "dimension";
+                    names.insert(name.clone());
+                }
+            }
+            _ => {}
+        }
+    }
+    names
 }
 
 /// The value of `a(1) = 1.0d0`.
@@ -175,7 +233,10 @@ fn repeated(values: &[Spanned]) -> Option<Vec<Spanned>> {
         let count = count.constant.as_rational()?.to_integer().to_usize()?;
         let comma = matches!(item.last(), Some(last) if matches!(last.token, Token::Symbol(',')));
         let single = &item[2..item.len() - usize::from(comma)];
-        if written.len() + count * (single.len() + 1) > MAX_NUMBERS {
+        let room = count
+            .checked_mul(single.len() + 1)
+            .and_then(|n| n.checked_add(written.len()));
+        if room.is_none_or(|n| n > MAX_NUMBERS) {
             return None;
         }
         let separator = Spanned {
@@ -196,7 +257,11 @@ fn repeated(values: &[Spanned]) -> Option<Vec<Spanned>> {
 
 /// The double whose bits are the hexadecimal digits of `z'3FE0000000000000'`; `None` for NaN, infinity and texts that are not digits.
 pub(super) fn double_of_bits(digits: &str) -> Option<Value> {
-    let bits = u64::from_str_radix(digits, 16).ok()?;
+    // `from_str_radix` reads a sign too.
+    let hexadecimal = digits.bytes().all(|c| c.is_ascii_hexdigit());
+    let bits = u64::from_str_radix(digits, 16)
+        .ok()
+        .filter(|_| hexadecimal)?;
     let double = f64::from_bits(bits);
     if !double.is_finite() || digits.len() > 16 {
         return None;
@@ -239,6 +304,7 @@ mod tests {
             "",
             "x",
             "13FE0000000000000",
+            "+3FE000000000000",
         ] {
             assert!(double_of_bits(text).is_none(), "{text}");
         }
@@ -251,6 +317,8 @@ mod tests {
             "      DATA A /1.0D0, 0.0D0/",
             "double precision a(2)\na(1) = 1",
             "a = [1, &\n 2]",
+            "parameter (a1 = 0.5d0, b1 = 1) ! {not C}",
+            "parameter(a1 = 0.5d0)",
         ] {
             for notation in [Notation::C, Notation::Julia] {
                 assert!(is_fortran(text, notation), "{text}");
@@ -262,6 +330,10 @@ mod tests {
             "a(1) = 0.5;\na(2) = 0.5;",
             "a(1) = 0.5",
             "data = a / b / c",
+            "dimension = 2\na = [1]",
+            "program = \"x\"",
+            "parameter = 2",
+            "parameter(1) = 2",
             "f(x) = 2d1",
             "a(1) = 1.0d0; b[1] = {2}",
         ] {

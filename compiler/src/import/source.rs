@@ -8,12 +8,12 @@
 //! Everything else in the text is skipped.
 
 use std::cell::{Cell, RefCell};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
 
 use super::constructors::name_lists;
-use super::fortran::{data_statements, is_fortran};
+use super::fortran::{bounded, data_statements, is_fortran};
 use super::parser::{Item, Parser};
 use super::tokens::{Kind, Spanned, Token, tokenize};
 use super::value::Value;
@@ -66,6 +66,8 @@ pub(super) struct Source<'a> {
     pub input: Input<'a>,
     pub notation: Notation,
     pub fortran: bool,
+    /// Lists of Fortran with a lower bound of their own.
+    pub bounded: BTreeSet<String>,
     tokens: Vec<Spanned>,
     /// The bracket depth of each token.
     depths: Vec<usize>,
@@ -85,6 +87,7 @@ impl<'a> Source<'a> {
         source.fortran = is_fortran(input.text, notation);
         source.tokens = tokenize(input, 0..input.text.len(), notation, Kind::File)?;
         if source.fortran {
+            source.bounded = bounded(&source.tokens);
             data_statements(&mut source.tokens);
         } else if notation == Notation::C {
             name_lists(&mut source.tokens);
@@ -127,6 +130,7 @@ impl<'a> Source<'a> {
             input,
             notation,
             fortran: false,
+            bounded: BTreeSet::new(),
             tokens: Vec::new(),
             depths: Vec::new(),
             names: BTreeMap::new(),

@@ -277,7 +277,8 @@ fn class_order<A: StageAlgebra>(
             break;
         }
         let conditions = weights.conditions(order, representatives);
-        let (mut refuted, mut terms) = (false, Vec::new());
+        // The terms, and which of them are certainly not zero.
+        let (mut refuted, mut terms) = (Vec::new(), Vec::new());
         // The evidence of this order counts only if all of its conditions hold.
         let mut held = evidence;
         for condition in conditions {
@@ -285,16 +286,16 @@ fn class_order<A: StageAlgebra>(
             match value.difference(&wanted) {
                 Zero::Yes => continue,
                 Zero::Within(bits) => held = held.and(Evidence::Verified { bits }),
-                Zero::No => refuted = true,
+                Zero::No => refuted.push(terms.len()),
             }
             terms.push((condition, value, wanted));
         }
-        if !refuted {
+        if refuted.is_empty() {
             evidence = held;
             continue;
         }
-        let residuals = terms.iter().map(|(_, value, wanted)| (value, wanted));
-        let (first, value, _) = &terms[error_constant::leading(residuals)];
+        let residuals = refuted.iter().map(|&at| (&terms[at].1, &terms[at].2));
+        let (first, value, _) = &terms[refuted[error_constant::leading(residuals)]];
         let violated = ViolatedCondition::new(
             &*pair.algebra,
             weights.tree(*first),

@@ -207,6 +207,16 @@ fn notations_of_sources_are_read() {
         ),
         (
             Library::Principia,
+            "      parameter (a1 = 1.0d0/3, b1 = 0.25d0)\n      parameter (a2 = 2*a1, b2 = 3*b1)\n",
+            &kicks_first,
+        ),
+        (
+            Library::Principia,
+            "real(8) :: x(1:2) = [0.25d0, 0.75d0]\na(1) = 1.0d0/3\na(2) = 2*a(1)\nb(1) = x(1)\nb(2) = x(2)\n",
+            &kicks_first,
+        ),
+        (
+            Library::Principia,
             "data b /0.25d0, 0.75d0/, t(1) /3*1.0d0/\na = (/ 1.0d0/3, 2.0d0/3 /)\n",
             &kicks_first,
         ),
@@ -250,6 +260,22 @@ fn notations_of_sources_are_read() {
             Library::Principia,
             "data a /1.0d0, 0.0d0/\ndata b /1.0d0, x/",
             "line 2, column 16: found `x`, which has no value here",
+        ),
+        // Elements of lists with bounds.
+        (
+            Library::Principia,
+            "real(8), parameter :: x(0:1) = [0.25d0, 0.75d0]\na(1) = x(1)\nb(1) = 1.0d0",
+            "line 2, column 8: `x` has a lower bound of its own; write the list from 1",
+        ),
+        (
+            Library::Principia,
+            "real(8), dimension(-1:0) :: x\ndata x /0.25d0, 0.75d0/\na(1) = x(1)\nb(1) = 1.0d0",
+            "line 3, column 8: `x` has a lower bound of its own; write the list from 1",
+        ),
+        (
+            Library::Principia,
+            "data a /9223372036854775808*0.5/\nb(1) = 1.0d0",
+            "the matrix `A` or `a`",
         ),
         // A list for several names.
         (

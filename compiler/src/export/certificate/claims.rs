@@ -47,6 +47,7 @@ pub(super) fn of(tableau: &Tableau, staircase: Option<Staircase>) -> Vec<(&'stat
                 Some(order) => claims.push(("symmetric", order)),
                 None => missing.push("symmetric".to_owned()),
             },
+            (true, _) => missing.push("symmetric".to_owned()),
             (_, evidence) => note(
                 &mut claims,
                 &mut missing,

@@ -151,6 +151,11 @@ impl Parser<'_, '_> {
                 self.source.once(name)?;
                 self.source.evaluate(*value, self.depth)?
             }
+            (None, Some(_)) if self.source.bounded.contains(name) => {
+                let message =
+                    format!("`{name}` has a lower bound of its own; write the list from 1");
+                return Err(self.wrong(span, ErrorKind::Document { message }));
+            }
             (None, Some(index)) => {
                 let list = self.source.list_within(name, self.depth)?;
                 let one_based = self.source.notation == Notation::Julia || self.source.fortran;

@@ -144,7 +144,7 @@ fn rendered(expression: &Expression, around: u8, roots: &mut Vec<String>) -> Opt
             let own = strength(*operator);
             let (left, right) = match operator {
                 Operator::Divide => (rendered(left, 0, roots)?, rendered(right, 0, roots)?),
-                Operator::Power => (rendered(left, 4, roots)?, rendered(right, 0, roots)?),
+                Operator::Power => (rendered(left, 5, roots)?, rendered(right, 0, roots)?),
                 Operator::Subtract => (
                     rendered(left, own, roots)?,
                     rendered(right, own + 1, roots)?,
@@ -228,6 +228,7 @@ mod tests {
             ("2*sqrt(15)/3", "\\frac{2 \\sqrt{15}}{3}"),
             ("1/(2 - 2^(1/3))", "\\frac{1}{2 - 2^{\\frac{1}{3}}}"),
             ("(1 - sqrt(2))^2", "\\left(1 - \\sqrt{2}\\right)^{2}"),
+            ("(1/2)^2", "\\left(\\frac{1}{2}\\right)^{2}"),
             ("1 - (1 - pi)", "1 - \\left(1 - \\pi\\right)"),
         ] {
             assert_eq!(
