@@ -96,6 +96,19 @@ fn the_memory_is_linear_in_the_links() {
     assert!(full > 3.0, "{full}");
 }
 
+/// The number of sweeps does not grow with the number of links, so the work of a step is linear in it.
+#[test]
+fn the_sweeps_do_not_depend_on_the_links() {
+    let sweeps = |links: usize| {
+        let chain = Links(links);
+        let mut run = Integrator::new(Rattle, chain, chain.start(), 0.005).expect("a run");
+        run.take_steps(100).expect("steps");
+        run.statistics().iterations as f64
+    };
+    let (short, long) = (sweeps(100), sweeps(1000));
+    assert!((long / short - 1.0).abs() < 0.1, "{short} {long}");
+}
+
 /// The chain by its angles from below: the place of a body is the sum of the links before it.
 #[derive(Clone, Copy)]
 struct ByAngles;

@@ -1,11 +1,11 @@
 //! The two Hamiltonian forms of discrete Dirac mechanics (Leok & Ohsawa, arXiv:0810.0740v1, 4.35 and 4.52), for steps with rows.
 
-use symplectic::nalgebra::Vector3;
+use symplectic::nalgebra::{SMatrix, SVector};
 use symplectic::system::Conservative;
 use symplectic::variational::{GeneratingFunction, generating_function};
-use symplectic::{Error, Integrator, ProvedFor, State, System};
+use symplectic::{Error, Integrator, Method, ProvedFor, State, System};
 
-use crate::rolling::Midpoint;
+use crate::rolling::{Disk, Midpoint, RADIUS, Trapezoid, disk_start};
 
 symplectic::hamiltonian! {
     pub Free
@@ -43,53 +43,89 @@ symplectic::hamiltonian! {
     nonholonomic: { slip = vz - y vx }
 }
 
-type V3 = Vector3<f64>;
+symplectic::hamiltonian! {
+    /// The disk without its rows.
+    pub FreeDisk
+    q: [x, y, a, b], p: [px, py, pa, pb];
+    H = (px^2 + py^2)/2 + pa^2/0.6 + pb^2/0.4
+}
+
+type Point<const N: usize> = SVector<f64, N>;
+
+/// w(q)
+type Rows<const R: usize, const N: usize> = fn(&Point<N>) -> SMatrix<f64, R, N>;
 
 const SIZE: f64 = 0.1;
 
-/// w(q)
-fn row(q: &V3) -> V3 {
-    V3::new(-q[1], 0.0, 1.0)
+fn row(q: &Point<3>) -> SMatrix<f64, 1, 3> {
+    SMatrix::from([[-q[1]], [0.0], [1.0]])
 }
 
-/// How far a covector is from the span of w(q)ᵀ.
-fn off_the_span(q: &V3, covector: &V3) -> f64 {
-    covector[1]
-        .abs()
-        .max((covector[0] + q[1] * covector[2]).abs())
+fn rows_of_the_disk(q: &Point<4>) -> SMatrix<f64, 2, 4> {
+    let (sin, cos) = q[3].sin_cos();
+    SMatrix::from([
+        [1.0, 0.0],
+        [0.0, 1.0],
+        [-RADIUS * cos, -RADIUS * sin],
+        [0.0, 0.0],
+    ])
 }
 
-fn generating<S>(free: &S, q0: &V3, p1: &V3) -> GeneratingFunction<V3>
+/// How far a covector is from the span of wᵀ.
+fn off_the_span<const R: usize, const N: usize>(
+    w: &SMatrix<f64, R, N>,
+    covector: &Point<N>,
+) -> f64 {
+    let inverse = (w * w.transpose()).try_inverse().expect("independent rows");
+    (covector - w.transpose() * inverse * w * covector).amax()
+}
+
+fn generating<M, S, const N: usize>(
+    method: M,
+    free: &S,
+    q0: &Point<N>,
+    p1: &Point<N>,
+) -> GeneratingFunction<Point<N>>
 where
-    S: System<V3, Class: Conservative>,
-    Midpoint: ProvedFor<S::Class>,
+    M: Method + ProvedFor<S::Class>,
+    S: System<Point<N>, Class: Conservative>,
 {
-    generating_function(Midpoint, free, 0.0, q0, p1, SIZE).expect("an energy")
+    generating_function(method, free, 0.0, q0, p1, SIZE).expect("an energy")
 }
 
-/// P = p1 + w(q1)ᵀμ with q1 = D2 H_d⁺(q0, P), by the secant method along the row.
-fn momentum_before_the_impulse<S>(free: &S, q0: &V3, end: &State<V3>) -> V3
+/// P = p1 + w(q1)ᵀμ with q1 = D2 H_d⁺(q0, P), by Newton's method along the rows with the matrix at μ = 0.
+fn momentum_before_the_impulse<M, S, const R: usize, const N: usize>(
+    method: M,
+    free: &S,
+    w: &SMatrix<f64, R, N>,
+    q0: &Point<N>,
+    end: &State<Point<N>>,
+) -> Point<N>
 where
-    S: System<V3, Class: Conservative>,
-    Midpoint: ProvedFor<S::Class>,
+    M: Method + ProvedFor<S::Class>,
+    S: System<Point<N>, Class: Conservative>,
 {
-    let row = row(&end.q);
-    let defect = |mu: f64| (generating(free, q0, &(end.p + row * mu)).q1 - end.q).dot(&row);
-    let (mut before, mut now) = ((0.0, defect(0.0)), (1e-3, defect(1e-3)));
-    for _ in 0..12 {
-        if now.1 == before.1 {
-            break;
-        }
-        let next = now.0 - now.1 * (now.0 - before.0) / (now.1 - before.1);
-        (before, now) = (now, (next, defect(next)));
+    const WAY: f64 = 1e-3;
+    let momentum = |mu: &SVector<f64, R>| end.p + w.transpose() * mu;
+    let defect =
+        |mu: &SVector<f64, R>| w * (generating(method, free, q0, &momentum(mu)).q1 - end.q);
+    let mut mu = SVector::<f64, R>::zeros();
+    let slopes = SMatrix::<f64, R, R>::from_fn(|i, k| {
+        let mut moved = mu;
+        moved[k] = WAY;
+        (defect(&moved) - defect(&mu))[i] / WAY
+    });
+    let inverse = slopes.try_inverse().expect("a multiplier");
+    for _ in 0..30 {
+        mu -= inverse * defect(&mu);
     }
-    end.p + row * now.0
+    momentum(&mu)
 }
 
 /// The gradient of a function, by differences.
-fn gradient(at: &V3, function: impl Fn(&V3) -> f64) -> V3 {
+fn gradient<const N: usize>(at: &Point<N>, function: impl Fn(&Point<N>) -> f64) -> Point<N> {
     const WAY: f64 = 1e-4;
-    V3::from_fn(|k, _| {
+    Point::<N>::from_fn(|k, _| {
         let moved = |by: f64| {
             let mut at = *at;
             at[k] += by;
@@ -100,60 +136,69 @@ fn gradient(at: &V3, function: impl Fn(&V3) -> f64) -> V3 {
 }
 
 /// H_d⁻(p0, q1) of Type III: the position q0 from which the step with the momentum p0 goes to q1, by fixed points.
-fn type_three<S>(free: &S, p0: &V3, q1: &V3) -> f64
+fn type_three<M, S, const N: usize>(method: M, free: &S, p0: &Point<N>, q1: &Point<N>) -> f64
 where
-    S: System<V3, Class: Conservative> + Copy,
-    Midpoint: ProvedFor<S::Class>,
+    M: Method + ProvedFor<S::Class>,
+    S: System<Point<N>, Class: Conservative> + Copy,
 {
     let (mut q0, mut p1) = (*q1, *p0);
     for _ in 0..40 {
         let start = State::new(0.0, q0, *p0);
-        let mut run = Integrator::new(Midpoint, *free, start, SIZE).expect("a run");
+        let mut run = Integrator::new(method, *free, start, SIZE).expect("a run");
         let end = run.step().expect("a step");
         q0 += q1 - end.q;
         p1 = end.p;
     }
-    generating(free, &q0, &p1).type_three(&q0, &p1)
+    generating(method, free, &q0, &p1).type_three(&q0, &p1)
 }
 
-/// Checks the steps of a system with a row against the generating functions of the system without it.
-fn check<S, B>(free: S, bound: B, start: State<V3>)
-where
-    S: System<V3, Class: Conservative> + Copy,
-    B: System<V3> + Copy,
-    Midpoint: ProvedFor<S::Class> + ProvedFor<B::Class>,
+/// Checks the steps of a system with rows against the generating functions of the system without them.
+fn check<M, S, B, const R: usize, const N: usize>(
+    method: M,
+    free: S,
+    (bound, rows): (B, Rows<R, N>),
+    start: State<Point<N>>,
+) where
+    M: Method + ProvedFor<S::Class> + ProvedFor<B::Class>,
+    S: System<Point<N>, Class: Conservative> + Copy,
+    B: System<Point<N>> + Copy,
 {
-    let mut run = Integrator::new(Midpoint, bound, start, SIZE).expect("consistent");
+    let mut run = Integrator::new(method, bound, start, SIZE).expect("consistent");
     let mut largest = 0.0_f64;
     for step in 0..30 {
         let before = run.state().clone();
         let end = run.step().expect("a step").clone();
-        let p = momentum_before_the_impulse(&free, &before.q, &end);
-        let function = generating(&free, &before.q, &p);
+        let [first, last] = [&before.q, &end.q].map(rows);
+        let p = momentum_before_the_impulse(method, &free, &last, &before.q, &end);
+        let function = generating(method, &free, &before.q, &p);
         // (4.35)
         let distance = (function.q1 - end.q).amax();
         assert!(distance < 1e-13, "step {step}: {distance:e}");
         let impulse = before.p - function.p0;
-        let off = off_the_span(&before.q, &impulse);
+        let off = off_the_span(&first, &impulse);
         assert!(off < 1e-13, "step {step}: {off:e}");
         largest = largest.max(impulse.amax());
-        let slip = row(&((before.q + end.q) / 2.0)).dot(&(end.q - before.q));
-        assert!(slip.abs() < 1e-14, "step {step}: {slip:e}");
+        // Σ b_i w(Q_i)·(q1 − q0), with the stages Q_i on the line from q0 to q1
+        let way = end.q - before.q;
+        let nodes = M::COEFFICIENTS.c.iter().zip(M::COEFFICIENTS.b);
+        let slips = nodes.map(|(c, b)| rows(&(before.q + way * c.double())) * way * b.double());
+        let slip = slips.sum::<SVector<f64, R>>().amax();
+        assert!(slip < 1e-14, "step {step}: {slip:e}");
         if step >= 3 {
             continue;
         }
         // The derivatives of H_d⁺ are what they are called.
-        let by_position = gradient(&before.q, |q| generating(&free, q, &p).value);
-        let by_momentum = gradient(&p, |p| generating(&free, &before.q, p).value);
+        let by_position = gradient(&before.q, |q| generating(method, &free, q, &p).value);
+        let by_momentum = gradient(&p, |p| generating(method, &free, &before.q, p).value);
         assert!((by_position - function.p0).amax() < 1e-8);
         assert!((by_momentum - end.q).amax() < 1e-8);
         // (4.52), with the momentum p̃ = p0 − w(q0)ᵀλ
         let momentum = function.p0;
-        let by_momentum = gradient(&momentum, |p| type_three(&free, p, &end.q));
-        let by_position = gradient(&end.q, |q| type_three(&free, &momentum, q));
+        let by_momentum = gradient(&momentum, |p| type_three(method, &free, p, &end.q));
+        let by_position = gradient(&end.q, |q| type_three(method, &free, &momentum, q));
         let distance = (before.q + by_momentum).amax();
         assert!(distance < 1e-8, "step {step}: {distance:e}");
-        let off = off_the_span(&end.q, &(end.p + by_position));
+        let off = off_the_span(&last, &(end.p + by_position));
         assert!(off < 1e-8, "step {step}: {off:e}");
     }
     // The constraint acts.
@@ -165,7 +210,14 @@ fn steps_with_a_row_are_both_forms() {
     // z' = y x' = 0.5 · 0.8 (1 + x²/4)
     let pz = 0.5 * 0.8 * (1.0 + 0.36 / 4.0);
     let start = State::from_arrays(0.0, [0.6, 0.5, -0.1], [0.8, 0.9, pz]);
-    check(Free, Bound, start);
+    check(Midpoint, Free, (Bound, row), start.clone());
+    check(Trapezoid, Free, (Bound, row), start);
+}
+
+#[test]
+fn steps_with_two_rows_are_both_forms() {
+    check(Midpoint, FreeDisk, (Disk, rows_of_the_disk), disk_start());
+    check(Trapezoid, FreeDisk, (Disk, rows_of_the_disk), disk_start());
 }
 
 /// H_pp may be singular, if the velocity along the row depends on a momentum.
@@ -173,7 +225,7 @@ fn steps_with_a_row_are_both_forms() {
 fn a_degenerate_hamiltonian_with_a_row() {
     // z' = y x' = 0.5 · 0.6
     let start = State::from_arrays(0.0, [0.6, 0.5, -0.1], [0.8, 0.9, 0.3]);
-    check(FreeDegenerate, BoundDegenerate, start);
+    check(Midpoint, FreeDegenerate, (BoundDegenerate, row), start);
     // Else there is no multiplier.
     let start = State::from_arrays(0.0, [0.6, 0.5, 0.3], [0.8, 0.9, 0.3]);
     let error = Integrator::new(Midpoint, NoMultiplier, start, SIZE).map(|_| ());
