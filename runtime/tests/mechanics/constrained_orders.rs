@@ -57,7 +57,7 @@ macro_rules! orders {
 
 orders! {
     orders_on_the_double_spherical_pendulum: DoubleSpherical, double_start(), [
-        Euler 640 1, AdjointEuler 640 1, HalfSteps 40 2, Rattle 40 2, Lobatto3 40 4, Lobatto4 20 6, Quarter 80 2, NewtonCotes4 80 2, ClenshawCurtis5 32 4, Waves 80 2,
+        Euler 640 1, AdjointEuler 640 1, HalfSteps 40 2, Rattle 40 2, Lobatto3 40 4, Lobatto4 20 6, Quarter 80 2, NewtonCotes4 80 2, NewtonCotes5 32 4, ClenshawCurtis4 80 2, ClenshawCurtis5 32 4, Waves 80 2,
         Rattle4 80 4, Rattle6 60 6,
     ];
     orders_with_a_kinetic_energy_that_depends_on_the_place: Bead, sphere_start(), [

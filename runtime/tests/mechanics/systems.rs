@@ -17,6 +17,8 @@ symplectic::tableau! {
     pub Lobatto7 { basis: polynomial(7), nodes: lobatto(7), require: [constrained, order == 12] }
     pub Lobatto8 { basis: polynomial(8), nodes: lobatto(8), require: [constrained, order == 14] }
     pub NewtonCotes4 { basis: polynomial(4), nodes: newton-cotes(4), require: [constrained, order == 2] }
+    pub NewtonCotes5 { basis: polynomial(5), nodes: newton-cotes(5), require: [constrained, order == 4] }
+    pub ClenshawCurtis4 { basis: polynomial(4), nodes: clenshaw-curtis(4), require: [constrained, order == 2] }
     pub ClenshawCurtis5 { basis: polynomial(5), nodes: clenshaw-curtis(5), require: [constrained, order == 4] }
     /// Not symmetric.
     pub Quarter { basis: polynomial(3), nodes: [0, 1/4, 1], require: [constrained, order == 2] }
