@@ -85,6 +85,26 @@ impl<V: Vector> GeneratingFunction<V> {
 /// let generating = generating_function(Midpoint, &Resisted, 0.0, &q0, &p1, 0.1);
 /// ```
 ///
+/// ```compile_fail,E0277
+/// symplectic::tableau! { ForestRuth { base: forest-ruth-1990 } }
+/// symplectic::hamiltonian! { Slowed q: [x], p: [px]; H = (px^2 + x^2)/2  friction: 0.2 }
+/// use symplectic::nalgebra::Vector1;
+/// use symplectic::variational::generating_function;
+///
+/// let (q0, p1) = (Vector1::new(1.0), Vector1::new(0.0));
+/// let generating = generating_function(ForestRuth, &Slowed, 0.0, &q0, &p1, 0.1);
+/// ```
+///
+/// ```compile_fail,E0277
+/// symplectic::tableau! { Rattle { basis: polynomial(2), nodes: lobatto(2) } }
+/// symplectic::hamiltonian! { Bead q: [x, y], p: [px, py]; H = (px^2 + py^2)/2  constraints: { circle = x^2 + y^2 - 1 } }
+/// use symplectic::nalgebra::Vector2;
+/// use symplectic::variational::generating_function;
+///
+/// let (q0, p1) = (Vector2::new(1.0, 0.0), Vector2::new(0.0, 1.0));
+/// let generating = generating_function(Rattle, &Bead, 0.0, &q0, &p1, 0.1);
+/// ```
+///
 /// # Errors
 ///
 /// [`Error::NoEnergy`] if the system has no energy; [`Error::TwoClocks`] if it depends on time and the method has `c ≠ c̃`;
