@@ -21,7 +21,7 @@
 //! |---|---|
 //! | The system: a formula, closures or a trait | [`hamiltonian!`], [`lagrangian!`]; [`separable`], [`hamiltonian()`], [`acceleration`]; [`SeparableHamiltonian`], [`Hamiltonian`]; [`system`] |
 //! | Numbers and vectors | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors), [`simd`] |
-//! | Constraints, friction and other forces | [`Constrained`], [`consistent`], [`constraint_force`]; [`Nonholonomic`], [`consistent_momentum`]; [`Damped`], [`Hamiltonian::applied_force`] |
+//! | Constraints, friction and other forces | [`Constrained`], [`consistent`], [`constraint_force`]; [`Nonholonomic`], [`consistent_momentum`]; [`Damped`], [`friction_growth`], [`Hamiltonian::applied_force`] |
 //! | Steps of variable size, for close encounters | [`Integrator::adaptive`]; [`adaptive`] |
 //! | A rigid body that turns about a point | [`rotation`] |
 //! | Splittings over flows of your own: harmonic, magnetic, damped, stochastic, Kepler | [`flow`] |
@@ -111,7 +111,9 @@ pub use integrator::{Integrator, Retry, Statistics};
 pub use method::{AtRunTime, RunTimeCoefficients, RunTimeTableau, TableauError};
 #[cfg(feature = "alloc")]
 pub use method::{ConstraintForce, consistent, consistent_momentum, constraint_force};
-pub use method::{LowerOrder, Method, Orders, ProvedFor, composition, splitting, tableau};
+pub use method::{
+    LowerOrder, Method, Orders, ProvedFor, composition, friction_growth, splitting, tableau,
+};
 pub use nalgebra;
 pub use num_traits;
 pub use number::{Compensated, Plain, Scalar, Summation, Vector};

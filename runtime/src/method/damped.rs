@@ -5,12 +5,12 @@ use core::marker::PhantomData;
 use crate::error::{Error, Quantity};
 use crate::method::{
     Drift, EvaluationObserver, Evaluations, Failure, Force, Inside, Interpolation, KickDrift,
-    Method, Outcome, Plan, Solver, StageStorage, Step, StepStatistics, Stopping, WarmStart,
-    check_no_constraints,
+    Method, Outcome, Plan, ProvedFor, Solver, StageStorage, Step, StepStatistics, Stopping,
+    WarmStart, check_no_constraints,
 };
 use crate::number::summation::add;
 use crate::number::vector::same_mut;
-use crate::number::{Coefficient, Scalar, Summation, Vector, Visit};
+use crate::number::{Coefficient, Coefficients, Scalar, Summation, Vector, Visit};
 use crate::solver::FixedPoint;
 use crate::system::{Damped, Separable, System};
 
@@ -23,6 +23,45 @@ use crate::system::{Damped, Separable, System};
 /// so the order is that for separable Hamiltonians, and every step shrinks dq∧dp by `e^{−γh}` exactly.
 #[derive(Debug)]
 pub struct DampedPlan<M>(PhantomData<M>);
+
+/// The exponent x of the largest growth `e^x` of a momentum by friction, in one kick of a step of size h with the rate γ:
+///
+/// ```text
+/// x = max(0, −γ h β_1, …, −γ h β_m)
+/// ```
+///
+/// `h β_k` is the length of kick k; β_k is the sum of the weights `b̃_i` of successive stages with the same position. For h > 0 only
+/// negative kicks grow, and x is 0 if there are none. The method is one that steps systems of class [`Damped`].
+///
+/// `rate` is γ, one over time, as in [`Hamiltonian::friction`](crate::Hamiltonian::friction); `step_size` is h, a time; x has no unit. With
+/// x = 1 a kick multiplies a momentum and its errors by e, and the positive kicks of the step undo it. Keep x well below 1, by a smaller step
+/// or by a method whose kicks are positive.
+///
+/// ```
+/// use symplectic::friction_growth;
+///
+/// symplectic::tableau! {
+///     StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) }
+///     ForestRuth { base: forest-ruth-1990 }
+/// }
+///
+/// assert_eq!(friction_growth(StoermerVerlet, 2.0, 0.1), 0.0);
+/// // The kicks have the lengths 0.676 h, −0.176 h, −0.176 h and 0.676 h, and γh is 1.
+/// assert!((friction_growth(ForestRuth, 2.0, 0.5) - 0.1756).abs() < 1e-4);
+/// ```
+pub fn friction_growth<M: Method + ProvedFor<Damped>>(
+    _method: M,
+    rate: f64,
+    step_size: f64,
+) -> f64 {
+    let Coefficients { a, b_tilde, .. } = M::COEFFICIENTS;
+    let mut weights = b_tilde.iter().map(|weight| weight.double());
+    let kicks = a.chunk_by(PartialEq::eq).map(|same| {
+        let weights = weights.by_ref().take(same.len());
+        weights.sum::<f64>()
+    });
+    kicks.fold(0.0, |largest, kick| largest.max(-rate * step_size * kick))
+}
 
 /// The system as a separable one; only kicks use its friction.
 struct AsSeparable<'a, S>(&'a S);

@@ -38,7 +38,7 @@ pub use constrained::{
 };
 pub use constrained_tableau::{ConstrainedStep, ConstrainedTableau};
 pub use coupled::Coupled;
-pub use damped::{DampedMemory, DampedPlan};
+pub use damped::{DampedMemory, DampedPlan, friction_growth};
 pub use explicit::Explicit;
 pub use interpolation::{Inside, Interpolation};
 pub use kick_drift::{Drift, Force, KickDrift};

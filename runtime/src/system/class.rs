@@ -108,9 +108,9 @@ pub struct Separable;
 ///
 /// Splittings whose order is proved for separable Hamiltonians step such systems, with the exact flow of the friction in
 /// every kick. The order is preserved. If all γ are equal, a step of size h shrinks dq∧dp and the momentum maps of symmetries of H by
-/// `e^{−γh}` exactly. Negative kicks grow by `e^{γ|τ|}`: for stiff friction choose a method whose kicks are positive. For any other
-/// method [`Integrator::new`](crate::Integrator::new) does not compile; there any friction can be part of
-/// [`Hamiltonian::force`](crate::Hamiltonian::force) of a system of class [`General`].
+/// `e^{−γh}` exactly. Negative kicks grow by `e^{γ|τ|}`, see [`friction_growth`](crate::friction_growth): for stiff friction choose a
+/// method whose kicks are positive. For any other method [`Integrator::new`](crate::Integrator::new) does not compile; there any friction
+/// can be part of [`Hamiltonian::force`](crate::Hamiltonian::force) of a system of class [`General`].
 #[derive(Clone, Copy, Debug)]
 pub struct Damped;
 

@@ -1,12 +1,19 @@
 //! Linear friction with exact kicks.
 
 use symplectic::nalgebra::{Matrix2, SVector, Vector2};
-use symplectic::{Damped, Hamiltonian, Integrator, Method, ProvedFor, Scalar, State};
+use symplectic::{
+    Damped, Hamiltonian, Integrator, Method, ProvedFor, Scalar, State, friction_growth,
+};
 
 symplectic::tableau! {
     pub StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) }
     pub ForestRuth { base: forest-ruth-1990 }
     pub Yoshida6 { base: yoshida-1990-order-6-a, accept: verified(100 bits) }
+}
+
+symplectic::composition! {
+    /// Forest & Ruth's steps; half kicks of successive steps are at the same position.
+    pub TripleJump { base: stormer-verlet, weights: triple_jump(4) }
 }
 
 type Plane<T> = SVector<T, 2>;
@@ -95,6 +102,30 @@ fn areas_and_momenta_shrink_exactly() {
     let determinant = Matrix2::from_columns(&[column(1.0, 0.0), column(0.0, 1.0)]).determinant();
     let exact = (-0.025_f64).exp();
     assert!((determinant - exact).abs() < 1e-10, "{determinant} {exact}");
+}
+
+/// The largest growth by friction is that of the middle kicks, (1 − 2^⅓)/(2 (2 − 2^⅓)) of a step.
+#[test]
+fn the_growth_of_negative_kicks() {
+    let (rate, size) = (3.0, 0.25);
+    assert_eq!(friction_growth(StoermerVerlet, rate, size), 0.0);
+    let root = 2.0_f64.cbrt();
+    let exact = rate * size * (root - 1.0) / (2.0 * (2.0 - root));
+    // Half of the middle step alone, −1.7 h/2, would be more than four times as much.
+    for found in [
+        friction_growth(ForestRuth, rate, size),
+        friction_growth(TripleJump, rate, size),
+    ] {
+        assert!(
+            (found - exact).abs() < 4.0 * f64::EPSILON,
+            "{found} {exact}"
+        );
+    }
+    // Backward in time the positive kicks grow.
+    assert_eq!(
+        friction_growth(StoermerVerlet, rate, -size),
+        rate * size / 2.0
+    );
 }
 
 /// The energies of Figure 2 at t = 500, 1000, 1500: those of Störmer–Verlet with h = 0.1 stay near those of small steps.
