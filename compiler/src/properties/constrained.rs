@@ -213,6 +213,12 @@ mod tests {
                 "basis: polynomial(5), nodes: clenshaw-curtis(5)",
                 "0.0000024414",
             ),
+            ("basis: polynomial(3), nodes: [0, 1/4, 1]", "0.0177083"),
+            // Leok & Zhang, Example 4
+            (
+                "basis: [1, cos(pi*t), sin(pi*t)], nodes: [0, 1/2, 1]",
+                "0.0322515",
+            ),
         ] {
             let found = property(definition);
             assert!(found.holds, "{definition}: {found}");
