@@ -8,9 +8,10 @@ use super::history::History;
 use super::last_impulse::LastImpulse;
 use super::metric::{Metric, Point};
 use super::newton::StageJacobian;
+use super::of_dimension::place_of_resized;
 use super::resolution::Resolution;
 use crate::error::Quantity;
-use crate::method::storage::{first_non_finite, first_non_finite_of};
+use crate::method::storage::first_non_finite;
 use crate::method::{Method, StageStorage};
 use crate::number::{Scalar, Vector, Visit, scalar_words, vector_words};
 use crate::system::{Class, Gradients, System, Terms};
@@ -153,14 +154,8 @@ impl<V: Vector> StageStorage<V> for ConstrainedStages<V> {
     }
 
     fn mismatch(&self, _dimension: usize) -> Option<(Quantity, usize, usize)> {
-        let (what, found) = self.resized?;
-        // NaN took its place.
         let workspace = self.workspace.as_ref()?;
-        let increments = match what {
-            Quantity::Force => &workspace.kick[..],
-            _ => &workspace.drift[..],
-        };
-        Some((what, first_non_finite_of(increments).unwrap_or(0), found))
+        place_of_resized(self.resized?, &workspace.kick, &workspace.drift)
     }
 
     fn forget(&mut self, _prototype: &V) {}

@@ -24,7 +24,7 @@ pub use force::{ConstraintForce, constraint_force};
 pub(super) use last_impulse::LastImpulse;
 pub use memory::ConstrainedStages;
 pub(super) use metric::{Metric, Point};
-pub(super) use of_dimension::OfDimension;
+pub(super) use of_dimension::{OfDimension, place_of_resized};
 pub(crate) use start::check_start;
 pub use start::consistent;
 pub(super) use start::{CONSISTENT, Examined, check_numbers};

@@ -3,6 +3,7 @@
 use core::cell::Cell;
 
 use crate::error::{ConstraintName, Error, Quantity};
+use crate::method::storage::first_non_finite_of;
 use crate::number::{Scalar, Vector};
 use crate::solver::FixedPoint;
 use crate::system::{Gradients, System};
@@ -93,4 +94,19 @@ impl<V: Vector, S: System<V>> System<V> for OfDimension<'_, S> {
     fn constraint_gradients(&self, q: &V, gradients: &mut Gradients<V::Scalar>) {
         self.system.constraint_gradients(q, gradients);
     }
+}
+
+/// What an evaluation of a wrong dimension is of, its stage from 1, or 0 outside the stages, and its dimension. NaN took its place, so its
+/// stage is the first increment of a step that is not finite.
+pub(in crate::method) fn place_of_resized<V: Vector>(
+    (what, found): (Quantity, usize),
+    kick: &[V],
+    drift: &[V],
+) -> Option<(Quantity, usize, usize)> {
+    let increments = match what {
+        Quantity::Force => kick,
+        _ => drift,
+    };
+    let stage = first_non_finite_of(increments).unwrap_or(0);
+    Some((what, stage, found))
 }

@@ -577,7 +577,7 @@ pub(in crate::method) fn stage<V: Vector>(
 /// The larger of two magnitudes, or NaN if either is NaN.
 #[inline(always)]
 pub(in crate::method) const fn maximum(a: f64, b: f64) -> f64 {
-    // Bits of magnitudes have the order of the magnitudes, and those of NaN come last. Comparisons of doubles take longer.
+    // Bits of magnitudes have the order of the magnitudes, and those of NaN come last.
     let (a, b) = (a.abs().to_bits(), b.abs().to_bits());
     f64::from_bits(if a >= b { a } else { b })
 }

@@ -5,8 +5,8 @@ use alloc::vec::Vec;
 use core::array;
 
 use crate::error::Quantity;
-use crate::method::constrained::{LastImpulse, Metric, Point};
-use crate::method::storage::{first_non_finite, first_non_finite_of};
+use crate::method::constrained::{LastImpulse, Metric, Point, place_of_resized};
+use crate::method::storage::first_non_finite;
 use crate::method::{Method, StageStorage};
 use crate::number::{Scalar, Vector, Visit};
 use crate::system::{Gradients, System, Terms};
@@ -115,14 +115,9 @@ impl<V: Vector> StageStorage<V> for NonholonomicStages<V> {
     }
 
     fn mismatch(&self, _dimension: usize) -> Option<(Quantity, usize, usize)> {
-        let (what, found) = self.resized?;
-        // NaN took its place.
         let workspace = self.workspace.as_ref()?;
-        let increments = match what {
-            Quantity::Force => &workspace.kick[..workspace.q.len()],
-            _ => &workspace.drift[..],
-        };
-        Some((what, first_non_finite_of(increments).unwrap_or(0), found))
+        let kick = &workspace.kick[..workspace.q.len()];
+        place_of_resized(self.resized?, kick, &workspace.drift)
     }
 
     fn forget(&mut self, _prototype: &V) {}
