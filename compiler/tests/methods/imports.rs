@@ -32,6 +32,18 @@ fn constants(text: &str) -> Vec<f64> {
     constants.collect()
 }
 
+/// Weights and coefficients, rounded.
+fn doubles(tableau: &Tableau) -> Vec<f64> {
+    let Coefficients {
+        a,
+        a_tilde,
+        b,
+        b_tilde,
+        ..
+    } = tableau.to_f64();
+    [b, b_tilde, a.concat(), a_tilde.concat()].concat()
+}
+
 /// What is exported to a library and read from there is the same method, for the catalogue: the same orders, and the same
 /// doubles, except that coefficients which the conditions leave free are those of the doubles, so that all may move by a unit
 /// in the last place.
@@ -69,16 +81,7 @@ fn exports_are_read_back() {
                 Language::Sundials | Language::Petsc => {
                     constants(&language.write(tableau, 40).expect("written"))
                 }
-                _ => {
-                    let Coefficients {
-                        a,
-                        a_tilde,
-                        b,
-                        b_tilde,
-                        ..
-                    } = tableau.to_f64();
-                    [b, b_tilde, a.concat(), a_tilde.concat()].concat()
-                }
+                _ => doubles(tableau),
             });
             assert_eq!(x.len(), y.len(), "{name}");
             let distances = x
@@ -117,16 +120,7 @@ fn rational_exports_are_read_back_exactly() {
             let text = language.write(&tableau, 40).expect("written");
             let read =
                 read(library, &text).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
-            let [x, y] = [&read, &tableau].map(|tableau| {
-                let Coefficients {
-                    a,
-                    a_tilde,
-                    b,
-                    b_tilde,
-                    ..
-                } = tableau.to_f64();
-                [b, b_tilde, a.concat(), a_tilde.concat()].concat()
-            });
+            let [x, y] = [&read, &tableau].map(doubles);
             assert_eq!(x.len(), y.len(), "{name}");
             let near = x.iter().zip(&y).all(|(x, y)| (x - y).abs() <= f64::EPSILON);
             assert!(near, "{name}, {}", library.name());
