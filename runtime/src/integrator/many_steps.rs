@@ -155,7 +155,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 
     /// Takes steps with `next` moved out of the memory of the integrator, so that it stays in registers from step to step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run_apart(&mut self, clock: &Clock, steps: u64, size: f64) {
         let blank = || (V::blank(), V::blank());
         // The order affects how registers are assigned to six components: see `ratios`, springs, and `instructions`.
@@ -183,7 +183,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 
     /// Takes steps that overwrite a state.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(
         system: &S,
         clock: &Clock,

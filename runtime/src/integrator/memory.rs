@@ -139,7 +139,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
     }
 
     /// Computes a step of size `size` into `next` and checks it.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn attempt<P, R, S, N>(
         &mut self,
         system: &S,
@@ -164,7 +164,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
     }
 
     /// Whether `next` is finite, and all evaluations have the right dimension.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn is_sound(&self) -> bool {
         let (q1, p1) = &self.next;
         let dimension = self.state.q.dimension();
@@ -172,7 +172,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
     }
 
     /// Exchanges the state and `next`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn swap<R: Summation>(&mut self) {
         swap(&mut self.state.q, &mut self.next.0);
         swap(&mut self.state.p, &mut self.next.1);
@@ -183,7 +183,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
     }
 
     /// Makes the step computed by [`attempt`](Self::attempt), to the time `time`, the present state.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn accept<R: Summation>(&mut self, size: f64, time: f64) {
         self.swap::<R>();
         self.last_time = mem::replace(&mut self.state.time, time);
@@ -203,7 +203,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
     }
 
     /// A step of size `size` from the present state, the places of its result, and the memory.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) const fn lend(&mut self, size: f64) -> (Step<'_, V>, Outcome<'_, V>, &mut T) {
         let step = Step {
             time: self.state.time,
@@ -226,7 +226,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
 
 /// Exchanges two vectors, or their handles. Short vectors avoid [`mem::swap`], which may be a call and keep them out of registers. Copying
 /// six components as a whole takes two overlapping copies, for which processors wait; copies by component do not overlap.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn swap<V: Vector>(a: &mut V, b: &mut V) {
     let short = size_of::<V>() <= SHORT && is_in_place(a) && is_in_place(b);
     match short {

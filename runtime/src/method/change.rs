@@ -35,13 +35,13 @@ impl StageChange {
     }
 
     /// Whether the relative change of the positions or that of the momenta is NaN.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) const fn is_undefined(&self) -> bool {
         self.q.is_undefined() || self.p.is_undefined()
     }
 
     /// The largest position and the largest momentum.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) const fn scales(&self) -> [f64; 2] {
         [self.q.scale, self.p.scale]
     }
@@ -61,25 +61,25 @@ impl HalfChange {
     }
 
     /// Whether the [relative](Self::relative) change is NaN.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) const fn is_undefined(&self) -> bool {
         self.difference.is_nan() || self.difference.is_infinite() && self.scale.is_infinite()
     }
 
     /// The largest |new − old|.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) const fn difference(&self) -> f64 {
         self.difference
     }
 
     /// The largest of all |base| and |new|.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) const fn scale(&self) -> f64 {
         self.scale
     }
 
     /// Records that a component of a stage value, `base` plus an increment, changed from `old` to `new`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn record<T: Scalar>(&mut self, base: T, old: T, new: T) {
         self.difference = larger(self.difference, (new - old).magnitude());
         // The rounding error of `base + increment` scales with the larger of the base and the result. Where base and increment nearly
@@ -88,7 +88,7 @@ impl HalfChange {
     }
 
     /// Records a change of size `difference` among values of size `scale`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn join(&mut self, difference: f64, scale: f64) {
         self.difference = larger(self.difference, difference);
         self.scale = larger(self.scale, scale);
@@ -97,7 +97,7 @@ impl HalfChange {
     /// The largest |new − old| divided by the largest of all |base| and |new|.
     ///
     /// Returns 0 if nothing was recorded or everything is zero, 1 if everything changed to zero, and NaN if a new value is NaN or infinite.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn relative(&self) -> f64 {
         // Without a branch, whether both, one or neither of the two are zero.
         let alone = if self.difference == 0.0 {
@@ -111,7 +111,7 @@ impl HalfChange {
 }
 
 /// The larger of two numbers; NaN if either is, unlike [`f64::max`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn larger(a: f64, b: f64) -> f64 {
     if a >= b || a.is_nan() { a } else { b }
 }

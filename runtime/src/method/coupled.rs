@@ -21,7 +21,7 @@ impl<P: StageTableau> Plan for Coupled<P> {
     type Class = P::Class;
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = N::Memory<P>;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<R, V, S, N>(
         step: &Step<'_, V>,
         system: &S,

@@ -72,22 +72,22 @@ impl<V: Vector, S: System<V, Class = Damped>> System<V> for AsSeparable<'_, S> {
 
     const UNIT_MASSES: bool = S::UNIT_MASSES;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
         self.0.velocity(time, q, p, velocity);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
         self.0.force(time, q, p, force);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn friction(&self, component: usize) -> f64 {
         self.0.friction(component)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn kick(&self, duration: V::Scalar, q: &V, force: &V, p: &V, change: &mut V) -> bool {
         self.0.kick(duration, q, force, p, change)
     }
@@ -102,7 +102,7 @@ struct DampedKicks<'a, C> {
 }
 
 impl<C: Vector> KickDrift for DampedKicks<'_, C> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn force<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
         &mut self,
         force: Force,
@@ -115,7 +115,7 @@ impl<C: Vector> KickDrift for DampedKicks<'_, C> {
         ().force::<R, V, S, W>(force, system, place, position, momentum, witness);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn kick<R: Summation, V: Vector, S: System<V>>(
         &mut self,
         h: f64,
@@ -158,7 +158,7 @@ impl<C: Vector> KickDrift for DampedKicks<'_, C> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn drift<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
         &mut self,
         drift: Drift,
@@ -171,7 +171,7 @@ impl<C: Vector> KickDrift for DampedKicks<'_, C> {
         ().drift::<R, V, S, W>(drift, system, evaluations, position, momentum, witness);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn settle<R: Summation, V: Vector, S: System<V>>(
         &mut self,
         _system: &S,
@@ -229,7 +229,7 @@ impl<M: Method> Plan for DampedPlan<M> {
         check_no_constraints(system)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<R, V, S, N>(
         step: &Step<'_, V>,
         system: &S,

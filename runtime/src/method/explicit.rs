@@ -19,7 +19,7 @@ impl<P: StagePlan> Plan for Explicit<P> {
 
     const LANEWISE: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<R, V, S, N>(
         step: &Step<'_, V>,
         system: &S,

@@ -80,7 +80,7 @@ pub trait KickDrift {
 }
 
 impl KickDrift for () {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn force<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
         &mut self,
         Force { span, stage, time }: Force,
@@ -94,7 +94,7 @@ impl KickDrift for () {
         witness.evaluation(Quantity::Force, stage, q, place);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn kick<R: Summation, V: Vector, S: System<V>>(
         &mut self,
         h: f64,
@@ -107,7 +107,7 @@ impl KickDrift for () {
         advance::<R, V>(p, p_low, h, weight, force);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn drift<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
         &mut self,
         Drift {
@@ -128,7 +128,7 @@ impl KickDrift for () {
         advance::<R, V>(q, q_low, span.size, weight, slope);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn settle<R: Summation, V: Vector, S: System<V>>(
         &mut self,
         _system: &S,
@@ -173,14 +173,14 @@ impl FusedKicks {
     }
 
     /// The factors of the deferred kicks.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn factors<T: Scalar>(&self) -> ([T; 2], usize) {
         let factors = self.kicks.map(|(h, weight)| T::weight(h, weight));
         (factors, self.count.min(factors.len()))
     }
 
     /// Kicks and a drift in one pass. Returns `false`, with positions and momenta in their natural order, if the system cannot do this.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn pass<V: Vector, S: System<V>>(
         &mut self,
         system: &S,
@@ -205,7 +205,7 @@ impl FusedKicks {
     }
 
     /// A drift without a kick before it, in the present layout.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn drift_alone<V: Vector>(&self, q: &mut V, p: &V, drift: V::Scalar) {
         let (q, p) = (q.as_mut_slice(), p.as_slice());
         let n = q.len().min(p.len());
@@ -218,14 +218,14 @@ impl FusedKicks {
     }
 
     /// Puts positions and momenta back into their natural order.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn put_back<V: Vector>(&mut self, (q, p): (&mut V, &mut V), place: &mut V) {
         let are_back = mem::take(&mut self.layout).put_vectors_back((q, p), place);
         debug_assert!(are_back, "a place as long as the one before");
     }
 
     /// Evaluates the deferred force.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate<V: Vector, S: System<V>>(&mut self, system: &S, place: &mut V, q: &V, p: &V) {
         if let Some(Force { span, time, .. }) = self.force.take() {
             system.force(span.at(time), q, p, place);
@@ -235,7 +235,7 @@ impl FusedKicks {
 
 impl KickDrift for FusedKicks {
     /// Shows no evaluation to the witness.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn force<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
         &mut self,
         force: Force,
@@ -251,7 +251,7 @@ impl KickDrift for FusedKicks {
         self.force = Some(force);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn kick<R: Summation, V: Vector, S: System<V>>(
         &mut self,
         h: f64,
@@ -272,7 +272,7 @@ impl KickDrift for FusedKicks {
         self.count += 1;
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn drift<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
         &mut self,
         drift: Drift,
@@ -313,7 +313,7 @@ impl KickDrift for FusedKicks {
         kick_and_drift(q, p, force, kicks, step);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn settle<R: Summation, V: Vector, S: System<V>>(
         &mut self,
         system: &S,
@@ -334,7 +334,7 @@ impl KickDrift for FusedKicks {
 
 /// The velocity of a drift. With [unit masses](System::UNIT_MASSES) this is the momentum itself; otherwise it is `place`, which is
 /// evaluated unless it is `known`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn velocity<'a, V: Vector, S: System<V>>(
     system: &S,
     time: V::Scalar,

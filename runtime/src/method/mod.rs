@@ -150,7 +150,7 @@ pub trait Plan {
     const LANEWISE: bool = false;
 
     /// Allocates in `memory` what depends on the system.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn prepare<V, S, N>(
         _memory: &mut Self::Memory<V, S, N>,
         _system: &S,
@@ -170,7 +170,7 @@ pub trait Plan {
     ///
     /// [`Error::OtherClass`] if the system has constraints or friction that steps of this class ignore; [`Error::InconsistentStart`] and
     /// others if there are constraints.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn check<V, S>(system: &S, _time: f64, q: &V, _p: &V) -> Result<(), Error>
     where
         V: Vector,
@@ -237,7 +237,7 @@ pub trait Plan {
 
     /// Takes a step from `state`, in place, with the evaluations [kept](WarmStart::evaluation) by the previous step. Does nothing if
     /// [`EVALUATIONS_IN_PLACE`](Self::EVALUATIONS_IN_PLACE) is `None`. `kick_drift` may defer a force and kicks.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take_in_place<R, V, S, N, K>(
         _span: Span,
         _system: &S,
@@ -254,7 +254,7 @@ pub trait Plan {
     }
 
     /// Applies to the state what steps [taken in place](Self::take_in_place) have deferred.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn settle_in_place<R, V, S, N, K>(
         _system: &S,
         _memory: &mut Self::Memory<V, S, N>,
@@ -271,7 +271,7 @@ pub trait Plan {
 
     /// Takes `step` of a splitting with the kicks and drifts of `kick_drift`, and shows its evaluations to `witness`. Does not compile
     /// for any other plan.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take_by<R, V, S, K, W>(
         _step: &Step<'_, V>,
         _system: &S,
@@ -351,14 +351,14 @@ pub trait Plan {
 }
 
 /// Checks that a system whose class has no constraints has none.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn check_no_constraints<V: Vector, S: System<V>>(system: &S) -> Result<(), Error> {
     check_no_holonomic_constraints(system)?;
     check_no_rows(system)
 }
 
 /// Checks that a system whose class has no holonomic constraints has none.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn check_no_holonomic_constraints<V: Vector, S: System<V>>(
     system: &S,
 ) -> Result<(), Error> {
@@ -372,7 +372,7 @@ pub(crate) fn check_no_holonomic_constraints<V: Vector, S: System<V>>(
 }
 
 /// Checks that a system whose class has no non-holonomic constraints has none.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn check_no_rows<V: Vector, S: System<V>>(system: &S) -> Result<(), Error> {
     if system.nonholonomic_constraints() == 0 {
         return Ok(());
@@ -384,7 +384,7 @@ pub(crate) fn check_no_rows<V: Vector, S: System<V>>(system: &S) -> Result<(), E
 }
 
 /// Checks that a system whose class has no friction has none.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn check_no_friction<V: Vector, S: System<V>>(system: &S, q: &V) -> Result<(), Error> {
     if (0..q.dimension()).all(|component| system.friction(component) == 0.0) {
         return Ok(());
@@ -438,7 +438,7 @@ pub trait StagePlan {
 
     /// Turns the evaluations of the coupled stages into increments, if the plan uses increments. With [compensated](Summation::COMPENSATED)
     /// sums every sweep does this. With plain sums the evaluations stay unscaled until then, and the factors of the sums make up for it.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn increments<V: Vector>(_step: &Step<'_, V>, _stages: &mut Self::Stages<V>) {}
 
     /// Evaluates what comes after the coupled stages, and writes the result of the step.

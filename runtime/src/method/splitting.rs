@@ -44,7 +44,7 @@ pub struct Splitting<P>(PhantomData<P>);
 
 impl<P: SplittingPlan> Splitting<P> {
     /// Copies the state before `step` to `state`, where the step is applied.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn start<R: Summation, V: Vector>(step: &Step<'_, V>, state: &mut Outcome<'_, V>) {
         copy(state.q, step.q);
         copy(state.p, step.p);
@@ -63,7 +63,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
 
     const LANEWISE: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<R, V, S, N>(
         step: &Step<'_, V>,
         system: &S,
@@ -84,7 +84,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         ))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take_by<R, V, S, K, W>(
         step: &Step<'_, V>,
         system: &S,
@@ -147,7 +147,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
     {
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take_in_place<R, V, S, N, K>(
         span: Span,
         system: &S,
@@ -165,7 +165,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         P::apply::<R, V, S, K, ()>(span, system, memory, kept, state, kick_drift, &mut ());
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn settle_in_place<R, V, S, N, K>(
         system: &S,
         memory: &mut Evaluations<V>,

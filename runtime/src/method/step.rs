@@ -26,7 +26,7 @@ pub struct Step<'a, V> {
 
 impl<V: Vector> Step<'_, V> {
     /// Calls `take` with a copy of the step, so that nothing points to the original vectors.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn copied<T>(&self, take: impl FnOnce(&Step<'_, V>) -> T) -> T {
         let (q, q_low) = (self.q.clone(), self.q_low.clone());
         let (p, p_low) = (self.p.clone(), self.p_low.clone());
@@ -42,7 +42,7 @@ impl<V: Vector> Step<'_, V> {
     }
 
     /// The same step for vectors of another type, if that is the same type.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn same<W: Vector>(&self) -> Option<Step<'_, W>> {
         Some(Step {
             time: self.time,
@@ -58,13 +58,13 @@ impl<V: Vector> Step<'_, V> {
 
 impl<V> Step<'_, V> {
     /// The time `t0 + c h` of the node `c`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn at<T: Scalar>(&self, c: Coefficient) -> T {
         self.span().at(c)
     }
 
     /// The time span of the step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub const fn span(&self) -> Span {
         Span {
             time: self.time,
@@ -84,19 +84,19 @@ pub struct Span {
 
 impl Span {
     /// The time `t0 + c h` of the node `c`, computed in double precision like all times, whatever the scalar.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn at<T: Scalar>(&self, c: Coefficient) -> T {
         T::from_f64(self.time + c.double() * self.size)
     }
 
     /// The time in the middle, `t0 + h/2`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub const fn middle(&self) -> f64 {
         self.time + self.size / 2.0
     }
 
     /// The span of size `size` about the time `middle`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) const fn about(middle: f64, size: f64) -> Self {
         Self {
             time: middle - size / 2.0,
@@ -135,7 +135,7 @@ pub struct Outcome<'a, V> {
 
 impl<'a, V: Vector> Outcome<'a, V> {
     /// The same places for vectors of another type, if that is the same type.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn same<W: Vector>(self) -> Option<Outcome<'a, W>> {
         Some(Outcome {
             q: same_mut(self.q)?,
@@ -183,7 +183,7 @@ impl WarmStart {
 
 impl Default for WarmStart {
     /// Keeps nothing. Written out because the default of an array would be a function call: see `array.rs`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn default() -> Self {
         Self::new(false, false)
     }
@@ -207,7 +207,7 @@ pub struct EvaluationCounts {
 
 impl EvaluationCounts {
     /// Number of evaluations before the coupled stages, given what is kept from the previous step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) const fn at_begin(&self, kept: WarmStart) -> u32 {
         let carried = if kept.evaluation { self.carried } else { 0 };
         let start = if kept.stages { 0 } else { self.start };
@@ -222,6 +222,6 @@ pub trait EvaluationObserver {
 }
 
 impl EvaluationObserver for () {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluation<V: Vector>(&mut self, _what: Quantity, _stage: usize, _at: &V, _value: &V) {}
 }

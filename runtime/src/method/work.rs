@@ -25,7 +25,7 @@ pub struct StepStatistics {
 
 impl Default for StepStatistics {
     /// All zero. Written out because the default of an array would be a function call: see `array.rs`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn default() -> Self {
         Self {
             iterations: 0,

@@ -6,7 +6,7 @@
 //! therefore have loops over indices instead.
 
 /// Returns `[make(0), make(1), …]`; each entry is `blank` until it is made.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn array<T: Copy, const N: usize>(blank: T, mut make: impl FnMut(usize) -> T) -> [T; N] {
     let mut all = [blank; N];
     for (index, entry) in all.iter_mut().enumerate() {

@@ -27,7 +27,7 @@ pub struct Coefficient {
 impl Coefficient {
     /// The coefficient x whose nearest double is `double`, whose nearest single is `single`, and for which `low` is the double nearest to
     /// x − `double`. The single is infinite if x exceeds the largest one.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub const fn new(double: f64, low: f64, single: f32) -> Self {
         Self {
             double,
@@ -37,25 +37,25 @@ impl Coefficient {
     }
 
     /// The coefficient that is this double, exactly.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub const fn exact(value: f64) -> Self {
         Self::new(value, 0.0, value as f32)
     }
 
     /// The nearest double.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub const fn double(self) -> f64 {
         self.double
     }
 
     /// The double nearest to x − [`double`](Self::double) for the coefficient x.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub const fn low(self) -> f64 {
         self.low
     }
 
     /// The nearest single; infinite above the largest single.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub const fn single(self) -> f32 {
         self.single
     }

@@ -20,7 +20,7 @@ pub(crate) trait Entry:
 }
 
 impl<T: Scalar> Entry for T {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn zero() -> Self {
         T::zero()
     }
@@ -29,12 +29,12 @@ impl<T: Scalar> Entry for T {
         self.as_words(visit);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn size(self) -> f64 {
         self.magnitude()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn inverse(self) -> Self {
         self.recip()
     }
@@ -49,7 +49,7 @@ pub(crate) struct Complex<T> {
 
 impl<T: Add<Output = T>> Add for Complex<T> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(self, other: Self) -> Self {
         Self {
             re: self.re + other.re,
@@ -60,7 +60,7 @@ impl<T: Add<Output = T>> Add for Complex<T> {
 
 impl<T: Sub<Output = T>> Sub for Complex<T> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sub(self, other: Self) -> Self {
         Self {
             re: self.re - other.re,
@@ -71,7 +71,7 @@ impl<T: Sub<Output = T>> Sub for Complex<T> {
 
 impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>> Mul for Complex<T> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mul(self, other: Self) -> Self {
         Self {
             re: self.re * other.re - self.im * other.im,
@@ -81,7 +81,7 @@ impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>> Mul for Comp
 }
 
 impl<T: Scalar + Neg<Output = T>> Entry for Complex<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn zero() -> Self {
         Self {
             re: T::zero(),
@@ -94,7 +94,7 @@ impl<T: Scalar + Neg<Output = T>> Entry for Complex<T> {
         self.im.as_words(visit);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn size(self) -> f64 {
         self.re.magnitude() + self.im.magnitude()
     }
@@ -161,7 +161,7 @@ impl<E: Entry> Elimination<E> {
     }
 
     /// The index of an entry.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(&self, i: usize, j: usize) -> usize {
         if self.width == self.size {
             i * self.width + j
@@ -201,7 +201,7 @@ impl<E: Entry> Elimination<E> {
     }
 
     /// Sets an entry within the band of a matrix that is then [factored](Self::eliminate_all).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn set(&mut self, i: usize, j: usize, entry: E) {
         let place = self.place(i, j);
         self.entries[place] = entry;

@@ -72,7 +72,7 @@ pub trait Lanes: Scalar {
     fn below(self, other: Self) -> u32;
 
     /// The numbers of `yes` in the lanes whose bits are set, and those of `no` in the others.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn select(lanes: u32, yes: Self, no: Self) -> Self {
         let (yes, no) = (yes.to_array(), no.to_array());
         Self::from_fn(|lane| {
@@ -84,20 +84,20 @@ pub trait Lanes: Scalar {
 }
 
 /// The lanes of one group, from a list over the stages.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn lanes<L: Lanes>(list: &[f64], group: usize) -> L {
     let list = &list[group * L::WIDTH..(group + 1) * L::WIDTH];
     L::from_fn(|lane| list[lane])
 }
 
 /// The double of a stage, from the lanes of its group.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn lane_of<L: Lanes>(group: L, stage: usize) -> f64 {
     group.to_array().as_ref()[stage % L::WIDTH]
 }
 
 /// The double of a stage, from a list of groups.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn in_groups<L: Lanes>(groups: &[L], stage: usize) -> f64 {
     lane_of(groups[stage / L::WIDTH], stage)
 }
@@ -108,7 +108,7 @@ trait Largest {
 }
 
 impl Largest for [f64; 8] {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn largest(self) -> f64 {
         let lower = wide::f64x4::new(array(0.0, |lane| self[lane]));
         let upper = wide::f64x4::new(array(0.0, |lane| self[lane + 4]));
@@ -117,7 +117,7 @@ impl Largest for [f64; 8] {
 }
 
 impl Largest for [f64; 4] {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn largest(self) -> f64 {
         let [a, b, c, d] = self;
         let (lower, upper) = (wide::f64x2::new([a, b]), wide::f64x2::new([c, d]));
@@ -126,7 +126,7 @@ impl Largest for [f64; 4] {
 }
 
 impl Largest for [f64; 2] {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn largest(self) -> f64 {
         let [a, b] = self;
         if a > b { a } else { b }
@@ -138,14 +138,14 @@ macro_rules! operator {
         $(
             impl $operator for $name {
                 type Output = Self;
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn $function(self, other: Self) -> Self {
                     Self($operator::$function(self.0, other.0))
                 }
             }
 
             impl $assign for $name {
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn $assigning(&mut self, other: Self) {
                     *self = $operator::$function(*self, other);
                 }
@@ -179,14 +179,14 @@ macro_rules! lanes {
 
         impl Neg for $name {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn neg(self) -> Self {
                 Self(-self.0)
             }
         }
 
         impl Zero for $name {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn zero() -> Self {
                 Self::from_f64(0.0)
             }
@@ -197,7 +197,7 @@ macro_rules! lanes {
         }
 
         impl One for $name {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn one() -> Self {
                 Self::from_f64(1.0)
             }
@@ -212,12 +212,12 @@ macro_rules! lanes {
                 *self = Self::from_array(lanes);
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn from_f64(value: f64) -> Self {
                 Self(<$inner>::splat(value))
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn from_lanes(numbers: &[f64; MOST_LANES]) -> Self {
                 Self::from_fn(|lane| numbers[lane])
             }
@@ -235,7 +235,7 @@ macro_rules! lanes {
                 })
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn fused(self, factor: Self, term: Self) -> Self {
                 if !cfg!(feature = "fma") {
                     self * factor + term
@@ -248,17 +248,17 @@ macro_rules! lanes {
                 }
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sqrt(self) -> Self {
                 Self(self.0.sqrt())
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn recip(self) -> Self {
                 Self::one() / self
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn abs(self) -> Self {
                 Self(self.0.abs())
             }
@@ -283,7 +283,7 @@ macro_rules! lanes {
         impl $name {
             /// [`larger_or_nan`](Lanes::larger_or_nan) by bits: the bits of non-negative numbers have the order of the numbers, and NaN is
             /// above them. All widths use eight lanes: the maximum is then one instruction, which the compiler narrows.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn larger_by_bits(self, other: Self) -> Self {
                 let bits = |numbers: Self| {
                     let lanes = numbers.to_array();
@@ -295,7 +295,7 @@ macro_rules! lanes {
             }
 
             /// [`larger_or_nan`](Lanes::larger_or_nan) by sums.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn larger_by_sums(self, other: Self) -> Self {
                 Self(self.0.fast_max(other.0) | (self.0 + other.0).is_nan())
             }
@@ -306,27 +306,27 @@ macro_rules! lanes {
 
             const WIDTH: usize = $width;
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn from_fn(lane: impl FnMut(usize) -> f64) -> Self {
                 Self(<$inner>::new(array(0.0, lane)))
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn from_array(doubles: [f64; $width]) -> Self {
                 Self(<$inner>::new(doubles))
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn to_array(self) -> [f64; $width] {
                 self.0.to_array()
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn larger(self, other: Self) -> Self {
                 Self(self.0.fast_max(other.0))
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn larger_or_nan(self, other: Self) -> Self {
                 // These targets compare integers in one instruction.
                 if cfg!(any(target_feature = "sse4.2", target_arch = "aarch64")) {
@@ -336,37 +336,37 @@ macro_rules! lanes {
                 }
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn largest(self) -> f64 {
                 Largest::largest(self.to_array())
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn any_above(self, bound: f64) -> bool {
                 self.0.simd_gt(<$inner>::splat(bound)).any()
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn all_below(self, bound: f64) -> bool {
                 self.0.simd_lt(<$inner>::splat(bound)).all()
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn any_nan(self) -> bool {
                 self.0.is_nan().any()
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn if_below(self, bound: Self, yes: Self, no: Self) -> Self {
                 Self(self.0.simd_lt(bound.0).bitselect(yes.0, no.0))
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn at_most(self, other: Self) -> u32 {
                 self.0.simd_le(other.0).to_bitmask()
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn below(self, other: Self) -> u32 {
                 self.0.simd_lt(other.0).to_bitmask()
             }

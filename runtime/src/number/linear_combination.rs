@@ -14,20 +14,20 @@ use crate::number::summation::{add, add_sum};
 use crate::number::{Coefficient, Scalar, Summation, Vector};
 
 /// Coefficients times the step size: the factors of evaluations.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn weights<T: Scalar, const N: usize>(h: f64, coefficients: [Coefficient; N]) -> [T; N] {
     array(T::zero(), |j| T::weight(h, coefficients[j]))
 }
 
 /// The coefficients themselves: the factors of increments.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn factors<T: Scalar, const N: usize>(coefficients: [Coefficient; N]) -> [T; N] {
     array(T::zero(), |j| T::from_coefficient(coefficients[j]))
 }
 
 /// The factors of evaluations in sweeps. With [compensated](Summation::COMPENSATED) sums these are the coefficients of increments,
 /// because evaluations become [increments](increment) there. With plain sums they are multiplied by the weights of the increments.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn relative<R: Summation, T: Scalar, const N: usize>(
     coefficients: [Coefficient; N],
     weights: [T; N],
@@ -55,7 +55,7 @@ pub fn relative<R: Summation, T: Scalar, const N: usize>(
 /// combine::<Plain, _, 2>(&mut out, &q, &low, factors, [&force, &q]);
 /// assert_eq!(out, Vector2::new(2.75, 5.5));
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn combine<R: Summation, V: Vector, const N: usize>(
     out: &mut V,
     base: &V,
@@ -72,7 +72,7 @@ pub fn combine<R: Summation, V: Vector, const N: usize>(
 }
 
 /// `vector = (h coefficient) vector`: turns an evaluation into an increment.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn scale<V: Vector>(vector: &mut V, h: f64, coefficient: Coefficient) {
     let factor = V::Scalar::weight(h, coefficient);
     for component in vector.as_mut_slice() {
@@ -81,7 +81,7 @@ pub fn scale<V: Vector>(vector: &mut V, h: f64, coefficient: Coefficient) {
 }
 
 /// [`scale`] of an evaluation in a sweep with [compensated](Summation::COMPENSATED) sums: see [`relative`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn increment<R: Summation, V: Vector>(vector: &mut V, h: f64, coefficient: Coefficient) {
     if R::COMPENSATED {
         scale(vector, h, coefficient);
@@ -100,7 +100,7 @@ pub fn increment<R: Summation, V: Vector>(vector: &mut V, h: f64, coefficient: C
 /// total::<Compensated, _, 2>(&mut out, &mut low, &one, &tiny, [&tiny, &tiny]);
 /// assert_eq!((out[0], low[0]), (1.0, 3.0 * tiny[0]));
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn total<R: Summation, V: Vector, const N: usize>(
     out: &mut V,
     out_low: &mut V,
@@ -114,7 +114,7 @@ pub fn total<R: Summation, V: Vector, const N: usize>(
 }
 
 /// [`total`] of evaluations instead of increments: `base + low + Σ_j factors_j terms_j`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn weighted_total<R: Summation, V: Vector, const N: usize>(
     out: &mut V,
     out_low: &mut V,
@@ -131,7 +131,7 @@ pub fn weighted_total<R: Summation, V: Vector, const N: usize>(
 }
 
 /// A drift or a kick, in place: `out + low + (h coefficient) evaluation`, rounded to `out`, with the round-off in `out_low`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn advance<R: Summation, V: Vector>(
     out: &mut V,
     out_low: &mut V,
@@ -150,7 +150,7 @@ pub fn advance<R: Summation, V: Vector>(
 
 /// `out + low + factor terms`, component by component.
 // The compiler knows that slices passed as arguments do not overlap. For the memory that vectors point to it has to check before every
-// loop. Without optimisation every inlined copy would have its own place in the stack, and long splittings have hundreds.
+// loop.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn add_products<R: Summation, V: Vector>(
     out: &mut [V::Scalar],
@@ -182,7 +182,7 @@ fn add_products<R: Summation, V: Vector>(
 }
 
 /// `out + low + factor terms` with compensated sums, four components side by side; returns the remaining components.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn add_rows<'a>(
     out: &'a mut [f64],
     low: &'a mut [f64],
@@ -204,7 +204,7 @@ fn add_rows<'a>(
 }
 
 /// [`add_rows`], component by component.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn add_one_by_one<T: Scalar>(out: &mut [T], low: &mut [T], factor: T, terms: &[T]) {
     let n = out.len().min(low.len()).min(terms.len());
     let (out, low, terms) = (&mut out[..n], &mut low[..n], &terms[..n]);
@@ -214,7 +214,7 @@ fn add_one_by_one<T: Scalar>(out: &mut [T], low: &mut [T], factor: T, terms: &[T
 }
 
 /// Several kicks in sequence and a drift with unit masses, component by component, with the same bits as one [`advance`] each.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn kick_and_drift<V: Vector>(
     q: &mut V,
     p: &mut V,
@@ -237,7 +237,7 @@ pub(crate) fn kick_and_drift<V: Vector>(
 }
 
 /// [`kick_and_drift`] of slices, which are known not to overlap.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn add_kicked<T: Scalar, const N: usize>(
     q: &mut [T],
     p: &mut [T],
@@ -258,7 +258,7 @@ fn add_kicked<T: Scalar, const N: usize>(
 }
 
 /// `vectors_i = Σ_j matrix_ij vectors_j` for the vectors with these `indices`: starting values from the previous step.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn transform<V: Vector, const N: usize>(
     vectors: &mut [V],
     indices: [usize; N],
@@ -289,7 +289,7 @@ pub fn transform<V: Vector, const N: usize>(
 }
 
 /// Copies one vector to another, component by component, because `clone_from` of a dynamic vector may allocate.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn copy<V: Vector>(out: &mut V, from: &V) {
     let (out, from) = (out.as_mut_slice(), from.as_slice());
     let n = out.len().min(from.len());
@@ -297,7 +297,7 @@ pub fn copy<V: Vector>(out: &mut V, from: &V) {
 }
 
 /// Copies one vector of an array to others.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn copy_to<V: Vector, const N: usize>(vectors: &mut [V], from: usize, to: [usize; N]) {
     for index in to {
         if let Ok([source, target]) = vectors.get_disjoint_mut([from, index]) {
@@ -307,7 +307,7 @@ pub fn copy_to<V: Vector, const N: usize>(vectors: &mut [V], from: usize, to: [u
 }
 
 /// The shortest length, so that one comparison bounds every index of a loop.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn shortest<V: Vector, const N: usize>(vectors: [&V; N]) -> usize {
     let mut shortest = usize::MAX;
     for vector in vectors {
@@ -317,13 +317,13 @@ pub(crate) fn shortest<V: Vector, const N: usize>(vectors: [&V; N]) -> usize {
 }
 
 /// The first `n` components of each vector.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn starts<V: Vector, const N: usize>(vectors: [&V; N], n: usize) -> [&[V::Scalar]; N] {
     array(&[][..], |j| &vectors[j].as_slice()[..n])
 }
 
 /// One component of a stage.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn value<R: Summation, T: Scalar, const N: usize>(
     base: T,
     low: T,
@@ -338,7 +338,7 @@ pub(crate) fn value<R: Summation, T: Scalar, const N: usize>(
 
 /// The sum of `count` products, at least one, and of an optional start. Products with even and with odd indices are summed separately, so
 /// that additions need not wait for one another.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn sum_of_products<T: Scalar>(
     start: Option<T>,
     count: usize,
@@ -365,7 +365,7 @@ pub(crate) fn sum_of_products<T: Scalar>(
 }
 
 /// The components of a result.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn totals<R: Summation, V: Vector, const N: usize>(
     (out, out_low): (&mut V, &mut V),
     (base, low): (&V, &V),

@@ -47,47 +47,47 @@ impl<T: Scalar> Row<T> for Single {
 
     const WIDTH: usize = 1;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn misaligned(_vector: &[T]) -> usize {
         0
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn rows(vector: &[T]) -> (&[[T; 1]], &[T]) {
         vector.as_chunks()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn rows_mut(vector: &mut [T]) -> (&mut [[T; 1]], &mut [T]) {
         vector.as_chunks_mut()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn load(&[number]: &[T; 1]) -> T {
         number
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn store(number: T) -> [T; 1] {
         [number]
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn splat(number: T) -> T {
         number
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn last(number: T) -> T {
         number
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn right(_number: T, next: T) -> T {
         next
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn left(previous: T, _number: T) -> T {
         previous
     }
@@ -104,42 +104,42 @@ macro_rules! row {
 
             const WIDTH: usize = $width;
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn misaligned(vector: &[f64]) -> usize {
                 vector.as_ptr().align_offset(align_of::<$lanes>())
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn rows(vector: &[f64]) -> (&[[f64; $width]], &[f64]) {
                 vector.as_chunks()
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn rows_mut(vector: &mut [f64]) -> (&mut [[f64; $width]], &mut [f64]) {
                 vector.as_chunks_mut()
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn load(row: &[f64; $width]) -> $lanes {
                 $lanes::from_array(*row)
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn store(numbers: $lanes) -> [f64; $width] {
                 numbers.to_array()
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn splat(number: f64) -> $lanes {
                 $lanes::from_f64(number)
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn last(numbers: $lanes) -> f64 {
                 numbers.to_array()[$width - 1]
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn right(numbers: $lanes, next: $lanes) -> $lanes {
                 let (numbers, [after, ..]) = (numbers.to_array(), next.to_array());
                 $lanes::from_fn(|lane| {
@@ -151,7 +151,7 @@ macro_rules! row {
                 })
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn left(previous: $lanes, numbers: $lanes) -> $lanes {
                 let ([.., before], numbers) = (previous.to_array(), numbers.to_array());
                 $lanes::from_fn(|lane| if lane > 0 { numbers[lane - 1] } else { before })
@@ -170,7 +170,7 @@ row! {
 }
 
 /// Each factor as a row of equal components.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn splats<T: Scalar, R: Row<T>, const N: usize>(factors: [T; N]) -> [R::Numbers; N] {
     array(R::Numbers::zero(), |i| R::splat(factors[i]))
 }

@@ -55,7 +55,7 @@ pub trait Scalar:
 
     /// A constant with these numbers in its lanes; the first number, if there are no lanes.
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_lanes(numbers: &[f64; MOST_LANES]) -> Self {
         Self::from_f64(numbers[0])
     }
@@ -110,7 +110,7 @@ pub trait Scalar:
     /// let rest = if cfg!(feature = "fma") { f64::EPSILON.powi(2) } else { 0.0 };
     /// assert_eq!(x.fused(x, -square), rest);
     /// ```
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn fused(self, factor: Self, term: Self) -> Self {
         self * factor + term
     }
@@ -125,14 +125,14 @@ pub trait Scalar:
 
     /// The numbers as doubles if they are doubles; doubles have rows, see [`Chain`](crate::emitted::Chain).
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn doubles(_numbers: &[Self]) -> Option<&[f64]> {
         None
     }
 
     /// Mutable [`doubles`](Self::doubles).
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn doubles_mut(_numbers: &mut [Self]) -> Option<&mut [f64]> {
         None
     }
@@ -232,13 +232,13 @@ macro_rules! forward {
 macro_rules! elementary {
     ($($function:ident -> $result:ty),*) => {
         $(
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $function(self) -> $result {
                 $crate::number::elementary::$function(self)
             }
         )*
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
             $crate::number::elementary::sin_cos_all(angles)
         }
@@ -266,7 +266,7 @@ macro_rules! float {
                 $into(self.abs())
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn fused(self, factor: Self, term: Self) -> Self {
                 if cfg!(feature = "fma") {
                     Float::mul_add(self, factor, term)
@@ -313,12 +313,12 @@ float!(f64, same, same, double, {
 
     const IS_DOUBLE: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn doubles(numbers: &[f64]) -> Option<&[f64]> {
         Some(numbers)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn doubles_mut(numbers: &mut [f64]) -> Option<&mut [f64]> {
         Some(numbers)
     }

@@ -16,13 +16,13 @@ use crate::number::{F64x8, Lanes, MOST_LANES, Scalar};
 pub struct F64x16([F64x8; 2]);
 
 impl F64x16 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn map(self, function: impl Fn(F64x8) -> F64x8) -> Self {
         let Self([a, b]) = self;
         Self([function(a), function(b)])
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn zip(self, other: Self, function: impl Fn(F64x8, F64x8) -> F64x8) -> Self {
         let (Self([a, b]), Self([c, d])) = (self, other);
         Self([function(a, c), function(b, d)])
@@ -34,14 +34,14 @@ macro_rules! operators {
         $(
             impl $operator for F64x16 {
                 type Output = Self;
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn $function(self, other: Self) -> Self {
                     self.zip(other, $operator::$function)
                 }
             }
 
             impl $assign for F64x16 {
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn $assigning(&mut self, other: Self) {
                     *self = $operator::$function(*self, other);
                 }
@@ -57,14 +57,14 @@ operators! {
 
 impl Neg for F64x16 {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn neg(self) -> Self {
         self.map(Neg::neg)
     }
 }
 
 impl Zero for F64x16 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn zero() -> Self {
         Self([F64x8::zero(); 2])
     }
@@ -75,7 +75,7 @@ impl Zero for F64x16 {
 }
 
 impl One for F64x16 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn one() -> Self {
         Self([F64x8::one(); 2])
     }
@@ -84,7 +84,7 @@ impl One for F64x16 {
 macro_rules! by_halves {
     ($($function:ident)*) => {
         $(
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $function(self) -> Self {
                 self.map(Scalar::$function)
             }
@@ -95,7 +95,7 @@ macro_rules! by_halves {
 impl Scalar for F64x16 {
     const EPSILON: f64 = f64::EPSILON;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_lanes(numbers: &[f64; MOST_LANES]) -> Self {
         Self::from_fn(|lane| numbers[lane])
     }
@@ -106,7 +106,7 @@ impl Scalar for F64x16 {
         *self = Self::from_array(lanes);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_f64(value: f64) -> Self {
         Self([F64x8::from_f64(value); 2])
     }
@@ -117,7 +117,7 @@ impl Scalar for F64x16 {
         if a >= b || a.is_nan() { a } else { b }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn fused(self, factor: Self, term: Self) -> Self {
         let (Self([a, b]), Self([c, d]), Self([e, f])) = (self, factor, term);
         Self([a.fused(c, e), b.fused(d, f)])
@@ -125,12 +125,12 @@ impl Scalar for F64x16 {
 
     by_halves! { sqrt recip abs sign exp ln sin cos tan asin acos atan sinh cosh tanh }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn atan2(self, x: Self) -> Self {
         self.zip(x, Scalar::atan2)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sin_cos(self) -> (Self, Self) {
         let [(a, b), (c, d)] = self.0.map(Scalar::sin_cos);
         (Self([a, c]), Self([b, d]))
@@ -142,71 +142,71 @@ impl Lanes for F64x16 {
 
     const WIDTH: usize = 16;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_fn(mut lane: impl FnMut(usize) -> f64) -> Self {
         let first = F64x8::from_fn(&mut lane);
         Self([first, F64x8::from_fn(|k| lane(8 + k))])
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_array(doubles: [f64; 16]) -> Self {
         Self::from_fn(|lane| doubles[lane])
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn to_array(self) -> [f64; 16] {
         let halves = self.0.map(F64x8::to_array);
         array(0.0, |lane| halves[lane / 8][lane % 8])
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn larger(self, other: Self) -> Self {
         self.zip(other, Lanes::larger)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn larger_or_nan(self, other: Self) -> Self {
         self.zip(other, Lanes::larger_or_nan)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn largest(self) -> f64 {
         let [a, b] = self.0.map(Lanes::largest);
         if a > b { a } else { b }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn any_above(self, bound: f64) -> bool {
         let [a, b] = self.0.map(|half| half.any_above(bound));
         a | b
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn all_below(self, bound: f64) -> bool {
         let [a, b] = self.0.map(|half| Lanes::all_below(half, bound));
         a & b
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn any_nan(self) -> bool {
         let [a, b] = self.0.map(Lanes::any_nan);
         a | b
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn if_below(self, bound: Self, yes: Self, no: Self) -> Self {
         let (Self([a, b]), Self([c, d])) = (self, bound);
         let (Self([e, f]), Self([g, h])) = (yes, no);
         Self([a.if_below(c, e, g), b.if_below(d, f, h)])
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn at_most(self, other: Self) -> u32 {
         let (Self([a, b]), Self([c, d])) = (self, other);
         a.at_most(c) | b.at_most(d) << F64x8::WIDTH
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn below(self, other: Self) -> u32 {
         let (Self([a, b]), Self([c, d])) = (self, other);
         a.below(c) | b.below(d) << F64x8::WIDTH

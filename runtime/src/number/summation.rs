@@ -55,7 +55,7 @@ impl<R: Summation> Summation for Overrelaxed<R> {
 }
 
 /// The updated value of a stage, over-relaxed if `beyond`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn moved<T: Scalar>(beyond: bool, old: T, new: T) -> T {
     match beyond {
         true => new + (new - old),
@@ -64,7 +64,7 @@ pub(crate) fn moved<T: Scalar>(beyond: bool, old: T, new: T) -> T {
 }
 
 /// The rounded sum and its round-off (Knuth).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
     let sum = a + b;
     let part = sum - a;
@@ -72,14 +72,14 @@ pub(crate) fn two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
 }
 
 /// [`two_sum`] if `a` is at least as large as `b`, or is zero (Dekker).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn fast_two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
     let sum = a + b;
     (sum, b - (sum - a))
 }
 
 /// `base + low + Σ_j term(j)` over `count` terms, as the nearest number and the rest.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn add<R: Summation, T: Scalar>(
     base: T,
     low: T,
@@ -101,7 +101,7 @@ pub(crate) fn add<R: Summation, T: Scalar>(
 }
 
 /// `base + low + sum`, as the nearest number and the rest.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn add_sum<T: Scalar>(base: T, low: T, sum: Sum<T>) -> (T, T) {
     let (high, error) = two_sum(base, sum.0);
     let rest = sum.1.map_or(low, |rest| rest + low);
@@ -112,7 +112,7 @@ pub(crate) fn add_sum<T: Scalar>(base: T, low: T, sum: Sum<T>) -> (T, T) {
 pub(crate) type Sum<T> = (T, Option<T>);
 
 /// The sum of the first eight terms, at least one: by pairs, and pairs of pairs, so that additions need not wait for one another.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn eight<R: Summation, T: Scalar>(count: usize, term: &impl Fn(usize) -> T) -> Sum<T> {
     let second = if 1 < count {
         Some(four::<R, T>(1, count, term))
@@ -123,7 +123,7 @@ fn eight<R: Summation, T: Scalar>(count: usize, term: &impl Fn(usize) -> T) -> S
 }
 
 /// The sum of every other term of eight.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn four<R: Summation, T: Scalar>(first: usize, count: usize, term: &impl Fn(usize) -> T) -> Sum<T> {
     let second = if first + 2 < count {
         Some(two::<R, T>(first + 2, count, term))
@@ -134,7 +134,7 @@ fn four<R: Summation, T: Scalar>(first: usize, count: usize, term: &impl Fn(usiz
 }
 
 /// The sum of every fourth term of eight.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn two<R: Summation, T: Scalar>(first: usize, count: usize, term: &impl Fn(usize) -> T) -> Sum<T> {
     let second = if first + 4 < count {
         Some((term(first + 4), None))
@@ -145,7 +145,7 @@ fn two<R: Summation, T: Scalar>(first: usize, count: usize, term: &impl Fn(usize
 }
 
 /// The sum of a sum and another one, if there is one.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn joined<R: Summation, T: Scalar>(first: Sum<T>, second: Option<Sum<T>>) -> Sum<T> {
     match second {
         Some(second) => pair::<R, T>(first, second),
@@ -154,7 +154,7 @@ fn joined<R: Summation, T: Scalar>(first: Sum<T>, second: Option<Sum<T>>) -> Sum
 }
 
 /// The sum of two sums.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn pair<R: Summation, T: Scalar>(a: Sum<T>, b: Sum<T>) -> Sum<T> {
     if !R::COMPENSATED {
         return (a.0 + b.0, None);

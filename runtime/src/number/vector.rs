@@ -16,7 +16,7 @@ pub(crate) const SHORT: usize = 1 << 8;
 pub(crate) const LIGHT: usize = 1 << 14;
 
 /// Whether a vector holds its components, and nothing else, in place. Moving the vector out then leaves one of the same length.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn is_in_place<V: Vector>(vector: &V) -> bool {
     !mem::needs_drop::<V>() && vector.dimension() * size_of::<V::Scalar>() == size_of::<V>()
 }
@@ -61,13 +61,13 @@ pub trait Vector: Clone + Debug + PartialEq + 'static {
 }
 
 /// The vector as a vector of type `W`, if `V` is the same type.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn same<V: Vector, W: Vector>(vector: &V) -> Option<&W> {
     (vector as &dyn Any).downcast_ref()
 }
 
 /// Mutable [`same`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn same_mut<V: Vector, W: Vector>(vector: &mut V) -> Option<&mut W> {
     (vector as &mut dyn Any).downcast_mut()
 }
@@ -76,17 +76,17 @@ impl<T: Scalar, const R: usize, const C: usize> Vector for SMatrix<T, R, C> {
     type Scalar = T;
     type With<U: Scalar> = SMatrix<U, R, C>;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn dimension(&self) -> usize {
         R * C
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn as_slice(&self) -> &[T] {
         self.data.0.as_flattened()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn as_mut_slice(&mut self) -> &mut [T] {
         self.data.0.as_flattened_mut()
     }
@@ -125,17 +125,17 @@ impl<T: Scalar> Vector for nalgebra::DVector<T> {
     type Scalar = T;
     type With<U: Scalar> = nalgebra::DVector<U>;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn dimension(&self) -> usize {
         self.len()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn as_slice(&self) -> &[T] {
         self.data.as_slice()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn as_mut_slice(&mut self) -> &mut [T] {
         self.data.as_mut_slice()
     }

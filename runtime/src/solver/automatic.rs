@@ -124,7 +124,7 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
 
     const TRIES_LINEARITY: bool = V::Scalar::IS_DOUBLE;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<P, R>(
         step: &Step<'_, V>,
         system: &S,

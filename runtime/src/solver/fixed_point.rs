@@ -58,7 +58,7 @@ pub struct FixedPoint;
 impl<V: Vector, S: System<V>> Solver<V, S> for FixedPoint {
     type Memory<P: StageTableau> = P::Stages<V>;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<P, R>(
         step: &Step<'_, V>,
         system: &S,
@@ -149,17 +149,17 @@ where
 
     const STOPS_AT_ROUNDING: bool = !R::COMPENSATED;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluations(&self) -> EvaluationCounts {
         P::EVALUATIONS
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn time(&self) -> f64 {
         self.step.time
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn begin(&mut self, kept: WarmStart) {
         P::begin::<R, V, S>(self.step, self.system, self.stages, kept);
     }
@@ -172,7 +172,7 @@ where
         self.stages.non_finite_force()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn go_on<C: Class, T: Scalar>(
         &mut self,
         kept: WarmStart,
@@ -197,17 +197,17 @@ where
         made
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep(&mut self) -> StageChange {
         P::sweep::<R, V, S>(self.step, self.system, self.stages)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn overrelaxed_sweep(&mut self) -> StageChange {
         P::sweep::<Overrelaxed<R>, V, S>(self.step, self.system, self.stages)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn change(&self, movement: &StageChange) -> StageChange {
         *movement
     }

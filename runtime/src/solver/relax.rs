@@ -10,7 +10,7 @@ use crate::number::summation::moved;
 use crate::number::{F64x8, Lanes, Scalar, Summation, Vector};
 
 /// [`combine`](crate::emitted::combine) for a coupled stage: records the change of `out` in `change`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn relax<R: Summation, V: Vector, const N: usize>(
     out: &mut V,
     base: &V,
@@ -35,7 +35,7 @@ pub fn relax<R: Summation, V: Vector, const N: usize>(
 }
 
 /// [`relax`] with eight components side by side, for doubles; returns the index of the first remaining component.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn relax_rows<R: Summation, T: Scalar, const N: usize>(
     out: &mut [T],
     base: &[T],

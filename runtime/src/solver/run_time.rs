@@ -264,7 +264,7 @@ fn relax_rows<R: Summation, V: Vector>(
 }
 
 /// One component of a stage, or eight components side by side.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn value<R: Summation, T: Scalar>(base: T, low: T, row: &Row, term: impl Fn(usize) -> T) -> T {
     if row.is_empty() {
         return base;

@@ -181,12 +181,12 @@ where
 
     const UNIT_MASSES: bool = F::UNIT_MASSES;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: V::Scalar, _q: &V, p: &V, velocity: &mut V) {
         self.velocity.write(time, p, velocity);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn force(&self, time: V::Scalar, q: &V, _p: &V, force: &mut V) {
         (self.force)(time, q, force);
     }
@@ -206,12 +206,12 @@ where
     type Class = General;
     type Solver = FixedPoint;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
         (self.velocity)(time, q, p, velocity);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
         (self.force)(time, q, p, force);
     }
@@ -250,7 +250,7 @@ mod parts {
     impl<V: Vector> Velocity<V> for Momentum {
         const UNIT_MASSES: bool = true;
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn write(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
             copy(velocity, p);
         }
@@ -259,7 +259,7 @@ mod parts {
     impl<V: Vector, F: Fn(V::Scalar, &V, &mut V)> Velocity<V> for F {
         const UNIT_MASSES: bool = false;
 
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn write(&self, time: V::Scalar, p: &V, velocity: &mut V) {
             self(time, p, velocity);
         }

@@ -130,7 +130,7 @@ pub trait Hamiltonian {
     ///     }
     /// }
     /// ```
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes<T: Scalar>(
         &self,
         time: T,
@@ -158,7 +158,7 @@ pub trait Hamiltonian {
 
     /// [`velocity`](Self::velocity) at every stage, with the same bits; `at` returns the time, the positions and the momenta of a stage.
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocities<'a, T: Scalar>(
         &self,
         at: impl Fn(usize) -> (T, &'a Self::Vector<T>, &'a Self::Vector<T>),
@@ -174,7 +174,7 @@ pub trait Hamiltonian {
 
     /// [`force`](Self::force) at every stage: see [`velocities`](Self::velocities).
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn forces<'a, T: Scalar>(
         &self,
         at: impl Fn(usize) -> (T, &'a Self::Vector<T>, &'a Self::Vector<T>),
@@ -663,7 +663,7 @@ impl<S: SeparableHamiltonian> Hamiltonian for S {
 
     const UNIT_MASSES: bool = S::UNIT_MASSES;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity<T: Scalar>(
         &self,
         time: T,
@@ -674,7 +674,7 @@ impl<S: SeparableHamiltonian> Hamiltonian for S {
         SeparableHamiltonian::velocity(self, time, p, velocity);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn force<T: Scalar>(
         &self,
         time: T,

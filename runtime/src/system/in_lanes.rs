@@ -66,7 +66,7 @@ pub trait SystemLanes: Lanes {
 macro_rules! system_lanes {
     ($name:ident) => {
         impl SystemLanes for $name {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn velocity<V, S>(
                 system: &S,
                 time: Self,
@@ -80,7 +80,7 @@ macro_rules! system_lanes {
                 System::<V::With<Self>>::velocity(system, time, q, p, velocity);
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn force<V, S>(
                 system: &S,
                 time: Self,
@@ -94,7 +94,7 @@ macro_rules! system_lanes {
                 System::<V::With<Self>>::force(system, time, q, p, force);
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn has_local_force<V, S>() -> bool
             where
                 V: Vector,
@@ -103,7 +103,7 @@ macro_rules! system_lanes {
                 <S as System<V::With<Self>>>::LOCAL_FORCE
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn local_force<V, S>(system: &S, time: Self, components: &mut impl Components<Self>)
             where
                 V: Vector,
@@ -112,7 +112,7 @@ macro_rules! system_lanes {
                 System::<V::With<Self>>::local_force(system, time, components);
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn slopes<V, S>(
                 system: &S,
                 time: Self,

@@ -53,7 +53,7 @@ impl<T: Scalar> BandMatrix<T> {
     }
 
     /// The index of an entry; `None` outside the band.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(&self, i: usize, j: usize) -> Option<usize> {
         let inside = i < self.size && j < self.size && i.abs_diff(j) <= self.half_bandwidth;
         inside.then(|| i * (2 * self.half_bandwidth + 1) + j + self.half_bandwidth - i)
@@ -155,7 +155,7 @@ impl<T: Scalar> Jacobian<T> {
     }
 
     /// ∂force_i/∂p_j
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn force_by_momentum(&self, i: usize, j: usize) -> T {
         self.applied_force_by_momentum.get(i, j) - self.velocity_by_position.get(j, i)
     }

@@ -70,7 +70,7 @@ pub trait System<V: Vector>: Sized {
     fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V);
 
     /// Velocity and force at once, with the same bits: see [`Hamiltonian::slopes`].
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes(&self, time: V::Scalar, q: &V, p: &V, (velocity, force): (&mut V, &mut V)) {
         self.velocity(time, q, p, velocity);
         self.force(time, q, p, force);
@@ -78,7 +78,7 @@ pub trait System<V: Vector>: Sized {
 
     /// [`velocity`](Self::velocity) at every stage, with the same bits; `at` returns the time, the positions and the momenta of a stage.
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocities<'a>(&self, at: impl Fn(usize) -> (V::Scalar, &'a V, &'a V), velocities: &mut [V])
     where
         V: 'a,
@@ -91,7 +91,7 @@ pub trait System<V: Vector>: Sized {
 
     /// [`force`](Self::force) at every stage: see [`velocities`](Self::velocities).
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn forces<'a>(&self, at: impl Fn(usize) -> (V::Scalar, &'a V, &'a V), forces: &mut [V])
     where
         V: 'a,
@@ -174,7 +174,7 @@ pub trait System<V: Vector>: Sized {
 
     /// Runs `work` over vectors of these lanes, if the system is known over them.
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn over_lanes<L: Lanes, W: LaneWork<V, Self, L>>(_work: W) -> Option<W::Output> {
         None
     }
@@ -200,7 +200,7 @@ pub trait System<V: Vector>: Sized {
 
     /// The force, component by component.
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn local_force(&self, _time: V::Scalar, _components: &mut impl Components<V::Scalar>) {}
 
     /// Whether there are [`row_forces`](Self::row_forces).
@@ -209,7 +209,7 @@ pub trait System<V: Vector>: Sized {
 
     /// The local force of all stages and of eight components at once.
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn row_forces(&self, _rows: &mut impl StageRows) {}
 
     /// Several kicks of the momenta by one force and a drift of the positions, in one pass over the components:
@@ -220,7 +220,7 @@ pub trait System<V: Vector>: Sized {
     ///
     /// Returns `false`, and changes nothing, if the system cannot do so.
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn kick_and_drift(
         &self,
         _time: V::Scalar,
@@ -234,7 +234,7 @@ pub trait System<V: Vector>: Sized {
 
     /// The layout in which [`kick_and_drift`](Self::kick_and_drift) is fastest for positions and momenta at these places in memory.
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn layout(&self, _q: &[V::Scalar], _p: &[V::Scalar]) -> Layout {
         Layout::NATURAL
     }
@@ -246,12 +246,12 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
 
     const UNIT_MASSES: bool = H::UNIT_MASSES;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
         Hamiltonian::velocity::<V::Scalar>(self, time, q, p, velocity);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
         Hamiltonian::force::<V::Scalar>(self, time, q, p, force);
     }
@@ -262,12 +262,12 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
         Hamiltonian::applied_force::<V::Scalar>(self, time, q, p, applied);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes(&self, time: V::Scalar, q: &V, p: &V, slopes: (&mut V, &mut V)) {
         Hamiltonian::slopes::<V::Scalar>(self, time, q, p, slopes);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocities<'a>(&self, at: impl Fn(usize) -> (V::Scalar, &'a V, &'a V), velocities: &mut [V])
     where
         V: 'a,
@@ -275,7 +275,7 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
         Hamiltonian::velocities::<V::Scalar>(self, at, velocities);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn forces<'a>(&self, at: impl Fn(usize) -> (V::Scalar, &'a V, &'a V), forces: &mut [V])
     where
         V: 'a,
@@ -302,12 +302,12 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
         Hamiltonian::half_bandwidth(self)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn friction(&self, component: usize) -> f64 {
         Hamiltonian::friction(self, component)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn kick(&self, duration: V::Scalar, q: &V, force: &V, p: &V, change: &mut V) -> bool {
         Hamiltonian::kick::<V::Scalar>(self, duration, q, force, p, change)
     }
@@ -316,13 +316,13 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
         Hamiltonian::constraints(self)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn constraint_values(&self, q: &V, values: &mut [V::Scalar]) {
         Hamiltonian::constraint_values::<V::Scalar>(self, q, values);
     }
 
     #[cfg(feature = "alloc")]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn constraint_gradients(&self, q: &V, gradients: &mut Gradients<V::Scalar>) {
         Hamiltonian::constraint_gradients::<V::Scalar>(self, q, gradients);
     }
@@ -336,7 +336,7 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
     }
 
     #[cfg(feature = "alloc")]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn nonholonomic_rows(&self, q: &V, rows: &mut Gradients<V::Scalar>) {
         Hamiltonian::nonholonomic_rows::<V::Scalar>(self, q, rows);
     }
@@ -350,7 +350,7 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
         H::join(systems)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn over_lanes<L: Lanes, W: LaneWork<V, Self, L>>(work: W) -> Option<W::Output> {
         Some(work.run::<H::Vector<L>>())
     }

@@ -149,13 +149,13 @@ pub(crate) struct Part {
 
 impl Part {
     /// Their range in the positions.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) const fn in_q(&self) -> Range<usize> {
         self.q..self.q + self.length
     }
 
     /// Their range in the momenta.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) const fn in_p(&self) -> Range<usize> {
         self.p..self.p + self.length
     }
@@ -165,7 +165,7 @@ impl Part {
 const ROWS: usize = 2;
 
 /// The parts of vectors of `dimension` components, with rows from `begin` to `end` in the positions, and from `in_p` on in the momenta.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn parts((begin, end): (usize, usize), in_p: usize, dimension: usize) -> [Part; 5] {
     let part = |q: usize, p: usize, end: usize| Part {
         q,

@@ -8,19 +8,19 @@ use crate::number::Vector;
 use crate::number::dual::Dual;
 
 /// Both halves of the components.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn halves<T>(components: &[T]) -> (&[T], &[T]) {
     components.split_at(components.len() / 2)
 }
 
 /// [`halves`], mutable.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn halves_mut<T>(components: &mut [T]) -> (&mut [T], &mut [T]) {
     components.split_at_mut(components.len() / 2)
 }
 
 /// The zero vector of a dimension; `None` if the vector type has another fixed dimension.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn zeros<V: Vector>(dimension: usize) -> Option<V> {
     let blank = V::blank();
     if blank.dimension() == dimension {
@@ -30,7 +30,7 @@ pub(super) fn zeros<V: Vector>(dimension: usize) -> Option<V> {
 }
 
 /// The dual vector of values and slopes; `None` unless both have the dimension of the vector.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn joined<T: Copy, V: Vector<Scalar = Dual<T>>>(
     values: &[T],
     slopes: &[T],
@@ -44,7 +44,7 @@ pub(super) fn joined<T: Copy, V: Vector<Scalar = Dual<T>>>(
 }
 
 /// Splits dual numbers into values and slopes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn part<T: Copy>(duals: &[Dual<T>], values: &mut [T], slopes: &mut [T]) {
     let places = values.iter_mut().zip(slopes);
     for (dual, (value, slope)) in duals.iter().zip(places) {

@@ -175,7 +175,7 @@ type Duals<S, W> = <S as Hamiltonian>::Vector<Dual<<W as Vector>::Scalar>>;
 
 /// The dual position of `(q, δq)`, the dual momentum of `(δp, p)`, and a zero vector; `None` if the vectors of the
 /// system have another dimension.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn duals<S: Hamiltonian, W: Vector>(q: &W, p: &W) -> Option<[Duals<S, W>; 3]> {
     let (values, slopes) = halves(q.as_slice());
     let q = joined(values, slopes)?;
@@ -184,14 +184,14 @@ fn duals<S: Hamiltonian, W: Vector>(q: &W, p: &W) -> Option<[Duals<S, W>; 3]> {
 }
 
 /// Writes a velocity as `(v, δv)`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn write_velocity<W: Vector>(duals: &[Dual<W::Scalar>], out: &mut W) {
     let (values, slopes) = halves_mut(out.as_mut_slice());
     part(duals, values, slopes);
 }
 
 /// Writes a force as `(δf, f)`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn write_force<W: Vector>(duals: &[Dual<W::Scalar>], out: &mut W) {
     let (slopes, values) = halves_mut(out.as_mut_slice());
     part(duals, values, slopes);
@@ -209,7 +209,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Vector> System<W> for Tangent<S> {
     const FORCED: bool = S::FORCED;
     const DISPLACED: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: W::Scalar, q: &W, p: &W, velocity: &mut W) {
         // The velocity of a separable system does not depend on q; any vector will do.
         let q = if S::Class::SEPARABLE { p } else { q };
@@ -220,7 +220,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Vector> System<W> for Tangent<S> {
         write_velocity(found.as_slice(), velocity);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn force(&self, time: W::Scalar, q: &W, p: &W, force: &mut W) {
         let p = if S::Class::SEPARABLE { q } else { p };
         let Some([q, p, mut found]) = duals::<S, W>(q, p) else {
@@ -230,7 +230,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Vector> System<W> for Tangent<S> {
         write_force(found.as_slice(), force);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes(&self, time: W::Scalar, q: &W, p: &W, (velocity, force): (&mut W, &mut W)) {
         let Some([q, p, mut rates]) = duals::<S, W>(q, p) else {
             write_nothing(velocity);
@@ -273,7 +273,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Vector> System<W> for Tangent<S> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn over_lanes<L: Lanes, K: LaneWork<W, Self, L>>(work: K) -> Option<K::Output> {
         Some(work.run::<W::With<L>>())
     }

@@ -60,7 +60,7 @@ impl Attraction {
     }
 
     /// Puts a planet in its place.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn put(&mut self, planet: usize, place: [f64; 3]) {
         for (list, x) in self.places.iter_mut().zip(place) {
             let mut at = planet;
@@ -72,14 +72,14 @@ impl Attraction {
     }
 
     /// The place of a planet.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn place(&self, planet: usize) -> [f64; 3] {
         let [x, y, z] = &self.places;
         [x[planet], y[planet], z[planet]]
     }
 
     /// The places of planets side by side.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn places(&self, first: usize) -> [Group; 3] {
         load(&self.places, first)
     }
@@ -159,7 +159,7 @@ impl Attraction {
 }
 
 /// `strength · way/|way|³`; `more` is added to `|way|²`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn pull<L: Lanes>(strength: L, way: [L; 3], more: L) -> [L; 3] {
     let [x, y, z] = way;
     let square = (x * x + y * y) + (z * z + more);

@@ -6,7 +6,7 @@ use crate::number::Lanes;
 use crate::number::array::array;
 
 /// The components of points, side by side; lanes without a point have the last one.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn gather<L: Lanes, const N: usize>(points: &[[f64; N]]) -> [L; N] {
     array(L::zero(), |axis| match points.get(..L::WIDTH) {
         Some(points) => L::from_fn(|lane| points[lane][axis]),
@@ -15,7 +15,7 @@ pub(super) fn gather<L: Lanes, const N: usize>(points: &[[f64; N]]) -> [L; N] {
 }
 
 /// Writes components side by side into points; lanes without a point are dropped.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn scatter<L: Lanes, const N: usize>(lanes: [L; N], points: &mut [[f64; N]]) {
     let lanes = lanes.map(L::to_array);
     let of = |lane: usize| array(0.0, |axis| lanes[axis].as_ref()[lane]);
@@ -29,20 +29,20 @@ pub(super) fn scatter<L: Lanes, const N: usize>(lanes: [L; N], points: &mut [[f6
 pub(super) type Axes = [Vec<f64>; 3];
 
 /// The points from one on, side by side.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn load<L: Lanes>(axes: &Axes, first: usize) -> [L; 3] {
     array(L::zero(), |axis| load_one(&axes[axis], first))
 }
 
 /// Numbers side by side.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn load_one<L: Lanes>(list: &[f64], first: usize) -> L {
     let list = &list[first..first + L::WIDTH];
     L::from_fn(|lane| list[lane])
 }
 
 /// Writes points side by side, from one on.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn store<L: Lanes>(axes: &mut Axes, first: usize, points: [L; 3]) {
     for axis in 0..3 {
         let list = &mut axes[axis][first..first + L::WIDTH];

@@ -95,7 +95,7 @@ pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (
 /// ```text
 /// h = r s (1 + r's/2r + r''s²/6r − βr's³/24r − βr''s⁴/120r + …)
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn anomaly<L: Lanes>(beta: L, inverse: L, [slope, bend]: [L; 2], h: L) -> L {
     let of = L::from_f64;
     let u = h * inverse;

@@ -136,7 +136,7 @@ fn to_relative(bodies: &Bodies, p: &mut [f64]) {
 }
 
 /// Hands the positions in space of planets to `put`, the last one first, and returns that of the star.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn to_positions(bodies: &Bodies, q: &[f64], mut put: impl FnMut(usize, [f64; 3])) -> [f64; 3] {
     let (mut centre, planets) = match q.as_chunks::<3>().0 {
         [centre, planets @ ..] => (*centre, planets),

@@ -39,7 +39,7 @@ pub(super) struct Orbit<T> {
 }
 
 impl<T: Scalar> Orbit<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(mu: T, mass: [T; 2], q: [T; 3], p: [T; 3]) -> Self {
         let dot = |a: [T; 3], b: [T; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let distance = dot(q, q).sqrt();
@@ -57,13 +57,13 @@ impl<T: Scalar> Orbit<T> {
     }
 
     /// `ζ = μ − βr`
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn zeta(&self) -> T {
         self.mu - self.beta * self.distance
     }
 
     /// The distance at the end, and the one below which cancellation has taken half of its digits.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn at_end(&self, radial: T, [g1, g2]: [T; 2]) -> (T, T) {
         let (first, second) = (radial * g1, self.zeta() * g2);
         let terms = self.distance + first.abs() + second.abs();
@@ -72,7 +72,7 @@ impl<T: Scalar> Orbit<T> {
     }
 
     /// The change with `s G` functions `G1`, `G2`, the distance at the end, and g.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn change(&self, [g1, g2]: [T; 2], end: T, g: T) -> Change<T> {
         let Self { inverse, mu, .. } = *self;
         let [mass, lighter] = self.mass;
@@ -88,7 +88,7 @@ impl<T: Scalar> Orbit<T> {
 }
 
 /// `G1`, `G2`, `G3` at `s`, from `c_2` and `c_3` at `ψ = βs²`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn g_functions<T: Scalar>(s: T, psi: T, (c2, c3): (T, T)) -> [T; 3] {
     let square = s * s;
     [s * (T::one() - psi * c3), square * c2, square * s * c3]

@@ -26,7 +26,7 @@ const fn reciprocals(first: u32) -> [f64; 9] {
 
 /// `c_2 = (1 − cos √ψ)/ψ` and `c_3 = (√ψ − sin √ψ)/√ψ³` (Stumpff 1959; for `ψ < 0` with hyperbolic functions), for `|ψ| ≤ 1`: the rest of the
 /// series is below 10⁻¹⁷ of the sum.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn small<T: Scalar>(psi: T) -> (T, T) {
     let x = -psi;
     let (x2, x4) = (x * x, (x * x) * (x * x));
@@ -42,7 +42,7 @@ pub(super) fn small<T: Scalar>(psi: T) -> (T, T) {
 }
 
 /// The functions of `4ψ` from those of `ψ`: `c_2(4ψ) = c_1²/2`, `c_3(4ψ) = (c_2 + c_0 c_3)/4`, with `c_0 = 1 − ψc_2` and `c_1 = 1 − ψc_3`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn quadruple<T: Scalar>(psi: T, (c2, c3): (T, T)) -> (T, T) {
     let (one, half) = (T::one(), T::from_f64(0.5));
     let (c0, c1) = (one - psi * c2, one - psi * c3);

@@ -137,7 +137,7 @@ impl<V: Vector> History<V> {
 }
 
 /// The next value of a sequence, where `last(k)` is the one k steps before the last.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn next<T: Scalar>(weights: Weights, last: impl Fn(usize) -> T) -> T {
     let mut sum = last(0) * T::from_f64(weights[0]);
     for (k, &weight) in weights.iter().enumerate().skip(1) {

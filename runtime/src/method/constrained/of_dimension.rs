@@ -47,7 +47,7 @@ impl<'a, S> OfDimension<'a, S> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn restore<V: Vector>(&self, what: Quantity, like: &V, value: &mut V) {
         let found = value.dimension();
         if found != self.dimension {
@@ -65,13 +65,13 @@ impl<V: Vector, S: System<V>> System<V> for OfDimension<'_, S> {
 
     const UNIT_MASSES: bool = S::UNIT_MASSES;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
         self.system.velocity(time, q, p, velocity);
         self.restore(Quantity::Velocity, q, velocity);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
         self.system.force(time, q, p, force);
         self.restore(Quantity::Force, q, force);
@@ -85,12 +85,12 @@ impl<V: Vector, S: System<V>> System<V> for OfDimension<'_, S> {
         self.system.constraint_name(constraint)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn constraint_values(&self, q: &V, values: &mut [V::Scalar]) {
         self.system.constraint_values(q, values);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn constraint_gradients(&self, q: &V, gradients: &mut Gradients<V::Scalar>) {
         self.system.constraint_gradients(q, gradients);
     }

@@ -575,7 +575,7 @@ pub(in crate::method) fn stage<V: Vector>(
 }
 
 /// The larger of two magnitudes, or NaN if either is NaN.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(in crate::method) const fn maximum(a: f64, b: f64) -> f64 {
     // Bits of magnitudes have the order of the magnitudes, and those of NaN come last.
     let (a, b) = (a.abs().to_bits(), b.abs().to_bits());

@@ -19,12 +19,12 @@ where
 
     const UNIT_MASSES: bool = S::UNIT_MASSES;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
         self.0.velocity(time, q, p, velocity);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
         self.0.force(time, q, p, force);
     }
@@ -37,7 +37,7 @@ where
         self.0.constraint_name(constraint)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn constraint_gradients(&self, q: &V, gradients: &mut Gradients<V::Scalar>) {
         self.0.nonholonomic_rows(q, gradients);
     }

@@ -49,7 +49,7 @@ const COSINE: [f64; 6] = [
 const NEAR: f64 = 8e5;
 
 /// Sine and cosine.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn sin_cos<D: Doubles>(x: D) -> (D, D) {
     if !x.abs().all_below(NEAR) {
         return (x.one_by_one(any_sine), x.one_by_one(any_cosine));
@@ -60,7 +60,7 @@ pub(crate) fn sin_cos<D: Doubles>(x: D) -> (D, D) {
 
 /// [`sin_cos`] of each angle, all at once if all are below [`NEAR`]. Otherwise each angle has its own branch, and the results of one angle
 /// wait in memory for the next.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn sin_cos_all<D: Doubles, const N: usize>(angles: [D; N]) -> [(D, D); N] {
     let mut sum = D::zero();
     for x in &angles {
@@ -77,7 +77,7 @@ pub(crate) fn sin_cos_all<D: Doubles, const N: usize>(angles: [D; N]) -> [(D, D)
 }
 
 /// Sine.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn sin<D: Doubles>(x: D) -> D {
     if !x.abs().all_below(NEAR) {
         return x.one_by_one(any_sine);
@@ -86,7 +86,7 @@ pub(crate) fn sin<D: Doubles>(x: D) -> D {
 }
 
 /// Cosine.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn cos<D: Doubles>(x: D) -> D {
     if !x.abs().all_below(NEAR) {
         return x.one_by_one(any_cosine);
@@ -120,7 +120,7 @@ struct Angle<D> {
 }
 
 impl<D: Doubles> Angle<D> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn new(x: D) -> Self {
         let to_integer = D::from_f64(TO_INTEGER);
         let quarters = x.fused(D::from_f64(QUARTERS), to_integer);
@@ -139,7 +139,7 @@ impl<D: Doubles> Angle<D> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sine(self) -> D {
         D::choose(
             self.quarters.to_bits(),
@@ -149,7 +149,7 @@ impl<D: Doubles> Angle<D> {
         .with_sign_of_bit(1, self.quarters)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn cosine(self) -> D {
         D::choose(
             self.quarters.to_bits(),
@@ -159,14 +159,14 @@ impl<D: Doubles> Angle<D> {
         .with_sign_of_bit(1, self.quarters + D::one())
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sine_of_rest(self) -> D {
         let (y, less) = self.rest;
         let square = y * y;
         y - (square * y).fused(polynomial(square, SINE), less * near(square))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn cosine_of_rest(self) -> D {
         let (y, less) = self.rest;
         let square = y * y;
@@ -177,7 +177,7 @@ impl<D: Doubles> Angle<D> {
 }
 
 /// `1 − y²/2`, where the half is exact.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn near<D: Doubles>(square: D) -> D {
     square.fused(D::from_f64(-0.5), D::one())
 }

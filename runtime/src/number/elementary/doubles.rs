@@ -39,7 +39,7 @@ pub(crate) trait Doubles: Scalar {
     fn choose(bits: Self::Bits, odd: impl FnOnce() -> Self, even: impl FnOnce() -> Self) -> Self;
 
     /// Applies `function` to one double after the other, in a function that is not inlined.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn one_by_one(self, function: impl Fn(f64) -> f64) -> Self {
         // `black_box` makes a copy. Without it the compiler may pass a pointer to the original and keep everything next to it in memory.
         hint::black_box(self).apart(function)
@@ -49,7 +49,7 @@ pub(crate) trait Doubles: Scalar {
     fn apart(self, function: impl Fn(f64) -> f64) -> Self;
 
     /// The double, with its sign changed where that bit of `other` is one.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn with_sign_of_bit(self, bit: u32, other: Self) -> Self {
         let sign = (other.to_bits() << (63 - bit)) & Self::bits(SIGN);
         Self::from_bits(self.to_bits() ^ sign)
@@ -59,32 +59,32 @@ pub(crate) trait Doubles: Scalar {
 impl Doubles for f64 {
     type Bits = u64;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn to_bits(self) -> u64 {
         self.to_bits()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_bits(bits: u64) -> Self {
         Self::from_bits(bits)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn bits(bits: u64) -> u64 {
         bits
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sum(a: u64, b: u64) -> u64 {
         a.wrapping_add(b)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn all_below(self, bound: f64) -> bool {
         self < bound
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn choose(bits: u64, odd: impl FnOnce() -> Self, even: impl FnOnce() -> Self) -> Self {
         if bits & 1 == 1 { odd() } else { even() }
     }
@@ -102,32 +102,32 @@ macro_rules! doubles {
             impl Doubles for $name {
                 type Bits = wide::$bits;
 
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn to_bits(self) -> Self::Bits {
                     cast(self.0)
                 }
 
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn from_bits(bits: Self::Bits) -> Self {
                     Self(cast(bits))
                 }
 
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn bits(bits: u64) -> Self::Bits {
                     wide::$bits::splat(bits)
                 }
 
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn sum(a: Self::Bits, b: Self::Bits) -> Self::Bits {
                     a + b
                 }
 
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn all_below(self, bound: f64) -> bool {
                     Lanes::all_below(self, bound)
                 }
 
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn choose(bits: Self::Bits, odd: impl FnOnce() -> Self, even: impl FnOnce() -> Self) -> Self {
                     let one = wide::$bits::splat(1);
                     Self((bits & one).simd_eq(one).select(odd().0, even().0))

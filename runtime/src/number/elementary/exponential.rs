@@ -29,7 +29,7 @@ const RATIO: [f64; 5] = [
 const NEAR: f64 = 708.0;
 
 /// eˣ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn exp<D: Doubles>(x: D) -> D {
     if !x.abs().all_below(NEAR) {
         return x.one_by_one(|x| {
@@ -43,7 +43,7 @@ pub(crate) fn exp<D: Doubles>(x: D) -> D {
     near(x)
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn near<D: Doubles>(x: D) -> D {
     let to_integer = D::from_f64(TO_INTEGER);
     let bits = x * D::from_f64(core::f64::consts::LOG2_E) + to_integer;

@@ -31,7 +31,7 @@ const ONE: u64 = 0x3FF0_0000_0000_0000;
 const TWO_TO_52: u64 = 0x4330_0000_0000_0000;
 
 /// ln x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn ln<D: Doubles>(x: D) -> D {
     if !is_near(x) {
         return x.one_by_one(|x| if is_near(x) { near(x) } else { libm::log(x) });
@@ -40,12 +40,12 @@ pub(crate) fn ln<D: Doubles>(x: D) -> D {
 }
 
 /// Whether all numbers are positive, normal and below the largest double.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_near<D: Doubles>(x: D) -> bool {
     x.all_below(f64::MAX) && (-x).all_below(-f64::MIN_POSITIVE)
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn near<D: Doubles>(x: D) -> D {
     let shifted = D::sum(x.to_bits(), D::bits(ONE - LEAST));
     let k = D::from_bits((shifted >> 52) | D::bits(TWO_TO_52))

@@ -21,7 +21,7 @@ use crate::number::array::array;
 const TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 
 /// `coefficients_0 + coefficients_1 x + …`, summed by pairs, so that few sums wait for one another.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn polynomial<D: Doubles, const N: usize>(x: D, coefficients: [f64; N]) -> D {
     let mut terms: [D; N] = array(D::zero(), |k| D::from_f64(coefficients[k]));
     let (mut power, mut count) = (x, N);

@@ -226,7 +226,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
 }
 
 /// Whether this change, after the change `before`, ends an iteration that does not wait for stagnation.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn is_last<T: Scalar>(
     before: Option<StageChange>,
     change: &StageChange,

@@ -57,7 +57,7 @@ pub(crate) trait Sweeps {
 
     /// Whether the momenta are tested for convergence too. In a separable system they are not: a sweep computes them from the old
     /// positions.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn both<C: Class>() -> bool {
         !C::SEPARABLE
     }
@@ -78,20 +78,20 @@ pub(crate) trait Sweeps {
     fn sweep(&mut self) -> Self::Movement;
 
     /// Number of first sweeps after a warm start whose change need not be measured, because further sweeps follow.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn unexamined(&self) -> u32 {
         0
     }
 
     /// A sweep whose change is not needed.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep_unexamined(&mut self) {
         self.sweep();
     }
 
     /// A sweep that moves the stages twice as far (over-relaxation with factor 2). It is called only for systems that are not separable,
     /// with sums that wait for stagnation, in a warm start. Other implementations need not override it.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn overrelaxed_sweep(&mut self) -> Self::Movement {
         self.sweep()
     }
@@ -113,7 +113,7 @@ pub(crate) trait Sweeps {
     }
 
     /// Whether the positions, and if `both` the momenta, have these sizes up to a factor of two.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn are_about(&self, movement: &Self::Movement, [q, p]: [f64; 2], both: bool) -> bool {
         let is_about = |size: f64, other: f64| size > 0.5 * other && size <= 2.0 * other;
         let change = self.change(movement);
@@ -147,29 +147,29 @@ pub(crate) trait Movement: Copy {
 }
 
 impl Movement for StageChange {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
         self.q.difference() <= q && (!both || self.p.difference() <= p)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn settles_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
         let (of_q, of_p) = (self.q.difference() <= q, self.p.difference() <= p);
         !self.is_undefined() && if both { of_q && of_p } else { of_q || of_p }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn exceeds(&self, [q, p]: [f64; 2], both: bool) -> bool {
         self.q.difference() > q && (!both || self.p.difference() > p)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_next_within(&self, before: &Self, [q, p]: [f64; 2], both: bool) -> bool {
         is_next_within(before.q.difference(), self.q.difference(), q)
             && (!both || is_next_within(before.p.difference(), self.p.difference(), p))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn size(&self, [q, p]: [f64; 2], both: bool) -> f64 {
         match both {
             true => larger(self.q.difference() * q, self.p.difference() * p),
@@ -177,13 +177,13 @@ impl Movement for StageChange {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shrinks(&self, below: f64, weights: [f64; 2], both: bool) -> bool {
         let size = self.size(weights, both);
         size < below && size > 0.0
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_number(&self) -> bool {
         // A NaN is neither within a bound nor above it.
         true
@@ -217,14 +217,14 @@ impl<M> Begun<M> {
     };
 
     /// Whether the iteration has not begun.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) const fn is_nothing(&self) -> bool {
         self.iterations == 0
     }
 }
 
 /// Iterates until the stages have settled; returns the statistics of the step.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn settle<C: Class, T: Scalar>(
     sweeps: &mut impl Sweeps,
     kept: WarmStart,
@@ -245,13 +245,13 @@ pub(crate) fn settle<C: Class, T: Scalar>(
 }
 
 /// `count` units of EPSILON of positions and of momenta of these sizes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn units<T: Scalar>(count: f64, [q, p]: [f64; 2]) -> [f64; 2] {
     [count * T::EPSILON * q, count * T::EPSILON * p]
 }
 
 /// Whether the sizes of the positions, and if `both` of the momenta, are known and their rounding errors can be squared safely.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_known<T: Scalar>(scales: [f64; 2], both: bool) -> bool {
     let [q, p] = units::<T>(1.0, scales);
     is_square_safe(q) && (!both || is_square_safe(p))
@@ -267,19 +267,19 @@ fn known<T: Scalar>(scales: [f64; 2], both: bool) -> [f64; 2] {
 
 /// Whether the next change is within a bound. It is estimated as `this²/before`, by a constant contraction rate.
 /// The square of the bound [must neither overflow nor underflow](is_square_safe).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn is_next_within(before: f64, this: f64, bound: f64) -> bool {
     this * this <= before * bound
 }
 
 /// Whether the square of a number of this size neither overflows nor underflows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_square_safe(size: f64) -> bool {
     size > 1e-140 && size < 1e140
 }
 
 /// The larger of two numbers.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }

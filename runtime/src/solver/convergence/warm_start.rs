@@ -16,7 +16,7 @@ pub(crate) const WITHIN_REACH: f64 = 8.0;
 type Settled<M> = Result<(u32, [f64; 2]), Begun<M>>;
 
 /// Iterates from the stages of the previous step.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn settle_from_warm_start<C: Class, T: Scalar, W: Sweeps>(
     sweeps: &mut W,
     kept: WarmStart,
@@ -62,7 +62,7 @@ pub(super) fn settle_from_warm_start<C: Class, T: Scalar, W: Sweeps>(
 }
 
 /// Sweeps, after `iterations` earlier ones, until a change is within the tolerance.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn to_tolerance<W: Sweeps>(
     sweeps: &mut W,
     tolerance: f64,
@@ -84,7 +84,7 @@ fn to_tolerance<W: Sweeps>(
 }
 
 /// Sweeps until a change can be rounding errors and the next one would be at most one unit of EPSILON.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn to_rounding<T: Scalar, W: Sweeps>(
     sweeps: &mut W,
     scales: [f64; 2],
@@ -137,7 +137,7 @@ fn to_rounding<T: Scalar, W: Sweeps>(
 }
 
 /// Sweeps until changes that can be rounding errors have stopped shrinking, and once more if [`dither_last_sweep`] says so.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn to_stagnation<T: Scalar, W: Sweeps>(
     sweeps: &mut W,
     scales: [f64; 2],
@@ -209,7 +209,7 @@ struct Size {
 }
 
 impl Size {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of<T: Scalar>(scales: [f64; 2]) -> Self {
         Self {
             scales,

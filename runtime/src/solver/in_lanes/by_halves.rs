@@ -39,7 +39,7 @@ where
 {
     const STOPS_AT_ROUNDING: bool = !R::COMPENSATED;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn begin(&mut self) {
         let stages = &mut self.0;
         if extrapolates::<P>() {
@@ -56,7 +56,7 @@ where
         stages.positions::<R>(true);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep(&mut self) -> LaneMovement<W::Scalar> {
         let stages = &mut self.0;
         stages.forces();
@@ -72,12 +72,12 @@ where
         LaneMovement { q, p }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn scales(&self) -> [W::Scalar; 2] {
         self.0.scales()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn keep(&mut self, lanes: u32) {
         keep(lanes, self.0.now, self.0.settled);
     }
@@ -93,7 +93,7 @@ where
     W: Vector<Scalar: Lanes>,
     S: System<W, Class = P::Class>,
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep_by<T: Summation>(&mut self) -> LaneMovement<W::Scalar> {
         let stages = &mut self.0;
         stages.slopes();
@@ -108,7 +108,7 @@ where
     }
 
     /// Predicts the stages from the increments of the previous step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn start(&mut self) {
         let Emitted {
             step, before, now, ..
@@ -142,7 +142,7 @@ where
 {
     const STOPS_AT_ROUNDING: bool = !R::COMPENSATED;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn begin(&mut self) {
         if starts_at_once(&P::POSITIONS) && starts_at_once(&P::MOMENTA) {
             self.start();
@@ -158,22 +158,22 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep(&mut self) -> LaneMovement<W::Scalar> {
         self.sweep_by::<R>()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn overrelaxed_sweep(&mut self) -> LaneMovement<W::Scalar> {
         self.sweep_by::<Overrelaxed<R>>()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn scales(&self) -> [W::Scalar; 2] {
         self.0.scales()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn keep(&mut self, lanes: u32) {
         keep(lanes, self.0.now, self.0.settled);
     }

@@ -77,7 +77,7 @@ pub(super) struct Emitted<'a, P, R, W, S> {
 }
 
 /// The sums of [`sums`](crate::solver::simd::gauss_seidel::sums), stage by stage.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn sums<R: Summation, P: StageTableau>(
     columns: &'static [&'static [f64]],
     weights: &'static [f64],
@@ -100,13 +100,13 @@ fn sums<R: Summation, P: StageTableau>(
 }
 
 /// The time of an evaluation.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn at<W: Vector>(half: &HalfTableau, step: &Step<'_, W>, stage: usize) -> W::Scalar {
     scalar::<W>(step.time + half.times[stage] * step.size)
 }
 
 /// Scales evaluations to increments.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn increments<P: StageTableau, W: Vector>(
     half: &HalfTableau,
     h: f64,
@@ -126,7 +126,7 @@ where
     W: Vector<Scalar: Lanes>,
     S: System<W, Class = P::Class>,
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn forces(&mut self) {
         let LaneStages { q, p, force, .. } = &mut *self.now;
         for (stage, force) in force.iter_mut().enumerate() {
@@ -136,7 +136,7 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn velocities(&mut self) {
         let LaneStages { q, p, velocity, .. } = &mut *self.now;
         for (stage, velocity) in velocity.iter_mut().enumerate() {
@@ -146,7 +146,7 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn slopes(&mut self) {
         if !are_at_one_time::<P>() {
             self.forces();
@@ -165,17 +165,17 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn scale_forces(&mut self) {
         increments::<P, W>(&P::POSITIONS, self.step.size, &mut self.now.force);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn scale_velocities(&mut self) {
         increments::<P, W>(&P::MOMENTA, self.step.size, &mut self.now.velocity);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn positions<T: Summation>(&mut self, of_increments: bool) -> W::Scalar {
         let (columns, weights) = (Columns::<P>::POSITIONS, P::MOMENTA.weights);
         let sums = sums::<T, P>(columns, weights, self.step.size, of_increments);
@@ -183,7 +183,7 @@ where
         relax::<T, W>(&sums, &mut self.now.q, base, &self.now.velocity, sum)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn momenta<T: Summation>(&mut self, of_increments: bool) -> W::Scalar {
         let (columns, weights) = (Columns::<P>::MOMENTA, P::POSITIONS.weights);
         let sums = sums::<T, P>(columns, weights, self.step.size, of_increments);
@@ -192,27 +192,27 @@ where
     }
 
     /// Sets all stages to the start of the step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn fill(&mut self) {
         self.now.q.iter_mut().for_each(|q| copy(q, self.step.q));
         self.now.p.iter_mut().for_each(|p| copy(p, self.step.p));
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn extrapolate_velocities(&mut self) {
         let columns = P::MOMENTA.extrapolation;
         let (out, vectors) = (&mut self.now.velocity, &self.before.velocity);
         transform(out, vectors, |i, j| columns[j][i]);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn extrapolate_forces(&mut self) {
         let columns = P::POSITIONS.extrapolation;
         let (out, vectors) = (&mut self.now.force, &self.before.force);
         transform(out, vectors, |i, j| columns[j][i]);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn scales(&self) -> [W::Scalar; 2] {
         [
             largest(self.step.q, &self.now.q),
@@ -221,7 +221,7 @@ where
     }
 
     /// The velocity at the start of the step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn start(&mut self) {
         if let Some(start) = self.settled.start.first_mut() {
             let Step { time, q, p, .. } = *self.step;
@@ -230,7 +230,7 @@ where
     }
 
     /// New positions and momenta.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn totals(&mut self, outcome: Outcome<'_, W>) {
         let (step, settled) = (self.step, &mut *self.settled);
         if !R::COMPENSATED {
@@ -247,7 +247,7 @@ where
 }
 
 /// One half of the result of a step.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn total<R: Summation, P: StageTableau, W: Vector>(
     (out, out_low): (&mut W, &mut W),
     (base, low): (&W, &W),

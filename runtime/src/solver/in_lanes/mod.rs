@@ -56,7 +56,7 @@ struct Sums<N, F> {
 
 /// Computes new stage values; returns the largest change of each trajectory. `value` gets the index of the stage and of the component, the
 /// base with its low part, and the sum.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn relax<R: Summation, W: Vector<Scalar: Lanes>>(
     sums: &Sums<impl Fn(usize) -> usize, impl Fn(usize, usize) -> (usize, f64)>,
     out: &mut [W],
@@ -92,19 +92,19 @@ fn relax<R: Summation, W: Vector<Scalar: Lanes>>(
 }
 
 /// `base + sum`
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn sum<L: Lanes>(_place: (usize, usize), (base, _low): (L, L), sum: L) -> L {
     base + sum
 }
 
 /// The same number in all lanes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn scalar<W: Vector>(number: f64) -> W::Scalar {
     W::Scalar::from_f64(number)
 }
 
 /// `vector = factor vector`
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn scale<W: Vector>(vector: &mut W, factor: f64) {
     let factor = scalar::<W>(factor);
     for component in vector.as_mut_slice() {
@@ -113,7 +113,7 @@ fn scale<W: Vector>(vector: &mut W, factor: f64) {
 }
 
 /// `out_i = Σ_j matrix(i, j) vectors_j`
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn transform<W: Vector>(out: &mut [W], vectors: &[W], matrix: impl Fn(usize, usize) -> f64) {
     let n = shortest(out).min(shortest(vectors));
     for (i, out) in out.iter_mut().enumerate() {
@@ -125,7 +125,7 @@ fn transform<W: Vector>(out: &mut [W], vectors: &[W], matrix: impl Fn(usize, usi
 }
 
 /// The largest component of the base and of the stages.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn largest<W: Vector<Scalar: Lanes>>(base: &W, stages: &[W]) -> W::Scalar {
     let vectors = core::iter::once(base).chain(stages);
     vectors.fold(W::Scalar::zero(), |largest, vector| {
@@ -137,7 +137,7 @@ fn largest<W: Vector<Scalar: Lanes>>(base: &W, stages: &[W]) -> W::Scalar {
 }
 
 /// Copies the lanes of vectors.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn copy_lanes<W: Vector<Scalar: Lanes>>(lanes: u32, from: &[W], to: &mut [W]) {
     for (from, to) in from.iter().zip(to) {
         for (from, to) in from.as_slice().iter().zip(to.as_mut_slice()) {
@@ -147,7 +147,7 @@ fn copy_lanes<W: Vector<Scalar: Lanes>>(lanes: u32, from: &[W], to: &mut [W]) {
 }
 
 /// Copies the momenta of stages, and all evaluations, in these lanes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn keep<W: Vector<Scalar: Lanes>>(lanes: u32, from: &LaneStages<W>, to: &mut LaneStages<W>) {
     copy_lanes(lanes, &from.p, &mut to.p);
     copy_lanes(lanes, &from.velocity, &mut to.velocity);
@@ -155,7 +155,7 @@ fn keep<W: Vector<Scalar: Lanes>>(lanes: u32, from: &LaneStages<W>, to: &mut Lan
 }
 
 /// The smallest dimension of these vectors.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn shortest<W: Vector>(vectors: &[W]) -> usize {
     let dimensions = vectors.iter().map(Vector::dimension);
     dimensions.min().unwrap_or(0)

@@ -105,7 +105,7 @@ macro_rules! by_count {
 }
 
 /// Computes new stage values from the terms in the rows; returns the largest change of each trajectory.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn relax_rows<R: Summation, W: Vector<Scalar: Lanes>>(
     rows: &[Row],
     out: &mut [W],
@@ -123,7 +123,7 @@ fn relax_rows<R: Summation, W: Vector<Scalar: Lanes>>(
 }
 
 /// The sums of a half.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn sums<R: Summation>(
     rows: &[Row],
 ) -> Sums<impl Fn(usize) -> usize, impl Fn(usize, usize) -> (usize, f64)> {
@@ -168,21 +168,21 @@ where
     W: Vector<Scalar: Lanes>,
     S: System<W>,
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn positions<T: Summation>(&mut self) -> W::Scalar {
         let base = (self.step.q, self.step.q_low);
         let rows = &self.coupled.positions.rows;
         relax_rows::<T, W>(rows, &mut self.now.q, base, &self.now.velocity)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn momenta<T: Summation>(&mut self) -> W::Scalar {
         let base = (self.step.p, self.step.p_low);
         let rows = &self.coupled.momenta.rows;
         relax_rows::<T, W>(rows, &mut self.now.p, base, &self.now.force)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep_by<T: Summation>(&mut self) -> LaneMovement<W::Scalar> {
         let (step, system) = (self.step, self.system);
         let Coupled { positions, momenta } = self.coupled;
@@ -209,7 +209,7 @@ where
 }
 
 /// Scales the evaluations of a half to increments.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn increments<W: Vector>(half: &Half, size: f64, evaluations: &mut [W]) {
     for (vector, evaluation) in evaluations.iter_mut().zip(&half.evaluations) {
         scale(vector, size * evaluation.factor);
@@ -273,7 +273,7 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep(&mut self) -> LaneMovement<W::Scalar> {
         self.sweep_by::<R>()
     }

@@ -33,7 +33,7 @@ pub(super) const fn counts<P: StageTableau, R: Summation>() -> EvaluationCounts 
 pub(super) struct SecondOrder<'a, P, R, W, S>(pub(super) Emitted<'a, P, R, W, S>);
 
 /// `M⁻¹` times the increments of the momentum.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn slopes<S: System<W>, W: Vector>(stages: &LaneStages<W>) -> &alloc::vec::Vec<W> {
     match S::UNIT_MASSES {
         true => &stages.force,
@@ -49,7 +49,7 @@ where
     S: System<W, Class = P::Class>,
 {
     /// Computes `M⁻¹` times the increments of the momentum, except with unit masses.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocities(&mut self) {
         if S::UNIT_MASSES {
             return;
@@ -66,7 +66,7 @@ where
     }
 
     /// Computes positions `base + h node start + before Σ_j factor_j slope_j`; returns their change.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn positions(
         &mut self,
         count: usize,
@@ -110,7 +110,7 @@ where
     }
 
     /// The positions from the slopes of the previous sweep.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn next(&mut self) -> W::Scalar {
         let h = self.0.step.size;
         if R::COMPENSATED {
@@ -121,7 +121,7 @@ where
         self.positions(columns.len(), factor, 1.0, false)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of_increments(&mut self) -> W::Scalar {
         let h = self.0.step.size;
         let columns = Columns::<P>::SECOND_ORDER;
@@ -130,7 +130,7 @@ where
     }
 
     /// New positions and momenta.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn update(&mut self, Outcome { q, q_low, p, p_low }: Outcome<'_, W>) {
         let Emitted {
             step,
@@ -188,7 +188,7 @@ where
 {
     const STOPS_AT_ROUNDING: bool = !R::COMPENSATED;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn begin(&mut self) {
         let h = self.0.step.size;
         if starts_at_once(&P::POSITIONS) {
@@ -226,7 +226,7 @@ where
         self.of_increments();
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep(&mut self) -> LaneMovement<W::Scalar> {
         self.0.forces();
         if R::COMPENSATED {
@@ -238,12 +238,12 @@ where
         LaneMovement { q, p: q }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn scales(&self) -> [W::Scalar; 2] {
         [largest(self.0.step.q, &self.0.now.q); 2]
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn keep(&mut self, lanes: u32) {
         copy_lanes(lanes, &self.0.now.force, &mut self.0.settled.force);
         if !S::UNIT_MASSES {

@@ -17,7 +17,7 @@ pub(super) struct Settled<L> {
 
 /// Sweeps from the stages of the previous step, which have the sizes `scales`, until every one of the `live` lanes has settled or is left to
 /// a single run. A lane that settles here does so in the same sweep as its single run. A lane with NaN never does.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn settle<C: Class, L: Lanes, W: LaneSweeps<L>>(
     sweeps: &mut W,
     time: f64,
@@ -61,7 +61,7 @@ struct Iteration<L> {
 
 impl<L: Lanes> Iteration<L> {
     /// Ends the iteration in these lanes.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn end(&mut self, sweeps: &mut impl LaneSweeps<L>, lanes: u32) {
         if lanes == 0 {
             return;
@@ -76,7 +76,7 @@ impl<L: Lanes> Iteration<L> {
     }
 
     /// Takes the sizes of these lanes from the stages, where they are known; returns where.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn measure(&mut self, lanes: u32, scales: [L; 2], both: bool) -> u32 {
         let known = scales.map(is_known);
         let known = lanes & known[0] & if both { known[1] } else { u32::MAX };
@@ -85,7 +85,7 @@ impl<L: Lanes> Iteration<L> {
     }
 
     /// Until changes that can be rounding errors have stopped shrinking, and once more if [`dither_last_sweep`] says so.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn until_stagnation<C: Class, W: LaneSweeps<L>>(
         mut self,
         sweeps: &mut W,
@@ -156,7 +156,7 @@ impl<L: Lanes> Iteration<L> {
 
     /// Until a change can be rounding errors and the next one would be at most one unit of EPSILON; in lanes for which the tolerance is
     /// within reach, until a change is within the tolerance.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn until_rounding<C: Class, W: LaneSweeps<L>>(
         mut self,
         sweeps: &mut W,
@@ -232,7 +232,7 @@ struct Size<L> {
 }
 
 impl<L: Lanes> Size<L> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of(scales: [L; 2]) -> Self {
         Self {
             scales,
@@ -240,7 +240,7 @@ impl<L: Lanes> Size<L> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn select(lanes: u32, yes: &Self, no: &Self) -> Self {
         let select = |yes: [L; 2], no: [L; 2]| [0, 1].map(|k| L::select(lanes, yes[k], no[k]));
         Self {
@@ -251,27 +251,27 @@ impl<L: Lanes> Size<L> {
 }
 
 /// `count` units of EPSILON of numbers of these sizes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn units<L: Lanes>(count: f64, scales: [L; 2]) -> [L; 2] {
     scales.map(|scale| L::from_f64(count * L::EPSILON) * scale)
 }
 
 /// Where the change is no NaN.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn numbers<L: Lanes>(change: &LaneMovement<L>) -> u32 {
     let infinite = L::from_f64(f64::INFINITY);
     change.q.at_most(infinite) & change.p.at_most(infinite)
 }
 
 /// Where the change of the positions, or that of the momenta, is within the bounds; if `both`, where both are.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn settles_within<L: Lanes>(change: &LaneMovement<L>, [q, p]: &[L; 2], both: bool) -> u32 {
     let (of_q, of_p) = (change.q.at_most(*q), change.p.at_most(*p));
     if both { of_q & of_p } else { of_q | of_p }
 }
 
 /// Where the change of the positions, and if `both` that of the momenta, is within the bounds.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_within<L: Lanes>(change: &LaneMovement<L>, [q, p]: &[L; 2], both: bool) -> u32 {
     let of_q = change.q.at_most(*q) & numbers(change);
     if both {
@@ -282,14 +282,14 @@ fn is_within<L: Lanes>(change: &LaneMovement<L>, [q, p]: &[L; 2], both: bool) ->
 }
 
 /// Where a size equals another up to a factor of two.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_about<L: Lanes>(size: L, other: L) -> u32 {
     let half = L::from_f64(0.5) * other;
     half.below(size) & size.at_most(L::from_f64(2.0) * other)
 }
 
 /// Where the rounding errors of numbers of this size can be squared safely.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_known<L: Lanes>(size: L) -> u32 {
     let unit = L::from_f64(L::EPSILON) * size;
     L::from_f64(1e-140).below(unit) & unit.below(L::from_f64(1e140))

@@ -651,7 +651,7 @@ fn largest_sum<T: Scalar>(
 }
 
 /// One component of a linear combination of the stages.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn dot<T: Scalar>(row: &[f64], stages: &[T], rows: usize, component: usize) -> T {
     let mut sum = T::zero();
     for (j, &factor) in row.iter().enumerate() {

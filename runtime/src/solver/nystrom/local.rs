@@ -23,7 +23,7 @@ use crate::system::SystemLanes;
 use crate::system::{Class, Components, StageRows, System};
 
 /// Whether stages are iterated along the components: for vectors on the heap, with all stages of a component in one group.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn is_local<P: StageTableau, V: Vector, S: SystemInLanes<V>>() -> bool {
     <S as System<V>>::LOCAL_FORCE
         && P::Lanes::has_local_force::<V, S>()
@@ -69,13 +69,13 @@ where
     }
 
     /// Whether the forces are in rows.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn are_in_rows(&self) -> bool {
         are_in_rows::<P, V, S>(self.positions.lanes.step.q.dimension())
     }
 
     /// Computes the forces at the positions with these terms; returns the change of the forces.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn walk<const MEASURED: bool>(&mut self, terms: &Terms<impl AsRef<[f64]>>) -> P::Lanes {
         let in_rows = self.are_in_rows();
         let lanes = &mut self.positions.lanes;
@@ -120,7 +120,7 @@ where
     }
 
     /// Like [`walk`](Self::walk), but returns how far the next positions can differ from those of the forces, up to rounding.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn movement(&mut self, terms: &Terms<impl AsRef<[f64]>>) -> P::Lanes {
         let changes = self.walk::<false>(terms);
         let factor = P::Lanes::from_f64(terms.factor);
@@ -155,12 +155,12 @@ where
     R: Summation,
     C: AsRef<[f64]>,
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn dimension(&self) -> usize {
         self.force.len()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn position(&mut self, k: usize) -> P::Lanes {
         let (Some(force), Some(&q), Some(&q_low), Some(&p)) = (
             self.force.get(k),
@@ -182,7 +182,7 @@ where
         position
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn set_force(&mut self, k: usize, force: P::Lanes) {
         let Some(place) = self.force.get_mut(k) else {
             return;
@@ -212,7 +212,7 @@ where
 
     const MEASURED: bool = false;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluations(&self) -> EvaluationCounts {
         let counts = self.positions.evaluations();
         // The evaluations at the starting values come before the first sweep.
@@ -222,12 +222,12 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn time(&self) -> f64 {
         self.positions.time()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn begin(&mut self, _kept: WarmStart) {
         // The sweeps that follow measure their own changes.
         apart(|| {
@@ -236,18 +236,18 @@ where
         });
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         self.positions.non_finite()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn non_finite_force(&self) -> Option<usize> {
         self.positions.non_finite_force()
     }
 
     /// Continues with positions in memory, where the error diagnosis reads them.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn go_on<C: Class, T: Scalar>(
         &mut self,
         kept: WarmStart,
@@ -272,7 +272,7 @@ where
         Ok(work)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
         let h = self.positions.lanes.step.size;
         let q = apart(|| self.movement(&Terms::new::<P>(R::COMPENSATED, h)));
@@ -280,12 +280,12 @@ where
         LaneMovement { q, p: q }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn unexamined(&self) -> u32 {
         self.sweeps_before.saturating_sub(Self::SEEN)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep_unexamined(&mut self) {
         let h = self.positions.lanes.step.size;
         apart(|| {
@@ -293,13 +293,13 @@ where
         });
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn change(&self, movement: &LaneMovement<P::Lanes>) -> StageChange {
         let q = part_change(movement.q, self.largest);
         StageChange { q, p: q }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn are_about(&self, _movement: &Self::Movement, [q, _]: [f64; 2], _both: bool) -> bool {
         is_about(self.largest, q)
     }

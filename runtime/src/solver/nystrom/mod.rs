@@ -43,7 +43,7 @@ use crate::system::{Class, System, SystemInLanes, SystemLanes};
 /// less than the previous step.
 /// With fewer than eight stages, and a number of components that is a multiple of eight, the lanes run along the components. Both
 /// layouts give the same bits.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn nystrom<P, R, V, S>(
     step: &Step<'_, V>,
     system: &S,
@@ -152,7 +152,7 @@ where
 }
 
 /// The velocity of a momentum. If its dimension is wrong, it is stored where the validation of the step finds it.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn velocity<P, V, S>(
     system: &S,
     step: &Step<'_, V>,
@@ -182,13 +182,13 @@ struct Positions<'a, P: StageTableau, R, V: Vector, S> {
 }
 
 /// `M⁻¹` times the increments of the momentum; with unit masses, the increments themselves.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn slopes<'a, V: Vector, S: System<V>, G>(velocity: &'a G, force: &'a G) -> &'a G {
     if S::UNIT_MASSES { force } else { velocity }
 }
 
 /// The velocity at the start of the step; with unit masses, the momentum.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn start_of<'a, V: Vector, S: System<V>>(momentum: &'a V, velocity: &'a V) -> &'a V {
     if S::UNIT_MASSES { momentum } else { velocity }
 }
@@ -201,20 +201,20 @@ struct Terms<C: 'static> {
 
 impl<C: AsRef<[f64]>> Terms<C> {
     /// For slopes computed from increments, with step size `h`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     const fn of_increments(columns: &'static [C], h: f64) -> Self {
         Self { columns, factor: h }
     }
 
     /// For slopes computed from forces, whose weights are in the columns.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     const fn of_forces(columns: &'static [C], h: f64) -> Self {
         let factor = h * h;
         Self { columns, factor }
     }
 
     /// The sums, with an optional factor multiplied into the columns.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sums(
         &self,
         factor: Option<f64>,
@@ -232,7 +232,7 @@ impl<C: AsRef<[f64]>> Terms<C> {
 
 impl Terms<&'static [f64]> {
     /// For slopes computed from increments or from forces.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     const fn new<P: StageTableau>(of_increments: bool, h: f64) -> Self {
         match of_increments {
             true => Self::of_increments(Columns::<P>::SECOND_ORDER, h),
@@ -243,7 +243,7 @@ impl Terms<&'static [f64]> {
 
 /// The position of stages: `base + low + size node velocity + factor sum`. `low` is the low part of the base, `velocity` that at the
 /// start of the step, and `node` the stage's fraction of the step.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn position<R: Summation, L: Lanes>(
     (base, low): (L, L),
     (size, node): (f64, L),
@@ -266,13 +266,13 @@ fn apart<T>(work: impl FnOnce() -> T) -> T {
 }
 
 /// Whether the momenta of the stages of this method are eliminated.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) const fn eliminates<P: StageTableau>() -> bool {
     P::SECOND_ORDER.is_some() && P::Class::SEPARABLE
 }
 
 /// The coefficients of a method that [`eliminates`] the momenta. They are constants, so that the compiler unrolls sums over stages.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) const fn tableau<P: StageTableau>() -> SecondOrderTableau {
     match P::SECOND_ORDER {
         Some(tableau) => tableau,
@@ -295,7 +295,7 @@ impl<P: StageTableau> Start<P> {
         &weighted(Self::OF_INCREMENTS, P::POSITIONS.weights);
 
     /// The terms from the evaluations of the previous step, with step size `h`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn terms(of_increments: bool, h: f64) -> Terms<[f64; MOST]> {
         let count = P::POSITIONS.extrapolation.len();
         match of_increments {
@@ -313,7 +313,7 @@ where
     S: SystemInLanes<V>,
 {
     /// Computes new positions; returns their change.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn positions(&mut self) -> P::Lanes {
         let terms = Terms::new::<P>(R::COMPENSATED, self.lanes.step.size);
         // Multiplied into the columns, the factor is computed once for all sweeps.
@@ -321,7 +321,7 @@ where
     }
 
     /// Computes the positions with these terms, whose factor may be multiplied into the columns; returns their change.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn with(&mut self, terms: &Terms<impl AsRef<[f64]>>, in_columns: Option<f64>) -> P::Lanes {
         let before = if in_columns.is_some() {
             1.0
@@ -347,7 +347,7 @@ where
     }
 
     /// Computes `M⁻¹` times the increments of the momentum, except with unit masses.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocities(&mut self) {
         if <S as System<V>>::UNIT_MASSES {
             return;
@@ -378,7 +378,7 @@ where
 
     const STOPS_AT_ROUNDING: bool = !R::COMPENSATED;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluations(&self) -> EvaluationCounts {
         let stages = P::POSITIONS.count as u32;
         // The velocities of the predicted increments, unless the predictor gives positions directly.
@@ -396,12 +396,12 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn time(&self) -> f64 {
         self.lanes.time()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn begin(&mut self, kept: WarmStart) {
         if kept.stages && starts_at_once(&P::POSITIONS) {
             let h = self.lanes.step.size;
@@ -424,17 +424,17 @@ where
         self.with(&Terms::new::<P>(true, self.lanes.step.size), None);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         self.lanes.non_finite()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn non_finite_force(&self) -> Option<usize> {
         self.lanes.non_finite_force()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn go_on<C: Class, T: Scalar>(
         &mut self,
         kept: WarmStart,
@@ -459,7 +459,7 @@ where
         })
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
         self.lanes.forces();
         if R::COMPENSATED {
@@ -475,14 +475,14 @@ where
         LaneMovement { q, p: q }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn change(&self, movement: &LaneMovement<P::Lanes>) -> StageChange {
         let stages = self.lanes.stages.q.as_ref();
         let q = part_change(movement.q, scale_of::<P, V>(self.lanes.step.q, stages));
         StageChange { q, p: q }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn are_about(&self, _movement: &Self::Movement, [q, _]: [f64; 2], _both: bool) -> bool {
         let stages = self.lanes.stages.q.as_ref();
         is_about(scale_of::<P, V>(self.lanes.step.q, stages), q)

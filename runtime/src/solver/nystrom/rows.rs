@@ -23,7 +23,7 @@ use crate::system::{MOST_ROW_STAGES, StageRows, System};
 pub(super) const WIDTH: usize = F64x8::WIDTH;
 
 /// Whether the forces of stages are stored in rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn are_in_rows<P, V, S>(dimension: usize) -> bool
 where
     P: StageTableau,
@@ -38,13 +38,13 @@ where
 }
 
 /// The forces stored in rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn forces<P: StageTableau, V: Vector>(stages: &SimdStages<V, P>) -> &[P::Lanes] {
     (stages.velocity.as_ref().first()).map_or(&[], Vector::as_slice)
 }
 
 /// [`forces`], mutable.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn forces_mut<P: StageTableau, V: Vector>(stages: &mut SimdStages<V, P>) -> &mut [P::Lanes] {
     (stages.velocity.as_mut().first_mut()).map_or(&mut [], Vector::as_mut_slice)
 }
@@ -55,14 +55,14 @@ const fn parts<L: Lanes>() -> usize {
 }
 
 /// Loads the forces of one stage from a row.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn load<L: Lanes>(row: &[L], stage: usize) -> F64x8 {
     let parts = &row[stage * parts::<L>()..(stage + 1) * parts::<L>()];
     F64x8::from_fn(|lane| lane_of(parts[lane / L::WIDTH], lane))
 }
 
 /// Stores the forces of one stage in a row.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn store<L: Lanes>(row: &mut [L], stage: usize, numbers: F64x8) {
     let numbers = numbers.to_array();
     let places = &mut row[stage * parts::<L>()..(stage + 1) * parts::<L>()];
@@ -87,7 +87,7 @@ pub(super) fn non_finite_force<P: StageTableau, V: Vector>(
 }
 
 /// The force on a component at a stage.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn force<P: StageTableau, V: Vector>(
     stages: &SimdStages<V, P>,
     stage: usize,
@@ -145,13 +145,13 @@ pub(super) struct AlongRows<'a, P: StageTableau, R, C: 'static, const MEASURED: 
 }
 
 /// The rows of a vector.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn rows<V: Vector<Scalar = f64>>(vector: &V) -> &[[f64; WIDTH]] {
     vector.as_slice().as_chunks().0
 }
 
 /// [`rows`], mutable.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn rows_mut<V: Vector<Scalar = f64>>(vector: &mut V) -> &mut [[f64; WIDTH]] {
     vector.as_mut_slice().as_chunks_mut().0
 }
@@ -163,7 +163,7 @@ where
     C: AsRef<[f64]>,
 {
     /// The stages whose positions have these terms.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new<V: Vector<Scalar = f64>>(
         terms: &'a Terms<C>,
         step: &'a Step<'_, V>,
@@ -187,7 +187,7 @@ where
     }
 
     /// The largest position, including the start of the step, and the changes of the forces of each stage.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn changes(self) -> (P::Lanes, P::Lanes) {
         let changes = P::Lanes::from_fn(|lane| match self.changes.get(lane) {
             Some(change) if change.any_nan() => f64::NAN,
@@ -205,17 +205,17 @@ where
     R: Summation,
     C: AsRef<[f64]>,
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> usize {
         self.q.len()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stages(&self) -> usize {
         P::POSITIONS.count
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn time(&self, stage: usize) -> F64x8 {
         F64x8::from_f64(lane_of(self.times, stage))
     }
@@ -223,7 +223,7 @@ where
     // Loops over indices without an early exit: otherwise all arrays are in memory, which takes four times as long. Substituting a row
     // for a missing one would take a fifth longer.
     #[allow(clippy::needless_range_loop, reason = "all in registers")]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn positions(&mut self, row: usize) -> [F64x8; MOST_ROW_STAGES] {
         let [q, q_low, p] = [self.q, self.q_low, self.p].map(|rows| F64x8::from_array(rows[row]));
         let forces = &self.forces[row * row_length::<P>()..(row + 1) * row_length::<P>()];
@@ -248,7 +248,7 @@ where
     }
 
     #[allow(clippy::needless_range_loop, reason = "all in registers")]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn set_forces(&mut self, row: usize, forces: [F64x8; MOST_ROW_STAGES]) {
         let places = &mut self.forces[row * row_length::<P>()..(row + 1) * row_length::<P>()];
         for stage in 0..P::POSITIONS.count {

@@ -15,7 +15,7 @@ use crate::solver::simd::stages::{Laned, SimdStages};
 use crate::system::SystemInLanes;
 
 /// With unit masses, from forces stored in rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn in_rows<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
     step: &Step<'_, V>,
     stages: &SimdStages<V, P>,
@@ -34,7 +34,7 @@ pub(super) fn in_rows<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
 }
 
 /// With unit masses, from the forces of all stages in one group of lanes: eight components at a time, and the rest one by one.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn by_eights<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
     step: &Step<'_, V>,
     stages: &SimdStages<V, P>,
@@ -80,7 +80,7 @@ pub(super) fn by_eights<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
 }
 
 /// The result of the first rows; `stages` returns the forces at all stages of a row, zero for missing stages.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn of_rows<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
     step: &Step<'_, V>,
     count: usize,
@@ -111,7 +111,7 @@ fn of_rows<P: StageTableau, R: Summation, V: Vector<Scalar = f64>>(
     clippy::redundant_closure,
     reason = "a reference to one would be called"
 )]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn of_unit_masses<P: StageTableau, R: Summation, T: Scalar>(
     size: f64,
     [q, q_low, p, p_low]: [T; 4],
@@ -139,7 +139,7 @@ fn of_unit_masses<P: StageTableau, R: Summation, T: Scalar>(
 }
 
 /// `base + Σ_j factor_j force_j`
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn plus_forces<P: StageTableau, T: Scalar>(
     base: T,
     force: &impl Fn(usize) -> T,
@@ -150,7 +150,7 @@ fn plus_forces<P: StageTableau, T: Scalar>(
 }
 
 /// With compensated sums, from increments.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn compensated<P, R, V, S>(
     step: &Step<'_, V>,
     system: &S,
@@ -194,7 +194,7 @@ pub(super) fn compensated<P, R, V, S>(
 
 /// With plain sums, from forces that are not yet scaled to increments. All forces of a component are multiplied by their weights
 /// before lanes are read one by one.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn plain<P, V, S>(
     step: &Step<'_, V>,
     start: &V,

@@ -13,13 +13,13 @@ pub(crate) struct LaneMovement<L> {
 }
 
 /// The largest change so far and one more. `None` instead of zero at the start: otherwise the compiler would compare with zero.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn noted<L: Lanes>(largest: Option<L>, change: L) -> L {
     largest.map_or(change, |largest| largest.larger_or_nan(change))
 }
 
 /// Reduces the largest change and the largest component of each lane to those of all lanes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn part_change<L: Lanes>(change: L, scale: L) -> HalfChange {
     match change.any_nan() {
         false => HalfChange::new(change.largest(), scale.largest()),
@@ -28,23 +28,23 @@ pub(crate) fn part_change<L: Lanes>(change: L, scale: L) -> HalfChange {
 }
 
 impl<L: Lanes> Movement for LaneMovement<L> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
         !self.q.any_above(q) && (!both || !self.p.any_above(p)) && self.is_number()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn settles_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
         let (of_q, of_p) = (!self.q.any_above(q), !self.p.any_above(p));
         if both { of_q & of_p } else { of_q | of_p }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn exceeds(&self, [q, p]: [f64; 2], both: bool) -> bool {
         self.q.any_above(q) && (!both || self.p.any_above(p))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_next_within(&self, before: &Self, [q, p]: [f64; 2], both: bool) -> bool {
         let of = |before: L, this: L, bound: f64| {
             // A bound that holds in every lane holds for the maximum over the lanes, for which the processor would have to wait.
@@ -55,19 +55,19 @@ impl<L: Lanes> Movement for LaneMovement<L> {
         of(before.q, self.q, q) && (!both || of(before.p, self.p, p))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn size(&self, weights: [f64; 2], both: bool) -> f64 {
         self.sizes(weights, both).largest()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shrinks(&self, below: f64, weights: [f64; 2], both: bool) -> bool {
         // The processor need not wait for the maximum over all lanes.
         let sizes = self.sizes(weights, both);
         sizes.all_below(below) & sizes.any_above(0.0)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_number(&self) -> bool {
         !(self.q + self.p).any_nan()
     }
@@ -75,7 +75,7 @@ impl<L: Lanes> Movement for LaneMovement<L> {
 
 impl<L: Lanes> LaneMovement<L> {
     /// [`size`](Movement::size), lane by lane.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sizes(&self, [q, p]: [f64; 2], both: bool) -> L {
         match both {
             true => (self.q * L::from_f64(q)).larger(self.p * L::from_f64(p)),

@@ -39,7 +39,7 @@ where
 {
     type Memory<P: StageTableau> = SimdStages<V, P>;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<P, R>(
         step: &Step<'_, V>,
         system: &S,
@@ -65,7 +65,7 @@ where
 }
 
 /// [`SimdFixedPoint::take`](Solver::take)
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn gauss_seidel<P, R, V, S>(
     step: &Step<'_, V>,
     system: &S,
@@ -95,7 +95,7 @@ where
 }
 
 /// Computes the new positions and momenta of the step.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn totals<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
     step: &Step<'_, V>,
     stages: &SimdStages<V, P>,
@@ -164,7 +164,7 @@ where
 
     const STOPS_AT_ROUNDING: bool = !R::COMPENSATED;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluations(&self) -> EvaluationCounts {
         let start = P::MOMENTA.count as u32;
         let (begin, start) = if extrapolates::<P>() {
@@ -181,12 +181,12 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn time(&self) -> f64 {
         self.step.time
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn begin(&mut self, kept: WarmStart) {
         if kept.stages && extrapolates::<P>() {
             extrapolate::<P, V>(&P::MOMENTA, self.stages.velocity.as_mut());
@@ -203,17 +203,17 @@ where
         self.positions(true);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         self.stages.non_finite()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn non_finite_force(&self) -> Option<usize> {
         self.stages.non_finite_force()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn go_on<C: Class, T: Scalar>(
         &mut self,
         kept: WarmStart,
@@ -225,7 +225,7 @@ where
         })
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
         self.forces();
         if R::COMPENSATED {
@@ -240,12 +240,12 @@ where
         LaneMovement { q, p }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn overrelaxed_sweep(&mut self) -> LaneMovement<P::Lanes> {
         self.beyond().sweep()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn change(&self, movement: &LaneMovement<P::Lanes>) -> StageChange {
         let (step, stages) = (self.step, &*self.stages);
         StageChange {
@@ -254,7 +254,7 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn are_about(&self, _movement: &Self::Movement, [q, p]: [f64; 2], both: bool) -> bool {
         let (step, stages) = (self.step, &*self.stages);
         is_about(scale_of::<P, V>(step.q, stages.q.as_ref()), q)
@@ -269,7 +269,7 @@ pub(crate) const fn extrapolates<P: StageTableau>() -> bool {
 }
 
 /// The largest component of the stages and of the base, distributed over the lanes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn scale_of<P: StageTableau, V: Vector<Scalar = f64>>(
     base: &V,
     groups: &[Laned<V, P>],
@@ -297,7 +297,7 @@ pub(crate) fn scale_of<P: StageTableau, V: Vector<Scalar = f64>>(
 }
 
 /// Returns whether the largest lane equals `other` up to a factor of two.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn is_about<L: Lanes>(scale: L, other: f64) -> bool {
     scale.any_above(0.5 * other) && !scale.any_above(2.0 * other)
 }
@@ -310,7 +310,7 @@ where
     S: SystemInLanes<V>,
 {
     /// The same stages with over-relaxed sweeps, which move them twice as far.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn beyond(&mut self) -> ByLanes<'_, P, Overrelaxed<R>, V, S> {
         ByLanes {
             step: self.step,
@@ -322,7 +322,7 @@ where
 
     /// Applies `go_on` to a copy of these stages, unless they are large or on the heap. Stages to which no pointer exists can stay in
     /// registers from step to step. If the iteration begins `anew`, the old positions and momenta are not copied.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn elsewhere<T>(
         &mut self,
         anew: bool,
@@ -352,7 +352,7 @@ where
     }
 
     /// Computes new positions from velocities, which may be `of_increments`; returns their change.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn positions(&mut self, of_increments: bool) -> P::Lanes {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.q, step.q_low);
@@ -363,7 +363,7 @@ where
     }
 
     /// Computes new momenta from forces, which may be `of_increments`; returns their change.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn momenta(&mut self, of_increments: bool) -> P::Lanes {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.p, step.p_low);
@@ -374,7 +374,7 @@ where
     }
 
     /// Evaluates all forces, not yet scaled to increments.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn forces(&mut self) {
         let SimdStages { q, p, force, .. } = &mut *self.stages;
         let (q, p) = (q.as_ref(), p.as_ref());
@@ -385,7 +385,7 @@ where
     }
 
     /// Evaluates all velocities, not yet scaled to increments.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn velocities(&mut self) {
         let SimdStages { q, p, velocity, .. } = &mut *self.stages;
         let (q, p) = (q.as_ref(), p.as_ref());
@@ -396,7 +396,7 @@ where
     }
 
     /// Evaluates all velocities and forces, not yet scaled to increments; both are evaluated at the same times.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn slopes(&mut self) {
         let SimdStages {
             q,
@@ -415,19 +415,19 @@ where
     }
 
     /// Scales the forces to increments.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn scale_forces(&mut self) {
         scale::<P, V>(&P::POSITIONS, self.step.size, self.stages.force.as_mut());
     }
 
     /// Scales the velocities to increments.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn scale_velocities(&mut self) {
         scale::<P, V>(&P::MOMENTA, self.step.size, self.stages.velocity.as_mut());
     }
 
     /// Scales velocities and forces to increments.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn increments(&mut self) {
         self.scale_forces();
         self.scale_velocities();
@@ -435,7 +435,7 @@ where
 }
 
 /// The times of the evaluations of a group of lanes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn times<P: StageTableau, V>(
     half: &HalfTableau,
     step: &Step<'_, V>,
@@ -446,7 +446,7 @@ pub(crate) fn times<P: StageTableau, V>(
 }
 
 /// The factors that scale the evaluations of a group to increments.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn increment_factor<P: StageTableau>(
     half: &HalfTableau,
     h: f64,
@@ -456,7 +456,7 @@ pub(crate) fn increment_factor<P: StageTableau>(
 }
 
 /// Scales evaluations to increments.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn scale<P: StageTableau, V: Vector>(
     half: &HalfTableau,
     h: f64,
@@ -473,7 +473,7 @@ pub(crate) fn scale<P: StageTableau, V: Vector>(
 }
 
 /// Copies a vector to all lanes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn fill<P: StageTableau, V: Vector<Scalar = f64>>(groups: &mut [Laned<V, P>], from: &V) {
     let from = from.as_slice();
     for group in groups {
@@ -490,7 +490,7 @@ pub(crate) fn fill<P: StageTableau, V: Vector<Scalar = f64>>(groups: &mut [Laned
 // widens loads of single lanes beyond the group. The processor then has to wait until both groups are in memory.
 
 /// The entry of one stage in one component.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn entry<P: StageTableau, V: Vector>(
     groups: &[Laned<V, P>],
     stage: usize,
@@ -512,7 +512,7 @@ pub(crate) struct Sums<C, F> {
 
 /// The sums that give one half of the stages from the evaluations of the other half, which may be increments. `columns` are those of
 /// the matrix of this half, `weights` those of the other half.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn sums<R: Summation, P: StageTableau>(
     columns: &'static [&'static [f64]],
     weights: &'static [f64],
@@ -534,7 +534,7 @@ pub(crate) fn sums<R: Summation, P: StageTableau>(
 
 /// Computes new stage values from evaluations; returns their change. `value` gets the indices of group and component, the base with
 /// its low part, and the sum.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
     sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
     out: &mut [Laned<V, P>],
@@ -570,7 +570,7 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
 
 /// [`values`] for vectors on the heap. It looks up the location of their components once; otherwise the compiler would repeat that
 /// after every write.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
     sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
     out: &mut [Laned<V, P>],
@@ -604,7 +604,7 @@ fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
 }
 
 /// `base + sum`, for a sum that includes the low part of the base.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn sum<P: StageTableau>(
     _place: (usize, usize),
     (base, _low): (P::Lanes, P::Lanes),
@@ -614,7 +614,7 @@ pub(crate) fn sum<P: StageTableau>(
 }
 
 /// `start + Σ_j factor_j columns_j terms_j` in one component, for the stages of one group; a factor is multiplied into the column.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn combination<L: Lanes>(
     sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
     group: usize,
@@ -632,7 +632,7 @@ pub(crate) fn combination<L: Lanes>(
 }
 
 /// Extrapolates the increments from those of the previous step.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn extrapolate<P: StageTableau, V: Vector>(
     half: &HalfTableau,
     increments: &mut [Laned<V, P>],
@@ -658,7 +658,7 @@ pub(crate) fn extrapolate<P: StageTableau, V: Vector>(
 }
 
 /// Computes one half of the result of a step from the evaluations `terms`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn total<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
     (out, out_low): (&mut V, &mut V),
     (base, low): (&V, &V),
@@ -686,7 +686,7 @@ pub(crate) fn total<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
 }
 
 /// The smallest dimension of these vectors.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn shortest<V: Vector>(groups: &[V]) -> usize {
     let mut shortest = usize::MAX;
     for group in groups {

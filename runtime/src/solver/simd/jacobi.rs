@@ -39,7 +39,7 @@ where
 {
     type Memory<P: StageTableau> = SimdStages<V, P>;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<P, R>(
         step: &Step<'_, V>,
         system: &S,
@@ -62,7 +62,7 @@ where
 }
 
 /// [`SimdJacobi::take`](Solver::take)
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn jacobi<P, R, V, S>(
     step: &Step<'_, V>,
     system: &S,
@@ -108,7 +108,7 @@ where
     const AT_ONE_TIME: bool = are_at_one_time::<P>();
 
     /// Computes new stages from the evaluations; returns their change.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stages(&mut self) -> LaneMovement<P::Lanes> {
         if R::COMPENSATED {
             self.0.increments();
@@ -139,7 +139,7 @@ where
     }
 
     /// Computes new values of one half. `columns` are those of its matrix; `weights` belong to the evaluations of the other half.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn half(
         (columns, weights): (&'static [&'static [f64]], &'static [f64]),
         step: &Step<'_, V>,
@@ -152,7 +152,7 @@ where
     }
 
     /// Predicts the stages from the increments of the previous step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn start(&mut self) {
         let step = self.0.step;
         let factor = (!P::INCREMENTS).then_some(step.size);
@@ -208,7 +208,7 @@ where
 
     const STOPS_AT_ROUNDING: bool = !R::COMPENSATED;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluations(&self) -> EvaluationCounts {
         let both = (P::POSITIONS.count + P::MOMENTA.count) as u32;
         let (begin, start) = if extrapolates::<P>() {
@@ -223,12 +223,12 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn time(&self) -> f64 {
         self.0.time()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn begin(&mut self, kept: WarmStart) {
         if kept.stages && starts_at_once(&P::POSITIONS) && starts_at_once(&P::MOMENTA) {
             self.start();
@@ -246,17 +246,17 @@ where
         self.sweep();
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         self.0.non_finite()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn non_finite_force(&self) -> Option<usize> {
         self.0.non_finite_force()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn go_on<C: Class, T: Scalar>(
         &mut self,
         kept: WarmStart,
@@ -268,7 +268,7 @@ where
         })
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
         if Self::AT_ONE_TIME {
             self.0.slopes();
@@ -279,17 +279,17 @@ where
         self.stages()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn overrelaxed_sweep(&mut self) -> LaneMovement<P::Lanes> {
         Halves(self.0.beyond()).sweep()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn change(&self, movement: &LaneMovement<P::Lanes>) -> StageChange {
         self.0.change(movement)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn are_about(&self, movement: &Self::Movement, scales: [f64; 2], both: bool) -> bool {
         self.0.are_about(movement, scales, both)
     }

@@ -35,7 +35,7 @@ impl<V: Vector, P: StageTableau> Clone for SimdStages<V, P> {
 
 impl<V: Vector, P: StageTableau> SimdStages<V, P> {
     /// Moves the stages out, so that no pointer to them exists. Without `with_values`, positions and momenta are left blank.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn take(&mut self, with_values: bool) -> Self {
         let blank = || P::groups(|_| Laned::<V, P>::blank());
         let mut taken = Self {

@@ -171,7 +171,7 @@ impl<B: Bonds> Chain<B> {
     }
 
     /// The position to the right of the last particle; `None` if there is no bond.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn beyond<T: Scalar>(&self, first: T) -> Option<T> {
         match self.ends {
             Ends::Walls => Some(T::zero()),
@@ -181,7 +181,7 @@ impl<B: Bonds> Chain<B> {
     }
 
     /// The tension to the left of the first particle.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_tension<T: Scalar>(&self, time: T, first: T, last: T) -> T {
         match self.ends {
             Ends::Walls => self.bonds.tension(time, first),
@@ -191,7 +191,7 @@ impl<B: Bonds> Chain<B> {
     }
 
     /// The force on particles between two tensions.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn between<T: Scalar>(&self, time: T, left: T, here: T, right: T) -> T {
         match self.bonds.outer_force(time, here) {
             Some(outer) => outer + (right - left),
@@ -208,7 +208,7 @@ impl<B: Bonds> Chain<B> {
     }
 
     /// Makes a pass from the first particle to the last, in full rows as far as possible.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn walk<T: Scalar, R: Row<T>>(&self, time: T, layout: Layout, pass: &mut impl Pass<T>) {
         let q = pass.positions();
         let n = q.len();
@@ -277,7 +277,7 @@ impl<B: Bonds> Chain<B> {
     }
 
     /// A pass over the particles of a part. `tension` is the tension to the left of the part, and afterwards that to its right.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn part<T: Scalar, R: Row<T>>(
         &self,
         time: T,
@@ -300,7 +300,7 @@ impl<B: Bonds> Chain<B> {
 
     /// [`part`](Self::part) for strands, one in each lane. The right neighbours of a row are the next row; those of the last row
     /// are the first particles of the next strands.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn strands<T: Scalar, R: Row<T>>(
         &self,
         time: T,
@@ -352,12 +352,12 @@ struct Forces<'a, T> {
 }
 
 impl<T: Scalar> Pass<T> for Forces<'_, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn positions(&self) -> &[T] {
         self.q
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn rows<R: Row<T>>(
         &mut self,
         part: Part,
@@ -390,12 +390,12 @@ struct KicksAndDrift<'a, T, const K: usize> {
 }
 
 impl<T: Scalar, const K: usize> Pass<T> for KicksAndDrift<'_, T, K> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn positions(&self) -> &[T] {
         self.q
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn rows<R: Row<T>>(
         &mut self,
         part: Part,
@@ -429,7 +429,7 @@ impl<T: Scalar, const K: usize> Pass<T> for KicksAndDrift<'_, T, K> {
 }
 
 /// A row with zero in its last lane.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn without_last(row: F64x8) -> F64x8 {
     let lanes = row.to_array();
     F64x8::from_fn(|lane| {
@@ -469,7 +469,7 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
 
     const LOCAL_FORCE: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn local_force(&self, time: V::Scalar, components: &mut impl Components<V::Scalar>) {
         let Some(last) = components.dimension().checked_sub(1) else {
             return;
@@ -496,7 +496,7 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
 
     const ROW_FORCES: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn row_forces(&self, rows: &mut impl StageRows) {
         let stages = rows.stages();
         let Some(last) = rows.count().checked_sub(1) else {

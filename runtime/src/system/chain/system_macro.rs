@@ -12,26 +12,26 @@ macro_rules! chain_system {
 
             const UNIT_MASSES: bool = true;
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
                 $crate::System::velocity(&$crate::emitted::Chain::$ends($bonds(self)), time, q, p, velocity);
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V) {
                 $crate::System::force(&$crate::emitted::Chain::$ends($bonds(self)), time, q, p, force);
             }
 
             const LOCAL_FORCE: bool = true;
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn local_force(&self, time: V::Scalar, components: &mut impl $crate::emitted::Components<V::Scalar>) {
                 $crate::System::<V>::local_force(&$crate::emitted::Chain::$ends($bonds(self)), time, components);
             }
 
             const ROW_FORCES: bool = true;
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn row_forces(&self, rows: &mut impl $crate::emitted::StageRows) {
                 $crate::System::<V>::row_forces(&$crate::emitted::Chain::$ends($bonds(self)), rows);
             }
