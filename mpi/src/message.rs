@@ -14,8 +14,13 @@ const PAUSE: Duration = Duration::from_millis(1);
 /// Rank 0 answers each message of another rank with one.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Message {
-    /// From rank 0: a block. please, for a rank whose blocks begin with these bytes.
-    Join(Vec<u8>),
+    /// To rank 0: a block, please.
+    Join {
+        /// What the blocks of this rank begin with.
+        head: Vec<u8>,
+        /// Their number.
+        blocks: usize,
+    },
     /// To rank 0: the block is written; another one, please.
     Next,
     /// From rank 0: a block.

@@ -141,8 +141,8 @@ where
             };
             let mut counter = lock(counter);
             match message {
-                Message::Join(head) => {
-                    if let Some(reason) = self.other_head(&head) {
+                Message::Join { head, blocks } => {
+                    if let Some(reason) = self.other_run(&head, blocks) {
                         counter.fail(Error::Rank { rank, reason });
                     }
                 }
@@ -165,7 +165,10 @@ where
     ) -> Result<Summary, Error> {
         let rank = world.rank();
         let (mut run, mut failure) = (0, None);
-        let mut message = Message::Join(self.head().to_vec());
+        let mut message = Message::Join {
+            head: self.head().to_vec(),
+            blocks: self.count(),
+        };
         loop {
             message.send(world, 0);
             message = match Message::wait(world) {
@@ -190,7 +193,7 @@ where
                 Message::Failed { rank, reason } => {
                     return Err(failure.unwrap_or(Error::Rank { rank, reason }));
                 }
-                Message::Join(_) | Message::Next => Message::Next,
+                Message::Join { .. } | Message::Next => Message::Next,
             };
         }
     }
@@ -224,15 +227,18 @@ where
     }
 
     /// The first difference between the blocks of another rank and those of this one.
-    fn other_head(&self, head: &[u8]) -> Option<String> {
-        if head == self.head() {
+    fn other_run(&self, head: &[u8], blocks: usize) -> Option<String> {
+        let difference = if blocks != self.count() {
+            format!("it has {blocks} blocks, not {}", self.count())
+        } else if head != self.head() {
+            let difference = match NpzArray::read_all(head) {
+                Ok(arrays) => self.difference(&arrays),
+                Err(error) => Some(error.to_string()),
+            };
+            difference.unwrap_or_else(|| "it has more facts".to_owned())
+        } else {
             return None;
-        }
-        let difference = match NpzArray::read_all(head) {
-            Ok(arrays) => self.difference(&arrays),
-            Err(error) => Some(error.to_string()),
         };
-        let difference = difference.unwrap_or_else(|| "it has more facts".to_owned());
         Some(format!(
             "its run is another than that of rank 0: {difference}"
         ))

@@ -106,6 +106,7 @@ fn program() {
         "half" => (STEP / 2.0, BLOCKS),
         "half on rank 1" if rank == 1 => (STEP / 2.0, BLOCKS),
         "other blocks" => (STEP, BLOCKS + 1),
+        "other blocks on rank 1" if rank == 1 => (STEP, BLOCKS + 1),
         _ => (STEP, BLOCKS),
     };
     let ensemble = pendulums(step);

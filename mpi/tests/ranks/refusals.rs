@@ -74,6 +74,10 @@ fn a_folder_of_another_run() {
 fn a_rank_with_another_ensemble_or_with_rows_that_are_missing() {
     for (mode, words) in [
         ("half on rank 1", ["rank 1", "rank 0: the step size"]),
+        (
+            "other blocks on rank 1",
+            ["rank 1", "it has 13 blocks, not 12"],
+        ),
         ("stop", ["block ", "the array `trajectory` is not"]),
     ] {
         let Some(folder) = folder(&mode.replace(' ', "-")) else {

@@ -4,9 +4,10 @@ use alloc::format;
 use alloc::string::{String, ToString};
 
 use super::Ensemble;
+use crate::integrator::brief::system_in_brief;
 use crate::integrator::{Checkpoint, CheckpointError};
 use crate::method::{Method, Solver};
-use crate::number::{Lanes, Scalar, Summation, Vector, scalar_words};
+use crate::number::{Lanes, Summation, Vector, scalar_words};
 use crate::state::State;
 use crate::system::System;
 
@@ -22,7 +23,7 @@ pub struct EnsembleCheckpoint {
     /// Checkpoint of the first trajectory at its start, if there is one: method, summation, solver, step size and
     /// tolerance.
     run: Option<Checkpoint>,
-    /// Hash of starts, velocities and forces.
+    /// Hash of the starts and of the systems there.
     starts: String,
     /// The first trajectory, and one past the last.
     range: [usize; 2],
@@ -169,21 +170,19 @@ where
         Ok(())
     }
 
-    /// Hash of all starts and of the velocity and the force at each.
+    /// Hash of all starts and of the system at each.
     fn starts_in_brief(&self) -> String {
         let mut hash = 0;
         let mut place = 0;
         for (system, end) in &self.systems {
             for State { time, q, p } in &self.starts[place..*end] {
-                let at = V::Scalar::from_f64(*time);
-                let (mut velocity, mut force) = (q.zeros_like(), q.zeros_like());
-                system.velocity(at, q, p, &mut velocity);
-                system.force(at, q, p, &mut force);
                 let mut add = |word: &mut u64| hash = brief([hash, *word].into_iter());
                 add(&mut time.to_bits());
-                for vector in [&mut q.clone(), &mut p.clone(), &mut velocity, &mut force] {
+                for vector in [&mut q.clone(), &mut p.clone()] {
                     scalar_words(vector.as_mut_slice(), &mut add);
                 }
+                let mut system = system_in_brief(system, *time, q, p);
+                system.iter_mut().for_each(add);
             }
             place = place.max(*end);
         }

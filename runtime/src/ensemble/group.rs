@@ -16,6 +16,9 @@ use crate::output::steps::is_after;
 use crate::state::State;
 use crate::system::{LaneWork, System};
 
+/// Number of steps after which a run asks whether it is stopped.
+const BLOCK: u64 = 1 << 16;
+
 /// What every trajectory computes.
 pub(super) enum Task<'a> {
     /// Integrate to a time.
@@ -307,6 +310,9 @@ where
             });
             if self.put_in_lanes(lanes, live).is_none() {
                 for &place in live.iter() {
+                    if self.group.ensemble.is_stopped() {
+                        return Attempt::Stopped;
+                    }
                     let member = &mut self.group.members[place];
                     member.outcome = member.run.take_leg(&mut leg.clone());
                 }
@@ -353,6 +359,9 @@ where
                 lanes.go_back(mark);
                 self.take_from_lanes(lanes, live);
                 for &place in live {
+                    if self.group.ensemble.is_stopped() {
+                        return Attempt::Stopped;
+                    }
                     self.group.members[place].run_alone(&Task::At(rest), self.see);
                 }
                 return Attempt::Ended;
@@ -363,7 +372,8 @@ where
         Attempt::Ended
     }
 
-    /// Steps past the first of the times, observes the states at all times in the last step, and returns their number.
+    /// Steps past the first of the times, observes the states at all times in the last step, and returns their number; zero if the run was
+    /// stopped before.
     fn see_next<W>(
         &mut self,
         times: &[f64],
@@ -376,8 +386,13 @@ where
         S: System<W>,
     {
         let direction = lanes.step_size();
+        let mut steps = 0_u64;
         while is_after(direction, times[0], lanes.state().time) {
             lanes.step()?;
+            steps += 1;
+            if steps.is_multiple_of(BLOCK) && self.group.ensemble.is_stopped() {
+                return Ok(0);
+            }
         }
         let present = lanes.state();
         let dense = match times[0] == present.time {

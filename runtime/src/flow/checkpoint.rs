@@ -3,7 +3,7 @@
 use super::integrator::{Course, FlowIntegrator};
 use super::memory::Memory;
 use super::{Flow, Span};
-use crate::integrator::checkpoint::hash;
+use crate::integrator::brief::hash;
 use crate::integrator::{Checkpoint, CheckpointError};
 use crate::number::Vector;
 use crate::number::words::{Visit, Words, vector_words, words};

@@ -5,12 +5,13 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt::Write as _;
 
+use crate::integrator::brief::system_in_brief;
 use crate::integrator::clock::Clock;
 use crate::integrator::last_event::LastEvent;
 use crate::integrator::memory::StepMemory;
 use crate::integrator::{Integrator, Retry, Statistics};
 use crate::method::{Method, Solver, StageStorage, StepStatistics, Stopping, WarmStart};
-use crate::number::words::{Visit, Words, vector_words, words};
+use crate::number::words::{Visit, Words, words};
 use crate::number::{Scalar, Summation, Vector};
 use crate::state::State;
 use crate::system::System;
@@ -88,9 +89,10 @@ pub enum CheckpointError {
         expected: String,
     },
 
-    /// The system gives another velocity, force or flow at the state of the checkpoint.
+    /// The system gives another velocity, force, constraint or flow at the state of the checkpoint or beside it.
     #[error(
-        "the system gives another velocity, force or flow at the state of the checkpoint: it is another system, or has other parameters"
+        "the system gives another velocity, force, constraint or flow at the state of the checkpoint or beside it: it is another system, or \
+         has other parameters"
     )]
     OtherSystem,
 
@@ -249,7 +251,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             run.words(visit);
             beside.words(visit);
         })?;
-        let known = run.evaluations == run.evaluated(&self.system);
+        let known = run.brief == run.brief_of(&self.system);
         if !known || !mine(&run.course.state.q, beside) {
             return Err(CheckpointError::OtherSystem);
         }
@@ -299,9 +301,9 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             stopping: self.stopping,
             retry: self.retry,
             last_event: self.last_event,
-            evaluations: [0; 2],
+            brief: [0; 2],
         };
-        run.evaluations = run.evaluated(&self.system);
+        run.brief = run.brief_of(&self.system);
         run
     }
 }
@@ -314,8 +316,8 @@ struct Run<V, T> {
     stopping: Stopping,
     retry: Retry,
     last_event: Option<LastEvent>,
-    /// Hashes of velocity and force at the state, which detect a system with other parameters.
-    evaluations: [u64; 2],
+    /// Detects a system with other parameters.
+    brief: [u64; 2],
 }
 
 impl<V: Vector, T: StageStorage<V>> Run<V, T> {
@@ -363,28 +365,12 @@ impl<V: Vector, T: StageStorage<V>> Run<V, T> {
             Retry::Never => None,
             Retry::Split { halvings } => Some(halvings),
         };
-        words!(visit: halvings, self.last_event, self.evaluations);
+        words!(visit: halvings, self.last_event, self.brief);
         self.retry = halvings.map_or(Retry::Never, |halvings| Retry::Split { halvings });
     }
-
-    /// Hashes of velocity and force at the state.
-    fn evaluated<S: System<V>>(&self, system: &S) -> [u64; 2] {
+    /// [`system_in_brief`] at the state.
+    fn brief_of<S: System<V>>(&self, system: &S) -> [u64; 2] {
         let State { time, q, p } = &self.course.state;
-        let time = V::Scalar::from_f64(*time);
-        let mut found = [q.zeros_like(), q.zeros_like()];
-        system.velocity(time, q, p, &mut found[0]);
-        system.force(time, q, p, &mut found[1]);
-        found.map(|mut vector| hash(core::slice::from_mut(&mut vector)))
+        system_in_brief(system, *time, q, p)
     }
-}
-
-/// A hash of vectors. The upper half of each product is folded onto the lower half; otherwise it could miss changed signs of two
-/// components.
-pub(crate) fn hash<V: Vector>(vectors: &mut [V]) -> u64 {
-    let mut brief = 0_u64;
-    vector_words(vectors, &mut |word| {
-        let product = (brief ^ *word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        brief = product ^ (product >> 32);
-    });
-    brief
 }

@@ -33,6 +33,8 @@ use crate::state::State;
 use crate::system::{Class, System};
 
 #[cfg(feature = "alloc")]
+pub(crate) mod brief;
+#[cfg(feature = "alloc")]
 pub(crate) mod checkpoint;
 #[cfg(feature = "alloc")]
 mod in_lanes;

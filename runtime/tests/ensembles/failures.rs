@@ -123,6 +123,17 @@ fn a_run_ends_where_it_is_stopped() {
 }
 
 #[test]
+fn a_run_in_lanes_to_one_far_time_is_stopped_on_its_way() {
+    let mut ensemble = Ensemble::new(ForestRuth, SYSTEM, starts(2, 100), 0.1).expect("starts");
+    // The third question comes 65 536 steps after the second.
+    let asked = AtomicUsize::new(0);
+    ensemble.stop_if(move || asked.fetch_add(1, Ordering::Relaxed) >= 2);
+    let mut rows = Vec::new();
+    let next = ensemble.integrate_at(&[7000.0], |_| (), |(), _| (), keep(&mut rows, 0));
+    assert_eq!((next, rows.len()), (0, 0));
+}
+
+#[test]
 fn events_of_each() {
     let starts = starts(9, 4);
     let section = Event::rising(|state: &State<Vector2<f64>>| state.q[0]);

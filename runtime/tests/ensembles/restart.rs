@@ -56,6 +56,13 @@ fn a_resumed_ensemble_has_the_same_rows() {
     assert!(rows(&part(), 0).is_empty());
 }
 
+symplectic::hamiltonian! {
+    Swing { lift: 9.81, friction: 0 }
+    q: [a], p: [pa];
+    H = pa^2/2 - lift cos(a)
+    friction: friction
+}
+
 #[test]
 fn another_run_is_refused() {
     let checkpoint = ensemble(40, 0.02, 0.1).checkpoint(5).expect("f64");
@@ -89,6 +96,20 @@ fn another_run_is_refused() {
     let mut same = halves(0.02).expect("starts");
     same.restore(&checkpoint).expect("the same run");
 
+    // At rest in its lowest position a pendulum shows neither its length nor its friction.
+    let swings = |lift: f64, friction: f64| {
+        let rest = vec![symplectic::State::from_arrays(0.0, [0.0], [0.0]); 3];
+        let system = Swing { lift, friction };
+        Ensemble::new(StoermerVerlet, system, rest, 0.1).expect("starts")
+    };
+    let checkpoint = swings(9.81, 0.1).checkpoint(1).expect("f64");
+    for (lift, friction, same) in [(9.81, 0.1, true), (4.0, 0.1, false), (9.81, 0.2, false)] {
+        let found = swings(lift, friction).restore(&checkpoint);
+        let refused = matches!(found, Err(CheckpointError::OtherSystem));
+        assert!(found.is_ok() == same && refused != same, "{found:?}");
+    }
+
+    let checkpoint = ensemble(40, 0.02, 0.1).checkpoint(5).expect("f64");
     let mut other = Ensemble::new(StoermerVerlet, system, starts(40, 7), 0.1).expect("starts");
     assert!(matches!(
         other.restore(&checkpoint),

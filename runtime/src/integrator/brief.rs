@@ -1,0 +1,74 @@
+//! Hashes that identify a system in a checkpoint.
+
+use alloc::vec;
+
+use crate::number::words::vector_words;
+use crate::number::{Scalar, Vector};
+use crate::system::{Gradients, System};
+
+/// A hash of vectors. The upper half of each product is folded onto the lower half; otherwise it could miss changed signs of two
+/// components.
+pub(crate) fn hash<V: Vector>(vectors: &mut [V]) -> u64 {
+    let mut brief = 0_u64;
+    vector_words(vectors, &mut |word| brief = joined(brief, *word));
+    brief
+}
+
+/// The hash of a hash and a word.
+const fn joined(brief: u64, word: u64) -> u64 {
+    let product = (brief ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    product ^ (product >> 32)
+}
+
+/// Hashes of a system at a state and at a point beside it, where no symmetry hides a parameter as it may at the state: of velocity and
+/// force at both, and of friction, constraints and rows at the second.
+pub(crate) fn system_in_brief<V: Vector, S: System<V>>(
+    system: &S,
+    time: f64,
+    q: &V,
+    p: &V,
+) -> [u64; 2] {
+    let at = V::Scalar::from_f64(time);
+    let mut found = [q, q, q, q].map(V::zeros_like);
+    system.velocity(at, q, p, &mut found[0]);
+    system.force(at, q, p, &mut found[1]);
+    let (q, p) = (&beside(q), &beside(p));
+    system.velocity(at, q, p, &mut found[2]);
+    system.force(at, q, p, &mut found[3]);
+    let mut numbers = vec![V::Scalar::from_f64(0.0); system.constraints()];
+    if !numbers.is_empty() {
+        system.constraint_values(q, &mut numbers);
+    }
+    let (rows, dimension) = (system.nonholonomic_constraints(), q.dimension());
+    let rows = Gradients::learned(rows, dimension, |rows| system.nonholonomic_rows(q, rows));
+    numbers.extend(rows.values());
+    numbers.extend((0..dimension).map(|k| V::Scalar::from_f64(system.friction(k))));
+    // The bits of NaN differ between machines.
+    let known = |number: &mut V::Scalar| {
+        if !number.is_finite() {
+            *number = V::Scalar::from_f64(0.0);
+        }
+    };
+    let vectors = found.iter_mut().flat_map(V::as_mut_slice);
+    vectors.chain(&mut numbers).for_each(known);
+    let mut others = 0;
+    for number in &mut numbers {
+        number.as_words(&mut |word| others = joined(others, *word));
+    }
+    [hash(&mut found), others]
+}
+
+/// The vector plus 1/16 to 1/8 of its largest component, or of 1 if it is zero, in every component.
+fn beside<V: Vector>(vector: &V) -> V {
+    let sizes = vector.as_slice().iter().map(|x| x.magnitude());
+    let size = match sizes.fold(0.0, f64::max) {
+        0.0 => 1.0,
+        size => size,
+    };
+    let mut beside = vector.clone();
+    for (k, component) in beside.as_mut_slice().iter_mut().enumerate() {
+        let ratio = 1.0 + (k as f64 * 0.618_033_988_749_895) % 1.0;
+        *component += V::Scalar::from_f64(size * ratio / 16.0);
+    }
+    beside
+}
