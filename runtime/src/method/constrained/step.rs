@@ -512,6 +512,7 @@ pub(in crate::method) fn show_stages<V: Vector, S: System<V>>(
         }
         show(StageView {
             weight: step.size * weight.double(),
+            force_weight: step.size * weight.double(),
             time: step.at(tableau.nodes[i]),
             momentum_time: step.at(tableau.momentum_nodes[i]),
             q,

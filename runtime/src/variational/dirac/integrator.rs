@@ -4,6 +4,7 @@ use super::primary::consistent_velocity;
 use super::step::Equations;
 use super::{DiracRule, DiracSystem};
 use crate::error::Error;
+use crate::integrator::StepMap;
 use crate::integrator::pace::{Pace, Stepper};
 use crate::integrator::validation::check_state;
 use crate::method::Method;
@@ -91,6 +92,7 @@ use crate::variational::two_ends::dot;
 /// # Ok(())
 /// # }
 /// ```
+#[derive(Clone)]
 pub struct DiracIntegrator<L: DiracSystem> {
     system: L,
     equations: Equations<L>,
@@ -254,5 +256,23 @@ impl<L: DiracSystem> Stepper for DiracIntegrator<L> {
         core::mem::swap(&mut self.state, next);
         core::mem::swap(&mut self.velocity, velocity);
         Ok(())
+    }
+}
+
+impl<L: DiracSystem + Clone> StepMap for DiracIntegrator<L> {
+    type State = State<L::Vector<f64>>;
+
+    fn present(&self) -> &Self::State {
+        &self.state
+    }
+
+    fn step_from(&self, state: Self::State) -> Result<Self::State, Error> {
+        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
+        let mut run = self.clone();
+        run.velocity = consistent_velocity(&run.system, &state)?;
+        run.pace.restart(state.time);
+        run.state = state;
+        run.step()?;
+        Ok(run.state)
     }
 }

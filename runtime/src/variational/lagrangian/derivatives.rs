@@ -13,6 +13,7 @@ use crate::variational::failure::Failure;
 
 /// The momentum and its rate at a state of positions and velocities, with their Jacobians, and memory to evaluate them. Matrices are by
 /// rows.
+#[derive(Clone)]
 pub(crate) struct Derivatives<L: Lagrangian> {
     q: L::Vector<HyperDual>,
     v: L::Vector<HyperDual>,

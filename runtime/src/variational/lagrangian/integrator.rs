@@ -4,12 +4,14 @@ use super::coefficients::StageCoefficients;
 use super::legendre::{momentum_of_velocity, velocity_near, velocity_of_momentum};
 use super::stages::{Stages, Start};
 use crate::error::{Error, Quantity};
+use crate::integrator::StepMap;
 use crate::integrator::pace::{Pace, Stepper};
 use crate::integrator::validation::check_state;
 use crate::method::{Method, ProvedFor};
 use crate::number::Vector;
 use crate::state::State;
 use crate::system::{General, Lagrangian};
+use crate::variational::given_ends::GeneratingFunctions;
 use crate::variational::two_ends::dot;
 
 /// Takes the steps of a partitioned Runge–Kutta method in Lagrangian form (Marsden & West 2001, 2.6.1):
@@ -65,6 +67,7 @@ use crate::variational::two_ends::dot;
 /// # Ok(())
 /// # }
 /// ```
+#[derive(Clone)]
 pub struct LagrangianIntegrator<L: Lagrangian> {
     lagrangian: L,
     pace: Pace,
@@ -296,5 +299,45 @@ impl<L: Lagrangian> Stepper for LagrangianIntegrator<L> {
         self.action = Some(self.stages.action(size));
         core::mem::swap(&mut self.state, &mut self.next);
         Ok(())
+    }
+}
+
+impl<L: Lagrangian + Clone> LagrangianIntegrator<L> {
+    /// An integrator that took one step from `state`.
+    fn stepped_from(&self, state: State<L::Vector<f64>>) -> Result<Self, Error> {
+        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
+        let mut run = self.clone();
+        run.pace.restart(state.time);
+        run.state = state;
+        run.step()?;
+        Ok(run)
+    }
+}
+
+impl<L: Lagrangian + Clone> StepMap for LagrangianIntegrator<L> {
+    type State = State<L::Vector<f64>>;
+
+    fn present(&self) -> &Self::State {
+        &self.state
+    }
+
+    fn step_from(&self, state: Self::State) -> Result<Self::State, Error> {
+        Ok(self.stepped_from(state)?.state)
+    }
+}
+
+impl<L: Lagrangian + Clone> GeneratingFunctions for LagrangianIntegrator<L> {
+    type Vector = L::Vector<f64>;
+
+    /// Does not compile with a force.
+    fn step_with_action(&self, start: Self::State) -> Result<(Self::State, f64), Error> {
+        const {
+            assert!(
+                !L::FORCED,
+                "with a force a step is not symplectic and has no generating function"
+            )
+        }
+        let run = self.stepped_from(start)?;
+        Ok((run.state, run.action.unwrap_or(f64::NAN)))
     }
 }

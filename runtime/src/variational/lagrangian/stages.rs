@@ -13,6 +13,7 @@ use crate::variational::failure::Failure;
 use crate::variational::regular::{Factors, Singular, largest};
 
 /// The unknown velocities of a step, and quantities computed from them. Each list consists of vectors one after the other.
+#[derive(Clone)]
 pub(super) struct Stages<L: Lagrangian> {
     coefficients: StageCoefficients,
     /// The unknowns `V_k`.
