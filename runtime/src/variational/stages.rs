@@ -34,10 +34,17 @@ pub struct StageOfStep<V> {
     pub applied: V,
 }
 
-/// The stages of the tableau, for a composition those of all its steps; returned by [`Integrator::step_with_stages`].
+/// The stages of the tableau, for a composition those of all its steps; returned by [`Integrator::step_with_stages`] and by the methods of
+/// this name for Lagrangians.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StagesOfStep<V> {
     stages: Vec<StageOfStep<V>>,
+}
+
+impl<V> StagesOfStep<V> {
+    pub(super) const fn new(stages: Vec<StageOfStep<V>>) -> Self {
+        Self { stages }
+    }
 }
 
 impl<V: Vector> StagesOfStep<V> {

@@ -16,7 +16,7 @@ use crate::rolling::{
 
 symplectic::composition! {
     pub Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] }
-    pub Suzuki6 { base: stormer-verlet, weights: suzuki(6), require: [order == 6] }
+    pub Jump6 { base: stormer-verlet, weights: triple_jump(6), require: [order == 6] }
 }
 
 type V3<T> = SVector<T, 3>;

@@ -4,6 +4,7 @@ mod balances;
 mod chains;
 mod circuits;
 mod constrained_orders;
+mod costs;
 mod cotangent_lift;
 mod dependent_constraints;
 mod dirac;

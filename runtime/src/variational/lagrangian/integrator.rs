@@ -12,6 +12,7 @@ use crate::number::Vector;
 use crate::state::State;
 use crate::system::{General, Lagrangian};
 use crate::variational::given_ends::GeneratingFunctions;
+use crate::variational::stages::StagesOfStep;
 use crate::variational::two_ends::dot;
 
 /// Takes the steps of a partitioned Runge–Kutta method in Lagrangian form (Marsden & West 2001, 2.6.1):
@@ -202,6 +203,48 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
         self.one_step()?;
         Ok(&self.state)
+    }
+
+    /// Takes one step and returns its stages, for balances of energy and momentum. The force of a stage is `∂L/∂q + f`.
+    ///
+    /// The step changes the momentum map of a linear symmetry of L by exactly the [impulse](StagesOfStep::impulse) of the force, and
+    /// the energy by its [work](StagesOfStep::work) up to an error of the order of the method. Memory is allocated.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`step`](Self::step); the state is then unchanged.
+    ///
+    /// ```
+    /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
+    /// use symplectic::State;
+    /// use symplectic::variational::LagrangianIntegrator;
+    ///
+    /// symplectic::lagrangian! {
+    ///     /// A particle that is slowed down.
+    ///     Slowed q: [x], v: [vx];
+    ///     L = vx^2/2
+    ///     force: { x = -vx/4 }
+    /// }
+    ///
+    /// # fn main() -> Result<(), symplectic::Error> {
+    /// let mut run = LagrangianIntegrator::new(Gauss2, Slowed, State::from_arrays(0.0, [0.0], [1.0]), 0.1)?;
+    /// // Translations: J = p.
+    /// let impulse = run.step_with_stages()?.impulse(|_, out| out[0] = 1.0);
+    /// assert!((run.state().p[0] - 1.0 - impulse).abs() < 1e-15 && impulse < -0.02);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn step_with_stages(&mut self) -> Result<StagesOfStep<L::Vector<f64>>, Error> {
+        let State { time, q, p } = self.state.clone();
+        self.step()?;
+        let start = Start {
+            time,
+            size: self.pace.step_size(),
+            q: q.as_slice(),
+            p: p.as_slice(),
+        };
+        let stages = self.stages.of_step(&self.lagrangian, start);
+        Ok(StagesOfStep::new(stages))
     }
 
     /// Integrates to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or
