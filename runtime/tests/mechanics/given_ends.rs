@@ -8,7 +8,7 @@ use symplectic::variational::{
 };
 use symplectic::{Error, Integrator, Quantity, State};
 
-use crate::discrete_lagrangians::{AtTwoPoints, DoublePendulum, Trapezoid, perihelion};
+use crate::discrete_lagrangians::{AtTwoPoints, DoublePendulum, Shaken, Trapezoid, perihelion};
 use crate::forces::{ForestRuth, Gauss2, Lobatto3};
 use crate::symmetry::Twisted;
 
@@ -128,6 +128,30 @@ fn values() -> Result<(), Error> {
     assert!((found.value - expected.value).abs() < 1e-14);
     assert!(
         (found.start.p - expected.p0).amax() < 1e-14 && (found.end.q - expected.q1).amax() < 1e-14
+    );
+    Ok(())
+}
+
+/// The weights of forces and velocities of a splitting differ; the value by stages and that by Newton's iteration agree. If H depends on time
+/// there is no single energy of a stage.
+#[test]
+fn splittings() -> Result<(), Error> {
+    let (q0, p1) = (Vector2::new(0.5, -0.2), Vector2::new(0.3, 0.6));
+    let run = Integrator::new(ForestRuth, Swing, State::new(0.0, q0, p1), 0.2)?;
+    let found = run.type_two(&q0, &p1)?;
+    let expected = generating_function(ForestRuth, &Swing, 0.0, &q0, &p1, 0.2)?;
+    let error = (found.value - expected.value).abs();
+    assert!(error < 1e-14, "{error:e}");
+    let run = Integrator::new(
+        StoermerVerlet,
+        Shaken,
+        State::from_arrays(0.0, [0.5], [0.3]),
+        0.1,
+    )?;
+    let outcome = run.type_one(&Vector1::new(0.5), &Vector1::new(0.52));
+    assert!(
+        matches!(outcome, Err(Error::TwoClocks { .. })),
+        "{outcome:?}"
     );
     Ok(())
 }
