@@ -106,7 +106,7 @@ pub mod variational;
 pub use error::{ConstraintName, Error, Quantity};
 #[cfg(feature = "alloc")]
 pub use integrator::{Checkpoint, CheckpointError};
-pub use integrator::{Integrator, Retry, Statistics};
+pub use integrator::{Integrator, PhasePoint, Retry, Statistics, StepMap};
 #[cfg(feature = "alloc")]
 pub use method::{AtRunTime, RunTimeCoefficients, RunTimeTableau, TableauError};
 #[cfg(feature = "alloc")]

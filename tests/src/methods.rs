@@ -72,6 +72,15 @@ symplectic::composition! {
     /// Five midpoint steps, order 4, also with non-holonomic constraints.
     pub Midpoint4 { base: gauss-1, weights: suzuki(4), require: [order == 4] }
 
+    /// Twenty-five midpoint steps, order 6, also with non-holonomic constraints.
+    pub Midpoint6 { base: gauss-1, weights: suzuki(6), require: [order == 6] }
+
+    /// Five steps of Lobatto with two stages, with constraints of RATTLE, order 4.
+    pub Rattle4 { base: lobatto-2, weights: suzuki(4), require: [order == 4] }
+
+    /// Nine steps of Lobatto with two stages, with constraints of RATTLE, order 6.
+    pub Rattle6 { base: lobatto-2, weights: triple_jump(6), require: [order == 6] }
+
     /// Forest & Ruth, order 4.
     pub ForestRuth { base: forest-ruth-1990 }
 

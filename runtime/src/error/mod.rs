@@ -533,6 +533,23 @@ pub enum Error {
         component: Option<usize>,
     },
 
+    /// No step has the given ends, or they do not determine its start.
+    #[error(
+        "no {what} at the start of the step from time {time} was found for the given ends{} (relative residual {residual:e}); take another \
+         step size, or a generating function of another type",
+        Undetermined(*component)
+    )]
+    NoStart {
+        /// Time at the start of the step.
+        time: f64,
+        /// The unknown half of the start.
+        what: Quantity,
+        /// The component that the ends do not determine, from 0; `None` if Newton's iteration does not converge.
+        component: Option<usize>,
+        /// Distance of the last iterate from the given end, relative to the ends.
+        residual: f64,
+    },
+
     /// The position at the end of a step of a degenerate Lagrangian is not determined.
     #[error(
         "step {step} of size {step_size} at time {time}: component {component} of the position at the end of the step is not determined; \

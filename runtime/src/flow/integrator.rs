@@ -3,6 +3,7 @@
 use super::memory::Memory;
 use super::{Flow, FlowError, Span};
 use crate::error::{Error, Quantity};
+use crate::integrator::StepMap;
 use crate::integrator::pace::{Pace, Stepper};
 use crate::integrator::validation::check_state;
 use crate::method::storage::is_finite;
@@ -317,5 +318,23 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> Stepper for FlowIntegrator<V, F> {
         *last = Some(Last { start, size });
         state.time = end;
         Ok(())
+    }
+}
+
+impl<V: Vector<Scalar = f64>, F: Flow<V>> StepMap for FlowIntegrator<V, F>
+where
+    Self: Clone,
+{
+    type State = State<V>;
+
+    fn present(&self) -> &State<V> {
+        &self.course.state
+    }
+
+    fn step_from(&self, state: State<V>) -> Result<State<V>, Error> {
+        let mut run = self.clone();
+        run.set_state(state)?;
+        run.step()?;
+        Ok(run.into_state())
     }
 }

@@ -14,6 +14,7 @@ pub use checkpoint::{Checkpoint, CheckpointError};
 pub(crate) use in_lanes::CoupledLanes;
 pub use retry::Retry;
 pub use statistics::Statistics;
+pub use step_map::{PhasePoint, StepMap};
 
 use core::convert::Infallible;
 use core::fmt;
@@ -47,6 +48,7 @@ mod run_time;
 #[cfg(feature = "alloc")]
 pub(crate) mod side_by_side;
 mod solvers;
+mod step_map;
 pub(crate) mod validation;
 
 use memory::StepMemory;

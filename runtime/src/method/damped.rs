@@ -33,7 +33,8 @@ pub struct DampedPlan<M>(PhantomData<M>);
 /// `h β_k` is the length of kick k; β_k is the sum of the weights `b̃_i` of successive stages with the same position. For h > 0 only
 /// negative kicks grow, and x is 0 if there are none. The method is one that steps systems of class [`Damped`].
 ///
-/// `rate` is γ, one over time, as in [`Hamiltonian::friction`](crate::Hamiltonian::friction); `step_size` is h, a time; x has no unit. With
+/// `rate` is γ, one over time, as in [`Hamiltonian::friction`](crate::Hamiltonian::friction); `step_size` is h, a time; x has no unit, and
+/// is NaN if either is. With
 /// x = 1 a kick multiplies a momentum and its errors by e, and the positive kicks of the step undo it. Keep x well below 1, by a smaller step
 /// or by a method whose kicks are positive.
 ///
@@ -60,7 +61,11 @@ pub fn friction_growth<M: Method + ProvedFor<Damped>>(
         let weights = weights.by_ref().take(same.len());
         weights.sum::<f64>()
     });
-    kicks.fold(0.0, |largest, kick| largest.max(-rate * step_size * kick))
+    kicks.fold(0.0, |largest, kick| {
+        let growth = -rate * step_size * kick;
+        // NaN once and for all.
+        if growth <= largest { largest } else { growth }
+    })
 }
 
 /// The system as a separable one; only kicks use its friction.

@@ -110,6 +110,8 @@ impl Span {
 pub struct StageView<'a, V> {
     /// `h b_i`
     pub weight: f64,
+    /// `h b̃_i`
+    pub force_weight: f64,
     /// `t0 + c_i h`
     pub time: f64,
     /// `t0 + c̃_i h`

@@ -1,7 +1,5 @@
 //! Balance of a quantity and its supply.
 
-use crate::state::State;
-
 /// Observes a balance: the deviation of a function of the state from its first value plus the total supply since.
 ///
 /// Examples: the energy and the [work](crate::variational::StagesOfStep::work) of an applied force; a momentum map and
@@ -35,10 +33,10 @@ pub struct Balance<F> {
 }
 
 impl<F> Balance<F> {
-    /// A balance of `function` that begins at the state `start`.
-    pub fn new<V>(function: F, start: &State<V>) -> Self
+    /// A balance of `function` that begins at the state `start`, of any type.
+    pub fn new<T>(function: F, start: &T) -> Self
     where
-        F: Fn(&State<V>) -> f64,
+        F: Fn(&T) -> f64,
     {
         let initial = function(start);
         Self {
@@ -52,9 +50,9 @@ impl<F> Balance<F> {
     }
 
     /// Observes a state; `supplied` is the supply since the previous state.
-    pub fn observe<V>(&mut self, state: &State<V>, supplied: f64)
+    pub fn observe<T>(&mut self, state: &T, supplied: f64)
     where
-        F: Fn(&State<V>) -> f64,
+        F: Fn(&T) -> f64,
     {
         let add = supplied + self.rest;
         let sum = self.supplied + add;

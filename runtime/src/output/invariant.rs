@@ -45,10 +45,10 @@ pub struct Invariant<F> {
 }
 
 impl<F> Invariant<F> {
-    /// An observer of `function`, beginning with a state.
-    pub fn new<V>(function: F, start: &State<V>) -> Self
+    /// An observer of `function`, beginning with a state, of any type.
+    pub fn new<T>(function: F, start: &T) -> Self
     where
-        F: Fn(&State<V>) -> f64,
+        F: Fn(&T) -> f64,
     {
         let initial = function(start);
         Self {
@@ -60,9 +60,9 @@ impl<F> Invariant<F> {
     }
 
     /// Looks at a state.
-    pub fn observe<V>(&mut self, state: &State<V>)
+    pub fn observe<T>(&mut self, state: &T)
     where
-        F: Fn(&State<V>) -> f64,
+        F: Fn(&T) -> f64,
     {
         self.last = (self.function)(state);
         let deviation = (self.last - self.initial).abs();

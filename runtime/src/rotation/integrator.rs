@@ -7,6 +7,7 @@ use super::body::RigidBody;
 use super::free_step::{NoRotation, rotation};
 use super::state::RotationState;
 use crate::error::{Error, Quantity};
+use crate::integrator::StepMap;
 use crate::integrator::pace::{Pace, Stepper};
 use crate::method::Method;
 use crate::method::symmetric_steps::{Part, SymmetricSteps};
@@ -243,6 +244,24 @@ impl<B: RigidBody> Stepper for RotationIntegrator<B> {
         self.course = course;
         self.state = RotationState::new(end, attitude, momentum);
         Ok(())
+    }
+}
+
+impl<B: RigidBody + Clone> StepMap for RotationIntegrator<B> {
+    type State = RotationState;
+
+    fn present(&self) -> &RotationState {
+        &self.state
+    }
+
+    fn step_from(&self, state: RotationState) -> Result<RotationState, Error> {
+        check_state(&state)?;
+        let mut run = self.clone();
+        run.pace.restart(state.time);
+        run.course = Course::new(&state);
+        run.state = state;
+        run.step()?;
+        Ok(run.state)
     }
 }
 

@@ -1,6 +1,9 @@
 //! State of a rigid body.
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+
+use crate::integrator::PhasePoint;
+use crate::state::State;
 
 /// The attitude and the angular momentum of a rigid body at a time.
 ///
@@ -36,5 +39,17 @@ impl RotationState {
     /// The angular momentum `RΠ`, in the space frame.
     pub fn spatial_momentum(&self) -> Vector3<f64> {
         self.attitude * self.momentum
+    }
+}
+
+/// `q = R` and `p = RΠ̂/2` in `T*R⁹`: with `dR = Rη̂` the canonical form `tr(pᵀdR)` is `Π·η`, that of `T*SO(3)`. So `dq∧dp` is
+/// `η·dΠ' − η'·dΠ + Π·(η×η')` on two directions.
+impl PhasePoint for RotationState {
+    type Vector = Matrix3<f64>;
+
+    fn canonical(&self) -> State<Matrix3<f64>> {
+        let attitude = self.attitude.to_rotation_matrix().into_inner();
+        let momentum = attitude * self.momentum.cross_matrix() * 0.5;
+        State::new(self.time, attitude, momentum)
     }
 }

@@ -84,6 +84,7 @@ impl<L: DiscreteLagrangian> DiscreteLagrangian for &L {
 }
 
 /// The derivatives of a discrete Lagrangian and of its forces at two positions, and the memory to evaluate them.
+#[derive(Clone)]
 pub(super) struct Derivatives<L: DiscreteLagrangian> {
     q0: L::Vector<HyperDual>,
     q1: L::Vector<HyperDual>,

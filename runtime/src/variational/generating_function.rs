@@ -1,7 +1,6 @@
 //! The generating function of a step.
 
-use num_traits::Zero;
-
+use super::energies::{EnergyAt, weighted_energy};
 use super::two_ends::{Unknowns, dot, solve, sum};
 use crate::error::{Error, Quantity};
 use crate::integrator::Integrator;
@@ -39,11 +38,11 @@ impl<V: Vector> GeneratingFunction<V> {
 /// `q0` at its start and the momentum `p1` at its end (Leok & Zhang, eq. 43):
 ///
 /// ```text
-/// H_d⁺(q0, p1) = p1·q0 − h² Σ_ij b_i a_ij ∂H/∂q(Q_i, P_i)·∂H/∂p(Q_j, P_j) + h Σ_i b_i H(Q_i, P_i)
+/// H_d⁺(q0, p1) = p1·q0 − h² Σ_ij b̃_i a_ij ∂H/∂q(Q_i, P_i)·∂H/∂p(Q_j, P_j) + h Σ_i b_i H(Q_i, P_i)
 /// p0 = D1 H_d⁺(q0, p1)      q1 = D2 H_d⁺(q0, p1)
 /// ```
 ///
-/// $$ H_d^{+}(q_0, p_1) = p_1 q_0 - h^2 \sum_{ij} b_i a_{ij} \frac{\partial H}{\partial q}(Q_i, P_i)
+/// $$ H_d^{+}(q_0, p_1) = p_1 q_0 - h^2 \sum_{ij} \tilde b_i a_{ij} \frac{\partial H}{\partial q}(Q_i, P_i)
 /// \frac{\partial H}{\partial p}(Q_j, P_j) + h \sum_i b_i H(Q_i, P_i) $$
 ///
 /// with the stages of the step from `(q0, p0)` to `(q1, p1)`. These are found from the two given ends,
@@ -53,9 +52,9 @@ impl<V: Vector> GeneratingFunction<V> {
 /// ```
 ///
 /// by the iteration of [`FixedPoint`](crate::solver::FixedPoint), with its stopping criterion. `p0` and `q1` come from these stages. They
-/// are the derivatives of the function because the method is symplectic. **It holds for symplectic methods only**, `b = b̃` and
-/// `b_i ã_ij + b̃_j a_ji = b_i b̃_j`, which includes every method that the macro derives. For another method, written by hand, the value
-/// has no meaning.
+/// are the derivatives of the function because the method is symplectic. **It holds for symplectic methods only**,
+/// `b_i ã_ij + b̃_j a_ji = b_i b̃_j`, which includes every method that the macro derives. If `b̃ ≠ b`, as for splittings, the last sum is
+/// `h Σ_i (b_i T(P_i) + b̃_i U(Q_i))`. For another method, written by hand, the value has no meaning.
 ///
 /// The sum over l = 0..k of `H_d⁺(q_l, p_{l+1}) − p_{l+1}·q_{l+1}` along an orbit, plus `p_k·q_k`, is the discrete extremum function, whose
 /// derivative with respect to `p_k` is `q_k` (eq. 21 to 24). Unlike a discrete Lagrangian it exists for degenerate systems too, such as
@@ -205,7 +204,7 @@ fn generating<M: Method, S: System<V>, V: Vector>(
             "with an applied force a step is not symplectic and has no generating function"
         );
     }
-    let (mut stages, [p0, q1]) = solve::<M, S, V>(system, step, number, stopping)?;
+    let (mut stages, [p0, q1]) = solve::<false, M, S, V>(system, step, number, stopping)?;
     let value = stages.value(system, step, number)?;
     Ok(GeneratingFunction { value, p0, q1 })
 }
@@ -225,32 +224,36 @@ impl<M: Method, V: Vector> Unknowns<M, V> {
             what: Quantity::Energy,
             stage,
         };
-        let mut value = V::Scalar::zero();
         let Coefficients { c, c_tilde, .. } = M::COEFFICIENTS;
-        let rows = self.weights.a.iter().zip(&self.weights.b);
         let times = c.iter().zip(c_tilde);
-        let stages = self.q.iter().zip(&self.p).zip(&self.force);
-        for (i, (((row, &b), (&c, &c_tilde)), ((q, p), force))) in
-            rows.zip(times).zip(stages).enumerate()
-        {
-            let [position_time, momentum_time] = [c, c_tilde].map(|c| step.at(c));
-            let energy = system.energy(position_time, q, p).ok_or(Error::NoEnergy)?;
-            if !energy.is_finite() {
-                return Err(not_finite(Some(i + 1)));
-            }
-            // A system that does not depend on time gives the same number, bit for bit.
-            if position_time != momentum_time && system.energy(momentum_time, q, p) != Some(energy)
-            {
-                let [position_time, momentum_time] = [c, c_tilde].map(|c| step.at(c));
-                return Err(Error::TwoClocks {
-                    stage: i + 1,
-                    position_time,
-                    momentum_time,
+        let weights = self.weights.b.iter().zip(&self.weights.other);
+        let places = self.q.iter().zip(&self.p);
+        let stages =
+            times
+                .zip(weights.zip(places))
+                .map(|((&c, &c_tilde), ((&b, &back), (q, p)))| EnergyAt {
+                    weights: [b, -back],
+                    times: [step.at(c), step.at(c_tilde)],
+                    q,
+                    p,
                 });
+        let mut value = weighted_energy(system, (step.q, step.p), stages, |energy, stage| {
+            if energy.is_finite() {
+                Ok(())
+            } else {
+                Err(not_finite(Some(stage)))
             }
-            // −h² Σ_j b_i a_ij ∂H/∂q_i·∂H/∂p_j is h b_i force_i·(Q_i − q0).
+        })?;
+        for ((row, &back), force) in self
+            .weights
+            .a
+            .iter()
+            .zip(&self.weights.other)
+            .zip(&self.force)
+        {
+            // −h² Σ_j b̃_i a_ij ∂H/∂q_i·∂H/∂p_j is h b̃_i force_i·(Q_i − q0).
             sum(&mut self.increment, row, &self.velocity);
-            value += b * (dot(force, &self.increment) + energy);
+            value -= back * dot(force, &self.increment);
         }
         value += dot(step.p, step.q);
         if value.is_finite() {

@@ -2,8 +2,10 @@
 
 use super::discrete_lagrangian::{At, Derivatives, DiscreteLagrangian};
 use super::failure::Failure;
+use super::given_ends::GeneratingFunctions;
 use super::regular::Factors;
 use crate::error::{Error, Quantity};
+use crate::integrator::StepMap;
 use crate::integrator::pace::{Pace, Stepper};
 use crate::integrator::validation::check_state;
 use crate::method::Method;
@@ -58,6 +60,7 @@ use crate::state::State;
 /// # Ok(())
 /// # }
 /// ```
+#[derive(Clone)]
 pub struct VariationalIntegrator<L: DiscreteLagrangian> {
     lagrangian: L,
     steps: SymmetricSteps,
@@ -260,5 +263,45 @@ impl<L: DiscreteLagrangian> Stepper for VariationalIntegrator<L> {
         core::mem::swap(&mut self.state, &mut self.next);
         self.action = Some(action);
         Ok(())
+    }
+}
+
+impl<L: DiscreteLagrangian + Clone> VariationalIntegrator<L> {
+    /// An integrator that took one step from `state`.
+    fn stepped_from(&self, state: State<L::Vector<f64>>) -> Result<Self, Error> {
+        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
+        let mut run = self.clone();
+        run.pace.restart(state.time);
+        run.state = state;
+        run.step()?;
+        Ok(run)
+    }
+}
+
+impl<L: DiscreteLagrangian + Clone> StepMap for VariationalIntegrator<L> {
+    type State = State<L::Vector<f64>>;
+
+    fn present(&self) -> &Self::State {
+        &self.state
+    }
+
+    fn step_from(&self, state: Self::State) -> Result<Self::State, Error> {
+        Ok(self.stepped_from(state)?.state)
+    }
+}
+
+impl<L: DiscreteLagrangian + Clone> GeneratingFunctions for VariationalIntegrator<L> {
+    type Vector = L::Vector<f64>;
+
+    /// Does not compile with a force.
+    fn step_with_action(&self, start: Self::State) -> Result<(Self::State, f64), Error> {
+        const {
+            assert!(
+                !L::FORCED,
+                "with a force a step is not symplectic and has no generating function"
+            )
+        }
+        let run = self.stepped_from(start)?;
+        Ok((run.state, run.action.unwrap_or(f64::NAN)))
     }
 }

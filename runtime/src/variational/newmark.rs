@@ -156,11 +156,15 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`]; [`Error::NewmarkPosition`] if no such `q` is found.
+    /// [`Error::Dimension`], [`Error::NonFiniteState`]; [`Error::ResizedEvaluation`]; [`Error::NewmarkPosition`] if no such `q` is found.
     pub fn unshift(&self, state: &State<S::Vector<f64>>) -> Result<State<S::Vector<f64>>, Error> {
         let State { time, q, p } = state;
         check_state(*time, q, p, q.dimension())?;
-        let q = self.at_position(*time, q, S::Vector::clone)?;
+        let q = match self.at_position(*time, q, S::Vector::clone) {
+            Ok(q) => q,
+            // A wrong dimension may be why there is no position.
+            Err(error) => return self.acceleration(*time, q).and(Err(error)),
+        };
         Ok(State::new(*time, q, p.clone()))
     }
 

@@ -52,6 +52,11 @@ impl Factors {
 
     /// Factors the matrix with these rows.
     pub(super) fn factor(&mut self, rows: &[f64]) -> Result<(), Singular> {
+        self.factor_above(rows, 0.0)
+    }
+
+    /// [`factor`](Self::factor) where entries up to `floor` are zero.
+    pub(super) fn factor_above(&mut self, rows: &[f64], floor: f64) -> Result<(), Singular> {
         let n = self.largest.len();
         for (column, largest) in self.largest.iter_mut().enumerate() {
             let entries = rows.iter().skip(column).step_by(n.max(1));
@@ -62,8 +67,9 @@ impl Factors {
             return Err(Singular { component, pivot });
         }
         for (component, largest) in self.largest.iter().enumerate() {
-            let pivot = Float::abs(self.elimination.pivot(component)) / largest;
-            if pivot < 8.0 * n as f64 * f64::EPSILON {
+            let size = Float::abs(self.elimination.pivot(component));
+            let pivot = size / largest;
+            if size <= floor || pivot < 8.0 * n as f64 * f64::EPSILON {
                 return Err(Singular { component, pivot });
             }
         }

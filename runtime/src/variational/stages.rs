@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 
+use super::energies::{EnergyAt, weighted_energy};
 use super::two_ends::{dot, solve};
 use crate::error::{Error, Quantity};
 use crate::integrator::Integrator;
@@ -15,6 +16,8 @@ use crate::system::{Class, System};
 pub struct StageOfStep<V> {
     /// `h b_i`
     pub weight: f64,
+    /// `h b̃_i`, the same except for splittings.
+    pub force_weight: f64,
     /// The time of the position and of the force, `t0 + c_i h`.
     pub time: f64,
     /// The time of the momentum and of the velocity, `t0 + c̃_i h`.
@@ -31,10 +34,17 @@ pub struct StageOfStep<V> {
     pub applied: V,
 }
 
-/// The stages of the tableau, for a composition those of all its steps; returned by [`Integrator::step_with_stages`].
+/// The stages of the tableau, for a composition those of all its steps; returned by [`Integrator::step_with_stages`] and by the methods of
+/// this name for Lagrangians.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StagesOfStep<V> {
     stages: Vec<StageOfStep<V>>,
+}
+
+impl<V> StagesOfStep<V> {
+    pub(super) const fn new(stages: Vec<StageOfStep<V>>) -> Self {
+        Self { stages }
+    }
 }
 
 impl<V: Vector> StagesOfStep<V> {
@@ -43,15 +53,15 @@ impl<V: Vector> StagesOfStep<V> {
         &self.stages
     }
 
-    /// The work of the applied force, `h Σ b_i f_i·v_i`.
+    /// The work of the applied force, `h Σ b̃_i f_i·v_i`.
     ///
     /// The exact flow changes the energy by the integral of `f·v`. A step changes it by the work, up to an error of the order of the
-    /// method.
+    /// method; of a splitting up to one of order 1, because its velocities are not those at the places of the forces.
     pub fn work(&self) -> V::Scalar {
         self.sum(|stage| dot(&stage.applied, &stage.velocity))
     }
 
-    /// The impulse of the applied force in the direction of a symmetry with the generator `ξ_Q`, `h Σ b_i f_i·ξ_Q(Q_i)`; `generator(q, out)`
+    /// The impulse of the applied force in the direction of a symmetry with the generator `ξ_Q`, `h Σ b̃_i f_i·ξ_Q(Q_i)`; `generator(q, out)`
     /// writes `ξ_Q(q)` into `out`.
     ///
     /// If H, and constraints if there are any, have this symmetry and `ξ_Q` is linear in q, the momentum map `J = p·ξ_Q(q)` changes in a
@@ -67,25 +77,41 @@ impl<V: Vector> StagesOfStep<V> {
         })
     }
 
-    /// The discrete Lagrangian `L_d(q0, q1) = h Σ b_i (P_i·v_i − H(Q_i, P_i))`, the action of the step.
+    /// The discrete Lagrangian `L_d(q0, q1) = h Σ (b_i P_i·v_i − b_i T(P_i) − b̃_i U(Q_i))`, the action of the step; without `H = T + U`,
+    /// where `b̃ = b`, `h Σ b_i (P_i·v_i − H(Q_i, P_i))`.
     ///
     /// # Errors
-    /// [`Error::NoEnergy`] if the system has no energy.
+    ///
+    /// [`Error::NoEnergy`] if the system has no energy; [`Error::TwoClocks`] if it depends on time and the method has `c ≠ c̃`.
     pub fn action<S: System<V>>(&self, system: &S) -> Result<V::Scalar, Error> {
-        let mut action = V::Scalar::from_f64(0.0);
-        for stage in &self.stages {
-            let time = V::Scalar::from_f64(stage.time);
-            let energy = system.energy(time, &stage.q, &stage.p);
-            let lagrangian = dot(&stage.p, &stage.velocity) - energy.ok_or(Error::NoEnergy)?;
-            action += V::Scalar::from_f64(stage.weight) * lagrangian;
+        let Some(first) = self.stages.first() else {
+            return Ok(V::Scalar::from_f64(0.0));
+        };
+        let stages = self.stages.iter().map(|stage| EnergyAt {
+            weights: [stage.weight, stage.force_weight].map(V::Scalar::from_f64),
+            times: [stage.time, stage.momentum_time],
+            q: &stage.q,
+            p: &stage.p,
+        });
+        let energy = weighted_energy(system, (&first.q, &first.p), stages, |_, _| Ok(()))?;
+        let mut action = -energy;
+        for StageOfStep {
+            weight,
+            p,
+            velocity,
+            ..
+        } in &self.stages
+        {
+            action += V::Scalar::from_f64(*weight) * dot(p, velocity);
         }
         Ok(action)
     }
 
+    /// With the weights of forces.
     fn sum(&self, mut term: impl FnMut(&StageOfStep<V>) -> V::Scalar) -> V::Scalar {
         let mut sum = V::Scalar::from_f64(0.0);
         for stage in &self.stages {
-            sum += V::Scalar::from_f64(stage.weight) * term(stage);
+            sum += V::Scalar::from_f64(stage.force_weight) * term(stage);
         }
         sum
     }
@@ -132,15 +158,16 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// # }
     /// ```
     pub fn step_with_stages(&mut self) -> Result<StagesOfStep<V>, Error> {
-        self.step_solved_by(stages::<M, S, V, R>)
+        self.step_solved_by(|system, step, _, number, stopping| {
+            stages::<M, S, V, R>(system, step, number, stopping)
+        })
     }
 }
 
-/// The stages of a step with known position and momentum at its start and known momentum at its end.
+/// The stages of a step with known position and momentum at its start.
 fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
     system: &S,
     step: &Step<'_, V>,
-    p1: &V,
     number: u64,
     stopping: Stopping,
 ) -> Result<StagesOfStep<V>, Error> {
@@ -170,6 +197,7 @@ fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
         }
         stages.push(StageOfStep {
             weight: view.weight,
+            force_weight: view.force_weight,
             time: view.time,
             momentum_time: view.momentum_time,
             q: q.clone(),
@@ -185,14 +213,15 @@ fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
         Some(Ok(())) => {}
         Some(Err(failure)) => return Err(error(step, number, failure)),
         None => {
-            let step = Step { p: p1, ..*step };
-            let (found, _) = solve::<M, S, V>(system, &step, number, stopping)?;
+            let (found, _) = solve::<true, M, S, V>(system, step, number, stopping)?;
             let coefficients = M::COEFFICIENTS;
             let nodes = coefficients.c.iter().zip(coefficients.c_tilde);
             let places = found.q.iter().zip(&found.p);
-            for ((&c, &c_tilde), ((q, p), &b)) in nodes.zip(places.zip(coefficients.b)) {
+            let weights = coefficients.b.iter().zip(coefficients.b_tilde);
+            for ((&c, &c_tilde), ((q, p), (b, b_tilde))) in nodes.zip(places.zip(weights)) {
                 add(StageView {
                     weight: step.size * b.double(),
+                    force_weight: step.size * b_tilde.double(),
                     time: step.at(c),
                     momentum_time: step.at(c_tilde),
                     q,

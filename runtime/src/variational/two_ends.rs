@@ -1,4 +1,4 @@
-//! The stages of a step, found from the position at its start and the momentum at its end.
+//! The stages of a step, found from the position at its start and the momentum at one of its ends.
 
 use alloc::vec::Vec;
 use core::marker::PhantomData;
@@ -16,9 +16,9 @@ use crate::number::{Coefficient, Coefficients, Plain, Scalar, Summation, Vector,
 use crate::solver::fixed_point::by_stages;
 use crate::system::{Class, System};
 
-/// The stages of the step with position `step.q` at its start and momentum `step.p` at its end; also the momentum at the start and the
-/// position at the end. `number` is the number of the step, for errors.
-pub(super) fn solve<M: Method, S: System<V>, V: Vector>(
+/// The stages of the step with position `step.q` at its start and momentum `step.p` at its end, or at its start too if `FORWARD`; also the
+/// momentum at the other end and the position at the end. `number` is the number of the step, for errors.
+pub(super) fn solve<const FORWARD: bool, M: Method, S: System<V>, V: Vector>(
     system: &S,
     step: &Step<'_, V>,
     number: u64,
@@ -32,8 +32,8 @@ pub(super) fn solve<M: Method, S: System<V>, V: Vector>(
     }
     let mut stages = Unknowns::<M, V>::like(step.q);
     let zeros = || step.q.zeros_like();
-    let (mut q1, mut p0) = (zeros(), zeros());
-    let outcome = by_stages::<TypeTwo<M, S::Class>, Plain, V, S>(
+    let (mut q1, mut p) = (zeros(), zeros());
+    let outcome = by_stages::<Ends<FORWARD, M, S::Class>, Plain, V, S>(
         step,
         system,
         &mut stages,
@@ -42,7 +42,7 @@ pub(super) fn solve<M: Method, S: System<V>, V: Vector>(
         Outcome {
             q: &mut q1,
             q_low: &mut zeros(),
-            p: &mut p0,
+            p: &mut p,
             p_low: &mut zeros(),
         },
     );
@@ -53,20 +53,20 @@ pub(super) fn solve<M: Method, S: System<V>, V: Vector>(
         dimension: step.q.dimension(),
     };
     let mismatch = stages.mismatch(attempt.dimension);
-    let sound = mismatch.is_none() && is_finite(&q1) && is_finite(&p0);
+    let sound = mismatch.is_none() && is_finite(&q1) && is_finite(&p);
     if outcome.is_err() || !sound {
         // The stages are in memory for the error.
         let observed = FirstFault::new(attempt.dimension);
         return Err(attempt.error(outcome.err(), &observed, &stages, &q1));
     }
-    Ok((stages, [p0, q1]))
+    Ok((stages, [p, q1]))
 }
 
-/// The plan that goes from `(q0, p1)` to `(q1, p0)`. The position and the momentum of its [`Step`] are the known `q0` and `p1`, and the
-/// momentum of its result is `p0`.
-struct TypeTwo<M, C>(PhantomData<(M, C)>);
+/// The plan that goes from `(q0, p1)` to `(q1, p0)`, or `FORWARD` from `(q0, p0)` to `(q1, p1)`. The position and the momentum of its
+/// [`Step`] are the known ones, and the momentum of its result is the other one.
+struct Ends<const FORWARD: bool, M, C>(PhantomData<(M, C)>);
 
-impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
+impl<const FORWARD: bool, M: Method, C: Class> StagePlan for Ends<FORWARD, M, C> {
     type Class = C;
     type Stages<V: Vector> = Unknowns<M, V>;
 
@@ -84,7 +84,7 @@ impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
         stages: &mut Unknowns<M, V>,
         _kept: WarmStart,
     ) {
-        stages.weights = Weights::new(&M::COEFFICIENTS, step.size);
+        stages.weights = Weights::new(&M::COEFFICIENTS, step.size, FORWARD);
         stages.q.iter_mut().for_each(|q| q.clone_from(step.q));
         stages.p.iter_mut().for_each(|p| p.clone_from(step.p));
         // One evaluation for all stages: the iteration does the rest.
@@ -146,7 +146,7 @@ impl<M: Method, C: Class> StagePlan for TypeTwo<M, C> {
         let mut unused = HalfChange::default();
         sum(increment, &weights.b, velocity);
         settle(outcome.q, step.q, increment, &mut unused);
-        sum(increment, &weights.back, force);
+        sum(increment, &weights.other, force);
         settle(outcome.p, step.p, increment, &mut unused);
     }
 }
@@ -169,19 +169,22 @@ pub(super) struct Unknowns<M, V: Vector> {
 pub(super) struct Weights<T> {
     /// `h a_ij`
     pub(super) a: Vec<Vec<T>>,
-    /// `−h (b̃_j − ã_ij)`
+    /// `−h (b̃_j − ã_ij)` from `p1`, `h ã_ij` from `p0`.
     rest: Vec<Vec<T>>,
     /// `h b_i`
     pub(super) b: Vec<T>,
-    /// `−h b̃_i`
-    back: Vec<T>,
+    /// `−h b̃_i` from `p1`, `h b̃_i` from `p0`.
+    pub(super) other: Vec<T>,
 }
 
 impl<T: Scalar> Weights<T> {
-    fn new(coefficients: &Coefficients, h: f64) -> Self {
+    fn new(coefficients: &Coefficients, h: f64, forward: bool) -> Self {
         let weights =
             |h: f64, list: &[Coefficient]| list.iter().map(|&c| T::weight(h, c)).collect();
         let rest = |row: &&[Coefficient]| {
+            if forward {
+                return weights(h, row);
+            }
             let pairs = coefficients.b_tilde.iter().zip(*row);
             pairs
                 .map(|(&b, &a)| T::weight(-h, difference(b, a)))
@@ -191,7 +194,7 @@ impl<T: Scalar> Weights<T> {
             a: coefficients.a.iter().map(|row| weights(h, row)).collect(),
             rest: coefficients.a_tilde.iter().map(rest).collect(),
             b: weights(h, coefficients.b),
-            back: weights(-h, coefficients.b_tilde),
+            other: weights(if forward { h } else { -h }, coefficients.b_tilde),
         }
     }
 }
@@ -210,7 +213,7 @@ impl<M: Method, V: Vector> StageStorage<V> for Unknowns<M, V> {
             velocity: vectors(),
             force: vectors(),
             increment: prototype.zeros_like(),
-            weights: Weights::new(&M::COEFFICIENTS, 0.0),
+            weights: Weights::new(&M::COEFFICIENTS, 0.0, false),
             method: PhantomData,
         }
     }

@@ -9,4 +9,5 @@ mod elementary;
 mod lanes;
 mod local_force;
 mod not_a_number;
+mod plain_steps;
 mod slopes;

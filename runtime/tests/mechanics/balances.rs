@@ -2,9 +2,18 @@
 
 use symplectic::nalgebra::{SVector, Vector2};
 use symplectic::output::Balance;
-use symplectic::{Error, Hamiltonian, Integrator, Method, ProvedFor, State, System};
+use symplectic::system::Gradients;
+use symplectic::variational::{
+    DiracIntegrator, DiracRule, DiracSystem, LagrangianIntegrator, StagesOfStep,
+};
+use symplectic::{
+    Error, Hamiltonian, Integrator, Lagrangian, Method, ProvedFor, Scalar, State, System,
+};
 
+use crate::dirac::Suzuki4;
 use crate::forces::{Gauss2, Gauss3, Lobatto2, Lobatto4, Midpoint, Ring, ring_start};
+use crate::lagrangians::TwoOfThree;
+use crate::rolling::{Disk, disk_start};
 
 /// A step of the classical Runge–Kutta method.
 fn runge_kutta(
@@ -211,4 +220,152 @@ fn stages_cost_evaluations() -> Result<(), Error> {
     let ratio = f64::from(costs[1]) / f64::from(costs[0]);
     assert!((2.0..4.0).contains(&ratio), "{ratio} {costs:?}");
     Ok(())
+}
+
+symplectic::lagrangian! {
+    /// A particle in a ring-shaped valley, with friction, whose mass depends on the place.
+    pub Valley { drag: 0.25 }
+    q: [x, y], v: [vx, vy];
+    let r2 = x^2 + y^2;
+    L = (1 + r2/4) (vx^2 + vy^2)/2 - r2 (r2 - 1)^2
+    force: { x = -drag vx, y = -drag vy }
+}
+
+impl DiracSystem for Valley {}
+
+/// For Lagrangians too: methods of Runge and Kutta, Galerkin paths with more nodes than functions, and the rules of Dirac mechanics.
+#[test]
+fn balances_of_lagrangians() -> Result<(), Error> {
+    type Plane = State<Vector2<f64>>;
+    /// Checks the balance of the angular momentum, and returns the defect of that of the energy. `step` returns the state and the energy after a
+    /// step, with its stages.
+    fn defect<S>(start: &Plane, energy: f64, mut step: S) -> Result<f64, Error>
+    where
+        S: FnMut() -> Result<(Plane, f64, StagesOfStep<Vector2<f64>>), Error>,
+    {
+        let (mut before, mut energy, mut first) = (angular_momentum(start), energy, None);
+        for _ in 0..20 {
+            let (state, after, stages) = step()?;
+            let (moment, work) = (angular_momentum(&state), stages.work());
+            let change = moment - before;
+            assert!(
+                (change - stages.impulse(turned)).abs() < 4e-15,
+                "{change:e}"
+            );
+            assert!(change.abs() > 1e-5, "{change:e}");
+            first.get_or_insert(after - energy - work);
+            (before, energy) = (moment, after);
+        }
+        Ok(first.unwrap_or(f64::NAN))
+    }
+    let start = || State::from_arrays(0.0, [0.9, 0.2], [0.3, 0.5]);
+    let lagrangian = |galerkin: bool, size: f64| -> Result<f64, Error> {
+        let mut run = if galerkin {
+            LagrangianIntegrator::galerkin(TwoOfThree, Valley::new(), start(), size)?
+        } else {
+            LagrangianIntegrator::new(Gauss2, Valley::new(), start(), size)?
+        };
+        defect(&start(), run.energy()?, || {
+            let stages = run.step_with_stages()?;
+            Ok((run.state().clone(), run.energy()?, stages))
+        })
+    };
+    let dirac = |rule: DiracRule, composed: bool, size: f64| -> Result<f64, Error> {
+        let mut run = if composed {
+            DiracIntegrator::composed(Suzuki4, rule, Valley::new(), start(), size)?
+        } else {
+            DiracIntegrator::new(rule, Valley::new(), start(), size)?
+        };
+        defect(&start(), run.energy(), || {
+            let stages = run.step_with_stages()?;
+            Ok((run.state().clone(), run.energy(), stages))
+        })
+    };
+    // One step: an order more than the method.
+    for (name, coarse, fine, order) in [
+        (
+            "Gauss 2",
+            lagrangian(false, 0.04)?,
+            lagrangian(false, 0.02)?,
+            5.0,
+        ),
+        (
+            "Galerkin",
+            lagrangian(true, 0.04)?,
+            lagrangian(true, 0.02)?,
+            5.0,
+        ),
+        (
+            "midpoint",
+            dirac(DiracRule::Midpoint, false, 0.04)?,
+            dirac(DiracRule::Midpoint, false, 0.02)?,
+            3.0,
+        ),
+        (
+            "trapezoid",
+            dirac(DiracRule::Trapezoid, false, 0.04)?,
+            dirac(DiracRule::Trapezoid, false, 0.02)?,
+            3.0,
+        ),
+        (
+            "composition",
+            dirac(DiracRule::Midpoint, true, 0.04)?,
+            dirac(DiracRule::Midpoint, true, 0.02)?,
+            5.0,
+        ),
+    ] {
+        let slope = (coarse / fine).log2();
+        assert!((slope - order).abs() < 0.15, "{name}: {slope}");
+    }
+    Ok(())
+}
+
+/// With rows the impulses of the constraints are in no stage. A symmetry along the rows keeps its balance: the heading of a rolling disk.
+#[test]
+fn the_balance_of_a_heading() -> Result<(), Error> {
+    let mut run = DiracIntegrator::new(DiracRule::Midpoint, Braked, disk_start(), 0.1)?;
+    for _ in 0..20 {
+        let before = run.state().p;
+        let stages = run.step_with_stages()?;
+        let change = run.state().p - before;
+        let impulse = |k: usize| stages.impulse(move |_, out| out[k] = 1.0);
+        assert!((change[3] - impulse(3)).abs() < 1e-15 && impulse(3) < -1e-4);
+        // Not that of the place, which the constraint moves.
+        assert!((change[0] - impulse(0)).abs() > 1e-4);
+    }
+    Ok(())
+}
+
+/// The rolling disk with friction of its heading.
+#[derive(Clone, Copy)]
+struct Braked;
+
+impl Lagrangian for Braked {
+    type Vector<T: Scalar> = SVector<T, 4>;
+
+    const FORCED: bool = true;
+
+    fn lagrangian<T: Scalar>(&self, time: T, q: &SVector<T, 4>, v: &SVector<T, 4>) -> T {
+        Disk.lagrangian(time, q, v)
+    }
+
+    fn force<T: Scalar>(
+        &self,
+        _: T,
+        _: &SVector<T, 4>,
+        v: &SVector<T, 4>,
+        force: &mut SVector<T, 4>,
+    ) {
+        force[3] = -v[3] * T::from_f64(0.05);
+    }
+}
+
+impl DiracSystem for Braked {
+    fn nonholonomic_constraints(&self) -> usize {
+        DiracSystem::nonholonomic_constraints(&Disk)
+    }
+
+    fn nonholonomic_rows<T: Scalar>(&self, q: &SVector<T, 4>, rows: &mut Gradients<T>) {
+        DiracSystem::nonholonomic_rows(&Disk, q, rows);
+    }
 }

@@ -2,7 +2,7 @@
 
 use symplectic::nalgebra::{DVector, Matrix4, Rotation2, Rotation3, SVector, Vector2, Vector3};
 use symplectic::variational::{PointTransformation, cotangent_lift, momentum_map};
-use symplectic::{Error, Integrator, Scalar, State};
+use symplectic::{Error, Integrator, Scalar, State, StepMap};
 
 use super::forces::Gauss2;
 use super::symmetry::Twisted;

@@ -16,6 +16,7 @@ use crate::rolling::{
 
 symplectic::composition! {
     pub Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] }
+    pub Jump6 { base: stormer-verlet, weights: triple_jump(6), require: [order == 6] }
 }
 
 type V3<T> = SVector<T, 3>;
@@ -194,9 +195,9 @@ fn a_disk_without_inertia_goes_round_on_a_circle() {
 
 /// Point vortices of unit strength: L = Σ (x_i y_i' − y_i x_i')/2 − H, q = (x1, x2, x3, y1, y2, y3).
 #[derive(Clone, Copy)]
-struct Vortices;
+pub struct Vortices;
 
-type V6<T> = SVector<T, 6>;
+pub type V6<T> = SVector<T, 6>;
 
 /// H = −Σ ln r_ij² / 4
 fn vortex_energy<T: Scalar>(at: impl Fn(usize) -> [T; 2]) -> T {
@@ -230,7 +231,7 @@ symplectic::hamiltonian! {
 
 const VORTICES: [f64; 6] = [0.0, 1.0, 0.3, 0.1, 0.0, 0.8];
 
-fn vortices_start() -> State<V6<f64>> {
+pub fn vortices_start() -> State<V6<f64>> {
     let q = V6::from(VORTICES);
     let p = momentum_of_velocity(&Vortices, 0.0, &q, &V6::zeros()).expect("finite");
     State::new(0.0, q, p)

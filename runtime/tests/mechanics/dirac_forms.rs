@@ -2,7 +2,9 @@
 
 use symplectic::nalgebra::{SMatrix, SVector};
 use symplectic::system::Conservative;
-use symplectic::variational::{GeneratingFunction, generating_function};
+use symplectic::variational::{
+    GeneratingFunction, GeneratingFunctions, StagesOfStep, generating_function,
+};
 use symplectic::{Error, Integrator, Method, ProvedFor, State, System};
 
 use crate::rolling::{Disk, Midpoint, RADIUS, Trapezoid, disk_start};
@@ -93,33 +95,16 @@ where
     generating_function(method, free, 0.0, q0, p1, SIZE).expect("an energy")
 }
 
-/// P = p1 + w(q1)ᵀμ with q1 = D2 H_d⁺(q0, P), by Newton's method along the rows with the matrix at μ = 0.
-fn momentum_before_the_impulse<M, S, const R: usize, const N: usize>(
-    method: M,
-    free: &S,
-    w: &SMatrix<f64, R, N>,
-    q0: &Point<N>,
-    end: &State<Point<N>>,
-) -> Point<N>
-where
-    M: Method + ProvedFor<S::Class>,
-    S: System<Point<N>, Class: Conservative>,
-{
-    const WAY: f64 = 1e-3;
-    let momentum = |mu: &SVector<f64, R>| end.p + w.transpose() * mu;
-    let defect =
-        |mu: &SVector<f64, R>| w * (generating(method, free, q0, &momentum(mu)).q1 - end.q);
-    let mut mu = SVector::<f64, R>::zeros();
-    let slopes = SMatrix::<f64, R, R>::from_fn(|i, k| {
-        let mut moved = mu;
-        moved[k] = WAY;
-        (defect(&moved) - defect(&mu))[i] / WAY
-    });
-    let inverse = slopes.try_inverse().expect("a multiplier");
-    for _ in 0..30 {
-        mu -= inverse * defect(&mu);
-    }
-    momentum(&mu)
+/// The momentum P at the end of a step before the impulse of the constraint, `P_1 + h Σ_j (b̃_j − ã_1j) force_j`.
+fn momentum_before_the_impulse<M: Method, const N: usize>(
+    stages: &StagesOfStep<Point<N>>,
+) -> Point<N> {
+    let stages = stages.stages();
+    let row = M::COEFFICIENTS.a_tilde[0];
+    let forces = stages.iter().zip(row);
+    forces.fold(stages[0].p, |sum, (stage, a)| {
+        sum + stage.force * (stage.force_weight - SIZE * a.double())
+    })
 }
 
 /// The gradient of a function, by differences.
@@ -133,23 +118,6 @@ fn gradient<const N: usize>(at: &Point<N>, function: impl Fn(&Point<N>) -> f64) 
         };
         (moved(WAY) - moved(-WAY)) / (2.0 * WAY)
     })
-}
-
-/// H_d⁻(p0, q1) of Type III: the position q0 from which the step with the momentum p0 goes to q1, by fixed points.
-fn type_three<M, S, const N: usize>(method: M, free: &S, p0: &Point<N>, q1: &Point<N>) -> f64
-where
-    M: Method + ProvedFor<S::Class>,
-    S: System<Point<N>, Class: Conservative> + Copy,
-{
-    let (mut q0, mut p1) = (*q1, *p0);
-    for _ in 0..40 {
-        let start = State::new(0.0, q0, *p0);
-        let mut run = Integrator::new(method, *free, start, SIZE).expect("a run");
-        let end = run.step().expect("a step");
-        q0 += q1 - end.q;
-        p1 = end.p;
-    }
-    generating(method, free, &q0, &p1).type_three(&q0, &p1)
 }
 
 /// Checks the steps of a system with rows against the generating functions of the system without them.
@@ -167,9 +135,10 @@ fn check<M, S, B, const R: usize, const N: usize>(
     let mut largest = 0.0_f64;
     for step in 0..30 {
         let before = run.state().clone();
-        let end = run.step().expect("a step").clone();
+        let stages = run.step_with_stages().expect("a step");
+        let end = run.state().clone();
         let [first, last] = [&before.q, &end.q].map(rows);
-        let p = momentum_before_the_impulse(method, &free, &last, &before.q, &end);
+        let p = momentum_before_the_impulse::<M, N>(&stages);
         let function = generating(method, &free, &before.q, &p);
         // (4.35)
         let distance = (function.q1 - end.q).amax();
@@ -194,8 +163,11 @@ fn check<M, S, B, const R: usize, const N: usize>(
         assert!((by_momentum - end.q).amax() < 1e-8);
         // (4.52), with the momentum p̃ = p0 − w(q0)ᵀλ
         let momentum = function.p0;
-        let by_momentum = gradient(&momentum, |p| type_three(method, &free, p, &end.q));
-        let by_position = gradient(&end.q, |q| type_three(method, &free, &momentum, q));
+        let free = Integrator::new(method, free, State::new(0.0, before.q, momentum), SIZE);
+        let free = free.expect("a run");
+        let type_three = |p: &_, q: &_| free.type_three(p, q).expect("a step").value;
+        let by_momentum = gradient(&momentum, |p| type_three(p, &end.q));
+        let by_position = gradient(&end.q, |q| type_three(&momentum, q));
         let distance = (before.q + by_momentum).amax();
         assert!(distance < 1e-8, "step {step}: {distance:e}");
         let off = off_the_span(&last, &(end.p + by_position));
@@ -206,7 +178,7 @@ fn check<M, S, B, const R: usize, const N: usize>(
 }
 
 #[test]
-fn steps_with_a_row_are_both_forms() {
+fn one_step_is_both_hamiltonian_forms() {
     // z' = y x' = 0.5 · 0.8 (1 + x²/4)
     let pz = 0.5 * 0.8 * (1.0 + 0.36 / 4.0);
     let start = State::from_arrays(0.0, [0.6, 0.5, -0.1], [0.8, 0.9, pz]);
@@ -215,7 +187,7 @@ fn steps_with_a_row_are_both_forms() {
 }
 
 #[test]
-fn steps_with_two_rows_are_both_forms() {
+fn one_step_with_two_rows_is_both_hamiltonian_forms() {
     check(Midpoint, FreeDisk, (Disk, rows_of_the_disk), disk_start());
     check(Trapezoid, FreeDisk, (Disk, rows_of_the_disk), disk_start());
 }

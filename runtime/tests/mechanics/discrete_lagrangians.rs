@@ -97,7 +97,7 @@ impl DiscreteLagrangian for Trapezoid {
     }
 }
 
-fn perihelion() -> State<Vector2<f64>> {
+pub fn perihelion() -> State<Vector2<f64>> {
     State::from_arrays(0.0, [0.4, 0.0], [0.0, 2.0])
 }
 

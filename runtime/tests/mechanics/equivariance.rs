@@ -2,7 +2,9 @@
 
 use symplectic::nalgebra::{Rotation2, Rotation3, Vector2, Vector3};
 use symplectic::variational::{LagrangianIntegrator, momentum_map};
-use symplectic::{Constrained, Error, General, Integrator, Method, ProvedFor, Separable, State};
+use symplectic::{
+    Constrained, Error, General, Integrator, Method, ProvedFor, Separable, State, StepMap,
+};
 
 use crate::forces::{FourthRattle, Lobatto3, Resisted, swing};
 use crate::lagrangians::{Gauss2, TwoOfThree, distance};

@@ -2,7 +2,7 @@
 
 use symplectic::nalgebra::{Matrix2, SVector, Vector2};
 use symplectic::{
-    Damped, Hamiltonian, Integrator, Method, ProvedFor, Scalar, State, friction_growth,
+    Damped, Error, Hamiltonian, Integrator, Method, ProvedFor, Scalar, State, friction_growth,
 };
 
 symplectic::tableau! {
@@ -126,6 +126,28 @@ fn the_growth_of_negative_kicks() {
         friction_growth(StoermerVerlet, rate, -size),
         rate * size / 2.0
     );
+    for (rate, size) in [(f64::NAN, size), (rate, f64::NAN)] {
+        assert!(friction_growth(StoermerVerlet, rate, size).is_nan());
+        assert!(friction_growth(ForestRuth, rate, size).is_nan());
+    }
+}
+
+/// The kicks are exact flows, so there are no stages to balance.
+#[test]
+fn steps_with_friction_have_no_stages() {
+    let mut run = Integrator::new(StoermerVerlet, Ring(1e-3), start(), 0.1).expect("a run");
+    let error = run.step_with_stages().expect_err("no stages");
+    assert!(
+        matches!(
+            error,
+            Error::OtherClass {
+                class: "General",
+                ..
+            }
+        ),
+        "{error}"
+    );
+    assert_eq!((run.steps(), run.state()), (0, &start()));
 }
 
 /// The energies of Figure 2 at t = 500, 1000, 1500: those of Störmer–Verlet with h = 0.1 stay near those of small steps.

@@ -2,7 +2,9 @@
 
 use symplectic::nalgebra::{DVector, Matrix4, SVector, Vector1, Vector2};
 use symplectic::variational::{Newmark, generating_function};
-use symplectic::{Error, Hamiltonian, Integrator, Quantity, Scalar, Separable, State, System};
+use symplectic::{
+    Error, Hamiltonian, Integrator, Quantity, Scalar, Separable, State, StepMap, System,
+};
 
 use super::forces::{Driven, Gauss4, Lobatto2};
 

@@ -11,7 +11,7 @@ symplectic::tableau! {
 }
 
 symplectic::composition! {
-    Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] }
+    pub Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] }
     Jump4 { base: lobatto-2, weights: triple_jump(4), require: [order == 4] }
     Jump6 { base: lobatto-2, weights: triple_jump(6), require: [order == 6] }
 }
@@ -41,7 +41,7 @@ symplectic::hamiltonian! {
 }
 
 /// A top with three different moments, its centre of mass on no axis.
-const LOPSIDED: HeavyTop = HeavyTop {
+pub const LOPSIDED: HeavyTop = HeavyTop {
     moments: Vector3::new(1.0, 1.4, 0.8),
     weight: 1.0,
     centre: Vector3::new(0.2, -0.1, 0.7),
@@ -61,7 +61,7 @@ fn attitude([f, n, s]: [f64; 3]) -> UnitQuaternion<f64> {
     turn(Vector3::z_axis(), f) * turn(Vector3::x_axis(), n) * turn(Vector3::z_axis(), s)
 }
 
-fn start() -> RotationState {
+pub fn start() -> RotationState {
     RotationState::new(0.0, attitude(ANGLES), Vector3::new(0.5, -0.3, 1.2))
 }
 

@@ -2,7 +2,7 @@
 
 use symplectic::nalgebra::{Rotation2, Vector2, Vector3};
 use symplectic::variational::momentum_map;
-use symplectic::{Error, Integrator, State, assert_conserved, consistent};
+use symplectic::{Error, Integrator, State, StepMap, assert_conserved, consistent};
 
 use super::forces::{Gauss2, Gauss3, Lobatto3, Ring};
 

@@ -37,7 +37,7 @@ symplectic::composition! {
 
 type V2<T> = SVector<T, 2>;
 type V3<T> = SVector<T, 3>;
-type V6<T> = SVector<T, 6>;
+pub type V6<T> = SVector<T, 6>;
 
 /// A plane pendulum of length 1: H = |p|²/2 + y, |q|² = 1.
 #[derive(Clone, Copy)]

@@ -540,6 +540,8 @@ fn the_shift_of_newmark() -> Result<(), Error> {
         let newmark = Newmark::new(Resized { to }, 0.25, 0.1)?;
         let error = newmark.shift(&start()).expect_err("resized");
         assert_resized(&error, Quantity::Force, to);
+        let error = newmark.unshift(&start()).expect_err("resized");
+        assert_resized(&error, Quantity::Force, to);
         let State { q, p, .. } = start();
         let energy = System::energy(&newmark, 0.0, &q, &p);
         assert!(energy.is_some_and(f64::is_nan), "{energy:?}");

@@ -2,13 +2,16 @@
 //! requirements on a method.
 
 pub mod argon_crystal;
+pub mod chain_of_links;
 pub mod charged_particle;
 pub mod circuit;
+pub mod damped_oscillator;
 pub mod damped_particle;
 pub mod double_pendulum;
 pub mod fput_chain;
 pub mod fput_springs;
 pub mod harmonic_oscillator;
+pub mod heavy_top;
 pub mod henon_heiles;
 pub mod hyperbolic;
 pub mod kepler;
@@ -19,6 +22,8 @@ pub mod pendulum;
 pub mod point_vortices;
 pub mod post_newtonian_kepler;
 pub mod pythagorean_three_body;
+pub mod resisted_pendulum;
+pub mod rigid_triangles;
 pub mod rolling_disk;
 pub mod sine_gordon;
 pub mod skate;

@@ -70,12 +70,13 @@ impl<V: Vector> History<V> {
     }
 
     /// Begins a step at a time, of a size. Extrapolates the impulses and returns the weights for stages. Returns `None` if too few steps of
-    /// this size are known, or if they are too long for that.
+    /// this size are known, or if they are too long for that; `negligible(d)` tells whether a difference d of impulses is a rounding error.
     pub(super) fn begin(
         &mut self,
         time: f64,
         size: f64,
         impulses: &mut [V::Scalar],
+        negligible: impl FnOnce(f64) -> bool,
     ) -> Option<Weights> {
         if self.size != size {
             (self.size, self.known) = (size, 0);
@@ -92,7 +93,7 @@ impl<V: Vector> History<V> {
             apart = maximum(apart, (more - less).magnitude());
             *impulse = if side == 0 { less } else { more };
         }
-        (apart <= APART * largest).then_some(SIDES[side])
+        (apart <= APART * largest || negligible(apart)).then_some(SIDES[side])
     }
 
     /// Notes the guess of stage value `k`, and corrects it if there are weights.

@@ -62,8 +62,13 @@ impl<T: Scalar> LastImpulse<T> {
         for sweep in 1..=stopping.max_iterations {
             let (p, start) = ((&mut *outcome.p, &mut *outcome.p_low), (step.p, step.p_low));
             result::<R, V>(p, start, increments);
-            system.velocity(time, outcome.q, outcome.p, velocity);
-            work.evaluations += 1;
+            let velocity = if S::UNIT_MASSES {
+                &*outcome.p
+            } else {
+                system.velocity(time, outcome.q, outcome.p, velocity);
+                work.evaluations += 1;
+                &*velocity
+            };
             let residual = self.residual(end, velocity, sweep == 1);
             if residual.is_nan() {
                 return Err(Failure::NonFinite {

@@ -179,6 +179,10 @@ impl<T: Scalar> NormalMatrix<T> {
 
     /// Solves for a right-hand side in place.
     pub(in crate::method) fn solve(&self, unknown: &mut [T]) {
+        if let ([unknown], [pivot]) = (&mut *unknown, &*self.rows) {
+            *unknown *= pivot.recip();
+            return;
+        }
         for k in 0..self.size {
             let (before, rest) = unknown.split_at_mut(k);
             let (row, first) = self.row(k);

@@ -98,8 +98,17 @@ impl<V: Vector> Workspace<V> {
         work: &mut StepStatistics,
     ) {
         let stages = tableau.weights.len();
+        let velocity = &mut self.scratch[0];
+        system.velocity(step.at(Coefficient::exact(0.0)), step.q, step.p, velocity);
+        work.evaluations += 1;
         let history = &mut self.histories[number];
-        let weights = history.begin(step.time, step.size, &mut self.impulses);
+        let (velocity, gradients) = (&self.scratch[0], &self.start.gradients);
+        let weights = history.begin(step.time, step.size, &mut self.impulses, |apart| {
+            // Positions have rounding errors, and so have the impulses that correct them in a step.
+            let [q, p, v] = [step.q, step.p, velocity].map(largest);
+            let rounding = V::Scalar::EPSILON * p * (1.0 + q / (step.size.abs() * v));
+            apart * largest_of(gradients.values()) <= NOISE * rounding
+        });
         self.extrapolated = weights.is_some();
         if !self.extrapolated {
             let impulses = self.impulses.chunks_exact_mut(self.multipliers.len());
@@ -110,9 +119,6 @@ impl<V: Vector> Workspace<V> {
                 }
             }
         }
-        let velocity = &mut self.scratch[0];
-        system.velocity(step.at(Coefficient::exact(0.0)), step.q, step.p, velocity);
-        work.evaluations += 1;
         copy(&mut self.q[0], step.q);
         for i in 1..stages {
             let factor = V::Scalar::weight(step.size, tableau.nodes[i]);
@@ -512,6 +518,7 @@ pub(in crate::method) fn show_stages<V: Vector, S: System<V>>(
         }
         show(StageView {
             weight: step.size * weight.double(),
+            force_weight: step.size * weight.double(),
             time: step.at(tableau.nodes[i]),
             momentum_time: step.at(tableau.momentum_nodes[i]),
             q,
@@ -572,6 +579,16 @@ pub(in crate::method) fn stage<V: Vector>(
     for (out, &base) in out.as_mut_slice().iter_mut().zip(base.as_slice()) {
         *out = base + *out;
     }
+}
+
+/// The largest magnitude of the components.
+fn largest<V: Vector>(vector: &V) -> f64 {
+    largest_of(vector.as_slice())
+}
+
+fn largest_of<T: Scalar>(numbers: &[T]) -> f64 {
+    let sizes = numbers.iter().map(|number| number.magnitude());
+    sizes.fold(0.0, maximum)
 }
 
 /// The larger of two magnitudes, or NaN if either is NaN.

@@ -7,6 +7,7 @@ use super::step::Equations;
 use super::{DiracRule, DiracSystem};
 use crate::method::symmetric_steps::Part;
 use crate::variational;
+use crate::variational::stages::StageOfStep;
 
 /// A point of a quadrature rule.
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +46,32 @@ impl DiracRule {
     }
 }
 
+impl Point {
+    /// Its time in a part of a step.
+    fn time(self, part: Part) -> f64 {
+        match self.place {
+            1.0 => part.end,
+            place => part.time + place * part.size,
+        }
+    }
+}
+
 impl<L: DiracSystem> Equations<L> {
+    /// The points of the rule as stages of the last step taken, a part that began at `q0`.
+    pub(super) fn stages(
+        &mut self,
+        system: &L,
+        part: Part,
+        q0: &[f64],
+    ) -> impl Iterator<Item = StageOfStep<L::Vector<f64>>> {
+        self.rule.points().iter().map(move |point| {
+            self.go(q0, point.place * part.size);
+            let u = &self.unknowns[..q0.len()];
+            let weight = point.weight * part.size;
+            (self.derivatives).stage(system, (weight, point.time(part)), &self.q, u)
+        })
+    }
+
     /// Evaluates the matrix of Newton's iteration and its right-hand side.
     pub(super) fn assemble(
         &mut self,
@@ -89,13 +115,10 @@ impl<L: DiracSystem> Equations<L> {
         &mut self,
         system: &L,
         part: Part,
-        Point { weight, place }: Point,
+        point @ Point { weight, place }: Point,
     ) -> Result<(), Failure> {
         let n = self.q.len();
-        let time = match place {
-            1.0 => part.end,
-            _ => part.time + place * part.size,
-        };
+        let time = point.time(part);
         let u = &self.unknowns[..n];
         self.derivatives.second(system, time, &self.q, u);
         let d = &self.derivatives;

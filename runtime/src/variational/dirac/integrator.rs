@@ -1,15 +1,19 @@
 //! Steps of degenerate Lagrangians, and of Lagrangians with constraints on velocities.
 
+use alloc::vec::Vec;
+
 use super::primary::consistent_velocity;
 use super::step::Equations;
 use super::{DiracRule, DiracSystem};
 use crate::error::Error;
+use crate::integrator::StepMap;
 use crate::integrator::pace::{Pace, Stepper};
 use crate::integrator::validation::check_state;
 use crate::method::Method;
 use crate::method::symmetric_steps::SymmetricSteps;
 use crate::number::Vector;
 use crate::state::State;
+use crate::variational::stages::StagesOfStep;
 use crate::variational::two_ends::dot;
 
 /// Takes the steps of the discrete principle of Lagrange, d'Alembert and Pontryagin (Leok & Ohsawa, arXiv:0810.0740v1, 4.28 and 8.3) for a
@@ -91,6 +95,7 @@ use crate::variational::two_ends::dot;
 /// # Ok(())
 /// # }
 /// ```
+#[derive(Clone)]
 pub struct DiracIntegrator<L: DiracSystem> {
     system: L,
     equations: Equations<L>,
@@ -170,6 +175,29 @@ impl<L: DiracSystem> DiracIntegrator<L> {
     pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
         self.one_step()?;
         Ok(&self.state)
+    }
+
+    /// Takes one step and returns its stages, for balances of energy and momentum. The force of a stage is `∂L/∂q + f`, without the impulses of constraints.
+    ///
+    /// The step changes the momentum map of a linear symmetry of L and of the constraints by exactly the [impulse](StagesOfStep::impulse) of the force, and
+    /// the energy by its [work](StagesOfStep::work) up to an error of the order of the method. The step is taken twice. Memory is allocated.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`step`](Self::step); the state is then unchanged.
+    pub fn step_with_stages(&mut self) -> Result<StagesOfStep<L::Vector<f64>>, Error> {
+        let (mut state, mut velocity) = (self.state.clone(), self.velocity.clone());
+        self.step()?;
+        let (start, end, size) = (state.time, self.state.time, self.pace.step_size());
+        let mut stages = Vec::new();
+        for part in self.steps.parts(start, size, end) {
+            let q0 = state.q.clone();
+            self.equations
+                .take(&self.system, part, &mut state, &mut velocity)
+                .map_err(|failure| failure.error(start, size, self.pace.taken()))?;
+            stages.extend(self.equations.stages(&self.system, part, q0.as_slice()));
+        }
+        Ok(StagesOfStep::new(stages))
     }
 
     /// Integrates to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or
@@ -254,5 +282,23 @@ impl<L: DiracSystem> Stepper for DiracIntegrator<L> {
         core::mem::swap(&mut self.state, next);
         core::mem::swap(&mut self.velocity, velocity);
         Ok(())
+    }
+}
+
+impl<L: DiracSystem + Clone> StepMap for DiracIntegrator<L> {
+    type State = State<L::Vector<f64>>;
+
+    fn present(&self) -> &Self::State {
+        &self.state
+    }
+
+    fn step_from(&self, state: Self::State) -> Result<Self::State, Error> {
+        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
+        let mut run = self.clone();
+        run.velocity = consistent_velocity(&run.system, &state)?;
+        run.pace.restart(state.time);
+        run.state = state;
+        run.step()?;
+        Ok(run.state)
     }
 }

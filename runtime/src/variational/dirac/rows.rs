@@ -21,6 +21,7 @@ pub(super) struct Entry {
 }
 
 /// The rows, and memory to evaluate them.
+#[derive(Clone)]
 pub(super) struct Rows<L: DiracSystem> {
     q: L::Vector<HyperDual>,
     rows: Gradients<HyperDual>,

@@ -30,6 +30,7 @@ pub(super) const LAST_CHANGE: f64 = 1e-9;
 /// ```
 ///
 /// with `q1 = q0 + h u` and `v1 = u + z`, for `u, z, λ, μ`. Velocities that no equation determines have z = 0.
+#[derive(Clone)]
 pub(super) struct Equations<L: DiracSystem> {
     pub(super) rule: DiracRule,
     pub(super) derivatives: Derivatives<L>,

@@ -18,6 +18,7 @@ use crate::number::Coefficient;
 /// ```
 ///
 /// with `P = ∂L/∂v` and `P' = ∂L/∂q + f` at `(t0 + nodes_i h, Q_i, Q̇_i)`.
+#[derive(Clone)]
 pub(super) struct StageCoefficients {
     pub(super) positions: Vec<Vec<f64>>,
     pub(super) velocities: Vec<Vec<f64>>,

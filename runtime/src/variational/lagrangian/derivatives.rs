@@ -10,9 +10,11 @@ use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
 use crate::system::Lagrangian;
 use crate::variational::failure::Failure;
+use crate::variational::stages::StageOfStep;
 
 /// The momentum and its rate at a state of positions and velocities, with their Jacobians, and memory to evaluate them. Matrices are by
 /// rows.
+#[derive(Clone)]
 pub(crate) struct Derivatives<L: Lagrangian> {
     q: L::Vector<HyperDual>,
     v: L::Vector<HyperDual>,
@@ -81,6 +83,37 @@ impl<L: Lagrangian> Derivatives<L> {
         }
         if L::FORCED {
             self.add_value_of_force(lagrangian, time);
+        }
+    }
+
+    /// The stage at a position and a velocity, with the weight `h b_i`.
+    pub(crate) fn stage(
+        &mut self,
+        lagrangian: &L,
+        (weight, time): (f64, f64),
+        q: &[f64],
+        v: &[f64],
+    ) -> StageOfStep<L::Vector<f64>> {
+        self.first(lagrangian, time, q, v);
+        let vector = |numbers: &[f64]| {
+            let mut vector = self.doubles[0].zeros_like();
+            vector.as_mut_slice().copy_from_slice(numbers);
+            vector
+        };
+        let (q, velocity, mut applied) = (vector(q), vector(v), self.doubles[0].zeros_like());
+        if L::FORCED {
+            lagrangian.force(time, &q, &velocity, &mut applied);
+        }
+        StageOfStep {
+            weight,
+            force_weight: weight,
+            time,
+            momentum_time: time,
+            q,
+            p: vector(&self.momentum),
+            velocity,
+            force: vector(&self.rate),
+            applied,
         }
     }
 

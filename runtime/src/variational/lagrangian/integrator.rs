@@ -4,12 +4,15 @@ use super::coefficients::StageCoefficients;
 use super::legendre::{momentum_of_velocity, velocity_near, velocity_of_momentum};
 use super::stages::{Stages, Start};
 use crate::error::{Error, Quantity};
+use crate::integrator::StepMap;
 use crate::integrator::pace::{Pace, Stepper};
 use crate::integrator::validation::check_state;
 use crate::method::{Method, ProvedFor};
 use crate::number::Vector;
 use crate::state::State;
 use crate::system::{General, Lagrangian};
+use crate::variational::given_ends::GeneratingFunctions;
+use crate::variational::stages::StagesOfStep;
 use crate::variational::two_ends::dot;
 
 /// Takes the steps of a partitioned Runge–Kutta method in Lagrangian form (Marsden & West 2001, 2.6.1):
@@ -65,6 +68,7 @@ use crate::variational::two_ends::dot;
 /// # Ok(())
 /// # }
 /// ```
+#[derive(Clone)]
 pub struct LagrangianIntegrator<L: Lagrangian> {
     lagrangian: L,
     pace: Pace,
@@ -201,6 +205,48 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         Ok(&self.state)
     }
 
+    /// Takes one step and returns its stages, for balances of energy and momentum. The force of a stage is `∂L/∂q + f`.
+    ///
+    /// The step changes the momentum map of a linear symmetry of L by exactly the [impulse](StagesOfStep::impulse) of the force, and
+    /// the energy by its [work](StagesOfStep::work) up to an error of the order of the method. Memory is allocated.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`step`](Self::step); the state is then unchanged.
+    ///
+    /// ```
+    /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
+    /// use symplectic::State;
+    /// use symplectic::variational::LagrangianIntegrator;
+    ///
+    /// symplectic::lagrangian! {
+    ///     /// A particle that is slowed down.
+    ///     Slowed q: [x], v: [vx];
+    ///     L = vx^2/2
+    ///     force: { x = -vx/4 }
+    /// }
+    ///
+    /// # fn main() -> Result<(), symplectic::Error> {
+    /// let mut run = LagrangianIntegrator::new(Gauss2, Slowed, State::from_arrays(0.0, [0.0], [1.0]), 0.1)?;
+    /// // Translations: J = p.
+    /// let impulse = run.step_with_stages()?.impulse(|_, out| out[0] = 1.0);
+    /// assert!((run.state().p[0] - 1.0 - impulse).abs() < 1e-15 && impulse < -0.02);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn step_with_stages(&mut self) -> Result<StagesOfStep<L::Vector<f64>>, Error> {
+        let State { time, q, p } = self.state.clone();
+        self.step()?;
+        let start = Start {
+            time,
+            size: self.pace.step_size(),
+            q: q.as_slice(),
+            p: p.as_slice(),
+        };
+        let stages = self.stages.of_step(&self.lagrangian, start);
+        Ok(StagesOfStep::new(stages))
+    }
+
     /// Integrates to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or
     /// backward.
     ///
@@ -296,5 +342,45 @@ impl<L: Lagrangian> Stepper for LagrangianIntegrator<L> {
         self.action = Some(self.stages.action(size));
         core::mem::swap(&mut self.state, &mut self.next);
         Ok(())
+    }
+}
+
+impl<L: Lagrangian + Clone> LagrangianIntegrator<L> {
+    /// An integrator that took one step from `state`.
+    fn stepped_from(&self, state: State<L::Vector<f64>>) -> Result<Self, Error> {
+        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
+        let mut run = self.clone();
+        run.pace.restart(state.time);
+        run.state = state;
+        run.step()?;
+        Ok(run)
+    }
+}
+
+impl<L: Lagrangian + Clone> StepMap for LagrangianIntegrator<L> {
+    type State = State<L::Vector<f64>>;
+
+    fn present(&self) -> &Self::State {
+        &self.state
+    }
+
+    fn step_from(&self, state: Self::State) -> Result<Self::State, Error> {
+        Ok(self.stepped_from(state)?.state)
+    }
+}
+
+impl<L: Lagrangian + Clone> GeneratingFunctions for LagrangianIntegrator<L> {
+    type Vector = L::Vector<f64>;
+
+    /// Does not compile with a force.
+    fn step_with_action(&self, start: Self::State) -> Result<(Self::State, f64), Error> {
+        const {
+            assert!(
+                !L::FORCED,
+                "with a force a step is not symplectic and has no generating function"
+            )
+        }
+        let run = self.stepped_from(start)?;
+        Ok((run.state, run.action.unwrap_or(f64::NAN)))
     }
 }

@@ -11,8 +11,10 @@ use crate::error::Error;
 use crate::system::Lagrangian;
 use crate::variational::failure::Failure;
 use crate::variational::regular::{Factors, Singular, largest};
+use crate::variational::stages::StageOfStep;
 
 /// The unknown velocities of a step, and quantities computed from them. Each list consists of vectors one after the other.
+#[derive(Clone)]
 pub(super) struct Stages<L: Lagrangian> {
     coefficients: StageCoefficients,
     /// The unknowns `V_k`.
@@ -313,6 +315,21 @@ impl<L: Lagrangian> Stages<L> {
                 *out = from + start.size * *out;
             }
         }
+    }
+
+    /// The stages of the last step, which had this start.
+    pub(super) fn of_step(
+        &mut self,
+        lagrangian: &L,
+        start: Start<'_>,
+    ) -> Vec<StageOfStep<L::Vector<f64>>> {
+        let stages = (0..self.coefficients.stages()).map(|stage| {
+            self.place(start, stage);
+            let weight = start.size * self.coefficients.weights[stage];
+            let time = start.time + self.coefficients.nodes[stage] * start.size;
+            (self.derivatives).stage(lagrangian, (weight, time), &self.q, &self.v)
+        });
+        stages.collect()
     }
 
     /// `h Σ_i b_i L_i`, the value of the discrete Lagrangian.

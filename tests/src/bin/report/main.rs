@@ -6,6 +6,7 @@
 #![allow(clippy::print_stdout, reason = "a report prints its table")]
 
 mod facts;
+mod mechanics;
 mod peers;
 mod scenes;
 mod sets;

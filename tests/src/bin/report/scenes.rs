@@ -1,28 +1,23 @@
 //! The scenes of the report, one function each: the system, the reference, the largest step, and the sets of methods.
 //!
-//! A new scene needs a function here and a row in [`SCENES`].
+//! A new scene needs a function here or in [`mechanics`] and a row in [`SCENES`].
 
 use std::f64::consts::TAU;
 
 use symplectic::adaptive::{DistancePower, PairDistances};
 use symplectic::nalgebra::SVector;
-use symplectic::variational::{DiracIntegrator, DiracRule};
 use symplectic::{Error, Integrator, Separable, State, System, Vector};
-use symplectic_report::{Finish, Ladder, Observe, Problem, Reference, Study};
-use symplectic_tests::methods::{
-    Gauss6, Gauss8, Midpoint, StoermerVerlet, Suzuki4, VelocityVerlet,
-};
+use symplectic_report::{Ladder, Problem, Reference, Study};
+use symplectic_tests::methods::{Gauss8, Midpoint, VelocityVerlet};
 use symplectic_tests::scenes::{
-    argon_crystal, charged_particle, circuit, damped_particle, double_pendulum, fput_chain,
-    fput_springs, harmonic_oscillator, henon_heiles, hyperbolic, kepler, nonholonomic_oscillator,
-    nonseparable, outer_solar_system, pendulum, point_vortices, post_newtonian_kepler,
-    pythagorean_three_body, rolling_disk, sine_gordon, skate, sleigh,
+    argon_crystal, charged_particle, double_pendulum, fput_chain, fput_springs,
+    harmonic_oscillator, henon_heiles, hyperbolic, kepler, nonseparable, outer_solar_system,
+    pendulum, point_vortices, post_newtonian_kepler, pythagorean_three_body, sine_gordon,
 };
 
+use crate::mechanics;
 use crate::peers::{with_forest_ruth, with_peers, with_rk4};
-use crate::sets::{
-    Set, constrained, coupled, explicit, implicit, more_explicit, newton, nonholonomic,
-};
+use crate::sets::{Set, coupled, explicit, implicit, more_explicit, newton};
 use crate::variable_steps::with_variable_steps;
 
 /// A scene: its name on the command line, and the function that adds it to a study.
@@ -54,14 +49,25 @@ pub const SCENES: &[Scene] = &[
     ("fput-chain-16", short_fput_chain),
     ("fput-chain-65536", long_fput_chain),
     ("double-pendulum", double_pendulum),
-    ("double-pendulum-on-rods", double_pendulum_on_rods),
-    ("damped-particle", damped_particle),
-    ("damped-energy", damped_energy),
-    ("rolling-disk", rolling_disk),
-    ("skate", skate),
-    ("nonholonomic-oscillator", nonholonomic_oscillator),
-    ("sleigh", sleigh),
-    ("circuit", circuit),
+    (
+        "double-pendulum-on-rods",
+        mechanics::double_pendulum_on_rods,
+    ),
+    ("chain-of-links", mechanics::chain_of_links),
+    ("rigid-triangles", mechanics::rigid_triangles),
+    ("resisted-pendulum", mechanics::resisted_pendulum),
+    ("heavy-top", mechanics::heavy_top),
+    ("damped-particle", mechanics::damped_particle),
+    ("damped-energy", mechanics::damped_energy),
+    ("damped-oscillator", mechanics::damped_oscillator),
+    ("rolling-disk", mechanics::rolling_disk),
+    ("skate", mechanics::skate),
+    (
+        "nonholonomic-oscillator",
+        mechanics::nonholonomic_oscillator,
+    ),
+    ("sleigh", mechanics::sleigh),
+    ("circuit", mechanics::circuit),
     ("nonseparable", nonseparable),
     ("charged-particle", charged_particle),
     ("post-newtonian-kepler", post_newtonian_kepler),
@@ -250,114 +256,6 @@ fn double_pendulum(study: Study) -> Result<Study, Error> {
         end,
         0.5,
     )))
-}
-
-fn double_pendulum_on_rods(study: Study) -> Result<Study, Error> {
-    let (angles, end) = (double_pendulum::start(), 10.0);
-    let known = Reference::computed(Gauss8, double_pendulum::DoublePendulum, &angles, end, 0.025)?;
-    let reference = Reference::known(
-        double_pendulum::on_rods(&known.end),
-        format!("in angles: {}", known.origin),
-        known.uncertainty.max(4.0 * f64::EPSILON),
-    );
-    let problem = Problem::new(
-        "Double pendulum on rods",
-        double_pendulum::OnRods::new(),
-        double_pendulum::on_rods(&angles),
-        reference,
-        0.25,
-    )
-    .described("H = |p|²/2 + g(y₁ + y₂), two masses on rods of length 1: two holonomic constraints")
-    .needing("a method that is `constrained`");
-    Ok(study.problem(constrained(problem)))
-}
-
-fn damped_particle(study: Study) -> Result<Study, Error> {
-    let (start, end) = (damped_particle::start(), 100.0);
-    let system = damped_particle::WithFriction::new();
-    let reference = Reference::computed(Gauss8, system, &start, end, 0.025)?;
-    let problem = Problem::new("Damped particle", system, start.clone(), reference, 0.5)
-        .described("H = |p|²/2 + |q|²(|q|² − 1)² and the force −p/1000 (Marsden & West, Figure 2)")
-        .needing("a method for general Hamiltonians: the force depends on the momentum");
-    Ok(study.problem(with_peers::<_, _, 2, 4>(
-        coupled(problem),
-        &system,
-        &start,
-        end,
-        0.5,
-    )))
-}
-
-fn damped_energy(study: Study) -> Result<Study, Error> {
-    let (start, end, size) = (damped_particle::start(), 1500.0, 0.1);
-    let system = damped_particle::WithFriction::new();
-    let reference = Reference::computed(Gauss8, system, &start, end, 0.05)?;
-    let ladder = Ladder::Halve {
-        first: size,
-        halvings: 2,
-    };
-    let problem = Problem::new("Energy with friction", system, start.clone(), reference, size)
-        .described("The damped particle in the long run: the energy that friction takes, by variational methods of order 2 with forces, by RK4 and by Gauss 6, which is the true one to the eye, as in Marsden & West, Figure 2")
-        .needing("a method for general Hamiltonians: the force depends on the momentum")
-        .on_ladder(ladder.clone())
-        .traced_at(size)
-        .run("Midpoint", |system, start, h| Integrator::plain(Midpoint, system, start, h))
-        .run("Störmer–Verlet, implicit", |system, start, h| Integrator::plain(StoermerVerlet, system, start, h))
-        .run("Gauss 6", |system, start, h| Integrator::plain(Gauss6, system, start, h));
-    Ok(study.problem(with_rk4(problem, &system, &start, end, ladder)))
-}
-
-fn rolling_disk(study: Study) -> Result<Study, Error> {
-    let origin = "in closed form: it goes round on a circle";
-    let reference = Reference::known(rolling_disk::exact(20.0), origin, 4.0 * f64::EPSILON);
-    let (system, start) = (rolling_disk::Disk::new(), rolling_disk::start());
-    let problem = Problem::new("Rolling disk", system, start, reference, 0.5)
-        .described("H = (px² + py²)/2 + pθ² + 2pφ², x' = θ' cos φ, y' = θ' sin φ: a disk that rolls upright, two non-holonomic constraints")
-        .needing("a method that is `nonholonomic`");
-    Ok(study.problem(nonholonomic(problem)))
-}
-
-fn skate(study: Study) -> Result<Study, Error> {
-    let origin = "in closed form: a cycloid";
-    let reference = Reference::known(skate::exact(20.0), origin, 4.0 * f64::EPSILON);
-    let problem = Problem::new(
-        "Skate on a slope",
-        skate::Skate::new(),
-        skate::start(),
-        reference,
-        0.25,
-    )
-    .described(
-        "H = |p|²/2 − 2x, x' sin a = y' cos a: a skate on a slope, one non-holonomic constraint",
-    )
-    .needing("a method that is `nonholonomic`");
-    Ok(study.problem(nonholonomic(problem)))
-}
-
-fn nonholonomic_oscillator(study: Study) -> Result<Study, Error> {
-    let origin = "integrals of closed forms";
-    let reference = Reference::known(nonholonomic_oscillator::exact(20.0), origin, 1e-13);
-    let system = nonholonomic_oscillator::Oscillator;
-    let start = nonholonomic_oscillator::start();
-    let problem = Problem::new("Non-holonomic oscillator", system, start, reference, 0.5)
-        .described("H = (|p|² + x² + y²)/2, z' = y x': one non-holonomic constraint")
-        .needing("a method that is `nonholonomic`");
-    Ok(study.problem(nonholonomic(problem)))
-}
-
-fn sleigh(study: Study) -> Result<Study, Error> {
-    let origin = "integrals of closed forms";
-    let reference = Reference::known(sleigh::exact(20.0), origin, 1e-13);
-    let problem = Problem::new(
-        "Chaplygin's sleigh",
-        sleigh::Sleigh::new(),
-        sleigh::start(),
-        reference,
-        0.25,
-    )
-    .described("A body on a plane that glides on a blade, x' sin a = y' cos a; the kinetic energy depends on a")
-    .needing("a method that is `nonholonomic`; not separable");
-    Ok(study.problem(nonholonomic(problem)))
 }
 
 fn nonseparable(study: Study) -> Result<Study, Error> {
@@ -562,63 +460,6 @@ fn energy_behaviour(study: Study) -> Result<Study, Error> {
         .run("Störmer–Verlet", |system, start, h| Integrator::plain(VelocityVerlet, system, start, h))
         .run("Midpoint", |system, start, h| Integrator::plain(Midpoint, system, start, h));
     Ok(study.problem(with_rk4(problem, &system, &start, end, ladder)))
-}
-
-fn circuit(study: Study) -> Result<Study, Error> {
-    let (start, end, first) = (circuit::start(), 20.0, 0.5);
-    let reference = Reference::known(circuit::exact(end), "closed form", 16.0 * f64::EPSILON);
-    let system = circuit::SolvedByHand;
-    let problem = Problem::new("Circuit", system, start.clone(), reference, first)
-        .described("L = ℓq₀'²/2 − Σ q²/2C and Kirchhoff's laws for the currents: an inductor and three capacitors, a degenerate Lagrangian (Yoshimura & Marsden 2006). The peers have the laws solved by hand.")
-        .needing("Dirac mechanics");
-    let methods = [
-        ("Trapezoid", DiracRule::Trapezoid, false),
-        ("Midpoint", DiracRule::Midpoint, false),
-        ("Trapezoid, order 4", DiracRule::Trapezoid, true),
-    ];
-    let problem = methods
-        .into_iter()
-        .fold(problem, |problem, (name, rule, composed)| {
-            let ladder = Ladder::Descend { first };
-            problem.peer(name, ladder, move |size, observe| {
-                circuit_run(rule, composed, end, size, observe).map_err(|error| error.to_string())
-            })
-        });
-    Ok(study.problem(with_peers::<_, _, 4, 8>(
-        problem, &system, &start, end, first,
-    )))
-}
-
-fn circuit_run(
-    rule: DiracRule,
-    composed: bool,
-    end: f64,
-    size: f64,
-    observe: Option<Observe<'_, SVector<f64, 4>>>,
-) -> Result<Finish<SVector<f64, 4>>, Error> {
-    let (system, start) = (circuit::Circuit::default(), circuit::start());
-    // Equal steps, the last of which ends at `end`.
-    let steps = (end / size).ceil();
-    let size = end / steps;
-    let mut run = if composed {
-        DiracIntegrator::composed(Suzuki4, rule, system, start, size)?
-    } else {
-        DiracIntegrator::new(rule, system, start, size)?
-    };
-    match observe {
-        Some(observe) => {
-            for _ in 0..steps as u64 {
-                observe(run.step()?);
-            }
-        }
-        None => drop(run.integrate_to(end)?),
-    }
-    let evaluations = run.system().evaluations.get();
-    Ok(Finish::explicit(
-        run.state().clone(),
-        Some(run.steps()),
-        evaluations,
-    ))
 }
 
 /// Adds the methods and peers of a separable problem, with the set `implicit`.

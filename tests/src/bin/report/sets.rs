@@ -3,12 +3,13 @@
 //! Every method is generic over the system, here only; a scene chooses a set and its parameters.
 
 use symplectic::system::Unconstrained;
-use symplectic::{Class, Constrained, Integrator, Nonholonomic, Separable, System, Vector};
+use symplectic::{Class, Constrained, Damped, Integrator, Nonholonomic, Separable, System, Vector};
 use symplectic_report::Problem;
 use symplectic_tests::methods::{
     BlanesMoanS6, BlanesMoanS10, BlanesMoanSrkn11b, BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4,
-    Gauss6, Gauss8, KahanLi8, Lobatto3, Lobatto4, Midpoint, Midpoint4, SofroniouSpaletta10,
-    StoermerVerlet, SymplecticEuler, VelocityVerlet, Yoshida8,
+    Gauss6, Gauss8, KahanLi8, Lobatto3, Lobatto4, Lobatto5, Midpoint, Midpoint4, Midpoint6,
+    Rattle4, Rattle6, SofroniouSpaletta10, StoermerVerlet, SymplecticEuler, VelocityVerlet,
+    Yoshida8,
 };
 
 /// Adds a set of methods to a problem.
@@ -84,16 +85,36 @@ where
 }
 
 /// Methods for holonomic constraints.
-pub fn constrained<V, S>(problem: Problem<V, S>) -> Problem<V, S>
+pub fn constrained<V, S, C>(problem: Problem<V, S>) -> Problem<V, S>
 where
     V: Vector<Scalar = f64>,
-    S: System<V, Class = Constrained<Separable>> + Clone + 'static,
+    S: System<V, Class = Constrained<C>> + Clone + 'static,
+    C: Class + Unconstrained,
 {
     run!(problem, integrator => Ok(integrator);
         StoermerVerlet "RATTLE" plain,
+        Rattle4 "RATTLE, order 4" plain,
+        Rattle6 "RATTLE, order 6" plain,
         Lobatto3 "Lobatto 3" plain,
         Lobatto4 "Lobatto 4" plain,
+        Lobatto5 "Lobatto 5" plain,
         Lobatto4 "Lobatto 4, compensated" new,
+    )
+}
+
+/// Splittings for friction in the kicks.
+pub fn damped<V, S>(problem: Problem<V, S>) -> Problem<V, S>
+where
+    V: Vector<Scalar = f64>,
+    S: System<V, Class = Damped> + Clone + 'static,
+{
+    run!(problem, integrator => Ok(integrator);
+        VelocityVerlet "Störmer–Verlet" plain,
+        ForestRuth "Forest–Ruth" plain,
+        BlanesMoanS6 "Blanes–Moan S6" plain,
+        BlanesMoanS10 "Blanes–Moan S10" plain,
+        KahanLi8 "Kahan–Li 8" plain,
+        BlanesMoanS10 "S10, compensated" new,
     )
 }
 
@@ -108,6 +129,7 @@ where
         Midpoint "Midpoint" plain,
         StoermerVerlet "Störmer–Verlet, implicit" plain,
         Midpoint4 "Midpoint, order 4" plain,
+        Midpoint6 "Midpoint, order 6" plain,
         Midpoint4 "Midpoint, order 4, compensated" new,
     )
 }

@@ -1,0 +1,274 @@
+//! Generating functions of Types I, II and III at given ends of a step: their derivatives, their Legendre transforms, and where there are
+//! none.
+
+use symplectic::nalgebra::{DVector, Vector1, Vector2};
+use symplectic::variational::{
+    GeneratingFunctions, GivenEnds, LagrangianIntegrator, VariationalIntegrator,
+    generating_function,
+};
+use symplectic::{Error, Integrator, Quantity, State};
+
+use crate::discrete_lagrangians::{AtTwoPoints, DoublePendulum, Shaken, Trapezoid, perihelion};
+use crate::forces::{ForestRuth, Gauss2, Lobatto3};
+use crate::symmetry::Twisted;
+
+symplectic::composition! { TwoSteps { base: stormer-verlet, weights: [1/2, 1/2] } }
+symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+
+symplectic::hamiltonian! { pub Oscillator q: [x], p: [px]; H = (px^2 + x^2)/2 }
+symplectic::hamiltonian! { pub Product q: [x], p: [px]; H = x px }
+symplectic::hamiltonian! { pub Swing q: [a, b], p: [pa, pb]; H = (pa^2 + pb^2)/2 - cos(a) - cos(a - b) }
+
+type Plane = Vector2<f64>;
+
+/// The gradient of a function, by differences of order 4 with an error of about 10⁻¹².
+fn gradient(at: &Plane, function: impl Fn(&Plane) -> GivenEnds<Plane>) -> Plane {
+    const WAY: f64 = 1e-3;
+    Plane::from_fn(|k, _| {
+        let moved = |by: f64| {
+            let mut at = *at;
+            at[k] += by;
+            function(&at).value
+        };
+        (8.0 * (moved(WAY) - moved(-WAY)) - (moved(2.0 * WAY) - moved(-2.0 * WAY))) / (12.0 * WAY)
+    })
+}
+
+/// Checks all three functions near a step.
+#[track_caller]
+fn check(run: &impl GeneratingFunctions<Vector = Plane>, way: &Plane) {
+    let present = run.present().clone();
+    let end = run.step_from(present.clone()).expect("a step");
+    // Other ends than those of the step.
+    let (q0, q1) = (present.q + way, end.q - way * 0.7);
+    let one = |q0: &Plane, q1: &Plane| run.type_one(q0, q1).expect("a step");
+    let two = |q0: &Plane, p1: &Plane| run.type_two(q0, p1).expect("a step");
+    let three = |p0: &Plane, q1: &Plane| run.type_three(p0, q1).expect("a step");
+    let step = one(&q0, &q1);
+    assert!((step.end.q - q1).amax() < 1e-14 && step.start.q == q0);
+    let (p0, p1) = (step.start.p, step.end.p);
+    let (by_momentum, by_both) = (two(&q0, &p1), three(&p0, &q1));
+    let legendre = [
+        (by_momentum.value, p1.dot(&q1) - step.value),
+        (by_both.value, -p0.dot(&q0) - step.value),
+    ];
+    for (found, expected) in legendre {
+        assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+    }
+    let gradients = [
+        ("p0", p0, -gradient(&q0, |q0| one(q0, &q1))),
+        ("p1", p1, gradient(&q1, |q1| one(&q0, q1))),
+        ("p0", p0, gradient(&q0, |q0| two(q0, &p1))),
+        ("q1", q1, gradient(&p1, |p1| two(&q0, p1))),
+        ("q0", q0, -gradient(&p0, |p0| three(p0, &q1))),
+        ("p1", p1, -gradient(&q1, |q1| three(&p0, q1))),
+    ];
+    for (what, expected, found) in gradients {
+        let error = (found - expected).amax();
+        assert!(error < 1e-9, "{what}: {error:e}");
+    }
+    // It is another step than that of the present state.
+    assert!((p0 - present.p).amax() > 1e-2);
+}
+
+#[test]
+fn derivatives_are_the_other_ends() -> Result<(), Error> {
+    let way = Vector2::new(0.02, -0.03);
+    let start: State<Plane> = State::from_arrays(0.0, [0.8, 0.3], [0.2, 0.7]);
+    check(
+        &Integrator::new(Gauss2, Twisted, start.clone(), 0.25)?,
+        &way,
+    );
+    check(
+        &Integrator::new(Lobatto3, Twisted, start.clone(), 0.25)?,
+        &way,
+    );
+    check(
+        &Integrator::new(Gauss2, Twisted, start.clone(), 0.25)?.by_newton(),
+        &way,
+    );
+    check(
+        &Integrator::new(ForestRuth, Swing, start.clone(), 0.25)?,
+        &way,
+    );
+    check(
+        &Integrator::new(TwoSteps, Swing, start.clone(), -0.25)?,
+        &way,
+    );
+    check(
+        &LagrangianIntegrator::new(Gauss2, DoublePendulum, start, 0.25)?,
+        &way,
+    );
+    check(
+        &VariationalIntegrator::new(Trapezoid, perihelion(), 0.05)?,
+        &way,
+    );
+    check(
+        &VariationalIntegrator::new(AtTwoPoints(0.3), perihelion(), 0.05)?,
+        &way,
+    );
+    Ok(())
+}
+
+/// Values in closed form, and the value of Type II by the other algorithm.
+#[test]
+fn values() -> Result<(), Error> {
+    let (h, q0, q1) = (0.25, Vector1::new(0.7), Vector1::new(0.9));
+    let start = State::from_arrays(0.0, [0.7], [0.1]);
+    let run = Integrator::new(StoermerVerlet, Oscillator, start, h)?;
+    let action = |q0: f64, q1: f64| (q1 - q0).powi(2) / (2.0 * h) - h / 4.0 * (q0 * q0 + q1 * q1);
+    assert!((run.type_one(&q0, &q1)?.value - action(0.7, 0.9)).abs() < 1e-14);
+    let (q0, p1) = (Vector2::new(0.5, -0.2), Vector2::new(0.3, 0.6));
+    let start = State::new(0.0, q0, p1);
+    let run = Integrator::new(Gauss2, Twisted, start, 0.25)?;
+    let (found, expected) = (
+        run.type_two(&q0, &p1)?,
+        generating_function(Gauss2, &Twisted, 0.0, &q0, &p1, 0.25)?,
+    );
+    assert!((found.value - expected.value).abs() < 1e-14);
+    assert!(
+        (found.start.p - expected.p0).amax() < 1e-14 && (found.end.q - expected.q1).amax() < 1e-14
+    );
+    Ok(())
+}
+
+/// The weights of forces and velocities of a splitting differ; the value by stages and that by Newton's iteration agree. If H depends on time
+/// there is no single energy of a stage.
+#[test]
+fn splittings() -> Result<(), Error> {
+    let (q0, p1) = (Vector2::new(0.5, -0.2), Vector2::new(0.3, 0.6));
+    let run = Integrator::new(ForestRuth, Swing, State::new(0.0, q0, p1), 0.2)?;
+    let found = run.type_two(&q0, &p1)?;
+    let expected = generating_function(ForestRuth, &Swing, 0.0, &q0, &p1, 0.2)?;
+    let error = (found.value - expected.value).abs();
+    assert!(error < 1e-14, "{error:e}");
+    let run = Integrator::new(
+        StoermerVerlet,
+        Shaken,
+        State::from_arrays(0.0, [0.5], [0.3]),
+        0.1,
+    )?;
+    let outcome = run.type_one(&Vector1::new(0.5), &Vector1::new(0.52));
+    assert!(
+        matches!(outcome, Err(Error::TwoClocks { .. })),
+        "{outcome:?}"
+    );
+    Ok(())
+}
+
+/// The present state is a step already: nothing has to be found, whatever its size.
+#[test]
+fn ends_of_a_known_step() -> Result<(), Error> {
+    for size in [1e-6, 1e-3, 0.3] {
+        let start: State<Plane> = State::from_arrays(0.0, [0.8, 0.3], [0.2, 0.7]);
+        let mut run = Integrator::new(Gauss2, Twisted, start.clone(), size)?;
+        let there = run.clone();
+        let end = run.step()?.q;
+        let found = there.type_one(&start.q, &end)?;
+        // The momentum is known to the rounding of the positions, divided by the step size.
+        assert!((found.start.p - start.p).amax() < 1e-14 / size);
+        assert_eq!(there.steps(), 0);
+    }
+    Ok(())
+}
+
+/// With two steps of Störmer–Verlet of size k = h/2, ∂q1/∂p0 = 2k(1 − k²/2) vanishes at k = √2. With one, ∂q1/∂q0 = 1 − h²/2 does so at
+/// h = √2, and ∂p1/∂p0 too. A degenerate H has no Type I at all.
+#[test]
+fn where_the_ends_do_not_determine_the_step() -> Result<(), Error> {
+    let root = 2.0_f64.sqrt();
+    let (one, other) = (Vector1::new(0.7), Vector1::new(0.9));
+    let start = || State::from_arrays(0.0, [0.7], [0.1]);
+    let two_steps = |size| Integrator::new(TwoSteps, Oscillator, start(), size);
+    let one_step = |size| Integrator::new(StoermerVerlet, Oscillator, start(), size);
+    let none = |found: Result<GivenEnds<Vector1<f64>>, Error>, unknown: Quantity| match found {
+        Err(Error::NoStart {
+            component: Some(0),
+            what,
+            residual,
+            ..
+        }) => what == unknown && residual > 1e-3,
+        _ => false,
+    };
+    assert!(none(
+        two_steps(2.0 * root)?.type_one(&one, &other),
+        Quantity::Momentum
+    ));
+    assert!(none(
+        one_step(root)?.type_two(&one, &other),
+        Quantity::Momentum
+    ));
+    assert!(none(
+        one_step(root)?.type_three(&one, &other),
+        Quantity::Position
+    ));
+    let product = Integrator::new(Gauss2, Product, start(), 0.1)?;
+    assert!(none(product.type_one(&one, &other), Quantity::Momentum));
+    // The other types exist there, and this type at a size nearby.
+    for found in [
+        two_steps(2.0 * root)?.type_two(&one, &other),
+        two_steps(2.0 * root)?.type_three(&one, &other),
+        two_steps(2.8)?.type_one(&one, &other),
+        one_step(root)?.type_one(&one, &other),
+        one_step(1.4)?.type_two(&one, &other),
+        one_step(1.4)?.type_three(&one, &other),
+        product.type_two(&one, &other),
+        product.type_three(&one, &other),
+    ] {
+        assert!(found?.value.is_finite());
+    }
+    let text = two_steps(2.0 * root)?
+        .type_one(&one, &other)
+        .expect_err("a conjugate point")
+        .to_string();
+    assert!(
+        text.contains("component 0") && text.contains("another type"),
+        "{text}"
+    );
+    Ok(())
+}
+
+symplectic::hamiltonian! { pub Root q: [x], p: [px]; H = sqrt(1 + px^2) }
+
+/// Faster than light: no momentum leads so far. Wrong vectors are refused.
+#[test]
+fn ends_that_no_step_has() -> Result<(), Error> {
+    let start = State::from_arrays(0.0, [0.0], [0.5]);
+    let run = Integrator::new(Gauss2, Root, start, 0.1)?;
+    let outcome = run.type_one(&Vector1::new(0.0), &Vector1::new(0.2));
+    assert!(
+        matches!(
+            outcome,
+            Err(Error::NoStart { .. } | Error::NonFiniteState { .. })
+        ),
+        "{outcome:?}"
+    );
+    assert!(
+        run.type_one(&Vector1::new(0.0), &Vector1::new(0.09))
+            .is_ok()
+    );
+    let outcome = run.type_three(&Vector1::new(f64::NAN), &Vector1::new(0.2));
+    assert!(
+        matches!(
+            outcome,
+            Err(Error::NonFiniteState {
+                what: Quantity::Momentum
+            })
+        ),
+        "{outcome:?}"
+    );
+    let heap = symplectic::separable::<DVector<f64>, _, _>(
+        |_, p, velocity| velocity.copy_from(p),
+        |_, q, force| force.copy_from(&-q),
+    );
+    let vector = |n: usize| DVector::from_element(n, 0.3);
+    let run = Integrator::new(Gauss2, heap, State::new(0.0, vector(2), vector(2)), 0.1)?;
+    for (q0, q1) in [(3, 2), (2, 3)] {
+        let outcome = run.type_one(&vector(q0), &vector(q1));
+        assert!(
+            matches!(outcome, Err(Error::Dimension { .. })),
+            "{outcome:?}"
+        );
+    }
+    Ok(())
+}
