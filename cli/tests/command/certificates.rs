@@ -282,7 +282,11 @@ fn what_is_not_proved_and_what_is_no_certificate_is_rejected() {
         ),
         // The words of fourth order with three kicks are violated.
         (
-            edited(&perturbed, "[10, 6, 4]", "[10, 6]"),
+            edited(
+                &perturbed,
+                "\"perturbed\": [10, 6, 4]",
+                "\"perturbed\": [10, 6]",
+            ),
             "orders [10, 6] for H_A + eps H_B, from what was solved",
         ),
         // The same numbers at other conditions.
@@ -440,7 +444,7 @@ fn what_is_not_proved_and_what_is_no_certificate_is_rejected() {
                 "\"variable\": \"e\"",
                 "\"variable\": \"exp(1/2)\"",
             ),
-            "c[2]",
+            "c_tilde[1] = ",
         ),
         (
             edited(
