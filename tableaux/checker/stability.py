@@ -8,7 +8,7 @@ from check_certificate import (
     rounded_from, value
 )
 
-from .functions import Quotient
+from .functions import Quotient, trimmed
 from .simple_roots import Undecided, sign, simple_roots
 
 MOST_STAGES = 40
@@ -58,11 +58,6 @@ def combined(f, x, g, y):
     longest = max(len(f), len(g))
     f, g = (list(h) + [Fraction(0)] * (longest - len(h)) for h in (f, g))
     return trimmed([x * u + y * v for u, v in zip(f, g)])
-
-
-def trimmed(f):
-    """Without zeros at the end."""
-    return f[: max((k + 1 for k, c in enumerate(f) if c), default=0)]
 
 
 def check_chain(chain, f):

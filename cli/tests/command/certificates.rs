@@ -616,6 +616,40 @@ fn an_order_that_trees_are_too_many_for_is_not_believed() {
     }
 }
 
+/// A splitting with π whose last drift is zero: a flow of no length is none, so that the others are a palindrome.
+#[test]
+fn a_flow_of_no_length_with_pi_is_none() {
+    let text = stdout(&[
+        "derive",
+        "--kick",
+        "1/pi, 1 - 2/pi, 1/pi",
+        "--drift",
+        "1/2, 1/2, 0",
+        "--format",
+        "toml",
+    ]);
+    let folder = folder("pi");
+    let table = folder.join("pi.toml");
+    std::fs::write(&table, text).expect("written");
+    let certificate = stdout(&["certify", table.to_str().expect("a path")]);
+    for (claim, part) in [
+        (
+            "true",
+            "right: doubles, palindrome, general 1, separable 2, nystrom 2, perturbed [2, 2], stability",
+        ),
+        ("false", "WRONG: not proved: palindrome = False"),
+    ] {
+        let path = folder.join("pi.json");
+        let text = certificate.replace("\"palindrome\": true", &format!("\"palindrome\": {claim}"));
+        std::fs::write(&path, text).expect("written");
+        let path = path.to_str().expect("a path");
+        let Some((_, said)) = python(&["tableaux/check_certificate.py", path]) else {
+            return;
+        };
+        assert!(said.contains(part), "{claim}: {said}");
+    }
+}
+
 /// Two steps of a half: the trace is a square less 2. Where it touches -2, the double step is -1: the certificate does not cover its stability,
 /// and the program does not check such a claim.
 #[test]
