@@ -19,7 +19,7 @@ MOST_WORDS = 20000  # Of one length, and of all that an order needs.
 
 def is_zero(x):
     """Whether a number is zero. An element of a field that is not may still have the value zero if its polynomial is a product."""
-    demand(not isinstance(x, Element) or not x or is_not_zero(x), "a number that is not zero, or whose coordinates are")
+    demand(not isinstance(x, (Element, Quotient)) or not x or is_not_zero(x), "a number that is not zero, or whose coordinates are")
     return x == 0 if isinstance(x, (Element, Fraction, Quotient)) else False
 
 
