@@ -27,27 +27,25 @@ from pathlib import Path
 
 FURTHER = {  # Claims, and the files in the folder `checker` with a function of that name for them.
     "assumptions": "assumptions",  # Orders that have too many trees.
+    "functions": "functions",  # The coefficients are functions of a transcendental number.
+    "levels": "compositions",  # The coefficients are those of compositions of compositions.
     "solution": "solutions",  # The coefficients are the solution of order conditions.
     "symmetric": "symmetry",  # With the stages in an order that is given.
     "palindrome": "splittings",  # The flows of a splitting are the same forwards and backwards.
-    "perturbed": "splittings",  # The orders of a splitting for H_A + eps H_B.
+    "perturbed": "splittings",  # The orders for H_A + eps H_B.
     "stability": "stability",  # All stable step sizes of the oscillator.
     "table": "tables",  # The table of the same name in the folder above says what the certificate says.
 }
 CLASSES = ("general", "separable", "nystrom")  # Any H; T(p) + U(q); the same with a quadratic T.
 NOT_COVERED = {"symplectic", "symmetric", "palindrome", "stability", "order (perturbed)", *(f"order ({kind})" for kind in CLASSES)}
 
-MOST_TREES = 1000  # Of one order.
-MOST_BYTES = 1 << 24  # Of a file.
-MOST_STAGES = 64
-MOST_DEGREE = 100  # Of polynomials that define nodes and fields,
-MOST_DIGITS = 3000  # and of their coefficients, all as long as the longest.
-MOST_VERTICES = 60  # Of a tree in a file.
+MOST_TREES, MOST_VERTICES = 1000, 60  # Of one order, and of a tree in a file.
+MOST_BYTES, MOST_STAGES = 1 << 24, 64  # Of a file and of a method.
+MOST_DEGREE, MOST_DIGITS = 100, 3000  # Of polynomials that define nodes and fields, and of their coefficients, all as long as the longest.
 UNIT = 1 << 250  # Irrational roots are known between two neighbouring multiples of 1/UNIT.
 TIE = Fraction(1, 1 << 240)  # What is nearer to the middle between two decimals may be rounded to both.
 
 class Rejected(Exception): """A claim that does not hold."""
-
 class NotChecked(str): """What to say of a claim that is not checked."""
 # What claims that do not hold and files that are no certificates raise.
 WRONG = (Rejected, ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RecursionError, TypeError, ValueError)
@@ -158,8 +156,7 @@ def enclosed(f, x):
     error = (x[1] - x[0]) * slope + Fraction(len(f), UNIT**2)
     return found - error, found + error
 
-def ends(x):
-    return x.ends() if isinstance(x, Number) else (x, x)
+def ends(x): return x.ends() if isinstance(x, Number) else (x, x)
 
 def is_not_zero(x): return ends(x)[0] > 0 or ends(x)[1] < 0
 
@@ -188,9 +185,8 @@ def check_rounded(text, x, rounding, what):
     for k, (entry, y) in enumerate(zip(text, x), 1):
         check_rounded(entry, y, rounding, f"{what}[{k}]")
 
-# Numbers that are not rational. They have + and *, with rationals too.
 class Number:
-    """What follows from + and *."""
+    """What follows from + and * of numbers that are not rational, with rationals too."""
     __radd__ = lambda self, other: self + other
     __rmul__ = lambda self, other: self * other
     __sub__ = lambda self, other: self + other * -1
@@ -350,6 +346,7 @@ def read_tree(text):
     demand(tokens == ["end"], wrong)
     return found
 
+@lru_cache(maxsize=1)
 def residuals(of):
     """The function that tells by how much a method violates the condition of a tree: its elementary weight less 1/gamma (HLW III.2)."""
     stages = lru_cache(maxsize=None)(lambda tree: of.apply(tree[0], product(tree[1])))
@@ -419,16 +416,18 @@ def method_of(certificate):
     numbers, layout, stages = certificate["numbers"], certificate["layout"], whole(certificate["stages"])
     kind, weights = numbers["kind"], {"q": certificate["b"], "p": certificate["b_tilde"]}
     matrices = {"q": certificate["a"], "p": certificate["a_tilde"]} if layout == "matrices" else {}
-    count = len(numbers["polynomial"]) - 1 if kind == "nodes" else len(certificate["b"])
-    demand(0 < stages <= MOST_STAGES and stages == count, f"{stages} stages, of at most {MOST_STAGES}")
-    if kind == "solution" and not matrices:
-        return further("solution", numbers, layout, weights)
+    count = len(numbers["polynomial"]) - 1 if kind == "nodes" else stages if kind == "levels" else len(certificate["b"])
+    demand(0 < stages == count and (stages <= MOST_STAGES or kind == "levels"), f"{stages} stages, of at most {MOST_STAGES}")
+    if kind in ("solution", "levels") and not matrices:
+        return further(kind, numbers, layout, weights)
     if kind == "nodes" and matrices:
         check_members(numbers, ("kind", "polynomial"))
         return Nodes(numbers["polynomial"], weights, matrices, certificate["doubles"])
-    demand(kind == "field", "numbers of a kind that is known and belongs to the layout")
-    check_members(numbers, ("kind", "polynomial", "root"))
-    number = field(numbers["polynomial"], numbers["root"])
+    demand(kind in ("field", "functions"), "numbers of a kind that is known and belongs to the layout")
+    number = further("functions", numbers) if kind == "functions" else field(numbers["polynomial"], numbers["root"])
+    if isinstance(number, NotChecked):
+        return number
+    check_members(numbers, ("kind", "polynomial", "root"), ("variable",) if kind == "functions" else ())
     weights = {colour: [number(x) for x in f] for colour, f in weights.items()}
     matrices = {colour: [[number(x) for x in row] for row in rows] for colour, rows in matrices.items()}
     return Stages(layout, weights, matrices)
@@ -439,7 +438,7 @@ def check(text):
     demand(certificate["format"] == "symplectic certificate" and whole(certificate["version"]) == 1, "a certificate of version 1")
     demand(certificate["layout"] in ("matrices", "kicks first", "drifts first"), "a layout that is known")
     matrices = ("a", "a_tilde") if certificate["layout"] == "matrices" else ()  # Those of a splitting follow from its weights.
-    first, last = (("symplectic", "symmetric"), ("stability",)) if matrices else (("palindrome",), ("perturbed", "stability"))
+    first, last = ("symplectic", "symmetric") if matrices else ("palindrome",), ("perturbed", "stability")
     needed = ("format", "version", "name", "stages", "layout", "numbers", "b", "b_tilde", *matrices, "doubles", "order", "not_covered")
     check_members(certificate, needed, (*first, *last))
     check_members(certificate["doubles"], ("c", "c_tilde", "b", "b_tilde", *matrices), ("a", "a_tilde"))
@@ -451,6 +450,7 @@ def check(text):
     of = method_of(certificate)
     if isinstance(of, NotChecked):
         return certificate, None, [of]
+    demand(of.s == certificate["stages"], f"{of.s} stages")
     exact, residual, tests = {"method": of}, residuals(of), {"symplectic": symplectic, "symmetric": symmetric}
     for colour, tilde in (("q", ""), ("p", "_tilde")):
         exact["a" + tilde] = lambda colour=colour: of.entries(colour)

@@ -23,7 +23,7 @@ def root(name, x):
 def evaluated(text, nu=Fraction(0)):
     """The value; `None` if the expression has other numbers than integers, their roots and `ν`."""
     demand(isinstance(text, str) and len(text) <= 5000, "an expression")
-    if "…" in text or re.search(r"(root|cos|sin|exp)\(|pi", text):
+    if "…" in text or re.search(r"(root|cos|sin|tan|exp)\(|pi|\be\b", text):
         return None
     python = re.sub(f"[{SUPERSCRIPTS}]+", lambda power: "^" + "".join(str(SUPERSCRIPTS.index(c)) for c in power[0]), text)
     python = re.sub(r"([0-9)])\s*ν", r"\1*ν", python.replace("−", "-")).replace("^", "**")

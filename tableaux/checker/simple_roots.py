@@ -74,6 +74,8 @@ def narrowed(f, low, high):
     before = sign(f, low)
     while high - low > NARROW:
         middle = (low + high) / 2
+        if not any(value(g, middle) for g in zip(*f)):
+            return middle, middle  # Coefficients that are known exactly have a root that is.
         try:
             low, high = (middle, high) if sign(f, middle) == before else (low, middle)
         except Undecided:

@@ -1,18 +1,20 @@
 """Coefficients that are known as the solution of order conditions. That there is one near some digits is proved here."""
 
+import math
+import re
 from fractions import Fraction
 from functools import lru_cache
-from math import ceil, floor
 
-from check_certificate import Number, Stages, check_members, check_rounded, demand, ends, rationals, residuals, rounded_from, whole
+from check_certificate import Number, Stages, check_members, demand, rationals, read_tree, residuals, rounded_from, whole
 
-from .rootings import unrooted
-from .splittings import base_residuals, flows, is_palindrome, product_of, splitting_conditions, splitting_residual
+from .rootings import rootings, unrooted
+from .splittings import base_conditions, base_residual, flows, is_palindrome, product_of, splitting_conditions, splitting_residual
 
 MOST_ORDER = {"separable": 10, "nystrom": 8, "composition": 10, "perturbed": 24}
 MOST_UNKNOWNS = 40
-RADIUS = Fraction(1, 1 << 64)  # Half the edge of the cube in which the solution is proved to be.
-UNIT = 1 << 400  # The ends of intervals are whole multiples of 1/UNIT.
+EDGE = Fraction(2, 10**38)  # Of the box in which the solution is proved to be.
+PLACES = 400
+UNIT = 1 << PLACES  # The ends of intervals are whole multiples of 1/UNIT.
 
 
 class Interval(Number):
@@ -28,7 +30,7 @@ class Interval(Number):
     def __mul__(self, other):
         other = enclosed(other)
         products = [x * y for x in (self.low, self.high) for y in (other.low, other.high)]
-        return Interval(min(products) // UNIT, -(-max(products) // UNIT))
+        return Interval(min(products) >> PLACES, -(-max(products) >> PLACES))
 
     def ends(self):
         return Fraction(self.low, UNIT), Fraction(self.high, UNIT)
@@ -36,15 +38,12 @@ class Interval(Number):
     def middle(self):
         return sum(self.ends()) / 2
 
-    def magnitude(self):
-        return max(-self.low, self.high)
-
     def is_inside(self, low, high):
         return low * UNIT <= self.low and self.high <= high * UNIT
 
 
 def between(low, high):
-    return Interval(floor(low * UNIT), ceil(high * UNIT))
+    return Interval(math.floor(low * UNIT), math.ceil(high * UNIT))
 
 
 def enclosed(x):
@@ -81,13 +80,15 @@ class Solution:
 
     def __init__(self, numbers, layout, weights):
         self.kind, self.orders = numbers["class"], [whole(x) for x in numbers["orders"]]
-        check_members(numbers, ("kind", "class", "orders", "unknowns", *(("weights",) if self.kind == "composition" else ())))
+        needed = ("kind", "class", "orders", "unknowns", "conditions", "box", "inverse")
+        check_members(numbers, (*needed, *(("weights",) if self.kind == "composition" else ())))
         decimals = numbers["unknowns"]
         demand(self.kind in MOST_ORDER and 0 < len(self.orders) <= 24, "conditions of a class that is known")
         demand(0 < min(self.orders) and max(self.orders) <= MOST_ORDER[self.kind], "conditions of an order that is bounded")
         demand(self.orders == sorted(self.orders, reverse=True), "orders that do not grow with the power of eps")
         demand(len(self.orders) == 1 or self.kind == "perturbed", "one order")
         demand(0 < len(decimals) <= MOST_UNKNOWNS, f"between 1 and {MOST_UNKNOWNS} unknowns")
+        demand(len(numbers["conditions"]) == len(decimals), f"{len(numbers['conditions'])} conditions, as many as unknowns")
         self.layout, self.affine = layout, {colour: [self.vector(x, decimals) for x in list_] for colour, list_ in weights.items()}
         demand(len(weights["q"]) == len(weights["p"]), "lists of one length")
         self.factors = all_flows = flows(layout, self.affine, is_zero=lambda x: not any(x))
@@ -95,7 +96,9 @@ class Solution:
             self.factors = [(None, self.vector(x, decimals)) for x in numbers["weights"]]
             demand(all_flows == verlet([x for _, x in self.factors], all_flows[0][0]), "a composition of Stoermer-Verlet")
         self.symmetric = is_palindrome(self.factors)
-        _, self.weights = self.at(self.solve(decimals))
+        self.names = numbers["conditions"]
+        self.all = self.named(self.names)
+        _, self.weights = self.at(self.solve(decimals, places(numbers["box"], 38), places(numbers["inverse"], 10)))
 
     def vector(self, x, decimals):
         x = tuple(rationals(x))
@@ -112,58 +115,68 @@ class Solution:
         factors = [(letter, number(x)) for letter, x in self.factors]
         return factors, {colour: [number(x) for x in list_] for colour, list_ in self.affine.items()}
 
-    def conditions(self, unknowns):
-        """What has to vanish, sufficient for the order: of a symmetric method in odd degrees (HLW II.3), and as many as unknowns."""
-        (factors, weights), step = self.at(unknowns), 2 if self.symmetric else 1
-        if self.kind == "nystrom":
-            # One rooting of each tree, as splittings are symplectic (HLW VI.7).
-            residual = residuals(Stages(self.layout, weights, {}))
-            found = [residual(tree) for n in range(1, self.orders[0] + 1, step) for tree in unrooted(n, "nystrom")]
-        elif self.kind == "composition":
-            found = base_residuals(self.orders[0], step, product_of(factors))
+    def named(self, names):
+        """All conditions by name, sufficient for the order: of a symmetric method in odd degrees (HLW II.3)."""
+        step = 2 if self.symmetric else 1
+        if self.kind == "composition":
+            words = base_conditions(self.orders[0], step)
+        elif self.kind != "nystrom":
+            words = splitting_conditions(self.orders, step)
         else:
-            factors = product_of(factors)
-            found = [splitting_residual(word, factors) for word in splitting_conditions(self.orders, step)]
-        demand(all(x == 0 for x in found if isinstance(x, Fraction)), "conditions without unknowns")
-        found = [x for x in found if not isinstance(x, Fraction)]
-        demand(len(found) == len(unknowns), f"{len(found)} unknowns, as many as conditions")
-        return found
+            # One rooting of each tree, as splittings are symplectic (HLW VI.7): that of the name.
+            same = lambda tree: min(rootings(tree))
+            given = {same(tree): (name, tree) for name, tree in zip(names, map(read_tree, names))}
+            trees = (tree for n in range(1, self.orders[0] + 1, step) for tree in unrooted(n, "nystrom"))
+            return dict(given.get(same(tree), (tree, tree)) for tree in trees)
+        return {"".join({"q": "A", "p": "B"}.get(letter, f"E{letter}") for letter in word): word for word in words}
 
-    def solve(self, decimals):
-        """Krawczyk's test. Let C be any matrix, y a point, and X the cube of radius r around it, in the norm of the largest component. If
-        |C F(y)| + e r < r with e = |1 - C F'(X)|, then x - C F(x) maps X into itself and contracts it by e < 1. It has one fixed point
-        x there, a zero of F, and |x - y| <= |C F(y)|/(1 - e)."""
-        n = len(decimals)
+    def conditions(self, unknowns):
+        """What has to vanish, as many as unknowns."""
+        factors, weights = self.at(unknowns)
+        if self.kind == "nystrom":
+            residual = residuals(Stages(self.layout, weights, {}))
+        else:
+            factors, residual_of = product_of(factors), base_residual if self.kind == "composition" else splitting_residual
+            residual = lambda word: residual_of(word, factors) * math.factorial(len(word))
+        found = {name: residual(x) for name, x in self.all.items()}
+        known = [name for name, x in found.items() if isinstance(x, Fraction)]
+        demand(not any(map(found.pop, known)), "conditions without unknowns")
+        demand(found.keys() == {*self.names} and len(found) == len(self.names), "the conditions of the class, each once")
+        return [found[name] for name in self.names]
+
+    def solve(self, decimals, box, matrix):
+        """Krawczyk's test with any matrix C: if K(X) = y - C F(y) + (1 - C F'(X)) (X - y) lies inside the box X around the point y, then F
+        has one zero in X, and it lies in K(X)."""
+        n, half = len(decimals), Fraction(50001, 10**15)
+        demand(len(box) == len(matrix) == n and all(len(row) == n for row in matrix), "an edge and a row for each unknown")
+        demand(all(high - low == EDGE for low, high in box), f"a box with edges of length {EDGE}")
         unit = [[enclosed(i == j) for j in range(n)] for i in range(n)]
-        start = [enclosed(sum(rounded_from(x)) / 2) for x in decimals]
-        # This cube has those around all y that are at most RADIUS away from the decimals.
-        cube = [Jet(x + between(-2 * RADIUS, 2 * RADIUS), row) for x, row in zip(start, unit)]
-        derivative = [f.slopes for f in self.conditions(cube)]
-        matrix = inverted([[float(x.middle()) for x in row] for row in derivative])
-        times = lambda f: [sum(c * x for c, x in zip(row, f)) for row in matrix]
-        rows = zip(*(times(column) for column in zip(*derivative)))
-        contraction = max(sum((x - one).magnitude() for x, one in zip(row, line)) for row, line in zip(rows, unit))
-        y = start
-        for _ in range(4):
-            y = [enclosed((x - step).middle()) for x, step in zip(y, times(self.conditions(y)))]
-            # Far away the numbers would get longer and longer.
-            moved = all((x - x0).is_inside(-RADIUS, RADIUS) for x, x0 in zip(y, start))
-            demand(moved, "a solution of the order conditions near the digits")
-        step = max(x.magnitude() for x in times(self.conditions(y)))
-        near = Interval(-2 * step, 2 * step)
-        proved = 2 * contraction < enclosed(1).low and near.is_inside(-RADIUS, RADIUS)
-        demand(proved, "a solution of the order conditions near the digits")
-        found = [x + near for x in y]
-        check_rounded(decimals, [ends(x) for x in found], rounded_from, "the solution of the order conditions")
+        found, matrix = [between(*edge) for edge in box], [[enclosed(c) for c in row] for row in matrix]
+        times = lambda matrix, f: [sum(c * x for c, x in zip(row, f)) for row in matrix]
+        derivative = [f.slopes for f in self.conditions([Jet(x, row) for x, row in zip(found, unit)])]
+        columns = [[one - x for x, one in zip(times(matrix, f), row)] for f, row in zip(zip(*derivative), unit)]
+        error = list(zip(*columns))
+        # The digits of C are those of the inverse: it differs by less than half a unit.
+        rounded = all(x.is_inside(-half, half) for column in zip(*matrix) for x in times(error, column))
+        demand(rounded, "the digits of the inverse")
+        bounds = [rounded_from(text, tie=0) for text in decimals]
+        for _ in range(4):  # Once proves it, and then there are more digits.
+            y = [enclosed(x.middle()) for x in found]
+            steps, errors = times(matrix, self.conditions(y)), times(error, [x - z for x, z in zip(found, y)])
+            found = [z - step + x for z, step, x in zip(y, steps, errors)]
+            inside = all(x.is_inside(*ends) for x, ends in zip(found, bounds))
+            demand(inside, "a solution of the order conditions that rounds to the digits")
+        demand(all(low < x[0] and x[1] < high for (low, high), x in zip(box, bounds)), "digits inside the box")
         return found
 
     def given(self):
         """The orders for the classes, and in the powers of eps, that follow. Those of symmetric methods are even."""
         even = lambda order: order + (order % 2 if self.symmetric else 0)
         order = self.orders[-1]
-        # Trees with 3 vertices are the same for quadratic T and for all.
+        # Trees with 3 vertices are the same for quadratic T and for all. Those with at most two vertices of the colour p are too, with the
+        # root at one of these: then no vertex of the colour q has two children.
         separable = min(order, 3) if self.kind == "nystrom" else order
-        powers = self.orders if self.kind == "perturbed" else [separable]
+        powers = self.orders if self.kind == "perturbed" else [order, order, separable]
         return {"general": 1, "separable": even(separable), "nystrom": even(order), "perturbed": [even(s) for s in powers]}
 
 
@@ -179,16 +192,8 @@ def verlet(weights, outer):
     return flows
 
 
-def inverted(matrix):
-    """The inverse of a matrix of floating-point numbers, rounded: any matrix may take its place."""
-    n = len(matrix)
-    rows = [row + [float(i == j) for j in range(n)] for i, row in enumerate(matrix)]
-    for k in range(n):
-        pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
-        rows[k], rows[pivot] = rows[pivot], rows[k]
-        demand(rows[k][k] != 0, "a regular derivative of the order conditions")
-        rows[k] = [x / rows[k][k] for x in rows[k]]
-        for i in range(n):
-            if i != k:
-                rows[i] = [x - rows[i][k] * y for x, y in zip(rows[i], rows[k])]
-    return [[enclosed(Fraction(x)) for x in row[n:]] for row in rows]
+def places(rows, count):
+    """Rows of decimals with this number of places."""
+    known = lambda text: isinstance(text, str) and re.fullmatch(rf"-?[0-9]{{1,20}}\.[0-9]{{{count}}}", text)
+    demand(all(known(text) for row in rows for text in row), f"decimals with {count} places")
+    return [[Fraction(text) for text in row] for row in rows]

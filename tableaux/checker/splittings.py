@@ -8,17 +8,19 @@ words are polynomials in theirs (Radford 1979).
 import math
 from fractions import Fraction
 from functools import lru_cache
-from itertools import combinations
+from itertools import combinations, zip_longest
 
-from check_certificate import Element, demand, is_not_zero, whole
+from check_certificate import MOST_TREES, Element, demand, is_not_zero, residuals, trees, whole
+
+from .functions import Quotient
 
 MOST_WORDS = 20000  # Of one length, and of all that an order needs.
 
 
 def is_zero(x):
     """Whether a number is zero. An element of a field that is not may still have the value zero if its polynomial is a product."""
-    demand(not isinstance(x, Element) or not x or is_not_zero(x), "a number that is not zero, or whose coordinates are")
-    return x == 0 if isinstance(x, (Element, Fraction)) else False
+    demand(not isinstance(x, (Element, Quotient)) or not x or is_not_zero(x), "a number that is not zero, or whose coordinates are")
+    return x == 0 if isinstance(x, (Element, Fraction, Quotient)) else False
 
 
 def flows(layout, weights, is_zero=is_zero):
@@ -57,7 +59,9 @@ def product_of(factors):
 
 
 def is_lyndon(word):
-    return all(word < word[k:] for k in range(1, len(word)))
+    """Whether a word is smaller than all its ends: degrees in order, q before p."""
+    order = [-ord(letter) if isinstance(letter, str) else letter for letter in word]
+    return all(order < order[k:] for k in range(1, len(word)))
 
 
 @lru_cache(maxsize=None)
@@ -92,10 +96,13 @@ def splitting_residual(word, factors):
     return coefficient(word, factors) - Fraction(1, math.factorial(len(word)))
 
 
-def base_residuals(order, step, factors):
+def base_conditions(order, step):
+    return [word for degree in range(1, order + 1, step) for word in base_words(degree) if is_lyndon(word)]
+
+
+def base_residual(word, factors):
     """Of a composition of any symmetric method: the exact flow is exp(h E1)."""
-    words = [word for degree in range(1, order + 1, step) for word in base_words(degree) if is_lyndon(word)]
-    return [coefficient(word, factors) - (word == (1,)) for word in words]
+    return coefficient(word, factors) - (word == (1,))
 
 
 def is_palindrome(factors):
@@ -113,18 +120,42 @@ def palindrome(of, certificate):
 
 def perturbed(of, certificate):
     """Orders for H_A + eps H_B, in the powers of eps, the last one in all higher powers, and that none is higher."""
-    orders, all_flows = [whole(x) for x in certificate["perturbed"]], flows(certificate["layout"], of.weights)
+    orders = [whole(x) for x in certificate["perturbed"]]
     what = f"orders {orders} for H_A + eps H_B"
     demand(orders and 0 < orders[-1] and orders == sorted(orders, reverse=True) and orders[0] <= 30, what)
-    factors = product_of(all_flows)
-    for k, order in enumerate(orders, 1):
-        higher = (word for kicks in range(1, k + 1) for word in splitting_words(order + 1, kicks))
-        demand(any(is_not_zero(splitting_residual(word, factors)) for word in higher), f"{what} and no higher")
+    residual, conditions, higher = by_trees(of, orders) if of.matrices else by_words(of, orders, certificate["layout"])
+    for power, order in enumerate(orders, 1):
+        demand(any(is_not_zero(residual(x)) for x in higher(order + 1, power)), f"{what} and no higher")
     given = of.solved.get("perturbed")
     if given:
-        demand(all(order <= given[min(k, len(given) - 1)] for k, order in enumerate(orders)), f"{what}, from what was solved")
+        # Beyond the ends of the lists their last orders hold.
+        pairs = zip_longest(orders, given)
+        demand(all((order or orders[-1]) <= (most or given[-1]) for order, most in pairs), f"{what}, from what was solved")
     else:
-        # Of a symmetric method even degrees follow from odd ones (HLW II.3).
-        for word in splitting_conditions(orders, 2 if is_palindrome(all_flows) else 1):
-            demand(splitting_residual(word, factors) == 0, f"{what}, word {''.join(word)}")
+        for x in conditions():
+            demand(residual(x) == 0, f"{what}, {x}")
     return f"perturbed {orders}"
+
+
+def by_words(of, orders, layout):
+    """The residual of a word, the conditions, and those of a degree with at most this power of eps."""
+    all_flows = flows(layout, of.weights)
+    factors = product_of(all_flows)
+    # Of a symmetric method even degrees follow from odd ones (HLW II.3).
+    conditions = lambda: splitting_conditions(orders, 2 if is_palindrome(all_flows) else 1)
+    higher = lambda degree, power: (word for kicks in range(1, power + 1) for word in splitting_words(degree, kicks))
+    return lambda word: splitting_residual(word, factors), conditions, higher
+
+
+def by_trees(of, orders):
+    """The same by trees for T(p) + eps U(q): each vertex of the colour p is a force, with a factor eps."""
+
+    def higher(degree, power):
+        found = trees(degree, "separable")
+        demand(len(found) <= MOST_TREES, "orders with fewer trees")
+        return (tree for tree in found if kicks(tree) <= power)
+
+    kicks = lambda tree: (tree[0] == "p") + sum(map(kicks, tree[1]))
+    power = lambda degree: max(k for k, order in enumerate(orders, 1) if degree <= order)
+    conditions = lambda: (tree for n in range(1, orders[0] + 1) for tree in higher(n, n if n <= orders[-1] else power(n)))
+    return residuals(of), conditions, higher

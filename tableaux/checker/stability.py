@@ -8,6 +8,7 @@ from check_certificate import (
     rounded_from, value
 )
 
+from .functions import Quotient, trimmed
 from .simple_roots import Undecided, sign, simple_roots
 
 MOST_STAGES = 40
@@ -16,7 +17,7 @@ MOST_STAGES = 40
 def stability(of, certificate):
     """The trace, and all step sizes for which the stages exist and all powers of the step are bounded."""
     claim = certificate["stability"]
-    check_members(claim, ("intervals",), ("numerator", "denominator"))
+    check_members(claim, ("intervals",), ("numerator", "denominator", "chain"))
     demand(of.s <= MOST_STAGES, f"at most {MOST_STAGES} stages")
     determinant, step = one_step(of)
     trace = [simple(c) for c in combined(step["11"], 1, step["22"], 1)]
@@ -25,15 +26,14 @@ def stability(of, certificate):
         area = combined(product(step["11"], step["22"]), 1, turning, 1)
         demand(area == product(determinant, determinant), "a step of the oscillator that preserves areas")
     # Else the step is a product of shears.
-    if are_rational(trace + determinant):
+    if "numerator" in claim:
         numerator, denominator = (trimmed(rationals(claim[name])) for name in ("numerator", "denominator"))
         demand(denominator and product(numerator, determinant) == product(trace, denominator), "the trace of a step of the oscillator")
-    else:
-        check_members(claim, ("intervals",))
     try:
         if are_rational(trace + determinant + step["12"] + step["21"]):
-            found = stable_intervals(determinant, trace, common_divisor(primitive(step["12"]), primitive(step["21"])))
+            found = stable_intervals(determinant, trace, common_divisor(primitive(step["12"]), primitive(step["21"])), claim["chain"])
         else:
+            demand("chain" not in claim, "no chain, as a coefficient is irrational")
             found = stable_intervals_of_reals(determinant, trace)
     except Undecided:
         return NotChecked("stability not checked: the trace may touch 2 or -2")
@@ -60,29 +60,21 @@ def combined(f, x, g, y):
     return trimmed([x * u + y * v for u, v in zip(f, g)])
 
 
-def trimmed(f):
-    """Without zeros at the end."""
-    return f[: max((k + 1 for k, c in enumerate(f) if c), default=0)]
+def check_chain(chain, f):
+    """Checks Sturm's chain: the first member has the roots of f, each once; then its derivative, and negative remainders down to a number."""
+    demand(isinstance(chain, list) and 1 < len(chain) <= 2 * MOST_STAGES * 3, "a chain of a bounded length")
+    demand(all(type(c) is int for g in chain for c in g), "a chain of whole numbers")
+    first, divides = chain[0], lambda g, f: not any(remainder(f, g)[0])
+    # The first multiplies the derivative of f to a multiple of f if all roots of f are among its own.
+    demand(primitive(first) == first and divides(first, f) and divides(f, product(first, derivative(f))), "the roots of the chain")
+    demand(chain[1] == primitive(derivative(first)) and len(chain[-1]) == 1, "a chain from a derivative to a number")
+    for f, g, h in zip(chain, chain[1:], chain[2:]):
+        rest, divisor = remainder(f, g)
+        demand(h == primitive([-c * divisor for c in rest]), "a chain of remainders")
 
 
-def square_free(f):
-    """The quotient of f and its common divisor with its derivative, with whole coefficients."""
-    rest = primitive(f)
-    divisor = common_divisor(rest, primitive(derivative(rest)))
-    found = []
-    while len(rest) >= len(divisor):
-        found.append(Fraction(rest[-1], divisor[-1]))
-        shift = len(rest) - len(divisor)
-        rest = [c - found[-1] * divisor[k - shift] if k >= shift else c for k, c in enumerate(rest[:-1])]
-    return primitive(found[::-1])
-
-
-def positive_roots(f):
-    """The ends of all positive roots of a polynomial without multiple ones, in order, by Sturm's theorem."""
-    chain = [primitive(f), primitive(derivative(f))]
-    while len(chain[-1]) > 1:
-        rest, divisor = remainder(chain[-2], chain[-1])
-        chain.append(primitive([-c * divisor for c in rest]))
+def positive_roots(chain):
+    """The ends of all positive roots of the first member of a chain, in order, by Sturm's theorem."""
 
     @lru_cache(maxsize=None)
     def changes(x):
@@ -94,7 +86,7 @@ def positive_roots(f):
     while rest:
         low, high = rest.pop()
         count = changes(low) - changes(high)
-        if count == 1 and value(f, low):
+        if count == 1 and value(chain[0], low):
             found.append(root_between(chain[0], low, high, "a root between multiples of 2^-250"))
         elif count:
             rest += [((low + high) / 2, high), (low, (low + high) / 2)]
@@ -111,7 +103,9 @@ def has_root(f, root):
 
 def simple(x):
     """A number, as a fraction if it is known to be one."""
-    return x.f[0] if isinstance(x, Element) and not any(x.f[1:]) else x
+    if isinstance(x, Element):
+        return x if any(x.f[1:]) else x.f[0]
+    return x.rational() if isinstance(x, Quotient) else x
 
 
 def are_rational(numbers):
@@ -149,14 +143,14 @@ def determinant_of(of):
     return trimmed([(-1) ** k * c for k, c in enumerate(found)])
 
 
-def stable_intervals(determinant, trace, turning):
+def stable_intervals(determinant, trace, turning, chain):
     """Where |trace| < 2, or the step is 1 or -1: pairs of ends, each the square of the step size there and whether it is stable."""
     inside = product(combined(determinant, 2, trace, -1), combined(determinant, 2, trace, 1))
     cuts = product(inside, determinant)
     demand(any(cuts), "a trace that is not 2 or -2 for all step sizes")
-    cuts = square_free(without_roots_at_zero(cuts))
-    roots = positive_roots(cuts)
-    singular, alone = (common_divisor(cuts, primitive(f)) for f in (determinant, turning))
+    check_chain(chain, primitive(without_roots_at_zero(cuts)))
+    roots = positive_roots(chain)
+    singular, alone = (common_divisor(chain[0], primitive(f)) for f in (determinant, turning))
     at_roots = [has_root(alone, root) and not has_root(singular, root) for root in roots]
     return cells(roots, at_roots, lambda x: value(inside, x) > 0)
 

@@ -17,6 +17,9 @@ use crate::arithmetic::rational::{length, ratio};
 use crate::expression::{Input, parse_list};
 use crate::symbolic::{Constant, Tree};
 
+/// The most bits of a common denominator of elements: that of decimals with 154 places.
+const LONGEST_DENOMINATOR: u64 = 512;
+
 /// A [`ConstantField`] together with the elements that represent the algebraic and transcendental parts of some
 /// constants.
 #[derive(Debug, Clone)]
@@ -426,6 +429,23 @@ impl Field for Constants {
         nonzero
             .min_by_key(|(_, x)| length(x.numerator()) + length(x.denominator()))
             .map(|(index, _)| index)
+    }
+
+    fn common_denominator<'a>(
+        &self,
+        elements: impl Iterator<Item = &'a FieldElement>,
+    ) -> BigRational {
+        let polynomials = elements.flat_map(FieldElement::numerator);
+        let mut common = BigInt::from(1);
+        for denominator in polynomials.map(Polynomial::denominator) {
+            let lcm = common.lcm(denominator);
+            // Unrelated denominators have a product that is longer than the fractions.
+            if lcm.bits() > LONGEST_DENOMINATOR {
+                return BigRational::from_integer(1.into());
+            }
+            common = lcm;
+        }
+        BigRational::from_integer(common)
     }
 
     fn number(&self, x: &FieldElement) -> Number<'_> {

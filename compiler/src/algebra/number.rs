@@ -82,6 +82,20 @@ impl Number<'_> {
         }
     }
 
+    /// The bits of the denominators of the exact form, none for whole numbers.
+    pub(crate) fn denominator_bits(&self) -> u64 {
+        let bits = |denominator: &BigInt| denominator.bits() - 1;
+        match self {
+            Number::Rational(value) => bits(value.denom()),
+            Number::Field(_, element) => {
+                let lists = [element.numerator(), element.denominator()];
+                let polynomials = lists.into_iter().flatten();
+                polynomials.map(|c| bits(c.denominator())).sum()
+            }
+            _ => 0,
+        }
+    }
+
     /// The binary places, beyond the usual number, needed to resolve the smallest number that occurs in this one.
     pub(crate) fn fineness(&self) -> u32 {
         match self {

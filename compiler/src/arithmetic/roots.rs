@@ -96,6 +96,18 @@ fn value_at(polynomial: &Polynomial, point: &BigInt, bits: u32) -> BigInt {
     value
 }
 
+/// Sturm's chain of a polynomial without multiple roots: positive multiples of it, its derivative, and the negative remainders down to a
+/// number, with coprime integer coefficients.
+pub fn sturm_chain(polynomial: &Polynomial) -> Vec<Polynomial> {
+    let SturmChain(mut chain) = SturmChain::new(polynomial);
+    chain.pop_if(|last| last.is_zero());
+    let coprime = |p: &Polynomial| match p.leading().is_negative() {
+        true => -&p.primitive(),
+        false => p.primitive(),
+    };
+    chain.iter().map(coprime).collect()
+}
+
 struct SturmChain(Vec<Polynomial>);
 
 impl SturmChain {

@@ -88,7 +88,8 @@ impl Claim {
     pub fn order_in_power(&self, power: usize) -> usize {
         match self {
             Claim::Separable(order) => *order,
-            // The first term that vanishes for quadratic T is [B, [B, [B, A]]], of degree 4.
+            // The terms that vanish for quadratic T have at least three letters B; the first is [B, [B, [B, A]]], of degree 4.
+            Claim::Nystrom(order) if power <= 2 => *order,
             Claim::Nystrom(order) => (*order).min(3),
             Claim::Perturbed(orders) => {
                 let order = orders.get(power.saturating_sub(1)).or(orders.last());

@@ -57,7 +57,7 @@ pub use certificate::{Certificate, Fixed};
 pub use conditions::{Claim, Condition, Conditions, MAX_ORDER, MAX_PERTURBED_ORDER};
 pub use digits::Digits;
 pub use error::CertifyError;
-pub(crate) use linear::middle;
+pub(crate) use linear::{inverse, middle};
 pub use lyndon::{Alphabet, Word};
 pub(crate) use lyndon::{DRIFT, KICK, split_lyndon};
 pub(crate) use minimax::{Best, Row, minimax};
@@ -71,6 +71,7 @@ pub(crate) use settle::{Settled, settle};
 pub use splitting::{MAX_STAGES, Splitting};
 pub use structure::{Coefficient, Structure};
 pub(crate) use structure::{Target, Unknown};
+pub(crate) use system::{Kind, Step, System};
 
 #[cfg(test)]
 mod tests;

@@ -24,6 +24,7 @@ mod substeps;
 mod tiers;
 
 pub(crate) use self::composition::check_depth;
+pub(crate) use self::named_compositions::Scheme;
 use self::problem::{Construction, Problem};
 pub(crate) use self::substeps::{Substep, substeps};
 use crate::basis::Basis;

@@ -13,8 +13,9 @@ use num_integer::Integer;
 
 use crate::algebra::field::MAX_DEGREE;
 use crate::arithmetic::polynomial::Polynomial;
+use crate::definition::Key;
 use crate::error::ErrorKind;
-use crate::expression::{Expression, ExpressionKind};
+use crate::expression::{Expression, ExpressionKind, Input, parse_list};
 use crate::symbolic::Constant;
 
 /// The highest order of a named composition.
@@ -47,6 +48,21 @@ impl Scheme {
             [order] => Some((scheme, order)),
             _ => None,
         }
+    }
+
+    /// Reads the weights of a definition; `None` if they are others, or of no known order.
+    pub fn parse(weights: &str) -> Option<(Self, u32)> {
+        let input = Input {
+            name: Key::Weights.name(),
+            text: weights,
+        };
+        let items = parse_list(input).ok()?;
+        let [item] = items.as_slice() else {
+            return None;
+        };
+        let (scheme, order) = Scheme::find(item)?;
+        let order = u32::try_from(order.whole(input).ok()?).ok()?;
+        (order as usize <= MAX_ORDER).then_some((scheme, order))
     }
 
     pub fn name(self) -> &'static str {

@@ -13,7 +13,8 @@ use crate::evidence::Evidence;
 /// every Hamiltonian for which the base has its order and is symmetric.
 ///
 /// A certificate for quadratic `T` also gives order 3 for separable Hamiltonians, and order 4 if the method is
-/// symmetric: of the terms of the modified equation up to degree 4, only `[B, [B, [B, A]]]` vanishes for quadratic `T`.
+/// symmetric: of the terms of the modified equation up to degree 4, only `[B, [B, [B, A]]]` vanishes for quadratic `T`. Terms with one or two
+/// letters `B` do not vanish, so that in `ε` and `ε²` the order is that for quadratic `T`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct GivenOrder {
     /// The claim for separable Hamiltonians.

@@ -56,6 +56,7 @@ pub use report::{ClassOrder, OrderReport, ViolatedCondition};
 pub use simplifying::SimplifyingAssumptions;
 pub use symplecticity::{SymplecticityOrder, SymplecticityViolation};
 pub use tree::{BicolouredTree, Colour, TreeError};
+pub(crate) use weights::one_of_each_rooting;
 
 use num_rational::BigRational;
 use num_traits::Signed;

@@ -11,9 +11,10 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;
 
+use super::class::HamiltonianClass;
 use super::enumeration::{TreeRule, Trees};
 use super::tree::{BicolouredTree, Colour};
-use crate::algebra::{Field, Number, StageAlgebra};
+use crate::algebra::{Dense, Field, Number, Rationals, StageAlgebra};
 use crate::pair::{Pair, Staircase};
 
 /// The highest order of enumerated trees: densities, at most `order!`, are stored in 64 bits.
@@ -31,6 +32,23 @@ pub(super) fn most_products<F: Field>(field: &F) -> usize {
         false => MOST_PRODUCTS,
         true => MOST_EXPRESSIONS,
     }
+}
+
+/// The conditions for quadratic `T` of these orders that remain for a symplectic method, as trees, with the elementary weights.
+pub(crate) fn one_of_each_rooting(
+    pair: &Pair<Dense<Rationals>>,
+    orders: impl Iterator<Item = usize>,
+) -> Vec<(BicolouredTree, BigRational)> {
+    let mut weights = Weights::new(pair, TreeRule::Class(HamiltonianClass::Nystrom));
+    let mut found = Vec::new();
+    for order in orders {
+        for condition in weights.conditions(order, true) {
+            if let Number::Rational(value) = weights.value(condition) {
+                found.push((weights.tree(condition), value));
+            }
+        }
+    }
+    found
 }
 
 /// The tree of a condition: one vertex, or a product of trees in the enumeration.

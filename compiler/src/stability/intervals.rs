@@ -70,8 +70,9 @@ struct Vanishing<P> {
 /// The powers are bounded where the eigenvalues are in the closed unit disc ([`Step::conditions`]) and those on the
 /// circle are semisimple. A real matrix can only fail the latter with a double eigenvalue ±1, that is with `det M = 1`
 /// and `tr M = ±2`, unless `M = ±1`. Where the stages have no unique solution there is no step, and so no stability.
-/// Returns `None` if the roots cannot be separated.
-pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Option<Vec<StabilityInterval>> {
+/// Returns `None` if the roots cannot be separated. The truth value tells whether the matrix is 1 or −1 somewhere, so that the trace touches 2
+/// or −2 there.
+pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Option<(Vec<StabilityInterval>, bool)> {
     let conditions = step.conditions();
     let scalar = step.scalar();
     let mut cuts = vec![step.stages.clone()];
@@ -156,7 +157,9 @@ pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Option<Vec<StabilityI
         low_closed,
         high_closed: false,
     }));
-    Some(intervals)
+    let is_scalar = |zero: &Vanishing<P>| zero.scalar && zero.conditions[2..].contains(&true);
+    let touches = vanishing.iter().any(is_scalar);
+    Some((intervals, touches))
 }
 
 fn vanishing_at<'a, P>(list: &'a [Vanishing<P>], polynomial: &Arc<P>) -> Option<&'a Vanishing<P>> {

@@ -29,7 +29,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use num_rational::BigRational;
-use num_traits::Signed;
+use num_traits::{One, Signed};
 use serde::Serialize;
 
 use self::budget::Budget;
@@ -70,6 +70,10 @@ pub struct Stability {
     pub dispersion: Option<Dispersion>,
     /// The stability function, for methods with `ã = a` and `b̃ = b`.
     pub runge_kutta: Option<RungeKuttaStability>,
+    /// Whether the matrix is 1 or −1 for some ν.
+    pub(crate) touches: bool,
+    /// `det(1 + ν²ÃA)`, where the stages have no unique solution if it vanishes.
+    pub(crate) stages: RationalFunction,
     /// The evidence: proved, verified if zeros are known only from enclosures, or undecided. If it is undecided, the
     /// other fields need not be correct.
     pub evidence: Evidence,
@@ -209,7 +213,7 @@ impl Stability {
             (Some(_), None | Some(Some(_))) => Evidence::Proved,
             _ => Evidence::Undecided { bits: 0 },
         };
-        let intervals = intervals.unwrap_or_default();
+        let (intervals, touches) = intervals.unwrap_or_default();
         let even = |f: &Fraction<P>| f.exported(Variable::NuSquared);
         let odd = |f: &Fraction<P>| f.exported(Variable::NuTimesSquared);
         Stability {
@@ -224,6 +228,11 @@ impl Stability {
             intervals,
             dispersion: dispersion::leading(&step),
             runge_kutta: runge_kutta.flatten(),
+            touches,
+            stages: even(&Fraction::new(
+                &step.stages,
+                &step.stages.constant(&BigRational::one()),
+            )),
             evidence,
         }
     }

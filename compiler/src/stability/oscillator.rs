@@ -82,7 +82,26 @@ fn cost_of_length<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
     };
     let stages = pair.algebra.stages() as u64;
     let length = stages.saturating_mul(total(&pair.a) + total(&pair.a_tilde));
-    length.saturating_mul(length) / 16
+    (length.saturating_mul(length) / 16).saturating_add(cost_of_denominators(pair))
+}
+
+/// Approximate cost of the matrix if its entries have no short common denominator: then its coefficients have the product of all denominators,
+/// and each of `s⁴` products is reduced to lowest terms.
+fn cost_of_denominators<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
+    let algebra = &*pair.algebra;
+    let field = algebra.constants();
+    if pair.staircase().is_some() || cascade::steps(pair).len() > 1 {
+        return 0;
+    }
+    let matrices = [&pair.a, &pair.a_tilde].map(|m| algebra.operator(m));
+    let entries = || matrices.iter().flatten().flatten();
+    if !field.common_denominator(entries()).is_one() {
+        return 0;
+    }
+    let bits: u64 = entries().map(|x| field.number(x).denominator_bits()).sum();
+    let words = bits / 64;
+    let products = (algebra.stages() as u64).pow(4);
+    products.saturating_mul(words.saturating_mul(words)) / 500
 }
 
 /// The parts over the field of constants.

@@ -10,6 +10,7 @@ use crate::catalogue;
 use crate::coefficients::Coefficients;
 use crate::exact::over_algebra;
 use crate::symbolic::Constant;
+use crate::{Definition, Limits, Tableau};
 
 fn derived(basis: &str, nodes: &str) -> Stability {
     crate::derive(basis, nodes).expect("derived").stability()
@@ -579,8 +580,8 @@ fn the_catalogue_agrees_with_floating_point_arithmetic() {
 }
 
 fn splitting(kick: &str, drift: &str) -> Stability {
-    let definition = crate::Definition::parse(&format!("kick: [{kick}], drift: [{drift}]"));
-    let tableau = definition.and_then(|d| d.derive(&crate::Limits::default()));
+    let definition = Definition::parse(&format!("kick: [{kick}], drift: [{drift}]"));
+    let tableau = definition.and_then(|d| d.derive(&Limits::default()));
     tableau.expect("derived").stability()
 }
 
@@ -634,6 +635,46 @@ fn many_digits_are_proved_in_bounded_time() {
 }
 
 /// The work that decides stability is bounded; the printed end points are still correct to any number of digits.
+/// A matrix of all stages with these entries, and weights of a sum that is not 1.
+fn dense(stages: usize, entry: impl Fn(usize) -> String) -> Tableau {
+    let list = |row: usize| {
+        let entries: Vec<String> = (0..stages).map(|k| entry(stages * row + k)).collect();
+        format!("[{}]", entries.join(", "))
+    };
+    let rows: Vec<String> = (0..stages).map(list).collect();
+    let definition = format!("a: [{}], b: {}", rows.join(", "), list(stages));
+    let definition = Definition::parse(&definition).expect("a definition");
+    definition.derive(&Limits::default()).expect("a tableau")
+}
+
+fn cost(tableau: &Tableau) -> u64 {
+    over_algebra!(tableau, pair => oscillator::cost(pair))
+}
+
+/// Decimals have a common denominator, so that the matrix needs whole numbers only: 22 stages are proved. Fractions with unrelated
+/// denominators would need numbers that are as long as all of these together: enclosures decide.
+#[test]
+fn matrices_of_all_stages_are_decided_in_bounded_work() {
+    // Digits without a pattern.
+    let digits = |k: usize| (k as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 1;
+    let decimals = dense(22, |k| format!("0.{:016}", digits(k) % 10_u64.pow(16)));
+    assert!(cost(&decimals) < PRODUCTS);
+    assert_eq!(decimals.stability().evidence, Evidence::Proved);
+    let fraction = |k: usize| {
+        format!(
+            "{}/{}",
+            digits(k) % 99_999_989,
+            digits(k + 7) % 99_999_971 + 1
+        )
+    };
+    let [few, many] = [4, 22].map(|stages| dense(stages, fraction));
+    assert!(cost(&few) < PRODUCTS && cost(&many) > 10 * PRODUCTS);
+    assert_eq!(few.stability().evidence, Evidence::Proved);
+    assert!(
+        matches!(many.stable_steps(), StableSteps::All(found) if found.evidence != Evidence::Proved)
+    );
+}
+
 #[test]
 fn more_digits_do_not_change_the_first_ones() {
     for name in ["forest-ruth-1990", "triple-jump-6", "exponential-lobatto-2"] {
@@ -662,10 +703,8 @@ fn large_numbers_that_cancel_leave_something() {
     // Rows with the sum 1/2: the midpoint rule.
     for size in ["exp(900)", "exp(1450)"] {
         let text = format!("a: [[{size}, 1/2 - {size}], [pi, 1/2 - pi]], b: [1/2, 1/2]");
-        let definition = crate::Definition::parse(&text).expect("text");
-        let tableau = definition
-            .derive(&crate::Limits::default())
-            .expect("derived");
+        let definition = Definition::parse(&text).expect("text");
+        let tableau = definition.derive(&Limits::default()).expect("derived");
         let found = tableau.stability();
         assert!(found.p_stable || !found.is_decided(), "{size}");
         if let Some(dispersion) = &found.dispersion {
@@ -684,10 +723,8 @@ fn numbers_that_are_small_by_cancellation_are_seen() {
     );
     assert!(found.intervals.len() > 1 || !found.is_decided());
     let text = format!("base: velocity-verlet, weights: [{tiny}, pi, e, 1 - pi - e - {tiny}]");
-    let definition = crate::Definition::parse(&text).expect("text");
-    let tableau = definition
-        .derive(&crate::Limits::default())
-        .expect("derived");
+    let definition = Definition::parse(&text).expect("text");
+    let tableau = definition.derive(&Limits::default()).expect("derived");
     assert_eq!(
         tableau.numbers().c_tilde[0].decimal(3).to_string(),
         "2.50e-701"

@@ -4,6 +4,7 @@ use num_rational::BigRational;
 use num_traits::{One, Zero};
 use proptest::prelude::*;
 use symplectic_compiler::arithmetic::interval::Interval;
+use symplectic_compiler::certify::Claim;
 use symplectic_compiler::export::{json, toml};
 use symplectic_compiler::order::PerturbedOrder;
 use symplectic_compiler::{Definition, Evidence, Limits, Requirement, Tableau, catalogue, check};
@@ -139,6 +140,21 @@ fn the_ends_agree_with_quadrature_and_trees() {
         count += 1;
     }
     assert!(count >= 25, "{count}");
+}
+
+/// Terms with one or two kicks do not vanish for quadratic `T`, so that the certificate of a method for these is one for `ε` and `ε²`; of
+/// the others, those of fourth order are certified only because the method is symmetric.
+#[test]
+fn methods_for_quadratic_kinetic_energies_are_certified_in_each_power() {
+    let powers = found(&known("blanes-moan-2002-srkn11b")).powers;
+    let orders: Vec<_> = powers.iter().map(|p| (p.order, p.evidence)).collect();
+    let certified = |order| (order, Evidence::Certified);
+    assert_eq!(orders, [certified(6), certified(6), certified(4)]);
+    let claim = Claim::Nystrom(6);
+    assert_eq!(
+        [1, 2, 3, 9].map(|power| claim.order_in_power(power)),
+        [6, 6, 3, 3]
+    );
 }
 
 #[test]

@@ -1,7 +1,10 @@
 //! The proved claims about a method, and the names of those that are not proved.
 
 use num_rational::BigRational;
+use num_traits::Zero;
 
+use crate::arithmetic::polynomial::Polynomial;
+use crate::arithmetic::roots::sturm_chain;
 use crate::evidence::Evidence;
 use crate::exact::Exact;
 use crate::export::facts::Fact;
@@ -71,7 +74,7 @@ pub(super) fn of(tableau: &Tableau, staircase: Option<Staircase>) -> Vec<(&'stat
             .powers
             .iter()
             .all(|power| is_proved(power.evidence) && power.refuted_by.is_some());
-        match proved && staircase.is_some() {
+        match proved {
             true => {
                 let orders = found.orders().into_iter();
                 let orders = orders.map(|order| Literal(order.to_string()));
@@ -131,7 +134,34 @@ fn class_order(found: &ClassOrder) -> Option<Fact> {
     })
 }
 
-/// All stable steps of an area-preserving method, and the trace if it is rational. Those of a solution of order conditions, which are
+/// The most digits of a chain, and of one of its numbers: Python reads no longer ones.
+const MOST_DIGITS: usize = 1_000_000;
+const MOST_DIGITS_OF_NUMBER: usize = 4000;
+
+/// Sturm's chain of the polynomial that vanishes at `ν² ≠ 0` where the stages have no unique solution or the trace is 2 or −2; `None` if it
+/// is too long.
+fn chain(stages: &Polynomial, numerator: &Polynomial, denominator: &Polynomial) -> Option<Fact> {
+    let twice = denominator.scale(&BigRational::from_integer(2.into()));
+    let mut all = &(stages * &(&twice - numerator)) * &(&twice + numerator);
+    while !all.is_zero() && all.coefficient(0).is_zero() {
+        all = all.div_rem(&Polynomial::variable())?.0;
+    }
+    let (simple, _) = all.div_rem(&all.gcd(&all.derivative()))?;
+    let chain = sturm_chain(&simple);
+    let lengths = chain
+        .iter()
+        .flat_map(|f| f.numerators())
+        .map(|c| c.to_string().len());
+    let (longest, total) = lengths.fold((0, 0), |(longest, sum), n| (n.max(longest), sum + n));
+    let row = |f: &Polynomial| {
+        let numbers = f.numerators().iter();
+        List(numbers.map(|c| Literal(c.to_string())).collect())
+    };
+    let short = total <= MOST_DIGITS && longest <= MOST_DIGITS_OF_NUMBER;
+    short.then(|| List(chain.iter().map(row).collect()))
+}
+
+/// All stable steps of an area-preserving method, and the trace if it is rational; `None` if an irrational one touches 2 or −2. Those of a solution of order conditions, which are
 /// verified here, the checker proves: it needs no zeros for a splitting.
 fn stability(tableau: &Tableau, staircase: Option<Staircase>) -> Option<Fact> {
     let StableSteps::All(found) = tableau.stable_steps() else {
@@ -146,6 +176,10 @@ fn stability(tableau: &Tableau, staircase: Option<Staircase>) -> Option<Fact> {
         _ => false,
     };
     if !found.preserves_area || !is_known {
+        return None;
+    }
+    // The checker finds simple roots only of irrational polynomials.
+    if trace.rational.is_none() && found.touches {
         return None;
     }
     let list = |texts: Vec<BigRational>| List(texts.iter().map(|x| Text(x.to_string())).collect());
@@ -163,6 +197,11 @@ fn stability(tableau: &Tableau, staircase: Option<Staircase>) -> Option<Fact> {
             ("numerator", list(numerator.coefficients())),
             ("denominator", list(denominator.coefficients())),
         ]);
+        let [[_, m12], [m21, _]] = &found.matrix;
+        if m12.rational.is_some() && m21.rational.is_some() {
+            let (stages, _) = found.stages.rational.as_ref()?;
+            members.push(("chain", chain(stages, numerator, denominator)?));
+        }
     }
     members.push(("intervals", List(intervals.iter().map(interval).collect())));
     Some(Table(members))

@@ -4,7 +4,9 @@
 //! contains the proved claims, and names the others. The program proves all of them again.
 
 mod claims;
+mod levels;
 mod numbers;
+mod solution;
 
 use self::numbers::Numbers;
 use super::facts::Fact;
@@ -22,9 +24,8 @@ const VERSION: usize = 1;
 /// Writes the certificate of a tableau as JSON.
 ///
 /// # Errors
-/// [`ErrorKind::NotCertified`] for a method whose coefficients are neither in one field of algebraic numbers of degree at most 32 nor the
-/// solution of order conditions: methods with functions such as π, and compositions of compositions, as triple jumps of order 8, whose
-/// field has degree 105.
+/// [`ErrorKind::NotCertified`] for a method whose coefficients are only enclosed: functions such as π and cosines of nodes together, and
+/// compositions in a field of degree above 32 that are no triple jump or Suzuki's fractal of Störmer–Verlet.
 ///
 /// ```
 /// use symplectic_compiler::{catalogue, export::certificate};
@@ -38,8 +39,9 @@ const VERSION: usize = 1;
 pub fn write(tableau: &Tableau) -> Result<String, Error> {
     let Some(numbers) = Numbers::of(tableau) else {
         let message = format!(
-            "there is no certificate of this method: its coefficients are neither in one field of algebraic numbers of degree at most {MAX_DEGREE} \
-             nor the solution of order conditions"
+            "there is no certificate of this method: its coefficients are not in one field of algebraic numbers of degree at most {MAX_DEGREE} \
+             with π, an exponential or a tangent, not the solution of order conditions, and not those of a triple jump or Suzuki's fractal of \
+             `velocity-verlet` or `position-verlet`"
         );
         return Err(ErrorKind::NotCertified { message }.into());
     };

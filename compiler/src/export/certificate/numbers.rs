@@ -1,11 +1,12 @@
 //! The coefficients as lists of rational numbers.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use num_rational::BigRational;
-
-use crate::algebra::field::FieldElement;
+use super::levels;
+use super::solution::{self, Solution};
+use crate::algebra::field::{FieldElement, Transcendental};
 use crate::algebra::{Constants, Dense, Field, NodeAlgebra, Real, Reals, Tensor};
+use crate::arithmetic::interval::Interval;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rounding::Decimal;
 use crate::certify::{Affine, Certificate, Claim};
@@ -17,7 +18,7 @@ use crate::tableau::Tableau;
 use Fact::{List, Literal, Table, Text};
 
 /// The significant digits that separate a root from the others, and the solution of order conditions from all nearby ones.
-const DIGITS: usize = 40;
+pub(super) const DIGITS: usize = 40;
 
 /// The coefficients of a method.
 pub(super) struct Numbers {
@@ -35,8 +36,10 @@ impl Numbers {
     pub fn of(tableau: &Tableau) -> Option<Self> {
         match &tableau.exact {
             Exact::Nodes(pair) => Some(Numbers::of_nodes(pair)),
-            Exact::Field(pair) => Numbers::of_field(pair),
-            Exact::Reals(pair) => Numbers::of_solution(pair),
+            Exact::Field(pair) => Some(Numbers::of_field(pair)),
+            Exact::Reals(pair) => {
+                Numbers::of_solution(pair).or_else(|| Numbers::of_levels(tableau, pair))
+            }
         }
     }
 
@@ -55,28 +58,33 @@ impl Numbers {
         }
     }
 
-    /// Elements of `Q(θ)`: polynomials in `θ`. `None` for functions such as π, which have no such form.
-    fn of_field(pair: &Pair<Dense<Constants>>) -> Option<Self> {
+    /// Elements of `Q(θ)`: polynomials in `θ`. Those of `Q(θ)(X)` are pairs of lists with such a polynomial for each power of `X`.
+    fn of_field(pair: &Pair<Dense<Constants>>) -> Self {
         let constants = pair.algebra.field();
         let field = constants.field();
         let number_field = field.algebraic();
         let root = field.from_algebraic(&Polynomial::variable());
-        if field.generator().is_some() {
-            return None;
-        }
-        let kind = vec![
-            ("kind", text("field")),
+        let mut kind = vec![
             ("polynomial", coefficients(number_field.modulus())),
             ("root", text(constants.number(&root).decimal(DIGITS))),
         ];
-        let element = |x: &FieldElement| {
-            let algebraic = x.as_algebraic().unwrap_or_else(Polynomial::zero);
-            coefficients(&algebraic)
+        let variable = field.generator().map(|x: Transcendental| x.power(1));
+        let list = |list: &[Polynomial]| List(list.iter().map(coefficients).collect());
+        let element = |x: &FieldElement| match &variable {
+            Some(_) => List(vec![list(x.numerator()), list(x.denominator())]),
+            None => coefficients(&x.as_algebraic().unwrap_or_else(Polynomial::zero)),
         };
+        let name = if variable.is_some() {
+            "functions"
+        } else {
+            "field"
+        };
+        kind.insert(0, ("kind", text(name)));
+        kind.extend(variable.as_ref().map(|x| ("variable", text(x))));
         let vector = |list: &Vec<FieldElement>| List(list.iter().map(element).collect());
         let matrix = |rows: &Vec<Vec<FieldElement>>| List(rows.iter().map(vector).collect());
         let staircase = pair.staircase();
-        Some(Numbers {
+        Numbers {
             kind: Table(kind),
             staircase,
             b: vector(&pair.b),
@@ -85,6 +93,17 @@ impl Numbers {
                 Some(_) => None,
                 None => Some((matrix(&pair.a), matrix(&pair.a_tilde))),
             },
+        }
+    }
+
+    /// A composition of compositions: its levels give the weights.
+    fn of_levels(tableau: &Tableau, pair: &Pair<Dense<Reals>>) -> Option<Self> {
+        Some(Numbers {
+            kind: levels::of(&tableau.provenance().definition)?,
+            staircase: Some(pair.staircase()?),
+            b: List(Vec::new()),
+            b_tilde: List(Vec::new()),
+            matrices: None,
         })
     }
 
@@ -103,18 +122,30 @@ impl Numbers {
             .chain(solved.weights.iter().flatten());
         let unknowns: BTreeSet<usize> = all.flat_map(|x| x.factors.keys().copied()).collect();
         let list = |list: &[Affine]| List(list.iter().map(|x| coordinates(x, &unknowns)).collect());
+        let staircase = pair.staircase()?;
+        let enclosed = certificate.enclosed_unknowns(solution::BITS);
+        let enclosed = |index: &usize| Some((*index, enclosed.get(*index)?.clone()));
+        let proof = Solution {
+            claim: &solved.claim,
+            staircase,
+            b: &b,
+            b_tilde: &b_tilde,
+            weights: solved.weights.as_deref(),
+            unknowns: unknowns.iter().filter_map(enclosed).collect(),
+        };
         let (class, orders) = claim(&solved.claim);
         let orders = orders.iter().map(|order| Literal(order.to_string()));
         let mut kind = vec![
             ("kind", text("solution")),
             ("class", text(class)),
             ("orders", List(orders.collect())),
-            ("unknowns", decimals(&certificate, &unknowns)?),
+            ("unknowns", decimals(&proof.unknowns)?),
         ];
-        kind.extend(solved.weights.map(|weights| ("weights", list(&weights))));
+        kind.extend(proof.proof()?);
+        kind.extend(solved.weights.as_deref().map(|x| ("weights", list(x))));
         Some(Numbers {
             kind: Table(kind),
-            staircase: Some(pair.staircase()?),
+            staircase: Some(staircase),
             b: list(&b),
             b_tilde: list(&b_tilde),
             matrices: None,
@@ -122,12 +153,12 @@ impl Numbers {
     }
 }
 
-fn text(value: impl ToString) -> Fact {
+pub(super) fn text(value: impl ToString) -> Fact {
     Text(value.to_string())
 }
 
 /// The coefficients of `1, x, x², …`.
-fn coefficients(polynomial: &Polynomial) -> Fact {
+pub(super) fn coefficients(polynomial: &Polynomial) -> Fact {
     List(polynomial.coefficients().iter().map(text).collect())
 }
 
@@ -150,16 +181,11 @@ fn coordinates(x: &Affine, unknowns: &BTreeSet<usize>) -> Fact {
 }
 
 /// The unknowns, correctly rounded.
-fn decimals(certificate: &Certificate, unknowns: &BTreeSet<usize>) -> Option<Fact> {
-    /// Far more than the digits need.
-    const BITS: u32 = 512;
-    let all = certificate.enclosed_unknowns(BITS);
-    let rounded = |index: &usize| {
-        let round = |end: BigRational| Decimal::round(&end, DIGITS);
-        let interval = all.get(*index)?;
-        let low = round(interval.low());
-        (low == round(interval.high())).then(|| text(low))
+fn decimals(unknowns: &BTreeMap<usize, Interval>) -> Option<Fact> {
+    let rounded = |x: &Interval| {
+        let [low, high] = [x.low(), x.high()].map(|end| Decimal::round(&end, DIGITS));
+        (low == high).then(|| text(low))
     };
-    let list: Option<Vec<Fact>> = unknowns.iter().map(rounded).collect();
+    let list: Option<Vec<Fact>> = unknowns.values().map(rounded).collect();
     Some(List(list?))
 }
