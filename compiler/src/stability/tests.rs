@@ -634,7 +634,6 @@ fn many_digits_are_proved_in_bounded_time() {
     }
 }
 
-/// The work that decides stability is bounded; the printed end points are still correct to any number of digits.
 /// A matrix of all stages with these entries, and weights of a sum that is not 1.
 fn dense(stages: usize, entry: impl Fn(usize) -> String) -> Tableau {
     let list = |row: usize| {
@@ -675,6 +674,7 @@ fn matrices_of_all_stages_are_decided_in_bounded_work() {
     );
 }
 
+/// The work that decides stability is bounded; the printed end points are still correct to any number of digits.
 #[test]
 fn more_digits_do_not_change_the_first_ones() {
     for name in ["forest-ruth-1990", "triple-jump-6", "exponential-lobatto-2"] {

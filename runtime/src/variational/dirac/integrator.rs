@@ -177,10 +177,12 @@ impl<L: DiracSystem> DiracIntegrator<L> {
         Ok(&self.state)
     }
 
-    /// Takes one step and returns its stages, for balances of energy and momentum. The force of a stage is `∂L/∂q + f`, without the impulses of constraints.
+    /// Takes one step and returns its stages, for balances of energy and momentum. The force of a stage is `∂L/∂q + f`, without the impulses
+    /// of constraints.
     ///
-    /// The step changes the momentum map of a linear symmetry of L and of the constraints by exactly the [impulse](StagesOfStep::impulse) of the force, and
-    /// the energy by its [work](StagesOfStep::work) up to an error of the order of the method. The step is taken twice. Memory is allocated.
+    /// The step changes the momentum map of a linear symmetry of L and of the constraints by exactly the
+    /// [impulse](StagesOfStep::impulse) of the force, and the energy by its [work](StagesOfStep::work) up to an error of the order of the
+    /// method. The step is taken twice. Memory is allocated.
     ///
     /// # Errors
     ///
