@@ -1,8 +1,8 @@
 //! What a file of results says of its method.
 
 use super::Ensemble;
-use crate::method::{Method, RunTimeTableau};
-use crate::number::Vector;
+use crate::method::{Method, RunTimeTableau, Solver};
+use crate::number::{Summation, Vector};
 use crate::system::System;
 
 /// Where the numbers of a file come from.
@@ -13,9 +13,16 @@ pub(super) struct Facts<'a> {
     /// Proved, for general H, for separable H and for those with quadratic kinetic energy.
     pub(super) orders: [u64; 3],
     pub(super) step_size: f64,
+    /// `compensated` or `plain`.
+    pub(super) sums: &'static str,
+    pub(super) solver: &'static str,
+    /// Tolerance of the iteration; 0 is rounding.
+    pub(super) tolerance: f64,
 }
 
-impl<M: Method, S: System<V>, V: Vector, R, N, L> Ensemble<M, S, V, R, N, L> {
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L>
+    Ensemble<M, S, V, R, N, L>
+{
     pub(super) fn method_facts(&self) -> Facts<'_> {
         let tableau = self.tableau.as_ref();
         let orders = tableau.map_or(M::ORDERS, RunTimeTableau::orders);
@@ -24,6 +31,13 @@ impl<M: Method, S: System<V>, V: Vector, R, N, L> Ensemble<M, S, V, R, N, L> {
             definition: M::DEFINITION,
             orders: [orders.general, orders.separable, orders.nystrom].map(u64::from),
             step_size: self.step_size,
+            sums: if R::COMPENSATED {
+                "compensated"
+            } else {
+                "plain"
+            },
+            solver: N::name(),
+            tolerance: self.stopping.tolerance,
         }
     }
 }

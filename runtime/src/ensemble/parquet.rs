@@ -17,8 +17,8 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{Type, TypePtr};
 
 use super::{Ensemble, Row};
-use crate::method::Method;
-use crate::number::Vector;
+use crate::method::{Method, Solver};
+use crate::number::{Summation, Vector};
 use crate::system::System;
 
 /// The values of a column, one for each row of a group.
@@ -136,18 +136,24 @@ impl<W: Write + Send> Parquet<W> {
     }
 
     /// Adds what is known of an ensemble to the metadata: `method`, `definition`, `orders` (general, separable, with quadratic kinetic
-    /// energy), `step_size` and the `version` of this library. The definition of a tableau at run time is `at run time`.
+    /// energy), `step_size`, `sums`, `solver`, `tolerance` and the `version` of this library. The definition of a tableau at run time is
+    /// `at run time`.
     pub fn facts<M, S, V, R, N, L>(&mut self, ensemble: &Ensemble<M, S, V, R, N, L>)
     where
         M: Method,
         S: System<V>,
         V: Vector,
+        R: Summation,
+        N: Solver<V, S>,
     {
         let facts = ensemble.method_facts();
         self.note("method", facts.method);
         self.note("definition", facts.definition);
         self.note("orders", &format!("{:?}", facts.orders));
         self.note("step_size", &format!("{:?}", facts.step_size));
+        self.note("sums", facts.sums);
+        self.note("solver", facts.solver);
+        self.note("tolerance", &format!("{:?}", facts.tolerance));
         self.note("version", env!("CARGO_PKG_VERSION"));
     }
 

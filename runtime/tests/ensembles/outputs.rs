@@ -426,6 +426,9 @@ fn a_table_for_databases() {
         note.and_then(|note| note.value.as_deref())
     };
     assert_eq!(note("orders"), Some("[6, 6, 6]"));
+    assert_eq!(note("sums"), Some("compensated"));
+    assert_eq!(note("tolerance"), Some("0.0"));
+    assert!(note("solver").is_some_and(|name| !name.is_empty()));
     assert_eq!(note("step_size"), Some("1e-152"));
     assert_eq!(note("ω"), Some("1e150"));
     let names = about.schema().get_fields().iter();

@@ -10,8 +10,8 @@ mod array;
 pub use array::{NpzArray, NpzValues};
 
 use super::{Ensemble, Row};
-use crate::method::Method;
-use crate::number::Vector;
+use crate::method::{Method, Solver};
+use crate::number::{Summation, Vector};
 use crate::system::System;
 
 /// Writes a `.npz` file for `numpy.load`: named arrays in an uncompressed ZIP archive.
@@ -116,7 +116,8 @@ impl<W: Write> Npz<W> {
     }
 
     /// Writes the metadata of an ensemble: `method`, `definition`, `orders` (general, separable, with quadratic kinetic
-    /// energy), `step_size` and the `version` of this library. For a tableau at run time `definition` is `at run time`.
+    /// energy), `step_size`, `sums`, `solver`, `tolerance` and the `version` of this library. For a tableau at run time
+    /// `definition` is `at run time`.
     ///
     /// # Errors
     ///
@@ -129,12 +130,17 @@ impl<W: Write> Npz<W> {
         M: Method,
         S: System<V>,
         V: Vector,
+        R: Summation,
+        N: Solver<V, S>,
     {
         let facts = ensemble.method_facts();
         self.text("method", facts.method)?;
         self.text("definition", facts.definition)?;
         self.integers("orders", &[3], &facts.orders)?;
         self.doubles("step_size", &[], &[facts.step_size])?;
+        self.text("sums", facts.sums)?;
+        self.text("solver", facts.solver)?;
+        self.doubles("tolerance", &[], &[facts.tolerance])?;
         self.text("version", env!("CARGO_PKG_VERSION"))
     }
 
