@@ -64,7 +64,11 @@ pub fn friction_growth<M: Method + ProvedFor<Damped>>(
     kicks.fold(0.0, |largest, kick| {
         let growth = -rate * step_size * kick;
         // NaN once and for all.
-        if growth <= largest { largest } else { growth }
+        if growth <= largest || largest.is_nan() {
+            largest
+        } else {
+            growth
+        }
     })
 }
 

@@ -72,6 +72,9 @@ pub trait Hamiltonian {
     /// Whether the velocity is the momentum, as with unit masses: see [`SeparableHamiltonian::UNIT_MASSES`].
     const UNIT_MASSES: bool = false;
 
+    /// Whether the velocity depends on the momentum alone, though the force depends on momenta too: constant masses are then found once.
+    const CONSTANT_MASSES: bool = false;
+
     /// Whether the force has a part without a potential: [`applied_force`](Self::applied_force).
     const FORCED: bool = false;
 

@@ -56,6 +56,9 @@ pub trait System<V: Vector>: Sized {
     /// Whether the velocity is the momentum: see [`SeparableHamiltonian::UNIT_MASSES`](crate::SeparableHamiltonian::UNIT_MASSES).
     const UNIT_MASSES: bool = false;
 
+    /// Whether the velocity depends on the momentum alone: see [`Hamiltonian::CONSTANT_MASSES`].
+    const CONSTANT_MASSES: bool = false;
+
     /// Whether the second half of the positions is a displacement of the first, as in [`Tangent`](crate::tangent::Tangent): monitors of
     /// step sizes do not see it.
     const DISPLACED: bool = false;
@@ -245,6 +248,7 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
     type Solver = Automatic;
 
     const UNIT_MASSES: bool = H::UNIT_MASSES;
+    const CONSTANT_MASSES: bool = H::CONSTANT_MASSES;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {

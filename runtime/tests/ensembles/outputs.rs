@@ -218,8 +218,7 @@ fn a_file_for_numpy() {
 
     let files = files(&archive);
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
-    let expected =
-        "method definition orders step_size version trajectory time q p steps failed error ω";
+    let expected = "method definition orders step_size sums solver tolerance version trajectory time q p steps failed error ω";
     let expected: Vec<String> = expected
         .split(' ')
         .map(|name| format!("{name}.npy"))

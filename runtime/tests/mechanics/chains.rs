@@ -72,6 +72,15 @@ fn a_band_and_a_full_matrix_are_the_same_motion() -> Result<(), Error> {
     Ok(())
 }
 
+symplectic::hamiltonian! {
+    /// A chain of masses in air.
+    Dragged { m: [..], rods: pairs }
+    q: [..; 2], p: [..; 2];
+    H = sum(i: |p[i]|^2/(2 m[i]) + q[i][1])
+    force: { q[i] = -p[i]/(10 m[i]) }
+    constraints: { anchor = |q[0]|^2 - 1, rod(s = (i, j) in rods) = |q[i] - q[j]|^2 - 1 }
+}
+
 /// The memory of a run is linear in the number of links, and quadratic with a full matrix: twice as many links add twice as much.
 #[test]
 fn the_memory_is_linear_in_the_links() {
@@ -91,8 +100,17 @@ fn the_memory_is_linear_in_the_links() {
         run.step().expect("a step");
         format!("{:?}", run.checkpoint().expect("saved")).len()
     });
+    // With constant masses and a force of momenta too.
+    let dragged = growth(|links| {
+        let rods = (1..links).map(|k| (k - 1, k)).collect();
+        let chain = Dragged::new(vec![2.0; links], rods);
+        let mut run = Integrator::new(Rattle, chain, Links(links).start(), 0.005).expect("a run");
+        run.step().expect("a step");
+        format!("{:?}", run.checkpoint().expect("saved")).len()
+    });
     // The number of digits of the dimension may differ.
     assert!((band - 2.0).abs() < 1e-3, "{band}");
+    assert!((dragged - 2.0).abs() < 1e-3, "{dragged}");
     assert!(full > 3.0, "{full}");
 }
 

@@ -165,7 +165,11 @@ fn systems_whose_constraints_are_wrong_are_refused() {
     assert!(
         matches!(
             at(constant),
-            Error::DependentConstraints { constraint: 0, .. }
+            Error::DependentConstraints {
+                constraint: 0,
+                pivot: 0.0,
+                ..
+            }
         ),
         "{}",
         at(constant)

@@ -440,11 +440,16 @@ impl<'a> Emitter<'a> {
         } else {
             class
         };
-        let unit = (split.is_some() && self.structure.kinetic == Kinetic::Unit).then(|| {
-            quote!(
+        let masses = match (split.is_some(), self.structure.kinetic == Kinetic::Unit) {
+            (true, true) => quote!(
                 const UNIT_MASSES: bool = true;
-            )
-        });
+            ),
+            // A separable class says so itself.
+            (true, false) if forced => quote!(
+                const CONSTANT_MASSES: bool = true;
+            ),
+            _ => TokenStream::new(),
+        };
         let mut parts = self.gradients(&[velocity, force]);
         self.system.add_applied(&mut parts[1].1);
         let halves = ["q", "p"];
@@ -484,7 +489,7 @@ impl<'a> Emitter<'a> {
                 type Class = #class;
                 type Vector<#scalar: Scalar> = #over;
 
-                #unit
+                #masses
 
                 #[inline(always)]
                 fn velocity<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over, velocity: &mut #over) {

@@ -254,7 +254,7 @@ fn inverse_masses<V: Vector, S: System<V>>(
     if S::UNIT_MASSES {
         return InverseMasses::Unit;
     }
-    if !S::Class::SEPARABLE || !linear {
+    if !(S::Class::SEPARABLE || S::CONSTANT_MASSES) || !linear {
         return InverseMasses::Full;
     }
     let velocity = |momentum: &dyn Fn(usize) -> f64| {

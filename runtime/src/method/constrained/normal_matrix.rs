@@ -170,7 +170,12 @@ impl<T: Scalar> NormalMatrix<T> {
             if !regular {
                 return Err(Failure::DependentConstraints {
                     constraint: k,
-                    pivot: pivot / diagonal,
+                    // A gradient that vanishes has neither.
+                    pivot: if diagonal == 0.0 {
+                        0.0
+                    } else {
+                        pivot / diagonal
+                    },
                 });
             }
         }

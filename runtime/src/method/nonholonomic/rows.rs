@@ -18,6 +18,7 @@ where
     type Solver = FixedPoint;
 
     const UNIT_MASSES: bool = S::UNIT_MASSES;
+    const CONSTANT_MASSES: bool = S::CONSTANT_MASSES;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
