@@ -1,8 +1,8 @@
 //! Tables, as CSV or Parquet: results with a line for each state, and starts with a line for each trajectory.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::fmt::Display;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Write};
 use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
@@ -16,10 +16,14 @@ use symplectic_compiler::formula::{Parameter, Shape};
 use symplectic_compiler::{Error, ErrorKind};
 
 use super::output::{Fact, Results, Trajectory};
-use super::starts::{Coordinates, MOST, Reader};
+use super::setup::MOST;
+use super::starts::{Coordinates, Reader};
 
 /// Lines that are written to a Parquet file at once.
 const GROUP: usize = 1 << 16;
+
+/// Largest size of a file of starts.
+const MOST_BYTES: u64 = 1 << 31;
 
 /// A line of a table of results: a state of a trajectory.
 struct Line<'a> {
@@ -158,6 +162,18 @@ type Rows = (Coordinates, Vec<Vec<f64>>);
 impl Reader<'_> {
     /// The rows of a file whose columns have the names of the coordinates.
     pub(super) fn of_table(&self, path: &Path) -> Result<Rows, Error> {
+        let about = fs::metadata(path).map_err(|error| refused(path, error))?;
+        if !about.is_file() {
+            return Err(refused(
+                path,
+                "not a file on a disk: write the starts to a file",
+            ));
+        }
+        if about.len() > MOST_BYTES {
+            let message =
+                format!("longer than {MOST_BYTES} bytes: split the file into several files");
+            return Err(refused(path, message));
+        }
         match path.extension().and_then(|extension| extension.to_str()) {
             Some("parquet") => {
                 // The crate panics on some files that are damaged.
@@ -260,12 +276,11 @@ fn refused(path: &Path, message: impl Display) -> Error {
 
 /// The place of each column among the coordinates.
 fn places(coordinates: &Coordinates, names: &[&str]) -> Result<Vec<usize>, String> {
+    let known = coordinates.with_parameters().enumerate();
+    let mut left: HashMap<&str, usize> = known.map(|(k, name)| (name.as_str(), k)).collect();
     let mut places = Vec::new();
     for name in names {
-        let place = coordinates
-            .with_parameters()
-            .position(|known| known == name);
-        let place = place.filter(|place| !places.contains(place)).ok_or_else(|| {
+        let place = left.remove(name).ok_or_else(|| {
             format!(
                 "the column `{name}` is neither a coordinate nor a parameter that is a number, or it occurs twice; the coordinates are {}",
                 coordinates.listed()
@@ -273,9 +288,9 @@ fn places(coordinates: &Coordinates, names: &[&str]) -> Result<Vec<usize>, Strin
         })?;
         places.push(place);
     }
-    let mut missing = coordinates.with_parameters().enumerate();
-    match missing.find(|(k, _)| !places.contains(k)) {
-        Some((_, name)) => Err(format!("the column `{name}` is missing")),
+    let mut all = coordinates.with_parameters();
+    match all.find(|name| left.contains_key(name.as_str())) {
+        Some(name) => Err(format!("the column `{name}` is missing")),
         None => Ok(places),
     }
 }
