@@ -1,5 +1,6 @@
 //! `symplectic run`
 
+mod memory;
 mod method;
 mod output;
 mod parameters;
@@ -32,7 +33,7 @@ use symplectic_compiler::formula::{Form, Structure, System};
 use symplectic_compiler::{Error, ErrorKind};
 
 use self::method::Method;
-use self::output::{Facts, Results, Target, Trajectory};
+use self::output::{Facts, Results, Target, Trajectory, append};
 use self::setup::{File, Setup, Starts, Sums};
 use self::starts::{Coordinates, Reader, Start};
 use self::system::{Formula, Tapes};
@@ -59,9 +60,6 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=1000))]
     max_stages: Option<u16>,
 }
-
-/// Largest number of coordinates and parameters in all stored rows.
-const MOST_NUMBERS: u128 = 1 << 28;
 
 /// One of several parts.
 #[derive(Debug, Clone, Copy)]
@@ -130,14 +128,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let path = named(file.beside(setup.output.file.get_ref()), arguments.shard);
     refuse_overwriting(&file, &setup, &path)?;
     refuse_twins(&file, &setup, &coordinates, &path)?;
-    let seen = times.as_ref().map_or(1, Vec::len) as u128 * starts.len() as u128;
-    let parts = arguments.shard.map_or(1, |shard| shard.count) as u128;
-    let columns = 2 * coordinates.dimension() + coordinates.parameters.len();
-    if seen * columns as u128 / parts > MOST_NUMBERS {
-        let message = format!(
-            "the output has more than {MOST_NUMBERS} numbers in all: give fewer `times`, or run parts with `--shard`"
-        );
-        return Err(file.error(setup.starts.span(), message));
+    let size = (starts.len(), coordinates.with_parameters().count());
+    if let Some(fault) = memory::fault_of_starts(size.0, size.1) {
+        return Err(file.error(setup.starts.span(), fault));
+    }
+    if let (Some(given), Some(times)) = (&setup.times, &times) {
+        let states = (times.len(), coordinates.dimension());
+        let parts = arguments.shard.map_or(1, |shard| shard.count);
+        if let Some(fault) = memory::fault_of_states(size, states, parts) {
+            return Err(file.error(given.span(), fault));
+        }
     }
     let run = Run {
         file: &file,
@@ -345,16 +345,16 @@ impl Run<'_> {
                 .map_err(|error| self.refused(&error))?;
         }
         let progress = progress(ensemble.trajectories().len());
-        let mut rows: Vec<Trajectory> = Vec::new();
+        let mut rows: Vec<Trajectory> = Vec::with_capacity(ensemble.trajectories().len());
         let keep = |row| {
             rows.push(row);
             progress.inc(1);
             ControlFlow::Continue(())
         };
-        let see = |seen: &mut States, state: &State<Vector>| seen.push(state.clone());
         match &self.times {
             Some(times) => {
-                ensemble.integrate_at(times, |_| Vec::new(), see, keep);
+                let numbers = times.len() * (1 + 2 * self.coordinates.dimension());
+                ensemble.integrate_at(times, |_| Vec::with_capacity(numbers), append, keep);
             }
             None => {
                 let end = self

@@ -12,10 +12,46 @@ use symplectic_compiler::{Error, ErrorKind};
 
 use super::starts::Coordinates;
 use super::system::Tapes;
-use super::tape::Parameters;
+use super::tape::{At, Parameters};
 
-/// A trajectory with its states at the output times.
-pub(super) type Trajectory = Row<DVector<f64>, Vec<State<DVector<f64>>>>;
+/// A trajectory with its states at the output times: for each of them the time, the positions and the momenta, without an
+/// allocation of their own.
+pub(super) type Trajectory = Row<DVector<f64>, Vec<f64>>;
+
+/// A state that is written.
+#[derive(Clone, Copy)]
+pub(super) struct Point<'a> {
+    pub(super) time: f64,
+    /// Positions and momenta.
+    pub(super) halves: [&'a [f64]; 2],
+}
+
+impl<'a> From<&'a State<DVector<f64>>> for Point<'a> {
+    fn from(state: &'a State<DVector<f64>>) -> Self {
+        let (q, p) = state.as_slices();
+        Point {
+            time: state.time,
+            halves: [q, p],
+        }
+    }
+}
+
+/// Appends a state to the output of a trajectory.
+pub(super) fn append(output: &mut Vec<f64>, state: &State<DVector<f64>>) {
+    let Point { time, halves } = state.into();
+    output.push(time);
+    output.extend(halves.into_iter().flatten());
+}
+
+/// The states in the output of a trajectory.
+pub(super) fn points(row: &Trajectory) -> impl Iterator<Item = Point<'_>> {
+    let dimension = row.state.q.len();
+    let states = row.output.chunks_exact(1 + 2 * dimension);
+    states.map(move |numbers| Point {
+        time: numbers[0],
+        halves: [&numbers[1..=dimension], &numbers[1 + dimension..]],
+    })
+}
 
 /// The metadata in the file.
 pub(super) struct Facts<'a> {
@@ -244,17 +280,25 @@ impl Results<'_> {
         let pairs = self.rows.par_iter().zip(self.starts);
         let errors = pairs.map(|(row, start)| {
             let parameters = Parameters::Own(self.parameters(row).into());
-            let energy_at = |state| self.tapes.energy_at(state, &parameters);
-            let first = energy_at(start);
+            let energy_at = |Point {
+                                 time,
+                                 halves: [q, p],
+                             }: Point<'_>| {
+                let parameters = &parameters;
+                let at = At {
+                    parameters,
+                    time,
+                    q,
+                    p,
+                };
+                self.tapes.energy_at(at)
+            };
+            let first = energy_at(start.into());
             let scale = if first == 0.0 { 1.0 } else { first.abs() };
             let error = |energy: f64| (energy - first) / scale;
             match self.times {
-                None => vec![error(energy_at(&row.state))],
-                Some(_) => row
-                    .output
-                    .iter()
-                    .map(|seen| error(energy_at(seen)))
-                    .collect(),
+                None => vec![error(energy_at((&row.state).into()))],
+                Some(_) => points(row).map(|seen| error(energy_at(seen))).collect(),
             }
         });
         errors.collect()
@@ -289,7 +333,7 @@ impl Results<'_> {
             let all: Vec<f64> = self
                 .starts
                 .iter()
-                .flat_map(|start| half_of(start, half))
+                .flat_map(|start| Point::from(start).halves[half])
                 .copied()
                 .collect();
             file.doubles(name, &[count, dimension], &all)?;
@@ -317,8 +361,8 @@ impl Results<'_> {
                 .iter()
                 .zip(all.chunks_mut((steps * dimension).max(1)))
             {
-                for (seen, place) in row.output.iter().zip(places.chunks_mut(dimension.max(1))) {
-                    place.copy_from_slice(half_of(seen, half));
+                for (seen, place) in points(row).zip(places.chunks_mut(dimension.max(1))) {
+                    place.copy_from_slice(seen.halves[half]);
                 }
             }
             file.doubles(name, &[count, steps, dimension], &all)?;
@@ -330,11 +374,6 @@ impl Results<'_> {
         file.doubles("energy_error", &[count, steps], &all)?;
         file.finish().map(|_| ())
     }
-}
-
-fn half_of(state: &State<DVector<f64>>, half: usize) -> &[f64] {
-    let (q, p) = state.as_slices();
-    [q, p][half]
 }
 
 #[cfg(test)]

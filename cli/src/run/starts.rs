@@ -11,6 +11,7 @@ use symplectic_compiler::formula::syntax::Length;
 use symplectic_compiler::formula::{Layout, System};
 use toml::{Spanned, Value};
 
+use super::memory;
 use super::parameters::{self, Varied};
 use super::random;
 use super::setup::{File, Grid, MOST, Setup, Starts};
@@ -286,9 +287,14 @@ impl Reader<'_> {
             .iter()
             .try_fold(count, |total: usize, length| total.checked_mul(*length))
             .and_then(|total| total.checked_add(rows.len()));
-        if total.is_none_or(|total| total > MOST) {
-            let message = format!("more than {MOST} starts: split the run into several files");
-            return Err(self.file.error(self.setup.starts.span(), message));
+        let fault = match total.filter(|total| *total <= MOST) {
+            Some(total) => memory::fault_of_starts(total, axes.len()),
+            None => Some(format!(
+                "more than {MOST} starts: split the run into several files"
+            )),
+        };
+        if let Some(fault) = fault {
+            return Err(self.file.error(self.setup.starts.span(), fault));
         }
         let random = self.setup.random.as_ref();
         let seed = random.map_or(0, |random| random.get_ref().seed);

@@ -9,13 +9,11 @@ use std::path::Path;
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
-use symplectic::State;
 use symplectic::ensemble::{Parquet, ParquetColumn};
-use symplectic::nalgebra::DVector;
 use symplectic_compiler::formula::{Parameter, Shape};
 use symplectic_compiler::{Error, ErrorKind};
 
-use super::output::{Fact, Results, Trajectory};
+use super::output::{Fact, Point, Results, Trajectory, points};
 use super::setup::MOST;
 use super::starts::{Coordinates, Reader};
 
@@ -28,9 +26,9 @@ const MOST_BYTES: u64 = 1 << 31;
 /// A line of a table of results: a state of a trajectory.
 struct Line<'a> {
     row: &'a Trajectory,
-    start: &'a State<DVector<f64>>,
+    start: Point<'a>,
     parameters: &'a [f64],
-    state: &'a State<DVector<f64>>,
+    state: Point<'a>,
     energy_error: Option<f64>,
     /// Why the trajectory ended there.
     failure: Option<String>,
@@ -44,7 +42,7 @@ impl Results<'_> {
             let failure = row.outcome.as_ref().err().map(ToString::to_string);
             let line = |state, energy_error, failure| Line {
                 row,
-                start,
+                start: start.into(),
                 parameters: self.parameters(row),
                 state,
                 energy_error,
@@ -52,13 +50,13 @@ impl Results<'_> {
             };
             let mut lines = Vec::new();
             if self.times.is_none() {
-                lines.push(line(&row.state, errors.first().copied(), failure));
+                lines.push(line((&row.state).into(), errors.first().copied(), failure));
                 return lines;
             }
-            let seen = row.output.iter().zip(errors);
+            let seen = points(row).zip(errors);
             lines.extend(seen.map(|(state, error)| line(state, Some(error), None)));
             if failure.is_some() {
-                lines.push(line(&row.state, None, failure));
+                lines.push(line((&row.state).into(), None, failure));
             }
             lines
         })
@@ -68,7 +66,7 @@ impl Results<'_> {
         let mut file = csv::Writer::from_writer(out);
         file.write_record(header(self.coordinates))?;
         for line in self.lines() {
-            let numbers = |state| coordinates(state).map(|x| x.to_string());
+            let numbers = |state| coordinates(state).map(f64::to_string);
             let energy_error = line.energy_error.map(|error| format!("{error:e}"));
             let mut cells = vec![line.row.trajectory.to_string()];
             cells.extend(numbers(line.start));
@@ -108,9 +106,8 @@ impl Results<'_> {
 }
 
 /// Positions, then momenta.
-fn coordinates(state: &State<DVector<f64>>) -> impl Iterator<Item = &f64> {
-    let (q, p) = state.as_slices();
-    q.iter().chain(p)
+fn coordinates(state: Point<'_>) -> impl Iterator<Item = &f64> {
+    state.halves.into_iter().flatten()
 }
 
 /// The names of the columns; coordinates are at the start and at the time of the line.
@@ -140,7 +137,7 @@ fn columns(lines: &[Line<'_>], names: &Coordinates) -> Vec<ParquetColumn> {
         |of: fn(&Line<'_>) -> u64| ParquetColumn::Integers(lines.iter().map(of).collect());
     let doubles =
         |of: &dyn Fn(&Line<'_>) -> f64| ParquetColumn::Doubles(lines.iter().map(of).collect());
-    let coordinate = |of: for<'l> fn(&'l Line<'_>) -> &'l State<DVector<f64>>, k: usize| {
+    let coordinate = |of: for<'l> fn(&'l Line<'_>) -> Point<'l>, k: usize| {
         doubles(&|line| coordinates(of(line)).nth(k).copied().unwrap_or(f64::NAN))
     };
     let mut columns = vec![integers(|line| line.row.trajectory as u64)];
