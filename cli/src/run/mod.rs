@@ -11,6 +11,7 @@ mod starts;
 mod system;
 mod table;
 mod tape;
+mod target;
 mod unroll;
 mod values;
 
@@ -33,11 +34,12 @@ use symplectic_compiler::formula::{Form, Structure, System};
 use symplectic_compiler::{Error, ErrorKind};
 
 use self::method::Method;
-use self::output::{Facts, Results, Target, Trajectory, append};
+use self::output::{Facts, Results, Trajectory, append};
 use self::setup::{File, Setup, Starts, Sums};
 use self::starts::{Coordinates, Reader, Start};
 use self::system::{Formula, Tapes};
 use self::tape::Parameters;
+use self::target::Target;
 use self::unroll::{MOST_STEPS, Refusal};
 use crate::output::print;
 

@@ -1,5 +1,7 @@
 //! The numbers of ranges, and numbers that are refused.
 
+use std::fs;
+
 use super::{CLOUD, PENDULUM, call, columns, csv, folder};
 
 /// `from + (to − from) k / n` is exact if the products are; `from (1 − k/n) + to k/n` gave 7.000000000000001.
@@ -174,12 +176,19 @@ fn more_stages_can_be_allowed() {
 #[test]
 fn starts_that_have_no_end_are_refused() {
     let setup = &PENDULUM[..PENDULUM.find("[starts]").expect("a table")];
-    let setup = format!("starts = '/dev/null'\noutput.file = 'out.csv'\n{setup}");
-    let output = call(&folder("device"), &setup, &[]);
-    let error = String::from_utf8_lossy(&output.stderr);
-    let told = "/dev/null: not a file on a disk";
-    assert!(
-        output.status.code() == Some(2) && error.contains(told),
-        "{error}"
-    );
+    let folder = folder("device");
+    let large = fs::File::create(folder.join("large.csv")).expect("a file");
+    large.set_len((1 << 31) + 1).expect("a sparse file");
+    for (name, told) in [
+        ("/dev/null", "/dev/null: not a file on a disk"),
+        ("large.csv", "longer than 2147483648 bytes"),
+    ] {
+        let setup = format!("starts = '{name}'\noutput.file = 'out.csv'\n{setup}");
+        let output = call(&folder, &setup, &[]);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert!(
+            output.status.code() == Some(2) && error.contains(told),
+            "{error}"
+        );
+    }
 }
