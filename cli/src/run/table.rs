@@ -17,8 +17,11 @@ use super::output::{Fact, Point, Results, Trajectory, points};
 use super::setup::MOST;
 use super::starts::{Coordinates, Reader};
 
-/// Lines that are written to a Parquet file at once.
+/// Lines that are written to a Parquet file at once, if they are not wide.
 const GROUP: usize = 1 << 16;
+
+/// Cells that are written to a Parquet file at once.
+const CELLS: usize = 1 << 22;
 
 /// Largest size of a file of starts.
 const MOST_BYTES: u64 = 1 << 31;
@@ -93,12 +96,13 @@ impl Results<'_> {
         }
         let names = header(self.coordinates);
         let mut lines = self.lines();
+        let most = (CELLS / names.len()).clamp(1, GROUP);
         loop {
-            let group: Vec<Line<'_>> = lines.by_ref().take(GROUP).collect();
+            let group: Vec<Line<'_>> = lines.by_ref().take(most).collect();
             let columns = columns(&group, self.coordinates);
             let columns: Vec<_> = names.iter().map(String::as_str).zip(columns).collect();
             file.group(&columns)?;
-            if group.len() < GROUP {
+            if group.len() < most {
                 return file.finish().map(|_| ());
             }
         }
