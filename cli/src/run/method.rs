@@ -6,10 +6,11 @@ use std::path::Path;
 use symplectic::{Orders, RunTimeCoefficients, RunTimeTableau};
 use symplectic_compiler::export::read_text;
 use symplectic_compiler::order::HamiltonianClass;
-use symplectic_compiler::{Definition, Error, Key, Limits, Tableau, catalogue, check};
+use symplectic_compiler::{Definition, Error, Key, Tableau, catalogue, check};
 use toml::{Spanned, Value};
 
 use super::setup::{File, Setup, Wanted};
+use crate::output::limits;
 
 /// A method and its definition.
 pub(super) struct Method {
@@ -19,13 +20,17 @@ pub(super) struct Method {
 
 impl Method {
     /// Derives the method of a setup.
-    pub(super) fn read(file: &File<'_>, setup: &Setup) -> Result<Self, Error> {
+    pub(super) fn read(
+        file: &File<'_>,
+        setup: &Setup,
+        max_stages: Option<u16>,
+    ) -> Result<Self, Error> {
         let span = setup.method.span();
         let placed = |error: Error| match error.place {
             None => file.at(span.clone(), *error.kind),
             Some(_) => error,
         };
-        let tableau = derive(file, setup.method.get_ref()).map_err(placed)?;
+        let tableau = derive(file, setup.method.get_ref(), max_stages).map_err(placed)?;
         let report = tableau.orders();
         let order = |class| u32::try_from(report.class(class).order).unwrap_or(u32::MAX);
         let orders = Orders {
@@ -55,19 +60,17 @@ impl Method {
     }
 }
 
-fn derive(file: &File<'_>, method: &Wanted) -> Result<Tableau, Error> {
+fn derive(file: &File<'_>, method: &Wanted, max_stages: Option<u16>) -> Result<Tableau, Error> {
+    let limits = limits(max_stages);
     match method {
         Wanted::Named(name) if name.ends_with(".toml") || name.ends_with(".json") => {
             let path = file.beside(Path::new(name));
-            check(
-                &path.display().to_string(),
-                &read_text(&path)?,
-                &Limits::default(),
-            )
+            check(&path.display().to_string(), &read_text(&path)?, &limits)
         }
         Wanted::Named(name) => {
             let entry = catalogue::find(name).ok_or_else(|| catalogue::unknown(name))?;
-            Ok(entry.derive()?.named(entry.name))
+            let limits = max_stages.map_or(entry.limits(), |_| limits);
+            Ok(entry.derive_within(&limits)?.named(entry.name))
         }
         Wanted::Defined(parts) => {
             let mut given = Vec::new();
@@ -88,7 +91,7 @@ fn derive(file: &File<'_>, method: &Wanted) -> Result<Tableau, Error> {
                 };
                 given.push((key, text));
             }
-            let derived = Definition::new(given).derive(&Limits::default());
+            let derived = Definition::new(given).derive(&limits);
             derived.map_err(|error| in_value(file, parts, error))
         }
     }

@@ -1,5 +1,6 @@
 //! `symplectic run`
 
+mod memory;
 mod method;
 mod output;
 mod parameters;
@@ -10,6 +11,7 @@ mod starts;
 mod system;
 mod table;
 mod tape;
+mod target;
 mod unroll;
 mod values;
 
@@ -32,11 +34,12 @@ use symplectic_compiler::formula::{Form, Structure, System};
 use symplectic_compiler::{Error, ErrorKind};
 
 use self::method::Method;
-use self::output::{Facts, Results, Target, Trajectory};
-use self::setup::{File, Setup, Starts, Sums, Times};
-use self::starts::{Coordinates, MOST, Reader, Start};
+use self::output::{Facts, Results, Trajectory, append};
+use self::setup::{File, Setup, Starts, Sums};
+use self::starts::{Coordinates, Reader, Start};
 use self::system::{Formula, Tapes};
 use self::tape::Parameters;
+use self::target::Target;
 use self::unroll::{MOST_STEPS, Refusal};
 use crate::output::print;
 
@@ -55,10 +58,10 @@ pub(crate) struct Arguments {
     /// Number of threads [default: one per core]. The results do not depend on it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
+    /// Largest number of stages of the method [default: 36].
+    #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    max_stages: Option<u16>,
 }
-
-/// Largest number of coordinates and parameters in all stored rows.
-const MOST_NUMBERS: u128 = 1 << 28;
 
 /// One of several parts.
 #[derive(Debug, Clone, Copy)]
@@ -99,7 +102,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     };
     let setup = file.read()?;
     let (mut system, structure) = read_system(&file, &setup)?;
-    let method = Method::read(&file, &setup)?;
+    let method = Method::read(&file, &setup, arguments.max_stages)?;
     let times = times(&file, &setup)?;
     let reader = Reader {
         file: &file,
@@ -124,17 +127,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         pool.build_global()
             .map_err(|error| document(format!("cannot start the threads: {error}")))?;
     }
-    let path = file.beside(setup.output.file.get_ref());
+    let path = named(file.beside(setup.output.file.get_ref()), arguments.shard);
     refuse_overwriting(&file, &setup, &path)?;
     refuse_twins(&file, &setup, &coordinates, &path)?;
-    let seen = times.as_ref().map_or(1, Vec::len) as u128 * starts.len() as u128;
-    let parts = arguments.shard.map_or(1, |shard| shard.count) as u128;
-    let columns = 2 * coordinates.dimension() + coordinates.parameters.len();
-    if seen * columns as u128 / parts > MOST_NUMBERS {
-        let message = format!(
-            "the output has more than {MOST_NUMBERS} numbers in all: give fewer `times`, or run parts with `--shard`"
-        );
-        return Err(file.error(setup.starts.span(), message));
+    let size = (starts.len(), coordinates.with_parameters().count());
+    if let Some(fault) = memory::fault_of_starts(size.0, size.1) {
+        return Err(file.error(setup.starts.span(), fault));
+    }
+    if let (Some(given), Some(times)) = (&setup.times, &times) {
+        let states = (times.len(), coordinates.dimension());
+        let parts = arguments.shard.map_or(1, |shard| shard.count);
+        if let Some(fault) = memory::fault_of_states(size, states, parts) {
+            return Err(file.error(given.span(), fault));
+        }
     }
     let run = Run {
         file: &file,
@@ -144,7 +149,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         tapes: Arc::new(tapes),
         times,
         shard: arguments.shard,
-        target: Target::open(named(path, arguments.shard))?,
+        target: Target::open(path)?,
     };
     match structure.split {
         Ok(_) => run.with_class::<Separable>(starts),
@@ -230,62 +235,59 @@ const MOST_STEPS_OF_A_RUN: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
 
 /// The output times; `None` for the end only.
 fn times(file: &File<'_>, setup: &Setup) -> Result<Option<Vec<f64>>, Error> {
-    let (size, start) = (*setup.step_size.get_ref(), setup.start_time);
+    let (size, start) = (*setup.step_size.get_ref(), setup.start());
     if !size.is_finite() || size == 0.0 {
         let message = format!(
-            "the step size is {size}: it must be finite, and not zero; negative to go backward"
+            "the step size is {size:?}: it must be finite, and not zero; negative to go backward"
         );
         return Err(file.error(setup.step_size.span(), message));
     }
-    if !start.is_finite() {
-        return Err(document(format!(
-            "{}: `start_time` is {start}: it must be finite",
-            file.path.display()
-        )));
+    if let Some(given) = &setup.start_time
+        && !start.is_finite()
+    {
+        let message = format!("`start_time` is {start}: it must be finite");
+        return Err(file.error(given.span(), message));
     }
     let behind = |time: f64| !time.is_finite() || (time - start) * size < 0.0;
     let refused = |time: f64, span| {
         let message = format!(
-            "the run cannot reach the time {time}: it starts at {start} with the step size {size}"
+            "the run cannot reach the time {time:?}: it starts at {start:?} with the step size {size:?}"
         );
         Err(file.error(span, message))
     };
-    let last = match (&setup.end, &setup.times) {
-        (Some(end), _) => Some((*end.get_ref(), end.span())),
-        (None, Some(times)) => {
-            if let Times::Range(range) = times.get_ref()
-                && range.count > MOST
-            {
-                let message = format!("`times` has more than {MOST} entries");
-                return Err(file.error(times.span(), message));
-            }
-            times
-                .get_ref()
-                .list()
-                .last()
-                .map(|&time| (time, times.span()))
-        }
-        (None, None) => None,
+    let too_many = |time: f64| ((time - start) / size).abs() > MOST_STEPS_OF_A_RUN;
+    let refused_as_too_many = |time: f64, span| {
+        let message =
+            format!("from {start:?} to {time:?} there are more than 2^53 steps of {size:?}");
+        Err(file.error(span, message))
     };
-    if let Some((time, span)) = last
-        && ((time - start) / size).abs() > MOST_STEPS_OF_A_RUN
-    {
-        let message = format!("from {start} to {time} there are more than 2^53 steps of {size}");
-        return Err(file.error(span, message));
-    }
     match (&setup.end, &setup.times) {
-        (Some(end), None) => match behind(*end.get_ref()) {
-            true => refused(*end.get_ref(), end.span()),
-            false => Ok(None),
+        (Some(end), None) => match *end.get_ref() {
+            time if behind(time) => refused(time, end.span()),
+            time if too_many(time) => refused_as_too_many(time, end.span()),
+            _ => Ok(None),
         },
         (None, Some(times)) => {
-            let list = times.get_ref().list();
+            let span = times.span();
+            let list = (times.get_ref().list())
+                .map_err(|message| file.error(span.clone(), format!("`times`: {message}")))?;
             if let Some(&time) = list.iter().find(|time| behind(**time)) {
-                return refused(time, times.span());
+                return refused(time, span);
             }
-            match list.is_empty() || list.windows(2).any(|pair| (pair[1] - pair[0]) * size < 0.0) {
-                true => Err(file.error(times.span(), "`times` must contain at least one time, in the direction of the steps")),
-                false => Ok(Some(list)),
+            if let Some(&time) = list.last().filter(|time| too_many(**time)) {
+                return refused_as_too_many(time, span);
+            }
+            let mut pairs = list.windows(2);
+            match pairs.find(|pair| (pair[1] - pair[0]) * size < 0.0) {
+                Some(pair) => {
+                    let message = format!(
+                        "`times` goes back from {:?} to {:?}: sort the times in the direction of the steps of {size:?}",
+                        pair[0], pair[1]
+                    );
+                    Err(file.error(span, message))
+                }
+                None if list.is_empty() => Err(file.error(span, "`times` is empty: give at least one time")),
+                None => Ok(Some(list)),
             }
         }
         (None, None) => Err(document(format!(
@@ -345,23 +347,23 @@ impl Run<'_> {
                 .map_err(|error| self.refused(&error))?;
         }
         let progress = progress(ensemble.trajectories().len());
-        let mut rows: Vec<Trajectory> = Vec::new();
+        let mut rows: Vec<Trajectory> = Vec::with_capacity(ensemble.trajectories().len());
         let keep = |row| {
             rows.push(row);
             progress.inc(1);
             ControlFlow::Continue(())
         };
-        let see = |seen: &mut States, state: &State<Vector>| seen.push(state.clone());
         match &self.times {
             Some(times) => {
-                ensemble.integrate_at(times, |_| Vec::new(), see, keep);
+                let numbers = times.len() * (1 + 2 * self.coordinates.dimension());
+                ensemble.integrate_at(times, |_| Vec::with_capacity(numbers), append, keep);
             }
             None => {
                 let end = self
                     .setup
                     .end
                     .as_ref()
-                    .map_or(self.setup.start_time, |end| *end.get_ref());
+                    .map_or(self.setup.start(), |end| *end.get_ref());
                 let mut keep = keep;
                 ensemble.integrate_to(end, |row| {
                     keep(Trajectory {

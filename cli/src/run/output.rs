@@ -1,21 +1,54 @@
 //! What a run writes: arrays for NumPy, `.npz`, or a table, `.parquet` or `.csv`.
 
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Write};
 
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use symplectic::State;
 use symplectic::ensemble::{Npz, Row};
 use symplectic::nalgebra::DVector;
-use symplectic_compiler::{Error, ErrorKind};
 
 use super::starts::Coordinates;
 use super::system::Tapes;
-use super::tape::Parameters;
+use super::tape::{At, Parameters};
 
-/// A trajectory with its states at the output times.
-pub(super) type Trajectory = Row<DVector<f64>, Vec<State<DVector<f64>>>>;
+/// A trajectory with its states at the output times: for each of them the time, the positions and the momenta, without an
+/// allocation of their own.
+pub(super) type Trajectory = Row<DVector<f64>, Vec<f64>>;
+
+/// A state that is written.
+#[derive(Clone, Copy)]
+pub(super) struct Point<'a> {
+    pub(super) time: f64,
+    /// Positions and momenta.
+    pub(super) halves: [&'a [f64]; 2],
+}
+
+impl<'a> From<&'a State<DVector<f64>>> for Point<'a> {
+    fn from(state: &'a State<DVector<f64>>) -> Self {
+        let (q, p) = state.as_slices();
+        Point {
+            time: state.time,
+            halves: [q, p],
+        }
+    }
+}
+
+/// Appends a state to the output of a trajectory.
+pub(super) fn append(output: &mut Vec<f64>, state: &State<DVector<f64>>) {
+    let Point { time, halves } = state.into();
+    output.push(time);
+    output.extend(halves.into_iter().flatten());
+}
+
+/// The states in the output of a trajectory.
+pub(super) fn points(row: &Trajectory) -> impl Iterator<Item = Point<'_>> {
+    let dimension = row.state.q.len();
+    let states = row.output.chunks_exact(1 + 2 * dimension);
+    states.map(move |numbers| Point {
+        time: numbers[0],
+        halves: [&numbers[1..=dimension], &numbers[1 + dimension..]],
+    })
+}
 
 /// The metadata in the file.
 pub(super) struct Facts<'a> {
@@ -65,113 +98,31 @@ pub(super) struct Results<'a> {
     pub(super) times: Option<&'a [f64]>,
 }
 
-/// An output file that is complete or absent: it is written under a temporary name in the same folder and then renamed.
-pub(super) struct Target {
-    path: PathBuf,
-    part: PathBuf,
-    file: File,
-    format: Format,
-}
-
-/// The formats of files.
-enum Format {
-    Npz,
-    Parquet,
-    Csv,
-}
-
-impl Target {
-    /// Opens the file before the run, so that an unwritable output is detected before anything is computed.
-    pub(super) fn open(path: PathBuf) -> Result<Self, Error> {
-        let extension = path.extension().and_then(|extension| extension.to_str());
-        let format = match extension {
-            Some("csv") => Format::Csv,
-            Some("npz") => Format::Npz,
-            Some("parquet") => Format::Parquet,
-            _ => {
-                let message = format!(
-                    "the name of the output `{}` must end in .npz, .parquet or .csv",
-                    path.display()
-                );
-                return Err(ErrorKind::Document { message }.into());
-            }
-        };
-        if path.is_dir() {
-            let message = format!(
-                "the output `{}` is a folder; nothing was computed",
-                path.display()
-            );
-            return Err(ErrorKind::Document { message }.into());
-        }
-        let mut name = path.file_name().unwrap_or_default().to_owned();
-        name.push(format!(".{}.part", std::process::id()));
-        let part = path.with_file_name(name);
-        let file = File::create(&part).map_err(|error| {
-            let message = format!(
-                "cannot write `{}`: {error}; nothing was computed",
-                part.display()
-            );
-            Error::from(ErrorKind::Document { message })
-        })?;
-        Ok(Target {
-            path,
-            part,
-            file,
-            format,
-        })
-    }
-
-    /// The path of the output.
-    pub(super) fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// Writes the results and renames the file.
-    pub(super) fn write(self, results: &Results<'_>) -> Result<(), Error> {
-        let mut out = BufWriter::new(&self.file);
-        let written = match self.format {
-            Format::Csv => results.write_csv(&mut out),
-            Format::Npz => results.write_npz(&mut out),
-            Format::Parquet => results.write_parquet(&mut out),
-        };
-        let written = written
-            .and_then(|()| out.flush())
-            .and_then(|()| self.file.sync_all())
-            .and_then(|()| fs::rename(&self.part, &self.path));
-        written.map_err(|error| {
-            let message = format!(
-                "cannot write `{}`: {error}; the results of this run are lost, and an existing file of this name is unchanged",
-                self.path.display()
-            );
-            Error::from(ErrorKind::Document { message })
-        })
-    }
-}
-
-impl Drop for Target {
-    fn drop(&mut self) {
-        // The temporary file still exists if the run or the writing failed.
-        let _ = fs::remove_file(&self.part);
-    }
-}
-
 impl Results<'_> {
     /// `(H − H₀)/|H₀|`, or `H − H₀` if the energy at the start is zero.
     pub(super) fn energy_errors(&self) -> Vec<Vec<f64>> {
         let pairs = self.rows.par_iter().zip(self.starts);
         let errors = pairs.map(|(row, start)| {
             let parameters = Parameters::Own(self.parameters(row).into());
-            let energy_at = |state| self.tapes.energy_at(state, &parameters);
-            let first = energy_at(start);
+            let energy_at = |Point {
+                                 time,
+                                 halves: [q, p],
+                             }: Point<'_>| {
+                let parameters = &parameters;
+                let at = At {
+                    parameters,
+                    time,
+                    q,
+                    p,
+                };
+                self.tapes.energy_at(at)
+            };
+            let first = energy_at(start.into());
             let scale = if first == 0.0 { 1.0 } else { first.abs() };
             let error = |energy: f64| (energy - first) / scale;
             match self.times {
-                None => vec![error(energy_at(&row.state))],
-                Some(_) => row
-                    .output
-                    .iter()
-                    .map(|seen| error(energy_at(seen)))
-                    .collect(),
+                None => vec![error(energy_at((&row.state).into()))],
+                Some(_) => points(row).map(|seen| error(energy_at(seen))).collect(),
             }
         });
         errors.collect()
@@ -184,7 +135,7 @@ impl Results<'_> {
             .map_or(&[], Vec::as_slice)
     }
 
-    fn write_npz(&self, out: &mut impl Write) -> io::Result<()> {
+    pub(super) fn write_npz(&self, out: &mut impl Write) -> io::Result<()> {
         let mut file = Npz::new(out);
         for (name, fact) in self.facts.all() {
             match fact {
@@ -206,7 +157,7 @@ impl Results<'_> {
             let all: Vec<f64> = self
                 .starts
                 .iter()
-                .flat_map(|start| half_of(start, half))
+                .flat_map(|start| Point::from(start).halves[half])
                 .copied()
                 .collect();
             file.doubles(name, &[count, dimension], &all)?;
@@ -234,8 +185,8 @@ impl Results<'_> {
                 .iter()
                 .zip(all.chunks_mut((steps * dimension).max(1)))
             {
-                for (seen, place) in row.output.iter().zip(places.chunks_mut(dimension.max(1))) {
-                    place.copy_from_slice(half_of(seen, half));
+                for (seen, place) in points(row).zip(places.chunks_mut(dimension.max(1))) {
+                    place.copy_from_slice(seen.halves[half]);
                 }
             }
             file.doubles(name, &[count, steps, dimension], &all)?;
@@ -247,9 +198,4 @@ impl Results<'_> {
         file.doubles("energy_error", &[count, steps], &all)?;
         file.finish().map(|_| ())
     }
-}
-
-fn half_of(state: &State<DVector<f64>>, half: usize) -> &[f64] {
-    let (q, p) = state.as_slices();
-    [q, p][half]
 }

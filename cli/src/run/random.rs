@@ -21,6 +21,9 @@ pub(super) fn uniform(seed: u64, draw: u64) -> f64 {
     unit(seed, 2 * draw)
 }
 
+/// No draw of [`normal`] is larger: √(−2 ln 2⁻⁵³) < 8.6.
+pub(super) const MOST_DEVIATIONS: f64 = 9.0;
+
 /// Draw number `draw` from the standard normal distribution (Box–Muller).
 pub(super) fn normal(seed: u64, draw: u64) -> f64 {
     let radius = Scalar::sqrt(-2.0 * Scalar::ln(unit(seed, 2 * draw)));

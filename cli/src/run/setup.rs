@@ -9,6 +9,9 @@ use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor, value::MapAccessDes
 use symplectic_compiler::{Error, ErrorKind, Place};
 use toml::{Spanned, Value};
 
+/// Largest number of starts of a run, of its times, and of the values of a coordinate.
+pub(super) const MOST: usize = 1 << 22;
+
 /// The contents of a setup file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -17,8 +20,7 @@ pub(super) struct Setup {
     pub(super) system: Spanned<String>,
     pub(super) method: Spanned<Wanted>,
     pub(super) step_size: Spanned<f64>,
-    #[serde(default)]
-    pub(super) start_time: f64,
+    pub(super) start_time: Option<Spanned<f64>>,
     pub(super) end: Option<Spanned<f64>>,
     pub(super) times: Option<Spanned<Times>>,
     #[serde(default)]
@@ -89,7 +91,7 @@ pub(super) enum Times {
 pub(super) struct Evenly {
     from: f64,
     to: f64,
-    pub(super) count: usize,
+    count: i64,
 }
 
 /// The number of random starts at each point of the grid of the other coordinates.
@@ -151,24 +153,44 @@ impl<'de> Deserialize<'de> for Starts {
     }
 }
 
+impl Setup {
+    /// The time of the starts.
+    pub(super) fn start(&self) -> f64 {
+        self.start_time.as_ref().map_or(0.0, |time| *time.get_ref())
+    }
+}
+
 impl Evenly {
-    /// The numbers.
-    pub(super) fn numbers(self) -> Vec<f64> {
+    /// The numbers; the error is a message.
+    pub(super) fn numbers(self) -> Result<Vec<f64>, String> {
         let Evenly { from, to, count } = self;
-        let last = count.saturating_sub(1).max(1) as f64;
-        let number = |k: usize| {
-            let part = k as f64 / last;
-            from * (1.0 - part) + to * part
+        let count = usize::try_from(count).ok();
+        let Some(count) = count.filter(|count| (1..=MOST).contains(count)) else {
+            return Err(format!(
+                "the count is {}: it must be from 1 to {MOST}",
+                self.count
+            ));
         };
-        (0..count).map(number).collect()
+        let last = (count - 1).max(1);
+        let overflows = !((to - from) * last as f64).is_finite();
+        let number = |k: usize| {
+            let part = k as f64 / last as f64;
+            match overflows {
+                _ if k == last => to,
+                true => from * (1.0 - part) + to * part,
+                // Exact for whole numbers in equal distances.
+                false => from + (to - from) * k as f64 / last as f64,
+            }
+        };
+        Ok((0..count).map(number).collect())
     }
 }
 
 impl Times {
-    /// The times in order.
-    pub(super) fn list(&self) -> Vec<f64> {
+    /// The times in order; the error is a message.
+    pub(super) fn list(&self) -> Result<Vec<f64>, String> {
         match self {
-            Times::List(times) => times.clone(),
+            Times::List(times) => Ok(times.clone()),
             Times::Range(range) => range.numbers(),
         }
     }

@@ -2,10 +2,10 @@
 
 use toml::Value;
 
+use super::random::MOST_DEVIATIONS;
 use super::setup::{Evenly, number};
-use super::starts::MOST;
 
-const EXPECTED: &str = "expected a number, { from, to, count } with a count up to 4194304, { values = [...] }, { uniform = [low, high] } or { normal = [mean, deviation] }";
+const EXPECTED: &str = "expected a number, { from, to, count }, { values = [...] }, { uniform = [low, high] } or { normal = [mean, deviation] }";
 
 /// The values of a coordinate or a parameter.
 #[derive(Debug, Clone)]
@@ -16,14 +16,28 @@ pub(super) enum Spec {
 }
 
 impl Spec {
-    /// Reads the values of `name`; the error is a message.
+    /// Reads the values of `name`, which are finite; the error is a message.
     pub(super) fn read(value: &Value, name: &str) -> Result<Self, String> {
-        Self::find(value).ok_or_else(|| format!("`{name}`: {EXPECTED}"))
+        let spec = match Self::find(value) {
+            Some(spec) => spec.map_err(|message| format!("`{name}`: {message}"))?,
+            None => return Err(format!("`{name}`: {EXPECTED}")),
+        };
+        let numbers = match &spec {
+            Spec::Values(values) => &values[..],
+            Spec::Uniform(pair) | Spec::Normal(pair) => pair,
+        };
+        if let Some(wrong) = numbers.iter().find(|number| !number.is_finite()) {
+            return Err(format!("`{name}` has a value that is not finite: {wrong}"));
+        }
+        match spec.fault() {
+            Some(fault) => Err(format!("`{name}`: {fault}")),
+            None => Ok(spec),
+        }
     }
 
-    fn find(value: &Value) -> Option<Self> {
+    fn find(value: &Value) -> Option<Result<Self, String>> {
         if let Some(value) = number(value) {
-            return Some(Spec::Values(vec![value]));
+            return Some(Ok(Spec::Values(vec![value])));
         }
         let table = value.as_table()?;
         let numbers = |key: &str| -> Option<Vec<f64>> {
@@ -31,28 +45,42 @@ impl Spec {
             list.iter().map(number).collect()
         };
         let pair = |key: &str| numbers(key).and_then(|list| <[f64; 2]>::try_from(list).ok());
-        let range = || value.clone().try_into::<Evenly>().ok();
         match table.len() {
-            1 => (numbers("values")
-                .filter(|list| !list.is_empty())
-                .map(Spec::Values))
-            .or_else(|| pair("uniform").map(Spec::Uniform))
-            .or_else(|| pair("normal").map(Spec::Normal)),
-            _ => range()
-                .filter(|range| range.count <= MOST)
-                .map(Evenly::numbers)
-                .filter(|list| !list.is_empty())
-                .map(Spec::Values),
+            1 => (numbers("values").map(Spec::Values))
+                .or_else(|| pair("uniform").map(Spec::Uniform))
+                .or_else(|| pair("normal").map(Spec::Normal))
+                .map(Ok),
+            _ => {
+                let range = value.clone().try_into::<Evenly>().ok()?;
+                Some(range.numbers().map(Spec::Values))
+            }
         }
     }
 
-    /// Whether all numbers are finite.
-    pub(super) fn is_finite(&self) -> bool {
-        let numbers = match self {
-            Spec::Values(values) => &values[..],
-            Spec::Uniform(pair) | Spec::Normal(pair) => pair,
-        };
-        numbers.iter().all(|number| number.is_finite())
+    /// What is wrong with finite numbers.
+    fn fault(&self) -> Option<String> {
+        match *self {
+            Spec::Values(ref values) => values
+                .is_empty()
+                .then(|| "the list of values is empty".to_owned()),
+            Spec::Uniform([low, high]) if low > high => Some(format!(
+                "the lower bound {low:?} is above the upper bound {high:?}"
+            )),
+            Spec::Uniform([low, high]) if !(high - low).is_finite() => Some(format!(
+                "the bounds {low:?} and {high:?} are too far apart: their difference overflows"
+            )),
+            Spec::Normal([_, deviation]) if deviation < 0.0 => Some(format!(
+                "the standard deviation is {deviation:?}: it must not be negative"
+            )),
+            Spec::Normal([mean, deviation])
+                if !(mean.abs() + MOST_DEVIATIONS * deviation).is_finite() =>
+            {
+                Some(format!(
+                    "the standard deviation {deviation:?} is too large: values overflow"
+                ))
+            }
+            Spec::Uniform(_) | Spec::Normal(_) => None,
+        }
     }
 
     /// Whether the value is drawn for every start.

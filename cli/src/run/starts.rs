@@ -1,5 +1,8 @@
 //! The starts of the trajectories.
 
+use std::collections::HashMap;
+use std::mem;
+
 use symplectic::State;
 use symplectic::nalgebra::DVector;
 use symplectic_compiler::Error;
@@ -8,13 +11,11 @@ use symplectic_compiler::formula::syntax::Length;
 use symplectic_compiler::formula::{Layout, System};
 use toml::{Spanned, Value};
 
+use super::memory;
 use super::parameters::{self, Varied};
 use super::random;
-use super::setup::{File, Grid, Setup, Starts};
+use super::setup::{File, Grid, MOST, Setup, Starts};
 use super::spec::Spec;
-
-/// Largest number of starts of a run.
-pub(super) const MOST: usize = 1 << 22;
 
 /// The names of all components of the position and the momentum, and of the parameters that vary between trajectories.
 #[derive(Debug, Clone)]
@@ -102,7 +103,7 @@ impl Reader<'_> {
         };
         let (coordinates, rows) = rows;
         let half = coordinates.dimension();
-        let time = self.setup.start_time;
+        let time = self.setup.start();
         let start = |row: Vec<f64>| Start {
             state: State::new(
                 time,
@@ -167,10 +168,6 @@ impl Reader<'_> {
         for (k, Varied { name, value, span }) in varied.iter().enumerate() {
             let spec = Spec::read(value, name)
                 .map_err(|message| self.file.error(span.clone(), message))?;
-            if !spec.is_finite() {
-                let message = format!("`{name}` has a value that is not finite");
-                return Err(self.file.error(span.clone(), message));
-            }
             parameter_axes.push((coordinate_count + k, spec));
         }
         let mut rows = Vec::new();
@@ -194,25 +191,25 @@ impl Reader<'_> {
     fn axes(&self, grid: &Grid, coordinates: &Coordinates) -> Result<Vec<(usize, Spec)>, Error> {
         let mut entries: Vec<(&String, &Spanned<Value>)> = grid.iter().collect();
         entries.sort_by_key(|(_, value)| value.span().start);
+        let place = |(place, name)| (String::as_str(name), place);
+        let named: HashMap<&str, usize> = coordinates.all().enumerate().map(place).collect();
+        let mut is_given = vec![false; named.len()];
         let mut axes = Vec::new();
         for (name, value) in entries {
-            let places = self.leaves(name, value.get_ref(), coordinates);
+            let places = self.leaves(name, value.get_ref(), coordinates, &named);
             let leaves = places.map_err(|message| self.file.error(value.span(), message))?;
             for (place, name, leaf) in leaves {
                 let spec = Spec::read(leaf, &name)
                     .map_err(|message| self.file.error(value.span(), message))?;
-                if axes.iter().any(|(found, _)| *found == place) {
+                if mem::replace(&mut is_given[place], true) {
                     let message = format!("`{name}` is given twice: leave out one of the two");
                     return Err(self.file.error(value.span(), message));
                 }
                 axes.push((place, spec));
             }
         }
-        let missing = coordinates
-            .all()
-            .enumerate()
-            .find(|(place, _)| axes.iter().all(|(found, _)| found != place));
-        if let Some((_, name)) = missing {
+        let mut missing = coordinates.all().zip(&is_given);
+        if let Some((name, _)) = missing.find(|(_, is_given)| !**is_given) {
             let message = format!(
                 "the starts give no value for `{name}`; the coordinates are {}",
                 coordinates.listed()
@@ -228,14 +225,14 @@ impl Reader<'_> {
         key: &str,
         value: &'v Value,
         coordinates: &Coordinates,
+        named: &HashMap<&str, usize>,
     ) -> Result<Vec<(usize, String, &'v Value)>, String> {
         let half = coordinates.dimension();
         let offset = match (key, &self.system.layout) {
             ("q", Layout::Numbered(..)) => 0,
             ("p", Layout::Numbered(..)) => half,
             _ => {
-                let place = coordinates.all().position(|name| name == key);
-                let place = place.ok_or_else(|| {
+                let place = *named.get(key).ok_or_else(|| {
                     format!(
                         "there is no coordinate `{key}`; the coordinates are {}",
                         coordinates.listed()
@@ -290,9 +287,14 @@ impl Reader<'_> {
             .iter()
             .try_fold(count, |total: usize, length| total.checked_mul(*length))
             .and_then(|total| total.checked_add(rows.len()));
-        if total.is_none_or(|total| total > MOST) {
-            let message = format!("more than {MOST} starts: split the run into several files");
-            return Err(self.file.error(self.setup.starts.span(), message));
+        let fault = match total.filter(|total| *total <= MOST) {
+            Some(total) => memory::fault_of_starts(total, axes.len()),
+            None => Some(format!(
+                "more than {MOST} starts: split the run into several files"
+            )),
+        };
+        if let Some(fault) = fault {
+            return Err(self.file.error(self.setup.starts.span(), fault));
         }
         let random = self.setup.random.as_ref();
         let seed = random.map_or(0, |random| random.get_ref().seed);

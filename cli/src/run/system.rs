@@ -5,7 +5,7 @@ use std::slice;
 use std::sync::Arc;
 
 use symplectic::nalgebra::DVector;
-use symplectic::{Class, Hamiltonian, Scalar, State};
+use symplectic::{Class, Hamiltonian, Scalar};
 use symplectic_compiler::formula::derivative::gradient;
 use symplectic_compiler::formula::graph::{Half, integer};
 use symplectic_compiler::formula::{Structure, System};
@@ -55,15 +55,11 @@ impl Tapes {
         })
     }
 
-    /// H at a state.
-    pub(super) fn energy_at(&self, state: &State<DVector<f64>>, parameters: &Parameters) -> f64 {
-        self.energy(parameters, (state.time, &state.q, &state.p))
-    }
-
-    fn energy<T: Scalar>(&self, parameters: &Parameters, point: Point<'_, T>) -> T {
+    /// H at a point.
+    pub(super) fn energy_at<T: Scalar>(&self, point: At<'_, T>) -> T {
         let mut energy = T::zero();
         let write = |_, _, value| energy = value;
-        self.energy.run(1, |_| at(parameters, point), write);
+        self.energy.run(1, |_| point, write);
         energy
     }
 }
@@ -179,6 +175,6 @@ impl<C: Class> Hamiltonian for Formula<C> {
     }
 
     fn energy<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>) -> Option<T> {
-        Some(self.tapes.energy(&self.parameters, (time, q, p)))
+        Some(self.tapes.energy_at(at(&self.parameters, (time, q, p))))
     }
 }

@@ -1,32 +1,37 @@
 //! Tables, as CSV or Parquet: results with a line for each state, and starts with a line for each trajectory.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::fmt::Display;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Write};
 use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
-use symplectic::State;
 use symplectic::ensemble::{Parquet, ParquetColumn};
-use symplectic::nalgebra::DVector;
 use symplectic_compiler::formula::{Parameter, Shape};
 use symplectic_compiler::{Error, ErrorKind};
 
-use super::output::{Fact, Results, Trajectory};
-use super::starts::{Coordinates, MOST, Reader};
+use super::output::{Fact, Point, Results, Trajectory, points};
+use super::setup::MOST;
+use super::starts::{Coordinates, Reader};
 
-/// Lines that are written to a Parquet file at once.
+/// Lines that are written to a Parquet file at once, if they are not wide.
 const GROUP: usize = 1 << 16;
+
+/// Cells that are written to a Parquet file at once.
+const CELLS: usize = 1 << 22;
+
+/// Largest size of a file of starts.
+const MOST_BYTES: u64 = 1 << 31;
 
 /// A line of a table of results: a state of a trajectory.
 struct Line<'a> {
     row: &'a Trajectory,
-    start: &'a State<DVector<f64>>,
+    start: Point<'a>,
     parameters: &'a [f64],
-    state: &'a State<DVector<f64>>,
+    state: Point<'a>,
     energy_error: Option<f64>,
     /// Why the trajectory ended there.
     failure: Option<String>,
@@ -40,7 +45,7 @@ impl Results<'_> {
             let failure = row.outcome.as_ref().err().map(ToString::to_string);
             let line = |state, energy_error, failure| Line {
                 row,
-                start,
+                start: start.into(),
                 parameters: self.parameters(row),
                 state,
                 energy_error,
@@ -48,13 +53,13 @@ impl Results<'_> {
             };
             let mut lines = Vec::new();
             if self.times.is_none() {
-                lines.push(line(&row.state, errors.first().copied(), failure));
+                lines.push(line((&row.state).into(), errors.first().copied(), failure));
                 return lines;
             }
-            let seen = row.output.iter().zip(errors);
+            let seen = points(row).zip(errors);
             lines.extend(seen.map(|(state, error)| line(state, Some(error), None)));
             if failure.is_some() {
-                lines.push(line(&row.state, None, failure));
+                lines.push(line((&row.state).into(), None, failure));
             }
             lines
         })
@@ -64,7 +69,7 @@ impl Results<'_> {
         let mut file = csv::Writer::from_writer(out);
         file.write_record(header(self.coordinates))?;
         for line in self.lines() {
-            let numbers = |state| coordinates(state).map(|x| x.to_string());
+            let numbers = |state| coordinates(state).map(f64::to_string);
             let energy_error = line.energy_error.map(|error| format!("{error:e}"));
             let mut cells = vec![line.row.trajectory.to_string()];
             cells.extend(numbers(line.start));
@@ -91,12 +96,13 @@ impl Results<'_> {
         }
         let names = header(self.coordinates);
         let mut lines = self.lines();
+        let most = (CELLS / names.len()).clamp(1, GROUP);
         loop {
-            let group: Vec<Line<'_>> = lines.by_ref().take(GROUP).collect();
+            let group: Vec<Line<'_>> = lines.by_ref().take(most).collect();
             let columns = columns(&group, self.coordinates);
             let columns: Vec<_> = names.iter().map(String::as_str).zip(columns).collect();
             file.group(&columns)?;
-            if group.len() < GROUP {
+            if group.len() < most {
                 return file.finish().map(|_| ());
             }
         }
@@ -104,9 +110,8 @@ impl Results<'_> {
 }
 
 /// Positions, then momenta.
-fn coordinates(state: &State<DVector<f64>>) -> impl Iterator<Item = &f64> {
-    let (q, p) = state.as_slices();
-    q.iter().chain(p)
+fn coordinates(state: Point<'_>) -> impl Iterator<Item = &f64> {
+    state.halves.into_iter().flatten()
 }
 
 /// The names of the columns; coordinates are at the start and at the time of the line.
@@ -136,7 +141,7 @@ fn columns(lines: &[Line<'_>], names: &Coordinates) -> Vec<ParquetColumn> {
         |of: fn(&Line<'_>) -> u64| ParquetColumn::Integers(lines.iter().map(of).collect());
     let doubles =
         |of: &dyn Fn(&Line<'_>) -> f64| ParquetColumn::Doubles(lines.iter().map(of).collect());
-    let coordinate = |of: for<'l> fn(&'l Line<'_>) -> &'l State<DVector<f64>>, k: usize| {
+    let coordinate = |of: for<'l> fn(&'l Line<'_>) -> Point<'l>, k: usize| {
         doubles(&|line| coordinates(of(line)).nth(k).copied().unwrap_or(f64::NAN))
     };
     let mut columns = vec![integers(|line| line.row.trajectory as u64)];
@@ -158,6 +163,18 @@ type Rows = (Coordinates, Vec<Vec<f64>>);
 impl Reader<'_> {
     /// The rows of a file whose columns have the names of the coordinates.
     pub(super) fn of_table(&self, path: &Path) -> Result<Rows, Error> {
+        let about = fs::metadata(path).map_err(|error| refused(path, error))?;
+        if !about.is_file() {
+            return Err(refused(
+                path,
+                "not a file on a disk: write the starts to a file",
+            ));
+        }
+        if about.len() > MOST_BYTES {
+            let message =
+                format!("longer than {MOST_BYTES} bytes: split the file into several files");
+            return Err(refused(path, message));
+        }
         match path.extension().and_then(|extension| extension.to_str()) {
             Some("parquet") => {
                 // The crate panics on some files that are damaged.
@@ -260,12 +277,11 @@ fn refused(path: &Path, message: impl Display) -> Error {
 
 /// The place of each column among the coordinates.
 fn places(coordinates: &Coordinates, names: &[&str]) -> Result<Vec<usize>, String> {
+    let known = coordinates.with_parameters().enumerate();
+    let mut left: HashMap<&str, usize> = known.map(|(k, name)| (name.as_str(), k)).collect();
     let mut places = Vec::new();
     for name in names {
-        let place = coordinates
-            .with_parameters()
-            .position(|known| known == name);
-        let place = place.filter(|place| !places.contains(place)).ok_or_else(|| {
+        let place = left.remove(name).ok_or_else(|| {
             format!(
                 "the column `{name}` is neither a coordinate nor a parameter that is a number, or it occurs twice; the coordinates are {}",
                 coordinates.listed()
@@ -273,9 +289,9 @@ fn places(coordinates: &Coordinates, names: &[&str]) -> Result<Vec<usize>, Strin
         })?;
         places.push(place);
     }
-    let mut missing = coordinates.with_parameters().enumerate();
-    match missing.find(|(k, _)| !places.contains(k)) {
-        Some((_, name)) => Err(format!("the column `{name}` is missing")),
+    let mut all = coordinates.with_parameters();
+    match all.find(|name| left.contains_key(name.as_str())) {
+        Some(name) => Err(format!("the column `{name}` is missing")),
         None => Ok(places),
     }
 }

@@ -40,10 +40,11 @@ pub fn on_a_rod(state: &State<Vector2<f64>>) -> State<Vector3<f64>> {
 
 #[cfg(test)]
 mod tests {
-    use symplectic::{Integrator, System};
+    use symplectic::{Constrained, General, Integrator, Method, ProvedFor, System};
 
     use super::*;
-    use crate::methods::{Gauss6, Lobatto4};
+    use crate::methods::{Gauss6, Lobatto3, Lobatto4, Lobatto5, StoermerVerlet};
+    use crate::order::ObservedOrder;
     use crate::scenes::check;
 
     #[test]
@@ -72,5 +73,39 @@ mod tests {
         // The drag matters.
         let lost = one - run.energy().expect("known");
         assert!(lost > 0.1, "{lost}");
+    }
+
+    /// The orders against the motion in angles, with drag and without, and not one higher.
+    #[test]
+    fn constrained_orders() {
+        fn slope<M>(method: M, drag: f64, order: f64, steps: [u64; 3])
+        where
+            M: Method + ProvedFor<Constrained<General>> + Copy,
+        {
+            const END: f64 = 2.0;
+            let angles = InAngles { drag };
+            let mut exact =
+                Integrator::new(Gauss6, angles, start_in_angles(), END / 256.0).expect("a start");
+            let exact = on_a_rod(exact.take_steps(256).expect("steps"));
+            let runs = steps.map(|steps| {
+                let (start, size) = (on_a_rod(&start_in_angles()), END / steps as f64);
+                let mut run =
+                    Integrator::new(method, OnARod { drag }, start, size).expect("a start");
+                let end = run.take_steps(steps).expect("steps");
+                (size, (end.q - exact.q).norm() + (end.p - exact.p).norm())
+            });
+            let found = ObservedOrder::of(&runs);
+            assert!(
+                found.shows(order, 0.05),
+                "{}, drag {drag}: {found}",
+                M::NAME
+            );
+        }
+        for drag in [0.0, 0.1] {
+            slope(StoermerVerlet, drag, 2.0, [100, 200, 400]);
+            slope(Lobatto3, drag, 4.0, [20, 40, 80]);
+            slope(Lobatto4, drag, 6.0, [10, 16, 24]);
+            slope(Lobatto5, drag, 8.0, [5, 7, 10]);
+        }
     }
 }

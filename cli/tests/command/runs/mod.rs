@@ -1,6 +1,8 @@
-//! `symplectic run`: trajectories beside those of the macros, starts, parameters, files, and what is refused.
+//! `symplectic run`: trajectories beside those of the macros, starts, numbers, parameters, files, and what is refused.
 
 mod files;
+mod kept;
+mod numbers;
 mod parameters;
 mod refused;
 mod starts;

@@ -1,0 +1,72 @@
+//! The memory that a run needs, which is bounded before anything is computed.
+
+/// Largest memory of a run in bytes.
+const MOST: u128 = 4_000_000_000;
+
+/// Why the starts need too much memory; each consists of a number of coordinates and parameters.
+pub(super) fn fault_of_starts(starts: usize, numbers: usize) -> Option<String> {
+    let needed = of_starts(starts, numbers);
+    (needed > MOST).then(|| {
+        format!(
+            "the starts need about {} GB of memory, and at most {} are allowed: split the run into several files",
+            gigabytes(needed),
+            gigabytes(MOST)
+        )
+    })
+}
+
+/// Why a run of a part of the starts needs too much memory, of which each has a number of states of a dimension.
+pub(super) fn fault_of_states(
+    (starts, numbers): (usize, usize),
+    (times, dimension): (usize, usize),
+    parts: usize,
+) -> Option<String> {
+    let fixed = of_starts(starts, numbers);
+    let states = of_states(starts, times, dimension);
+    let needed = fixed + states.div_ceil(parts as u128);
+    (needed > MOST).then(|| {
+        let enough = states.div_ceil(MOST.saturating_sub(fixed).max(1));
+        format!(
+            "the run needs about {} GB of memory, and at most {} are allowed: give fewer `times`, or run at least {enough} parts, with `--shard 0/{enough}` and so on",
+            gigabytes(needed),
+            gigabytes(MOST)
+        )
+    })
+}
+
+/// Starts, last states, statistics and the arrays of the output: measured were 532 bytes with one degree of freedom, 950 with
+/// ten, and 765 with one and a parameter that varies.
+fn of_starts(starts: usize, numbers: usize) -> u128 {
+    starts as u128 * (650 + 25 * numbers as u128)
+}
+
+/// Time, positions, momenta and the error of the energy, and an array of the output with its bytes: measured were 57 bytes with
+/// one degree of freedom and 383 with ten.
+fn of_states(starts: usize, times: usize, dimension: usize) -> u128 {
+    starts as u128 * times as u128 * (16 + 40 * dimension as u128)
+}
+
+fn gigabytes(bytes: u128) -> String {
+    format!("{}", (bytes as f64 / 1e8).ceil() / 10.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fault_of_states;
+
+    /// The number of parts in the message is the least one that is allowed.
+    #[test]
+    fn the_advice_is_followed_by_success() {
+        let fault = |parts| fault_of_states((1000, 2), (4_000_000, 1), parts);
+        let told = fault(1).expect("too much");
+        assert!(
+            told.contains("about 224.1 GB of memory, and at most 4 are"),
+            "{told}"
+        );
+        assert!(
+            told.contains("at least 57 parts, with `--shard 0/57`"),
+            "{told}"
+        );
+        assert!(fault(56).is_some() && fault(57).is_none());
+    }
+}
