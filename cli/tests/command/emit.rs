@@ -1,6 +1,7 @@
 //! Steppers in other languages: their form, and their steps on Kepler's orbit, which has a closed form.
 
 use std::fs;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -283,8 +284,11 @@ pub fn output(program: &str, arguments: &[&str], folder: &Path) -> Option<String
     let output = Command::new(program)
         .args(arguments)
         .current_dir(folder)
-        .output()
-        .ok()?;
+        .output();
+    let Ok(output) = output else {
+        let _ = writeln!(std::io::stderr(), "skipped, as there is no {program} here");
+        return None;
+    };
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{program} {arguments:?}: {errors}");
     Some(String::from_utf8(output.stdout).expect("text"))

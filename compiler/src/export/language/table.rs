@@ -316,7 +316,96 @@ fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// A name of letters, digits and single underscores that begins with a letter.
+/// Words that are no names in C, Fortran, Julia or Python; those of Python in lower case.
+const KEYWORDS: &[&str] = &[
+    "and",
+    "as",
+    "assert",
+    "async",
+    "auto",
+    "await",
+    "baremodule",
+    "begin",
+    "bool",
+    "break",
+    "case",
+    "catch",
+    "char",
+    "class",
+    "const",
+    "continue",
+    "def",
+    "default",
+    "del",
+    "do",
+    "double",
+    "elif",
+    "else",
+    "elseif",
+    "end",
+    "enum",
+    "except",
+    "export",
+    "extern",
+    "false",
+    "finally",
+    "float",
+    "for",
+    "from",
+    "function",
+    "global",
+    "goto",
+    "if",
+    "import",
+    "in",
+    "inline",
+    "int",
+    "is",
+    "isa",
+    "lambda",
+    "let",
+    "local",
+    "long",
+    "macro",
+    "main",
+    "match",
+    "module",
+    "none",
+    "nonlocal",
+    "not",
+    "nothing",
+    "or",
+    "pass",
+    "quote",
+    "raise",
+    "register",
+    "restrict",
+    "return",
+    "short",
+    "signed",
+    "sizeof",
+    "static",
+    "struct",
+    "switch",
+    "true",
+    "try",
+    "type",
+    "typedef",
+    "union",
+    "unsigned",
+    "using",
+    "void",
+    "volatile",
+    "where",
+    "while",
+    "with",
+    "yield",
+];
+
+/// The most letters of a name, less than the 63 of Fortran because more may follow.
+const MOST_LETTERS: usize = 40;
+
+/// A name of letters, digits and single underscores that begins with a letter and is no keyword.
 fn identifier(name: &str) -> String {
     let mut found = String::new();
     for c in name.chars() {
@@ -326,8 +415,9 @@ fn identifier(name: &str) -> String {
             found.push('_');
         }
     }
+    found.truncate(MOST_LETTERS);
     let found = found.trim_end_matches('_');
-    if found.starts_with(|c: char| c.is_ascii_alphabetic()) {
+    if found.starts_with(|c: char| c.is_ascii_alphabetic()) && !KEYWORDS.contains(&found) {
         found.to_owned()
     } else {
         format!("method_{found}").trim_end_matches('_').to_owned()
@@ -350,5 +440,9 @@ mod tests {
         assert_eq!(identifier("Größe 2"), "gr_e_2");
         assert_eq!(identifier("2nd"), "method_2nd");
         assert_eq!(identifier("—"), "method");
+        for keyword in ["lambda", "None", "end", "class"] {
+            assert!(identifier(keyword).starts_with("method_"));
+        }
+        assert_eq!(identifier(&"long".repeat(20)).len(), MOST_LETTERS);
     }
 }
