@@ -13,9 +13,9 @@ use crate::variational::regular::{Factors, Singular, largest};
 const DIFFERENCE: f64 = 6e-6;
 /// Half of a movement of the end up to this, relative to the end, is a rounding error, 27 ε.
 const NOISE: f64 = 6e-15;
-/// Bounds of a length where nothing tells the size of the unknown: 2^−200 and 2^200.
+/// The smallest length, and the largest of an unknown that is zero: 2^−200 and 2^200.
 const LENGTHS: [f64; 2] = [6.2e-61, 1.6e60];
-/// A length that does not move the end measurably grows by this factor: at most 40 times between the bounds.
+/// A length that does not move the end measurably grows by this factor: at most 40 times between these bounds.
 const GROWTH: f64 = 1024.0;
 
 /// The derivative, and lengths of differences that move the end measurably.
@@ -50,7 +50,8 @@ impl EndDerivative {
     }
 
     /// Measures the derivative. `shifted(j, by)` is the end with `x_j` shifted; `unknown` are x and the same half of the end, which tell the
-    /// size of x, and `sizes` those of the components of the end. A length lasts, and grows up to the largest unknown.
+    /// size of x, and `sizes` those of the components of the end. A length grows up to the largest unknown or its last value; that of an
+    /// unknown that is zero begins with its last value and grows without this limit.
     ///
     /// # Errors
     ///
@@ -65,8 +66,12 @@ impl EndDerivative {
         let of_all = largest(&unknown.map(largest));
         for (j, length) in self.lengths.iter_mut().enumerate() {
             let own = largest(&unknown.map(|unknown| unknown[j]));
-            *length = length.max(DIFFERENCE * own);
-            let limit = if own > 0.0 { of_all } else { LENGTHS[1] };
+            let limit = if own > 0.0 {
+                let last = core::mem::replace(length, LENGTHS[0].max(DIFFERENCE * own));
+                of_all.max(last)
+            } else {
+                LENGTHS[1]
+            };
             let both =
                 |by: f64| -> Result<[V; 2], Error> { Ok([shifted(j, -by)?, shifted(j, by)?]) };
             let mut ends = both(*length)?;

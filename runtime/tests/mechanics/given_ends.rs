@@ -308,9 +308,9 @@ fn ends_known_to_the_rounding_of_the_step() -> Result<(), Error> {
 symplectic::hamiltonian! { pub Masses { a, b } q: [x, y], p: [px, py]; H = px^2/(2 a) + py^2/(2 b) + a x^4/4 }
 symplectic::hamiltonian! { pub Quartic { a } q: [x], p: [px]; H = px^2/(2 a) + a x^4/4 }
 
-/// A length of differences for each momentum, and for one that is zero a length that moves the end.
+/// Each momentum has its own difference, which moves the end even where the momentum is zero; each position its own rounding error.
 #[test]
-fn momenta_of_any_size() -> Result<(), Error> {
+fn ends_of_any_size() -> Result<(), Error> {
     for heavy in [1e10, 1e-10, 1e30] {
         let masses = Masses { a: 1.0, b: heavy };
         let start: State<Plane> = State::from_arrays(0.0, [0.3, 0.7], [0.5, 0.0]);
@@ -335,6 +335,32 @@ fn momenta_of_any_size() -> Result<(), Error> {
     for a in [1e-30, 1e-10, 1e10, 1e30] {
         assert!((velocity(a)? - expected).abs() < 1e-13, "{a:e}");
     }
+    // A small position next to a large one is found as accurately as alone.
+    let (small, large) = (1e-9, 1e9);
+    let masses = Masses { a: 1.0, b: 1.0 };
+    let start: State<Plane> =
+        State::from_arrays(0.0, [0.3 * small, 0.7 * large], [0.5 * small, 0.2 * large]);
+    let run = Integrator::new(Gauss2, masses, start.clone(), 0.1)?;
+    let found = run.type_one(&start.q, &Vector2::new(0.4 * small, 0.75 * large))?;
+    let velocities = (found.start.p[0] / small, found.start.p[1] / large);
+    assert!(
+        (velocities.0 - 1.0).abs() < 1e-13 && (velocities.1 - 0.5).abs() < 1e-13,
+        "{velocities:?}"
+    );
+    // From rest, where there is no length to begin with, this momentum is still not determined.
+    let rest = State::from_arrays(0.0, [0.7], [0.0]);
+    let outcome = Integrator::new(Gauss2, Product, rest, 0.1)?
+        .type_one(&Vector1::new(0.7), &Vector1::new(0.9));
+    assert!(
+        matches!(
+            outcome,
+            Err(Error::NoStart {
+                component: Some(0),
+                ..
+            })
+        ),
+        "{outcome:?}"
+    );
     Ok(())
 }
 
