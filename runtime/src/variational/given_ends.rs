@@ -2,6 +2,9 @@
 
 use alloc::vec;
 
+use num_traits::Float;
+
+use super::end_derivative::EndDerivative;
 use super::two_ends::dot;
 use crate::error::{Error, Quantity};
 use crate::integrator::validation::check_state;
@@ -10,7 +13,7 @@ use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 use crate::state::State;
 use crate::system::{Conservative, System};
-use crate::variational::regular::{Factors, Singular, largest};
+use crate::variational::regular::{Singular, largest};
 
 /// The generating functions of the next step, at given ends:
 ///
@@ -24,7 +27,8 @@ use crate::variational::regular::{Factors, Singular, largest};
 ///
 /// (Leok & Ohsawa, arXiv:0810.0740v1, 9.8 and 9.9; Leok & Zhang 2011, eq. 43). The missing half of the start is found by Newton's
 /// iteration on the steps of the integrator, from that half of its present state. The matrix of the iteration is computed by central
-/// differences: an iteration takes 2n + 1 steps for n components. The integrator itself takes no step.
+/// differences: an iteration takes 2n + 1 steps for n components, or more where a short difference does not move the end measurably. The
+/// residual is at the rounding errors of a step. The integrator itself takes no step.
 ///
 /// # Errors
 ///
@@ -190,6 +194,13 @@ impl Half {
         }
     }
 
+    fn take<V>(self, state: State<V>) -> V {
+        match self {
+            Self::Position => state.q,
+            Self::Momentum => state.p,
+        }
+    }
+
     const fn quantity(self) -> Quantity {
         match self {
             Self::Position => Quantity::Position,
@@ -200,12 +211,10 @@ impl Half {
 
 /// Maximum number of Newton iterations; 3 to 6 are typical.
 const MAX_ITERATIONS: u32 = 40;
-/// Length of a difference relative to the unknown, about the cube root of the rounding error.
-const DIFFERENCE: f64 = 6e-6;
-/// Slopes below this, relative to end and unknown, are the rounding errors of differences, `ε/DIFFERENCE`, with a margin.
-const NOISE: f64 = 1e-9;
-/// Residuals below this, relative to the ends, are rounding errors.
+/// Residuals below this, relative to the terms of the end, are rounding errors.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// A residual below this that no longer halves consists of rounding errors inside the step: Newton's iteration converges quadratically.
+const STATIONARY: f64 = 1e-9;
 
 /// Finds the half `unknown` of the start whose step ends at `target`.
 fn find<I: GeneratingFunctions + ?Sized>(
@@ -224,52 +233,39 @@ fn find<I: GeneratingFunctions + ?Sized>(
         component,
         residual,
     };
-    let guess = unknown.of(&start).clone();
-    let mut matrix = vec![0.0; n * n];
-    let mut factors = Factors::new(n);
+    let target = target.as_slice();
+    let (mut right, mut sizes) = (vec![0.0; n], vec![0.0; n]);
+    let mut derivative = EndDerivative::new(n);
     let mut last = f64::NAN;
     for _ in 0..MAX_ITERATIONS {
         let end = run.step_from(start.clone())?;
-        let pairs = target.as_slice().iter().zip(half.of(&end).as_slice());
-        let right = pairs
-            .map(|(target, end)| target - end)
-            .collect::<vec::Vec<_>>();
-        let size = largest(target.as_slice()).max(largest(half.of(&start).as_slice()));
-        if largest(&right) <= ROUNDING * size {
+        let (known, found) = (half.of(&start).as_slice(), half.of(&end).as_slice());
+        let iterate = unknown.of(&start).as_slice();
+        let mut residual = 0.0_f64;
+        for i in 0..n {
+            right[i] = target[i] - found[i];
+            sizes[i] = largest(&[target[i], known[i], found[i], derivative.terms(i, iterate)]);
+            if right[i] != 0.0 {
+                residual = residual.max(Float::abs(right[i]) / sizes[i]);
+            }
+        }
+        // A component that is zero by cancellation has rounding errors of the size of the others.
+        let is_rounding = residual <= STATIONARY || largest(&right) <= ROUNDING * largest(&sizes);
+        if residual <= ROUNDING || (is_rounding && residual > last / 2.0) {
             let (end, action) = run.step_with_action(start.clone())?;
             let value = value(&start, &end, action);
             return Ok(GivenEnds { value, start, end });
         }
-        last = largest(&right) / size;
-        let scale = match largest(unknown.of(&start).as_slice()) {
-            0.0 => 1.0,
-            scale => scale,
+        last = residual;
+        let shifted = |column: usize, by: f64| {
+            let mut start = start.clone();
+            unknown.of_mut(&mut start).as_mut_slice()[column] += by;
+            run.step_from(start).map(|end| half.take(end))
         };
-        for column in 0..n {
-            let shifted = |by: f64| {
-                let mut start = start.clone();
-                unknown.of_mut(&mut start).as_mut_slice()[column] += by;
-                run.step_from(start)
-            };
-            let by = DIFFERENCE * scale;
-            let [low, high] = [shifted(-by)?, shifted(by)?];
-            let pairs = half
-                .of(&low)
-                .as_slice()
-                .iter()
-                .zip(half.of(&high).as_slice());
-            for (row, (low, high)) in pairs.enumerate() {
-                matrix[row * n + column] = (high - low) / (2.0 * by);
-            }
-        }
-        let floor = NOISE * size / scale;
-        (factors.factor_above(&matrix, floor))
-            .map_err(|Singular { component, .. }| not_found(Some(component), last))?;
-        factors.correct(
-            right.into_iter(),
-            guess.as_slice(),
-            unknown.of_mut(&mut start).as_mut_slice(),
-        );
+        derivative.measure([iterate, unknown.of(&end).as_slice()], &sizes, shifted)?;
+        derivative
+            .solve(&right, &sizes, unknown.of_mut(&mut start).as_mut_slice())
+            .map_err(|Singular { component, .. }| not_found(Some(component), residual))?;
     }
     Err(not_found(None, last))
 }

@@ -10,6 +10,7 @@ mod checks;
 mod cotangent_lift;
 mod dirac;
 mod discrete_lagrangian;
+mod end_derivative;
 mod energies;
 mod energy_momentum;
 mod failure;

@@ -6,7 +6,7 @@ use symplectic::variational::{
     GeneratingFunctions, GivenEnds, LagrangianIntegrator, VariationalIntegrator,
     generating_function,
 };
-use symplectic::{Error, Integrator, Quantity, State};
+use symplectic::{Error, Integrator, Quantity, State, StepMap};
 
 use crate::discrete_lagrangians::{AtTwoPoints, DoublePendulum, Shaken, Trapezoid, perihelion};
 use crate::forces::{ForestRuth, Gauss2, Lobatto3};
@@ -270,5 +270,113 @@ fn ends_that_no_step_has() -> Result<(), Error> {
             "{outcome:?}"
         );
     }
+    Ok(())
+}
+
+symplectic::hamiltonian! { pub Spring { k } q: [x], p: [px]; H = px^2/2 + k (x - 1)^2/2 }
+symplectic::hamiltonian! { pub Displaced q: [x], p: [px]; H = (px^2 + x^2)/2 + x }
+
+/// The force `k(x0 − x)` of a stiff spring near rest has rounding errors of the size of `k x0`, which exceed those of the momentum. Near
+/// zero there are no positions to compare a residual with.
+#[test]
+fn ends_known_to_the_rounding_of_the_step() -> Result<(), Error> {
+    for (k, size) in [(100.0, 0.1), (1e6, 1e-3)] {
+        let start = State::from_arrays(0.0, [1.0], [0.0]);
+        let run = Integrator::new(StoermerVerlet, Spring { k }, start, size)?;
+        for number in 1..=40 {
+            // Irregular displacements.
+            let by = |factor: f64| 1e-3 * (factor * f64::from(number)).sin();
+            let (q0, p0) = (1.0 + by(1.3), size * k * by(2.7));
+            let end = run.step_from(State::from_arrays(0.0, [q0], [p0]))?;
+            let found = run.type_two(&Vector1::new(q0), &end.p)?;
+            // ε h k x0, divided by ∂p1/∂p0 = 1 − h²k/2 = 1/2.
+            let rounding = 16.0 * f64::EPSILON * size * k;
+            assert!((found.start.p[0] - p0).abs() < rounding, "{k} {number}");
+        }
+    }
+    let zero = Vector1::new(0.0);
+    let start = State::new(0.0, zero, zero);
+    for number in 1..=40 {
+        let size = 0.01 * f64::from(number);
+        let run = Integrator::new(Gauss2, Displaced, start.clone(), size)?;
+        let (p0, p1) = {
+            let found = run.type_one(&zero, &zero)?;
+            (found.start.p[0], found.end.p[0])
+        };
+        // The solution is x = cos t + tan(h/2) sin t − 1, and the step is symmetric.
+        assert!((p0 - (size / 2.0).tan()).abs() < 1e-5 && (p0 + p1).abs() < 1e-14);
+    }
+    Ok(())
+}
+
+symplectic::hamiltonian! { pub Masses { a, b } q: [x, y], p: [px, py]; H = px^2/(2 a) + py^2/(2 b) + a x^4/4 }
+symplectic::hamiltonian! { pub Quartic { a } q: [x], p: [px]; H = px^2/(2 a) + a x^4/4 }
+
+/// Each momentum has its own difference, which moves the end even where the momentum is zero; each position its own rounding error.
+#[test]
+fn ends_of_any_size() -> Result<(), Error> {
+    for heavy in [1e10, 1e-10, 1e30] {
+        let masses = Masses { a: 1.0, b: heavy };
+        let start: State<Plane> = State::from_arrays(0.0, [0.3, 0.7], [0.5, 0.0]);
+        let run = Integrator::new(Gauss2, masses, start.clone(), 0.1)?;
+        let q1 = Vector2::new(0.4, 0.7 + 1e-3);
+        let found = run.type_one(&start.q, &q1)?;
+        let velocity = found.start.p[1] / heavy;
+        // 16 ε of the positions, divided by the step size.
+        assert!((velocity - 1e-2).abs() < 1e-13, "{heavy:e}: {velocity}");
+        // Heavy and at rest.
+        let found = run.type_one(&start.q, &Vector2::new(0.4, 0.7))?;
+        assert!((found.start.p[1] / heavy).abs() < 1e-13, "{heavy:e}");
+    }
+    // The same step in other units of mass, from rest.
+    let velocity = |a: f64| {
+        let rest = State::from_arrays(0.0, [0.3], [0.0]);
+        let run = Integrator::new(Gauss2, Quartic { a }, rest, 0.1)?;
+        let found = run.type_one(&Vector1::new(0.3), &Vector1::new(0.4))?;
+        Ok::<_, Error>(found.start.p[0] / a)
+    };
+    let expected = velocity(1.0)?;
+    for a in [1e-30, 1e-10, 1e10, 1e30] {
+        assert!((velocity(a)? - expected).abs() < 1e-13, "{a:e}");
+    }
+    // A small position next to a large one is found as accurately as alone.
+    let (small, large) = (1e-9, 1e9);
+    let masses = Masses { a: 1.0, b: 1.0 };
+    let start: State<Plane> =
+        State::from_arrays(0.0, [0.3 * small, 0.7 * large], [0.5 * small, 0.2 * large]);
+    let run = Integrator::new(Gauss2, masses, start.clone(), 0.1)?;
+    let found = run.type_one(&start.q, &Vector2::new(0.4 * small, 0.75 * large))?;
+    let velocities = (found.start.p[0] / small, found.start.p[1] / large);
+    assert!(
+        (velocities.0 - 1.0).abs() < 1e-13 && (velocities.1 - 0.5).abs() < 1e-13,
+        "{velocities:?}"
+    );
+    // From rest, where there is no length to begin with, this momentum is still not determined.
+    let rest = State::from_arrays(0.0, [0.7], [0.0]);
+    let outcome = Integrator::new(Gauss2, Product, rest, 0.1)?
+        .type_one(&Vector1::new(0.7), &Vector1::new(0.9));
+    assert!(
+        matches!(
+            outcome,
+            Err(Error::NoStart {
+                component: Some(0),
+                ..
+            })
+        ),
+        "{outcome:?}"
+    );
+    Ok(())
+}
+
+/// A step from a given state does not depend on the past of the integrator.
+#[test]
+fn steps_of_a_lagrangian_forget_the_run() -> Result<(), Error> {
+    let start: State<Plane> = State::from_arrays(0.0, [0.8, 0.3], [0.2, 0.7]);
+    let fresh = LagrangianIntegrator::new(Gauss2, DoublePendulum, start.clone(), 0.25)?;
+    let mut used = fresh.clone();
+    for _ in 0..5 {
+        used.step()?;
+    }
+    assert_eq!(used.step_from(start.clone())?, fresh.step_from(start)?);
     Ok(())
 }

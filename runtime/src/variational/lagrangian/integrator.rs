@@ -346,11 +346,12 @@ impl<L: Lagrangian> Stepper for LagrangianIntegrator<L> {
 }
 
 impl<L: Lagrangian + Clone> LagrangianIntegrator<L> {
-    /// An integrator that took one step from `state`.
+    /// A new integrator that took one step from `state`. Newton's iteration begins where it began in the first step of this integrator.
     fn stepped_from(&self, state: State<L::Vector<f64>>) -> Result<Self, Error> {
         check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
         let mut run = self.clone();
         run.pace.restart(state.time);
+        run.stages.forget();
         run.state = state;
         run.step()?;
         Ok(run)

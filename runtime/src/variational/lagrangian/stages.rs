@@ -21,6 +21,8 @@ pub(super) struct Stages<L: Lagrangian> {
     unknowns: Vec<f64>,
     /// The unknowns of the last successful step.
     before: Vec<f64>,
+    /// The unknowns of a new integrator.
+    first: Vec<f64>,
     /// `P'_i`.
     rates: Vec<f64>,
     /// `L_i`.
@@ -68,6 +70,7 @@ impl<L: Lagrangian> Stages<L> {
         Ok(Self {
             unknowns: vec![0.0; size],
             before: vec![0.0; size],
+            first: vec![0.0; size],
             rates: vec![0.0; stages * n],
             values: vec![0.0; stages],
             q: vec![0.0; n],
@@ -85,13 +88,20 @@ impl<L: Lagrangian> Stages<L> {
 
     /// Begins with this velocity at every stage.
     pub(super) fn begin_with(&mut self, velocity: &[f64]) {
-        let unknowns = self.before.chunks_exact_mut(velocity.len().max(1));
+        let unknowns = self.first.chunks_exact_mut(velocity.len().max(1));
         for (unknowns, factor) in unknowns.zip(&self.coefficients.constant) {
             for (unknown, component) in unknowns.iter_mut().zip(velocity) {
                 *unknown = factor * component;
             }
         }
-        self.unknowns.copy_from_slice(&self.before);
+        self.forget();
+    }
+
+    /// Begins as a new integrator does, without the stages and the factors of earlier steps.
+    pub(super) fn forget(&mut self) {
+        self.before.copy_from_slice(&self.first);
+        self.unknowns.copy_from_slice(&self.first);
+        self.factored = None;
     }
 
     /// Adds `(q1 − q0)/h` of the last step to `out`.
