@@ -15,7 +15,8 @@ pub(super) fn fault_of_starts(starts: usize, numbers: usize) -> Option<String> {
     })
 }
 
-/// Why a run of a part of the starts needs too much memory, of which each has a number of states of a dimension.
+/// Why one of several parts of a run needs too much memory. Each start consists of `numbers` coordinates and parameters, and gives a state of a
+/// dimension at each of the times.
 pub(super) fn fault_of_states(
     (starts, numbers): (usize, usize),
     (times, dimension): (usize, usize),

@@ -63,7 +63,7 @@ pub fn friction_growth<M: Method + ProvedFor<Damped>>(
     });
     kicks.fold(0.0, |largest, kick| {
         let growth = -rate * step_size * kick;
-        // NaN once and for all.
+        // A NaN stays.
         if growth <= largest || largest.is_nan() {
             largest
         } else {

@@ -87,7 +87,7 @@ def main(folder, *names):
         paths = [Path(folder) / "certificates" / f"{name}.json", Path(folder) / f"{name}.toml"]
         texts = [path.read_text(encoding="utf-8") for path in paths]
         certificate, exact, _ = check.check(texts[0])
-        # The tests of `symplectic check` change all digits of ten tables, and one of each other table that is not long.
+        # The tests of `symplectic check` change all digits of ten tables, and some of each other table that is not long.
         checks = (
             (in_certificate, (), check.check, step),
             (in_table, (texts[0],), lambda text: table(text, certificate, exact), max(step, 11)),
