@@ -270,9 +270,12 @@ fn composition_of_verlet(factors: &[Factor<'_>]) -> Vec<Reading> {
     let mut readings = plain(&inner, COMPOSITIONS);
     for reading in &mut readings {
         let argument = |index: usize| reading.steps[index].argument;
+        // In the order of the unknowns, so that mirrored coefficients are recognised as equal.
         let half_sum = |(index, factor): (usize, &&Factor<'_>)| {
             let inner = neighbours(index).map(|inner| (argument(inner), half.clone()));
-            factor.target(inner.collect())
+            let mut terms: Vec<_> = inner.collect();
+            terms.sort();
+            factor.target(terms)
         };
         let targets: Vec<Target> = outer.iter().enumerate().map(half_sum).collect();
         reading.targets.extend(targets);

@@ -69,17 +69,26 @@ fn the_claimed_order_is_certified_and_the_next_one_refuted() {
     // Symmetry is in the structure, which enclosures need not verify.
     let separable = tableau.separable_properties();
     assert!(separable.symplectic.holds && separable.symmetric.holds);
-    // Without the claim of it an order is verified.
-    let lower = derive(&JUMP.replace("separable(4)", "nystrom(4)"));
-    let orders = lower.orders();
+    // A claim for quadratic T is order 4 for separable H, too, if the method is symmetric; a higher one is verified.
+    let quadratic = derive(&JUMP.replace("separable(4)", "nystrom(4)"));
+    let separable = &quadratic.orders().separable;
+    assert_eq!(
+        (separable.order, separable.evidence),
+        (4, Evidence::Certified)
+    );
+    let yoshida = derive(
+        "kick: [0.392256805238778632, 0.510043411918457699, -0.471053385409756437, 0.068753168252520106, 0.068753168252520106, -0.471053385409756437, 0.510043411918457699, 0.392256805238778632], \
+         drift: [0.784513610477557264, 0.235573213359358134, -1.177679984178871007, 1.315186320683911219, -1.177679984178871007, 0.235573213359358134, 0.784513610477557264, 0], claim: nystrom(6)",
+    );
+    let orders = yoshida.orders();
     assert_eq!(orders.nystrom.evidence, Evidence::Certified);
+    assert_eq!(orders.separable.order, 6);
     assert!(matches!(
         orders.separable.evidence,
         Evidence::Verified { .. }
     ));
-    assert_eq!(orders.separable.order, 4);
-    let error = lower.require(
-        &Requirement::parse("order(separable) == 4").expect("read"),
+    let error = yoshida.require(
+        &Requirement::parse("order(separable) == 6").expect("read"),
         None,
     );
     assert!(

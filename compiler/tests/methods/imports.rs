@@ -3,7 +3,7 @@
 use symplectic_compiler::export::Language;
 use symplectic_compiler::order::HamiltonianClass;
 use symplectic_compiler::{
-    Coefficients, Definition, Error, Library, Limits, Tableau, catalogue, import,
+    Coefficients, Definition, Error, Library, Limits, Property, Tableau, catalogue, import,
 };
 
 fn read(library: Library, text: &str) -> Result<Tableau, Error> {
@@ -44,7 +44,7 @@ fn doubles(tableau: &Tableau) -> Vec<f64> {
     [b, b_tilde, a.concat(), a_tilde.concat()].concat()
 }
 
-/// What is exported to a library and read from there is the same method, for the catalogue: the same orders, and the same
+/// What is exported to a library and read from there is the same method, for the catalogue: the same orders, symmetry and evidence, and the same
 /// doubles, except that coefficients which the conditions leave free are those of the doubles, so that all may move by a unit
 /// in the last place.
 #[test]
@@ -97,6 +97,14 @@ fn exports_are_read_back() {
             }
             assert!(distance <= 1.0, "{name}: {distance}");
             assert_eq!(orders(&read)[1..], orders(&tableau)[1..], "{name}");
+            let [read, original] = [&read, &tableau].map(Tableau::separable_properties);
+            for (read, original) in [
+                (read.symmetric, original.symmetric),
+                (read.symplectic, original.symplectic),
+            ] {
+                let of = |property: &Property| (property.holds, property.evidence);
+                assert_eq!(of(&read), of(&original), "{name}");
+            }
         }
     }
     assert!(same > 100 && near < 60, "{same} {near} {worst}");
