@@ -436,6 +436,7 @@ def check(text):
     """Returns a certificate, its method with functions for the ends of the coefficients, by name, and what was checked, or raises one of WRONG."""
     certificate = read(text)
     demand(certificate["format"] == "symplectic certificate" and whole(certificate["version"]) == 1, "a certificate of version 1")
+    demand(isinstance(certificate["name"], str), "the name as a text")
     demand(certificate["layout"] in ("matrices", "kicks first", "drifts first"), "a layout that is known")
     matrices = ("a", "a_tilde") if certificate["layout"] == "matrices" else ()  # Those of a splitting follow from its weights.
     first, last = ("symplectic", "symmetric") if matrices else ("palindrome",), ("perturbed", "stability")
@@ -448,8 +449,7 @@ def check(text):
     listed = isinstance(missing, list) and len(missing) == len({*missing}) and {*missing} <= NOT_COVERED - covered
     demand(listed, "not_covered as a list of claims that are not made, each once")
     of = method_of(certificate)
-    if isinstance(of, NotChecked):
-        return certificate, None, [of]
+    if isinstance(of, NotChecked): return certificate, None, [of]
     demand(of.s == certificate["stages"], f"{of.s} stages")
     exact, residual, tests = {"method": of}, residuals(of), {"symplectic": symplectic, "symmetric": symmetric}
     for colour, tilde in (("q", ""), ("p", "_tilde")):

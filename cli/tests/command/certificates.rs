@@ -409,6 +409,10 @@ fn what_is_not_proved_and_what_is_no_certificate_is_rejected() {
             "ValueError",
         ),
         (
+            edited(&gauss, "\"name\": \"gauss-2\"", "\"name\": 2"),
+            "the name as a text",
+        ),
+        (
             edited(&gauss, "\"stages\": 2", "\"stages\": 1e9"),
             "a whole number or a text, not 1e9",
         ),
