@@ -76,7 +76,7 @@ pub(super) struct Emitted<'a, P, R, W, S> {
     kind: PhantomData<(P, R)>,
 }
 
-/// The sums of [`sums`](crate::solver::simd::gauss_seidel::sums), stage by stage.
+/// The sums of [`sums`](crate::solver::simd::sums::sums), stage by stage.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn sums<R: Summation, P: StageTableau>(
     columns: &'static [&'static [f64]],

@@ -17,7 +17,7 @@ use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::solver::convergence::{Begun, Sweeps};
 use crate::solver::predictor::starts_at_once;
 use crate::solver::simd::change::{LaneMovement, noted, part_change};
-use crate::solver::simd::gauss_seidel::{combination, increment_factor, is_about, times};
+use crate::solver::simd::sums::{combination, increment_factor, is_about, times};
 use crate::system::SystemInLanes;
 use crate::system::SystemLanes;
 use crate::system::{Class, Components, StageRows, System};

@@ -25,10 +25,9 @@ use crate::solver::SimdFixedPoint;
 use crate::solver::convergence::{Begun, Sweeps, settle, settle_from_cold_start};
 use crate::solver::predictor::{MOST, StartingColumns, starting_columns, starts_at_once, weighted};
 use crate::solver::simd::change::{LaneMovement, part_change};
-use crate::solver::simd::gauss_seidel::{
-    self, ByLanes, Sums, entry, extrapolate, gauss_seidel, is_about, scale_of, values,
-};
+use crate::solver::simd::gauss_seidel::{ByLanes, gauss_seidel};
 use crate::solver::simd::stages::SimdStages;
+use crate::solver::simd::sums::{self, Sums, entry, extrapolate, is_about, scale_of, values};
 use crate::system::{Class, System, SystemInLanes, SystemLanes};
 
 /// Takes a step of a second-order system `q'' = M⁻¹ f(t, q)`, whose velocity `M⁻¹ p` is linear in the momentum. Only the positions are
@@ -131,7 +130,7 @@ where
         true => rows::force(stages, stage, k) * factor(stage),
         false => entry::<P, V>(stages.force.as_ref(), stage, k) * factor(stage),
     };
-    gauss_seidel::extend::<P, V>(&P::POSITIONS, at, force, p);
+    sums::extend::<P, V>(&P::POSITIONS, at, force, p);
     let Some(polynomial) = P::MOMENTA.polynomial else {
         return;
     };

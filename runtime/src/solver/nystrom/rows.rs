@@ -14,8 +14,8 @@ use crate::method::{StageTableau, Step};
 use crate::number::lanes::lane_of;
 use crate::number::linear_combination::sum_of_products;
 use crate::number::{F64x8, Lanes, Scalar, Summation, Vector};
-use crate::solver::simd::gauss_seidel::{entry, shortest, times};
 use crate::solver::simd::stages::SimdStages;
+use crate::solver::simd::sums::{entry, shortest, times};
 use crate::system::SystemInLanes;
 use crate::system::{MOST_ROW_STAGES, StageRows, System};
 

@@ -10,8 +10,8 @@ use crate::number::lanes::{in_groups, lane_of, lanes};
 use crate::number::linear_combination::sum_of_products;
 use crate::number::summation::add;
 use crate::number::{F64x8, Lanes, Plain, Scalar, Summation, Vector};
-use crate::solver::simd::gauss_seidel::{shortest, total};
 use crate::solver::simd::stages::{Laned, SimdStages};
+use crate::solver::simd::sums::{shortest, total};
 use crate::system::SystemInLanes;
 
 /// With unit masses, from forces stored in rows.

@@ -3,20 +3,18 @@
 use core::marker::PhantomData;
 
 use crate::error::Quantity;
-use crate::method::tableau::Columns;
 use crate::method::{
-    EvaluationCounts, Failure, Inside, Outcome, Solver, StageChange, StageTableau, Step,
-    StepStatistics, Stopping, WarmStart,
+    EvaluationCounts, Failure, HalfTableau, Inside, Outcome, Solver, StageChange, StageTableau,
+    Step, StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Scalar, Summation, Vector};
 use crate::solver::SimdFixedPoint;
 use crate::solver::convergence::{Begun, Sweeps, settle, settle_from_cold_start};
-use crate::solver::predictor::{Starting, starts_at_once};
+use crate::solver::predictor::{Starting, StartingColumns, starts_at_once};
 use crate::solver::simd::change::LaneMovement;
-use crate::solver::simd::gauss_seidel::{
-    ByLanes, Sums, extrapolate, extrapolates, fill, gauss_seidel, sum, sums, totals, values,
-};
-use crate::solver::simd::stages::{Laned, SimdStages};
+use crate::solver::simd::gauss_seidel::{ByLanes, extrapolates, gauss_seidel};
+use crate::solver::simd::stages::SimdStages;
+use crate::solver::simd::sums::{Sums, extrapolate, fill, sum, totals, values};
 use crate::system::SystemInLanes;
 use crate::system::{Class, System};
 
@@ -113,73 +111,30 @@ where
         if R::COMPENSATED {
             self.0.increments();
         }
-        let step = self.0.step;
-        let SimdStages {
-            q,
-            p,
-            velocity,
-            force,
-        } = &mut *self.0.stages;
         LaneMovement {
-            p: Self::half(
-                (Columns::<P>::MOMENTA, P::POSITIONS.weights),
-                step,
-                (step.p, step.p_low),
-                p.as_mut(),
-                force.as_ref(),
-            ),
-            q: Self::half(
-                (Columns::<P>::POSITIONS, P::MOMENTA.weights),
-                step,
-                (step.q, step.q_low),
-                q.as_mut(),
-                velocity.as_ref(),
-            ),
+            p: self.0.momenta(R::COMPENSATED),
+            q: self.0.positions(R::COMPENSATED),
         }
-    }
-
-    /// Computes new values of one half. `columns` are those of its matrix; `weights` belong to the evaluations of the other half.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn half(
-        (columns, weights): (&'static [&'static [f64]], &'static [f64]),
-        step: &Step<'_, V>,
-        base: (&V, &V),
-        out: &mut [Laned<V, P>],
-        terms: &[Laned<V, P>],
-    ) -> P::Lanes {
-        let sums = sums::<R, P>(columns, weights, step.size, R::COMPENSATED);
-        values::<P, V>(&sums, out, base, terms, sum::<P>)
     }
 
     /// Predicts the stages from the increments of the previous step.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn start(&mut self) {
-        let step = self.0.step;
+        let (step, stages) = (self.0.step, &mut *self.0.stages);
         let factor = (!P::INCREMENTS).then_some(step.size);
-        let SimdStages {
-            q,
-            p,
-            velocity,
-            force,
-        } = &mut *self.0.stages;
-        let sums = Sums {
-            count: P::MOMENTA.columns.len(),
-            column: |j: usize| &Starting::<P>::MOMENTA[j][..],
-            factor: |_| factor,
+        let sums = |half: &HalfTableau, columns: &'static StartingColumns| Sums {
+            count: half.columns.len(),
+            column: move |j: usize| &columns[j][..],
+            factor: move |_| factor,
             with_low: R::COMPENSATED,
             beyond: false,
         };
-        let base = (step.p, step.p_low);
-        values::<P, V>(&sums, p.as_mut(), base, force.as_ref(), sum::<P>);
-        let sums = Sums {
-            count: P::POSITIONS.columns.len(),
-            column: |j: usize| &Starting::<P>::POSITIONS[j][..],
-            factor: |_| factor,
-            with_low: R::COMPENSATED,
-            beyond: false,
-        };
-        let base = (step.q, step.q_low);
-        values::<P, V>(&sums, q.as_mut(), base, velocity.as_ref(), sum::<P>);
+        let momenta = sums(&P::MOMENTA, Starting::<P>::MOMENTA);
+        let (base, forces) = ((step.p, step.p_low), stages.force.as_ref());
+        values::<P, V>(&momenta, stages.p.as_mut(), base, forces, sum::<P>);
+        let positions = sums(&P::POSITIONS, Starting::<P>::POSITIONS);
+        let (base, velocities) = ((step.q, step.q_low), stages.velocity.as_ref());
+        values::<P, V>(&positions, stages.q.as_mut(), base, velocities, sum::<P>);
     }
 }
 

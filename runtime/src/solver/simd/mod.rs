@@ -4,3 +4,4 @@ pub(crate) mod change;
 pub(crate) mod gauss_seidel;
 pub(crate) mod jacobi;
 pub(crate) mod stages;
+pub(crate) mod sums;
