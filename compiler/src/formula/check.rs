@@ -46,10 +46,10 @@ impl System {
             // If a part of the definition needs H, L was rejected on reading.
             return Ok(());
         }
-        if self.friction.is_some() {
+        if !self.friction.is_empty() {
             self.check_friction(structure, input)?;
         }
-        if let (Some(force), true) = (self.force_of_momenta(), self.friction.is_some()) {
+        if let (Some(force), false) = (self.force_of_momenta(), self.friction.is_empty()) {
             let kind = FormulaError::Unsupported {
                 what: "friction beside a force that depends on momenta".to_owned(),
                 instead: "write the friction as a force too",

@@ -126,7 +126,7 @@ impl System {
 
 /// Whether no force takes energy out or puts it in.
 fn is_conservative(system: &System) -> bool {
-    system.friction.is_none() && system.applied.is_empty()
+    system.friction.is_empty() && system.applied.is_empty()
 }
 
 /// Whether the exact flow conserves H, and there is one.
@@ -336,10 +336,10 @@ pub fn json(system: &System, structure: &Structure) -> Value {
     if !system.applied.is_empty() {
         all["applied_force"] = both(System::applied_forces);
     }
-    if let Some(rate) = system.friction {
+    if !system.friction.is_empty() {
         all["friction"] = json!({
-            "text": system.formula(rate, Notation::Text),
-            "latex": system.formula(rate, Notation::Latex),
+            "text": system.rates(Notation::Text),
+            "latex": system.rates(Notation::Latex),
         });
     }
     if let Some(lagrangian) = &system.lagrangian {
@@ -399,10 +399,10 @@ pub fn facts(system: &System, structure: &Structure) -> Vec<String> {
             None => "with an applied force".to_owned(),
         });
     }
-    if let Some(rate) = system.friction {
+    if !system.friction.is_empty() {
         facts.push(format!(
             "the friction −γp with γ = {} is added to the force",
-            system.formula(rate, Notation::Text)
+            system.rates(Notation::Text)
         ));
     }
     if !system.constraints.is_empty() {

@@ -50,6 +50,19 @@ impl System {
         texts.remove(&id).map_or_else(String::new, |(text, _)| text)
     }
 
+    /// The rates of friction, as one formula or as a list.
+    pub(super) fn rates(&self, notation: Notation) -> String {
+        let rates = self
+            .friction
+            .iter()
+            .map(|&rate| self.formula(rate, notation));
+        let rates: Vec<String> = rates.collect();
+        match &rates[..] {
+            [rate] => rate.clone(),
+            rates => format!("[{}]", rates.join(", ")),
+        }
+    }
+
     /// Derivatives, one line for each part: `q'[i] = …`, or `+=` where several are added; then a line for each part in common that has a name.
     pub fn equations(&self, halves: &[(Half, Vec<Scatter>)], notation: Notation) -> Vec<String> {
         let dotted = |half: Half, target: &Coordinate| {

@@ -112,7 +112,7 @@ struct Symmetries {
 impl Symmetries {
     fn of(system: &mut System) -> Self {
         let mut found = Self::of_energy(system);
-        if system.friction.is_some()
+        if !system.friction.is_empty()
             || !system.applied.is_empty()
             || !system.nonholonomic.is_empty()
         {

@@ -96,7 +96,7 @@ pub struct Definition {
     pub velocities: Option<Coordinates>,
     /// Non-holonomic constraints.
     pub nonholonomic: Vec<Constraint>,
-    /// The rate γ of a friction `−γp`.
+    /// The rate γ of a friction `−γp`, or a list of rates.
     pub friction: Option<Expression>,
     /// The functions declared to be conserved.
     pub invariants: Vec<(Name, Expression)>,

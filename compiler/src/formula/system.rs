@@ -37,8 +37,8 @@ pub struct System {
     pub applied: Vec<Scatter>,
     /// Non-holonomic constraints, linear in the velocities.
     pub nonholonomic: Vec<Constraint>,
-    /// The rate γ of a friction `−γp`.
-    pub friction: Option<Id>,
+    /// The rates γ of a friction `−γp`: none, one, or one for each component of a position or, if positions are vectors, of a vector.
+    pub friction: Vec<Id>,
     /// The functions declared to be conserved.
     pub invariants: Vec<Invariant>,
     /// The required properties.
@@ -148,7 +148,7 @@ impl System {
 
     /// Whether the system consists of H alone: no constraint, no applied force, no friction.
     pub fn is_free(&self) -> bool {
-        !self.is_constrained() && self.applied.is_empty() && self.friction.is_none()
+        !self.is_constrained() && self.applied.is_empty() && self.friction.is_empty()
     }
 
     /// Whether there are constraints, holonomic or not.

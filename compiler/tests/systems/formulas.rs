@@ -181,6 +181,10 @@ fn wrong_formulas_are_refused_at_their_place() {
         refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 constraints: rod = x"),
         refused("P q: [x], p: [px]; H = px^2 + x^2 friction: x"),
         refused("P q: [x], p: [px]; H = px^2 + x^2 friction: 1 friction: 2"),
+        refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 friction: [1, 2, 3]"),
+        refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 friction: [1]"),
+        refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 friction: [1, x]"),
+        refused("P<N> { g: [N] } q: [N], p: [N]; H = sum(i: p[i]^2) friction: g"),
         refused("P q: [x], p: [px]; H = px^2 + x px friction: 1"),
         refused("P q: [x], p: [px]; H = px^2 friction: 1 invariants: { momentum = px }"),
         refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 friction: 1 constraints: { rod = x }"),
@@ -276,6 +280,17 @@ fn a_forced_system() {
     expect_file!["emitted/formula_forced.rs"].assert_eq(&formula::code(&read, &structure));
     expect_file!["data/forced.txt"].assert_eq(&description::text(&read, &structure));
     expect_file!["data/forced.latex"].assert_eq(&description::latex(&read));
+}
+
+#[test]
+fn a_rate_of_friction_for_each_component() {
+    let (read, structure) =
+        read("P { g } q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 friction: [g, 2 g]");
+    let facts = description::facts(&read, &structure).join("; ");
+    assert!(facts.contains("friction −γp with γ = [g, 2 g]"), "{facts}");
+    let friction = &description::json(&read, &structure)["friction"];
+    let texts = [&friction["text"], &friction["latex"]];
+    assert_eq!(texts, ["[g, 2 g]", r"[g, 2\,g]"]);
 }
 
 #[test]

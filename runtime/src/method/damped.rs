@@ -1,6 +1,7 @@
 //! Steps of splittings for systems with linear friction.
 
 use core::marker::PhantomData;
+use core::slice;
 
 use crate::error::{Error, Quantity};
 use crate::method::{
@@ -8,6 +9,7 @@ use crate::method::{
     Method, Outcome, Plan, ProvedFor, Solver, StageStorage, Step, StepStatistics, Stopping,
     WarmStart, check_no_constraints,
 };
+use crate::number::linear_combination::add_products;
 use crate::number::summation::add;
 use crate::number::vector::same_mut;
 use crate::number::{Coefficient, Coefficients, Scalar, Summation, Vector, Visit};
@@ -153,13 +155,16 @@ impl<C: Vector> KickDrift for DampedKicks<'_, C> {
         let momenta = p.as_mut_slice().iter_mut().zip(p_low.as_mut_slice());
         for (k, ((p, low), &force)) in momenta.zip(force.as_slice()).enumerate() {
             let exponent = -system.friction(k) * time;
+            if exponent == 0.0 {
+                // The bits of a kick without friction.
+                let gain = V::Scalar::weight(h, weight);
+                let (p, low) = (slice::from_mut(p), slice::from_mut(low));
+                add_products::<R, V>(p, low, gain, &[force]);
+                continue;
+            }
             // e^{−γτ} − 1, and (1 − e^{−γτ})/γ.
             let loss = num_traits::Float::exp_m1(exponent);
-            let gain = if exponent == 0.0 {
-                time
-            } else {
-                time * (loss / exponent)
-            };
+            let gain = time * (loss / exponent);
             let (loss, gain) = (V::Scalar::from_f64(loss), V::Scalar::from_f64(gain));
             let terms = [loss * *p, gain * force, loss * *low];
             let count = if R::COMPENSATED { 3 } else { 2 };

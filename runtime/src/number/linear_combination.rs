@@ -152,7 +152,7 @@ pub fn advance<R: Summation, V: Vector>(
 // The compiler knows that slices passed as arguments do not overlap. For the memory that vectors point to it has to check before every
 // loop.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn add_products<R: Summation, V: Vector>(
+pub(crate) fn add_products<R: Summation, V: Vector>(
     out: &mut [V::Scalar],
     low: &mut [V::Scalar],
     factor: V::Scalar,

@@ -77,7 +77,8 @@
 /// the positions; `v: [vx, vy, va]` after `p: […]` names the velocities for this section. The class is then
 /// [`Nonholonomic`](crate::Nonholonomic), and methods that are `nonholonomic` step it.
 ///
-/// `friction: gamma` adds the force `−γp` to a separable system. Its class is [`Damped`](crate::Damped), for splittings.
+/// `friction: gamma` adds the force `−γp` to a separable system; `friction: [a, b]` has a rate for each coordinate, or, if positions are
+/// vectors, for each component of a vector. The class is [`Damped`](crate::Damped), for splittings.
 ///
 /// ```
 /// use symplectic::{Error, Integrator, State};

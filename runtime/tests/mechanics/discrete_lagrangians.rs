@@ -16,7 +16,7 @@ symplectic::tableau! {
 
 symplectic::composition! {
     Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] }
-    Jump6 { base: lobatto-2, weights: triple_jump(6), require: [order == 6] }
+    pub Jump6 { base: lobatto-2, weights: triple_jump(6), require: [order == 6] }
 }
 
 symplectic::lagrangian! {

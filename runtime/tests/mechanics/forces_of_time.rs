@@ -1,10 +1,12 @@
 //! Forces `f(t, q, p)` with methods whose nodes c and c̃ differ.
 //!
-//! Time is one more position, with velocity 1. So the time of a force is `t0 + c_i h`, and the order for general Hamiltonians holds.
+//! Time is one more position, with velocity 1. So the time of a force is `t0 + c_i h`, and the order for general Hamiltonians holds. Beyond
+//! order 2 only methods with negative weights have `c ≠ c̃`, such as compositions.
 
 use symplectic::nalgebra::Vector3;
 use symplectic::{Error, Integrator, Method, State};
 
+use crate::discrete_lagrangians::Jump6;
 use crate::forces::{FourthRattle, Gauss4, Lobatto2, slope, swing};
 
 symplectic::hamiltonian! {
@@ -51,6 +53,7 @@ fn the_order_is_that_for_general_hamiltonians() -> Result<(), Error> {
     for (found, order) in [
         (slope(Lobatto2, || Pumped, &start, &end, 256), 2.0),
         (slope(FourthRattle, || Pumped, &start, &end, 256), 4.0),
+        (slope(Jump6, || Pumped, &start, &end, 64), 6.0),
     ] {
         assert!((found - order).abs() < 0.05, "{found} instead of {order}");
     }

@@ -1,6 +1,6 @@
 //! Linear friction with exact kicks.
 
-use symplectic::nalgebra::{Matrix2, SVector, Vector2};
+use symplectic::nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 use symplectic::{
     Damped, Error, Hamiltonian, Integrator, Method, ProvedFor, Scalar, State, friction_growth,
 };
@@ -104,6 +104,59 @@ fn areas_and_momenta_shrink_exactly() {
     assert!((determinant - exact).abs() < 1e-10, "{determinant} {exact}");
 }
 
+symplectic::hamiltonian! {
+    /// Coupled oscillators with another friction on each.
+    Unequal { a: 0.3, b: 0.1 }
+    q: [x, y], p: [px, py];
+    H = (px^2 + py^2)/2 + (x^2 + y^4)/2 + x y/3
+    friction: [a, 2 b]
+}
+
+symplectic::hamiltonian! {
+    /// Two points with friction in one direction only.
+    OneWay<N>
+    q: [N; 2], p: [N; 2];
+    H = sum(i: |p[i]|^2/2)
+    friction: [1/4, 0]
+}
+
+/// With a rate for each component the volume of phase space shrinks by e^{−h tr Γ} in every step.
+#[test]
+fn volumes_shrink_by_the_trace_of_the_rates() {
+    let step = |at: SVector<f64, 4>| {
+        let state = State::from_arrays(0.0, [at[0], at[1]], [at[2], at[3]]);
+        let mut run = Integrator::new(ForestRuth, Unequal::new(), state, 0.1).expect("a run");
+        let State { q, p, .. } = run.step().expect("a step").clone();
+        SVector::from([q[0], q[1], p[0], p[1]])
+    };
+    // By differences of order 4.
+    const STEP: f64 = 1e-3;
+    let column = |k: usize| {
+        let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|by| {
+            let mut at = SVector::from([0.7, -0.4, 0.3, 0.5]);
+            at[k] += by * STEP;
+            step(at)
+        });
+        (a - d + (c - b) * 8.0) / (12.0 * STEP)
+    };
+    let columns = [0, 1, 2, 3].map(column);
+    let determinant = SMatrix::<f64, 4, 4>::from_columns(&columns).determinant();
+    let exact = (-0.1 * (0.3 + 0.2_f64)).exp();
+    assert!((determinant - exact).abs() < 1e-10, "{determinant} {exact}");
+}
+
+/// The rates of a list belong to the components of every vector, here the columns.
+#[test]
+fn rates_of_vectors() {
+    let p = Matrix2::new(1.0, 3.0, 2.0, 4.0);
+    let start = State::new(0.0, Matrix2::zeros(), p);
+    let mut run = Integrator::new(ForestRuth, OneWay::<2>, start, 0.5).expect("a run");
+    let end = &run.integrate_to(4.0).expect("steps").p;
+    let decay = (-1.0_f64).exp();
+    let exact = Matrix2::new(decay, 3.0 * decay, 2.0, 4.0);
+    assert!((end - exact).amax() < 1e-15, "{end}");
+}
+
 /// The largest growth by friction is that of the middle kicks, (1 − 2^⅓)/(2 (2 − 2^⅓)) of a step.
 #[test]
 fn the_growth_of_negative_kicks() {
@@ -192,15 +245,17 @@ fn no_friction_changes_nothing() {
             Hamiltonian::force(&Ring(0.0), time, q, q, force);
         }
     }
-    let mut damped = Integrator::plain(ForestRuth, Ring(0.0), start(), 0.1).expect("a run");
-    let mut undamped = Integrator::plain(ForestRuth, Undamped, start(), 0.1).expect("a run");
-    for _ in 0..20 {
-        let (a, b) = (
-            damped.step().expect("a step"),
-            undamped.step().expect("a step"),
-        );
-        assert_eq!((a.q, a.p), (b.q, b.p));
+    macro_rules! compare {
+        ($($with:ident)*) => {$(
+            let mut damped = Integrator::$with(ForestRuth, Ring(0.0), start(), 0.1).expect("a run");
+            let mut undamped = Integrator::$with(ForestRuth, Undamped, start(), 0.1).expect("a run");
+            for _ in 0..20 {
+                let (a, b) = (damped.step().expect("a step"), undamped.step().expect("a step"));
+                assert_eq!((a.q, a.p), (b.q, b.p));
+            }
+        )*};
     }
+    compare! { plain new }
 }
 
 /// Dense output knows the friction: the values inside a step have order 4.

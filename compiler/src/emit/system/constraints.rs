@@ -22,9 +22,29 @@ impl Emitter<'_> {
     }
 
     fn friction(&self) -> TokenStream {
-        let Some(rate) = self.system.friction else {
+        let rates = &self.system.friction;
+        let Some((&last, others)) = rates.split_last() else {
             return TokenStream::new();
         };
+        let last = self.rate(last);
+        let statements = if others.is_empty() {
+            last
+        } else {
+            let count = rates.len();
+            let others = others.iter().map(|&rate| self.rate(rate));
+            let arms = others.enumerate().map(|(k, rate)| quote!(#k => { #rate }));
+            quote!(match component % #count { #(#arms)* _ => { #last } })
+        };
+        quote! {
+            #[inline(always)]
+            fn friction(&self, component: usize) -> f64 {
+                #statements
+            }
+        }
+    }
+
+    /// The statements that return a rate of friction.
+    fn rate(&self, rate: Id) -> TokenStream {
         let operations = Operations::new(&self.system.graph, &[rate]);
         let write: Write = Box::new(|value| quote!(return #value;));
         let task = Task {
@@ -40,13 +60,7 @@ impl Emitter<'_> {
             &self.prefix,
             TokenStream::new(),
         );
-        let statements = writer.write(&[task]);
-        quote! {
-            #[inline(always)]
-            fn friction(&self, component: usize) -> f64 {
-                #statements
-            }
-        }
+        writer.write(&[task])
     }
 
     fn constraints(&mut self) -> TokenStream {

@@ -12,7 +12,7 @@ impl Emitter<'_> {
         let Some(lagrangian) = self.system.lagrangian.clone() else {
             return TokenStream::new();
         };
-        if self.system.is_constrained() || self.system.friction.is_some() {
+        if self.system.is_constrained() || !self.system.friction.is_empty() {
             return TokenStream::new();
         }
         let [generics, _, arguments] = self.generics();

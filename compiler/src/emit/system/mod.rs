@@ -431,7 +431,7 @@ impl<'a> Emitter<'a> {
         } else {
             quote!(::symplectic::General)
         };
-        let class = if self.system.friction.is_some() {
+        let class = if !self.system.friction.is_empty() {
             quote!(::symplectic::Damped)
         } else if !self.system.constraints.is_empty() {
             quote!(::symplectic::Constrained<#class>)
@@ -467,9 +467,10 @@ impl<'a> Emitter<'a> {
         let force = self.derivatives(&halves, &parts, &["force"]);
         let energy = self.energy(energy);
         // Newton's iteration is for systems without constraints.
-        let jacobian = match (self.system.is_constrained(), self.system.friction) {
-            (false, None) => self.jacobian(split),
-            _ => TokenStream::new(),
+        let jacobian = if self.system.is_constrained() || !self.system.friction.is_empty() {
+            TokenStream::new()
+        } else {
+            self.jacobian(split)
         };
         let applied = (!applied.is_empty()).then(|| {
             let parts = [("applied", applied)];

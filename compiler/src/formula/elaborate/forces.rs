@@ -5,7 +5,8 @@ use crate::error::{Error, ErrorKind};
 use crate::formula::derivative::Scatter;
 use crate::formula::error::FormulaError;
 use crate::formula::graph::{Coordinate, Half, Id, Node};
-use crate::formula::syntax::{Force, Form, Kind, Name, Over};
+use crate::formula::syntax::{Force, Form, Kind, Length, Name, Over};
+use crate::formula::system::Layout;
 
 impl Elaborator<'_> {
     /// The applied forces, each with its coordinate.
@@ -87,13 +88,32 @@ impl Elaborator<'_> {
         }
     }
 
-    /// The rate of the friction, a function of parameters only.
-    pub(super) fn friction(&mut self) -> Result<Option<Id>, Error> {
+    /// The rates of the friction, functions of parameters only: see [`System::friction`](crate::formula::System::friction).
+    pub(super) fn friction(&mut self) -> Result<Vec<Id>, Error> {
         let Some(written) = &self.definition.friction else {
-            return Ok(None);
+            return Ok(Vec::new());
         };
-        let rate = self.scalar(written)?;
-        if !self.graph.depends(rate).is_fixed() {
+        let value = self.value(written)?;
+        let count = match &self.layout {
+            Layout::Named([names, _]) => Some(names.len()),
+            Layout::Numbered(_, Some(components)) => Some(*components),
+            Layout::Numbered(Length::Fixed(count), None) => Some(*count),
+            Layout::Numbered(..) => None,
+        };
+        let rates = match self.whole(value) {
+            Value::Scalar(rate) => vec![rate],
+            Value::Vector(rates) if count == Some(rates.len()) => rates,
+            other => {
+                let list =
+                    count.map(|count| format!(", or a list of {count}, one for each component"));
+                let expected = format!("a rate γ{}", list.unwrap_or_default());
+                return self.mismatch(written, &other, &expected);
+            }
+        };
+        let fixed = rates
+            .iter()
+            .all(|&rate| self.graph.depends(rate).is_fixed());
+        if !fixed {
             let kind = ErrorKind::Type {
                 found: format!("the friction `{}`", self.text(written)),
                 expected: "a rate γ of numbers and parameters, for the force −γp".to_owned(),
@@ -107,6 +127,6 @@ impl Elaborator<'_> {
             };
             return self.error(written, kind);
         }
-        Ok(Some(rate))
+        Ok(rates)
     }
 }

@@ -101,7 +101,7 @@ pub(super) fn transform(
     for part in constraints.flat_map(|known| &mut known.parts) {
         *part = copier.copy(*part, graph);
     }
-    if let Some(rate) = &mut system.friction {
+    for rate in &mut system.friction {
         *rate = copier.copy(*rate, graph);
     }
     for part in &mut system.applied {
@@ -133,7 +133,7 @@ fn needs_hamiltonian(system: &System) -> Option<&'static str> {
     let parts = [
         ("constraints", !system.constraints.is_empty()),
         ("nonholonomic", !system.nonholonomic.is_empty()),
-        ("friction", system.friction.is_some()),
+        ("friction", !system.friction.is_empty()),
         ("invariants", !system.invariants.is_empty()),
         ("require", !system.required.is_empty()),
     ];

@@ -278,7 +278,10 @@ impl Parser<'_> {
             }
             "force" => self.forces(definition)?,
             "friction" => {
-                self.expect(':', "`:` and a rate: `friction: gamma;`")?;
+                self.expect(
+                    ':',
+                    "`:` and a rate, or a list: `friction: gamma;`, `friction: [a, b];`",
+                )?;
                 if definition.friction.is_some() {
                     return twice(self, "`friction`");
                 }

@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::array;
 
-use super::step::maximum;
+use super::maximum::maximum;
 use crate::number::dither::dither_side;
 use crate::number::words::words;
 use crate::number::{Scalar, Vector, Visit, scalar_words, vector_words};

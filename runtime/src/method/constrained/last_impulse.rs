@@ -3,8 +3,9 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::maximum::maximum;
 use super::metric::Point;
-use super::step::{NOISE, PATIENCE, ROUNDING, SETTLED, maximum, result};
+use super::step::{NOISE, PATIENCE, ROUNDING, SETTLED, result};
 use crate::error::Quantity;
 use crate::method::{Failure, Outcome, Step, StepStatistics, Stopping};
 use crate::number::{Scalar, Summation, Vector};

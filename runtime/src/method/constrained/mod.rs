@@ -10,6 +10,7 @@
 mod force;
 mod history;
 mod last_impulse;
+mod maximum;
 mod memory;
 mod metric;
 mod newton;
@@ -22,15 +23,14 @@ mod step;
 pub(super) use force::add_to_force;
 pub use force::{ConstraintForce, constraint_force};
 pub(super) use last_impulse::LastImpulse;
+pub(super) use maximum::maximum;
 pub use memory::ConstrainedStages;
 pub(super) use metric::{Metric, Point};
 pub(super) use of_dimension::{OfDimension, place_of_resized};
 pub(crate) use start::check_start;
 pub use start::consistent;
 pub(super) use start::{CONSISTENT, Examined, check_numbers};
-pub(super) use step::{
-    NOISE, PATIENCE, ROUNDING, maximum, result, same_momentum, show_stages, stage,
-};
+pub(super) use step::{NOISE, PATIENCE, ROUNDING, result, same_momentum, show_stages, stage};
 
 use core::marker::PhantomData;
 

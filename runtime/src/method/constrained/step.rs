@@ -1,6 +1,7 @@
 //! One constrained step.
 
 use super::history::History;
+use super::maximum::maximum;
 use super::memory::Workspace;
 use crate::error::Quantity;
 use crate::method::storage::is_finite;
@@ -318,7 +319,8 @@ impl<V: Vector> Workspace<V> {
                 let pairs = self.q[i].as_slice().iter().zip(old.as_slice());
                 for (&new, &old) in pairs {
                     movement = maximum(movement, (new - old).magnitude());
-                    size = maximum(size, new.magnitude());
+                    // A position that is NaN has moved by NaN.
+                    size = size.max(new.magnitude());
                 }
             }
             let defects = &mut self.defects[(i - 1) * constraints..i * constraints];
@@ -589,12 +591,4 @@ fn largest<V: Vector>(vector: &V) -> f64 {
 fn largest_of<T: Scalar>(numbers: &[T]) -> f64 {
     let sizes = numbers.iter().map(|number| number.magnitude());
     sizes.fold(0.0, maximum)
-}
-
-/// The larger of two magnitudes, or NaN if either is NaN.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(in crate::method) const fn maximum(a: f64, b: f64) -> f64 {
-    // Bits of magnitudes have the order of the magnitudes, and those of NaN come last.
-    let (a, b) = (a.abs().to_bits(), b.abs().to_bits());
-    f64::from_bits(if a >= b { a } else { b })
 }
