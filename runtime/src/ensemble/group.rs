@@ -84,16 +84,6 @@ where
         }
     }
 
-    /// Calls `work` with every integrator.
-    pub(super) fn each(
-        &mut self,
-        work: &impl Fn(&mut A, &mut Integrator<M, S, V, R, N>) -> Result<(), Error>,
-    ) {
-        for member in &mut self.members {
-            member.outcome = work(&mut member.output, &mut member.run);
-        }
-    }
-
     /// Runs all trajectories; returns `Break` if the ensemble was stopped.
     pub(super) fn run(
         &mut self,

@@ -7,6 +7,7 @@
 //! |---|---|
 //! | Final states, states at given times | [`Ensemble::integrate_to`], [`Ensemble::take_steps`], [`Ensemble::integrate_at`] |
 //! | Events, and everything else that an integrator offers | [`Ensemble::each`] |
+//! | Steps of variable size, and other runs than integrators | [`Ensemble::each_as`] |
 //! | Result of a trajectory, or its error | [`Row`] |
 //! | Mean, variance, histogram over the trajectories | [`Moments`], [`Histogram`] |
 //! | Several machines, and interrupted runs | [`Ensemble::shard`], [`Ensemble::checkpoint`]; with MPI the package `symplectic-mpi` |
@@ -57,6 +58,7 @@ mod pool;
 mod row;
 mod run;
 mod run_time;
+mod runs;
 
 pub use checkpoint::EnsembleCheckpoint;
 pub use error::EnsembleError;
@@ -67,6 +69,7 @@ pub use npz::{Npz, NpzArray, NpzValues};
 #[cfg(feature = "parquet")]
 pub use parquet::{Parquet, ParquetColumn};
 pub use row::Row;
+pub use runs::Run;
 
 use alloc::sync::Arc;
 use alloc::vec::Vec;

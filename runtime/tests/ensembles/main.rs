@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod adaptive;
 mod bits;
 mod coupled;
 mod errors;
