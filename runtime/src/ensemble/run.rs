@@ -12,7 +12,7 @@ use crate::integrator::{Integrator, Statistics};
 use crate::method::{Method, RunTimeTableau, Solver};
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::state::State;
-use crate::system::{LaneWork, System};
+use crate::system::{Join, LaneWork, System};
 
 /// How trajectories run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,9 +31,10 @@ struct Known;
 impl<V: Vector, S: System<V>, L: Lanes> LaneWork<V, S, L> for Known {
     type Output = ();
 
-    fn run<W: Vector<Scalar = L>>(self)
+    fn run<W, J>(self, _join: Join<S, J>)
     where
-        S: System<W, Class = <S as System<V>>::Class>,
+        W: Vector<Scalar = L>,
+        J: System<W, Class = <S as System<V>>::Class>,
     {
     }
 }

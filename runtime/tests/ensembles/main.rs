@@ -8,6 +8,7 @@ mod bits;
 mod coupled;
 mod errors;
 mod failures;
+mod formulas;
 mod outputs;
 mod parameters;
 mod restart;
