@@ -130,3 +130,51 @@ impl Section {
         self.most
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use symplectic::{Integrator, Separable, State};
+    use symplectic_compiler::formula::{Form, Structure, System};
+
+    use super::Section;
+    use crate::run::setup::Direction;
+    use crate::run::system::{Formula, Tapes};
+    use crate::run::tape::{Input, Parameters, Tape};
+    use crate::run::values::Values;
+
+    symplectic::tableau! { Verlet { base: velocity-verlet } }
+
+    #[test]
+    fn a_run_ends_where_no_more_states_can_be_kept() {
+        let formula = "Oscillator q: [x], p: [px]; H = px^2/2 + x^2/2";
+        let mut system = System::read_as(Form::Hamiltonian, "", formula).expect("a formula");
+        let structure = Structure::of(&mut system);
+        let values = Values {
+            bodies: 1,
+            ..Values::default()
+        };
+        let tapes = Arc::new(Tapes::new(&mut system, &structure, &values).expect("tapes"));
+        let section = Section {
+            tape: Tape {
+                inputs: vec![Input::Position(0)],
+                steps: Vec::new(),
+                results: vec![0],
+                registers: 1,
+            },
+            direction: Direction::Both,
+            most: 5,
+            found: Arc::default(),
+        };
+        let mut seen = Vec::new();
+        // Three crossings each; of the second run two are kept.
+        for (states, is_full) in [(3, false), (5, true)] {
+            let system = Formula::<Separable>::new(Arc::clone(&tapes), Parameters::Own([].into()));
+            let start = State::new(0.0, vec![1.0].into(), vec![0.0].into());
+            let mut run = Integrator::new(Verlet, system, start, 0.1).expect("a start");
+            section.see(&mut seen, &mut run, 10.0).expect("steps");
+            assert_eq!((seen.len() / 3, section.is_full()()), (states, is_full));
+        }
+    }
+}

@@ -133,31 +133,32 @@ fn main() {
     println!("|---|---:|---:|---:|---:|---:|---:|");
     macro_rules! problem {
         ($name:literal, $problem:expr, $h:literal, $steps:literal) => {
+            let families = $problem;
             row::<_, _, Plain>(
                 concat!($name, ", Blanes–Moan S10, plain sums"),
                 BlanesMoanS10,
-                $problem,
+                families,
                 ($h, 32 * $steps),
                 &alone,
             );
             row::<_, _, Compensated>(
                 concat!($name, ", Blanes–Moan S10"),
                 BlanesMoanS10,
-                $problem,
+                families,
                 ($h, 32 * $steps),
                 &alone,
             );
             row::<_, _, Plain>(
                 concat!($name, ", Gauss 4, plain sums"),
                 Gauss4,
-                $problem,
+                families,
                 ($h, 8 * $steps),
                 &alone,
             );
             row::<_, _, Compensated>(
                 concat!($name, ", Gauss 4"),
                 Gauss4,
-                $problem,
+                families,
                 ($h, 8 * $steps),
                 &alone,
             );
