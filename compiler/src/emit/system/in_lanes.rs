@@ -137,7 +137,7 @@ impl Emitter<'_> {
             .map(|parameter| (identifier(&parameter.name), Self::field(&parameter.shape)))
             .unzip();
         quote! {
-            #[allow(non_snake_case)]
+            #[allow(dead_code, non_snake_case)]
             struct #name #generics {
                 #(#fields: <#kinds as ::symplectic::emitted::LaneParameter>::InLanes),*
             }
