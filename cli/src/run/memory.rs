@@ -35,6 +35,20 @@ pub(super) fn fault_of_states(
     })
 }
 
+/// How many states of a section a run may keep, beside its starts.
+pub(super) fn most_states((starts, numbers): (usize, usize), dimension: usize) -> usize {
+    let left = MOST.saturating_sub(of_starts(starts, numbers));
+    usize::try_from(left / of_states(1, 1, dimension)).unwrap_or(usize::MAX)
+}
+
+/// Why a section needs too much memory.
+pub(super) fn fault_of_section(most: usize) -> String {
+    format!(
+        "the section has more than {most} states, and {} GB of memory are allowed: give an earlier `end`, or run parts, with `--shard 0/2` and so on",
+        gigabytes(MOST)
+    )
+}
+
 /// Starts, last states, statistics and the arrays of the output: measured were 532 bytes with one degree of freedom, 950 with
 /// ten, and 765 with one and a parameter that varies.
 fn of_starts(starts: usize, numbers: usize) -> u128 {
@@ -53,7 +67,16 @@ fn gigabytes(bytes: u128) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::fault_of_states;
+    use super::{fault_of_section, fault_of_states, most_states};
+
+    /// 56 bytes for a state of one degree of freedom, and none if the starts take all.
+    #[test]
+    fn sections_are_bounded() {
+        let most = most_states((1000, 2), 1);
+        assert!((71_000_000..4_000_000_000 / 56).contains(&most), "{most}");
+        assert_eq!(most_states((1 << 22, 1000), 1), 0);
+        assert!(fault_of_section(most).contains("and 4 GB of memory are allowed"));
+    }
 
     /// The number of parts in the message is the least one that is allowed.
     #[test]

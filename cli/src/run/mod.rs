@@ -5,6 +5,7 @@ mod method;
 mod output;
 mod parameters;
 mod random;
+mod section;
 mod setup;
 mod spec;
 mod starts;
@@ -32,9 +33,11 @@ use symplectic::{
 use symplectic_compiler::export::read_text;
 use symplectic_compiler::formula::{Form, Structure, System};
 use symplectic_compiler::{Error, ErrorKind};
+use toml::Spanned;
 
 use self::method::Method;
-use self::output::{Facts, Results, Trajectory, append};
+use self::output::{Facts, Results, Seen, Trajectory, append};
+use self::section::Section;
 use self::setup::{File, Setup, Starts, Sums};
 use self::starts::{Coordinates, Reader, Start};
 use self::system::{Formula, Tapes};
@@ -90,6 +93,7 @@ struct Run<'a> {
     coordinates: &'a Coordinates,
     tapes: Arc<Tapes>,
     times: Option<Vec<f64>>,
+    section: Option<Section>,
     shard: Option<Shard>,
     target: Target,
 }
@@ -141,6 +145,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
             return Err(file.error(given.span(), fault));
         }
     }
+    let most = memory::most_states(size, coordinates.dimension());
+    let section = Section::read(&file, &setup, &values, most)?;
     let run = Run {
         file: &file,
         setup: &setup,
@@ -148,6 +154,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         coordinates: &coordinates,
         tapes: Arc::new(tapes),
         times,
+        section,
         shard: arguments.shard,
         target: Target::open(path)?,
     };
@@ -180,7 +187,7 @@ fn refuse_twins(
     output: &Path,
 ) -> Result<(), Error> {
     let is_table = (output.extension()).is_some_and(|extension| extension != "npz");
-    match table::twin(coordinates) {
+    match table::twin(coordinates, setup.section.is_some()) {
         Some(name) if is_table => {
             let message = format!(
                 "two columns of the table would have the name `{name}`: give the coordinate or the parameter another name, or write a `.npz` file"
@@ -353,17 +360,24 @@ impl Run<'_> {
             progress.inc(1);
             ControlFlow::Continue(())
         };
-        match &self.times {
-            Some(times) => {
+        let end = (self.setup.end.as_ref()).map_or(self.setup.start(), |end| *end.get_ref());
+        match (&self.times, &self.section) {
+            (None, Some(section)) => {
+                ensemble.stop_if(section.is_full());
+                let see = |seen: &mut Vec<f64>, run: &mut _| section.see(seen, run, end);
+                ensemble.each(|_| Vec::new(), see, keep);
+                if section.is_full()() {
+                    progress.finish_and_clear();
+                    let fault = memory::fault_of_section(section.most());
+                    let given = self.setup.section.as_ref().map_or(0..0, Spanned::span);
+                    return Err(self.file.error(given, fault));
+                }
+            }
+            (Some(times), _) => {
                 let numbers = times.len() * (1 + 2 * self.coordinates.dimension());
                 ensemble.integrate_at(times, |_| Vec::with_capacity(numbers), append, keep);
             }
-            None => {
-                let end = self
-                    .setup
-                    .end
-                    .as_ref()
-                    .map_or(self.setup.start(), |end| *end.get_ref());
+            (None, None) => {
                 let mut keep = keep;
                 ensemble.integrate_to(end, |row| {
                     keep(Trajectory {
@@ -396,7 +410,11 @@ impl Run<'_> {
             rows: &rows,
             starts: ensemble.starts(),
             parameters: &parameters,
-            times: self.times.as_deref(),
+            seen: match (&self.times, &self.section) {
+                (Some(times), _) => Seen::Times(times),
+                (None, Some(_)) => Seen::Section,
+                (None, None) => Seen::End,
+            },
         };
         let failed = rows.iter().filter(|row| row.outcome.is_err()).count();
         let message = format!(

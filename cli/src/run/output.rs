@@ -94,8 +94,18 @@ pub(super) struct Results<'a> {
     pub(super) starts: &'a [State<DVector<f64>>],
     /// The values of the parameters that vary, for each trajectory of the whole run.
     pub(super) parameters: &'a [Vec<f64>],
-    /// The output times; `None` for the end only.
-    pub(super) times: Option<&'a [f64]>,
+    pub(super) seen: Seen<'a>,
+}
+
+/// The states of a trajectory that are written.
+#[derive(Clone, Copy)]
+pub(super) enum Seen<'a> {
+    /// The last one.
+    End,
+    /// Those at these times.
+    Times(&'a [f64]),
+    /// Those of a section.
+    Section,
 }
 
 impl Results<'_> {
@@ -120,9 +130,11 @@ impl Results<'_> {
             let first = energy_at(start.into());
             let scale = if first == 0.0 { 1.0 } else { first.abs() };
             let error = |energy: f64| (energy - first) / scale;
-            match self.times {
-                None => vec![error(energy_at((&row.state).into()))],
-                Some(_) => points(row).map(|seen| error(energy_at(seen))).collect(),
+            match self.seen {
+                Seen::End => vec![error(energy_at((&row.state).into()))],
+                Seen::Times(_) | Seen::Section => {
+                    points(row).map(|seen| error(energy_at(seen))).collect()
+                }
             }
         });
         errors.collect()
@@ -171,9 +183,18 @@ impl Results<'_> {
             file.doubles("parameters", &[count, names.len()], &all)?;
         }
         file.rows(self.rows)?;
-        let Some(times) = self.times else {
-            file.doubles("energy_error", &[count], &errors.concat())?;
-            return file.finish().map(|_| ());
+        let times = match self.seen {
+            Seen::Times(times) => times,
+            Seen::End => {
+                file.doubles("energy_error", &[count], &errors.concat())?;
+                return file.finish().map(|_| ());
+            }
+            Seen::Section => {
+                self.write_section(&mut file)?;
+                let errors = errors.concat();
+                file.doubles("energy_error", &[errors.len()], &errors)?;
+                return file.finish().map(|_| ());
+            }
         };
         // NaN for the times that a failed trajectory did not reach.
         let steps = times.len();
@@ -197,5 +218,26 @@ impl Results<'_> {
         }
         file.doubles("energy_error", &[count, steps], &all)?;
         file.finish().map(|_| ())
+    }
+
+    /// The states of a section, one after another.
+    fn write_section(&self, file: &mut Npz<impl Write>) -> io::Result<()> {
+        let all = || {
+            let rows = self.rows.iter();
+            rows.flat_map(|row| (0_u64..).zip(points(row)).map(move |seen| (row, seen)))
+        };
+        let trajectories: Vec<u64> = all().map(|(row, _)| row.trajectory as u64).collect();
+        let numbers: Vec<u64> = all().map(|(_, (number, _))| number).collect();
+        let times: Vec<f64> = all().map(|(_, (_, point))| point.time).collect();
+        let (count, dimension) = (times.len(), self.coordinates.dimension());
+        file.integers("section_trajectory", &[count], &trajectories)?;
+        file.integers("section_number", &[count], &numbers)?;
+        file.doubles("section_time", &[count], &times)?;
+        for (name, half) in [("section_q", 0), ("section_p", 1)] {
+            let values = all().flat_map(|(_, (_, point))| point.halves[half]);
+            let values: Vec<f64> = values.copied().collect();
+            file.doubles(name, &[count, dimension], &values)?;
+        }
+        Ok(())
     }
 }

@@ -23,6 +23,7 @@ pub(super) struct Setup {
     pub(super) start_time: Option<Spanned<f64>>,
     pub(super) end: Option<Spanned<f64>>,
     pub(super) times: Option<Spanned<Times>>,
+    pub(super) section: Option<Spanned<Section>>,
     #[serde(default)]
     pub(super) sums: Sums,
     #[serde(default)]
@@ -92,6 +93,26 @@ pub(super) struct Evenly {
     from: f64,
     to: f64,
     count: i64,
+}
+
+/// The zeros of an expression at which states are written.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Section {
+    /// An expression of the formula language.
+    pub(super) of: Spanned<String>,
+    #[serde(default)]
+    pub(super) direction: Direction,
+}
+
+/// The sign changes of a section, in the direction of the steps.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Direction {
+    #[default]
+    Rising,
+    Falling,
+    Both,
 }
 
 /// The number of random starts at each point of the grid of the other coordinates.

@@ -4,8 +4,10 @@ use std::marker::PhantomData;
 use std::slice;
 use std::sync::Arc;
 
+use symplectic::emitted::LaneWork;
 use symplectic::nalgebra::DVector;
-use symplectic::{Class, Hamiltonian, Scalar};
+use symplectic::simd::Lanes;
+use symplectic::{Class, Hamiltonian, Scalar, Vector};
 use symplectic_compiler::formula::derivative::gradient;
 use symplectic_compiler::formula::graph::{Half, integer};
 use symplectic_compiler::formula::{Structure, System};
@@ -57,10 +59,7 @@ impl Tapes {
 
     /// H at a point.
     pub(super) fn energy_at<T: Scalar>(&self, point: At<'_, T>) -> T {
-        let mut energy = T::zero();
-        let write = |_, _, value| energy = value;
-        self.energy.run(1, |_| point, write);
-        energy
+        self.energy.value(point)
     }
 }
 
@@ -111,6 +110,11 @@ impl<C> Formula<C> {
             class: PhantomData,
         }
     }
+
+    /// The parameters that vary between trajectories.
+    pub(super) fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
 }
 
 impl<C> Clone for Formula<C> {
@@ -125,11 +129,16 @@ impl<C: Class> Hamiltonian for Formula<C> {
 
     const JOINS: bool = true;
 
-    fn join<'a>(systems: impl Iterator<Item = &'a Self>) -> Option<Self> {
-        let mut systems = systems.peekable();
-        let tapes = Arc::clone(&systems.peek()?.tapes);
-        let parameters = Parameters::join(systems.map(|system| &system.parameters))?;
-        Some(Self::new(tapes, parameters))
+    fn in_lanes<V: Vector, L: Lanes, K: LaneWork<V, Self, L>>(work: K) -> K::Output
+    where
+        Self: symplectic::System<V, Class = C>,
+    {
+        work.run::<DVector<L>, Self>(|systems| {
+            let mut systems = systems.peekable();
+            let tapes = Arc::clone(&systems.peek()?.tapes);
+            let parameters = Parameters::join(systems.map(|system| &system.parameters))?;
+            Some(Self::new(tapes, parameters))
+        })
     }
 
     fn velocity<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>, out: &mut DVector<T>) {

@@ -13,7 +13,7 @@ use symplectic::ensemble::{Parquet, ParquetColumn};
 use symplectic_compiler::formula::{Parameter, Shape};
 use symplectic_compiler::{Error, ErrorKind};
 
-use super::output::{Fact, Point, Results, Trajectory, points};
+use super::output::{Fact, Point, Results, Seen, Trajectory, points};
 use super::setup::MOST;
 use super::starts::{Coordinates, Reader};
 
@@ -29,6 +29,8 @@ const MOST_BYTES: u64 = 1 << 31;
 /// A line of a table of results: a state of a trajectory.
 struct Line<'a> {
     row: &'a Trajectory,
+    /// The number of states of the trajectory before it.
+    number: usize,
     start: Point<'a>,
     parameters: &'a [f64],
     state: Point<'a>,
@@ -43,8 +45,9 @@ impl Results<'_> {
         let rows = self.rows.iter().zip(self.starts).zip(self.energy_errors());
         rows.flat_map(|((row, start), errors)| {
             let failure = row.outcome.as_ref().err().map(ToString::to_string);
-            let line = |state, energy_error, failure| Line {
+            let line = |number, state, energy_error, failure| Line {
                 row,
+                number,
                 start: start.into(),
                 parameters: self.parameters(row),
                 state,
@@ -52,14 +55,15 @@ impl Results<'_> {
                 failure,
             };
             let mut lines = Vec::new();
-            if self.times.is_none() {
-                lines.push(line((&row.state).into(), errors.first().copied(), failure));
+            let last = (&row.state).into();
+            if matches!(self.seen, Seen::End) {
+                lines.push(line(0, last, errors.first().copied(), failure));
                 return lines;
             }
-            let seen = points(row).zip(errors);
-            lines.extend(seen.map(|(state, error)| line(state, Some(error), None)));
+            let seen = points(row).zip(errors).enumerate();
+            lines.extend(seen.map(|(k, (state, error))| line(k, state, Some(error), None)));
             if failure.is_some() {
-                lines.push(line((&row.state).into(), None, failure));
+                lines.push(line(lines.len(), last, None, failure));
             }
             lines
         })
@@ -67,14 +71,16 @@ impl Results<'_> {
 
     pub(super) fn write_csv(&self, out: &mut impl Write) -> io::Result<()> {
         let mut file = csv::Writer::from_writer(out);
-        file.write_record(header(self.coordinates))?;
+        let is_section = matches!(self.seen, Seen::Section);
+        file.write_record(header(self.coordinates, is_section))?;
         for line in self.lines() {
-            let numbers = |state| coordinates(state).map(f64::to_string);
+            let numbers = |state| coordinates(state).map(|x| cell(*x));
             let energy_error = line.energy_error.map(|error| format!("{error:e}"));
             let mut cells = vec![line.row.trajectory.to_string()];
             cells.extend(numbers(line.start));
-            cells.extend(line.parameters.iter().map(f64::to_string));
-            cells.push(line.state.time.to_string());
+            cells.extend(line.parameters.iter().map(|x| cell(*x)));
+            cells.extend(is_section.then(|| line.number.to_string()));
+            cells.push(cell(line.state.time));
             cells.extend(numbers(line.state));
             cells.push(energy_error.unwrap_or_default());
             cells.push(line.row.statistics.steps.to_string());
@@ -94,12 +100,13 @@ impl Results<'_> {
                 Fact::Number(number) => file.note(name, &format!("{number:?}")),
             }
         }
-        let names = header(self.coordinates);
+        let is_section = matches!(self.seen, Seen::Section);
+        let names = header(self.coordinates, is_section);
         let mut lines = self.lines();
         let most = (CELLS / names.len()).clamp(1, GROUP);
         loop {
             let group: Vec<Line<'_>> = lines.by_ref().take(most).collect();
-            let columns = columns(&group, self.coordinates);
+            let columns = columns(&group, self.coordinates, is_section);
             let columns: Vec<_> = names.iter().map(String::as_str).zip(columns).collect();
             file.group(&columns)?;
             if group.len() < most {
@@ -109,18 +116,27 @@ impl Results<'_> {
     }
 }
 
+/// The shortest digits that give the number, with an exponent if it is small or large.
+fn cell(x: f64) -> String {
+    match x == 0.0 || (1e-5..1e16).contains(&x.abs()) {
+        true => x.to_string(),
+        false => format!("{x:e}"),
+    }
+}
+
 /// Positions, then momenta.
 fn coordinates(state: Point<'_>) -> impl Iterator<Item = &f64> {
     state.halves.into_iter().flatten()
 }
 
-/// The names of the columns; coordinates are at the start and at the time of the line.
-fn header(coordinates: &Coordinates) -> Vec<String> {
+/// The names of the columns; coordinates are at the start and at the time of the line. States of a section have numbers.
+fn header(coordinates: &Coordinates, is_section: bool) -> Vec<String> {
     let starts = coordinates.all().map(|name| format!("{name}_start"));
     let own = |name: &str| [name.to_owned()].into_iter();
     own("trajectory")
         .chain(starts)
         .chain(coordinates.parameters.iter().cloned())
+        .chain(is_section.then(|| "number".to_owned()))
         .chain(own("time"))
         .chain(coordinates.all().cloned())
         .chain(["energy_error", "steps", "error"].map(str::to_owned))
@@ -128,14 +144,14 @@ fn header(coordinates: &Coordinates) -> Vec<String> {
 }
 
 /// A name that two columns of a table would have, as with a coordinate `time`.
-pub(super) fn twin(coordinates: &Coordinates) -> Option<String> {
+pub(super) fn twin(coordinates: &Coordinates, is_section: bool) -> Option<String> {
     let mut known = HashSet::new();
-    let mut names = header(coordinates).into_iter();
+    let mut names = header(coordinates, is_section).into_iter();
     names.find(|name| !known.insert(name.clone()))
 }
 
 /// The columns of lines, in the order of the [`header`].
-fn columns(lines: &[Line<'_>], names: &Coordinates) -> Vec<ParquetColumn> {
+fn columns(lines: &[Line<'_>], names: &Coordinates, is_section: bool) -> Vec<ParquetColumn> {
     let count = names.all().count();
     let integers =
         |of: fn(&Line<'_>) -> u64| ParquetColumn::Integers(lines.iter().map(of).collect());
@@ -148,6 +164,7 @@ fn columns(lines: &[Line<'_>], names: &Coordinates) -> Vec<ParquetColumn> {
     columns.extend((0..count).map(|k| coordinate(|line| line.start, k)));
     let parameters = 0..names.parameters.len();
     columns.extend(parameters.map(|k| doubles(&|line| line.parameters[k])));
+    columns.extend(is_section.then(|| integers(|line| line.number as u64)));
     columns.push(doubles(&|line| line.state.time));
     columns.extend((0..count).map(|k| coordinate(|line| line.state, k)));
     columns.push(doubles(&|line| line.energy_error.unwrap_or(f64::NAN)));

@@ -155,6 +155,13 @@ impl<T: Scalar> At<'_, T> {
 }
 
 impl Tape {
+    /// The result of a tape that has one.
+    pub(super) fn value<T: Scalar>(&self, point: At<'_, T>) -> T {
+        let mut result = T::zero();
+        self.run(1, |_| point, |_, _, value| result = value);
+        result
+    }
+
     /// Evaluates the tape at `count` points and calls `write` with the number of the point, and the number and the value of
     /// each result.
     ///

@@ -12,7 +12,7 @@ use crate::method::{Method, Solver};
 use crate::number::{Lanes, Summation, Vector};
 use crate::output::at_times::{self, Output};
 use crate::state::State;
-use crate::system::System;
+use crate::system::{Join, System};
 
 /// Number of steps after which a run asks whether it is stopped.
 const BLOCK: u64 = 1 << 10;
@@ -20,7 +20,7 @@ const BLOCK: u64 = 1 << 10;
 const MOST_PAUSE: u32 = 63;
 
 /// The trajectories of a group in lanes.
-pub(super) struct Coupled<'g, 'a, M, S, V, R, N, L, A, F, W>
+pub(super) struct Coupled<'g, 'a, M, S, V, R, N, L, A, F, W, J>
 where
     M: Method,
     S: System<V>,
@@ -31,7 +31,7 @@ where
 {
     group: &'g mut Group<'a, M, S, V, R, N, L, A>,
     see: &'g F,
-    lanes: CoupledLanes<M, S, V, R, N, W>,
+    lanes: CoupledLanes<M, S, V, R, N, W, J>,
     /// The lanes whose trajectory has not failed.
     live: u32,
     /// Those whose trajectory takes the next step in its lane.
@@ -41,10 +41,10 @@ where
     last_pause: u32,
 }
 
-impl<'g, 'a, M, S, V, R, N, L, A, F, W> Coupled<'g, 'a, M, S, V, R, N, L, A, F, W>
+impl<'g, 'a, M, S, V, R, N, L, A, F, W, J> Coupled<'g, 'a, M, S, V, R, N, L, A, F, W, J>
 where
     M: Method,
-    S: System<V> + System<W, Class = <S as System<V>>::Class> + Clone + Send + Sync,
+    S: System<V> + Clone + Send + Sync,
     V: Vector + Send + Sync,
     R: Summation,
     N: Solver<V, S>,
@@ -52,16 +52,18 @@ where
     A: Send,
     F: Fn(&mut A, &State<V>),
     W: Vector<Scalar = L>,
+    J: System<W, Class = <S as System<V>>::Class>,
 {
     /// Puts the trajectories into lanes; `None` if the system or its lanes do not allow it.
     pub(super) fn new(
         group: &'g mut Group<'a, M, S, V, R, N, L, A>,
         see: &'g F,
+        join: Join<S, J>,
         zeros: &W,
     ) -> Option<Self> {
         let count = group.members.len();
         // Lanes without a trajectory have copies: zeros might be a singular point.
-        let system = group.system((0..L::WIDTH).map(|lane| lane % count))?;
+        let system = group.system(join, (0..L::WIDTH).map(|lane| lane % count))?;
         let first = group.members.first_mut()?;
         let mut lanes = CoupledLanes::like(&mut first.run, system, zeros);
         if !group.members.iter().all(|member| lanes.takes(&member.run)) {

@@ -14,7 +14,7 @@ use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::output::at_times;
 use crate::output::steps::is_after;
 use crate::state::State;
-use crate::system::{LaneWork, System};
+use crate::system::{Join, LaneWork, System};
 
 /// Number of steps after which a run asks whether it is stopped.
 const BLOCK: u64 = 1 << 16;
@@ -84,16 +84,6 @@ where
         }
     }
 
-    /// Calls `work` with every integrator.
-    pub(super) fn each(
-        &mut self,
-        work: &impl Fn(&mut A, &mut Integrator<M, S, V, R, N>) -> Result<(), Error>,
-    ) {
-        for member in &mut self.members {
-            member.outcome = work(&mut member.output, &mut member.run);
-        }
-    }
-
     /// Runs all trajectories; returns `Break` if the ensemble was stopped.
     pub(super) fn run(
         &mut self,
@@ -131,12 +121,12 @@ where
     }
 
     /// The system whose lanes have the parameters of the members at these places; `None` if there is none.
-    pub(super) fn system(&self, mut places: impl Iterator<Item = usize>) -> Option<S> {
-        let system = |place: usize| self.members[place].run.system();
-        match <S as System<V>>::JOINS {
-            true => <S as System<V>>::join(places.map(system)),
-            false => places.next().map(|place| system(place).clone()),
-        }
+    pub(super) fn system<J>(
+        &self,
+        join: Join<S, J>,
+        places: impl Iterator<Item = usize>,
+    ) -> Option<J> {
+        join(&mut places.map(|place| self.members[place].run.system()))
     }
 
     /// The rows of all trajectories.
@@ -186,7 +176,7 @@ struct SideBySide<
 }
 
 /// The integrator whose lanes hold the trajectories.
-type InLanes<M, S, W, R> = Integrator<M, S, W, R, <S as System<W>>::Solver>;
+type InLanes<M, J, W, R> = Integrator<M, J, W, R, <J as System<W>>::Solver>;
 
 impl<M, S, V, R, N, L, A, F> LaneWork<V, S, L> for SideBySide<'_, '_, '_, M, S, V, R, N, L, A, F>
 where
@@ -201,9 +191,10 @@ where
 {
     type Output = Attempt;
 
-    fn run<W: Vector<Scalar = L>>(mut self) -> Attempt
+    fn run<W, J>(mut self, join: Join<S, J>) -> Attempt
     where
-        S: System<W, Class = <S as System<V>>::Class>,
+        W: Vector<Scalar = L>,
+        J: System<W, Class = <S as System<V>>::Class>,
     {
         let first = &self.group.members[0].run;
         let like = first.state().q.zeros_with::<L>();
@@ -211,20 +202,21 @@ where
             return Attempt::Refused;
         };
         if self.group.ensemble.way() == Way::Coupled {
-            let coupled = Coupled::new(self.group, self.see, zeros);
+            let coupled = Coupled::new(self.group, self.see, join, zeros);
             return coupled.map_or(Attempt::Refused, |coupled| coupled.run(self.task));
         }
-        let mut lanes: InLanes<M, S, W, R> = first.over_lanes(zeros);
         let mut live: Vec<usize> = (0..self.group.members.len()).collect();
-        if self.put_in_lanes(&mut lanes, &live).is_none() {
+        let Some(system) = self.group.system(join, cycle::<L>(&live)) else {
             return Attempt::Refused;
-        }
+        };
+        let mut lanes: InLanes<M, J, W, R> = first.over_lanes(system, zeros);
+        self.put_in_lanes(&mut lanes, &live);
         let alike = |&place: &usize| lanes.evaluates_like(place, &self.group.members[place].run);
         if !live.iter().all(alike) {
             return Attempt::Refused;
         }
         match *self.task {
-            Task::To(_) | Task::Steps(_) => self.take_leg(&mut lanes, &mut live),
+            Task::To(_) | Task::Steps(_) => self.take_leg(&mut lanes, join, &mut live),
             Task::At(times) => self.see_at(times, &mut lanes, &live),
         }
     }
@@ -241,25 +233,22 @@ where
     A: Send,
     F: Fn(&mut A, &State<V>),
 {
-    /// Copies the live trajectories into the lanes, cyclically, so that no lane is empty; `None` if their systems do not join.
-    fn put_in_lanes<W>(&self, lanes: &mut InLanes<M, S, W, R>, live: &[usize]) -> Option<()>
+    /// Copies the live trajectories into the lanes.
+    fn put_in_lanes<W, J>(&self, lanes: &mut InLanes<M, J, W, R>, live: &[usize])
     where
         W: Vector<Scalar = L>,
-        S: System<W>,
+        J: System<W>,
     {
-        let places = live.iter().copied().cycle().take(L::WIDTH);
-        lanes.set_system(self.group.system(places.clone())?);
-        for (lane, place) in places.enumerate() {
+        for (lane, place) in cycle::<L>(live).enumerate() {
             lanes.set_lane(lane, &self.group.members[place].run);
         }
-        Some(())
     }
 
     /// Copies the lanes back to the live trajectories.
-    fn take_from_lanes<W>(&mut self, lanes: &InLanes<M, S, W, R>, live: &[usize])
+    fn take_from_lanes<W, J>(&mut self, lanes: &InLanes<M, J, W, R>, live: &[usize])
     where
         W: Vector<Scalar = L>,
-        S: System<W>,
+        J: System<W>,
     {
         for (lane, &place) in live.iter().enumerate() {
             lanes.get_lane(lane, &mut self.group.members[place].run);
@@ -268,10 +257,15 @@ where
 
     /// Takes the steps of a leg. If a step fails in a lane, every trajectory repeats the current block of steps alone;
     /// those that succeed continue in lanes.
-    fn take_leg<W>(&mut self, lanes: &mut InLanes<M, S, W, R>, live: &mut Vec<usize>) -> Attempt
+    fn take_leg<W, J>(
+        &mut self,
+        lanes: &mut InLanes<M, J, W, R>,
+        join: Join<S, J>,
+        live: &mut Vec<usize>,
+    ) -> Attempt
     where
         W: Vector<Scalar = L>,
-        S: System<W>,
+        J: System<W>,
     {
         let leg = match *self.task {
             Task::To(end) => lanes.leg_to(end),
@@ -308,7 +302,7 @@ where
                 }
                 member.outcome.is_ok()
             });
-            if self.put_in_lanes(lanes, live).is_none() {
+            let Some(system) = self.group.system(join, cycle::<L>(live)) else {
                 for &place in live.iter() {
                     if self.group.ensemble.is_stopped() {
                         return Attempt::Stopped;
@@ -317,7 +311,9 @@ where
                     member.outcome = member.run.take_leg(&mut leg.clone());
                 }
                 return Attempt::Ended;
-            }
+            };
+            lanes.set_system(system);
+            self.put_in_lanes(lanes, live);
         }
         self.take_from_lanes(lanes, live);
         Attempt::Ended
@@ -325,15 +321,15 @@ where
 
     /// Observes the trajectories at given times. If anything fails in a lane, all trajectories continue alone from the
     /// last observed time.
-    fn see_at<W>(
+    fn see_at<W, J>(
         &mut self,
         times: &[f64],
-        lanes: &mut InLanes<M, S, W, R>,
+        lanes: &mut InLanes<M, J, W, R>,
         live: &[usize],
     ) -> Attempt
     where
         W: Vector<Scalar = L>,
-        S: System<W>,
+        J: System<W>,
     {
         if at_times::check(lanes, times).is_err() {
             return Attempt::Refused;
@@ -374,16 +370,16 @@ where
 
     /// Steps past the first of the times, observes the states at all times in the last step, and returns their number; zero if the run was
     /// stopped before.
-    fn see_next<W>(
+    fn see_next<W, J>(
         &mut self,
         times: &[f64],
-        lanes: &mut InLanes<M, S, W, R>,
+        lanes: &mut InLanes<M, J, W, R>,
         live: &[usize],
         shown: &mut State<V>,
     ) -> Result<usize, Error>
     where
         W: Vector<Scalar = L>,
-        S: System<W>,
+        J: System<W>,
     {
         let direction = lanes.step_size();
         let mut steps = 0_u64;
@@ -427,6 +423,11 @@ where
         }
         Ok(count)
     }
+}
+
+/// A live trajectory for each lane, cyclically, so that no lane is empty.
+fn cycle<L: Lanes>(live: &[usize]) -> impl Iterator<Item = usize> {
+    live.iter().copied().cycle().take(L::WIDTH)
 }
 
 /// Copies the vector of a lane.

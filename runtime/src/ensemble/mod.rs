@@ -7,6 +7,7 @@
 //! |---|---|
 //! | Final states, states at given times | [`Ensemble::integrate_to`], [`Ensemble::take_steps`], [`Ensemble::integrate_at`] |
 //! | Events, and everything else that an integrator offers | [`Ensemble::each`] |
+//! | Steps of variable size, and other runs than integrators | [`Ensemble::each_as`] |
 //! | Result of a trajectory, or its error | [`Row`] |
 //! | Mean, variance, histogram over the trajectories | [`Moments`], [`Histogram`] |
 //! | Several machines, and interrupted runs | [`Ensemble::shard`], [`Ensemble::checkpoint`]; with MPI the package `symplectic-mpi` |
@@ -14,8 +15,9 @@
 //! # Lanes
 //!
 //! A method advances as many trajectories at once as there are [lanes](Ensemble::in_lanes), if the system is written for
-//! every [`Scalar`](crate::Scalar). The trajectories in the lanes have the same system, the same start time and
-//! consecutive numbers.
+//! every [`Scalar`](crate::Scalar). The trajectories in the lanes have the same start time, consecutive numbers, and
+//! the same system. Systems of a formula may have different parameters in each lane, as long as arrays have the same
+//! lengths, and lists of pairs the same pairs.
 //!
 //! With coupled stages every sweep of the default solver computes the stages of all trajectories, and a trajectory whose
 //! stages have settled waits for the others. A trajectory takes a step alone, and returns to its lane, where its stages
@@ -24,8 +26,8 @@
 //! the stages of one trajectory in lanes, is as fast.
 //!
 //! All other trajectories run one by one: those with another solver, with constraints or with a composition of implicit
-//! methods; those of closures and chains; and those with a [system](Ensemble::of_families) of their own, except in
-//! `symplectic run`, where a formula has a parameter in each lane.
+//! methods; those of closures and chains; and those whose [system](Ensemble::of_families) is written by hand and
+//! differs from trajectory to trajectory.
 //!
 //! A system rounds differently in lanes if it depends on the number type, as products of large matrices in nalgebra do.
 //! So velocity and force are compared at every start, and trajectories run one by one where they differ. A system for
@@ -57,6 +59,7 @@ mod pool;
 mod row;
 mod run;
 mod run_time;
+mod runs;
 
 pub use checkpoint::EnsembleCheckpoint;
 pub use error::EnsembleError;
@@ -67,6 +70,7 @@ pub use npz::{Npz, NpzArray, NpzValues};
 #[cfg(feature = "parquet")]
 pub use parquet::{Parquet, ParquetColumn};
 pub use row::Row;
+pub use runs::Run;
 
 use alloc::sync::Arc;
 use alloc::vec::Vec;

@@ -6,13 +6,13 @@ use core::ops::{ControlFlow, Range};
 
 use super::group::{Group, Task};
 use super::pool::{self, threads};
-use super::{Ensemble, Row, Wanted};
+use super::{Ensemble, Row, Run, Wanted};
 use crate::error::Error;
-use crate::integrator::Integrator;
+use crate::integrator::{Integrator, Statistics};
 use crate::method::{Method, RunTimeTableau, Solver};
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::state::State;
-use crate::system::{LaneWork, System};
+use crate::system::{Join, LaneWork, System};
 
 /// How trajectories run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,9 +31,10 @@ struct Known;
 impl<V: Vector, S: System<V>, L: Lanes> LaneWork<V, S, L> for Known {
     type Output = ();
 
-    fn run<W: Vector<Scalar = L>>(self)
+    fn run<W, J>(self, _join: Join<S, J>)
     where
-        S: System<W, Class = <S as System<V>>::Class>,
+        W: Vector<Scalar = L>,
+        J: System<W, Class = <S as System<V>>::Class>,
     {
     }
 }
@@ -143,11 +144,84 @@ where
         work: impl Fn(&mut A, &mut Integrator<M, S, V, R, N>) -> Result<(), Error> + Sync,
         show: impl FnMut(Row<V, A>) -> ControlFlow<()>,
     ) -> usize {
-        let rows = |place: Range<usize>| {
-            let mut group = Group::new(self, place, &output);
-            group.each(&work);
-            group.rows()
+        self.each_as(Ok, output, work, show)
+    }
+
+    /// [`each`](Self::each) with other runs than integrators: `make` makes the [`Run`] of a trajectory from its integrator, for example
+    /// with [reversible steps of variable size](crate::adaptive::Adaptive).
+    ///
+    /// If `make` fails, its error is that of the row, with the start. A [checkpoint](Self::checkpoint) does not know what `make` and
+    /// `work` do: pass the same ones again.
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use symplectic::State;
+    /// use symplectic::adaptive::{Adaptive, DistancePower};
+    /// use symplectic::ensemble::{Ensemble, EnsembleError};
+    ///
+    /// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
+    /// symplectic::hamiltonian! {
+    ///     Kepler
+    ///     q: [x, y], p: [px, py];
+    ///     H = (px^2 + py^2)/2 - 1/sqrt(x^2 + y^2)
+    /// }
+    ///
+    /// # fn main() -> Result<(), EnsembleError> {
+    /// // Pericentres of orbits of eccentricity 0, 0.1, …, 0.9.
+    /// let pericentre = |k: u8| {
+    ///     let e = 0.1 * f64::from(k);
+    ///     State::from_arrays(0.0, [1.0 - e, 0.0], [0.0, ((1.0 + e) / (1.0 - e)).sqrt()])
+    /// };
+    /// let ensemble = Ensemble::new(VelocityVerlet, Kepler, (0..10).map(pericentre).collect(), 0.02)?;
+    /// ensemble.each_as(
+    ///     |integrator| {
+    ///         let epsilon = integrator.step_size();
+    ///         Adaptive::new(integrator, DistancePower(1.5), epsilon)
+    ///     },
+    ///     |_| None,
+    ///     |end, run| {
+    ///         *end = Some(run.integrate_to(100.0)?);
+    ///         Ok(())
+    ///     },
+    ///     |row| {
+    ///         // The present state of such a run is that after its last step, which passes the end.
+    ///         assert!(row.outcome.is_ok() && row.state.time >= 100.0);
+    ///         assert_eq!(row.output.map(|end| end.time), Some(100.0));
+    ///         ControlFlow::Continue(())
+    ///     },
+    /// );
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn each_as<T: Run<V>, A: Send>(
+        &self,
+        make: impl Fn(Integrator<M, S, V, R, N>) -> Result<T, Error> + Sync,
+        output: impl Fn(usize) -> A + Sync,
+        work: impl Fn(&mut A, &mut T) -> Result<(), Error> + Sync,
+        show: impl FnMut(Row<V, A>) -> ControlFlow<()>,
+    ) -> usize {
+        let row = |place| {
+            let (trajectory, integrator) = self.integrator(place);
+            let mut output = output(trajectory);
+            let (outcome, state, statistics) = match make(integrator) {
+                Ok(mut run) => {
+                    let outcome = work(&mut output, &mut run);
+                    (outcome, run.state().clone(), *run.statistics())
+                }
+                Err(error) => {
+                    let start = self.starts[place].clone();
+                    (Err(error), start, Statistics::default())
+                }
+            };
+            Row {
+                trajectory,
+                outcome,
+                state,
+                statistics,
+                output,
+            }
         };
+        let rows = |places: Range<usize>| places.map(row).collect();
         self.show_all(1, rows, show)
     }
 

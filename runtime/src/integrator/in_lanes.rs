@@ -27,11 +27,11 @@ struct Course<W> {
 }
 
 /// Type parameters without stored values.
-type Kind<M, V, R, N> = fn() -> (M, V, R, N);
+type Kind<M, S, V, R, N> = fn() -> (M, S, V, R, N);
 
 /// Runs of the same system and the same step size, at the same time.
-pub(crate) struct CoupledLanes<M, S, V, R, N, W: Vector> {
-    system: S,
+pub(crate) struct CoupledLanes<M, S, V, R, N, W: Vector, J> {
+    system: J,
     linear_velocity: bool,
     stopping: Stopping,
     course: Course<W>,
@@ -47,20 +47,21 @@ pub(crate) struct CoupledLanes<M, S, V, R, N, W: Vector> {
     sweeps: W::Scalar,
     /// The largest number of sweeps of a step since then.
     most: W::Scalar,
-    kind: PhantomData<Kind<M, V, R, N>>,
+    kind: PhantomData<Kind<M, S, V, R, N>>,
 }
 
-impl<M, S, V, R, N, W> CoupledLanes<M, S, V, R, N, W>
+impl<M, S, V, R, N, W, J> CoupledLanes<M, S, V, R, N, W, J>
 where
     M: Method,
-    S: System<V> + System<W, Class = <S as System<V>>::Class>,
+    S: System<V>,
+    J: System<W, Class = S::Class>,
     V: Vector,
     R: Summation,
     N: Solver<V, S>,
     W: Vector<Scalar: Lanes>,
 {
     /// Empty lanes for runs like this one, of a system with the parameters of each of them, in vectors like `zeros`.
-    pub(crate) fn like(run: &mut Integrator<M, S, V, R, N>, system: S, zeros: &W) -> Self {
+    pub(crate) fn like(run: &mut Integrator<M, S, V, R, N>, system: J, zeros: &W) -> Self {
         let vectors = || Box::new(core::array::from_fn(|_| zeros.clone()));
         let time = run.course.state.time;
         Self {
@@ -102,7 +103,7 @@ where
     }
 
     /// The system of the runs.
-    pub(crate) const fn system(&self) -> &S {
+    pub(crate) const fn system(&self) -> &J {
         &self.system
     }
 
@@ -200,7 +201,7 @@ where
         };
         let [q, p, q_low, p_low] = &mut *self.course.other;
         let outcome = Outcome { q, q_low, p, p_low };
-        let taken = PlanOf::<M, S, V>::take_in_lanes::<R, V, S, N, W>(
+        let taken = PlanOf::<M, S, V>::take_in_lanes::<R, V, S, N, W, J>(
             &step,
             &self.system,
             &mut self.memory,

@@ -136,18 +136,20 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         (self.course, self.clock) = (mark.course, mark.clock);
     }
 
-    /// An integrator for runs like this one, in the lanes of vectors like `zeros`; every lane still has to be [set](Self::set_lane).
-    pub(crate) fn over_lanes<W>(
+    /// An integrator for runs like this one, with the system of their lanes, in vectors like `zeros`; every lane still has to be
+    /// [set](Self::set_lane).
+    pub(crate) fn over_lanes<W, J>(
         &self,
+        system: J,
         zeros: &W,
-    ) -> Integrator<M, S, W, R, <S as System<W>>::Solver>
+    ) -> Integrator<M, J, W, R, <J as System<W>>::Solver>
     where
         W: Vector<Scalar: Lanes>,
-        S: System<W> + Clone,
+        J: System<W>,
     {
         let blank = State::new(self.course.state.time, zeros.clone(), zeros.clone());
         let mut lanes = Integrator {
-            system: self.system.clone(),
+            system,
             course: StepMemory::new(false, blank),
             clock: self.clock,
             step_size: self.step_size,
@@ -164,27 +166,25 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 }
 
-impl<M, S, W, R, N> Integrator<M, S, W, R, N>
+impl<M, J, W, R, N> Integrator<M, J, W, R, N>
 where
     M: Method,
-    S: System<W>,
+    J: System<W>,
     W: Vector<Scalar: Lanes>,
     R: Summation,
-    N: Solver<W, S>,
+    N: Solver<W, J>,
 {
     /// Sets the system, with the parameters of the run in each lane.
-    pub(crate) fn set_system(&mut self, system: S) {
+    pub(crate) fn set_system(&mut self, system: J) {
         self.system = system;
     }
 
     /// Copies a run into a lane. The run has to be at the same step as the runs in the other lanes.
-    pub(crate) fn set_lane<V: Vector, O: Solver<V, S>>(
+    pub(crate) fn set_lane<S: System<V>, V: Vector, O: Solver<V, S>>(
         &mut self,
         lane: usize,
         run: &Integrator<M, S, V, R, O>,
-    ) where
-        S: System<V>,
-    {
+    ) {
         let words = words_of(&mut run.course.clone());
         let mut number = 0;
         self.course.scalar_words(&mut |word| {
@@ -198,13 +198,11 @@ where
     }
 
     /// Copies a lane into a run.
-    pub(crate) fn get_lane<V: Vector, O: Solver<V, S>>(
+    pub(crate) fn get_lane<S: System<V>, V: Vector, O: Solver<V, S>>(
         &self,
         lane: usize,
         run: &mut Integrator<M, S, V, R, O>,
-    ) where
-        S: System<V>,
-    {
+    ) {
         let words = words_of(&mut self.course.clone());
         let mut number = lane;
         run.course.scalar_words(&mut |word| {
@@ -216,14 +214,11 @@ where
     }
 
     /// Whether the system gives a lane the same bits as the run of doubles.
-    pub(crate) fn evaluates_like<V: Vector<Scalar = T>, T: Scalar, O: Solver<V, S>>(
+    pub(crate) fn evaluates_like<S: System<V>, V: Vector, O: Solver<V, S>>(
         &self,
         lane: usize,
         run: &Integrator<M, S, V, R, O>,
-    ) -> bool
-    where
-        S: System<V>,
-    {
+    ) -> bool {
         let lanes = evaluations(&self.system, &self.course.state);
         let alone = evaluations(&run.system, &run.course.state);
         let in_lane = lanes.iter().skip(lane).step_by(<W::Scalar as Lanes>::WIDTH);

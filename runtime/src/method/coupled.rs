@@ -54,9 +54,9 @@ impl<P: StageTableau> Plan for Coupled<P> {
 
     #[cfg(feature = "alloc")]
     #[inline]
-    fn take_in_lanes<R, V, S, N, W>(
+    fn take_in_lanes<R, V, S, N, W, J>(
         step: &Step<'_, W>,
-        system: &S,
+        system: &J,
         memory: &mut LaneMemory<W>,
         live: u32,
         stopping: Stopping,
@@ -65,11 +65,12 @@ impl<P: StageTableau> Plan for Coupled<P> {
     where
         R: Summation,
         V: Vector,
-        S: System<V, Class = P::Class> + System<W, Class = P::Class>,
+        S: System<V, Class = P::Class>,
         N: Solver<V, S>,
         W: Vector<Scalar: Lanes>,
+        J: System<W, Class = P::Class>,
     {
-        N::take_in_lanes::<P, R, W>(step, system, memory, live, stopping, outcome)
+        N::take_in_lanes::<P, R, W, J>(step, system, memory, live, stopping, outcome)
     }
 
     /// Does nothing: the evaluations are in the memory.

@@ -217,9 +217,9 @@ pub trait Plan {
     #[cfg(feature = "alloc")]
     #[doc(hidden)]
     #[inline]
-    fn take_in_lanes<R, V, S, N, W>(
+    fn take_in_lanes<R, V, S, N, W, J>(
         _step: &Step<'_, W>,
-        _system: &S,
+        _system: &J,
         _memory: &mut LaneMemory<W>,
         _live: u32,
         _stopping: Stopping,
@@ -228,9 +228,10 @@ pub trait Plan {
     where
         R: Summation,
         V: Vector,
-        S: System<V, Class = Self::Class> + System<W, Class = Self::Class>,
+        S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
         W: Vector<Scalar: Lanes>,
+        J: System<W, Class = Self::Class>,
     {
         None
     }

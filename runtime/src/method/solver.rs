@@ -88,9 +88,9 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     #[cfg(feature = "alloc")]
     #[doc(hidden)]
     #[inline]
-    fn take_in_lanes<P, R, W>(
+    fn take_in_lanes<P, R, W, J>(
         _step: &Step<'_, W>,
-        _system: &S,
+        _system: &J,
         _memory: &mut LaneMemory<W>,
         _live: u32,
         _stopping: Stopping,
@@ -99,8 +99,8 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     where
         P: StageTableau,
         R: Summation,
-        S: System<V, Class = P::Class> + System<W, Class = P::Class>,
         W: Vector<Scalar: Lanes>,
+        J: System<W, Class = P::Class>,
     {
         None
     }
@@ -109,9 +109,9 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     #[cfg(feature = "alloc")]
     #[doc(hidden)]
     #[inline]
-    fn take_in_lanes_at_run_time<C, R, W>(
+    fn take_in_lanes_at_run_time<C, R, W, J>(
         _step: &Step<'_, W>,
-        _system: &S,
+        _system: &J,
         _memory: &mut LaneMemory<W>,
         _live: u32,
         _stopping: Stopping,
@@ -120,8 +120,8 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     where
         C: Class,
         R: Summation,
-        S: System<V, Class = C> + System<W, Class = C>,
         W: Vector<Scalar: Lanes>,
+        J: System<W, Class = C>,
     {
         None
     }

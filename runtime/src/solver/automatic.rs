@@ -185,9 +185,9 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
 
     #[cfg(feature = "alloc")]
     #[inline]
-    fn take_in_lanes<P, R, W>(
+    fn take_in_lanes<P, R, W, J>(
         step: &Step<'_, W>,
-        system: &S,
+        system: &J,
         memory: &mut LaneMemory<W>,
         live: u32,
         stopping: Stopping,
@@ -196,18 +196,18 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
     where
         P: StageTableau,
         R: Summation,
-        S: System<V, Class = P::Class> + System<W, Class = P::Class>,
         W: Vector<Scalar: Lanes>,
+        J: System<W, Class = P::Class>,
     {
-        let taken = in_lanes::take::<P, R, W, S>(step, system, memory, live, stopping, outcome);
+        let taken = in_lanes::take::<P, R, W, J>(step, system, memory, live, stopping, outcome);
         Some(taken)
     }
 
     #[cfg(feature = "alloc")]
     #[inline]
-    fn take_in_lanes_at_run_time<C, R, W>(
+    fn take_in_lanes_at_run_time<C, R, W, J>(
         step: &Step<'_, W>,
-        system: &S,
+        system: &J,
         memory: &mut LaneMemory<W>,
         live: u32,
         stopping: Stopping,
@@ -216,10 +216,10 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
     where
         C: Class,
         R: Summation,
-        S: System<V, Class = C> + System<W, Class = C>,
         W: Vector<Scalar: Lanes>,
+        J: System<W, Class = C>,
     {
-        in_lanes::take_at_run_time::<C, R, W, S>(step, system, memory, live, stopping, outcome)
+        in_lanes::take_at_run_time::<C, R, W, J>(step, system, memory, live, stopping, outcome)
     }
 
     fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {

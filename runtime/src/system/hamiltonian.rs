@@ -1,8 +1,8 @@
 //! Hamiltonian systems, written once for every scalar.
 
 use crate::error::ConstraintName;
-use crate::number::{F64x2, F64x4, F64x8, Scalar, Vector};
-use crate::system::{Class, Separable};
+use crate::number::{F64x2, F64x4, F64x8, Lanes, Scalar, Vector};
+use crate::system::{Class, LaneWork, Separable, System, first};
 #[cfg(feature = "alloc")]
 use crate::system::{Gradients, Jacobian};
 
@@ -145,18 +145,21 @@ pub trait Hamiltonian {
         self.force(time, q, p, force);
     }
 
-    /// Whether trajectories with different parameters run in lanes side by side: see [`join`](Self::join).
+    /// Whether trajectories with different parameters run in lanes side by side: see [`in_lanes`](Self::in_lanes).
     #[doc(hidden)]
     const JOINS: bool = false;
 
-    /// A system with the parameters of each of these systems in one lane, where it has the bits of that system. The systems differ only in
-    /// the values of parameters, and there is one for each lane. Needed only with [`JOINS`](Self::JOINS)` = true`.
+    /// Runs `work` with the type of the systems whose lanes have different parameters; without [`JOINS`](Self::JOINS), with this type.
     #[doc(hidden)]
-    fn join<'a>(_systems: impl Iterator<Item = &'a Self>) -> Option<Self>
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn in_lanes<V, L, K>(work: K) -> K::Output
     where
-        Self: Sized + 'a,
+        Self: Clone + System<V, Class = <Self as Hamiltonian>::Class>,
+        V: Vector,
+        L: Lanes,
+        K: LaneWork<V, Self, L>,
     {
-        None
+        work.run::<Self::Vector<L>, Self>(first)
     }
 
     /// [`velocity`](Self::velocity) at every stage, with the same bits; `at` returns the time, the positions and the momenta of a stage.
@@ -658,6 +661,23 @@ pub trait SeparableHamiltonian {
     fn half_bandwidth(&self) -> usize {
         usize::MAX
     }
+
+    /// See [`Hamiltonian::JOINS`].
+    #[doc(hidden)]
+    const JOINS: bool = false;
+
+    /// See [`Hamiltonian::in_lanes`].
+    #[doc(hidden)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn in_lanes_of_separable<V, L, K>(work: K) -> K::Output
+    where
+        Self: Clone + System<V, Class = Separable>,
+        V: Vector,
+        L: Lanes,
+        K: LaneWork<V, Self, L>,
+    {
+        work.run::<Self::Vector<L>, Self>(first)
+    }
 }
 
 impl<S: SeparableHamiltonian> Hamiltonian for S {
@@ -665,6 +685,18 @@ impl<S: SeparableHamiltonian> Hamiltonian for S {
     type Vector<T: Scalar> = S::Vector<T>;
 
     const UNIT_MASSES: bool = S::UNIT_MASSES;
+    const JOINS: bool = S::JOINS;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn in_lanes<V, L, K>(work: K) -> K::Output
+    where
+        Self: Clone + System<V, Class = Separable>,
+        V: Vector,
+        L: Lanes,
+        K: LaneWork<V, Self, L>,
+    {
+        S::in_lanes_of_separable(work)
+    }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity<T: Scalar>(

@@ -9,10 +9,21 @@ pub trait LaneWork<V: Vector, S: System<V>, L: Lanes> {
     /// The result of the work.
     type Output;
 
-    /// Runs the work with the system over the vectors `W`.
-    fn run<W: Vector<Scalar = L>>(self) -> Self::Output
+    /// Runs the work with a system of type `J` over the vectors `W`.
+    fn run<W, J>(self, join: Join<S, J>) -> Self::Output
     where
-        S: System<W, Class = <S as System<V>>::Class>;
+        W: Vector<Scalar = L>,
+        J: System<W, Class = <S as System<V>>::Class>;
+}
+
+/// Makes a system with the parameters of each of these systems in one lane, where it has the bits of that system; `None` if they differ in
+/// more than the values of parameters, or if there is no system.
+#[doc(hidden)]
+pub type Join<S, J> = for<'a> fn(&mut dyn Iterator<Item = &'a S>) -> Option<J>;
+
+/// The first system, for lanes with the same system.
+pub(crate) fn first<S: Clone>(systems: &mut dyn Iterator<Item = &S>) -> Option<S> {
+    systems.next().cloned()
 }
 
 /// Lanes in which systems are evaluated.

@@ -12,6 +12,7 @@ pub(crate) mod in_lanes;
 pub(crate) mod jacobian;
 pub(crate) mod lagrangian;
 pub(crate) mod lagrangian_macro;
+pub(crate) mod lane_parameters;
 pub(crate) mod linearity;
 pub(crate) mod local_force;
 pub(crate) mod over_vectors;
@@ -32,13 +33,16 @@ pub use gradients::Gradients;
 pub(crate) use gradients::Terms;
 pub use hamiltonian::{Hamiltonian, SeparableHamiltonian};
 pub use hamiltonian_macro::hamiltonian;
-#[doc(hidden)]
-pub use in_lanes::LaneWork;
 pub use in_lanes::SystemLanes;
+pub(crate) use in_lanes::first;
+#[doc(hidden)]
+pub use in_lanes::{Join, LaneWork};
 #[cfg(feature = "alloc")]
 pub use jacobian::{BandMatrix, Jacobian};
 pub use lagrangian::Lagrangian;
 pub use lagrangian_macro::lagrangian;
+#[doc(hidden)]
+pub use lane_parameters::LaneParameter;
 #[doc(hidden)]
 pub use local_force::{Components, MOST_ROW_STAGES, StageRows};
 pub use over_vectors::{OverEveryScalar, System, SystemInLanes};

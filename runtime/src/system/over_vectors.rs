@@ -178,22 +178,16 @@ pub trait System<V: Vector>: Sized {
     /// Runs `work` over vectors of these lanes, if the system is known over them.
     #[doc(hidden)]
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn over_lanes<L: Lanes, W: LaneWork<V, Self, L>>(_work: W) -> Option<W::Output> {
+    fn over_lanes<L: Lanes, W: LaneWork<V, Self, L>>(_work: W) -> Option<W::Output>
+    where
+        Self: Clone,
+    {
         None
     }
 
     /// Whether trajectories of systems with different parameters run in lanes side by side.
     #[doc(hidden)]
     const JOINS: bool = false;
-
-    /// A system with the parameters of each of these systems in one lane.
-    #[doc(hidden)]
-    fn join<'a>(_systems: impl Iterator<Item = &'a Self>) -> Option<Self>
-    where
-        Self: 'a,
-    {
-        None
-    }
 
     // The following items make a `Chain` fast; no other system implements them.
 
@@ -347,16 +341,12 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
 
     const JOINS: bool = H::JOINS;
 
-    fn join<'a>(systems: impl Iterator<Item = &'a Self>) -> Option<Self>
-    where
-        Self: 'a,
-    {
-        H::join(systems)
-    }
-
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn over_lanes<L: Lanes, W: LaneWork<V, Self, L>>(work: W) -> Option<W::Output> {
-        Some(work.run::<H::Vector<L>>())
+    fn over_lanes<L: Lanes, W: LaneWork<V, Self, L>>(work: W) -> Option<W::Output>
+    where
+        Self: Clone,
+    {
+        Some(H::in_lanes(work))
     }
 }
 

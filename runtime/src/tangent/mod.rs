@@ -18,7 +18,7 @@ use crate::number::dual::Dual;
 use crate::number::{Lanes, Scalar, Vector};
 use crate::solver::Automatic;
 use crate::state::State;
-use crate::system::{Class, Conservative, Hamiltonian, LaneWork, OverEveryScalar, System};
+use crate::system::{Class, Conservative, Hamiltonian, LaneWork, OverEveryScalar, System, first};
 
 /// A system together with its variational equations, for positions `(q, δq)` and momenta `(δp, p)`:
 ///
@@ -274,8 +274,11 @@ impl<S: Hamiltonian<Class: Conservative>, W: Vector> System<W> for Tangent<S> {
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn over_lanes<L: Lanes, K: LaneWork<W, Self, L>>(work: K) -> Option<K::Output> {
-        Some(work.run::<W::With<L>>())
+    fn over_lanes<L: Lanes, K: LaneWork<W, Self, L>>(work: K) -> Option<K::Output>
+    where
+        Self: Clone,
+    {
+        Some(work.run::<W::With<L>, Self>(first))
     }
 }
 

@@ -3,10 +3,12 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod adaptive;
 mod bits;
 mod coupled;
 mod errors;
 mod failures;
+mod formulas;
 mod outputs;
 mod parameters;
 mod restart;

@@ -2,11 +2,13 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use symplectic::emitted::LaneWork;
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{SVector, Vector2};
-use symplectic::simd::{F64x16, MOST_LANES};
+use symplectic::simd::{F64x16, Lanes, MOST_LANES};
 use symplectic::{
     AtRunTime, Compensated, Hamiltonian, Integrator, Method, ProvedFor, Scalar, Separable, State,
+    System, Vector,
 };
 
 use crate::common::methods::{ForestRuth, Gauss4};
@@ -28,16 +30,18 @@ impl Hamiltonian for Cubic<'_> {
 
     const JOINS: bool = true;
 
-    fn join<'s>(systems: impl Iterator<Item = &'s Self>) -> Option<Self>
+    fn in_lanes<V: Vector, L: Lanes, K: LaneWork<V, Self, L>>(work: K) -> K::Output
     where
-        Self: 's,
+        Self: System<V, Class = Separable>,
     {
-        let mut joined: Option<Self> = None;
-        for (lane, system) in systems.enumerate() {
-            let joined = joined.get_or_insert_with(|| system.clone());
-            joined.strengths[lane] = system.strengths[0];
-        }
-        joined
+        work.run::<SVector<L, 2>, Self>(|systems| {
+            let mut joined: Option<Self> = None;
+            for (lane, system) in systems.enumerate() {
+                let joined = joined.get_or_insert_with(|| system.clone());
+                joined.strengths[lane] = system.strengths[0];
+            }
+            joined
+        })
     }
 
     fn velocity<T: Scalar>(

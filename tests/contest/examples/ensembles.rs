@@ -19,6 +19,13 @@ use symplectic::{
 use symplectic_tests::formulas::{HenonHeiles, Kepler};
 use symplectic_tests::methods::{BlanesMoanS10, Gauss4};
 
+symplectic::hamiltonian! {
+    /// A Kepler orbit with a mass in the centre.
+    Attraction { mu }
+    q: [x, y], p: [px, py];
+    H = (px^2 + py^2)/2 - mu/sqrt(x^2 + y^2)
+}
+
 /// Number of rounds; in each round all variants run once, in turn.
 const ROUNDS: usize = 9;
 
@@ -29,7 +36,7 @@ type Start = State<Vector2<f64>>;
 fn row<M, S, R>(
     name: &str,
     method: M,
-    (system, starts): (S, &[Start]),
+    families: &[(S, Vec<Start>)],
     (step_size, steps): (f64, u64),
     alone: &ThreadPool,
 ) where
@@ -39,11 +46,11 @@ fn row<M, S, R>(
 {
     let ensemble = Ensemble::<M, S, Vector2<f64>, R>::with_summation(
         method,
-        [(system, starts.to_vec())],
+        families.iter().cloned(),
         step_size,
     )
     .expect("starts");
-    let integrator = |start: &Start| {
+    let integrator = |system: S, start: &Start| {
         Integrator::<M, S, Vector2<f64>, R>::with_summation(
             method,
             system,
@@ -52,15 +59,19 @@ fn row<M, S, R>(
         )
         .expect("a start")
     };
+    let trajectories = || {
+        let families = families.iter();
+        families.flat_map(|(system, starts)| starts.iter().map(|start| (*system, start)))
+    };
     let without_lanes = || {
-        for start in starts {
-            let mut run = integrator(start).with_solver(FixedPoint);
+        for (system, start) in trajectories() {
+            let mut run = integrator(system, start).with_solver(FixedPoint);
             black_box(run.take_steps(steps).expect("steps"));
         }
     };
     let single = || {
-        for start in starts {
-            black_box(integrator(start).take_steps(steps).expect("steps"));
+        for (system, start) in trajectories() {
+            black_box(integrator(system, start).take_steps(steps).expect("steps"));
         }
     };
     let many = || {
@@ -77,7 +88,7 @@ fn row<M, S, R>(
         // As a program calls it: from outside, on the threads of rayon.
         times[3].push(seconds(many));
     }
-    let per_step = 1e9 / (starts.len() as f64 * steps as f64);
+    let per_step = 1e9 / (trajectories().count() as f64 * steps as f64);
     let [without, single, one, all] = times.map(|mut times| {
         times.sort_by(f64::total_cmp);
         times[ROUNDS / 2] * per_step
@@ -122,40 +133,52 @@ fn main() {
     println!("|---|---:|---:|---:|---:|---:|---:|");
     macro_rules! problem {
         ($name:literal, $problem:expr, $h:literal, $steps:literal) => {
+            let families = $problem;
             row::<_, _, Plain>(
                 concat!($name, ", Blanes–Moan S10, plain sums"),
                 BlanesMoanS10,
-                $problem,
+                families,
                 ($h, 32 * $steps),
                 &alone,
             );
             row::<_, _, Compensated>(
                 concat!($name, ", Blanes–Moan S10"),
                 BlanesMoanS10,
-                $problem,
+                families,
                 ($h, 32 * $steps),
                 &alone,
             );
             row::<_, _, Plain>(
                 concat!($name, ", Gauss 4, plain sums"),
                 Gauss4,
-                $problem,
+                families,
                 ($h, 8 * $steps),
                 &alone,
             );
             row::<_, _, Compensated>(
                 concat!($name, ", Gauss 4"),
                 Gauss4,
-                $problem,
+                families,
                 ($h, 8 * $steps),
                 &alone,
             );
         };
     }
-    problem!("4096 Kepler orbits", (Kepler, &orbits), 0.01, 25);
+    let masses = orbits.iter().enumerate().map(|(k, start)| {
+        let mu = 1.0 + k as f64 / 4096.0;
+        (Attraction { mu }, vec![start.clone()])
+    });
+    let masses: Vec<_> = masses.collect();
+    problem!(
+        "4096 Kepler orbits with different masses",
+        &masses,
+        0.01,
+        25
+    );
+    problem!("4096 Kepler orbits", &[(Kepler, orbits)], 0.01, 25);
     problem!(
         "1024 Hénon–Heiles orbits",
-        (HenonHeiles, &galaxies),
+        &[(HenonHeiles, galaxies)],
         0.05,
         100
     );

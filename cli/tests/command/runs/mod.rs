@@ -5,6 +5,7 @@ mod kept;
 mod numbers;
 mod parameters;
 mod refused;
+mod section;
 mod starts;
 mod systems;
 

@@ -27,6 +27,22 @@ fn a_range_of_whole_numbers_has_whole_numbers() {
     }
 }
 
+/// Digits are the shortest; Python changes to exponents at the same numbers.
+#[test]
+fn small_and_large_numbers_have_exponents() {
+    let folder = folder("exponents");
+    let values = "1e-300, -9.9e-6, 1e-5, 0.1, -0.0, 123456789, 1e15, 1e16, -1.7e308";
+    let setup = PENDULUM.replace("end = 10.0", "end = 0.0").replace(
+        "from = -1, to = 1, count = 11",
+        &format!("values = [{values}]"),
+    );
+    let text = csv(&folder, &setup);
+    let cells = text.lines().skip(1).map(|line| line.split(',').nth(1));
+    let cells: Vec<&str> = cells.map(|cell| cell.expect("a cell")).collect();
+    let expected = "1e-300,-9.9e-6,0.00001,0.1,-0,123456789,1000000000000000,1e16,-1.7e308";
+    assert_eq!(cells.join(","), expected);
+}
+
 #[test]
 fn wrong_numbers_are_named_at_their_place() {
     let folder = folder("numbers");

@@ -8,7 +8,7 @@ use quote::{format_ident, quote};
 use super::names::{identifier, index_name, index_tokens, length_tokens, pair_name};
 use crate::formula::System;
 use crate::formula::graph::{Base, LoopId, LoopRange};
-use crate::formula::operations::{Op, Operations};
+use crate::formula::operations::{Op, Operation, Operations};
 use crate::formula::statements::{Goal, Statement, statements};
 use crate::formula::syntax::Length;
 
@@ -59,6 +59,8 @@ pub struct Writer<'a> {
     pub(super) outside: TokenStream,
     /// The argument that stands for every coordinate, in a function of one coordinate.
     pub(super) argument: Option<TokenStream>,
+    /// Whether parameters have a value for each lane.
+    pub(super) in_lanes: bool,
 }
 
 impl<'a> Writer<'a> {
@@ -78,6 +80,26 @@ impl<'a> Writer<'a> {
             prefix,
             outside,
             argument: None,
+            in_lanes: false,
+        }
+    }
+
+    /// The same writer for a system whose parameters have a value for each lane.
+    pub(super) fn in_lanes(self) -> Self {
+        Writer {
+            in_lanes: true,
+            ..self
+        }
+    }
+
+    /// Whether a value is an `f64` for every scalar type.
+    pub(super) fn is_fixed(&self, op: Op) -> bool {
+        match self.in_lanes {
+            true => matches!(
+                self.operations.get(op),
+                Operation::Constant(_) | Operation::Pi
+            ),
+            false => self.operations.depends(op).is_fixed(),
         }
     }
 
@@ -127,7 +149,7 @@ impl<'a> Writer<'a> {
                 Statement::Zero(op, number) => {
                     let name = self.name(*number);
                     let scalar = &self.scalar;
-                    let fixed = self.operations.depends(*op).is_fixed();
+                    let fixed = self.is_fixed(*op);
                     names.insert(*op, Written::name(&name, fixed));
                     match fixed {
                         true => quote!(let mut #name = 0.0;),

@@ -97,7 +97,7 @@ impl Writer<'_> {
     }
 
     fn expression(&self, names: &Names, op: Op) -> Written {
-        let fixed = self.operations.depends(op).is_fixed();
+        let fixed = self.is_fixed(op);
         let both = |a: Op, b: Op| {
             let sides = [a, b].map(|side| self.written(names, side));
             sides.map(|side| if fixed { side } else { self.free(side) })
@@ -160,7 +160,7 @@ impl Writer<'_> {
                         (quote!(1.0 / #a), Strength::Product)
                     }
                     false => {
-                        let a = atom(&a);
+                        let a = atom(&self.free(a));
                         (quote!(#a.recip()), Strength::Atom)
                     }
                 }
@@ -184,7 +184,8 @@ impl Writer<'_> {
             }
             Operation::User(function, derivative, a) => {
                 let name = identifier(&self.system.functions[function][derivative.min(2)]);
-                let a = self.written(names, a).tokens;
+                let a = self.written(names, a);
+                let a = if fixed { a } else { self.free(a) }.tokens;
                 (quote!(#name(#a)), Strength::Atom)
             }
             // A total has a name already.
@@ -216,19 +217,26 @@ impl Writer<'_> {
     pub(super) fn parameter(&self, parameter: usize, indices: &[Index]) -> TokenStream {
         let parameter = &self.system.parameters[parameter];
         let name = identifier(&parameter.name);
-        let Shape::Array(lengths) = &parameter.shape else {
-            return quote!(self.#name);
+        let lengths = match &parameter.shape {
+            Shape::Array(lengths) => lengths.as_slice(),
+            Shape::Number(_) | Shape::Pairs => &[],
         };
         let checked = |length: &Length| matches!(length, Length::Runtime | Length::PairsOf(_));
         let indices: Vec<TokenStream> = indices.iter().map(index_tokens).collect();
-        match (indices.as_slice(), lengths.iter().any(checked)) {
+        let scalar = &self.scalar;
+        let checked = lengths.iter().any(checked);
+        let value = match (indices.as_slice(), checked) {
             ([i], false) => quote!(self.#name[#i]),
             ([i, j], false) => quote!(self.#name[#i][#j]),
-            ([i], true) => quote!(self.#name.get(#i).copied().unwrap_or(f64::NAN)),
-            ([i, j], true) => {
-                quote!(self.#name.get(#i).and_then(|row| row.get(#j)).copied().unwrap_or(f64::NAN))
-            }
+            ([i], true) => quote!(self.#name.get(#i)),
+            ([i, j], true) => quote!(self.#name.get(#i).and_then(|row| row.get(#j))),
             _ => quote!(self.#name),
+        };
+        match (self.in_lanes, checked) {
+            (false, false) => value,
+            (false, true) => quote!(#value.copied().unwrap_or(f64::NAN)),
+            (true, false) => quote!(#scalar::from_lanes(&#value)),
+            (true, true) => quote!(#value.map_or(#scalar::from_f64(f64::NAN), #scalar::from_lanes)),
         }
     }
 

@@ -10,6 +10,7 @@ mod chain;
 mod constraints;
 mod expression;
 mod fields;
+mod in_lanes;
 mod invariants;
 mod jacobian;
 mod lagrangian;
@@ -20,6 +21,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use self::block::{Task, Write, Writer};
+use self::in_lanes::Lanes;
 use self::names::{entry, identifier, length_tokens};
 use super::Header;
 use crate::formula::derivative::{Scatter, gradient};
@@ -267,6 +269,17 @@ impl<'a> Emitter<'a> {
         parts: &[(&'static str, Vec<Scatter>)],
         written: &[&str],
     ) -> TokenStream {
+        self.derivatives_by(read, parts, written, |writer| writer)
+    }
+
+    /// [`derivatives`](Self::derivatives) by another writer.
+    fn derivatives_by(
+        &self,
+        read: &[&str],
+        parts: &[(&'static str, Vec<Scatter>)],
+        written: &[&str],
+        by: impl for<'w> FnOnce(Writer<'w>) -> Writer<'w>,
+    ) -> TokenStream {
         let views = self.views(read, written);
         let outside = self.outside(written);
         let least = self.least(&outside);
@@ -312,7 +325,7 @@ impl<'a> Emitter<'a> {
             &self.prefix,
             outside,
         );
-        let statements = writer.write(&tasks);
+        let statements = by(writer).write(&tasks);
         quote!(#views #least #clear #statements)
     }
 
@@ -367,14 +380,16 @@ impl<'a> Emitter<'a> {
             of: split.kinetic,
             sign: 1,
         };
-        let velocity = self.derivative(&["p"], velocity);
         let force = Derivative {
             into: "force",
             half: Half::Q,
             of: split.potential,
             sign: -1,
         };
-        let force = self.derivative(&["q"], force);
+        let (velocities, forces) = (self.gradients(&[velocity]), self.gradients(&[force]));
+        let velocity = self.derivatives(&["p"], &velocities, &["velocity"]);
+        let force = self.derivatives(&["q"], &forces, &["force"]);
+        let Lanes { system, join } = self.separable_in_lanes(&unit, &velocities, &forces);
         let energy = self.energy(self.system.energy);
         let jacobian = self.jacobian(Some(split));
         quote! {
@@ -383,6 +398,8 @@ impl<'a> Emitter<'a> {
                 type Vector<#scalar: Scalar> = #over;
 
                 #unit
+
+                #join
 
                 #[inline(always)]
                 fn velocity<#scalar: Scalar>(&self, time: #scalar, p: &#over, velocity: &mut #over) {
@@ -400,6 +417,8 @@ impl<'a> Emitter<'a> {
 
                 #jacobian
             }
+
+            #system
         }
     }
 
@@ -465,6 +484,7 @@ impl<'a> Emitter<'a> {
         });
         let velocity = self.derivatives(&halves, &parts, &["velocity"]);
         let force = self.derivatives(&halves, &parts, &["force"]);
+        let Lanes { system, join } = self.general_in_lanes(&parts);
         let energy = self.energy(energy);
         // Newton's iteration is for systems without constraints.
         let jacobian = if self.system.is_constrained() || !self.system.friction.is_empty() {
@@ -492,6 +512,8 @@ impl<'a> Emitter<'a> {
 
                 #masses
 
+                #join
+
                 #[inline(always)]
                 fn velocity<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over, velocity: &mut #over) {
                     #velocity
@@ -514,6 +536,8 @@ impl<'a> Emitter<'a> {
 
                 #beside_energy
             }
+
+            #system
         }
     }
 }

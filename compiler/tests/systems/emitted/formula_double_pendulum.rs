@@ -44,6 +44,20 @@ const _: () = {
     impl ::symplectic::Hamiltonian for DoublePendulum {
         type Class = ::symplectic::General;
         type Vector<T: Scalar> = ::symplectic::nalgebra::SVector<T, 2>;
+        const JOINS: bool = true;
+        #[inline(always)]
+        fn in_lanes<LaneVector, LaneScalar, LaneWork>(work: LaneWork) -> LaneWork::Output
+        where
+            Self: ::symplectic::System<LaneVector, Class = ::symplectic::General>,
+            LaneVector: ::symplectic::Vector,
+            LaneScalar: ::symplectic::simd::Lanes,
+            LaneWork: ::symplectic::emitted::LaneWork<LaneVector, Self, LaneScalar>,
+        {
+            work.run::<
+                    ::symplectic::nalgebra::SVector<LaneScalar, 2>,
+                    DoublePendulumInLanes,
+                >(DoublePendulumInLanes::join)
+        }
         #[inline(always)]
         fn velocity<T: Scalar>(
             &self,
@@ -158,6 +172,86 @@ const _: () = {
         #[allow(non_snake_case, clippy::all)]
         fn half_bandwidth(&self) -> usize {
             1
+        }
+    }
+    #[allow(dead_code, non_snake_case)]
+    struct DoublePendulumInLanes {
+        g: <f64 as ::symplectic::emitted::LaneParameter>::InLanes,
+    }
+    #[allow(non_snake_case)]
+    impl DoublePendulumInLanes {
+        fn join(
+            systems: &mut dyn ::core::iter::Iterator<Item = &DoublePendulum>,
+        ) -> ::core::option::Option<Self> {
+            use ::symplectic::emitted::LaneParameter as _;
+            let first = systems.next()?;
+            let mut joined = Self { g: first.g.in_all_lanes() };
+            for (lane, system) in (1..).zip(systems) {
+                system.g.set_lane(lane, &mut joined.g)?;
+            }
+            ::core::option::Option::Some(joined)
+        }
+    }
+    #[allow(unused_variables, non_snake_case, clippy::all)]
+    impl ::symplectic::Hamiltonian for DoublePendulumInLanes {
+        type Class = ::symplectic::General;
+        type Vector<T: Scalar> = ::symplectic::nalgebra::SVector<T, 2>;
+        #[inline(always)]
+        fn velocity<T: Scalar>(
+            &self,
+            time: T,
+            q: &::symplectic::nalgebra::SVector<T, 2>,
+            p: &::symplectic::nalgebra::SVector<T, 2>,
+            velocity: &mut ::symplectic::nalgebra::SVector<T, 2>,
+        ) {
+            ::symplectic::Hamiltonian::slopes(
+                self,
+                time,
+                q,
+                p,
+                (velocity, &mut q.clone()),
+            );
+        }
+        #[inline(always)]
+        fn force<T: Scalar>(
+            &self,
+            time: T,
+            q: &::symplectic::nalgebra::SVector<T, 2>,
+            p: &::symplectic::nalgebra::SVector<T, 2>,
+            force: &mut ::symplectic::nalgebra::SVector<T, 2>,
+        ) {
+            ::symplectic::Hamiltonian::slopes(self, time, q, p, (&mut q.clone(), force));
+        }
+        #[inline(always)]
+        fn slopes<T: Scalar>(
+            &self,
+            time: T,
+            q: &::symplectic::nalgebra::SVector<T, 2>,
+            p: &::symplectic::nalgebra::SVector<T, 2>,
+            (
+                velocity,
+                force,
+            ): (
+                &mut ::symplectic::nalgebra::SVector<T, 2>,
+                &mut ::symplectic::nalgebra::SVector<T, 2>,
+            ),
+        ) {
+            let q = &q.data.0[0];
+            let p = &p.data.0[0];
+            let velocity = &mut velocity.data.0[0];
+            let force = &mut force.data.0[0];
+            let x1 = q[0] - q[1];
+            let [(x2, x3), (x4, _), (x5, _)] = T::sin_cos_all([x1, q[0], q[1]]);
+            let x6 = (x2 * x2 + T::one()).recip();
+            velocity[0] = p[0] * x6 - p[1] * x3 * x6;
+            velocity[1] = T::from_f64(2.0) * p[1] * x6 - p[0] * x3 * x6;
+            let x7 = x3
+                * (x2
+                    * ((p[0] * p[0] + T::from_f64(2.0) * (p[1] * p[1])
+                        - T::from_f64(2.0) * p[0] * p[1] * x3) * (x6 * x6)))
+                - x2 * (p[0] * p[1] * x6);
+            force[0] = x7 - T::from_f64(2.0) * T::from_lanes(&self.g) * x4;
+            force[1] = -(T::from_lanes(&self.g) * x5 + x7);
         }
     }
     #[allow(unused_variables, non_snake_case, clippy::all)]

@@ -50,6 +50,22 @@ const _: () = {
     #[allow(unused_variables, non_snake_case, clippy::all)]
     impl<const N: usize> ::symplectic::SeparableHamiltonian for Planets<N> {
         type Vector<T: Scalar> = ::symplectic::nalgebra::SMatrix<T, 3, N>;
+        const JOINS: bool = true;
+        #[inline(always)]
+        fn in_lanes_of_separable<LaneVector, LaneScalar, LaneWork>(
+            work: LaneWork,
+        ) -> LaneWork::Output
+        where
+            Self: ::symplectic::System<LaneVector, Class = ::symplectic::Separable>,
+            LaneVector: ::symplectic::Vector,
+            LaneScalar: ::symplectic::simd::Lanes,
+            LaneWork: ::symplectic::emitted::LaneWork<LaneVector, Self, LaneScalar>,
+        {
+            work.run::<
+                    ::symplectic::nalgebra::SMatrix<LaneScalar, 3, N>,
+                    PlanetsInLanes<N>,
+                >(PlanetsInLanes::join)
+        }
         #[inline(always)]
         fn velocity<T: Scalar>(
             &self,
@@ -187,6 +203,85 @@ const _: () = {
             .force_by_position.add(i * 3 + 2, i * 3 + 0, T::from_f64(3.0) * x9); jacobian
             .force_by_position.add(i * 3 + 2, i * 3 + 1, T::from_f64(3.0) * x8); jacobian
             .force_by_position.add(i * 3 + 2, i * 3 + 2, - x7); } true }
+        }
+    }
+    #[allow(dead_code, non_snake_case)]
+    struct PlanetsInLanes<const N: usize> {
+        m: <[f64; N] as ::symplectic::emitted::LaneParameter>::InLanes,
+        G: <f64 as ::symplectic::emitted::LaneParameter>::InLanes,
+    }
+    #[allow(non_snake_case)]
+    impl<const N: usize> PlanetsInLanes<N> {
+        fn join(
+            systems: &mut dyn ::core::iter::Iterator<Item = &Planets<N>>,
+        ) -> ::core::option::Option<Self> {
+            use ::symplectic::emitted::LaneParameter as _;
+            let first = systems.next()?;
+            let mut joined = Self {
+                m: first.m.in_all_lanes(),
+                G: first.G.in_all_lanes(),
+            };
+            for (lane, system) in (1..).zip(systems) {
+                system.m.set_lane(lane, &mut joined.m)?;
+                system.G.set_lane(lane, &mut joined.G)?;
+            }
+            ::core::option::Option::Some(joined)
+        }
+    }
+    #[allow(unused_variables, non_snake_case, clippy::all)]
+    impl<const N: usize> ::symplectic::SeparableHamiltonian for PlanetsInLanes<N> {
+        type Vector<T: Scalar> = ::symplectic::nalgebra::SMatrix<T, 3, N>;
+        #[inline(always)]
+        fn velocity<T: Scalar>(
+            &self,
+            time: T,
+            p: &::symplectic::nalgebra::SMatrix<T, 3, N>,
+            velocity: &mut ::symplectic::nalgebra::SMatrix<T, 3, N>,
+        ) {
+            let p = &p.data.0;
+            let velocity = &mut velocity.data.0;
+            for i in 0..N {
+                let x1 = T::from_lanes(&self.m[i]).recip();
+                velocity[i][0] = x1 * p[i][0];
+                velocity[i][1] = x1 * p[i][1];
+                velocity[i][2] = x1 * p[i][2];
+            }
+        }
+        #[inline(always)]
+        fn force<T: Scalar>(
+            &self,
+            time: T,
+            q: &::symplectic::nalgebra::SMatrix<T, 3, N>,
+            force: &mut ::symplectic::nalgebra::SMatrix<T, 3, N>,
+        ) {
+            let q = &q.data.0;
+            let force = &mut force.data.0;
+            force.as_flattened_mut().fill(T::zero());
+            for i in 0..N {
+                let mut x1 = T::zero();
+                let mut x2 = T::zero();
+                let mut x3 = T::zero();
+                let x4 = T::from_lanes(&self.G) * T::from_lanes(&self.m[i]);
+                for j in i + 1..N {
+                    let x5 = q[i][2] - q[j][2];
+                    let x6 = q[i][0] - q[j][0];
+                    let x7 = q[i][1] - q[j][1];
+                    let x8 = x6 * x6 + x7 * x7 + x5 * x5;
+                    let x9 = x4 * T::from_lanes(&self.m[j]) / (x8 * x8.sqrt());
+                    let x10 = x5 * x9;
+                    x1 += x10;
+                    let x11 = x7 * x9;
+                    x2 += x11;
+                    let x12 = x6 * x9;
+                    x3 += x12;
+                    force[j][0] += x12;
+                    force[j][1] += x11;
+                    force[j][2] += x10;
+                }
+                force[i][0] += -x3;
+                force[i][1] += -x2;
+                force[i][2] += -x1;
+            }
         }
     }
     #[allow(unused_variables, non_snake_case, clippy::all)]

@@ -188,9 +188,9 @@ impl<C: Class> Plan for RunTimePlan<C> {
     }
 
     #[inline]
-    fn take_in_lanes<R, V, S, N, W>(
+    fn take_in_lanes<R, V, S, N, W, J>(
         step: &Step<'_, W>,
-        system: &S,
+        system: &J,
         memory: &mut LaneMemory<W>,
         live: u32,
         stopping: Stopping,
@@ -199,11 +199,12 @@ impl<C: Class> Plan for RunTimePlan<C> {
     where
         R: Summation,
         V: Vector,
-        S: System<V, Class = C> + System<W, Class = C>,
+        S: System<V, Class = C>,
         N: Solver<V, S>,
         W: Vector<Scalar: Lanes>,
+        J: System<W, Class = C>,
     {
-        N::take_in_lanes_at_run_time::<C, R, W>(step, system, memory, live, stopping, outcome)
+        N::take_in_lanes_at_run_time::<C, R, W, J>(step, system, memory, live, stopping, outcome)
     }
 
     fn observe<R, V, S, N, W>(
