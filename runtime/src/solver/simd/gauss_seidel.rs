@@ -20,7 +20,7 @@ use crate::system::SystemLanes;
 use crate::system::{Class, System};
 use core::marker::PhantomData;
 
-/// The iteration of [`FixedPoint`](crate::solver::FixedPoint) with the stages side by side in [`Lanes`]: one evaluation of the
+/// The iteration of [`FixedPoint`](crate::solver::FixedPoint) with the stages side by side in lanes: one evaluation of the
 /// system computes two, four or eight stages.
 ///
 /// The system must be generic over the scalar. Long vectors are allowed. [`FixedPoint`](crate::solver::FixedPoint) vectorises along
