@@ -41,7 +41,7 @@ pub(super) fn code(
 fn with_an_end(at_start: bool) -> TokenStream {
     let [zero, one] = [0.0, 1.0].map(|value| {
         let value = literal::double(value);
-        quote!(::symplectic::emitted::Coefficient::exact(#value))
+        quote!(emitted::exact(#value))
     });
     let (weights, momentum_node) = if at_start {
         (quote!(#one, #zero), &one)
@@ -49,7 +49,7 @@ fn with_an_end(at_start: bool) -> TokenStream {
         (quote!(#zero, #one), &zero)
     };
     quote! {
-        ::symplectic::emitted::ConstrainedTableau {
+        emitted::ConstrainedTableau {
             positions: &[&[#zero, #zero], &[#one, #one]],
             momenta: &[&[#one, #zero], &[#one, #zero]],
             weights: &[#weights],
@@ -68,19 +68,19 @@ pub(super) fn steps(
 ) -> TokenStream {
     let exact = |value: f64| {
         let value = literal::double(value);
-        quote!(::symplectic::emitted::Coefficient::exact(#value))
+        quote!(emitted::exact(#value))
     };
     let (start, size) = (exact(0.0), exact(1.0));
     let whole = [quote!(#start, #size, &TABLEAU1)];
     let steps = list
         .unwrap_or(&whole)
         .iter()
-        .map(|step| quote!(::symplectic::emitted::ConstrainedStep::new(#step)));
+        .map(|step| quote!(emitted::ConstrainedStep::new(#step)));
     let name = format_ident!("{name}");
     let names = (1..=tableaux.len()).map(|k| format_ident!("TABLEAU{k}"));
     quote! {
-        const #name: &'static [::symplectic::emitted::ConstrainedStep] = {
-            #(const #names: ::symplectic::emitted::ConstrainedTableau = #tableaux;)*
+        const #name: &'static [emitted::ConstrainedStep] = {
+            #(const #names: emitted::ConstrainedTableau = #tableaux;)*
             &[#(#steps),*]
         };
     }
@@ -128,7 +128,7 @@ pub(super) fn constants(
     let [weights, nodes, momentum_nodes] =
         [&numbers.b, &numbers.c, &numbers.c_tilde].map(|vector| literal::coefficients(vector));
     Some(quote! {
-        ::symplectic::emitted::ConstrainedTableau {
+        emitted::ConstrainedTableau {
             positions: #positions,
             momenta: #momenta,
             weights: &#weights,

@@ -1,6 +1,6 @@
 //! From an exact tableau to Rust code.
 //!
-//! The generated code names everything as `::symplectic::emitted::…`. It contains the coefficients as constants,
+//! The generated code names everything as `::symplectic::emitted::…`, or as `emitted::…` in a block that imports this. It contains the coefficients as constants,
 //! each rounded correctly to a double. It also contains them in the form that the runtime computes with: the exact value
 //! rounded correctly to a double, and again to a single. The single is infinite for a coefficient beyond the
 //! largest single, because the method is sound in doubles. For each class of Hamiltonians there is a plan of the step in which
@@ -81,8 +81,8 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
     let definition = provenance.definition.to_string();
     let coefficients = coefficients(tableau, &numbers, matrices);
     // The plans have names of their own, derived from the method's name.
-    let [general_plan, separable_plan] =
-        ["General", "Separable"].map(|class| format_ident!("{name}{class}"));
+    let [general_plan, separable_plan, plan] =
+        ["General", "Separable", "Plan"].map(|class| format_ident!("{name}{class}"));
     let names = [
         (Class::General, &general_plan),
         (Class::Separable, &separable_plan),
@@ -91,7 +91,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
     let symmetry = symmetry(tableau);
     let (methods, substeps) = substeps(&provenance.definition)?;
     let parts = (&methods[..], &substeps[..]);
-    let plans = plan::plans(tableau, &numbers, parts, names);
+    let plans = plan::plans(tableau, &numbers, parts, names, &plan);
     let functions = fewer_functions(&provenance.definition)?.map(|count| {
         let count = literal::count(count);
         quote!(const FUNCTIONS: usize = #count;)
@@ -119,7 +119,9 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
 
         #[allow(clippy::approx_constant)]
         const _: () = {
-            impl ::symplectic::emitted::Method for #name {
+            use ::symplectic::emitted;
+
+            impl emitted::Method for #name {
                 const NAME: &'static str = #text;
                 const STAGES: usize = #stages;
                 const DEFINITION: &'static str = #definition;
@@ -224,25 +226,23 @@ fn coefficients(
     let length = left_out.map(|_| quote!(; #stages));
     let vector = |name: &Ident, numbers: &[Number<'_>]| {
         let values = literal::coefficients(numbers);
-        quote!(const #name: &[::symplectic::emitted::Coefficient #length] = &#values;)
+        quote!(const #name: &[emitted::Coefficient #length] = &#values;)
     };
-    let matrix = |name: &Ident,
-                  rows: &[Vec<Number<'_>>],
-                  weights: &str,
-                  own: fn(Staircase) -> bool| {
-        if let Some(own) = left_out.map(own) {
-            let weights = literal::identifier(weights);
-            return quote! {
-                const #name: &[&[::symplectic::emitted::Coefficient]] = {
-                    const ENTRIES: &[[::symplectic::emitted::Coefficient; #stages]; #stages] =
-                        &::symplectic::emitted::staircase(*#weights, ::symplectic::emitted::Coefficient::exact(0.0), #own);
-                    &::symplectic::emitted::rows(ENTRIES)
+    let matrix =
+        |name: &Ident, rows: &[Vec<Number<'_>>], weights: &str, own: fn(Staircase) -> bool| {
+            if let Some(own) = left_out.map(own) {
+                let weights = literal::identifier(weights);
+                return quote! {
+                    const #name: &[&[emitted::Coefficient]] = {
+                        const ENTRIES: &[[emitted::Coefficient; #stages]; #stages] =
+                            &emitted::staircase(*#weights, emitted::exact(0.0), #own);
+                        &emitted::rows(ENTRIES)
+                    };
                 };
-            };
-        }
-        let rows = rows.iter().map(|row| literal::coefficients(row));
-        quote!(const #name: &[&[::symplectic::emitted::Coefficient]] = &[#(&#rows),*];)
-    };
+            }
+            let rows = rows.iter().map(|row| literal::coefficients(row));
+            quote!(const #name: &[&[emitted::Coefficient]] = &[#(&#rows),*];)
+        };
     let [a, b, c] = ["A", "B", "C"].map(literal::identifier);
     let [mut a_tilde, mut b_tilde, mut c_tilde] =
         ["A_TILDE", "B_TILDE", "C_TILDE"].map(literal::identifier);
@@ -271,9 +271,9 @@ fn coefficients(
         constants.push(vector(&b_tilde, &numbers.b_tilde));
     }
     quote! {
-        const COEFFICIENTS: ::symplectic::emitted::Coefficients = {
+        const COEFFICIENTS: emitted::Coefficients = {
             #(#constants)*
-            ::symplectic::emitted::Coefficients { a: #a, a_tilde: #a_tilde, b: #b, b_tilde: #b_tilde, c: #c, c_tilde: #c_tilde }
+            emitted::Coefficients { a: #a, a_tilde: #a_tilde, b: #b, b_tilde: #b_tilde, c: #c, c_tilde: #c_tilde }
         };
     }
 }
@@ -284,8 +284,8 @@ fn orders(tableau: &Tableau) -> TokenStream {
     let [general, separable, nystrom] = [&orders.general, &orders.separable, &orders.nystrom]
         .map(|class| literal::count(class.order));
     quote! {
-        const ORDERS: ::symplectic::emitted::Orders =
-            ::symplectic::emitted::Orders { general: #general, separable: #separable, nystrom: #nystrom };
+        const ORDERS: emitted::Orders =
+            emitted::Orders { general: #general, separable: #separable, nystrom: #nystrom };
     }
 }
 
@@ -295,8 +295,8 @@ fn symmetry(tableau: &Tableau) -> Option<TokenStream> {
     let separable = general || tableau.separable_properties().symmetric.holds;
     separable.then(|| {
         quote! {
-            const SYMMETRY: ::symplectic::emitted::Symmetry =
-                ::symplectic::emitted::Symmetry { general: #general, separable: #separable };
+            const SYMMETRY: emitted::Symmetry =
+                emitted::Symmetry { general: #general, separable: #separable };
         }
     })
 }
@@ -306,24 +306,24 @@ fn symmetry(tableau: &Tableau) -> Option<TokenStream> {
 fn proved(tableau: &Tableau, name: &Ident, steps: [bool; 2]) -> TokenStream {
     if tableau.keeps_its_order_in_general() {
         let bound = match steps {
-            [true, true] => return quote!(impl<C> ::symplectic::emitted::ProvedFor<C> for #name {}),
+            [true, true] => return quote!(impl<C> emitted::ProvedFor<C> for #name {}),
             [true, false] => "Holonomic",
             [false, true] => "FreePositions",
             [false, false] => "Unconstrained",
         };
         let bound = format_ident!("{bound}");
         return quote! {
-            impl<C: ::symplectic::emitted::#bound> ::symplectic::emitted::ProvedFor<C> for #name {}
+            impl<C: emitted::#bound> emitted::ProvedFor<C> for #name {}
         };
     }
     // The second class keeps the compiler from inferring the class from the method.
-    let mut classes = vec![quote!(::symplectic::emitted::Separable), quote!(())];
+    let mut classes = vec![quote!(emitted::Separable), quote!(())];
     let orders = tableau.orders();
     // With friction, kicks depend on the momenta: an order that needs quadratic kinetic energy does not hold.
     if orders.separable.order >= orders.nystrom.order {
-        classes.push(quote!(::symplectic::emitted::Damped));
+        classes.push(quote!(emitted::Damped));
     }
-    quote!(#(impl ::symplectic::emitted::ProvedFor<#classes> for #name {})*)
+    quote!(#(impl emitted::ProvedFor<#classes> for #name {})*)
 }
 
 /// The tableau and what is proved about it, for the page of the type.

@@ -239,6 +239,29 @@ impl<'a> StepGraph<'a> {
         }
     }
 
+    /// Whether both have the same values and evaluations, at the same stages of the same tableau. They may differ in what an
+    /// evaluation depends on.
+    pub(crate) fn has_the_stages_of(&self, other: &Self) -> bool {
+        let values = |values: &[StageValue<'a>]| -> Vec<Vec<usize>> {
+            values.iter().map(|value| value.stages.clone()).collect()
+        };
+        let evaluations = |graph: &Self, evaluations: &[Evaluation<'_>]| -> Vec<Vec<usize>> {
+            evaluations.iter().map(|e| graph.stages_of(e)).collect()
+        };
+        let positions = |force: &Evaluation<'_>| force.position;
+        let momenta = |velocity: &Evaluation<'_>| velocity.momentum;
+        values(&self.positions) == values(&other.positions)
+            && values(&self.momenta) == values(&other.momenta)
+            && evaluations(self, &self.forces) == evaluations(other, &other.forces)
+            && evaluations(self, &self.velocities) == evaluations(other, &other.velocities)
+            && self
+                .forces
+                .iter()
+                .map(positions)
+                .eq(other.forces.iter().map(positions))
+            && (self.velocities.iter().map(momenta)).eq(other.velocities.iter().map(momenta))
+    }
+
     /// The nodes that a node needs.
     pub fn needs(&self, node: Node) -> Vec<Node> {
         let terms = |value: &StageValue<'_>, evaluation: fn(usize) -> Node| {

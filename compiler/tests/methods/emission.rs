@@ -32,6 +32,7 @@ fn the_ends_of_a_step_are_not_solved_for() {
     expect_file!["emitted/lobatto_3.rs"].assert_eq(&code);
 }
 
+/// Neither the sums nor the matrices, though both classes of systems and both halves of the tableau need them.
 #[test]
 fn one_matrix_is_written_once() {
     let code = emitted(&derived("polynomial(2)", "gauss(2)"), "Gauss2");
@@ -46,11 +47,10 @@ fn a_splitting_is_straight_line_code() {
     let code = emitted(&tableau, "ForestRuth");
     let separable = code.split("struct ForestRuthSeparable").nth(1);
     let separable = separable.expect("the plan");
-    assert!(code.contains("Separable = ::symplectic::emitted::Splitting<ForestRuthSeparable>"));
-    assert!(separable.contains("&mut ::symplectic::emitted::Evaluations<V>"));
-    assert!(separable.contains("if !kept.evaluation {"), "{separable}");
+    assert!(code.contains("Separable = emitted::Splitting<ForestRuthSeparable>"));
+    assert!(separable.contains("step.kept_force(1, "), "{separable}");
     // The last momentum stage has no drift after it, and no velocity is evaluated there.
-    let calls = [".kick::<", ".drift::<"].map(|call| separable.matches(call).count());
+    let calls = ["step.kick(", "step.drift("].map(|call| separable.matches(call).count());
     assert_eq!(calls, [4, 3]);
     expect_file!["emitted/forest_ruth.rs"].assert_eq(&code);
 }
@@ -61,22 +61,13 @@ fn a_composition_of_implicit_methods_is_a_list_of_steps() {
     let definition = Definition::parse("base: gauss-2, weights: triple_jump(6)");
     let tableau = definition.and_then(|definition| definition.derive(&Limits::default()));
     let code = emitted(&tableau.expect("derived"), "Jump");
-    assert_eq!(
-        code.matches("impl ::symplectic::emitted::StagePlan for")
-            .count(),
-        2
-    );
-    let on_one_line = code.replace([' ', '\n'], "");
-    assert_eq!(
-        on_one_line
-            .matches("::symplectic::emitted::Stages<V,2,2")
-            .count(),
-        2
-    );
-    assert_eq!(code.matches("::symplectic::emitted::Substep {").count(), 6);
+    assert_eq!(code.matches("impl emitted::StagePlan for").count(), 2);
+    let memory = "type Stages<V: emitted::Vector> = emitted::Stages<V, 2, 2>;";
+    assert_eq!(code.matches(memory).count(), 2);
+    assert_eq!(code.matches("emitted::Substep {").count(), 6);
     // The sizes of the first and the last step are equal, and so are those of the last and the next first one.
     assert_eq!(code.matches("WarmStart::new(true, true)").count(), 2);
-    assert!(code.contains("type Separable = ::symplectic::emitted::Composition<JumpSeparable>"));
+    assert!(code.contains("type Separable = emitted::Composition<JumpSeparable>"));
     // Explicit for separable systems: one splitting there.
     let definition = Definition::parse("base: velocity-verlet, weights: triple_jump(4)");
     let tableau = definition.and_then(|definition| definition.derive(&Limits::default()));
@@ -89,18 +80,37 @@ fn factors(code: &str) -> Vec<f64> {
     let plans = code.split_once("pub struct").expect("a method").1;
     let plans = plans.split_once("pub struct").expect("plans").1;
     let plans = plans.replace([' ', '\n'], "");
-    let parts: Vec<&str> = plans
-        .split("::symplectic::emitted::Coefficient::")
-        .collect();
-    let before = [".at(", "start:", "time:"];
-    let is_time = |pair: &&[&str]| before.iter().any(|&end| pair[0].ends_with(end));
-    let factors = parts.windows(2).filter(|pair| !is_time(pair));
+    // Lists of times, each of which another list follows.
+    let is_times = |part: &&str| ["C:", "C_TILDE:"].iter().any(|name| part.starts_with(name));
+    let (times, rest): (Vec<&str>, Vec<&str>) = plans.split("const").partition(is_times);
+    assert!(times.iter().all(|list| !list.contains("fn")), "{times:?}");
+    let mut factors = Vec::new();
+    for statement in rest.iter().flat_map(|part| part.split(';')) {
+        let mut numbers = coefficients(statement);
+        if statement.contains("step.drift(") || statement.contains("step.kept_drift(") {
+            // Its time and its weight.
+            numbers.drain(..1);
+        }
+        let only_times = statement.contains("force(") || statement.contains("step.at(");
+        if !only_times {
+            factors.extend(numbers);
+        }
+    }
+    factors
+}
+
+/// The coefficients in a piece of code, but the starts of substeps.
+fn coefficients(code: &str) -> Vec<f64> {
+    let parts: Vec<&str> = code.split("emitted::").collect();
+    let calls = ["exact(", "rounded(", "Coefficient::new("];
     let number = |pair: &[&str]| {
-        let list = pair[1].split_once('(').expect("a list").1;
-        let double = list.trim_start_matches('(').split([',', ')']).next();
-        double.expect("a double").parse().expect("a number")
+        let start = pair[0].ends_with("start:");
+        let list = calls.iter().find_map(|call| pair[1].strip_prefix(call));
+        let list = list.filter(|_| !start)?.trim_start_matches('(');
+        let double = list.split([',', ')']).next().expect("a double");
+        Some(double.parse().expect("a number"))
     };
-    factors.map(number).collect()
+    parts.windows(2).filter_map(number).collect()
 }
 
 #[test]
@@ -114,13 +124,11 @@ fn nothing_is_multiplied_by_zero_or_computed_twice() {
         assert!(!factors.is_empty());
         assert!(factors.iter().all(|&c| c != 0.0), "{}", entry.name);
         // Where all is explicit there is nothing to relax in the plan for separable systems.
-        let separable = code
-            .split("struct MethodSeparable")
-            .nth(1)
-            .expect("the plan");
+        let plan = |name: &str| code.split_once(name).map(|parts| parts.1);
+        let separable = plan("struct MethodSeparable").or_else(|| plan("struct MethodPlan"));
         assert_eq!(
             tableau.properties().explicit.holds,
-            !separable.contains("relax"),
+            !separable.expect("the plan").contains("emitted::Sweep"),
             "{}",
             entry.name
         );
@@ -140,13 +148,12 @@ fn a_composition_of_explicit_methods_is_explicit() {
     let separable = code.split("struct TripleJumpSeparable").nth(1);
     let separable = separable.expect("the plan");
     // Four positions with a force, the last of which is the first of the next step, and three momenta.
-    assert!(code.contains("Separable = ::symplectic::emitted::Splitting<TripleJumpSeparable>"));
-    assert!(separable.contains("&mut ::symplectic::emitted::Evaluations<V>"));
-    assert!(separable.contains("if !kept.evaluation {"), "{separable}");
-    assert!(!separable.contains("relax") && !separable.contains("combine"));
-    assert_eq!(separable.matches(".force::<").count(), 4);
+    assert!(code.contains("Separable = emitted::Splitting<TripleJumpSeparable>"));
+    assert!(separable.contains("step.kept_force(1, "), "{separable}");
+    assert!(!separable.contains("emitted::Sweep") && !separable.contains("combine"));
+    assert_eq!(separable.matches("force(").count(), 4);
     // Each of them is applied once, with the sum of the weights where two steps meet.
-    let calls = [".kick::<", ".drift::<"].map(|call| separable.matches(call).count());
+    let calls = ["step.kick(", "step.drift("].map(|call| separable.matches(call).count());
     assert_eq!(calls, [4, 3]);
     assert!(factors(&code).iter().all(|&c| c != 0.0));
 }

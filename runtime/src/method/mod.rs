@@ -53,7 +53,7 @@ pub use run_time::{
 };
 pub use separable_only::{SeparableOnly, rows, staircase};
 pub use solver::Solver;
-pub use splitting::{Splitting, SplittingPlan};
+pub use splitting::{Splitting, SplittingPlan, SplittingStep};
 pub use splitting_macros::{composition, splitting};
 pub use step::{EvaluationCounts, EvaluationObserver, Outcome, Span, StageView, Step, WarmStart};
 pub use stopping::Stopping;

@@ -3,10 +3,10 @@
 use core::marker::PhantomData;
 
 use crate::method::{
-    EvaluationObserver, Evaluations, Failure, Inside, Interpolation, KickDrift, Outcome, Plan,
-    Solver, Span, StageStorage, Step, StepStatistics, Stopping, WarmStart,
+    Drift, EvaluationObserver, Evaluations, Failure, Force, Inside, Interpolation, KickDrift,
+    Outcome, Plan, Solver, Span, StageStorage, Step, StepStatistics, Stopping, WarmStart,
 };
-use crate::number::{Summation, Vector, copy};
+use crate::number::{Coefficient, Summation, Vector, copy};
 use crate::system::{Class, System};
 
 /// How a splitting takes one step of a system of one [`Class`]. Every evaluation enters the later stages with its full weight, so it is
@@ -20,22 +20,111 @@ pub trait SplittingPlan {
     /// Number of first evaluations that are skipped if the previous step has [kept](WarmStart::evaluation) them.
     const CARRIED: u32;
 
-    /// Takes the step `span` from `state`, in place, with the kicks and drifts of `kick_drift`, and shows its evaluations to `witness`.
-    fn apply<
+    /// Takes the step: its kicks and drifts in their order.
+    fn apply<R, V, S, K, W>(step: &mut SplittingStep<'_, R, V, S, K, W>)
+    where
         R: Summation,
         V: Vector,
         S: System<V, Class = Self::Class>,
         K: KickDrift,
-        W: EvaluationObserver,
-    >(
-        span: Span,
-        system: &S,
-        evaluations: &mut Evaluations<V>,
-        kept: WarmStart,
-        state: Outcome<'_, V>,
-        kick_drift: &mut K,
-        witness: &mut W,
-    );
+        W: EvaluationObserver;
+}
+
+/// A step of a splitting on its way, in place.
+pub struct SplittingStep<'a, R, V, S, K, W> {
+    span: Span,
+    system: &'a S,
+    /// The latest velocity and force.
+    evaluations: &'a mut Evaluations<V>,
+    /// Whether these are still those of the previous step, at its end.
+    kept: bool,
+    state: Outcome<'a, V>,
+    /// How kicks and drifts are applied.
+    kick_drift: &'a mut K,
+    /// Is shown the evaluations.
+    witness: &'a mut W,
+    sums: PhantomData<R>,
+}
+
+impl<R, V, S, K, W> SplittingStep<'_, R, V, S, K, W>
+where
+    R: Summation,
+    V: Vector,
+    S: System<V>,
+    K: KickDrift,
+    W: EvaluationObserver,
+{
+    /// Evaluates the force of a stage, from 1, at a time given as a fraction of the step.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub fn force(&mut self, stage: usize, time: Coefficient) {
+        let state = &mut self.state;
+        self.kick_drift.force::<R, V, S, W>(
+            Force {
+                span: self.span,
+                stage,
+                time,
+            },
+            self.system,
+            &mut self.evaluations.force,
+            state.q,
+            (state.p, state.p_low),
+            self.witness,
+        );
+    }
+
+    /// [`force`](Self::force), unless the previous step has left it.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub fn kept_force(&mut self, stage: usize, time: Coefficient) {
+        if !self.kept {
+            self.force(stage, time);
+        }
+    }
+
+    /// Adds `(h weight) force` to the momentum.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub fn kick(&mut self, weight: Coefficient) {
+        let state = &mut self.state;
+        self.kick_drift.kick::<R, V, S>(
+            self.span.size,
+            weight,
+            self.system,
+            &mut self.evaluations.force,
+            state.q,
+            (state.p, state.p_low),
+        );
+    }
+
+    /// Evaluates the velocity of a stage, from 1, at a time given as a fraction of the step, and adds `(h weight) velocity` to the
+    /// position.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub fn drift(&mut self, stage: usize, time: Coefficient, weight: Coefficient) {
+        self.drift_by(stage, time, weight, false);
+    }
+
+    /// [`drift`](Self::drift) by the velocity that the previous step has left, if it has.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub fn kept_drift(&mut self, stage: usize, time: Coefficient, weight: Coefficient) {
+        self.drift_by(stage, time, weight, self.kept);
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn drift_by(&mut self, stage: usize, time: Coefficient, weight: Coefficient, known: bool) {
+        let (state, evaluations) = (&mut self.state, &mut *self.evaluations);
+        self.kick_drift.drift::<R, V, S, W>(
+            Drift {
+                span: self.span,
+                stage,
+                time,
+                weight,
+                known,
+            },
+            self.system,
+            (&mut evaluations.velocity, &mut evaluations.force),
+            (state.q, state.q_low),
+            (state.p, state.p_low),
+            self.witness,
+        );
+    }
 }
 
 /// The plan of a splitting. Its code contains no solver.
@@ -102,15 +191,16 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         W: EvaluationObserver,
     {
         Self::start::<R, V>(step, &mut outcome);
-        P::apply::<R, V, S, K, W>(
-            step.span(),
+        P::apply(&mut SplittingStep::<R, V, S, K, W> {
+            span: step.span(),
             system,
             evaluations,
-            kept,
-            outcome,
+            kept: kept.evaluation,
+            state: outcome,
             kick_drift,
             witness,
-        );
+            sums: PhantomData,
+        });
         let carried = if kept.evaluation { P::CARRIED } else { 0 };
         StepStatistics {
             evaluations: P::EVALUATIONS - carried,
@@ -161,8 +251,16 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         N: Solver<V, S>,
         K: KickDrift,
     {
-        let kept = WarmStart::new(true, false);
-        P::apply::<R, V, S, K, ()>(span, system, memory, kept, state, kick_drift, &mut ());
+        P::apply(&mut SplittingStep::<R, V, S, K, ()> {
+            span,
+            system,
+            evaluations: memory,
+            kept: true,
+            state,
+            kick_drift,
+            witness: &mut (),
+            sums: PhantomData,
+        });
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

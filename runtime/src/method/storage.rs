@@ -3,6 +3,7 @@
 use core::array;
 
 use crate::error::Quantity;
+use crate::method::StoredEvaluations;
 #[cfg(feature = "alloc")]
 use crate::method::{RunTimeTableau, StageVisit};
 use crate::number::{Scalar, Vector, Visit, vector_words};
@@ -135,6 +136,26 @@ pub struct Stages<V, const Q: usize, const P: usize> {
     pub velocity: [V; P],
     /// −∂H/∂q at the stage positions, or the increments computed from it.
     pub force: [V; Q],
+}
+
+impl<V, const Q: usize, const P: usize> Stages<V, Q, P> {
+    /// The velocities and the forces, with the numbers of those that are carried to the next step.
+    pub const fn stored(
+        &self,
+        velocities: &'static [usize],
+        forces: &'static [usize],
+    ) -> [StoredEvaluations<'_, V>; 2] {
+        [
+            StoredEvaluations {
+                values: &self.velocity,
+                carried: velocities,
+            },
+            StoredEvaluations {
+                values: &self.force,
+                carried: forces,
+            },
+        ]
+    }
 }
 
 impl<V: Vector, const Q: usize, const P: usize> StageStorage<V> for Stages<V, Q, P> {

@@ -61,6 +61,17 @@ impl Coefficient {
     }
 }
 
+/// [`Coefficient::exact`], as generated code writes it.
+pub const fn exact(value: f64) -> Coefficient {
+    Coefficient::exact(value)
+}
+
+/// The coefficient x whose nearest double is `double`, with the double `low` nearest to x − `double`; its nearest single is that of
+/// `double`.
+pub const fn rounded(double: f64, low: f64) -> Coefficient {
+    Coefficient::new(double, low, double as f32)
+}
+
 /// The coefficients of a [`Method`](crate::Method) with s stages: every matrix has s rows of s entries, and every
 /// other list has s entries.
 ///

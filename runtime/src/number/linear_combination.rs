@@ -25,20 +25,6 @@ pub fn factors<T: Scalar, const N: usize>(coefficients: [Coefficient; N]) -> [T;
     array(T::zero(), |j| T::from_coefficient(coefficients[j]))
 }
 
-/// The factors of evaluations in sweeps. With [compensated](Summation::COMPENSATED) sums these are the coefficients of increments,
-/// because evaluations become [increments](increment) there. With plain sums they are multiplied by the weights of the increments.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub fn relative<R: Summation, T: Scalar, const N: usize>(
-    coefficients: [Coefficient; N],
-    weights: [T; N],
-) -> [T; N] {
-    let factors = factors(coefficients);
-    match R::COMPENSATED {
-        true => factors,
-        false => array(T::zero(), |j| factors[j] * weights[j]),
-    }
-}
-
 /// `out = base + Σ_j factors_j terms_j`, for a base that is the sum of `base` and `low`.
 ///
 /// The terms are summed before the base is added, because the base is usually larger.
@@ -80,7 +66,21 @@ pub fn scale<V: Vector>(vector: &mut V, h: f64, coefficient: Coefficient) {
     }
 }
 
-/// [`scale`] of an evaluation in a sweep with [compensated](Summation::COMPENSATED) sums: see [`relative`].
+/// [`scale`] of some vectors, each with its own coefficient.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub fn scale_all<V: Vector, const N: usize>(
+    vectors: &mut [V],
+    indices: [usize; N],
+    h: f64,
+    coefficients: [Coefficient; N],
+) {
+    for (index, coefficient) in indices.into_iter().zip(coefficients) {
+        scale(&mut vectors[index], h, coefficient);
+    }
+}
+
+/// [`scale`] of an evaluation in a sweep with [compensated](Summation::COMPENSATED) sums, where evaluations become increments. With plain
+/// sums the factors of the sums have the weights: see [`StageSums`](crate::emitted::StageSums).
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub fn increment<R: Summation, V: Vector>(vector: &mut V, h: f64, coefficient: Coefficient) {
     if R::COMPENSATED {
@@ -294,6 +294,14 @@ pub fn copy<V: Vector>(out: &mut V, from: &V) {
     let (out, from) = (out.as_mut_slice(), from.as_slice());
     let n = out.len().min(from.len());
     out[..n].copy_from_slice(&from[..n]);
+}
+
+/// Copies a vector to some of an array.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub fn reset<V: Vector, const N: usize>(vectors: &mut [V], indices: [usize; N], from: &V) {
+    for index in indices {
+        copy(&mut vectors[index], from);
+    }
 }
 
 /// Copies one vector of an array to others.

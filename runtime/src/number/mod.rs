@@ -18,10 +18,10 @@ pub(crate) mod summation;
 pub(crate) mod vector;
 pub(crate) mod words;
 
-pub use coefficient::{Coefficient, Coefficients};
+pub use coefficient::{Coefficient, Coefficients, exact, rounded};
 pub use lanes::{F64x2, F64x4, F64x8, Lanes, MOST_LANES};
 pub use linear_combination::{
-    advance, combine, copy, copy_to, factors, increment, relative, scale, total, transform,
+    advance, combine, copy, copy_to, factors, increment, reset, scale, scale_all, total, transform,
     weighted_total, weights,
 };
 pub use scalar::Scalar;

@@ -11,7 +11,7 @@ use crate::number::{F64x8, Lanes, Scalar, Summation, Vector};
 
 /// [`combine`](crate::emitted::combine) for a coupled stage: records the change of `out` in `change`.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub fn relax<R: Summation, V: Vector, const N: usize>(
+pub(super) fn relax<R: Summation, V: Vector, const N: usize>(
     out: &mut V,
     base: &V,
     low: &V,

@@ -36,7 +36,7 @@ impl Composed<'_> {
         let class = class_name(self.class);
         // Memories as nested pairs.
         let memory = names.iter().rev().fold(TokenStream::new(), |rest, plan| {
-            let own = quote!(<#plan as ::symplectic::emitted::Plan>::Memory<V, S, N>);
+            let own = quote!(<#plan as emitted::Plan>::Memory<V, S, N>);
             if rest.is_empty() {
                 own
             } else {
@@ -75,48 +75,48 @@ impl Composed<'_> {
         };
         let take = arms(&|plan, place| {
             let place = borrowed(place);
-            quote!(<#plan as ::symplectic::emitted::Plan>::take::<R, V, S, N>(step, system, #place, kept, stopping, outcome))
+            quote!(<#plan as emitted::Plan>::take::<R, V, S, N>(step, system, #place, kept, stopping, outcome))
         });
         let observe = arms(&|plan, place| {
             let place = borrowed(place);
-            quote!(<#plan as ::symplectic::emitted::Plan>::observe::<R, V, S, N, W>(step, system, #place, outcome, witness))
+            quote!(<#plan as emitted::Plan>::observe::<R, V, S, N, W>(step, system, #place, outcome, witness))
         });
         let substeps = self.list();
-        let vector = quote!(V: ::symplectic::emitted::Vector);
-        let solver = quote!(N: ::symplectic::emitted::Solver<V, S>);
+        let vector = quote!(V: emitted::Vector);
+        let solver = quote!(N: emitted::Solver<V, S>);
         let arguments = quote! {
-            R: ::symplectic::emitted::Summation, #vector, S: ::symplectic::emitted::System<V, Class = Self::Class>, #solver
+            R: emitted::Summation, #vector, S: emitted::System<V, Class = Self::Class>, #solver
         };
         quote! {
             #(#codes)*
 
             pub struct #name;
 
-            impl ::symplectic::emitted::Substeps for #name {
-                type Class = ::symplectic::emitted::#class;
-                type Memory<#vector, S: ::symplectic::emitted::System<V>, #solver> = #memory;
+            impl emitted::Substeps for #name {
+                type Class = emitted::#class;
+                type Memory<#vector, S: emitted::System<V>, #solver> = #memory;
 
-                const SUBSTEPS: &'static [::symplectic::emitted::Substep] = &[#(#substeps),*];
+                const SUBSTEPS: &'static [emitted::Substep] = &[#(#substeps),*];
 
                 #[inline]
                 fn take<#arguments>(
                     number: usize,
-                    step: &::symplectic::emitted::Step<'_, V>,
+                    step: &emitted::Step<'_, V>,
                     system: &S,
                     memory: &mut Self::Memory<V, S, N>,
-                    kept: ::symplectic::emitted::WarmStart,
-                    stopping: ::symplectic::emitted::Stopping,
-                    outcome: ::symplectic::emitted::Outcome<'_, V>,
-                ) -> ::core::result::Result<::symplectic::emitted::StepStatistics, ::symplectic::emitted::Failure> {
+                    kept: emitted::WarmStart,
+                    stopping: emitted::Stopping,
+                    outcome: emitted::Outcome<'_, V>,
+                ) -> ::core::result::Result<emitted::StepStatistics, emitted::Failure> {
                     #take
                 }
 
-                fn observe<#arguments, W: ::symplectic::emitted::EvaluationObserver>(
+                fn observe<#arguments, W: emitted::EvaluationObserver>(
                     number: usize,
-                    step: &::symplectic::emitted::Step<'_, V>,
+                    step: &emitted::Step<'_, V>,
                     system: &S,
                     memory: &mut Self::Memory<V, S, N>,
-                    outcome: ::symplectic::emitted::Outcome<'_, V>,
+                    outcome: emitted::Outcome<'_, V>,
                     witness: &mut W,
                 ) {
                     #observe
@@ -140,10 +140,10 @@ impl Composed<'_> {
             let (at, size) = (coefficient(&start), coefficient(&fraction));
             let count = literal::count(stages);
             list.push(quote! {
-                ::symplectic::emitted::Substep {
+                emitted::Substep {
                     start: #at,
                     fraction: #size,
-                    kept: ::symplectic::emitted::WarmStart::new(#follows, #equal),
+                    kept: emitted::WarmStart::new(#follows, #equal),
                     stages: #count,
                 }
             });

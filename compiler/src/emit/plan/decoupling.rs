@@ -14,11 +14,14 @@ use crate::schedule::{Class, StageValue, StepGraph};
 /// Binary places of the coefficients: those of the enclosures that round them.
 const BITS: u32 = 192;
 
-/// The `DECOUPLING` constant of a `StageTableau`; empty if the systems do not decouple.
-pub(super) fn code(graph: &StepGraph<'_>, known: &Known) -> TokenStream {
-    let Some(blocks) = blocks(graph, known) else {
-        return TokenStream::new();
-    };
+/// The `DECOUPLING` constant of a `StageTableau` with this value.
+pub(super) fn constant(value: TokenStream) -> TokenStream {
+    quote!(const DECOUPLING: ::core::option::Option<emitted::Decoupling> = #value;)
+}
+
+/// How the systems decouple; `None` if they do not.
+pub(super) fn code(graph: &StepGraph<'_>, known: &Known) -> Option<TokenStream> {
+    let blocks = blocks(graph, known)?;
     let rounded = |x: &Fixed| literal::double(to_f64(&x.rational()));
     let values = blocks.values.iter().map(|(re, im)| {
         let (re, im) = (rounded(re), rounded(im));
@@ -32,14 +35,13 @@ pub(super) fn code(graph: &StepGraph<'_>, known: &Known) -> TokenStream {
         quote!(&[#(#rows),*])
     };
     let (to_stages, from_stages) = (rows(&blocks.vectors), rows(&blocks.inverse));
-    quote! {
-        const DECOUPLING: ::core::option::Option<::symplectic::emitted::Decoupling> =
-            ::core::option::Option::Some(::symplectic::emitted::Decoupling {
-                blocks: &[#(#values),*],
-                to_stages: #to_stages,
-                from_stages: #from_stages,
-            });
-    }
+    Some(quote! {
+        ::core::option::Option::Some(emitted::Decoupling {
+            blocks: &[#(#values),*],
+            to_stages: #to_stages,
+            from_stages: #from_stages,
+        })
+    })
 }
 
 /// The diagonal blocks of the stage matrix that maps velocities to velocities: `Ã A` for a separable system, and

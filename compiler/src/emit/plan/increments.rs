@@ -1,10 +1,10 @@
 //! The factors of the evaluations of a step, and when they are applied.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::super::facts::Known;
-use super::{index, literal, slot, start, symplectic_rounding, terms_of};
+use super::{index, literal, slot, symplectic_rounding, terms_of};
 use crate::algebra::Number;
 use crate::schedule::{Evaluation, Node, StepGraph};
 use symplectic_rounding::Relative;
@@ -19,95 +19,64 @@ pub(super) enum Form {
     Weighted,
 }
 
+/// A sum over evaluations that gives a stage value.
+pub(super) struct Row {
+    /// The evaluations with a nonzero coefficient.
+    pub(super) terms: Vec<Node>,
+    /// Their coefficients.
+    pub(super) coefficients: Vec<TokenStream>,
+}
+
 impl Form {
     /// The form with increments, if the method admits it.
     pub(super) fn new(graph: &StepGraph<'_>, known: &Known) -> Self {
         Relative::new(graph, known).map_or(Form::Weighted, Form::Increments)
     }
 
-    /// The factors and terms of a stage value as two arguments: `factors, [terms]`. Terms `evaluated` in the sweeps may not have been
-    /// multiplied by their weights yet.
-    pub(super) fn sum(
-        &self,
-        graph: &StepGraph<'_>,
-        node: Node,
-        evaluated: impl Fn(Node) -> bool,
-    ) -> TokenStream {
+    /// The factors and terms of a stage value as two arguments: `factors, [terms]`.
+    pub(super) fn sum(&self, graph: &StepGraph<'_>, node: Node) -> TokenStream {
+        let Row {
+            terms,
+            coefficients,
+        } = self.row(graph, node);
+        let slots = terms.iter().map(|&term| slot(term));
+        let factors = match self {
+            Form::Increments(_) => quote!(emitted::factors([#(#coefficients),*])),
+            Form::Weighted => quote!(emitted::weights(step.size, [#(#coefficients),*])),
+        };
+        quote!(#factors, [#(&#slots),*])
+    }
+
+    /// The nonzero coefficients of a stage value.
+    pub(super) fn row(&self, graph: &StepGraph<'_>, node: Node) -> Row {
         let term = terms_of(node);
         let value = graph.value(node);
         let coefficients = value.map_or(&[][..], |value| &value.coefficients);
         let nonzero = (0..coefficients.len()).filter(|&j| !coefficients[j].is_zero());
-        let nonzero: Vec<usize> = nonzero.collect();
-        let slots = nonzero.iter().map(|&j| slot(term(j)));
-        let factors = match self {
+        let coefficient = |j: usize| match self {
             Form::Increments(relative) => {
                 let row = match node {
                     Node::Momentum(i) => &relative.momenta[i],
                     _ => &relative.positions[index(node)],
                 };
-                let row = nonzero.iter().map(|&j| literal::rounded(row[j]));
-                if nonzero.iter().any(|&j| evaluated(term(j))) {
-                    // Evaluations made before the sweeps are increments already.
-                    let weights = nonzero.iter().map(|&j| match evaluated(term(j)) {
-                        true => weight_slot(term(j)),
-                        false => {
-                            quote!(<V::Scalar as ::symplectic::emitted::Scalar>::from_f64(1.0))
-                        }
-                    });
-                    quote!(::symplectic::emitted::relative::<R, _, _>([#(#row),*], [#(#weights),*]))
-                } else {
-                    quote!(::symplectic::emitted::factors([#(#row),*]))
-                }
+                literal::rounded(row[j])
             }
-            Form::Weighted => weights(nonzero.iter().map(|&j| &coefficients[j])),
+            Form::Weighted => literal::coefficient(&coefficients[j]),
         };
-        quote!(#factors, [#(&#slots),*])
+        let (terms, coefficients) = nonzero.map(|j| (term(j), coefficient(j))).unzip();
+        Row {
+            terms,
+            coefficients,
+        }
     }
 
     /// The line that scales an evaluation, just written to its place, to an increment; empty in the other form.
     pub(super) fn increment(&self, evaluation: &Evaluation<'_>, node: Node) -> TokenStream {
-        self.scaled(evaluation, node, &quote!(::symplectic::emitted::scale))
-    }
-
-    /// [`increment`](Self::increment) in a sweep, where it may be postponed.
-    pub(super) fn increment_in_sweep(
-        &self,
-        evaluation: &Evaluation<'_>,
-        node: Node,
-    ) -> TokenStream {
-        self.scaled(
-            evaluation,
-            node,
-            &quote!(::symplectic::emitted::increment::<R, V>),
-        )
-    }
-
-    fn scaled(
-        &self,
-        evaluation: &Evaluation<'_>,
-        node: Node,
-        function: &TokenStream,
-    ) -> TokenStream {
         match self {
             Form::Weighted => TokenStream::new(),
             Form::Increments(_) => {
                 let (slot, weight) = (slot(node), literal::coefficient(&evaluation.weight));
-                quote!(#function(&mut #slot, step.size, #weight);)
-            }
-        }
-    }
-
-    /// The weights that scale all evaluations of a kind to increments, under the name that [`sum`](Self::sum) uses; empty
-    /// in the other form.
-    pub(super) fn weights(&self, evaluations: &[Evaluation<'_>], kind: Node) -> TokenStream {
-        match self {
-            Form::Weighted => TokenStream::new(),
-            Form::Increments(_) => {
-                let name = weights_name(kind);
-                let weights = evaluations
-                    .iter()
-                    .map(|evaluation| literal::coefficient(&evaluation.weight));
-                quote!(let #name = ::symplectic::emitted::weights::<V::Scalar, _>(step.size, [#(#weights),*]);)
+                quote!(emitted::scale(&mut #slot, step.size, #weight);)
             }
         }
     }
@@ -130,11 +99,11 @@ impl Form {
         let slots = nonzero.iter().map(|&j| slot(term(j)));
         match self {
             Form::Increments(_) => {
-                quote!(::symplectic::emitted::total::<R, V, _>(#out, #base, [#(&#slots),*]);)
+                quote!(emitted::total::<R, V, _>(#out, #base, [#(&#slots),*]);)
             }
             Form::Weighted => {
                 let weights = weights(nonzero.iter().map(|&j| &evaluations[j].weight));
-                quote!(::symplectic::emitted::weighted_total::<R, V, _>(#out, #base, #weights, [#(&#slots),*]);)
+                quote!(emitted::weighted_total::<R, V, _>(#out, #base, #weights, [#(&#slots),*]);)
             }
         }
     }
@@ -146,32 +115,12 @@ impl Form {
             _ => quote!(q1, q1_low),
         };
         let (slot, weight) = (slot(node), literal::coefficient(&evaluation.weight));
-        quote!(::symplectic::emitted::advance::<R, V>(#out, step.size, #weight, &#slot);)
+        quote!(emitted::advance::<R, V>(#out, step.size, #weight, &#slot);)
     }
-
-    /// Sets a stage value to the start of the step.
-    pub(super) fn reset(node: Node) -> TokenStream {
-        let (stage, start) = (slot(node), start(node));
-        quote!(::symplectic::emitted::copy(&mut #stage, #start);)
-    }
-}
-
-/// The weights of the evaluations of a kind.
-fn weights_name(kind: Node) -> Ident {
-    literal::identifier(match kind {
-        Node::Force(_) | Node::Position(_) => "force_weights",
-        Node::Velocity(_) | Node::Momentum(_) => "velocity_weights",
-    })
-}
-
-/// The weight of an evaluation among those of its kind.
-fn weight_slot(node: Node) -> TokenStream {
-    let (name, index) = (weights_name(node), literal::count(index(node)));
-    quote!(#name[#index])
 }
 
 /// Factors of evaluations, times the step size.
 fn weights<'n, 'a: 'n>(values: impl Iterator<Item = &'n Number<'a>>) -> TokenStream {
     let values = values.map(literal::coefficient);
-    quote!(::symplectic::emitted::weights(step.size, [#(#values),*]))
+    quote!(emitted::weights(step.size, [#(#values),*]))
 }

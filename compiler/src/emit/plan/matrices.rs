@@ -68,12 +68,12 @@ impl HalfTableau {
             Some(Extension { rows, order }) => {
                 let legendre = arrays(rows);
                 let order = Literal::usize_unsuffixed(*order);
-                quote!(::core::option::Option::Some(::symplectic::emitted::StagePolynomial { legendre: #legendre, order: #order }))
+                quote!(::core::option::Option::Some(emitted::StagePolynomial { legendre: #legendre, order: #order }))
             }
             None => quote!(::core::option::Option::None),
         };
         quote! {
-            ::symplectic::emitted::HalfTableau {
+            emitted::HalfTableau {
                 count: #count,
                 columns: #columns,
                 times: &#times,
@@ -88,6 +88,8 @@ impl HalfTableau {
 /// The data that the matrices are computed from.
 pub(super) struct Matrices<'m, 'g, 'n, 'a> {
     pub(super) graph: &'m StepGraph<'g>,
+    /// The graph of the separable class, if the matrices are for both classes.
+    pub(super) separable: Option<&'m StepGraph<'g>>,
     pub(super) form: &'m Form,
     pub(super) known: &'m Known,
     pub(super) polynomials: Option<&'m StagePolynomials<'n, 'a>>,
@@ -98,10 +100,13 @@ impl Matrices<'_, '_, '_, '_> {
     /// `carried` evaluations unscaled.
     pub(super) fn code(&self, name: &Ident, carried: &[Node]) -> TokenStream {
         let lanes = Lanes::new(self.graph);
-        let [positions, momenta] = self.halves(&lanes);
+        let [positions, momenta] = self.halves();
         let place = |half: &str| {
             let half = literal::identifier(half);
-            quote!(<#name as ::symplectic::emitted::StageTableau>::#half)
+            match self.separable {
+                Some(_) => quote!(Self::#half),
+                None => quote!(<#name as emitted::StageTableau>::#half),
+            }
         };
         let positions = self
             .known
@@ -110,7 +115,7 @@ impl Matrices<'_, '_, '_, '_> {
             .known
             .written(place("MOMENTA"), momenta, HalfTableau::code);
         let second_order = self.second_order(&lanes);
-        let decoupling = decoupling::code(self.graph, self.known);
+        let decoupling = self.decoupling();
         let carried = |kind: Node| {
             let same = std::mem::discriminant(&kind);
             let own = carried
@@ -124,31 +129,47 @@ impl Matrices<'_, '_, '_, '_> {
         let groups = Literal::usize_unsuffixed(lanes.groups);
         let lanes = literal::identifier(lanes.name);
         let increments = self.increments();
+        let of_class = match self.separable {
+            Some(_) => quote!(impl<C: emitted::Class> emitted::StageTableau for #name<C>),
+            None => quote!(impl emitted::StageTableau for #name),
+        };
         quote! {
-            impl ::symplectic::emitted::StageTableau for #name {
-                type Lanes = ::symplectic::emitted::#lanes;
+            #of_class {
+                type Lanes = emitted::#lanes;
                 type Groups<T: ::core::fmt::Debug> = [T; #groups];
 
                 const INCREMENTS: bool = #increments;
-                const POSITIONS: ::symplectic::emitted::HalfTableau = #positions;
-                const MOMENTA: ::symplectic::emitted::HalfTableau = #momenta;
-                const SECOND_ORDER: ::core::option::Option<::symplectic::emitted::SecondOrderTableau> = #second_order;
+                const POSITIONS: emitted::HalfTableau = #positions;
+                const MOMENTA: emitted::HalfTableau = #momenta;
+                const SECOND_ORDER: ::core::option::Option<emitted::SecondOrderTableau> = #second_order;
                 #decoupling
 
                 #[inline(always)]
-                fn groups<T: ::core::fmt::Debug>(
-                    mut make: impl ::core::ops::FnMut(usize) -> T,
-                ) -> [T; #groups] {
+                fn groups<T: ::core::fmt::Debug>(mut make: impl ::core::ops::FnMut(usize) -> T) -> [T; #groups] {
                     [#(make(#numbers)),*]
                 }
 
                 #[inline(always)]
-                fn stored<V: ::symplectic::emitted::Vector>(stages: &Self::Stages<V>) -> [::symplectic::emitted::StoredEvaluations<'_, V>; 2] {
-                    [
-                        ::symplectic::emitted::StoredEvaluations { values: &stages.velocity, carried: #carried_velocities },
-                        ::symplectic::emitted::StoredEvaluations { values: &stages.force, carried: #carried_forces },
-                    ]
+                fn stored<V: emitted::Vector>(stages: &Self::Stages<V>) -> [emitted::StoredEvaluations<'_, V>; 2] {
+                    stages.stored(#carried_velocities, #carried_forces)
                 }
+            }
+        }
+    }
+
+    /// The `DECOUPLING` constant; empty if the systems do not decouple in any class.
+    fn decoupling(&self) -> TokenStream {
+        let own = decoupling::code(self.graph, self.known);
+        let Some(separable) = self.separable else {
+            return own.map_or_else(TokenStream::new, decoupling::constant);
+        };
+        let none = || quote!(::core::option::Option::None);
+        match (own, decoupling::code(separable, self.known)) {
+            (None, None) => TokenStream::new(),
+            (general, separable) => {
+                let [general, separable] =
+                    [general, separable].map(|code| code.unwrap_or_else(none));
+                decoupling::constant(quote!(if C::SEPARABLE { #separable } else { #general }))
             }
         }
     }
@@ -158,8 +179,9 @@ impl Matrices<'_, '_, '_, '_> {
     }
 
     /// The positions at which forces are evaluated, and the momenta at which velocities are.
-    fn halves(&self, lanes: &Lanes) -> [HalfTableau; 2] {
+    pub(super) fn halves(&self) -> [HalfTableau; 2] {
         let graph = self.graph;
+        let lanes = &Lanes::new(graph);
         let position = |i: usize, j: usize| {
             let value = graph.forces[i].position.unwrap_or_default();
             match self.form {
@@ -224,25 +246,31 @@ impl Matrices<'_, '_, '_, '_> {
 
     /// The coefficients of a step of a second-order system; only symplectic methods have them.
     fn second_order(&self, lanes: &Lanes) -> TokenStream {
-        let coefficients = self.increments().then(|| SecondOrder::new(self.graph));
+        let none = quote!(::core::option::Option::None);
+        let graph = self.separable.unwrap_or(self.graph);
+        let coefficients = self.increments().then(|| SecondOrder::new(graph));
         let Some(SecondOrder { nodes, matrix }) = coefficients.flatten() else {
-            return quote!(::core::option::Option::None);
+            return none;
         };
         let count = nodes.len();
         let fill = |value: &dyn Fn(usize) -> f64| literal::array(&lanes.fill(count, value));
         let columns = (0..count).map(|k| fill(&|i| matrix[i][k]));
         let of_forces = (0..count).map(|k| {
-            let weight = self.graph.forces[k].weight.to_f64();
+            let weight = graph.forces[k].weight.to_f64();
             fill(&|i| matrix[i][k] * weight)
         });
         let (times, rest) = (fill(&|i| nodes[i]), fill(&|i| 1.0 - nodes[i]));
-        quote! {
-            ::core::option::Option::Some(::symplectic::emitted::SecondOrderTableau {
+        let some = quote! {
+            ::core::option::Option::Some(emitted::SecondOrderTableau {
                 nodes: &#times,
                 columns: &[#(&#columns),*],
                 of_forces: &[#(&#of_forces),*],
                 rest: &#rest,
             })
+        };
+        match self.separable {
+            Some(_) => quote!(if C::SEPARABLE { #some } else { #none }),
+            None => some,
         }
     }
 }

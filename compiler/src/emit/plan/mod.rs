@@ -1,6 +1,7 @@
 //! The plan of a step for one class of Hamiltonians, as code.
 
 mod composition;
+mod coupled;
 mod decoupling;
 mod increments;
 mod matrices;
@@ -20,7 +21,6 @@ use crate::schedule::{Class, Node, Phases, StepGraph};
 use crate::tableau::Tableau;
 use crate::tableau::left_out;
 use composition::Composed;
-use increments::Form;
 pub(super) use matrices::HalfTableau;
 use splitting::Chain;
 use stages::Stored;
@@ -31,6 +31,8 @@ struct Bodies {
     coupling: &'static str,
     /// The type of the memory.
     stages: TokenStream,
+    /// Constants and functions of the plan itself, for its coupled stages.
+    coupled: TokenStream,
     begin: TokenStream,
     sweep: TokenStream,
     /// The code after the last sweep if sums are plain (not compensated), if any.
@@ -50,27 +52,35 @@ pub(super) struct Plan {
     pub(super) code: TokenStream,
 }
 
-/// The plans of a method, under these names. A composition of at least two substeps with coupled stages is computed
+/// The plans of a method, under these names; one plan for both classes has the name `shared`. A composition of at least two substeps with coupled stages is computed
 /// substep by substep, from its methods and substeps.
 pub(super) fn plans(
     tableau: &Tableau,
     numbers: &Coefficients<Number<'_>>,
     (methods, substeps): (&[Tableau], &[Substep]),
     names: [(Class, &Ident); 2],
+    shared: &Ident,
 ) -> [Plan; 2] {
     let parts: Vec<_> = methods.iter().map(Tableau::numbers).collect();
     let polynomials = StagePolynomials::new(numbers);
     let known = Known::new(tableau);
     let parts_known: Vec<_> = methods.iter().map(Known::new).collect();
     let long = left_out(tableau).is_some();
+    let graph = |class| StepGraph::new(class, tableau, numbers);
+    if !long && substeps.len() < 2 {
+        let [general, separable] = names.map(|(class, _)| graph(class));
+        if let Some(step) = Stored::for_both([&general, &separable], &known, &polynomials) {
+            return of_both(&step, shared, &polynomials);
+        }
+    }
     names.map(|(class, name)| {
         if long && class == Class::General {
             return Plan {
-                name: quote!(::symplectic::emitted::SeparableOnly),
+                name: quote!(emitted::SeparableOnly),
                 code: TokenStream::new(),
             };
         }
-        let graph = StepGraph::new(class, tableau, numbers);
+        let graph = graph(class);
         if substeps.len() < 2 || Phases::new(&graph).coupled.is_empty() {
             return of_stages(&graph, name, &known, Some(&polynomials));
         }
@@ -82,7 +92,7 @@ pub(super) fn plans(
             substeps,
         };
         Plan {
-            name: quote!(::symplectic::emitted::Composition<#name>),
+            name: quote!(emitted::Composition<#name>),
             code: composed.code(name),
         }
     })
@@ -95,8 +105,8 @@ fn class_name(class: Class) -> Ident {
     })
 }
 
-/// A plan of stages: a type of this name and its implementation of `StagePlan`. Without polynomials there is no dense
-/// output.
+/// A plan of stages for one class: a type of this name and its implementation of `StagePlan`. Without polynomials there is no
+/// dense output.
 fn of_stages(
     graph: &StepGraph<'_>,
     name: &Ident,
@@ -106,77 +116,120 @@ fn of_stages(
     if let Some(chain) = Chain::new(graph) {
         return chain.plan(name);
     }
-    let stored = Stored::new(graph, Form::new(graph, known), known);
-    let (bodies, matrices) = (stored.bodies(), stored.matrices(name, polynomials));
-    let Bodies {
-        stages,
-        begin,
-        sweep,
-        increments,
-        finish,
-        ..
-    } = bodies;
-    let increments = increments.map(|increments| {
-        quote! {
-            #[inline]
-            fn increments<V: ::symplectic::emitted::Vector>(step: &::symplectic::emitted::Step<'_, V>, stages: &mut Self::Stages<V>) {
-                #increments
-            }
-        }
-    });
     let class = class_name(graph.class);
+    let stored = Stored::new(graph, known);
+    let bodies = stored.bodies(&quote!(emitted::#class));
     let coupling = identifier(bodies.coupling);
-    let [at_begin, at_start, in_sweep, at_finish] = bodies.counts.map(Literal::usize_unsuffixed);
-    let carried = Literal::usize_unsuffixed(bodies.carried);
-    let system = quote!(S: ::symplectic::emitted::System<V, Class = Self::Class>);
-    let arguments = quote! {
-        step: &::symplectic::emitted::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>
-    };
+    let matrices = stored.matrices(name, polynomials);
+    let plan = bodies.code(&quote!(), &quote!(#name), &quote!(emitted::#class));
+    Plan {
+        name: quote!(emitted::#coupling<#name>),
+        code: quote!(pub struct #name; #plan #matrices),
+    }
+}
+
+/// A plan of coupled stages for both classes: a type of this name, generic over the class.
+fn of_both(
+    step: &Stored<'_, '_>,
+    name: &Ident,
+    polynomials: &StagePolynomials<'_, '_>,
+) -> [Plan; 2] {
+    let bodies = step.bodies(&quote!(C));
+    let matrices = step.matrices(name, Some(polynomials));
+    let plan = bodies.code(&quote!(<C: emitted::Class>), &quote!(#name<C>), &quote!(C));
     let code = quote! {
-        pub struct #name;
+        pub struct #name<C>(::core::marker::PhantomData<C>);
 
-        #[allow(unused_variables)]
-        impl ::symplectic::emitted::StagePlan for #name {
-            type Class = ::symplectic::emitted::#class;
-            type Stages<V: ::symplectic::emitted::Vector> = #stages;
-
-            const EVALUATIONS: ::symplectic::emitted::EvaluationCounts = ::symplectic::emitted::EvaluationCounts {
-                begin: #at_begin,
-                start: #at_start,
-                sweep: #in_sweep,
-                finish: #at_finish,
-                carried: #carried,
-            };
-
-            #[inline]
-            fn begin<R: ::symplectic::emitted::Summation, V: ::symplectic::emitted::Vector, #system>(#arguments, kept: ::symplectic::emitted::WarmStart) {
-                #begin
-            }
-
-            #[inline]
-            fn sweep<R: ::symplectic::emitted::Summation, V: ::symplectic::emitted::Vector, #system>(#arguments) -> ::symplectic::emitted::StageChange {
-                #sweep
-            }
-
-            #increments
-
-            #[inline]
-            fn finish<R: ::symplectic::emitted::Summation, V: ::symplectic::emitted::Vector, #system, W: ::symplectic::emitted::EvaluationObserver>(
-                #arguments,
-                kept: ::symplectic::emitted::WarmStart,
-                outcome: ::symplectic::emitted::Outcome<'_, V>,
-                witness: &mut W,
-            ) {
-                let ::symplectic::emitted::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
-                #finish
-            }
-        }
-
+        #plan
         #matrices
     };
-    Plan {
-        name: quote!(::symplectic::emitted::#coupling<#name>),
-        code,
+    [
+        (Class::General, code),
+        (Class::Separable, TokenStream::new()),
+    ]
+    .map(|(class, code)| {
+        let class = class_name(class);
+        Plan {
+            name: quote!(emitted::Coupled<#name<emitted::#class>>),
+            code,
+        }
+    })
+}
+
+impl Bodies {
+    /// The implementation of `StagePlan` for a type and a class, with these generic parameters.
+    fn code(self, generics: &TokenStream, name: &TokenStream, class: &TokenStream) -> TokenStream {
+        let Bodies {
+            stages,
+            coupled,
+            begin,
+            sweep,
+            increments,
+            finish,
+            ..
+        } = self;
+        let [at_begin, at_start, in_sweep, at_finish] = self.counts.map(Literal::usize_unsuffixed);
+        let carried = Literal::usize_unsuffixed(self.carried);
+        let increments = increments.map(|increments| {
+            quote! {
+                #[inline]
+                fn increments<V: emitted::Vector>(step: &emitted::Step<'_, V>, stages: &mut Self::Stages<V>) {
+                    #increments
+                }
+            }
+        });
+        let coupled = (!coupled.is_empty()).then(|| {
+            quote! {
+                #[allow(unused_variables)]
+                impl #generics #name {
+                    #coupled
+                }
+            }
+        });
+        let system = quote!(S: emitted::System<V, Class = Self::Class>);
+        let arguments = quote! {
+            step: &emitted::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>
+        };
+        quote! {
+            #coupled
+
+            #[allow(unused_variables)]
+            impl #generics emitted::StagePlan for #name {
+                type Class = #class;
+                type Stages<V: emitted::Vector> = #stages;
+
+                const EVALUATIONS: emitted::EvaluationCounts = emitted::EvaluationCounts {
+                    begin: #at_begin,
+                    start: #at_start,
+                    sweep: #in_sweep,
+                    finish: #at_finish,
+                    carried: #carried,
+                };
+
+                #[inline]
+                fn begin<R: emitted::Summation, V: emitted::Vector, #system>(#arguments, kept: emitted::WarmStart) {
+                    #begin
+                }
+
+                #[inline]
+                fn sweep<R: emitted::Summation, V: emitted::Vector, #system>(#arguments) -> emitted::StageChange {
+                    #sweep
+                }
+
+                #increments
+
+                #[inline]
+                fn finish<R: emitted::Summation, V: emitted::Vector, #system, W: emitted::EvaluationObserver>(
+                    #arguments,
+                    kept: emitted::WarmStart,
+                    outcome: emitted::Outcome<'_, V>,
+                    witness: &mut W,
+                ) {
+                    let emitted::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
+                    #finish
+                }
+            }
+        }
     }
 }
 

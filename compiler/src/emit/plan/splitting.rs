@@ -32,72 +32,45 @@ impl<'g, 'a> Chain<'g, 'a> {
         let code = quote! {
             pub struct #name;
 
-            #[allow(unused_variables)]
-            impl ::symplectic::emitted::SplittingPlan for #name {
-                type Class = ::symplectic::emitted::#class;
+            impl emitted::SplittingPlan for #name {
+                type Class = emitted::#class;
 
                 const EVALUATIONS: u32 = #count;
                 const CARRIED: u32 = #carried;
 
                 #[inline(always)]
-                fn apply<
-                    R: ::symplectic::emitted::Summation,
-                    V: ::symplectic::emitted::Vector,
-                    S: ::symplectic::emitted::System<V, Class = Self::Class>,
-                    K: ::symplectic::emitted::KickDrift,
-                    W: ::symplectic::emitted::EvaluationObserver,
-                >(
-                    span: ::symplectic::emitted::Span,
-                    system: &S,
-                    evaluations: &mut ::symplectic::emitted::Evaluations<V>,
-                    kept: ::symplectic::emitted::WarmStart,
-                    state: ::symplectic::emitted::Outcome<'_, V>,
-                    kick_drift: &mut K,
-                    witness: &mut W,
-                ) {
-                    let ::symplectic::emitted::Evaluations { velocity, force } = evaluations;
-                    let ::symplectic::emitted::Outcome { q, q_low, p, p_low } = state;
+                fn apply<R, V, S, K, W>(step: &mut emitted::SplittingStep<'_, R, V, S, K, W>)
+                where
+                    R: emitted::Summation,
+                    V: emitted::Vector,
+                    S: emitted::System<V, Class = Self::Class>,
+                    K: emitted::KickDrift,
+                    W: emitted::EvaluationObserver,
+                {
                     #(#lines)*
                 }
             }
         };
         Plan {
-            name: quote!(::symplectic::emitted::Splitting<#name>),
+            name: quote!(emitted::Splitting<#name>),
             code,
         }
     }
 
-    /// An evaluation, unless it is `carried`, and its update of the state.
+    /// An evaluation, which may be `carried` from the previous step, and its update of the state.
     fn line(&self, node: Node, carried: bool) -> TokenStream {
         let evaluation = self.graph.evaluation(node);
         let time = literal::coefficient(&evaluation.time);
         let weight = literal::coefficient(&evaluation.weight);
         let stage = literal::count(super::index(node) + 1);
-        let known = match carried {
-            true => quote!(kept.evaluation),
-            false => quote!(false),
-        };
         if !matches!(node, Node::Force(_)) {
-            return quote! {
-                kick_drift.drift::<R, V, S, W>(
-                    ::symplectic::emitted::Drift { span, stage: #stage, time: #time, weight: #weight, known: #known },
-                    system, (&mut *velocity, &mut *force), (&mut *q, &mut *q_low), (&mut *p, &mut *p_low), witness,
-                );
-            };
+            let drift = literal::identifier(if carried { "kept_drift" } else { "drift" });
+            return quote!(step.#drift(#stage, #time, #weight););
         }
-        let evaluate = quote! {
-            kick_drift.force::<R, V, S, W>(
-                ::symplectic::emitted::Force { span, stage: #stage, time: #time },
-                system, &mut *force, &mut *q, (&mut *p, &mut *p_low), witness,
-            );
-        };
-        let evaluate = match carried {
-            true => quote!(if !kept.evaluation { #evaluate }),
-            false => evaluate,
-        };
+        let force = literal::identifier(if carried { "kept_force" } else { "force" });
         quote! {
-            #evaluate
-            kick_drift.kick::<R, V, S>(span.size, #weight, system, &mut *force, &mut *q, (&mut *p, &mut *p_low));
+            step.#force(#stage, #time);
+            step.kick(#weight);
         }
     }
 }

@@ -86,196 +86,89 @@ impl ForestRuth {
 }
 #[allow(clippy::approx_constant)]
 const _: () = {
-    impl ::symplectic::emitted::Method for ForestRuth {
+    use ::symplectic::emitted;
+    impl emitted::Method for ForestRuth {
         const NAME: &'static str = "ForestRuth";
         const STAGES: usize = 4;
         const DEFINITION: &'static str = "kick: [-1/(2*(cbrt(2) - 2)), (cbrt(2) - 1)/(2*(cbrt(2) - 2))], drift: [-1/(cbrt(2) - 2), cbrt(2)/(cbrt(2) - 2)], symmetric: true";
-        const COEFFICIENTS: ::symplectic::emitted::Coefficients = {
-            const A: &[&[::symplectic::emitted::Coefficient]] = &[
+        const COEFFICIENTS: emitted::Coefficients = {
+            const A: &[&[emitted::Coefficient]] = &[
                 &[
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    emitted::exact(0.0),
+                    emitted::exact(0.0),
+                    emitted::exact(0.0),
+                    emitted::exact(0.0),
                 ],
                 &[
-                    ::symplectic::emitted::Coefficient::new(
-                        1.3512071919596575,
-                        8.42741775545176e-17,
-                        1.3512071,
-                    ),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    emitted::rounded(1.3512071919596575, 8.42741775545176e-17),
+                    emitted::exact(0.0),
+                    emitted::exact(0.0),
+                    emitted::exact(0.0),
                 ],
                 &[
-                    ::symplectic::emitted::Coefficient::new(
-                        1.3512071919596575,
-                        8.42741775545176e-17,
-                        1.3512071,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        (-1.7024143839193153),
-                        5.349624981599612e-17,
-                        (-1.7024144),
-                    ),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    emitted::rounded(1.3512071919596575, 8.42741775545176e-17),
+                    emitted::rounded((-1.7024143839193153), 5.349624981599612e-17),
+                    emitted::exact(0.0),
+                    emitted::exact(0.0),
                 ],
                 &[
-                    ::symplectic::emitted::Coefficient::new(
-                        1.3512071919596575,
-                        8.42741775545176e-17,
-                        1.3512071,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        (-1.7024143839193153),
-                        5.349624981599612e-17,
-                        (-1.7024144),
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        1.3512071919596575,
-                        8.42741775545176e-17,
-                        1.3512071,
-                    ),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    emitted::rounded(1.3512071919596575, 8.42741775545176e-17),
+                    emitted::rounded((-1.7024143839193153), 5.349624981599612e-17),
+                    emitted::rounded(1.3512071919596575, 8.42741775545176e-17),
+                    emitted::exact(0.0),
                 ],
             ];
-            const B: &[::symplectic::emitted::Coefficient] = &[
-                ::symplectic::emitted::Coefficient::new(
-                    1.3512071919596575,
-                    8.42741775545176e-17,
-                    1.3512071,
-                ),
-                ::symplectic::emitted::Coefficient::new(
-                    (-1.7024143839193153),
-                    5.349624981599612e-17,
-                    (-1.7024144),
-                ),
-                ::symplectic::emitted::Coefficient::new(
-                    1.3512071919596575,
-                    8.42741775545176e-17,
-                    1.3512071,
-                ),
-                ::symplectic::emitted::Coefficient::exact(0.0),
+            const B: &[emitted::Coefficient] = &[
+                emitted::rounded(1.3512071919596575, 8.42741775545176e-17),
+                emitted::rounded((-1.7024143839193153), 5.349624981599612e-17),
+                emitted::rounded(1.3512071919596575, 8.42741775545176e-17),
+                emitted::exact(0.0),
             ];
-            const C: &[::symplectic::emitted::Coefficient] = &[
-                ::symplectic::emitted::Coefficient::exact(0.0),
-                ::symplectic::emitted::Coefficient::new(
-                    1.3512071919596575,
-                    8.42741775545176e-17,
-                    1.3512071,
-                ),
-                ::symplectic::emitted::Coefficient::new(
-                    (-0.35120719195965766),
-                    2.674812490799806e-17,
-                    (-0.3512072),
-                ),
-                ::symplectic::emitted::Coefficient::exact(1.0),
+            const C: &[emitted::Coefficient] = &[
+                emitted::exact(0.0),
+                emitted::rounded(1.3512071919596575, 8.42741775545176e-17),
+                emitted::rounded((-0.35120719195965766), 2.674812490799806e-17),
+                emitted::exact(1.0),
             ];
-            const A_TILDE: &[&[::symplectic::emitted::Coefficient]] = &[
+            const A_TILDE: &[&[emitted::Coefficient]] = &[
                 &[
-                    ::symplectic::emitted::Coefficient::new(
-                        0.6756035959798288,
-                        4.21370887772588e-17,
-                        0.67560357,
-                    ),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
+                    emitted::exact(0.0),
+                    emitted::exact(0.0),
+                    emitted::exact(0.0),
                 ],
                 &[
-                    ::symplectic::emitted::Coefficient::new(
-                        0.6756035959798288,
-                        4.21370887772588e-17,
-                        0.67560357,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        (-0.17560359597982883),
-                        1.337406245399903e-17,
-                        (-0.1756036),
-                    ),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
+                    emitted::rounded((-0.17560359597982883), 1.337406245399903e-17),
+                    emitted::exact(0.0),
+                    emitted::exact(0.0),
                 ],
                 &[
-                    ::symplectic::emitted::Coefficient::new(
-                        0.6756035959798288,
-                        4.21370887772588e-17,
-                        0.67560357,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        (-0.17560359597982883),
-                        1.337406245399903e-17,
-                        (-0.1756036),
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        (-0.17560359597982883),
-                        1.337406245399903e-17,
-                        (-0.1756036),
-                    ),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
+                    emitted::rounded((-0.17560359597982883), 1.337406245399903e-17),
+                    emitted::rounded((-0.17560359597982883), 1.337406245399903e-17),
+                    emitted::exact(0.0),
                 ],
                 &[
-                    ::symplectic::emitted::Coefficient::new(
-                        0.6756035959798288,
-                        4.21370887772588e-17,
-                        0.67560357,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        (-0.17560359597982883),
-                        1.337406245399903e-17,
-                        (-0.1756036),
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        (-0.17560359597982883),
-                        1.337406245399903e-17,
-                        (-0.1756036),
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        0.6756035959798288,
-                        4.21370887772588e-17,
-                        0.67560357,
-                    ),
+                    emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
+                    emitted::rounded((-0.17560359597982883), 1.337406245399903e-17),
+                    emitted::rounded((-0.17560359597982883), 1.337406245399903e-17),
+                    emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
                 ],
             ];
-            const C_TILDE: &[::symplectic::emitted::Coefficient] = &[
-                ::symplectic::emitted::Coefficient::new(
-                    0.6756035959798288,
-                    4.21370887772588e-17,
-                    0.67560357,
-                ),
-                ::symplectic::emitted::Coefficient::exact(0.5),
-                ::symplectic::emitted::Coefficient::new(
-                    0.32439640402017117,
-                    1.337406245399903e-17,
-                    0.3243964,
-                ),
-                ::symplectic::emitted::Coefficient::exact(1.0),
+            const C_TILDE: &[emitted::Coefficient] = &[
+                emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
+                emitted::exact(0.5),
+                emitted::rounded(0.32439640402017117, 1.337406245399903e-17),
+                emitted::exact(1.0),
             ];
-            const B_TILDE: &[::symplectic::emitted::Coefficient] = &[
-                ::symplectic::emitted::Coefficient::new(
-                    0.6756035959798288,
-                    4.21370887772588e-17,
-                    0.67560357,
-                ),
-                ::symplectic::emitted::Coefficient::new(
-                    (-0.17560359597982883),
-                    1.337406245399903e-17,
-                    (-0.1756036),
-                ),
-                ::symplectic::emitted::Coefficient::new(
-                    (-0.17560359597982883),
-                    1.337406245399903e-17,
-                    (-0.1756036),
-                ),
-                ::symplectic::emitted::Coefficient::new(
-                    0.6756035959798288,
-                    4.21370887772588e-17,
-                    0.67560357,
-                ),
+            const B_TILDE: &[emitted::Coefficient] = &[
+                emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
+                emitted::rounded((-0.17560359597982883), 1.337406245399903e-17),
+                emitted::rounded((-0.17560359597982883), 1.337406245399903e-17),
+                emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
             ];
-            ::symplectic::emitted::Coefficients {
+            emitted::Coefficients {
                 a: A,
                 a_tilde: A_TILDE,
                 b: B,
@@ -284,32 +177,169 @@ const _: () = {
                 c_tilde: C_TILDE,
             }
         };
-        const ORDERS: ::symplectic::emitted::Orders = ::symplectic::emitted::Orders {
+        const ORDERS: emitted::Orders = emitted::Orders {
             general: 1,
             separable: 4,
             nystrom: 4,
         };
-        const SYMMETRY: ::symplectic::emitted::Symmetry = ::symplectic::emitted::Symmetry {
+        const SYMMETRY: emitted::Symmetry = emitted::Symmetry {
             general: false,
             separable: true,
         };
-        type General = ::symplectic::emitted::Coupled<ForestRuthGeneral>;
-        type Separable = ::symplectic::emitted::Splitting<ForestRuthSeparable>;
+        type General = emitted::Coupled<ForestRuthGeneral>;
+        type Separable = emitted::Splitting<ForestRuthSeparable>;
     }
-    impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::Separable>
-    for ForestRuth {}
-    impl ::symplectic::emitted::ProvedFor<()> for ForestRuth {}
-    impl ::symplectic::emitted::ProvedFor<::symplectic::emitted::Damped> for ForestRuth {}
+    impl emitted::ProvedFor<emitted::Separable> for ForestRuth {}
+    impl emitted::ProvedFor<()> for ForestRuth {}
+    impl emitted::ProvedFor<emitted::Damped> for ForestRuth {}
     pub struct ForestRuthGeneral;
     #[allow(unused_variables)]
-    impl ::symplectic::emitted::StagePlan for ForestRuthGeneral {
-        type Class = ::symplectic::emitted::General;
-        type Stages<V: ::symplectic::emitted::Vector> = ::symplectic::emitted::Stages<
-            V,
-            4,
-            4,
-        >;
-        const EVALUATIONS: ::symplectic::emitted::EvaluationCounts = ::symplectic::emitted::EvaluationCounts {
+    impl ForestRuthGeneral {
+        const C: [emitted::Coefficient; 4] = [
+            emitted::exact(0.0),
+            emitted::rounded(1.3512071919596575, 8.42741775545176e-17),
+            emitted::rounded((-0.35120719195965766), 2.674812490799806e-17),
+            emitted::exact(1.0),
+        ];
+        const C_TILDE: [emitted::Coefficient; 4] = [
+            emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
+            emitted::exact(0.5),
+            emitted::rounded(0.32439640402017117, 1.337406245399903e-17),
+            emitted::exact(1.0),
+        ];
+        const Q_1: [emitted::Coefficient; 1] = [
+            emitted::rounded(1.3512071919596575, 8.42741775545176e-17),
+        ];
+        const Q_2: [emitted::Coefficient; 2] = [
+            emitted::rounded(1.3512071919596575, 8.42741775545176e-17),
+            emitted::rounded((-1.7024143839193153), 5.349624981599612e-17),
+        ];
+        const Q_3: [emitted::Coefficient; 3] = [
+            emitted::rounded(1.3512071919596575, 8.42741775545176e-17),
+            emitted::rounded((-1.7024143839193153), 5.349624981599612e-17),
+            emitted::rounded(1.3512071919596575, 8.42741775545176e-17),
+        ];
+        const P_0: [emitted::Coefficient; 1] = [
+            emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
+        ];
+        const P_1: [emitted::Coefficient; 2] = [
+            emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
+            emitted::rounded((-0.17560359597982883), 1.337406245399903e-17),
+        ];
+        const P_2: [emitted::Coefficient; 3] = [
+            emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
+            emitted::rounded((-0.17560359597982883), 1.337406245399903e-17),
+            emitted::rounded((-0.17560359597982883), 1.337406245399903e-17),
+        ];
+        const P_3: [emitted::Coefficient; 4] = [
+            emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
+            emitted::rounded((-0.17560359597982883), 1.337406245399903e-17),
+            emitted::rounded((-0.17560359597982883), 1.337406245399903e-17),
+            emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
+        ];
+        #[inline]
+        fn forces<
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = emitted::General>,
+        >(
+            step: &emitted::Step<'_, V>,
+            system: &S,
+            stages: &mut emitted::Stages<V, 4, 4>,
+        ) {
+            let emitted::Stages { q, p, force, .. } = stages;
+            system.force(step.at(Self::C[0]), step.q, &p[0], &mut force[0]);
+            system.force(step.at(Self::C[1]), &q[1], &p[1], &mut force[1]);
+            system.force(step.at(Self::C[2]), &q[2], &p[2], &mut force[2]);
+            system.force(step.at(Self::C[3]), &q[3], &p[3], &mut force[3]);
+        }
+        #[inline]
+        fn momenta<V: emitted::Vector, A: emitted::StageSums>(
+            step: &emitted::Step<'_, V>,
+            stages: &mut emitted::Stages<V, 4, 4>,
+            sums: &mut A,
+        ) {
+            let emitted::Stages { p, force, .. } = stages;
+            let (base, terms) = (
+                (step.p, step.p_low),
+                [&force[0], &force[1], &force[2], &force[3]],
+            );
+            sums.evaluations(
+                &mut p[0],
+                base,
+                emitted::weights(step.size, Self::P_0),
+                [terms[0]],
+            );
+            sums.evaluations(
+                &mut p[1],
+                base,
+                emitted::weights(step.size, Self::P_1),
+                [terms[0], terms[1]],
+            );
+            sums.evaluations(
+                &mut p[2],
+                base,
+                emitted::weights(step.size, Self::P_2),
+                [terms[0], terms[1], terms[2]],
+            );
+            sums.evaluations(
+                &mut p[3],
+                base,
+                emitted::weights(step.size, Self::P_3),
+                terms,
+            );
+        }
+        #[inline]
+        fn velocities<
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = emitted::General>,
+        >(
+            step: &emitted::Step<'_, V>,
+            system: &S,
+            stages: &mut emitted::Stages<V, 4, 4>,
+        ) {
+            let emitted::Stages { q, p, velocity, .. } = stages;
+            system.velocity(step.at(Self::C_TILDE[0]), step.q, &p[0], &mut velocity[0]);
+            system.velocity(step.at(Self::C_TILDE[1]), &q[1], &p[1], &mut velocity[1]);
+            system.velocity(step.at(Self::C_TILDE[2]), &q[2], &p[2], &mut velocity[2]);
+        }
+        #[inline]
+        fn positions<V: emitted::Vector, A: emitted::StageSums>(
+            step: &emitted::Step<'_, V>,
+            stages: &mut emitted::Stages<V, 4, 4>,
+            sums: &mut A,
+        ) {
+            let emitted::Stages { q, velocity, .. } = stages;
+            let (base, terms) = (
+                (step.q, step.q_low),
+                [&velocity[0], &velocity[1], &velocity[2], &velocity[3]],
+            );
+            sums.evaluations(
+                &mut q[1],
+                base,
+                emitted::weights(step.size, Self::Q_1),
+                [terms[0]],
+            );
+            sums.evaluations(
+                &mut q[2],
+                base,
+                emitted::weights(step.size, Self::Q_2),
+                [terms[0], terms[1]],
+            );
+            sums.evaluations(
+                &mut q[3],
+                base,
+                emitted::weights(step.size, Self::Q_3),
+                [terms[0], terms[1], terms[2]],
+            );
+        }
+    }
+    #[allow(unused_variables)]
+    impl emitted::StagePlan for ForestRuthGeneral {
+        type Class = emitted::General;
+        type Stages<V: emitted::Vector> = emitted::Stages<V, 4, 4>;
+        const EVALUATIONS: emitted::EvaluationCounts = emitted::EvaluationCounts {
             begin: 0,
             start: 1,
             sweep: 7,
@@ -318,423 +348,62 @@ const _: () = {
         };
         #[inline]
         fn begin<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
         >(
-            step: &::symplectic::emitted::Step<'_, V>,
+            step: &emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::WarmStart,
+            kept: emitted::WarmStart,
         ) {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            ::symplectic::emitted::copy(&mut p[0], step.p);
-            ::symplectic::emitted::copy(&mut p[1], step.p);
-            ::symplectic::emitted::copy(&mut p[2], step.p);
-            ::symplectic::emitted::copy(&mut p[3], step.p);
+            emitted::reset(&mut stages.p, [0, 1, 2, 3], step.p);
             system
                 .velocity(
-                    step
-                        .at(
-                            ::symplectic::emitted::Coefficient::new(
-                                0.6756035959798288,
-                                4.21370887772588e-17,
-                                0.67560357,
-                            ),
-                        ),
+                    step.at(Self::C_TILDE[0]),
                     step.q,
                     step.p,
-                    &mut velocity[0],
+                    &mut stages.velocity[0],
                 );
-            ::symplectic::emitted::copy_to(velocity, 0, [1, 2]);
-            ::symplectic::emitted::combine::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[1],
-                step.q,
-                step.q_low,
-                ::symplectic::emitted::weights(
-                    step.size,
-                    [
-                        ::symplectic::emitted::Coefficient::new(
-                            1.3512071919596575,
-                            8.42741775545176e-17,
-                            1.3512071,
-                        ),
-                    ],
-                ),
-                [&velocity[0]],
-            );
-            ::symplectic::emitted::combine::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[2],
-                step.q,
-                step.q_low,
-                ::symplectic::emitted::weights(
-                    step.size,
-                    [
-                        ::symplectic::emitted::Coefficient::new(
-                            1.3512071919596575,
-                            8.42741775545176e-17,
-                            1.3512071,
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-1.7024143839193153),
-                            5.349624981599612e-17,
-                            (-1.7024144),
-                        ),
-                    ],
-                ),
-                [&velocity[0], &velocity[1]],
-            );
-            ::symplectic::emitted::combine::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[3],
-                step.q,
-                step.q_low,
-                ::symplectic::emitted::weights(
-                    step.size,
-                    [
-                        ::symplectic::emitted::Coefficient::new(
-                            1.3512071919596575,
-                            8.42741775545176e-17,
-                            1.3512071,
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-1.7024143839193153),
-                            5.349624981599612e-17,
-                            (-1.7024144),
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            1.3512071919596575,
-                            8.42741775545176e-17,
-                            1.3512071,
-                        ),
-                    ],
-                ),
-                [&velocity[0], &velocity[1], &velocity[2]],
-            );
+            emitted::copy_to(&mut stages.velocity, 0, [1, 2]);
+            Self::positions(step, stages, &mut emitted::Starting::<R>::new());
         }
         #[inline]
         fn sweep<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
         >(
-            step: &::symplectic::emitted::Step<'_, V>,
+            step: &emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::emitted::StageChange {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            let mut change = ::symplectic::emitted::StageChange::default();
-            system
-                .force(
-                    step.at(::symplectic::emitted::Coefficient::exact(0.0)),
-                    step.q,
-                    &p[0],
-                    &mut force[0],
-                );
-            system
-                .force(
-                    step
-                        .at(
-                            ::symplectic::emitted::Coefficient::new(
-                                1.3512071919596575,
-                                8.42741775545176e-17,
-                                1.3512071,
-                            ),
-                        ),
-                    &q[1],
-                    &p[1],
-                    &mut force[1],
-                );
-            system
-                .force(
-                    step
-                        .at(
-                            ::symplectic::emitted::Coefficient::new(
-                                (-0.35120719195965766),
-                                2.674812490799806e-17,
-                                (-0.3512072),
-                            ),
-                        ),
-                    &q[2],
-                    &p[2],
-                    &mut force[2],
-                );
-            system
-                .force(
-                    step.at(::symplectic::emitted::Coefficient::exact(1.0)),
-                    &q[3],
-                    &p[3],
-                    &mut force[3],
-                );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut p[0],
-                step.p,
-                step.p_low,
-                ::symplectic::emitted::weights(
-                    step.size,
-                    [
-                        ::symplectic::emitted::Coefficient::new(
-                            0.6756035959798288,
-                            4.21370887772588e-17,
-                            0.67560357,
-                        ),
-                    ],
-                ),
-                [&force[0]],
-                &mut change.p,
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut p[1],
-                step.p,
-                step.p_low,
-                ::symplectic::emitted::weights(
-                    step.size,
-                    [
-                        ::symplectic::emitted::Coefficient::new(
-                            0.6756035959798288,
-                            4.21370887772588e-17,
-                            0.67560357,
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-0.17560359597982883),
-                            1.337406245399903e-17,
-                            (-0.1756036),
-                        ),
-                    ],
-                ),
-                [&force[0], &force[1]],
-                &mut change.p,
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut p[2],
-                step.p,
-                step.p_low,
-                ::symplectic::emitted::weights(
-                    step.size,
-                    [
-                        ::symplectic::emitted::Coefficient::new(
-                            0.6756035959798288,
-                            4.21370887772588e-17,
-                            0.67560357,
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-0.17560359597982883),
-                            1.337406245399903e-17,
-                            (-0.1756036),
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-0.17560359597982883),
-                            1.337406245399903e-17,
-                            (-0.1756036),
-                        ),
-                    ],
-                ),
-                [&force[0], &force[1], &force[2]],
-                &mut change.p,
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut p[3],
-                step.p,
-                step.p_low,
-                ::symplectic::emitted::weights(
-                    step.size,
-                    [
-                        ::symplectic::emitted::Coefficient::new(
-                            0.6756035959798288,
-                            4.21370887772588e-17,
-                            0.67560357,
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-0.17560359597982883),
-                            1.337406245399903e-17,
-                            (-0.1756036),
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-0.17560359597982883),
-                            1.337406245399903e-17,
-                            (-0.1756036),
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            0.6756035959798288,
-                            4.21370887772588e-17,
-                            0.67560357,
-                        ),
-                    ],
-                ),
-                [&force[0], &force[1], &force[2], &force[3]],
-                &mut change.p,
-            );
-            system
-                .velocity(
-                    step
-                        .at(
-                            ::symplectic::emitted::Coefficient::new(
-                                0.6756035959798288,
-                                4.21370887772588e-17,
-                                0.67560357,
-                            ),
-                        ),
-                    step.q,
-                    &p[0],
-                    &mut velocity[0],
-                );
-            system
-                .velocity(
-                    step.at(::symplectic::emitted::Coefficient::exact(0.5)),
-                    &q[1],
-                    &p[1],
-                    &mut velocity[1],
-                );
-            system
-                .velocity(
-                    step
-                        .at(
-                            ::symplectic::emitted::Coefficient::new(
-                                0.32439640402017117,
-                                1.337406245399903e-17,
-                                0.3243964,
-                            ),
-                        ),
-                    &q[2],
-                    &p[2],
-                    &mut velocity[2],
-                );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[1],
-                step.q,
-                step.q_low,
-                ::symplectic::emitted::weights(
-                    step.size,
-                    [
-                        ::symplectic::emitted::Coefficient::new(
-                            1.3512071919596575,
-                            8.42741775545176e-17,
-                            1.3512071,
-                        ),
-                    ],
-                ),
-                [&velocity[0]],
-                &mut change.q,
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[2],
-                step.q,
-                step.q_low,
-                ::symplectic::emitted::weights(
-                    step.size,
-                    [
-                        ::symplectic::emitted::Coefficient::new(
-                            1.3512071919596575,
-                            8.42741775545176e-17,
-                            1.3512071,
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-1.7024143839193153),
-                            5.349624981599612e-17,
-                            (-1.7024144),
-                        ),
-                    ],
-                ),
-                [&velocity[0], &velocity[1]],
-                &mut change.q,
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[3],
-                step.q,
-                step.q_low,
-                ::symplectic::emitted::weights(
-                    step.size,
-                    [
-                        ::symplectic::emitted::Coefficient::new(
-                            1.3512071919596575,
-                            8.42741775545176e-17,
-                            1.3512071,
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-1.7024143839193153),
-                            5.349624981599612e-17,
-                            (-1.7024144),
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            1.3512071919596575,
-                            8.42741775545176e-17,
-                            1.3512071,
-                        ),
-                    ],
-                ),
-                [&velocity[0], &velocity[1], &velocity[2]],
-                &mut change.q,
-            );
+        ) -> emitted::StageChange {
+            let mut change = emitted::StageChange::default();
+            Self::forces::<R, V, S>(step, system, stages);
+            Self::momenta(step, stages, &mut emitted::Sweep::<R>::new(&mut change.p));
+            Self::velocities::<R, V, S>(step, system, stages);
+            Self::positions(step, stages, &mut emitted::Sweep::<R>::new(&mut change.q));
             change
         }
         #[inline]
         fn finish<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
-            W: ::symplectic::emitted::EvaluationObserver,
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
+            W: emitted::EvaluationObserver,
         >(
-            step: &::symplectic::emitted::Step<'_, V>,
+            step: &emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::WarmStart,
-            outcome: ::symplectic::emitted::Outcome<'_, V>,
+            kept: emitted::WarmStart,
+            outcome: emitted::Outcome<'_, V>,
             witness: &mut W,
         ) {
-            let ::symplectic::emitted::Outcome {
-                q: q1,
-                q_low: q1_low,
-                p: p1,
-                p_low: p1_low,
-            } = outcome;
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            let emitted::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
+            let emitted::Stages { q, p, velocity, force } = &mut *stages;
             system
-                .velocity(
-                    step.at(::symplectic::emitted::Coefficient::exact(1.0)),
-                    &q[3],
-                    &p[3],
-                    &mut velocity[3],
-                );
-            ::symplectic::emitted::weighted_total::<
+                .velocity(step.at(emitted::exact(1.0)), &q[3], &p[3], &mut velocity[3]);
+            emitted::weighted_total::<
                 R,
                 V,
                 _,
@@ -743,29 +412,17 @@ const _: () = {
                 q1_low,
                 step.q,
                 step.q_low,
-                ::symplectic::emitted::weights(
+                emitted::weights(
                     step.size,
                     [
-                        ::symplectic::emitted::Coefficient::new(
-                            1.3512071919596575,
-                            8.42741775545176e-17,
-                            1.3512071,
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-1.7024143839193153),
-                            5.349624981599612e-17,
-                            (-1.7024144),
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            1.3512071919596575,
-                            8.42741775545176e-17,
-                            1.3512071,
-                        ),
+                        emitted::rounded(1.3512071919596575, 8.42741775545176e-17),
+                        emitted::rounded((-1.7024143839193153), 5.349624981599612e-17),
+                        emitted::rounded(1.3512071919596575, 8.42741775545176e-17),
                     ],
                 ),
                 [&velocity[0], &velocity[1], &velocity[2]],
             );
-            ::symplectic::emitted::weighted_total::<
+            emitted::weighted_total::<
                 R,
                 V,
                 _,
@@ -774,40 +431,24 @@ const _: () = {
                 p1_low,
                 step.p,
                 step.p_low,
-                ::symplectic::emitted::weights(
+                emitted::weights(
                     step.size,
                     [
-                        ::symplectic::emitted::Coefficient::new(
-                            0.6756035959798288,
-                            4.21370887772588e-17,
-                            0.67560357,
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-0.17560359597982883),
-                            1.337406245399903e-17,
-                            (-0.1756036),
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-0.17560359597982883),
-                            1.337406245399903e-17,
-                            (-0.1756036),
-                        ),
-                        ::symplectic::emitted::Coefficient::new(
-                            0.6756035959798288,
-                            4.21370887772588e-17,
-                            0.67560357,
-                        ),
+                        emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
+                        emitted::rounded((-0.17560359597982883), 1.337406245399903e-17),
+                        emitted::rounded((-0.17560359597982883), 1.337406245399903e-17),
+                        emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
                     ],
                 ),
                 [&force[0], &force[1], &force[2], &force[3]],
             );
         }
     }
-    impl ::symplectic::emitted::StageTableau for ForestRuthGeneral {
-        type Lanes = ::symplectic::emitted::F64x4;
+    impl emitted::StageTableau for ForestRuthGeneral {
+        type Lanes = emitted::F64x4;
         type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = false;
-        const POSITIONS: ::symplectic::emitted::HalfTableau = ::symplectic::emitted::HalfTableau {
+        const POSITIONS: emitted::HalfTableau = emitted::HalfTableau {
             count: 4,
             columns: &[
                 &[0.0, 1.3512071919596575, 1.3512071919596575, 1.3512071919596575],
@@ -825,7 +466,7 @@ const _: () = {
             extrapolation: &[],
             polynomial: ::core::option::Option::None,
         };
-        const MOMENTA: ::symplectic::emitted::HalfTableau = ::symplectic::emitted::HalfTableau {
+        const MOMENTA: emitted::HalfTableau = emitted::HalfTableau {
             count: 4,
             columns: &[
                 &[
@@ -853,9 +494,7 @@ const _: () = {
             extrapolation: &[],
             polynomial: ::core::option::Option::None,
         };
-        const SECOND_ORDER: ::core::option::Option<
-            ::symplectic::emitted::SecondOrderTableau,
-        > = ::core::option::Option::None;
+        const SECOND_ORDER: ::core::option::Option<emitted::SecondOrderTableau> = ::core::option::Option::None;
         #[inline(always)]
         fn groups<T: ::core::fmt::Debug>(
             mut make: impl ::core::ops::FnMut(usize) -> T,
@@ -863,275 +502,52 @@ const _: () = {
             [make(0)]
         }
         #[inline(always)]
-        fn stored<V: ::symplectic::emitted::Vector>(
+        fn stored<V: emitted::Vector>(
             stages: &Self::Stages<V>,
-        ) -> [::symplectic::emitted::StoredEvaluations<'_, V>; 2] {
-            [
-                ::symplectic::emitted::StoredEvaluations {
-                    values: &stages.velocity,
-                    carried: &[],
-                },
-                ::symplectic::emitted::StoredEvaluations {
-                    values: &stages.force,
-                    carried: &[],
-                },
-            ]
+        ) -> [emitted::StoredEvaluations<'_, V>; 2] {
+            stages.stored(&[], &[])
         }
     }
     pub struct ForestRuthSeparable;
-    #[allow(unused_variables)]
-    impl ::symplectic::emitted::SplittingPlan for ForestRuthSeparable {
-        type Class = ::symplectic::emitted::Separable;
+    impl emitted::SplittingPlan for ForestRuthSeparable {
+        type Class = emitted::Separable;
         const EVALUATIONS: u32 = 7;
         const CARRIED: u32 = 1;
         #[inline(always)]
-        fn apply<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
-            K: ::symplectic::emitted::KickDrift,
-            W: ::symplectic::emitted::EvaluationObserver,
-        >(
-            span: ::symplectic::emitted::Span,
-            system: &S,
-            evaluations: &mut ::symplectic::emitted::Evaluations<V>,
-            kept: ::symplectic::emitted::WarmStart,
-            state: ::symplectic::emitted::Outcome<'_, V>,
-            kick_drift: &mut K,
-            witness: &mut W,
-        ) {
-            let ::symplectic::emitted::Evaluations { velocity, force } = evaluations;
-            let ::symplectic::emitted::Outcome { q, q_low, p, p_low } = state;
-            if !kept.evaluation {
-                kick_drift
-                    .force::<
-                        R,
-                        V,
-                        S,
-                        W,
-                    >(
-                        ::symplectic::emitted::Force {
-                            span,
-                            stage: 1,
-                            time: ::symplectic::emitted::Coefficient::exact(0.0),
-                        },
-                        system,
-                        &mut *force,
-                        &mut *q,
-                        (&mut *p, &mut *p_low),
-                        witness,
-                    );
-            }
-            kick_drift
-                .kick::<
-                    R,
-                    V,
-                    S,
-                >(
-                    span.size,
-                    ::symplectic::emitted::Coefficient::new(
-                        0.6756035959798288,
-                        4.21370887772588e-17,
-                        0.67560357,
-                    ),
-                    system,
-                    &mut *force,
-                    &mut *q,
-                    (&mut *p, &mut *p_low),
-                );
-            kick_drift
-                .drift::<
-                    R,
-                    V,
-                    S,
-                    W,
-                >(
-                    ::symplectic::emitted::Drift {
-                        span,
-                        stage: 1,
-                        time: ::symplectic::emitted::Coefficient::new(
-                            0.6756035959798288,
-                            4.21370887772588e-17,
-                            0.67560357,
-                        ),
-                        weight: ::symplectic::emitted::Coefficient::new(
-                            1.3512071919596575,
-                            8.42741775545176e-17,
-                            1.3512071,
-                        ),
-                        known: false,
-                    },
-                    system,
-                    (&mut *velocity, &mut *force),
-                    (&mut *q, &mut *q_low),
-                    (&mut *p, &mut *p_low),
-                    witness,
-                );
-            kick_drift
-                .force::<
-                    R,
-                    V,
-                    S,
-                    W,
-                >(
-                    ::symplectic::emitted::Force {
-                        span,
-                        stage: 2,
-                        time: ::symplectic::emitted::Coefficient::new(
-                            1.3512071919596575,
-                            8.42741775545176e-17,
-                            1.3512071,
-                        ),
-                    },
-                    system,
-                    &mut *force,
-                    &mut *q,
-                    (&mut *p, &mut *p_low),
-                    witness,
-                );
-            kick_drift
-                .kick::<
-                    R,
-                    V,
-                    S,
-                >(
-                    span.size,
-                    ::symplectic::emitted::Coefficient::new(
-                        (-0.17560359597982883),
-                        1.337406245399903e-17,
-                        (-0.1756036),
-                    ),
-                    system,
-                    &mut *force,
-                    &mut *q,
-                    (&mut *p, &mut *p_low),
-                );
-            kick_drift
-                .drift::<
-                    R,
-                    V,
-                    S,
-                    W,
-                >(
-                    ::symplectic::emitted::Drift {
-                        span,
-                        stage: 2,
-                        time: ::symplectic::emitted::Coefficient::exact(0.5),
-                        weight: ::symplectic::emitted::Coefficient::new(
-                            (-1.7024143839193153),
-                            5.349624981599612e-17,
-                            (-1.7024144),
-                        ),
-                        known: false,
-                    },
-                    system,
-                    (&mut *velocity, &mut *force),
-                    (&mut *q, &mut *q_low),
-                    (&mut *p, &mut *p_low),
-                    witness,
-                );
-            kick_drift
-                .force::<
-                    R,
-                    V,
-                    S,
-                    W,
-                >(
-                    ::symplectic::emitted::Force {
-                        span,
-                        stage: 3,
-                        time: ::symplectic::emitted::Coefficient::new(
-                            (-0.35120719195965766),
-                            2.674812490799806e-17,
-                            (-0.3512072),
-                        ),
-                    },
-                    system,
-                    &mut *force,
-                    &mut *q,
-                    (&mut *p, &mut *p_low),
-                    witness,
-                );
-            kick_drift
-                .kick::<
-                    R,
-                    V,
-                    S,
-                >(
-                    span.size,
-                    ::symplectic::emitted::Coefficient::new(
-                        (-0.17560359597982883),
-                        1.337406245399903e-17,
-                        (-0.1756036),
-                    ),
-                    system,
-                    &mut *force,
-                    &mut *q,
-                    (&mut *p, &mut *p_low),
-                );
-            kick_drift
-                .drift::<
-                    R,
-                    V,
-                    S,
-                    W,
-                >(
-                    ::symplectic::emitted::Drift {
-                        span,
-                        stage: 3,
-                        time: ::symplectic::emitted::Coefficient::new(
-                            0.32439640402017117,
-                            1.337406245399903e-17,
-                            0.3243964,
-                        ),
-                        weight: ::symplectic::emitted::Coefficient::new(
-                            1.3512071919596575,
-                            8.42741775545176e-17,
-                            1.3512071,
-                        ),
-                        known: false,
-                    },
-                    system,
-                    (&mut *velocity, &mut *force),
-                    (&mut *q, &mut *q_low),
-                    (&mut *p, &mut *p_low),
-                    witness,
-                );
-            kick_drift
-                .force::<
-                    R,
-                    V,
-                    S,
-                    W,
-                >(
-                    ::symplectic::emitted::Force {
-                        span,
-                        stage: 4,
-                        time: ::symplectic::emitted::Coefficient::exact(1.0),
-                    },
-                    system,
-                    &mut *force,
-                    &mut *q,
-                    (&mut *p, &mut *p_low),
-                    witness,
-                );
-            kick_drift
-                .kick::<
-                    R,
-                    V,
-                    S,
-                >(
-                    span.size,
-                    ::symplectic::emitted::Coefficient::new(
-                        0.6756035959798288,
-                        4.21370887772588e-17,
-                        0.67560357,
-                    ),
-                    system,
-                    &mut *force,
-                    &mut *q,
-                    (&mut *p, &mut *p_low),
-                );
+        fn apply<R, V, S, K, W>(step: &mut emitted::SplittingStep<'_, R, V, S, K, W>)
+        where
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
+            K: emitted::KickDrift,
+            W: emitted::EvaluationObserver,
+        {
+            step.kept_force(1, emitted::exact(0.0));
+            step.kick(emitted::rounded(0.6756035959798288, 4.21370887772588e-17));
+            step.drift(
+                1,
+                emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
+                emitted::rounded(1.3512071919596575, 8.42741775545176e-17),
+            );
+            step.force(2, emitted::rounded(1.3512071919596575, 8.42741775545176e-17));
+            step.kick(emitted::rounded((-0.17560359597982883), 1.337406245399903e-17));
+            step.drift(
+                2,
+                emitted::exact(0.5),
+                emitted::rounded((-1.7024143839193153), 5.349624981599612e-17),
+            );
+            step.force(
+                3,
+                emitted::rounded((-0.35120719195965766), 2.674812490799806e-17),
+            );
+            step.kick(emitted::rounded((-0.17560359597982883), 1.337406245399903e-17));
+            step.drift(
+                3,
+                emitted::rounded(0.32439640402017117, 1.337406245399903e-17),
+                emitted::rounded(1.3512071919596575, 8.42741775545176e-17),
+            );
+            step.force(4, emitted::exact(1.0));
+            step.kick(emitted::rounded(0.6756035959798288, 4.21370887772588e-17));
         }
     }
 };

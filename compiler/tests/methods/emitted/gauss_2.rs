@@ -48,46 +48,31 @@ impl Gauss2 {
 }
 #[allow(clippy::approx_constant)]
 const _: () = {
-    impl ::symplectic::emitted::Method for Gauss2 {
+    use ::symplectic::emitted;
+    impl emitted::Method for Gauss2 {
         const NAME: &'static str = "Gauss2";
         const STAGES: usize = 2;
         const DEFINITION: &'static str = "basis: polynomial(2), nodes: gauss(2)";
-        const COEFFICIENTS: ::symplectic::emitted::Coefficients = {
-            const A: &[&[::symplectic::emitted::Coefficient]] = &[
+        const COEFFICIENTS: emitted::Coefficients = {
+            const A: &[&[emitted::Coefficient]] = &[
                 &[
-                    ::symplectic::emitted::Coefficient::exact(0.25),
-                    ::symplectic::emitted::Coefficient::new(
-                        (-0.03867513459481288),
-                        (-2.8473525618637145e-18),
-                        (-0.038675133),
-                    ),
+                    emitted::exact(0.25),
+                    emitted::rounded((-0.03867513459481288), (-2.8473525618637145e-18)),
                 ],
                 &[
-                    ::symplectic::emitted::Coefficient::new(
-                        0.5386751345948129,
-                        1.6725140369678172e-17,
-                        0.5386751,
-                    ),
-                    ::symplectic::emitted::Coefficient::exact(0.25),
+                    emitted::rounded(0.5386751345948129, 1.6725140369678172e-17),
+                    emitted::exact(0.25),
                 ],
             ];
-            const B: &[::symplectic::emitted::Coefficient] = &[
-                ::symplectic::emitted::Coefficient::exact(0.5),
-                ::symplectic::emitted::Coefficient::exact(0.5),
+            const B: &[emitted::Coefficient] = &[
+                emitted::exact(0.5),
+                emitted::exact(0.5),
             ];
-            const C: &[::symplectic::emitted::Coefficient] = &[
-                ::symplectic::emitted::Coefficient::new(
-                    0.2113248654051871,
-                    1.1030435245950743e-17,
-                    0.21132487,
-                ),
-                ::symplectic::emitted::Coefficient::new(
-                    0.7886751345948129,
-                    1.6725140369678172e-17,
-                    0.7886751,
-                ),
+            const C: &[emitted::Coefficient] = &[
+                emitted::rounded(0.2113248654051871, 1.1030435245950743e-17),
+                emitted::rounded(0.7886751345948129, 1.6725140369678172e-17),
             ];
-            ::symplectic::emitted::Coefficients {
+            emitted::Coefficients {
                 a: A,
                 a_tilde: A,
                 b: B,
@@ -96,30 +81,108 @@ const _: () = {
                 c_tilde: C,
             }
         };
-        const ORDERS: ::symplectic::emitted::Orders = ::symplectic::emitted::Orders {
+        const ORDERS: emitted::Orders = emitted::Orders {
             general: 4,
             separable: 4,
             nystrom: 4,
         };
-        const SYMMETRY: ::symplectic::emitted::Symmetry = ::symplectic::emitted::Symmetry {
+        const SYMMETRY: emitted::Symmetry = emitted::Symmetry {
             general: true,
             separable: true,
         };
-        type General = ::symplectic::emitted::Coupled<Gauss2General>;
-        type Separable = ::symplectic::emitted::Coupled<Gauss2Separable>;
+        type General = emitted::Coupled<Gauss2Plan<emitted::General>>;
+        type Separable = emitted::Coupled<Gauss2Plan<emitted::Separable>>;
     }
-    impl<C: ::symplectic::emitted::Unconstrained> ::symplectic::emitted::ProvedFor<C>
-    for Gauss2 {}
-    pub struct Gauss2General;
+    impl<C: emitted::Unconstrained> emitted::ProvedFor<C> for Gauss2 {}
+    pub struct Gauss2Plan<C>(::core::marker::PhantomData<C>);
     #[allow(unused_variables)]
-    impl ::symplectic::emitted::StagePlan for Gauss2General {
-        type Class = ::symplectic::emitted::General;
-        type Stages<V: ::symplectic::emitted::Vector> = ::symplectic::emitted::Stages<
-            V,
-            2,
-            2,
-        >;
-        const EVALUATIONS: ::symplectic::emitted::EvaluationCounts = ::symplectic::emitted::EvaluationCounts {
+    impl<C: emitted::Class> Gauss2Plan<C> {
+        const C: [emitted::Coefficient; 2] = [
+            emitted::rounded(0.2113248654051871, 1.1030435245950743e-17),
+            emitted::rounded(0.7886751345948129, 1.6725140369678172e-17),
+        ];
+        const B_TILDE: [emitted::Coefficient; 2] = [
+            emitted::exact(0.5),
+            emitted::exact(0.5),
+        ];
+        const C_TILDE: [emitted::Coefficient; 2] = Self::C;
+        const B: [emitted::Coefficient; 2] = Self::B_TILDE;
+        const Q_0: [emitted::Coefficient; 2] = [
+            emitted::exact(0.5),
+            emitted::Coefficient::new(
+                (-0.07735026918962573),
+                (-3.3450280739356345e-17),
+                (-0.07735026),
+            ),
+        ];
+        const Q_1: [emitted::Coefficient; 2] = [
+            emitted::rounded(1.0773502691896257, 3.3450280739356345e-17),
+            emitted::exact(0.5),
+        ];
+        const P_0: [emitted::Coefficient; 2] = Self::Q_0;
+        const P_1: [emitted::Coefficient; 2] = Self::Q_1;
+        #[inline]
+        fn forces<
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = C>,
+        >(
+            step: &emitted::Step<'_, V>,
+            system: &S,
+            stages: &mut emitted::Stages<V, 2, 2>,
+        ) {
+            let emitted::Stages { q, p, force, .. } = stages;
+            system.force(step.at(Self::C[0]), &q[0], &p[0], &mut force[0]);
+            emitted::increment::<R, V>(&mut force[0], step.size, Self::B_TILDE[0]);
+            system.force(step.at(Self::C[1]), &q[1], &p[1], &mut force[1]);
+            emitted::increment::<R, V>(&mut force[1], step.size, Self::B_TILDE[1]);
+        }
+        #[inline]
+        fn momenta<V: emitted::Vector, A: emitted::StageSums>(
+            step: &emitted::Step<'_, V>,
+            stages: &mut emitted::Stages<V, 2, 2>,
+            sums: &mut A,
+        ) {
+            let emitted::Stages { p, force, .. } = stages;
+            let (base, terms) = ((step.p, step.p_low), [&force[0], &force[1]]);
+            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B_TILDE);
+            sums.increments(&mut p[0], base, Self::P_0, weights, terms);
+            sums.increments(&mut p[1], base, Self::P_1, weights, terms);
+        }
+        #[inline]
+        fn velocities<
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = C>,
+        >(
+            step: &emitted::Step<'_, V>,
+            system: &S,
+            stages: &mut emitted::Stages<V, 2, 2>,
+        ) {
+            let emitted::Stages { q, p, velocity, .. } = stages;
+            system.velocity(step.at(Self::C_TILDE[0]), &q[0], &p[0], &mut velocity[0]);
+            emitted::increment::<R, V>(&mut velocity[0], step.size, Self::B[0]);
+            system.velocity(step.at(Self::C_TILDE[1]), &q[1], &p[1], &mut velocity[1]);
+            emitted::increment::<R, V>(&mut velocity[1], step.size, Self::B[1]);
+        }
+        #[inline]
+        fn positions<V: emitted::Vector, A: emitted::StageSums>(
+            step: &emitted::Step<'_, V>,
+            stages: &mut emitted::Stages<V, 2, 2>,
+            sums: &mut A,
+        ) {
+            let emitted::Stages { q, velocity, .. } = stages;
+            let (base, terms) = ((step.q, step.q_low), [&velocity[0], &velocity[1]]);
+            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B);
+            sums.increments(&mut q[0], base, Self::Q_0, weights, terms);
+            sums.increments(&mut q[1], base, Self::Q_1, weights, terms);
+        }
+    }
+    #[allow(unused_variables)]
+    impl<C: emitted::Class> emitted::StagePlan for Gauss2Plan<C> {
+        type Class = C;
+        type Stages<V: emitted::Vector> = emitted::Stages<V, 2, 2>;
+        const EVALUATIONS: emitted::EvaluationCounts = emitted::EvaluationCounts {
             begin: 0,
             start: 1,
             sweep: 4,
@@ -128,454 +191,108 @@ const _: () = {
         };
         #[inline]
         fn begin<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
         >(
-            step: &::symplectic::emitted::Step<'_, V>,
+            step: &emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::WarmStart,
+            kept: emitted::WarmStart,
         ) {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
             if kept.stages {
-                ::symplectic::emitted::transform(
-                    velocity,
+                emitted::transform(
+                    &mut stages.velocity,
                     [0, 1],
                     [
                         [(-0.7320508075688773), 1.7320508075688772],
                         [(-1.7320508075688772), 2.732050807568877],
                     ],
                 );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut q[0],
-                    step.q,
-                    step.q_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-0.07735026918962573),
-                            (-3.3450280739356345e-17),
-                            (-0.07735026),
-                        ),
-                    ]),
-                    [&velocity[0], &velocity[1]],
-                );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut q[1],
-                    step.q,
-                    step.q_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::new(
-                            1.0773502691896257,
-                            3.3450280739356345e-17,
-                            1.0773503,
-                        ),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                    ]),
-                    [&velocity[0], &velocity[1]],
-                );
-                ::symplectic::emitted::transform(
-                    force,
-                    [0, 1],
-                    [
-                        [(-0.7320508075688773), 1.7320508075688772],
-                        [(-1.7320508075688772), 2.732050807568877],
-                    ],
-                );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut p[0],
-                    step.p,
-                    step.p_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-0.07735026918962573),
-                            (-3.3450280739356345e-17),
-                            (-0.07735026),
-                        ),
-                    ]),
-                    [&force[0], &force[1]],
-                );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut p[1],
-                    step.p,
-                    step.p_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::new(
-                            1.0773502691896257,
-                            3.3450280739356345e-17,
-                            1.0773503,
-                        ),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                    ]),
-                    [&force[0], &force[1]],
-                );
+                Self::positions(step, stages, &mut emitted::Starting::<R>::new());
+                if !C::SEPARABLE {
+                    emitted::transform(
+                        &mut stages.force,
+                        [0, 1],
+                        [
+                            [(-0.7320508075688773), 1.7320508075688772],
+                            [(-1.7320508075688772), 2.732050807568877],
+                        ],
+                    );
+                    Self::momenta(step, stages, &mut emitted::Starting::<R>::new());
+                }
             } else {
-                ::symplectic::emitted::copy(&mut p[0], step.p);
-                ::symplectic::emitted::copy(&mut p[1], step.p);
+                emitted::reset(&mut stages.p, [0, 1], step.p);
                 system
                     .velocity(
-                        step
-                            .at(
-                                ::symplectic::emitted::Coefficient::new(
-                                    0.2113248654051871,
-                                    1.1030435245950743e-17,
-                                    0.21132487,
-                                ),
-                            ),
+                        step.at(Self::C_TILDE[0]),
                         step.q,
                         step.p,
-                        &mut velocity[0],
+                        &mut stages.velocity[0],
                     );
-                ::symplectic::emitted::copy_to(velocity, 0, [1]);
-                ::symplectic::emitted::scale(
-                    &mut velocity[0],
-                    step.size,
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                );
-                ::symplectic::emitted::scale(
-                    &mut velocity[1],
-                    step.size,
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut q[0],
-                    step.q,
-                    step.q_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-0.07735026918962573),
-                            (-3.3450280739356345e-17),
-                            (-0.07735026),
-                        ),
-                    ]),
-                    [&velocity[0], &velocity[1]],
-                );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut q[1],
-                    step.q,
-                    step.q_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::new(
-                            1.0773502691896257,
-                            3.3450280739356345e-17,
-                            1.0773503,
-                        ),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                    ]),
-                    [&velocity[0], &velocity[1]],
-                );
+                emitted::copy_to(&mut stages.velocity, 0, [1]);
+                emitted::scale_all(&mut stages.velocity, [0, 1], step.size, Self::B);
+                Self::positions(step, stages, &mut emitted::Starting::<R>::new());
             }
         }
         #[inline]
         fn sweep<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
         >(
-            step: &::symplectic::emitted::Step<'_, V>,
+            step: &emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::emitted::StageChange {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            let mut change = ::symplectic::emitted::StageChange::default();
-            let force_weights = ::symplectic::emitted::weights::<
-                V::Scalar,
-                _,
-            >(
-                step.size,
-                [
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                ],
-            );
-            let velocity_weights = ::symplectic::emitted::weights::<
-                V::Scalar,
-                _,
-            >(
-                step.size,
-                [
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                ],
-            );
-            system
-                .force(
-                    step
-                        .at(
-                            ::symplectic::emitted::Coefficient::new(
-                                0.2113248654051871,
-                                1.1030435245950743e-17,
-                                0.21132487,
-                            ),
-                        ),
-                    &q[0],
-                    &p[0],
-                    &mut force[0],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(&mut force[0], step.size, ::symplectic::emitted::Coefficient::exact(0.5));
-            system
-                .force(
-                    step
-                        .at(
-                            ::symplectic::emitted::Coefficient::new(
-                                0.7886751345948129,
-                                1.6725140369678172e-17,
-                                0.7886751,
-                            ),
-                        ),
-                    &q[1],
-                    &p[1],
-                    &mut force[1],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(&mut force[1], step.size, ::symplectic::emitted::Coefficient::exact(0.5));
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut p[0],
-                step.p,
-                step.p_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-0.07735026918962573),
-                            (-3.3450280739356345e-17),
-                            (-0.07735026),
-                        ),
-                    ],
-                    [force_weights[0], force_weights[1]],
-                ),
-                [&force[0], &force[1]],
-                &mut change.p,
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut p[1],
-                step.p,
-                step.p_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::new(
-                            1.0773502691896257,
-                            3.3450280739356345e-17,
-                            1.0773503,
-                        ),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                    ],
-                    [force_weights[0], force_weights[1]],
-                ),
-                [&force[0], &force[1]],
-                &mut change.p,
-            );
-            system
-                .velocity(
-                    step
-                        .at(
-                            ::symplectic::emitted::Coefficient::new(
-                                0.2113248654051871,
-                                1.1030435245950743e-17,
-                                0.21132487,
-                            ),
-                        ),
-                    &q[0],
-                    &p[0],
-                    &mut velocity[0],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(
-                &mut velocity[0],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            system
-                .velocity(
-                    step
-                        .at(
-                            ::symplectic::emitted::Coefficient::new(
-                                0.7886751345948129,
-                                1.6725140369678172e-17,
-                                0.7886751,
-                            ),
-                        ),
-                    &q[1],
-                    &p[1],
-                    &mut velocity[1],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(
-                &mut velocity[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[0],
-                step.q,
-                step.q_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-0.07735026918962573),
-                            (-3.3450280739356345e-17),
-                            (-0.07735026),
-                        ),
-                    ],
-                    [velocity_weights[0], velocity_weights[1]],
-                ),
-                [&velocity[0], &velocity[1]],
-                &mut change.q,
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[1],
-                step.q,
-                step.q_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::new(
-                            1.0773502691896257,
-                            3.3450280739356345e-17,
-                            1.0773503,
-                        ),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                    ],
-                    [velocity_weights[0], velocity_weights[1]],
-                ),
-                [&velocity[0], &velocity[1]],
-                &mut change.q,
-            );
+        ) -> emitted::StageChange {
+            let mut change = emitted::StageChange::default();
+            Self::forces::<R, V, S>(step, system, stages);
+            Self::momenta(step, stages, &mut emitted::Sweep::<R>::new(&mut change.p));
+            Self::velocities::<R, V, S>(step, system, stages);
+            Self::positions(step, stages, &mut emitted::Sweep::<R>::new(&mut change.q));
             change
         }
         #[inline]
-        fn increments<V: ::symplectic::emitted::Vector>(
-            step: &::symplectic::emitted::Step<'_, V>,
+        fn increments<V: emitted::Vector>(
+            step: &emitted::Step<'_, V>,
             stages: &mut Self::Stages<V>,
         ) {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            ::symplectic::emitted::scale(
-                &mut force[0],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            ::symplectic::emitted::scale(
-                &mut force[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            ::symplectic::emitted::scale(
-                &mut velocity[0],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            ::symplectic::emitted::scale(
-                &mut velocity[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
+            emitted::scale_all(&mut stages.force, [0, 1], step.size, Self::B_TILDE);
+            emitted::scale_all(&mut stages.velocity, [0, 1], step.size, Self::B);
         }
         #[inline]
         fn finish<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
-            W: ::symplectic::emitted::EvaluationObserver,
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
+            W: emitted::EvaluationObserver,
         >(
-            step: &::symplectic::emitted::Step<'_, V>,
+            step: &emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::WarmStart,
-            outcome: ::symplectic::emitted::Outcome<'_, V>,
+            kept: emitted::WarmStart,
+            outcome: emitted::Outcome<'_, V>,
             witness: &mut W,
         ) {
-            let ::symplectic::emitted::Outcome {
-                q: q1,
-                q_low: q1_low,
-                p: p1,
-                p_low: p1_low,
-            } = outcome;
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            ::symplectic::emitted::total::<
+            let emitted::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
+            let emitted::Stages { q, p, velocity, force } = &mut *stages;
+            emitted::total::<
                 R,
                 V,
                 _,
             >(q1, q1_low, step.q, step.q_low, [&velocity[0], &velocity[1]]);
-            ::symplectic::emitted::total::<
+            emitted::total::<
                 R,
                 V,
                 _,
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
         }
     }
-    impl ::symplectic::emitted::StageTableau for Gauss2General {
-        type Lanes = ::symplectic::emitted::F64x2;
+    impl<C: emitted::Class> emitted::StageTableau for Gauss2Plan<C> {
+        type Lanes = emitted::F64x2;
         type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
-        const POSITIONS: ::symplectic::emitted::HalfTableau = ::symplectic::emitted::HalfTableau {
+        const POSITIONS: emitted::HalfTableau = emitted::HalfTableau {
             count: 2,
             columns: &[&[0.5, 1.0773502691896257], &[(-0.07735026918962573), 0.5]],
             times: &[0.2113248654051871, 0.7886751345948129],
@@ -584,484 +301,41 @@ const _: () = {
                 &[(-0.7320508075688773), (-1.7320508075688772)],
                 &[1.7320508075688772, 2.732050807568877],
             ],
-            polynomial: ::core::option::Option::Some(::symplectic::emitted::StagePolynomial {
+            polynomial: ::core::option::Option::Some(emitted::StagePolynomial {
                 legendre: &[&[(-1.7320508075688772), 1.7320508075688772]],
                 order: 3,
             }),
         };
-        const MOMENTA: ::symplectic::emitted::HalfTableau = <Gauss2General as ::symplectic::emitted::StageTableau>::POSITIONS;
-        const SECOND_ORDER: ::core::option::Option<
-            ::symplectic::emitted::SecondOrderTableau,
-        > = ::core::option::Option::None;
-        const DECOUPLING: ::core::option::Option<::symplectic::emitted::Decoupling> = ::core::option::Option::Some(::symplectic::emitted::Decoupling {
-            blocks: &[(0.25, 0.14433756729740643)],
-            to_stages: &[&[0.0, (-0.2679491924311227)], &[1.0, 0.0]],
-            from_stages: &[&[0.0, 1.0], &[(-3.732050807568877), 0.0]],
-        });
-        #[inline(always)]
-        fn groups<T: ::core::fmt::Debug>(
-            mut make: impl ::core::ops::FnMut(usize) -> T,
-        ) -> [T; 1] {
-            [make(0)]
-        }
-        #[inline(always)]
-        fn stored<V: ::symplectic::emitted::Vector>(
-            stages: &Self::Stages<V>,
-        ) -> [::symplectic::emitted::StoredEvaluations<'_, V>; 2] {
-            [
-                ::symplectic::emitted::StoredEvaluations {
-                    values: &stages.velocity,
-                    carried: &[],
-                },
-                ::symplectic::emitted::StoredEvaluations {
-                    values: &stages.force,
-                    carried: &[],
-                },
-            ]
-        }
-    }
-    pub struct Gauss2Separable;
-    #[allow(unused_variables)]
-    impl ::symplectic::emitted::StagePlan for Gauss2Separable {
-        type Class = ::symplectic::emitted::Separable;
-        type Stages<V: ::symplectic::emitted::Vector> = ::symplectic::emitted::Stages<
-            V,
-            2,
-            2,
-        >;
-        const EVALUATIONS: ::symplectic::emitted::EvaluationCounts = ::symplectic::emitted::EvaluationCounts {
-            begin: 0,
-            start: 1,
-            sweep: 4,
-            finish: 0,
-            carried: 0,
+        const MOMENTA: emitted::HalfTableau = Self::POSITIONS;
+        const SECOND_ORDER: ::core::option::Option<emitted::SecondOrderTableau> = if C::SEPARABLE {
+            ::core::option::Option::Some(emitted::SecondOrderTableau {
+                nodes: &[0.21132486540518713, 0.7886751345948129],
+                columns: &[
+                    &[0.08333333333333326, 0.5386751345948129],
+                    &[(-0.038675134594812866), 0.08333333333333326],
+                ],
+                of_forces: &[
+                    &[0.04166666666666663, 0.26933756729740643],
+                    &[(-0.019337567297406433), 0.04166666666666663],
+                ],
+                rest: &[0.7886751345948129, 0.21132486540518713],
+            })
+        } else {
+            ::core::option::Option::None
         };
-        #[inline]
-        fn begin<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
-        >(
-            step: &::symplectic::emitted::Step<'_, V>,
-            system: &S,
-            stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::WarmStart,
-        ) {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            if kept.stages {
-                ::symplectic::emitted::transform(
-                    velocity,
-                    [0, 1],
-                    [
-                        [(-0.7320508075688773), 1.7320508075688772],
-                        [(-1.7320508075688772), 2.732050807568877],
-                    ],
-                );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut q[0],
-                    step.q,
-                    step.q_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-0.07735026918962573),
-                            (-3.3450280739356345e-17),
-                            (-0.07735026),
-                        ),
-                    ]),
-                    [&velocity[0], &velocity[1]],
-                );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut q[1],
-                    step.q,
-                    step.q_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::new(
-                            1.0773502691896257,
-                            3.3450280739356345e-17,
-                            1.0773503,
-                        ),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                    ]),
-                    [&velocity[0], &velocity[1]],
-                );
-            } else {
-                ::symplectic::emitted::copy(&mut p[0], step.p);
-                ::symplectic::emitted::copy(&mut p[1], step.p);
-                system
-                    .velocity(
-                        step
-                            .at(
-                                ::symplectic::emitted::Coefficient::new(
-                                    0.2113248654051871,
-                                    1.1030435245950743e-17,
-                                    0.21132487,
-                                ),
-                            ),
-                        step.q,
-                        step.p,
-                        &mut velocity[0],
-                    );
-                ::symplectic::emitted::copy_to(velocity, 0, [1]);
-                ::symplectic::emitted::scale(
-                    &mut velocity[0],
-                    step.size,
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                );
-                ::symplectic::emitted::scale(
-                    &mut velocity[1],
-                    step.size,
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut q[0],
-                    step.q,
-                    step.q_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-0.07735026918962573),
-                            (-3.3450280739356345e-17),
-                            (-0.07735026),
-                        ),
-                    ]),
-                    [&velocity[0], &velocity[1]],
-                );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut q[1],
-                    step.q,
-                    step.q_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::new(
-                            1.0773502691896257,
-                            3.3450280739356345e-17,
-                            1.0773503,
-                        ),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                    ]),
-                    [&velocity[0], &velocity[1]],
-                );
-            }
-        }
-        #[inline]
-        fn sweep<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
-        >(
-            step: &::symplectic::emitted::Step<'_, V>,
-            system: &S,
-            stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::emitted::StageChange {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            let mut change = ::symplectic::emitted::StageChange::default();
-            let force_weights = ::symplectic::emitted::weights::<
-                V::Scalar,
-                _,
-            >(
-                step.size,
-                [
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                ],
-            );
-            let velocity_weights = ::symplectic::emitted::weights::<
-                V::Scalar,
-                _,
-            >(
-                step.size,
-                [
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                ],
-            );
-            system
-                .force(
-                    step
-                        .at(
-                            ::symplectic::emitted::Coefficient::new(
-                                0.2113248654051871,
-                                1.1030435245950743e-17,
-                                0.21132487,
-                            ),
-                        ),
-                    &q[0],
-                    step.p,
-                    &mut force[0],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(&mut force[0], step.size, ::symplectic::emitted::Coefficient::exact(0.5));
-            system
-                .force(
-                    step
-                        .at(
-                            ::symplectic::emitted::Coefficient::new(
-                                0.7886751345948129,
-                                1.6725140369678172e-17,
-                                0.7886751,
-                            ),
-                        ),
-                    &q[1],
-                    step.p,
-                    &mut force[1],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(&mut force[1], step.size, ::symplectic::emitted::Coefficient::exact(0.5));
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut p[0],
-                step.p,
-                step.p_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-0.07735026918962573),
-                            (-3.3450280739356345e-17),
-                            (-0.07735026),
-                        ),
-                    ],
-                    [force_weights[0], force_weights[1]],
-                ),
-                [&force[0], &force[1]],
-                &mut change.p,
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut p[1],
-                step.p,
-                step.p_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::new(
-                            1.0773502691896257,
-                            3.3450280739356345e-17,
-                            1.0773503,
-                        ),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                    ],
-                    [force_weights[0], force_weights[1]],
-                ),
-                [&force[0], &force[1]],
-                &mut change.p,
-            );
-            system
-                .velocity(
-                    step
-                        .at(
-                            ::symplectic::emitted::Coefficient::new(
-                                0.2113248654051871,
-                                1.1030435245950743e-17,
-                                0.21132487,
-                            ),
-                        ),
-                    step.q,
-                    &p[0],
-                    &mut velocity[0],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(
-                &mut velocity[0],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            system
-                .velocity(
-                    step
-                        .at(
-                            ::symplectic::emitted::Coefficient::new(
-                                0.7886751345948129,
-                                1.6725140369678172e-17,
-                                0.7886751,
-                            ),
-                        ),
-                    step.q,
-                    &p[1],
-                    &mut velocity[1],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(
-                &mut velocity[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[0],
-                step.q,
-                step.q_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::new(
-                            (-0.07735026918962573),
-                            (-3.3450280739356345e-17),
-                            (-0.07735026),
-                        ),
-                    ],
-                    [velocity_weights[0], velocity_weights[1]],
-                ),
-                [&velocity[0], &velocity[1]],
-                &mut change.q,
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[1],
-                step.q,
-                step.q_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::new(
-                            1.0773502691896257,
-                            3.3450280739356345e-17,
-                            1.0773503,
-                        ),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                    ],
-                    [velocity_weights[0], velocity_weights[1]],
-                ),
-                [&velocity[0], &velocity[1]],
-                &mut change.q,
-            );
-            change
-        }
-        #[inline]
-        fn increments<V: ::symplectic::emitted::Vector>(
-            step: &::symplectic::emitted::Step<'_, V>,
-            stages: &mut Self::Stages<V>,
-        ) {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            ::symplectic::emitted::scale(
-                &mut force[0],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            ::symplectic::emitted::scale(
-                &mut force[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            ::symplectic::emitted::scale(
-                &mut velocity[0],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            ::symplectic::emitted::scale(
-                &mut velocity[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-        }
-        #[inline]
-        fn finish<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
-            W: ::symplectic::emitted::EvaluationObserver,
-        >(
-            step: &::symplectic::emitted::Step<'_, V>,
-            system: &S,
-            stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::WarmStart,
-            outcome: ::symplectic::emitted::Outcome<'_, V>,
-            witness: &mut W,
-        ) {
-            let ::symplectic::emitted::Outcome {
-                q: q1,
-                q_low: q1_low,
-                p: p1,
-                p_low: p1_low,
-            } = outcome;
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            ::symplectic::emitted::total::<
-                R,
-                V,
-                _,
-            >(q1, q1_low, step.q, step.q_low, [&velocity[0], &velocity[1]]);
-            ::symplectic::emitted::total::<
-                R,
-                V,
-                _,
-            >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
-        }
-    }
-    impl ::symplectic::emitted::StageTableau for Gauss2Separable {
-        type Lanes = ::symplectic::emitted::F64x2;
-        type Groups<T: ::core::fmt::Debug> = [T; 1];
-        const INCREMENTS: bool = true;
-        const POSITIONS: ::symplectic::emitted::HalfTableau = <Gauss2General as ::symplectic::emitted::StageTableau>::POSITIONS;
-        const MOMENTA: ::symplectic::emitted::HalfTableau = <Gauss2General as ::symplectic::emitted::StageTableau>::POSITIONS;
-        const SECOND_ORDER: ::core::option::Option<
-            ::symplectic::emitted::SecondOrderTableau,
-        > = ::core::option::Option::Some(::symplectic::emitted::SecondOrderTableau {
-            nodes: &[0.21132486540518713, 0.7886751345948129],
-            columns: &[
-                &[0.08333333333333326, 0.5386751345948129],
-                &[(-0.038675134594812866), 0.08333333333333326],
-            ],
-            of_forces: &[
-                &[0.04166666666666663, 0.26933756729740643],
-                &[(-0.019337567297406433), 0.04166666666666663],
-            ],
-            rest: &[0.7886751345948129, 0.21132486540518713],
-        });
-        const DECOUPLING: ::core::option::Option<::symplectic::emitted::Decoupling> = ::core::option::Option::Some(::symplectic::emitted::Decoupling {
-            blocks: &[(0.041666666666666664, 0.07216878364870322)],
-            to_stages: &[&[0.0, (-0.2679491924311227)], &[1.0, 0.0]],
-            from_stages: &[&[0.0, 1.0], &[(-3.732050807568877), 0.0]],
-        });
+        const DECOUPLING: ::core::option::Option<emitted::Decoupling> = if C::SEPARABLE {
+            ::core::option::Option::Some(emitted::Decoupling {
+                blocks: &[(0.041666666666666664, 0.07216878364870322)],
+                to_stages: &[&[0.0, (-0.2679491924311227)], &[1.0, 0.0]],
+                from_stages: &[&[0.0, 1.0], &[(-3.732050807568877), 0.0]],
+            })
+        } else {
+            ::core::option::Option::Some(emitted::Decoupling {
+                blocks: &[(0.25, 0.14433756729740643)],
+                to_stages: &[&[0.0, (-0.2679491924311227)], &[1.0, 0.0]],
+                from_stages: &[&[0.0, 1.0], &[(-3.732050807568877), 0.0]],
+            })
+        };
         #[inline(always)]
         fn groups<T: ::core::fmt::Debug>(
             mut make: impl ::core::ops::FnMut(usize) -> T,
@@ -1069,19 +343,10 @@ const _: () = {
             [make(0)]
         }
         #[inline(always)]
-        fn stored<V: ::symplectic::emitted::Vector>(
+        fn stored<V: emitted::Vector>(
             stages: &Self::Stages<V>,
-        ) -> [::symplectic::emitted::StoredEvaluations<'_, V>; 2] {
-            [
-                ::symplectic::emitted::StoredEvaluations {
-                    values: &stages.velocity,
-                    carried: &[],
-                },
-                ::symplectic::emitted::StoredEvaluations {
-                    values: &stages.force,
-                    carried: &[],
-                },
-            ]
+        ) -> [emitted::StoredEvaluations<'_, V>; 2] {
+            stages.stored(&[], &[])
         }
     }
 };

@@ -56,121 +56,58 @@ impl Lobatto3 {
 }
 #[allow(clippy::approx_constant)]
 const _: () = {
-    impl ::symplectic::emitted::Method for Lobatto3 {
+    use ::symplectic::emitted;
+    impl emitted::Method for Lobatto3 {
         const NAME: &'static str = "Lobatto3";
         const STAGES: usize = 3;
         const DEFINITION: &'static str = "basis: polynomial(3), nodes: lobatto(3)";
-        const COEFFICIENTS: ::symplectic::emitted::Coefficients = {
-            const A: &[&[::symplectic::emitted::Coefficient]] = &[
+        const COEFFICIENTS: emitted::Coefficients = {
+            const A: &[&[emitted::Coefficient]] = &[
+                &[emitted::exact(0.0), emitted::exact(0.0), emitted::exact(0.0)],
                 &[
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    emitted::rounded(0.20833333333333334, (-9.25185853854297e-18)),
+                    emitted::rounded(0.3333333333333333, 1.850371707708594e-17),
+                    emitted::rounded((-0.041666666666666664), (-2.3129646346357427e-18)),
                 ],
                 &[
-                    ::symplectic::emitted::Coefficient::new(
-                        0.20833333333333334,
-                        (-9.25185853854297e-18),
-                        0.20833333,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        0.3333333333333333,
-                        1.850371707708594e-17,
-                        0.33333334,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        (-0.041666666666666664),
-                        (-2.3129646346357427e-18),
-                        (-0.041666668),
-                    ),
-                ],
-                &[
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        0.6666666666666666,
-                        3.700743415417188e-17,
-                        0.6666667,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
+                    emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
+                    emitted::rounded(0.6666666666666666, 3.700743415417188e-17),
+                    emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
                 ],
             ];
-            const B: &[::symplectic::emitted::Coefficient] = &[
-                ::symplectic::emitted::Coefficient::new(
-                    0.16666666666666666,
-                    9.25185853854297e-18,
-                    0.16666667,
-                ),
-                ::symplectic::emitted::Coefficient::new(
-                    0.6666666666666666,
-                    3.700743415417188e-17,
-                    0.6666667,
-                ),
-                ::symplectic::emitted::Coefficient::new(
-                    0.16666666666666666,
-                    9.25185853854297e-18,
-                    0.16666667,
-                ),
+            const B: &[emitted::Coefficient] = &[
+                emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
+                emitted::rounded(0.6666666666666666, 3.700743415417188e-17),
+                emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
             ];
-            const C: &[::symplectic::emitted::Coefficient] = &[
-                ::symplectic::emitted::Coefficient::exact(0.0),
-                ::symplectic::emitted::Coefficient::exact(0.5),
-                ::symplectic::emitted::Coefficient::exact(1.0),
+            const C: &[emitted::Coefficient] = &[
+                emitted::exact(0.0),
+                emitted::exact(0.5),
+                emitted::exact(1.0),
             ];
-            const A_TILDE: &[&[::symplectic::emitted::Coefficient]] = &[
+            const A_TILDE: &[&[emitted::Coefficient]] = &[
                 &[
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        (-0.16666666666666666),
-                        (-9.25185853854297e-18),
-                        (-0.16666667),
-                    ),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
+                    emitted::rounded((-0.16666666666666666), (-9.25185853854297e-18)),
+                    emitted::exact(0.0),
                 ],
                 &[
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        0.3333333333333333,
-                        1.850371707708594e-17,
-                        0.33333334,
-                    ),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
+                    emitted::rounded(0.3333333333333333, 1.850371707708594e-17),
+                    emitted::exact(0.0),
                 ],
                 &[
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        0.8333333333333334,
-                        (-3.700743415417188e-17),
-                        0.8333333,
-                    ),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
+                    emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
+                    emitted::rounded(0.8333333333333334, (-3.700743415417188e-17)),
+                    emitted::exact(0.0),
                 ],
             ];
-            const C_TILDE: &[::symplectic::emitted::Coefficient] = &[
-                ::symplectic::emitted::Coefficient::exact(0.0),
-                ::symplectic::emitted::Coefficient::exact(0.5),
-                ::symplectic::emitted::Coefficient::exact(1.0),
+            const C_TILDE: &[emitted::Coefficient] = &[
+                emitted::exact(0.0),
+                emitted::exact(0.5),
+                emitted::exact(1.0),
             ];
-            ::symplectic::emitted::Coefficients {
+            emitted::Coefficients {
                 a: A,
                 a_tilde: A_TILDE,
                 b: B,
@@ -179,103 +116,182 @@ const _: () = {
                 c_tilde: C_TILDE,
             }
         };
-        const ORDERS: ::symplectic::emitted::Orders = ::symplectic::emitted::Orders {
+        const ORDERS: emitted::Orders = emitted::Orders {
             general: 4,
             separable: 4,
             nystrom: 4,
         };
-        const SYMMETRY: ::symplectic::emitted::Symmetry = ::symplectic::emitted::Symmetry {
+        const SYMMETRY: emitted::Symmetry = emitted::Symmetry {
             general: true,
             separable: true,
         };
-        const CONSTRAINED: &'static [::symplectic::emitted::ConstrainedStep] = {
-            const TABLEAU1: ::symplectic::emitted::ConstrainedTableau = ::symplectic::emitted::ConstrainedTableau {
+        const CONSTRAINED: &'static [emitted::ConstrainedStep] = {
+            const TABLEAU1: emitted::ConstrainedTableau = emitted::ConstrainedTableau {
                 positions: &[
+                    &[emitted::exact(0.0), emitted::exact(0.0), emitted::exact(0.0)],
                     &[
-                        ::symplectic::emitted::Coefficient::exact(0.0),
-                        ::symplectic::emitted::Coefficient::exact(0.0),
-                        ::symplectic::emitted::Coefficient::exact(0.0),
+                        emitted::exact(1.25),
+                        emitted::exact(0.5),
+                        emitted::exact((-0.25)),
                     ],
-                    &[
-                        ::symplectic::emitted::Coefficient::exact(1.25),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::exact((-0.25)),
-                    ],
-                    &[
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                    ],
+                    &[emitted::exact(1.0), emitted::exact(1.0), emitted::exact(1.0)],
                 ],
                 momenta: &[
-                    &[
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact((-0.25)),
-                        ::symplectic::emitted::Coefficient::exact(0.0),
-                    ],
-                    &[
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::exact(0.0),
-                    ],
-                    &[
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(1.25),
-                        ::symplectic::emitted::Coefficient::exact(0.0),
-                    ],
+                    &[emitted::exact(1.0), emitted::exact((-0.25)), emitted::exact(0.0)],
+                    &[emitted::exact(1.0), emitted::exact(0.5), emitted::exact(0.0)],
+                    &[emitted::exact(1.0), emitted::exact(1.25), emitted::exact(0.0)],
                 ],
                 weights: &[
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        0.6666666666666666,
-                        3.700743415417188e-17,
-                        0.6666667,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
+                    emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
+                    emitted::rounded(0.6666666666666666, 3.700743415417188e-17),
+                    emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
                 ],
-                nodes: &[
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    ::symplectic::emitted::Coefficient::exact(1.0),
-                ],
+                nodes: &[emitted::exact(0.0), emitted::exact(0.5), emitted::exact(1.0)],
                 momentum_nodes: &[
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    ::symplectic::emitted::Coefficient::exact(1.0),
+                    emitted::exact(0.0),
+                    emitted::exact(0.5),
+                    emitted::exact(1.0),
                 ],
                 multipliers: &[&[16.0, (-2.0)], &[(-8.0), 4.0]],
             };
             &[
-                ::symplectic::emitted::ConstrainedStep::new(
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(1.0),
+                emitted::ConstrainedStep::new(
+                    emitted::exact(0.0),
+                    emitted::exact(1.0),
                     &TABLEAU1,
                 ),
             ]
         };
-        type General = ::symplectic::emitted::Coupled<Lobatto3General>;
-        type Separable = ::symplectic::emitted::Coupled<Lobatto3Separable>;
+        type General = emitted::Coupled<Lobatto3General>;
+        type Separable = emitted::Coupled<Lobatto3Separable>;
     }
-    impl<C: ::symplectic::emitted::Holonomic> ::symplectic::emitted::ProvedFor<C>
-    for Lobatto3 {}
+    impl<C: emitted::Holonomic> emitted::ProvedFor<C> for Lobatto3 {}
     pub struct Lobatto3General;
     #[allow(unused_variables)]
-    impl ::symplectic::emitted::StagePlan for Lobatto3General {
-        type Class = ::symplectic::emitted::General;
-        type Stages<V: ::symplectic::emitted::Vector> = ::symplectic::emitted::Stages<
-            V,
-            3,
-            3,
-        >;
-        const EVALUATIONS: ::symplectic::emitted::EvaluationCounts = ::symplectic::emitted::EvaluationCounts {
+    impl Lobatto3General {
+        const C: [emitted::Coefficient; 3] = [
+            emitted::exact(0.0),
+            emitted::exact(0.5),
+            emitted::exact(1.0),
+        ];
+        const B_TILDE: [emitted::Coefficient; 3] = [
+            emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
+            emitted::rounded(0.6666666666666666, 3.700743415417188e-17),
+            emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
+        ];
+        const C_TILDE: [emitted::Coefficient; 3] = Self::C;
+        const B: [emitted::Coefficient; 3] = Self::B_TILDE;
+        const Q_1: [emitted::Coefficient; 3] = [
+            emitted::exact(1.25),
+            emitted::exact(0.5),
+            emitted::exact((-0.25)),
+        ];
+        const Q_2: [emitted::Coefficient; 3] = [
+            emitted::exact(1.0),
+            emitted::exact(1.0),
+            emitted::exact(1.0),
+        ];
+        const P_0: [emitted::Coefficient; 2] = [
+            emitted::exact(1.0),
+            emitted::exact((-0.25)),
+        ];
+        const P_1: [emitted::Coefficient; 2] = [
+            emitted::exact(1.0),
+            emitted::exact(0.5),
+        ];
+        const P_2: [emitted::Coefficient; 2] = [
+            emitted::exact(1.0),
+            emitted::exact(1.25),
+        ];
+        #[inline]
+        fn forces<
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = emitted::General>,
+        >(
+            step: &emitted::Step<'_, V>,
+            system: &S,
+            stages: &mut emitted::Stages<V, 3, 3>,
+        ) {
+            let emitted::Stages { q, p, force, .. } = stages;
+            system.force(step.at(Self::C[0]), step.q, &p[0], &mut force[0]);
+            emitted::increment::<R, V>(&mut force[0], step.size, Self::B_TILDE[0]);
+            system.force(step.at(Self::C[1]), &q[1], &p[1], &mut force[1]);
+            emitted::increment::<R, V>(&mut force[1], step.size, Self::B_TILDE[1]);
+        }
+        #[inline]
+        fn momenta<V: emitted::Vector, A: emitted::StageSums>(
+            step: &emitted::Step<'_, V>,
+            stages: &mut emitted::Stages<V, 3, 3>,
+            sums: &mut A,
+        ) {
+            let emitted::Stages { p, force, .. } = stages;
+            let (base, terms) = (
+                (step.p, step.p_low),
+                [&force[0], &force[1], &force[2]],
+            );
+            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B_TILDE);
+            sums.increments(
+                &mut p[0],
+                base,
+                Self::P_0,
+                [weights[0], weights[1]],
+                [terms[0], terms[1]],
+            );
+            sums.increments(
+                &mut p[1],
+                base,
+                Self::P_1,
+                [weights[0], weights[1]],
+                [terms[0], terms[1]],
+            );
+            sums.increments(
+                &mut p[2],
+                base,
+                Self::P_2,
+                [weights[0], weights[1]],
+                [terms[0], terms[1]],
+            );
+        }
+        #[inline]
+        fn velocities<
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = emitted::General>,
+        >(
+            step: &emitted::Step<'_, V>,
+            system: &S,
+            stages: &mut emitted::Stages<V, 3, 3>,
+        ) {
+            let emitted::Stages { q, p, velocity, .. } = stages;
+            system.velocity(step.at(Self::C_TILDE[0]), step.q, &p[0], &mut velocity[0]);
+            emitted::increment::<R, V>(&mut velocity[0], step.size, Self::B[0]);
+            system.velocity(step.at(Self::C_TILDE[1]), &q[1], &p[1], &mut velocity[1]);
+            emitted::increment::<R, V>(&mut velocity[1], step.size, Self::B[1]);
+            system.velocity(step.at(Self::C_TILDE[2]), &q[2], &p[2], &mut velocity[2]);
+            emitted::increment::<R, V>(&mut velocity[2], step.size, Self::B[2]);
+        }
+        #[inline]
+        fn positions<V: emitted::Vector, A: emitted::StageSums>(
+            step: &emitted::Step<'_, V>,
+            stages: &mut emitted::Stages<V, 3, 3>,
+            sums: &mut A,
+        ) {
+            let emitted::Stages { q, velocity, .. } = stages;
+            let (base, terms) = (
+                (step.q, step.q_low),
+                [&velocity[0], &velocity[1], &velocity[2]],
+            );
+            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B);
+            sums.increments(&mut q[1], base, Self::Q_1, weights, terms);
+            sums.increments(&mut q[2], base, Self::Q_2, weights, terms);
+        }
+    }
+    #[allow(unused_variables)]
+    impl emitted::StagePlan for Lobatto3General {
+        type Class = emitted::General;
+        type Stages<V: emitted::Vector> = emitted::Stages<V, 3, 3>;
+        const EVALUATIONS: emitted::EvaluationCounts = emitted::EvaluationCounts {
             begin: 0,
             start: 1,
             sweep: 5,
@@ -284,527 +300,95 @@ const _: () = {
         };
         #[inline]
         fn begin<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
         >(
-            step: &::symplectic::emitted::Step<'_, V>,
+            step: &emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::WarmStart,
+            kept: emitted::WarmStart,
         ) {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
             if kept.stages {
-                ::symplectic::emitted::transform(
-                    velocity,
+                emitted::transform(
+                    &mut stages.velocity,
                     [0, 1, 2],
                     [[0.0, 0.0, 1.0], [4.0, (-3.0), 12.0], [3.0, (-2.0), 6.0]],
                 );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut q[1],
-                    step.q,
-                    step.q_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::exact(1.25),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::exact((-0.25)),
-                    ]),
-                    [&velocity[0], &velocity[1], &velocity[2]],
-                );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut q[2],
-                    step.q,
-                    step.q_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                    ]),
-                    [&velocity[0], &velocity[1], &velocity[2]],
-                );
-                ::symplectic::emitted::transform(
-                    force,
+                Self::positions(step, stages, &mut emitted::Starting::<R>::new());
+                emitted::transform(
+                    &mut stages.force,
                     [0, 1],
                     [[(-1.0), 0.5], [(-8.0), 3.0]],
                 );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut p[0],
-                    step.p,
-                    step.p_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact((-0.25)),
-                    ]),
-                    [&force[0], &force[1]],
-                );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut p[1],
-                    step.p,
-                    step.p_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                    ]),
-                    [&force[0], &force[1]],
-                );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut p[2],
-                    step.p,
-                    step.p_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(1.25),
-                    ]),
-                    [&force[0], &force[1]],
-                );
+                Self::momenta(step, stages, &mut emitted::Starting::<R>::new());
             } else {
-                ::symplectic::emitted::copy(&mut p[0], step.p);
-                ::symplectic::emitted::copy(&mut p[1], step.p);
-                ::symplectic::emitted::copy(&mut p[2], step.p);
+                emitted::reset(&mut stages.p, [0, 1, 2], step.p);
                 system
                     .velocity(
-                        step.at(::symplectic::emitted::Coefficient::exact(0.0)),
+                        step.at(Self::C_TILDE[0]),
                         step.q,
                         step.p,
-                        &mut velocity[0],
+                        &mut stages.velocity[0],
                     );
-                ::symplectic::emitted::copy_to(velocity, 0, [1, 2]);
-                ::symplectic::emitted::scale(
-                    &mut velocity[0],
-                    step.size,
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                );
-                ::symplectic::emitted::scale(
-                    &mut velocity[1],
-                    step.size,
-                    ::symplectic::emitted::Coefficient::new(
-                        0.6666666666666666,
-                        3.700743415417188e-17,
-                        0.6666667,
-                    ),
-                );
-                ::symplectic::emitted::scale(
-                    &mut velocity[2],
-                    step.size,
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut q[1],
-                    step.q,
-                    step.q_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::exact(1.25),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::exact((-0.25)),
-                    ]),
-                    [&velocity[0], &velocity[1], &velocity[2]],
-                );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut q[2],
-                    step.q,
-                    step.q_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                    ]),
-                    [&velocity[0], &velocity[1], &velocity[2]],
-                );
+                emitted::copy_to(&mut stages.velocity, 0, [1, 2]);
+                emitted::scale_all(&mut stages.velocity, [0, 1, 2], step.size, Self::B);
+                Self::positions(step, stages, &mut emitted::Starting::<R>::new());
             }
         }
         #[inline]
         fn sweep<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
         >(
-            step: &::symplectic::emitted::Step<'_, V>,
+            step: &emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::emitted::StageChange {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            let mut change = ::symplectic::emitted::StageChange::default();
-            let force_weights = ::symplectic::emitted::weights::<
-                V::Scalar,
-                _,
-            >(
-                step.size,
-                [
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        0.6666666666666666,
-                        3.700743415417188e-17,
-                        0.6666667,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                ],
-            );
-            let velocity_weights = ::symplectic::emitted::weights::<
-                V::Scalar,
-                _,
-            >(
-                step.size,
-                [
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        0.6666666666666666,
-                        3.700743415417188e-17,
-                        0.6666667,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                ],
-            );
-            system
-                .force(
-                    step.at(::symplectic::emitted::Coefficient::exact(0.0)),
-                    step.q,
-                    &p[0],
-                    &mut force[0],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(
-                &mut force[0],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.16666666666666666,
-                    9.25185853854297e-18,
-                    0.16666667,
-                ),
-            );
-            system
-                .force(
-                    step.at(::symplectic::emitted::Coefficient::exact(0.5)),
-                    &q[1],
-                    &p[1],
-                    &mut force[1],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(
-                &mut force[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.6666666666666666,
-                    3.700743415417188e-17,
-                    0.6666667,
-                ),
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut p[0],
-                step.p,
-                step.p_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact((-0.25)),
-                    ],
-                    [force_weights[0], force_weights[1]],
-                ),
-                [&force[0], &force[1]],
-                &mut change.p,
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut p[1],
-                step.p,
-                step.p_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                    ],
-                    [force_weights[0], force_weights[1]],
-                ),
-                [&force[0], &force[1]],
-                &mut change.p,
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut p[2],
-                step.p,
-                step.p_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(1.25),
-                    ],
-                    [force_weights[0], force_weights[1]],
-                ),
-                [&force[0], &force[1]],
-                &mut change.p,
-            );
-            system
-                .velocity(
-                    step.at(::symplectic::emitted::Coefficient::exact(0.0)),
-                    step.q,
-                    &p[0],
-                    &mut velocity[0],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(
-                &mut velocity[0],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.16666666666666666,
-                    9.25185853854297e-18,
-                    0.16666667,
-                ),
-            );
-            system
-                .velocity(
-                    step.at(::symplectic::emitted::Coefficient::exact(0.5)),
-                    &q[1],
-                    &p[1],
-                    &mut velocity[1],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(
-                &mut velocity[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.6666666666666666,
-                    3.700743415417188e-17,
-                    0.6666667,
-                ),
-            );
-            system
-                .velocity(
-                    step.at(::symplectic::emitted::Coefficient::exact(1.0)),
-                    &q[2],
-                    &p[2],
-                    &mut velocity[2],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(
-                &mut velocity[2],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.16666666666666666,
-                    9.25185853854297e-18,
-                    0.16666667,
-                ),
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[1],
-                step.q,
-                step.q_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::exact(1.25),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::exact((-0.25)),
-                    ],
-                    [velocity_weights[0], velocity_weights[1], velocity_weights[2]],
-                ),
-                [&velocity[0], &velocity[1], &velocity[2]],
-                &mut change.q,
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[2],
-                step.q,
-                step.q_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                    ],
-                    [velocity_weights[0], velocity_weights[1], velocity_weights[2]],
-                ),
-                [&velocity[0], &velocity[1], &velocity[2]],
-                &mut change.q,
-            );
+        ) -> emitted::StageChange {
+            let mut change = emitted::StageChange::default();
+            Self::forces::<R, V, S>(step, system, stages);
+            Self::momenta(step, stages, &mut emitted::Sweep::<R>::new(&mut change.p));
+            Self::velocities::<R, V, S>(step, system, stages);
+            Self::positions(step, stages, &mut emitted::Sweep::<R>::new(&mut change.q));
             change
         }
         #[inline]
-        fn increments<V: ::symplectic::emitted::Vector>(
-            step: &::symplectic::emitted::Step<'_, V>,
+        fn increments<V: emitted::Vector>(
+            step: &emitted::Step<'_, V>,
             stages: &mut Self::Stages<V>,
         ) {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            ::symplectic::emitted::scale(
-                &mut force[0],
+            emitted::scale_all(
+                &mut stages.force,
+                [0, 1],
                 step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.16666666666666666,
-                    9.25185853854297e-18,
-                    0.16666667,
-                ),
+                [Self::B_TILDE[0], Self::B_TILDE[1]],
             );
-            ::symplectic::emitted::scale(
-                &mut force[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.6666666666666666,
-                    3.700743415417188e-17,
-                    0.6666667,
-                ),
-            );
-            ::symplectic::emitted::scale(
-                &mut velocity[0],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.16666666666666666,
-                    9.25185853854297e-18,
-                    0.16666667,
-                ),
-            );
-            ::symplectic::emitted::scale(
-                &mut velocity[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.6666666666666666,
-                    3.700743415417188e-17,
-                    0.6666667,
-                ),
-            );
-            ::symplectic::emitted::scale(
-                &mut velocity[2],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.16666666666666666,
-                    9.25185853854297e-18,
-                    0.16666667,
-                ),
-            );
+            emitted::scale_all(&mut stages.velocity, [0, 1, 2], step.size, Self::B);
         }
         #[inline]
         fn finish<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
-            W: ::symplectic::emitted::EvaluationObserver,
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
+            W: emitted::EvaluationObserver,
         >(
-            step: &::symplectic::emitted::Step<'_, V>,
+            step: &emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::WarmStart,
-            outcome: ::symplectic::emitted::Outcome<'_, V>,
+            kept: emitted::WarmStart,
+            outcome: emitted::Outcome<'_, V>,
             witness: &mut W,
         ) {
-            let ::symplectic::emitted::Outcome {
-                q: q1,
-                q_low: q1_low,
-                p: p1,
-                p_low: p1_low,
-            } = outcome;
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            system
-                .force(
-                    step.at(::symplectic::emitted::Coefficient::exact(1.0)),
-                    &q[2],
-                    &p[2],
-                    &mut force[2],
-                );
-            ::symplectic::emitted::scale(
+            let emitted::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
+            let emitted::Stages { q, p, velocity, force } = &mut *stages;
+            system.force(step.at(emitted::exact(1.0)), &q[2], &p[2], &mut force[2]);
+            emitted::scale(
                 &mut force[2],
                 step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.16666666666666666,
-                    9.25185853854297e-18,
-                    0.16666667,
-                ),
+                emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
             );
-            ::symplectic::emitted::total::<
+            emitted::total::<
                 R,
                 V,
                 _,
@@ -815,18 +399,18 @@ const _: () = {
                 step.q_low,
                 [&velocity[0], &velocity[1], &velocity[2]],
             );
-            ::symplectic::emitted::total::<
+            emitted::total::<
                 R,
                 V,
                 _,
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1], &force[2]]);
         }
     }
-    impl ::symplectic::emitted::StageTableau for Lobatto3General {
-        type Lanes = ::symplectic::emitted::F64x4;
+    impl emitted::StageTableau for Lobatto3General {
+        type Lanes = emitted::F64x4;
         type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
-        const POSITIONS: ::symplectic::emitted::HalfTableau = ::symplectic::emitted::HalfTableau {
+        const POSITIONS: emitted::HalfTableau = emitted::HalfTableau {
             count: 3,
             columns: &[
                 &[0.0, 1.25, 1.0, 1.0],
@@ -845,12 +429,12 @@ const _: () = {
                 &[0.0, (-3.0), (-2.0), (-2.0)],
                 &[1.0, 12.0, 6.0, 6.0],
             ],
-            polynomial: ::core::option::Option::Some(::symplectic::emitted::StagePolynomial {
+            polynomial: ::core::option::Option::Some(emitted::StagePolynomial {
                 legendre: &[&[(-3.0), 0.0, 3.0], &[2.0, (-1.0), 2.0]],
                 order: 3,
             }),
         };
-        const MOMENTA: ::symplectic::emitted::HalfTableau = ::symplectic::emitted::HalfTableau {
+        const MOMENTA: emitted::HalfTableau = emitted::HalfTableau {
             count: 3,
             columns: &[
                 &[1.0, 1.0, 1.0, 1.0],
@@ -869,14 +453,12 @@ const _: () = {
                 &[0.0, (-3.0), (-2.0), (-2.0)],
                 &[1.0, 12.0, 6.0, 6.0],
             ],
-            polynomial: ::core::option::Option::Some(::symplectic::emitted::StagePolynomial {
+            polynomial: ::core::option::Option::Some(emitted::StagePolynomial {
                 legendre: &[&[(-3.0), 0.0, 3.0], &[2.0, (-1.0), 2.0]],
                 order: 3,
             }),
         };
-        const SECOND_ORDER: ::core::option::Option<
-            ::symplectic::emitted::SecondOrderTableau,
-        > = ::core::option::Option::None;
+        const SECOND_ORDER: ::core::option::Option<emitted::SecondOrderTableau> = ::core::option::Option::None;
         #[inline(always)]
         fn groups<T: ::core::fmt::Debug>(
             mut make: impl ::core::ops::FnMut(usize) -> T,
@@ -884,31 +466,131 @@ const _: () = {
             [make(0)]
         }
         #[inline(always)]
-        fn stored<V: ::symplectic::emitted::Vector>(
+        fn stored<V: emitted::Vector>(
             stages: &Self::Stages<V>,
-        ) -> [::symplectic::emitted::StoredEvaluations<'_, V>; 2] {
-            [
-                ::symplectic::emitted::StoredEvaluations {
-                    values: &stages.velocity,
-                    carried: &[],
-                },
-                ::symplectic::emitted::StoredEvaluations {
-                    values: &stages.force,
-                    carried: &[],
-                },
-            ]
+        ) -> [emitted::StoredEvaluations<'_, V>; 2] {
+            stages.stored(&[], &[])
         }
     }
     pub struct Lobatto3Separable;
     #[allow(unused_variables)]
-    impl ::symplectic::emitted::StagePlan for Lobatto3Separable {
-        type Class = ::symplectic::emitted::Separable;
-        type Stages<V: ::symplectic::emitted::Vector> = ::symplectic::emitted::Stages<
-            V,
-            3,
-            3,
-        >;
-        const EVALUATIONS: ::symplectic::emitted::EvaluationCounts = ::symplectic::emitted::EvaluationCounts {
+    impl Lobatto3Separable {
+        const C: [emitted::Coefficient; 3] = [
+            emitted::exact(0.0),
+            emitted::exact(0.5),
+            emitted::exact(1.0),
+        ];
+        const B_TILDE: [emitted::Coefficient; 3] = [
+            emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
+            emitted::rounded(0.6666666666666666, 3.700743415417188e-17),
+            emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
+        ];
+        const C_TILDE: [emitted::Coefficient; 3] = Self::C;
+        const B: [emitted::Coefficient; 3] = Self::B_TILDE;
+        const Q_1: [emitted::Coefficient; 3] = [
+            emitted::exact(1.25),
+            emitted::exact(0.5),
+            emitted::exact((-0.25)),
+        ];
+        const P_0: [emitted::Coefficient; 2] = [
+            emitted::exact(1.0),
+            emitted::exact((-0.25)),
+        ];
+        const P_1: [emitted::Coefficient; 2] = [
+            emitted::exact(1.0),
+            emitted::exact(0.5),
+        ];
+        const P_2: [emitted::Coefficient; 2] = [
+            emitted::exact(1.0),
+            emitted::exact(1.25),
+        ];
+        #[inline]
+        fn forces<
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = emitted::Separable>,
+        >(
+            step: &emitted::Step<'_, V>,
+            system: &S,
+            stages: &mut emitted::Stages<V, 3, 3>,
+        ) {
+            let emitted::Stages { q, p, force, .. } = stages;
+            system.force(step.at(Self::C[1]), &q[1], step.p, &mut force[1]);
+            emitted::increment::<R, V>(&mut force[1], step.size, Self::B_TILDE[1]);
+        }
+        #[inline]
+        fn momenta<V: emitted::Vector, A: emitted::StageSums>(
+            step: &emitted::Step<'_, V>,
+            stages: &mut emitted::Stages<V, 3, 3>,
+            sums: &mut A,
+        ) {
+            let emitted::Stages { p, force, .. } = stages;
+            let (base, terms) = (
+                (step.p, step.p_low),
+                [&force[0], &force[1], &force[2]],
+            );
+            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B_TILDE);
+            let one = <V::Scalar as emitted::Scalar>::from_f64(1.0);
+            sums.increments(
+                &mut p[0],
+                base,
+                Self::P_0,
+                [one, weights[1]],
+                [terms[0], terms[1]],
+            );
+            sums.increments(
+                &mut p[1],
+                base,
+                Self::P_1,
+                [one, weights[1]],
+                [terms[0], terms[1]],
+            );
+            sums.increments(
+                &mut p[2],
+                base,
+                Self::P_2,
+                [one, weights[1]],
+                [terms[0], terms[1]],
+            );
+        }
+        #[inline]
+        fn velocities<
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = emitted::Separable>,
+        >(
+            step: &emitted::Step<'_, V>,
+            system: &S,
+            stages: &mut emitted::Stages<V, 3, 3>,
+        ) {
+            let emitted::Stages { q, p, velocity, .. } = stages;
+            system.velocity(step.at(Self::C_TILDE[0]), step.q, &p[0], &mut velocity[0]);
+            emitted::increment::<R, V>(&mut velocity[0], step.size, Self::B[0]);
+            system.velocity(step.at(Self::C_TILDE[1]), step.q, &p[1], &mut velocity[1]);
+            emitted::increment::<R, V>(&mut velocity[1], step.size, Self::B[1]);
+            system.velocity(step.at(Self::C_TILDE[2]), step.q, &p[2], &mut velocity[2]);
+            emitted::increment::<R, V>(&mut velocity[2], step.size, Self::B[2]);
+        }
+        #[inline]
+        fn positions<V: emitted::Vector, A: emitted::StageSums>(
+            step: &emitted::Step<'_, V>,
+            stages: &mut emitted::Stages<V, 3, 3>,
+            sums: &mut A,
+        ) {
+            let emitted::Stages { q, velocity, .. } = stages;
+            let (base, terms) = (
+                (step.q, step.q_low),
+                [&velocity[0], &velocity[1], &velocity[2]],
+            );
+            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B);
+            sums.increments(&mut q[1], base, Self::Q_1, weights, terms);
+        }
+    }
+    #[allow(unused_variables)]
+    impl emitted::StagePlan for Lobatto3Separable {
+        type Class = emitted::Separable;
+        type Stages<V: emitted::Vector> = emitted::Stages<V, 3, 3>;
+        const EVALUATIONS: emitted::EvaluationCounts = emitted::EvaluationCounts {
             begin: 1,
             start: 1,
             sweep: 4,
@@ -917,411 +599,89 @@ const _: () = {
         };
         #[inline]
         fn begin<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
         >(
-            step: &::symplectic::emitted::Step<'_, V>,
+            step: &emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::WarmStart,
+            kept: emitted::WarmStart,
         ) {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
+            let emitted::Stages { q, p, velocity, force } = &mut *stages;
             if !kept.evaluation {
                 system
-                    .force(
-                        step.at(::symplectic::emitted::Coefficient::exact(0.0)),
-                        step.q,
-                        step.p,
-                        &mut force[2],
-                    );
+                    .force(step.at(emitted::exact(0.0)), step.q, step.p, &mut force[2]);
             }
-            ::symplectic::emitted::copy_to(force, 2, [0]);
-            ::symplectic::emitted::scale(
+            emitted::copy_to(force, 2, [0]);
+            emitted::scale(
                 &mut force[0],
                 step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.16666666666666666,
-                    9.25185853854297e-18,
-                    0.16666667,
-                ),
+                emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
             );
             if kept.stages {
-                ::symplectic::emitted::transform(
-                    velocity,
+                emitted::transform(
+                    &mut stages.velocity,
                     [0, 1, 2],
                     [[0.0, 0.0, 1.0], [4.0, (-3.0), 12.0], [3.0, (-2.0), 6.0]],
                 );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut q[1],
-                    step.q,
-                    step.q_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::exact(1.25),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::exact((-0.25)),
-                    ]),
-                    [&velocity[0], &velocity[1], &velocity[2]],
-                );
+                Self::positions(step, stages, &mut emitted::Starting::<R>::new());
             } else {
-                ::symplectic::emitted::copy(&mut p[0], step.p);
-                ::symplectic::emitted::copy(&mut p[1], step.p);
-                ::symplectic::emitted::copy(&mut p[2], step.p);
+                emitted::reset(&mut stages.p, [0, 1, 2], step.p);
                 system
                     .velocity(
-                        step.at(::symplectic::emitted::Coefficient::exact(0.0)),
+                        step.at(Self::C_TILDE[0]),
                         step.q,
                         step.p,
-                        &mut velocity[0],
+                        &mut stages.velocity[0],
                     );
-                ::symplectic::emitted::copy_to(velocity, 0, [1, 2]);
-                ::symplectic::emitted::scale(
-                    &mut velocity[0],
-                    step.size,
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                );
-                ::symplectic::emitted::scale(
-                    &mut velocity[1],
-                    step.size,
-                    ::symplectic::emitted::Coefficient::new(
-                        0.6666666666666666,
-                        3.700743415417188e-17,
-                        0.6666667,
-                    ),
-                );
-                ::symplectic::emitted::scale(
-                    &mut velocity[2],
-                    step.size,
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                );
-                ::symplectic::emitted::combine::<
-                    R,
-                    V,
-                    _,
-                >(
-                    &mut q[1],
-                    step.q,
-                    step.q_low,
-                    ::symplectic::emitted::factors([
-                        ::symplectic::emitted::Coefficient::exact(1.25),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::exact((-0.25)),
-                    ]),
-                    [&velocity[0], &velocity[1], &velocity[2]],
-                );
+                emitted::copy_to(&mut stages.velocity, 0, [1, 2]);
+                emitted::scale_all(&mut stages.velocity, [0, 1, 2], step.size, Self::B);
+                Self::positions(step, stages, &mut emitted::Starting::<R>::new());
             }
         }
         #[inline]
         fn sweep<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
         >(
-            step: &::symplectic::emitted::Step<'_, V>,
+            step: &emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::emitted::StageChange {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            let mut change = ::symplectic::emitted::StageChange::default();
-            let force_weights = ::symplectic::emitted::weights::<
-                V::Scalar,
-                _,
-            >(
-                step.size,
-                [
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        0.6666666666666666,
-                        3.700743415417188e-17,
-                        0.6666667,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                ],
-            );
-            let velocity_weights = ::symplectic::emitted::weights::<
-                V::Scalar,
-                _,
-            >(
-                step.size,
-                [
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        0.6666666666666666,
-                        3.700743415417188e-17,
-                        0.6666667,
-                    ),
-                    ::symplectic::emitted::Coefficient::new(
-                        0.16666666666666666,
-                        9.25185853854297e-18,
-                        0.16666667,
-                    ),
-                ],
-            );
-            system
-                .force(
-                    step.at(::symplectic::emitted::Coefficient::exact(0.5)),
-                    &q[1],
-                    step.p,
-                    &mut force[1],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(
-                &mut force[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.6666666666666666,
-                    3.700743415417188e-17,
-                    0.6666667,
-                ),
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut p[0],
-                step.p,
-                step.p_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact((-0.25)),
-                    ],
-                    [
-                        <V::Scalar as ::symplectic::emitted::Scalar>::from_f64(1.0),
-                        force_weights[1],
-                    ],
-                ),
-                [&force[0], &force[1]],
-                &mut change.p,
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut p[1],
-                step.p,
-                step.p_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                    ],
-                    [
-                        <V::Scalar as ::symplectic::emitted::Scalar>::from_f64(1.0),
-                        force_weights[1],
-                    ],
-                ),
-                [&force[0], &force[1]],
-                &mut change.p,
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut p[2],
-                step.p,
-                step.p_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(1.25),
-                    ],
-                    [
-                        <V::Scalar as ::symplectic::emitted::Scalar>::from_f64(1.0),
-                        force_weights[1],
-                    ],
-                ),
-                [&force[0], &force[1]],
-                &mut change.p,
-            );
-            system
-                .velocity(
-                    step.at(::symplectic::emitted::Coefficient::exact(0.0)),
-                    step.q,
-                    &p[0],
-                    &mut velocity[0],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(
-                &mut velocity[0],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.16666666666666666,
-                    9.25185853854297e-18,
-                    0.16666667,
-                ),
-            );
-            system
-                .velocity(
-                    step.at(::symplectic::emitted::Coefficient::exact(0.5)),
-                    step.q,
-                    &p[1],
-                    &mut velocity[1],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(
-                &mut velocity[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.6666666666666666,
-                    3.700743415417188e-17,
-                    0.6666667,
-                ),
-            );
-            system
-                .velocity(
-                    step.at(::symplectic::emitted::Coefficient::exact(1.0)),
-                    step.q,
-                    &p[2],
-                    &mut velocity[2],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(
-                &mut velocity[2],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.16666666666666666,
-                    9.25185853854297e-18,
-                    0.16666667,
-                ),
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[1],
-                step.q,
-                step.q_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::exact(1.25),
-                        ::symplectic::emitted::Coefficient::exact(0.5),
-                        ::symplectic::emitted::Coefficient::exact((-0.25)),
-                    ],
-                    [velocity_weights[0], velocity_weights[1], velocity_weights[2]],
-                ),
-                [&velocity[0], &velocity[1], &velocity[2]],
-                &mut change.q,
-            );
+        ) -> emitted::StageChange {
+            let mut change = emitted::StageChange::default();
+            Self::forces::<R, V, S>(step, system, stages);
+            Self::momenta(step, stages, &mut emitted::Sweep::<R>::new(&mut change.p));
+            Self::velocities::<R, V, S>(step, system, stages);
+            Self::positions(step, stages, &mut emitted::Sweep::<R>::new(&mut change.q));
             change
         }
         #[inline]
-        fn increments<V: ::symplectic::emitted::Vector>(
-            step: &::symplectic::emitted::Step<'_, V>,
+        fn increments<V: emitted::Vector>(
+            step: &emitted::Step<'_, V>,
             stages: &mut Self::Stages<V>,
         ) {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            ::symplectic::emitted::scale(
-                &mut force[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.6666666666666666,
-                    3.700743415417188e-17,
-                    0.6666667,
-                ),
-            );
-            ::symplectic::emitted::scale(
-                &mut velocity[0],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.16666666666666666,
-                    9.25185853854297e-18,
-                    0.16666667,
-                ),
-            );
-            ::symplectic::emitted::scale(
-                &mut velocity[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.6666666666666666,
-                    3.700743415417188e-17,
-                    0.6666667,
-                ),
-            );
-            ::symplectic::emitted::scale(
-                &mut velocity[2],
-                step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.16666666666666666,
-                    9.25185853854297e-18,
-                    0.16666667,
-                ),
-            );
+            emitted::scale_all(&mut stages.force, [1], step.size, [Self::B_TILDE[1]]);
+            emitted::scale_all(&mut stages.velocity, [0, 1, 2], step.size, Self::B);
         }
         #[inline]
         fn finish<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
-            W: ::symplectic::emitted::EvaluationObserver,
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
+            W: emitted::EvaluationObserver,
         >(
-            step: &::symplectic::emitted::Step<'_, V>,
+            step: &emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::WarmStart,
-            outcome: ::symplectic::emitted::Outcome<'_, V>,
+            kept: emitted::WarmStart,
+            outcome: emitted::Outcome<'_, V>,
             witness: &mut W,
         ) {
-            let ::symplectic::emitted::Outcome {
-                q: q1,
-                q_low: q1_low,
-                p: p1,
-                p_low: p1_low,
-            } = outcome;
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            ::symplectic::emitted::total::<
+            let emitted::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
+            let emitted::Stages { q, p, velocity, force } = &mut *stages;
+            emitted::total::<
                 R,
                 V,
                 _,
@@ -1332,39 +692,29 @@ const _: () = {
                 step.q_low,
                 [&velocity[0], &velocity[1], &velocity[2]],
             );
-            system
-                .force(
-                    step.at(::symplectic::emitted::Coefficient::exact(1.0)),
-                    &*q1,
-                    step.p,
-                    &mut force[2],
-                );
-            ::symplectic::emitted::total::<
+            system.force(step.at(emitted::exact(1.0)), &*q1, step.p, &mut force[2]);
+            emitted::total::<
                 R,
                 V,
                 _,
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
-            ::symplectic::emitted::advance::<
+            emitted::advance::<
                 R,
                 V,
             >(
                 p1,
                 p1_low,
                 step.size,
-                ::symplectic::emitted::Coefficient::new(
-                    0.16666666666666666,
-                    9.25185853854297e-18,
-                    0.16666667,
-                ),
+                emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
                 &force[2],
             );
         }
     }
-    impl ::symplectic::emitted::StageTableau for Lobatto3Separable {
-        type Lanes = ::symplectic::emitted::F64x4;
+    impl emitted::StageTableau for Lobatto3Separable {
+        type Lanes = emitted::F64x4;
         type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
-        const POSITIONS: ::symplectic::emitted::HalfTableau = ::symplectic::emitted::HalfTableau {
+        const POSITIONS: emitted::HalfTableau = emitted::HalfTableau {
             count: 3,
             columns: &[
                 &[0.0, 1.25, 1.0, 1.0],
@@ -1383,15 +733,13 @@ const _: () = {
                 &[0.0, (-3.0), (-2.0), (-2.0)],
                 &[1.0, 12.0, 6.0, 6.0],
             ],
-            polynomial: ::core::option::Option::Some(::symplectic::emitted::StagePolynomial {
+            polynomial: ::core::option::Option::Some(emitted::StagePolynomial {
                 legendre: &[&[(-3.0), 0.0, 3.0], &[2.0, (-1.0), 2.0]],
                 order: 4,
             }),
         };
-        const MOMENTA: ::symplectic::emitted::HalfTableau = <Lobatto3General as ::symplectic::emitted::StageTableau>::MOMENTA;
-        const SECOND_ORDER: ::core::option::Option<
-            ::symplectic::emitted::SecondOrderTableau,
-        > = ::core::option::Option::Some(::symplectic::emitted::SecondOrderTableau {
+        const MOMENTA: emitted::HalfTableau = <Lobatto3General as emitted::StageTableau>::MOMENTA;
+        const SECOND_ORDER: ::core::option::Option<emitted::SecondOrderTableau> = ::core::option::Option::Some(emitted::SecondOrderTableau {
             nodes: &[0.0, 0.5, 1.0, 1.0],
             columns: &[
                 &[0.0, 0.5, 1.0, 1.0],
@@ -1405,7 +753,7 @@ const _: () = {
             ],
             rest: &[1.0, 0.5, 0.0, 0.0],
         });
-        const DECOUPLING: ::core::option::Option<::symplectic::emitted::Decoupling> = ::core::option::Option::Some(::symplectic::emitted::Decoupling {
+        const DECOUPLING: ::core::option::Option<emitted::Decoupling> = ::core::option::Option::Some(emitted::Decoupling {
             blocks: &[(0.0, 0.0), (0.0, 0.0), (0.041666666666666664, 0.0)],
             to_stages: &[&[(-1.6), 0.2, (-0.2)], &[1.0, 0.0, 0.4], &[0.0, 1.0, 1.0]],
             from_stages: &[
@@ -1421,19 +769,10 @@ const _: () = {
             [make(0)]
         }
         #[inline(always)]
-        fn stored<V: ::symplectic::emitted::Vector>(
+        fn stored<V: emitted::Vector>(
             stages: &Self::Stages<V>,
-        ) -> [::symplectic::emitted::StoredEvaluations<'_, V>; 2] {
-            [
-                ::symplectic::emitted::StoredEvaluations {
-                    values: &stages.velocity,
-                    carried: &[],
-                },
-                ::symplectic::emitted::StoredEvaluations {
-                    values: &stages.force,
-                    carried: &[2],
-                },
-            ]
+        ) -> [emitted::StoredEvaluations<'_, V>; 2] {
+            stages.stored(&[], &[2])
         }
     }
 };

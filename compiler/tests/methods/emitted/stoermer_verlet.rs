@@ -43,44 +43,33 @@ impl StoermerVerlet {
 }
 #[allow(clippy::approx_constant)]
 const _: () = {
-    impl ::symplectic::emitted::Method for StoermerVerlet {
+    use ::symplectic::emitted;
+    impl emitted::Method for StoermerVerlet {
         const NAME: &'static str = "StoermerVerlet";
         const STAGES: usize = 2;
         const DEFINITION: &'static str = "basis: polynomial(2), nodes: lobatto(2)";
-        const COEFFICIENTS: ::symplectic::emitted::Coefficients = {
-            const A: &[&[::symplectic::emitted::Coefficient]] = &[
-                &[
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                ],
-                &[
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                ],
+        const COEFFICIENTS: emitted::Coefficients = {
+            const A: &[&[emitted::Coefficient]] = &[
+                &[emitted::exact(0.0), emitted::exact(0.0)],
+                &[emitted::exact(0.5), emitted::exact(0.5)],
             ];
-            const B: &[::symplectic::emitted::Coefficient] = &[
-                ::symplectic::emitted::Coefficient::exact(0.5),
-                ::symplectic::emitted::Coefficient::exact(0.5),
+            const B: &[emitted::Coefficient] = &[
+                emitted::exact(0.5),
+                emitted::exact(0.5),
             ];
-            const C: &[::symplectic::emitted::Coefficient] = &[
-                ::symplectic::emitted::Coefficient::exact(0.0),
-                ::symplectic::emitted::Coefficient::exact(1.0),
+            const C: &[emitted::Coefficient] = &[
+                emitted::exact(0.0),
+                emitted::exact(1.0),
             ];
-            const A_TILDE: &[&[::symplectic::emitted::Coefficient]] = &[
-                &[
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                ],
-                &[
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                ],
+            const A_TILDE: &[&[emitted::Coefficient]] = &[
+                &[emitted::exact(0.5), emitted::exact(0.0)],
+                &[emitted::exact(0.5), emitted::exact(0.0)],
             ];
-            const C_TILDE: &[::symplectic::emitted::Coefficient] = &[
-                ::symplectic::emitted::Coefficient::exact(0.5),
-                ::symplectic::emitted::Coefficient::exact(0.5),
+            const C_TILDE: &[emitted::Coefficient] = &[
+                emitted::exact(0.5),
+                emitted::exact(0.5),
             ];
-            ::symplectic::emitted::Coefficients {
+            emitted::Coefficients {
                 a: A,
                 a_tilde: A_TILDE,
                 b: B,
@@ -89,117 +78,138 @@ const _: () = {
                 c_tilde: C_TILDE,
             }
         };
-        const ORDERS: ::symplectic::emitted::Orders = ::symplectic::emitted::Orders {
+        const ORDERS: emitted::Orders = emitted::Orders {
             general: 2,
             separable: 2,
             nystrom: 2,
         };
-        const SYMMETRY: ::symplectic::emitted::Symmetry = ::symplectic::emitted::Symmetry {
+        const SYMMETRY: emitted::Symmetry = emitted::Symmetry {
             general: true,
             separable: true,
         };
-        const CONSTRAINED: &'static [::symplectic::emitted::ConstrainedStep] = {
-            const TABLEAU1: ::symplectic::emitted::ConstrainedTableau = ::symplectic::emitted::ConstrainedTableau {
+        const CONSTRAINED: &'static [emitted::ConstrainedStep] = {
+            const TABLEAU1: emitted::ConstrainedTableau = emitted::ConstrainedTableau {
                 positions: &[
-                    &[
-                        ::symplectic::emitted::Coefficient::exact(0.0),
-                        ::symplectic::emitted::Coefficient::exact(0.0),
-                    ],
-                    &[
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                    ],
+                    &[emitted::exact(0.0), emitted::exact(0.0)],
+                    &[emitted::exact(1.0), emitted::exact(1.0)],
                 ],
                 momenta: &[
-                    &[
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(0.0),
-                    ],
-                    &[
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(0.0),
-                    ],
+                    &[emitted::exact(1.0), emitted::exact(0.0)],
+                    &[emitted::exact(1.0), emitted::exact(0.0)],
                 ],
-                weights: &[
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                ],
-                nodes: &[
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(1.0),
-                ],
-                momentum_nodes: &[
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                ],
+                weights: &[emitted::exact(0.5), emitted::exact(0.5)],
+                nodes: &[emitted::exact(0.0), emitted::exact(1.0)],
+                momentum_nodes: &[emitted::exact(0.5), emitted::exact(0.5)],
                 multipliers: &[&[2.0]],
             };
             &[
-                ::symplectic::emitted::ConstrainedStep::new(
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(1.0),
+                emitted::ConstrainedStep::new(
+                    emitted::exact(0.0),
+                    emitted::exact(1.0),
                     &TABLEAU1,
                 ),
             ]
         };
-        const NONHOLONOMIC: &'static [::symplectic::emitted::ConstrainedStep] = {
-            const TABLEAU1: ::symplectic::emitted::ConstrainedTableau = ::symplectic::emitted::ConstrainedTableau {
+        const NONHOLONOMIC: &'static [emitted::ConstrainedStep] = {
+            const TABLEAU1: emitted::ConstrainedTableau = emitted::ConstrainedTableau {
                 positions: &[
-                    &[
-                        ::symplectic::emitted::Coefficient::exact(0.0),
-                        ::symplectic::emitted::Coefficient::exact(0.0),
-                    ],
-                    &[
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                    ],
+                    &[emitted::exact(0.0), emitted::exact(0.0)],
+                    &[emitted::exact(1.0), emitted::exact(1.0)],
                 ],
                 momenta: &[
-                    &[
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(0.0),
-                    ],
-                    &[
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(0.0),
-                    ],
+                    &[emitted::exact(1.0), emitted::exact(0.0)],
+                    &[emitted::exact(1.0), emitted::exact(0.0)],
                 ],
-                weights: &[
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                ],
-                nodes: &[
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(1.0),
-                ],
-                momentum_nodes: &[
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                ],
+                weights: &[emitted::exact(0.5), emitted::exact(0.5)],
+                nodes: &[emitted::exact(0.0), emitted::exact(1.0)],
+                momentum_nodes: &[emitted::exact(0.5), emitted::exact(0.5)],
                 multipliers: &[],
             };
             &[
-                ::symplectic::emitted::ConstrainedStep::new(
-                    ::symplectic::emitted::Coefficient::exact(0.0),
-                    ::symplectic::emitted::Coefficient::exact(1.0),
+                emitted::ConstrainedStep::new(
+                    emitted::exact(0.0),
+                    emitted::exact(1.0),
                     &TABLEAU1,
                 ),
             ]
         };
-        type General = ::symplectic::emitted::Coupled<StoermerVerletGeneral>;
-        type Separable = ::symplectic::emitted::Splitting<StoermerVerletSeparable>;
+        type General = emitted::Coupled<StoermerVerletGeneral>;
+        type Separable = emitted::Splitting<StoermerVerletSeparable>;
     }
-    impl<C> ::symplectic::emitted::ProvedFor<C> for StoermerVerlet {}
+    impl<C> emitted::ProvedFor<C> for StoermerVerlet {}
     pub struct StoermerVerletGeneral;
     #[allow(unused_variables)]
-    impl ::symplectic::emitted::StagePlan for StoermerVerletGeneral {
-        type Class = ::symplectic::emitted::General;
-        type Stages<V: ::symplectic::emitted::Vector> = ::symplectic::emitted::Stages<
-            V,
-            2,
-            2,
-        >;
-        const EVALUATIONS: ::symplectic::emitted::EvaluationCounts = ::symplectic::emitted::EvaluationCounts {
+    impl StoermerVerletGeneral {
+        const C: [emitted::Coefficient; 2] = [emitted::exact(0.0), emitted::exact(1.0)];
+        const B_TILDE: [emitted::Coefficient; 2] = [
+            emitted::exact(0.5),
+            emitted::exact(0.5),
+        ];
+        const C_TILDE: [emitted::Coefficient; 2] = Self::B_TILDE;
+        const B: [emitted::Coefficient; 2] = Self::B_TILDE;
+        const Q_1: [emitted::Coefficient; 2] = [
+            emitted::exact(1.0),
+            emitted::exact(1.0),
+        ];
+        const P_0: [emitted::Coefficient; 1] = [emitted::exact(1.0)];
+        #[inline]
+        fn forces<
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = emitted::General>,
+        >(
+            step: &emitted::Step<'_, V>,
+            system: &S,
+            stages: &mut emitted::Stages<V, 2, 2>,
+        ) {
+            let emitted::Stages { q, p, force, .. } = stages;
+            system.force(step.at(Self::C[0]), step.q, &p[0], &mut force[0]);
+            emitted::increment::<R, V>(&mut force[0], step.size, Self::B_TILDE[0]);
+        }
+        #[inline]
+        fn momenta<V: emitted::Vector, A: emitted::StageSums>(
+            step: &emitted::Step<'_, V>,
+            stages: &mut emitted::Stages<V, 2, 2>,
+            sums: &mut A,
+        ) {
+            let emitted::Stages { p, force, .. } = stages;
+            let (base, terms) = ((step.p, step.p_low), [&force[0], &force[1]]);
+            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B_TILDE);
+            sums.increments(&mut p[0], base, Self::P_0, [weights[0]], [terms[0]]);
+        }
+        #[inline]
+        fn velocities<
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = emitted::General>,
+        >(
+            step: &emitted::Step<'_, V>,
+            system: &S,
+            stages: &mut emitted::Stages<V, 2, 2>,
+        ) {
+            let emitted::Stages { q, p, velocity, .. } = stages;
+            system.velocity(step.at(Self::C_TILDE[0]), step.q, &p[0], &mut velocity[0]);
+            emitted::increment::<R, V>(&mut velocity[0], step.size, Self::B[0]);
+            system.velocity(step.at(Self::C_TILDE[1]), &q[1], &p[0], &mut velocity[1]);
+            emitted::increment::<R, V>(&mut velocity[1], step.size, Self::B[1]);
+        }
+        #[inline]
+        fn positions<V: emitted::Vector, A: emitted::StageSums>(
+            step: &emitted::Step<'_, V>,
+            stages: &mut emitted::Stages<V, 2, 2>,
+            sums: &mut A,
+        ) {
+            let emitted::Stages { q, velocity, .. } = stages;
+            let (base, terms) = ((step.q, step.q_low), [&velocity[0], &velocity[1]]);
+            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B);
+            sums.increments(&mut q[1], base, Self::Q_1, weights, terms);
+        }
+    }
+    #[allow(unused_variables)]
+    impl emitted::StagePlan for StoermerVerletGeneral {
+        type Class = emitted::General;
+        type Stages<V: emitted::Vector> = emitted::Stages<V, 2, 2>;
+        const EVALUATIONS: emitted::EvaluationCounts = emitted::EvaluationCounts {
             begin: 0,
             start: 1,
             sweep: 3,
@@ -208,259 +218,109 @@ const _: () = {
         };
         #[inline]
         fn begin<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
         >(
-            step: &::symplectic::emitted::Step<'_, V>,
+            step: &emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::WarmStart,
+            kept: emitted::WarmStart,
         ) {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            ::symplectic::emitted::copy(&mut p[0], step.p);
+            emitted::reset(&mut stages.p, [0], step.p);
             system
                 .velocity(
-                    step.at(::symplectic::emitted::Coefficient::exact(0.5)),
+                    step.at(Self::C_TILDE[0]),
                     step.q,
                     step.p,
-                    &mut velocity[0],
+                    &mut stages.velocity[0],
                 );
-            ::symplectic::emitted::copy_to(velocity, 0, [1]);
-            ::symplectic::emitted::scale(
-                &mut velocity[0],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            ::symplectic::emitted::scale(
-                &mut velocity[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            ::symplectic::emitted::combine::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[1],
-                step.q,
-                step.q_low,
-                ::symplectic::emitted::factors([
-                    ::symplectic::emitted::Coefficient::exact(1.0),
-                    ::symplectic::emitted::Coefficient::exact(1.0),
-                ]),
-                [&velocity[0], &velocity[1]],
-            );
+            emitted::copy_to(&mut stages.velocity, 0, [1]);
+            emitted::scale_all(&mut stages.velocity, [0, 1], step.size, Self::B);
+            Self::positions(step, stages, &mut emitted::Starting::<R>::new());
         }
         #[inline]
         fn sweep<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
         >(
-            step: &::symplectic::emitted::Step<'_, V>,
+            step: &emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> ::symplectic::emitted::StageChange {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            let mut change = ::symplectic::emitted::StageChange::default();
-            let force_weights = ::symplectic::emitted::weights::<
-                V::Scalar,
-                _,
-            >(
-                step.size,
-                [
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                ],
-            );
-            let velocity_weights = ::symplectic::emitted::weights::<
-                V::Scalar,
-                _,
-            >(
-                step.size,
-                [
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                ],
-            );
-            system
-                .force(
-                    step.at(::symplectic::emitted::Coefficient::exact(0.0)),
-                    step.q,
-                    &p[0],
-                    &mut force[0],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(&mut force[0], step.size, ::symplectic::emitted::Coefficient::exact(0.5));
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut p[0],
-                step.p,
-                step.p_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >([::symplectic::emitted::Coefficient::exact(1.0)], [force_weights[0]]),
-                [&force[0]],
-                &mut change.p,
-            );
-            system
-                .velocity(
-                    step.at(::symplectic::emitted::Coefficient::exact(0.5)),
-                    step.q,
-                    &p[0],
-                    &mut velocity[0],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(
-                &mut velocity[0],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            system
-                .velocity(
-                    step.at(::symplectic::emitted::Coefficient::exact(0.5)),
-                    &q[1],
-                    &p[0],
-                    &mut velocity[1],
-                );
-            ::symplectic::emitted::increment::<
-                R,
-                V,
-            >(
-                &mut velocity[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            ::symplectic::emitted::relax::<
-                R,
-                V,
-                _,
-            >(
-                &mut q[1],
-                step.q,
-                step.q_low,
-                ::symplectic::emitted::relative::<
-                    R,
-                    _,
-                    _,
-                >(
-                    [
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                        ::symplectic::emitted::Coefficient::exact(1.0),
-                    ],
-                    [velocity_weights[0], velocity_weights[1]],
-                ),
-                [&velocity[0], &velocity[1]],
-                &mut change.q,
-            );
+        ) -> emitted::StageChange {
+            let mut change = emitted::StageChange::default();
+            Self::forces::<R, V, S>(step, system, stages);
+            Self::momenta(step, stages, &mut emitted::Sweep::<R>::new(&mut change.p));
+            Self::velocities::<R, V, S>(step, system, stages);
+            Self::positions(step, stages, &mut emitted::Sweep::<R>::new(&mut change.q));
             change
         }
         #[inline]
-        fn increments<V: ::symplectic::emitted::Vector>(
-            step: &::symplectic::emitted::Step<'_, V>,
+        fn increments<V: emitted::Vector>(
+            step: &emitted::Step<'_, V>,
             stages: &mut Self::Stages<V>,
         ) {
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            ::symplectic::emitted::scale(
-                &mut force[0],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            ::symplectic::emitted::scale(
-                &mut velocity[0],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            ::symplectic::emitted::scale(
-                &mut velocity[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
+            emitted::scale_all(&mut stages.force, [0], step.size, [Self::B_TILDE[0]]);
+            emitted::scale_all(&mut stages.velocity, [0, 1], step.size, Self::B);
         }
         #[inline]
         fn finish<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
-            W: ::symplectic::emitted::EvaluationObserver,
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
+            W: emitted::EvaluationObserver,
         >(
-            step: &::symplectic::emitted::Step<'_, V>,
+            step: &emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
-            kept: ::symplectic::emitted::WarmStart,
-            outcome: ::symplectic::emitted::Outcome<'_, V>,
+            kept: emitted::WarmStart,
+            outcome: emitted::Outcome<'_, V>,
             witness: &mut W,
         ) {
-            let ::symplectic::emitted::Outcome {
-                q: q1,
-                q_low: q1_low,
-                p: p1,
-                p_low: p1_low,
-            } = outcome;
-            let ::symplectic::emitted::Stages { q, p, velocity, force } = stages;
-            system
-                .force(
-                    step.at(::symplectic::emitted::Coefficient::exact(1.0)),
-                    &q[1],
-                    &p[0],
-                    &mut force[1],
-                );
-            ::symplectic::emitted::scale(
-                &mut force[1],
-                step.size,
-                ::symplectic::emitted::Coefficient::exact(0.5),
-            );
-            ::symplectic::emitted::total::<
+            let emitted::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
+            let emitted::Stages { q, p, velocity, force } = &mut *stages;
+            system.force(step.at(emitted::exact(1.0)), &q[1], &p[0], &mut force[1]);
+            emitted::scale(&mut force[1], step.size, emitted::exact(0.5));
+            emitted::total::<
                 R,
                 V,
                 _,
             >(q1, q1_low, step.q, step.q_low, [&velocity[0], &velocity[1]]);
-            ::symplectic::emitted::total::<
+            emitted::total::<
                 R,
                 V,
                 _,
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
         }
     }
-    impl ::symplectic::emitted::StageTableau for StoermerVerletGeneral {
-        type Lanes = ::symplectic::emitted::F64x2;
+    impl emitted::StageTableau for StoermerVerletGeneral {
+        type Lanes = emitted::F64x2;
         type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
-        const POSITIONS: ::symplectic::emitted::HalfTableau = ::symplectic::emitted::HalfTableau {
+        const POSITIONS: emitted::HalfTableau = emitted::HalfTableau {
             count: 2,
             columns: &[&[0.0, 1.0], &[0.0, 1.0]],
             times: &[0.0, 1.0],
             weights: &[0.5, 0.5],
             extrapolation: &[&[0.0, (-1.0)], &[1.0, 2.0]],
-            polynomial: ::core::option::Option::Some(::symplectic::emitted::StagePolynomial {
+            polynomial: ::core::option::Option::Some(emitted::StagePolynomial {
                 legendre: &[&[(-1.0), 1.0]],
                 order: 2,
             }),
         };
-        const MOMENTA: ::symplectic::emitted::HalfTableau = ::symplectic::emitted::HalfTableau {
+        const MOMENTA: emitted::HalfTableau = emitted::HalfTableau {
             count: 2,
             columns: &[&[1.0, 1.0], &[0.0, 0.0]],
             times: &[0.5, 0.5],
             weights: &[0.5, 0.5],
             extrapolation: &[],
-            polynomial: ::core::option::Option::Some(::symplectic::emitted::StagePolynomial {
+            polynomial: ::core::option::Option::Some(emitted::StagePolynomial {
                 legendre: &[&[(-1.0), 1.0]],
                 order: 2,
             }),
         };
-        const SECOND_ORDER: ::core::option::Option<
-            ::symplectic::emitted::SecondOrderTableau,
-        > = ::core::option::Option::None;
+        const SECOND_ORDER: ::core::option::Option<emitted::SecondOrderTableau> = ::core::option::Option::None;
         #[inline(always)]
         fn groups<T: ::core::fmt::Debug>(
             mut make: impl ::core::ops::FnMut(usize) -> T,
@@ -468,129 +328,31 @@ const _: () = {
             [make(0)]
         }
         #[inline(always)]
-        fn stored<V: ::symplectic::emitted::Vector>(
+        fn stored<V: emitted::Vector>(
             stages: &Self::Stages<V>,
-        ) -> [::symplectic::emitted::StoredEvaluations<'_, V>; 2] {
-            [
-                ::symplectic::emitted::StoredEvaluations {
-                    values: &stages.velocity,
-                    carried: &[],
-                },
-                ::symplectic::emitted::StoredEvaluations {
-                    values: &stages.force,
-                    carried: &[],
-                },
-            ]
+        ) -> [emitted::StoredEvaluations<'_, V>; 2] {
+            stages.stored(&[], &[])
         }
     }
     pub struct StoermerVerletSeparable;
-    #[allow(unused_variables)]
-    impl ::symplectic::emitted::SplittingPlan for StoermerVerletSeparable {
-        type Class = ::symplectic::emitted::Separable;
+    impl emitted::SplittingPlan for StoermerVerletSeparable {
+        type Class = emitted::Separable;
         const EVALUATIONS: u32 = 3;
         const CARRIED: u32 = 1;
         #[inline(always)]
-        fn apply<
-            R: ::symplectic::emitted::Summation,
-            V: ::symplectic::emitted::Vector,
-            S: ::symplectic::emitted::System<V, Class = Self::Class>,
-            K: ::symplectic::emitted::KickDrift,
-            W: ::symplectic::emitted::EvaluationObserver,
-        >(
-            span: ::symplectic::emitted::Span,
-            system: &S,
-            evaluations: &mut ::symplectic::emitted::Evaluations<V>,
-            kept: ::symplectic::emitted::WarmStart,
-            state: ::symplectic::emitted::Outcome<'_, V>,
-            kick_drift: &mut K,
-            witness: &mut W,
-        ) {
-            let ::symplectic::emitted::Evaluations { velocity, force } = evaluations;
-            let ::symplectic::emitted::Outcome { q, q_low, p, p_low } = state;
-            if !kept.evaluation {
-                kick_drift
-                    .force::<
-                        R,
-                        V,
-                        S,
-                        W,
-                    >(
-                        ::symplectic::emitted::Force {
-                            span,
-                            stage: 1,
-                            time: ::symplectic::emitted::Coefficient::exact(0.0),
-                        },
-                        system,
-                        &mut *force,
-                        &mut *q,
-                        (&mut *p, &mut *p_low),
-                        witness,
-                    );
-            }
-            kick_drift
-                .kick::<
-                    R,
-                    V,
-                    S,
-                >(
-                    span.size,
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    system,
-                    &mut *force,
-                    &mut *q,
-                    (&mut *p, &mut *p_low),
-                );
-            kick_drift
-                .drift::<
-                    R,
-                    V,
-                    S,
-                    W,
-                >(
-                    ::symplectic::emitted::Drift {
-                        span,
-                        stage: 1,
-                        time: ::symplectic::emitted::Coefficient::exact(0.5),
-                        weight: ::symplectic::emitted::Coefficient::exact(1.0),
-                        known: false,
-                    },
-                    system,
-                    (&mut *velocity, &mut *force),
-                    (&mut *q, &mut *q_low),
-                    (&mut *p, &mut *p_low),
-                    witness,
-                );
-            kick_drift
-                .force::<
-                    R,
-                    V,
-                    S,
-                    W,
-                >(
-                    ::symplectic::emitted::Force {
-                        span,
-                        stage: 2,
-                        time: ::symplectic::emitted::Coefficient::exact(1.0),
-                    },
-                    system,
-                    &mut *force,
-                    &mut *q,
-                    (&mut *p, &mut *p_low),
-                    witness,
-                );
-            kick_drift
-                .kick::<
-                    R,
-                    V,
-                    S,
-                >(
-                    span.size,
-                    ::symplectic::emitted::Coefficient::exact(0.5),
-                    system,
-                    &mut *force,
-                    &mut *q,
-                    (&mut *p, &mut *p_low),
-                );
+        fn apply<R, V, S, K, W>(step: &mut emitted::SplittingStep<'_, R, V, S, K, W>)
+        where
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
+            K: emitted::KickDrift,
+            W: emitted::EvaluationObserver,
+        {
+            step.kept_force(1, emitted::exact(0.0));
+            step.kick(emitted::exact(0.5));
+            step.drift(1, emitted::exact(0.5), emitted::exact(1.0));
+            step.force(2, emitted::exact(1.0));
+            step.kick(emitted::exact(0.5));
         }
     }
 };

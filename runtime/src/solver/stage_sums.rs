@@ -1,0 +1,120 @@
+//! The sums over the evaluations that give coupled stages. Generated code has each sum once, for starting values and for sweeps.
+
+use core::marker::PhantomData;
+
+use num_traits::Zero;
+
+use super::relax::relax;
+use crate::method::HalfChange;
+use crate::number::array::array;
+use crate::number::linear_combination::{combine, factors};
+use crate::number::{Coefficient, Summation, Vector};
+
+/// What the sums are for: [`Starting`] values, or a [`Sweep`].
+pub trait StageSums {
+    /// `stage = base + Σ_j coefficients_j increments_j`. In sweeps the terms are the evaluations, which the `weights` turn into increments.
+    fn increments<V: Vector, const N: usize>(
+        &mut self,
+        stage: &mut V,
+        base: (&V, &V),
+        coefficients: [Coefficient; N],
+        weights: [V::Scalar; N],
+        terms: [&V; N],
+    );
+
+    /// `stage = base + Σ_j factors_j evaluations_j`
+    fn evaluations<V: Vector, const N: usize>(
+        &mut self,
+        stage: &mut V,
+        base: (&V, &V),
+        factors: [V::Scalar; N],
+        terms: [&V; N],
+    );
+}
+
+/// The sums of starting values: all terms are increments.
+pub struct Starting<R>(PhantomData<R>);
+
+impl<R> Starting<R> {
+    /// Starting values.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[expect(clippy::new_without_default, reason = "for generated code")]
+    pub const fn new() -> Self {
+        Starting(PhantomData)
+    }
+}
+
+impl<R: Summation> StageSums for Starting<R> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn increments<V: Vector, const N: usize>(
+        &mut self,
+        stage: &mut V,
+        base: (&V, &V),
+        coefficients: [Coefficient; N],
+        _weights: [V::Scalar; N],
+        terms: [&V; N],
+    ) {
+        self.evaluations(stage, base, factors(coefficients), terms);
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn evaluations<V: Vector, const N: usize>(
+        &mut self,
+        stage: &mut V,
+        (base, low): (&V, &V),
+        factors: [V::Scalar; N],
+        terms: [&V; N],
+    ) {
+        combine::<R, V, N>(stage, base, low, factors, terms);
+    }
+}
+
+/// The sums of a sweep, which records how much the stages change.
+///
+/// With [compensated](Summation::COMPENSATED) sums a sweep turns evaluations into [increments](crate::emitted::increment) as soon as they
+/// are made. With plain sums the factors of the sums have the weights.
+pub struct Sweep<'a, R> {
+    change: &'a mut HalfChange,
+    sums: PhantomData<R>,
+}
+
+impl<'a, R> Sweep<'a, R> {
+    /// A sweep over the stages of one kind.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub const fn new(change: &'a mut HalfChange) -> Self {
+        Sweep {
+            change,
+            sums: PhantomData,
+        }
+    }
+}
+
+impl<R: Summation> StageSums for Sweep<'_, R> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn increments<V: Vector, const N: usize>(
+        &mut self,
+        stage: &mut V,
+        base: (&V, &V),
+        coefficients: [Coefficient; N],
+        weights: [V::Scalar; N],
+        terms: [&V; N],
+    ) {
+        let factors = factors(coefficients);
+        let factors = match R::COMPENSATED {
+            true => factors,
+            false => array(V::Scalar::zero(), |j| factors[j] * weights[j]),
+        };
+        self.evaluations(stage, base, factors, terms);
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn evaluations<V: Vector, const N: usize>(
+        &mut self,
+        stage: &mut V,
+        (base, low): (&V, &V),
+        factors: [V::Scalar; N],
+        terms: [&V; N],
+    ) {
+        relax::<R, V, N>(stage, base, low, factors, terms, self.change);
+    }
+}
