@@ -157,3 +157,35 @@ fn a_composition_of_explicit_methods_is_explicit() {
     assert_eq!(calls, [4, 3]);
     assert!(factors(&code).iter().all(|&c| c != 0.0));
 }
+
+/// Every line of generated code that the book shows.
+#[test]
+fn the_book_shows_what_is_written() {
+    let ruth = catalogue::find("forest-ruth-1990").expect("known");
+    let ruth = emitted(&ruth.derive().expect("derived"), "ForestRuth");
+    let gauss = emitted(&derived("polynomial(2)", "gauss(2)"), "Gauss2");
+    let lines =
+        |text: &str| -> Vec<String> { text.lines().map(|line| line.trim().to_owned()).collect() };
+    let written = [lines(&ruth), lines(&gauss)];
+    let book = include_str!("../../../docs/src/guide/methods.md");
+    let section = book
+        .split("## What the macro writes")
+        .nth(1)
+        .expect("the section");
+    let section = section.split("\n## ").next().expect("a section");
+    let shown: Vec<String> = section
+        .split("```")
+        .skip(1)
+        .step_by(2)
+        .flat_map(|block| {
+            lines(block)
+                .into_iter()
+                .skip(1)
+                .filter(|line| !line.is_empty())
+        })
+        .collect();
+    assert!(shown.len() > 10);
+    for line in shown {
+        assert!(written.iter().any(|code| code.contains(&line)), "{line}");
+    }
+}
