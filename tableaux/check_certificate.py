@@ -409,8 +409,7 @@ def read(text):
     refuse = lambda number: demand(False, f"a whole number or a text, not {number:.40}")
     members = lambda pairs: demand(len(dict(pairs)) == len(pairs), "members with different names") or dict(pairs)
     found = json.loads(text, parse_float=refuse, parse_constant=refuse, object_pairs_hook=members)
-    demand(isinstance(found, dict), "an object")
-    return found
+    return demand(isinstance(found, dict), "an object") or found
 
 def method_of(certificate):
     numbers, layout, stages = certificate["numbers"], certificate["layout"], whole(certificate["stages"])
@@ -449,7 +448,8 @@ def check(text):
     listed = isinstance(missing, list) and len(missing) == len({*missing}) and {*missing} <= NOT_COVERED - covered
     demand(listed, "not_covered as a list of claims that are not made, each once")
     of = method_of(certificate)
-    if isinstance(of, NotChecked): return certificate, None, [of]
+    if isinstance(of, NotChecked):
+        return certificate, None, [of]
     demand(of.s == certificate["stages"], f"{of.s} stages")
     exact, residual, tests = {"method": of}, residuals(of), {"symplectic": symplectic, "symmetric": symmetric}
     for colour, tilde in (("q", ""), ("p", "_tilde")):

@@ -41,10 +41,14 @@ pub(super) fn most_states((starts, numbers): (usize, usize), dimension: usize) -
     usize::try_from(left / of_states(1, 1, dimension)).unwrap_or(usize::MAX)
 }
 
-/// Why a section needs too much memory.
-pub(super) fn fault_of_section(most: usize) -> String {
+/// Why a section of several trajectories needs too much memory.
+pub(super) fn fault_of_section(most: usize, trajectories: usize) -> String {
+    let parts = match trajectories {
+        0 | 1 => "",
+        _ => ", or run parts, with `--shard 0/2` and so on",
+    };
     format!(
-        "the section has more than {most} states, and {} GB of memory are allowed: give an earlier `end`, or run parts, with `--shard 0/2` and so on",
+        "the section has more than {most} states, and {} GB of memory are allowed: give an `end` nearer to the start{parts}",
         gigabytes(MOST)
     )
 }
@@ -56,7 +60,7 @@ fn of_starts(starts: usize, numbers: usize) -> u128 {
 }
 
 /// Time, positions, momenta and the error of the energy, and an array of the output with its bytes: measured were 57 bytes with
-/// one degree of freedom and 383 with ten.
+/// one degree of freedom and 383 with ten. A section with one degree of freedom took 49 bytes in a `.npz`, 32 in a table.
 fn of_states(starts: usize, times: usize, dimension: usize) -> u128 {
     starts as u128 * times as u128 * (16 + 40 * dimension as u128)
 }
@@ -75,7 +79,9 @@ mod tests {
         let most = most_states((1000, 2), 1);
         assert!((71_000_000..4_000_000_000 / 56).contains(&most), "{most}");
         assert_eq!(most_states((1 << 22, 1000), 1), 0);
-        assert!(fault_of_section(most).contains("and 4 GB of memory are allowed"));
+        let told = |trajectories| fault_of_section(most, trajectories);
+        assert!(told(1).ends_with("4 GB of memory are allowed: give an `end` nearer to the start"));
+        assert!(told(2).ends_with(", or run parts, with `--shard 0/2` and so on"));
     }
 
     /// The number of parts in the message is the least one that is allowed.

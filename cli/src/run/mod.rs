@@ -368,7 +368,8 @@ impl Run<'_> {
                 ensemble.each(|_| Vec::new(), see, keep);
                 if section.is_full()() {
                     progress.finish_and_clear();
-                    let fault = memory::fault_of_section(section.most());
+                    let fault =
+                        memory::fault_of_section(section.most(), ensemble.trajectories().len());
                     let given = self.setup.section.as_ref().map_or(0..0, Spanned::span);
                     return Err(self.file.error(given, fault));
                 }

@@ -220,24 +220,36 @@ impl Results<'_> {
         file.finish().map(|_| ())
     }
 
-    /// The states of a section, one after another.
+    /// The states of a section, one after another. Only one array is in memory at a time.
     fn write_section(&self, file: &mut Npz<impl Write>) -> io::Result<()> {
         let all = || {
             let rows = self.rows.iter();
             rows.flat_map(|row| (0_u64..).zip(points(row)).map(move |seen| (row, seen)))
         };
-        let trajectories: Vec<u64> = all().map(|(row, _)| row.trajectory as u64).collect();
-        let numbers: Vec<u64> = all().map(|(_, (number, _))| number).collect();
-        let times: Vec<f64> = all().map(|(_, (_, point))| point.time).collect();
-        let (count, dimension) = (times.len(), self.coordinates.dimension());
-        file.integers("section_trajectory", &[count], &trajectories)?;
-        file.integers("section_number", &[count], &numbers)?;
-        file.doubles("section_time", &[count], &times)?;
+        let dimension = self.coordinates.dimension();
+        let count = self.rows.iter().map(|row| points(row).count()).sum();
+        let trajectories = all().map(|(row, _)| row.trajectory as u64);
+        file.integers(
+            "section_trajectory",
+            &[count],
+            &of_length(count, trajectories),
+        )?;
+        let numbers = all().map(|(_, (number, _))| number);
+        file.integers("section_number", &[count], &of_length(count, numbers))?;
+        let times = all().map(|(_, (_, point))| point.time);
+        file.doubles("section_time", &[count], &of_length(count, times))?;
         for (name, half) in [("section_q", 0), ("section_p", 1)] {
             let values = all().flat_map(|(_, (_, point))| point.halves[half]);
-            let values: Vec<f64> = values.copied().collect();
+            let values = of_length(count * dimension, values.copied());
             file.doubles(name, &[count, dimension], &values)?;
         }
         Ok(())
     }
+}
+
+/// The values of an iterator that does not know its length, without growing.
+fn of_length<T>(length: usize, values: impl Iterator<Item = T>) -> Vec<T> {
+    let mut all = Vec::with_capacity(length);
+    all.extend(values);
+    all
 }

@@ -7,13 +7,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use symplectic::nalgebra::DVector;
 use symplectic::{Class, Error as RunError, Event, Hamiltonian, Integrator, Method, State};
 use symplectic_compiler::Error;
+use symplectic_compiler::expression::Input;
 use symplectic_compiler::formula::{Form, System};
 
 use super::output::append;
 use super::setup::{Direction, File, Setup};
 use super::system::Formula;
 use super::tape::{At, Tape};
-use super::unroll::Unrolled;
+use super::unroll::{MOST_STEPS, Refusal, Unrolled};
 use super::values::Values;
 
 /// A section, and the number of its states.
@@ -45,31 +46,40 @@ impl Section {
             ));
         }
         let (span, of) = (section.get_ref().of.span(), section.get_ref().of.get_ref());
-        // The expression has the names of the formula, as its invariants have.
         let formula = setup.system.get_ref();
-        let before = format!("{formula}\ninvariants: {{ value_of_section = (");
-        let text = format!("{before}{of}) }}");
-        let placed = |mut error: Error| {
-            if let Some(place) = &mut error.place {
-                let within = |at: usize| at.saturating_sub(before.len()).min(of.len());
-                place.span = within(place.span.start)..within(place.span.end);
-            }
-            file.inside(span.clone(), of, error)
+        let expression = Input {
+            name: &format!("`of` in {}", file.path.display()),
+            text: of,
         };
-        let system = System::read_as(Form::of(formula), "`of`", &text).map_err(placed)?;
-        let parts = system.invariants.last().map_or(&[][..], |last| &last.parts);
-        let &[part] = parts else {
-            return Err(file.error(span, "a section is a function with one value"));
+        let (system, parts) = System::read_with(Form::of(formula), formula, expression)
+            .map_err(|error| file.inside(span.clone(), of, error))?;
+        let &[part] = &parts[..] else {
+            let message = match parts.len() {
+                0 => "`of` has no components: give an expression with a value".to_owned(),
+                count => {
+                    format!("`of` has {count} components: give one of them, or a run for each")
+                }
+            };
+            return Err(file.error(span, message));
         };
         let tape = || {
+            if system.graph.overflowed() {
+                return Err(Refusal::TooLong);
+            }
             let unrolled = Unrolled::new(&system, values, &[part])?;
             unrolled.tape(&[unrolled.of(part)?])
         };
-        let refused = |_| {
-            file.error(
-                span.clone(),
-                "an index is out of range, or the section is too long",
-            )
+        let refused = |refusal| {
+            let message = match refusal {
+                Refusal::TooLong => format!(
+                    "with its sums written out, `of` has more than {MOST_STEPS} operations: give a shorter expression, or take fewer bodies"
+                ),
+                Refusal::Outside => format!(
+                    "an index in `of` is out of range: that coordinate or entry of a parameter does not exist; positions are from 0 to {}",
+                    values.bodies.saturating_sub(1)
+                ),
+            };
+            file.error(span.clone(), message)
         };
         Ok(Some(Self {
             tape: tape().map_err(refused)?,
@@ -116,7 +126,7 @@ impl Section {
             ControlFlow::Continue(())
         };
         run.integrate_with_events(end, &event.by_steps(), keep)
-            .map(|_| ())
+            .map(|_| seen.shrink_to_fit())
     }
 
     /// Whether there are more states than may be kept.

@@ -96,23 +96,62 @@ pub(super) struct Evenly {
 }
 
 /// The zeros of an expression at which states are written.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug)]
 pub(super) struct Section {
     /// An expression of the formula language.
     pub(super) of: Spanned<String>,
-    #[serde(default)]
     pub(super) direction: Direction,
+}
+
+impl<'de> Deserialize<'de> for Section {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Keys {
+            of: Spanned<String>,
+            #[serde(default)]
+            direction: Direction,
+        }
+        struct Any;
+        impl<'de> Visitor<'de> for Any {
+            type Value = Section;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("one table, such as `section = { of = \"x\" }`")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Section, A::Error> {
+                let Keys { of, direction } = Keys::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(Section { of, direction })
+            }
+        }
+        deserializer.deserialize_any(Any)
+    }
 }
 
 /// The sign changes of a section, in the direction of the steps.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(try_from = "String")]
 pub(super) enum Direction {
     #[default]
     Rising,
     Falling,
     Both,
+}
+
+impl TryFrom<String> for Direction {
+    type Error = String;
+
+    fn try_from(name: String) -> Result<Self, String> {
+        match name.as_str() {
+            "rising" => Ok(Direction::Rising),
+            "falling" => Ok(Direction::Falling),
+            "both" => Ok(Direction::Both),
+            _ => Err(format!(
+                "unknown direction `{name}`, expected `rising`, `falling` or `both`"
+            )),
+        }
+    }
 }
 
 /// The number of random starts at each point of the grid of the other coordinates.
@@ -255,10 +294,14 @@ impl File<'_> {
 
     /// An error in a string of this file; its position refers to the file if the string occurs there literally.
     pub(super) fn inside(&self, span: Range<usize>, text: &str, error: Error) -> Error {
-        let written = self
-            .text
-            .get(span.clone())
-            .and_then(|written| written.find(text));
+        let literally = |written: &str| {
+            let offset = written.find(text)?;
+            let around = [&written[..offset], &written[offset + text.len()..]].concat();
+            // Not `u` in `"\u0075"`.
+            let is_literal = around.chars().all(|c| "\"'\r\n".contains(c));
+            is_literal.then_some(offset)
+        };
+        let written = self.text.get(span.clone()).and_then(literally);
         match (written, &error.place) {
             (Some(offset), Some(place)) => {
                 let offset = span.start + offset;

@@ -43,9 +43,9 @@ impl Results<'_> {
     /// A line for each trajectory, or for each trajectory and time. A trajectory that failed ends with its last good state and its error.
     fn lines(&self) -> impl Iterator<Item = Line<'_>> {
         let rows = self.rows.iter().zip(self.starts).zip(self.energy_errors());
-        rows.flat_map(|((row, start), errors)| {
+        rows.flat_map(move |((row, start), errors)| {
             let failure = row.outcome.as_ref().err().map(ToString::to_string);
-            let line = |number, state, energy_error, failure| Line {
+            let line = move |number, state, energy_error, failure| Line {
                 row,
                 number,
                 start: start.into(),
@@ -54,18 +54,20 @@ impl Results<'_> {
                 energy_error,
                 failure,
             };
-            let mut lines = Vec::new();
-            let last = (&row.state).into();
-            if matches!(self.seen, Seen::End) {
-                lines.push(line(0, last, errors.first().copied(), failure));
-                return lines;
-            }
+            // Without times and a section there are no points, and one error.
+            let is_end = matches!(self.seen, Seen::End);
+            let last = (is_end || failure.is_some()).then(|| {
+                let error = errors.first().filter(|_| is_end);
+                line(
+                    points(row).count(),
+                    (&row.state).into(),
+                    error.copied(),
+                    failure,
+                )
+            });
             let seen = points(row).zip(errors).enumerate();
-            lines.extend(seen.map(|(k, (state, error))| line(k, state, Some(error), None)));
-            if failure.is_some() {
-                lines.push(line(lines.len(), last, None, failure));
-            }
-            lines
+            seen.map(move |(k, (state, error))| line(k, state, Some(error), None))
+                .chain(last)
         })
     }
 

@@ -70,17 +70,23 @@ impl System {
     /// Friction is only for separable systems, and excludes invariants.
     fn check_friction(&self, structure: &Structure, input: Input<'_>) -> Result<(), Error> {
         if let Err(term) = structure.split {
+            let place = self.place_of(term);
             let kind = FormulaError::Unsupported {
                 what: "friction where H is not separable".to_owned(),
-                instead: "H = T(p) + U(q); this term depends on positions and momenta",
+                instead: match place {
+                    Some(_) => "H = T(p) + U(q); this term depends on positions and momenta",
+                    // H of a Lagrangian is written nowhere.
+                    None => {
+                        "H = T(p) + U(q); write the friction as a force: `force: { x = -gamma px }`"
+                    }
+                },
             };
-            let place = self.place_of(term).cloned().unwrap_or(0..0);
-            return Err(input.error(&place, kind.into()));
+            return Err(input.error(place.unwrap_or(&(0..0)), kind.into()));
         }
         if let Some(invariant) = self.invariants.first() {
             let kind = FormulaError::Unsupported {
                 what: "an invariant of a system with friction".to_owned(),
-                instead: "momenta decay, and so does H",
+                instead: "remove it, because no function is proved to be conserved with friction",
             };
             return Err(input.error(&invariant.span, kind.into()));
         }

@@ -58,6 +58,8 @@ pub use system::{
     Bonds, Constraint, Invariant, Lagrangian, Layout, Legendre, Parameter, Shape, System,
 };
 
+use self::graph::Id;
+use self::syntax::Definition;
 use crate::error::Error;
 use crate::expression::Input;
 
@@ -77,10 +79,57 @@ impl System {
     pub fn read_as(form: Form, name: &str, text: &str) -> Result<Self, Error> {
         let input = Input { name, text };
         let definition = parse::parse(input, form)?;
-        let system = elaborate::elaborate(input, &definition)?;
-        match form {
+        Self::of_definition(input, &definition)
+    }
+
+    /// Reads the definition of a system, and an expression with its names; returns the components of the expression in the graph.
+    /// The definition is one that [`read_as`](Self::read_as) accepts.
+    ///
+    /// ```
+    /// use symplectic_compiler::expression::Input;
+    /// use symplectic_compiler::formula::{Form, System};
+    ///
+    /// let pendulum = "Pendulum { g: 9.81 } q: [a], p: [pa]; H = pa^2/2 - g cos(a)";
+    /// let section = Input { name: "section", text: "pa - g sin(t)" };
+    /// let (_, parts) = System::read_with(Form::Hamiltonian, pendulum, section)?;
+    /// assert_eq!(parts.len(), 1);
+    /// let wrong = Input { name: "section", text: "pa) + (b" };
+    /// let error = System::read_with(Form::Hamiltonian, pendulum, wrong).unwrap_err();
+    /// assert_eq!(error.place.unwrap().span, 2..3);
+    /// # Ok::<(), symplectic_compiler::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Any error in the expression, at its place in the expression.
+    pub fn read_with(
+        form: Form,
+        text: &str,
+        expression: Input<'_>,
+    ) -> Result<(Self, Vec<Id>), Error> {
+        let before = format!("{text}\n");
+        let whole = format!("{before}{}", expression.text);
+        let input = Input {
+            name: expression.name,
+            text: &whole,
+        };
+        let placed = |mut error: Error| {
+            let within = |at: usize| at.saturating_sub(before.len()).min(expression.text.len());
+            error.place = error
+                .place
+                .map(|place| expression.place(within(place.span.start)..within(place.span.end)));
+            error
+        };
+        let definition = parse::parse_with(input, form, before.len()).map_err(placed)?;
+        let mut system = Self::of_definition(input, &definition).map_err(placed)?;
+        let parts = system.invariants.pop().map(|last| last.parts);
+        Ok((system, parts.unwrap_or_default()))
+    }
+
+    fn of_definition(input: Input<'_>, definition: &Definition) -> Result<Self, Error> {
+        let system = elaborate::elaborate(input, definition)?;
+        match definition.form {
             Form::Hamiltonian => Ok(system),
-            Form::Lagrangian => legendre::transform(system, &definition, input),
+            Form::Lagrangian => legendre::transform(system, definition, input),
         }
     }
 }

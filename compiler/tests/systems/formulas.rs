@@ -184,7 +184,10 @@ fn wrong_formulas_are_refused_at_their_place() {
         refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 friction: [1, 2, 3]"),
         refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 friction: [1]"),
         refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 friction: [1, x]"),
+        refused("P q: [x], p: [px]; H = px^2 friction: [1, 2]"),
         refused("P<N> { g: [N] } q: [N], p: [N]; H = sum(i: p[i]^2) friction: g"),
+        refused("P { g: [..] } q: [..; 2], p: [..; 2]; H = sum(i: |p[i]|^2) friction: g"),
+        refused("P<N> { g: [N, 2] } q: [N; 2], p: [N; 2]; H = sum(i: |p[i]|^2) friction: g"),
         refused("P q: [x], p: [px]; H = px^2 + x px friction: 1"),
         refused("P q: [x], p: [px]; H = px^2 friction: 1 invariants: { momentum = px }"),
         refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 friction: 1 constraints: { rod = x }"),
@@ -291,6 +294,20 @@ fn a_rate_of_friction_for_each_component() {
     let friction = &description::json(&read, &structure)["friction"];
     let texts = [&friction["text"], &friction["latex"]];
     assert_eq!(texts, ["[g, 2 g]", r"[g, 2\,g]"]);
+}
+
+/// The advice of the error for a rate for each body.
+#[test]
+fn a_rate_of_friction_for_each_body() {
+    for layout in [
+        "q: [N], p: [N]; H = sum(i: p[i]^2)",
+        "q: [N; 2], p: [N; 2]; H = sum(i: |p[i]|^2)",
+    ] {
+        let text = format!("P<N> {{ g: [N] }} {layout} force: {{ q[i] = -g[i] p[i] }}");
+        let (mut read, structure) = read(&text);
+        read.check(&structure, &text).expect("a force");
+        assert!(read.force_of_momenta().is_some());
+    }
 }
 
 #[test]

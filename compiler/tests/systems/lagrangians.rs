@@ -200,6 +200,7 @@ fn wrong_lagrangians_are_refused_at_their_place() {
         "P { m, c } q: [3], v: [3]; L = -m c^2 sqrt(1 - |v|^2/c^2) - |q|^2 require: [separable]",
         "P q: [x, y], v: [vx, vy]; L = (vx^2 + vy^2)/2 + x vx^4 - x^2 constraints: { line = x - y }",
         "P<N> q: [N; 2], v: [N; 2]; L = sum(i: |v[i]|^2/2 + |v[i]|^4/8) friction: 1",
+        "P q: [x, y], v: [vx, vy]; L = vx^2/2 + vy^2 (1 + x^2)/2 friction: 1",
         "P q: [x, y], v: [vx, vy]; L = vx^4/4 - x^2 - y^2",
         "P q: [x], v: [vx]; L = x^2",
         "P q: [x], v: [vx]; L = vx^2/2 + px",

@@ -22,7 +22,8 @@ use crate::system::{Damped, Separable, System};
 /// p ← e^{−γτ} p + (1 − e^{−γτ})/γ · force      τ = h b̃_i
 /// ```
 ///
-/// so the order is that for separable Hamiltonians, and every step shrinks dq∧dp by `e^{−γh}` exactly.
+/// so the order is that for separable Hamiltonians. With one rate γ every step shrinks dq∧dp by exactly `e^{−γh}`; with several it shrinks
+/// the volume of phase space by exactly `e^{−h tr Γ}`, where Γ is the diagonal matrix of the rates of all coordinates.
 #[derive(Debug)]
 pub struct DampedPlan<M>(PhantomData<M>);
 

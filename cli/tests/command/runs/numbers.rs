@@ -27,7 +27,7 @@ fn a_range_of_whole_numbers_has_whole_numbers() {
     }
 }
 
-/// Digits are the shortest; Python changes to exponents at the same numbers.
+/// Digits are the shortest.
 #[test]
 fn small_and_large_numbers_have_exponents() {
     let folder = folder("exponents");

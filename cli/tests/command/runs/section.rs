@@ -132,17 +132,20 @@ fn failed_trajectories_end_with_their_error() {
     let folder = folder("section-failed");
     let cubic = super::CUBIC
         .replace("times = { from = 0, to = 20, count = 5 }", "end = 20")
-        .replace("output", "section.of = \"px\"\n    output");
+        .replace("0.5, 1.5", "0.5, -0.6")
+        .replace("output", "section.of = \"x\"\n    output");
     let text = csv(&folder, &cubic);
     let (good, failed): (Vec<&str>, Vec<&str>) =
         text.lines().skip(1).partition(|line| line.ends_with(','));
-    // The number in the last line is that of the crossings before it.
+    // From x = -0.6, with more energy than the barrier of 1/6, it rises through zero once and escapes. The number in its last line is that of
+    // the crossings before it.
     let before = good.iter().filter(|line| line.starts_with("2,")).count();
+    assert_eq!(before, 1, "{text}");
     let [failed] = failed[..] else {
         panic!("{text}");
     };
     assert!(
-        failed.starts_with(&format!("2,1.5,0,{before},")),
+        failed.starts_with(&format!("2,-0.6,0,{before},")),
         "{failed}"
     );
     assert!(failed.contains("is not finite") && good.len() > 5, "{text}");
@@ -156,21 +159,128 @@ fn failed_trajectories_end_with_their_error() {
     assert_eq!(failed.count(), 3, "{text}");
 }
 
+/// A section is an expression of its own: comments and the names of the formula do not matter.
+#[test]
+fn sections_do_not_depend_on_the_rest_of_the_formula() {
+    let folder = folder("section-alone");
+    let text = csv(&folder, OSCILLATORS);
+    let more = OSCILLATORS.replace("H =", "let distance = x; H =").replace(
+        "^2/2\"",
+        "^2/2 invariants: { value_of_section = px^2/2 + (w x)^2/2 }\"",
+    );
+    assert_ne!(more, OSCILLATORS);
+    for of in ["x", "x // distance", "distance", "(x)", " x "] {
+        let setup = more.replace("of = \"x\"", &format!("of = \"{of}\""));
+        assert_eq!(csv(&folder, &setup), text, "{of}");
+    }
+    // Momenta of a Lagrangian have names; velocities have none.
+    let pendulum = OSCILLATORS.replace("px^2/2 + (w x)^2/2", "vx^2/2 - (w x)^2/2");
+    let pendulum = pendulum.replace("p: [px]; H", "v: [vx]; L");
+    assert_eq!(csv(&folder, &pendulum), text);
+    let output = call(&folder, &pendulum.replace("of = \"x\"", "of = \"vx\""), &[]);
+    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        errors.contains("a velocity is not supported here: write it with the momenta"),
+        "{errors}"
+    );
+}
+
+/// What the tape of a section cannot hold is refused with the reason.
+#[test]
+fn indices_and_lengths_of_sections() {
+    let folder = folder("section-long");
+    let beads = r#"
+        system = "Beads q: [..; 2], p: [..; 2]; H = sum(i: |p[i]|^2/2 + |q[i]|^2/2)"
+        method = "blanes-moan-2002-s10"
+        step_size = 0.05
+        end = 1.0
+        section = { of = "q[1][0]" }
+        starts = { q = [[1, 0], [0, 1]], p = [[0, 1], [1, 0]] }
+        output.file = "out.csv"
+    "#;
+    csv(&folder, beads);
+    // Five operations a term.
+    let terms = |k: usize| format!("sin({k}.5 q[0][0]) cos({k} q[0][1])");
+    let long = (0..20_000).map(terms).collect::<Vec<_>>().join(" + ");
+    for (of, message) in [
+        (
+            "q[2][0]",
+            "an index in `of` is out of range: that coordinate or entry of a parameter does not exist; positions are from 0 to 1",
+        ),
+        (
+            &long,
+            "`of` has more than 60000 operations: give a shorter expression",
+        ),
+    ] {
+        let output = call(&folder, &beads.replace("q[1][0]", of), &[]);
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(
+            errors.contains(message),
+            "{message}: {}",
+            &errors[..errors.len().min(400)]
+        );
+    }
+}
+
 #[test]
 fn wrong_sections_are_refused_at_their_place() {
     let folder = folder("section-wrong");
     let section = r#"{ of = "x" }"#;
     for (wrong, place, message) in [
         (r#"{ of = "x + y" }"#, "8:27", "unknown name `y`"),
-        (r#"{ of = "x +" }"#, "8:", "expected"),
         (r#"{ of = "" }"#, "8:", "expected"),
-        (r#"{ of = "[x, px]" }"#, "8:22", "a function with one value"),
+        (
+            r#"{ of = "[x, px]" }"#,
+            "8:22",
+            "`of` has 2 components: give one of them, or a run for each",
+        ),
+        (r#"{ of = "[]" }"#, "8:22", "`of` has no components"),
+        // Only an expression, whatever it is.
+        (
+            r#"{ of = "x), b = (px" }"#,
+            "8:24",
+            "found `)`, expected an operator or the end of the expression",
+        ),
+        (
+            r#"{ of = "x) } force: { x = (-px" }"#,
+            "8:24",
+            "found `)`, expected an operator or the end of the expression",
+        ),
+        (
+            r#"{ of = "(x // distance" }"#,
+            "8:23",
+            "`(` has no matching `)`",
+        ),
+        (
+            r#"{ of = "x +" }"#,
+            "8:26",
+            "the expression ends, expected a number",
+        ),
+        (
+            r#"{ of = "x invariants: { a = x }" }"#,
+            "8:25",
+            "found `invariants`",
+        ),
+        (
+            r#"{ of = "value_of_section" }"#,
+            "8:23",
+            "unknown name `value_of_section`; known here: p, pi, px, q, t, w, x",
+        ),
         (
             r#"{ of = "x", direction = "up" }"#,
             "8:",
-            "unknown variant `up`",
+            "unknown direction `up`, expected `rising`, `falling` or `both`",
         ),
-        (r#"{ off = "x" }"#, "8:", "unknown field `off`"),
+        (
+            r#"{ of = "x", direction = 1 }"#,
+            "8:39",
+            "integer `1`, expected a string",
+        ),
+        (r#"'x'"#, "8:15", "expected one table, such as"),
+        (r#"['x']"#, "8:15", "expected one table, such as"),
+        (r#"{ direction = "both" }"#, "8:15", "missing field `of`"),
+        (r#"{ off = "x" }"#, "8:17", "unknown field `off`"),
     ] {
         let output = call(&folder, &OSCILLATORS.replace(section, wrong), &[]);
         let errors = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -178,6 +288,23 @@ fn wrong_sections_are_refused_at_their_place() {
         assert!(errors.contains(message), "{wrong}: {errors}");
         assert!(
             errors.contains(&format!("setup.toml:{place}")),
+            "{wrong}: {errors}"
+        );
+    }
+    // A text that is not literally in the file is shown by itself, whatever the formula is.
+    let greek = OSCILLATORS.replace("Oscillator", "abΩΩΩ");
+    for (wrong, place) in [
+        (r#"{ of = "\u0078 + yy" }"#, "1:5"),
+        (r#"{ of = "x +\n yy" }"#, "2:2"),
+        ("{ of = \"\"\"x + \\\n\n  yy\"\"\" }", "1:5"),
+    ] {
+        let output = call(&folder, &greek.replace(section, wrong), &[]);
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{errors}");
+        assert!(errors.contains("unknown name `yy`"), "{wrong}: {errors}");
+        let place = format!("setup.toml:{place}\n");
+        assert!(
+            errors.contains("> `of` in ") && errors.contains(&place),
             "{wrong}: {errors}"
         );
     }

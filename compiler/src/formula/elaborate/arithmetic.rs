@@ -3,6 +3,7 @@
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
+use super::values::counted;
 use super::{Elaborator, MOST_EXPONENT, MOST_JOINED_EXPONENT, Value};
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
@@ -45,7 +46,8 @@ impl Elaborator<'_> {
                             }
                         }
                         other => {
-                            let expected = format!("a vector of {} components", parts.len());
+                            let expected =
+                                format!("a vector of {}", counted(parts.len(), "component"));
                             return self.mismatch(at, &other, &expected);
                         }
                     }
@@ -291,7 +293,7 @@ impl Elaborator<'_> {
             }
             if sides[0].len() != sides[1].len() {
                 let found = Value::Vector(sides[1].clone());
-                let expected = format!("a vector of {} components", sides[0].len());
+                let expected = format!("a vector of {}", counted(sides[0].len(), "component"));
                 return this.mismatch(&arguments[1], &found, &expected);
             }
             Ok(sides)

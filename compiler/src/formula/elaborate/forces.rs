@@ -1,12 +1,13 @@
 //! Applied forces and friction.
 
+use super::values::counted;
 use super::{Elaborator, Value};
 use crate::error::{Error, ErrorKind};
 use crate::formula::derivative::Scatter;
 use crate::formula::error::FormulaError;
 use crate::formula::graph::{Coordinate, Half, Id, Node};
 use crate::formula::syntax::{Force, Form, Kind, Length, Name, Over};
-use crate::formula::system::Layout;
+use crate::formula::system::{Layout, Parameter, Shape};
 
 impl Elaborator<'_> {
     /// The applied forces, each with its coordinate.
@@ -73,7 +74,7 @@ impl Elaborator<'_> {
         }
         if parts.len() != coordinates.len() {
             let kind = ErrorKind::Type {
-                found: format!("a force with {} components", parts.len()),
+                found: format!("a force with {}", counted(parts.len(), "component")),
                 expected: format!("one with {}, as the position has", coordinates.len()),
             };
             return self.error(value, kind);
@@ -104,9 +105,12 @@ impl Elaborator<'_> {
             Value::Scalar(rate) => vec![rate],
             Value::Vector(rates) if count == Some(rates.len()) => rates,
             other => {
+                let list = count.filter(|&count| count > 1);
                 let list =
-                    count.map(|count| format!(", or a list of {count}, one for each component"));
-                let expected = format!("a rate γ{}", list.unwrap_or_default());
+                    list.map(|count| format!(", or a list of {count}, one for each component"));
+                let list = list.unwrap_or_default();
+                let force = self.force_of_rates(&other);
+                let expected = format!("a rate γ{list}{}", force.unwrap_or_default());
                 return self.mismatch(written, &other, &expected);
             }
         };
@@ -128,5 +132,17 @@ impl Elaborator<'_> {
             return self.error(written, kind);
         }
         Ok(rates)
+    }
+
+    /// The force that replaces a friction with a rate for each body.
+    fn force_of_rates(&self, value: &Value) -> Option<String> {
+        let (Value::Parameter(k), Layout::Numbered(bodies, _)) = (value, &self.layout) else {
+            return None;
+        };
+        let Parameter { name, shape } = &self.parameters[*k];
+        let is_list = matches!(shape, Shape::Array(lengths) if lengths[..] == [bodies.clone()]);
+        is_list.then(|| {
+            format!("; for a rate for each body write `force: {{ q[i] = -{name}[i] p[i] }}`")
+        })
     }
 }

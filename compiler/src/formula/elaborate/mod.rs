@@ -183,8 +183,12 @@ impl Elaborator<'_> {
                 value => (self.components(value, written)?, false),
             };
             if parts.iter().any(|&part| self.graph.depends(part).v) {
+                let what = match name.text.is_empty() {
+                    true => "a velocity",
+                    false => "a velocity in a conserved quantity",
+                };
                 let kind = FormulaError::Unsupported {
-                    what: "a velocity in a conserved quantity".to_owned(),
+                    what: what.to_owned(),
                     instead: "write it with the momenta: `p`, or `pa` for the coordinate `a`",
                 };
                 return self.error(written, kind);

@@ -43,8 +43,8 @@ impl Elaborator<'_> {
     pub(super) fn shape(&self, value: &Value) -> String {
         match value {
             Value::Scalar(_) => "a number".to_owned(),
-            Value::Vector(parts) => format!("a vector of {} components", parts.len()),
-            Value::Matrix(rows) => format!("a matrix of {} rows", rows.len()),
+            Value::Vector(parts) => format!("a vector of {}", counted(parts.len(), "component")),
+            Value::Matrix(rows) => format!("a matrix of {}", counted(rows.len(), "row")),
             Value::Half(Half::Q) => "the array of all positions".to_owned(),
             Value::Half(Half::P) => "the array of all momenta".to_owned(),
             Value::Half(Half::V) => "the array of all velocities".to_owned(),
@@ -235,4 +235,10 @@ fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
     let close = known.iter().map(|other| (distance(other), *other)).min()?;
     let length = name.chars().count();
     (close.0 < length && close.0 <= 1 + length / 3).then_some(close.1)
+}
+
+/// `1 component`, `2 components`
+pub(super) fn counted(count: usize, what: &str) -> String {
+    let ending = if count == 1 { "" } else { "s" };
+    format!("{count} {what}{ending}")
 }

@@ -64,17 +64,41 @@ const STATEMENTS: [&str; 5] = ["constraints", "force", "nonholonomic", "friction
 /// # Errors
 /// Any violation of the grammar, at its place.
 pub fn parse(input: Input<'_>, form: Form) -> Result<Definition, Error> {
-    let tokens = tokenize(input)?;
-    let mut parser = Parser {
-        input,
-        form,
-        tokens,
-        next: 0,
-        depth: 0,
-        calls: Vec::new(),
-        in_bars: Vec::new(),
+    Parser::new(input, form)?.definition()
+}
+
+/// Reads a definition, and the expression from `from` to the end of the text, which has its names, as one more invariant without a name.
+///
+/// # Errors
+/// Any violation of the grammar, at its place.
+pub(super) fn parse_with(input: Input<'_>, form: Form, from: usize) -> Result<Definition, Error> {
+    let Input { name, text } = input;
+    let (text, expression) = text.split_at(from);
+    let mut parser = Parser::new(Input { name, text }, form)?;
+    let mut definition = parser.definition()?;
+    let own = Input {
+        name,
+        text: expression,
     };
-    parser.definition()
+    let tokens = tokenize(own).map_err(|mut error| {
+        if let Some(place) = &mut error.place {
+            place.span = place.span.start + from..place.span.end + from;
+        }
+        error
+    })?;
+    let moved = |(token, span): (Token, Span)| (token, span.start + from..span.end + from);
+    parser.tokens = tokens.into_iter().map(moved).collect();
+    (parser.input, parser.next, parser.whole) = (input, 0, "expression");
+    let value = parser.expression()?;
+    if *parser.peek() != Token::End {
+        return Err(parser.unexpected("an operator or the end of the expression"));
+    }
+    let name = Name {
+        text: String::new(),
+        span: value.span.clone(),
+    };
+    definition.invariants.push((name, value));
+    Ok(definition)
 }
 
 struct Parser<'a> {
@@ -82,6 +106,8 @@ struct Parser<'a> {
     form: Form,
     tokens: Vec<(Token, Span)>,
     next: usize,
+    /// What is read, for messages.
+    whole: &'static str,
     depth: usize,
     /// The user's functions, and abbreviations with arguments.
     calls: Vec<String>,
@@ -89,7 +115,20 @@ struct Parser<'a> {
     in_bars: Vec<bool>,
 }
 
-impl Parser<'_> {
+impl<'a> Parser<'a> {
+    fn new(input: Input<'a>, form: Form) -> Result<Self, Error> {
+        Ok(Parser {
+            input,
+            form,
+            tokens: tokenize(input)?,
+            next: 0,
+            whole: "definition",
+            depth: 0,
+            calls: Vec::new(),
+            in_bars: Vec::new(),
+        })
+    }
+
     fn peek(&self) -> &Token {
         self.ahead(0)
     }
@@ -142,7 +181,7 @@ impl Parser<'_> {
     fn unexpected(&self, expected: &str) -> Error {
         let span = self.span();
         let found = match self.peek() {
-            Token::End => "the definition ends".to_owned(),
+            Token::End => format!("the {} ends", self.whole),
             _ => format!("found `{}`", &self.input.text[span.clone()]),
         };
         let expected = expected.to_owned();
