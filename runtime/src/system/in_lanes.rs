@@ -17,7 +17,7 @@ pub trait LaneWork<V: Vector, S: System<V>, L: Lanes> {
 }
 
 /// Makes a system with the parameters of each of these systems in one lane, where it has the bits of that system; `None` if they differ in
-/// more than the values of parameters, or if there is no system.
+/// more than the values of parameters, or if there is no system. It reads no system after the first that differs.
 #[doc(hidden)]
 pub type Join<S, J> = for<'a> fn(&mut dyn Iterator<Item = &'a S>) -> Option<J>;
 
