@@ -69,7 +69,10 @@ fn numbers_without_parameters_are_doubles_in_lanes_too() {
     let code = code("Well { a } q: [x], p: [px]; H = px^2/2 + sqrt(2) x^4/4 + exp(-a) x^2");
     assert!(code.contains("Scalar::sqrt(2.0)") && code.contains("Scalar::exp(-self.a)"));
     // Only the exponential of a parameter is computed in every lane.
-    assert!(!code.contains(".sqrt()") && code.contains(".exp()"), "{code}");
+    assert!(
+        !code.contains(".sqrt()") && code.contains(".exp()"),
+        "{code}"
+    );
 }
 
 #[test]

@@ -31,6 +31,10 @@ struct Known;
 impl<V: Vector, S: System<V>, L: Lanes> LaneWork<V, S, L> for Known {
     type Output = ();
 
+    fn has_one_system(&self) -> bool {
+        true
+    }
+
     fn run<W, J>(self, _join: Join<S, J>)
     where
         W: Vector<Scalar = L>,
@@ -46,6 +50,10 @@ struct Joining<'i, 's, S> {
 
 impl<V: Vector, S: System<V>, L: Lanes> LaneWork<V, S, L> for Joining<'_, '_, S> {
     type Output = usize;
+
+    fn has_one_system(&self) -> bool {
+        false
+    }
 
     fn run<W, J>(self, join: Join<S, J>) -> usize
     where
@@ -363,7 +371,7 @@ where
     }
 
     /// The system of a start, with the end of its range of starts.
-    fn family_of(&self, place: usize) -> &(S, usize) {
+    pub(super) fn family_of(&self, place: usize) -> &(S, usize) {
         let number = self.systems.partition_point(|(_, end)| *end <= place);
         &self.systems[number]
     }

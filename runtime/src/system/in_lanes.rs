@@ -9,6 +9,9 @@ pub trait LaneWork<V: Vector, S: System<V>, L: Lanes> {
     /// The result of the work.
     type Output;
 
+    /// Whether all lanes have the same system. Functions of its parameters are then computed once, and not in every lane.
+    fn has_one_system(&self) -> bool;
+
     /// Runs the work with a system of type `J` over the vectors `W`.
     fn run<W, J>(self, join: Join<S, J>) -> Self::Output
     where

@@ -62,6 +62,15 @@ symplectic::hamiltonian! {
     H = sum(i: p[i]^2/(2 m[i])) + sum(s = (i, j) in links: k[s] (q[i] - q[j])^4/4) + sum(i: trough(q[i]))
 }
 
+symplectic::hamiltonian! {
+    /// With a function of a parameter alone.
+    Spring { a }
+    q: [x], p: [px];
+    extern fn trough with slope, curvature;
+    extern fn slope with curvature, curvature;
+    H = px^2/2 + slope(a) x^2/2 + trough(x)
+}
+
 mod sites {
     use super::{curvature, slope, trough};
 
@@ -242,4 +251,30 @@ fn lengths_with_the_names_of_the_code() {
         (system, State::from_arrays(0.0, [0.3, 0.2], [0.1, 0.5]))
     });
     assert!(check(ForestRuth, &sites, 0.05) > 2 * 3 * 100);
+}
+
+#[test]
+fn functions_of_parameters_are_in_lanes_only_if_systems_differ() {
+    let springs = |step: f64| {
+        let spring = |k: u32| {
+            let start = State::from_arrays(0.0, [0.3 + 0.01 * f64::from(k)], [0.1]);
+            (
+                Spring {
+                    a: 10.0 + step * f64::from(k),
+                },
+                vec![start],
+            )
+        };
+        (0..16).map(spring).collect::<Families<_, _>>()
+    };
+    let apart = check(ForestRuth, &springs(0.1), 0.05);
+    let starts = springs(0.0).into_iter().flat_map(|(_, starts)| starts);
+    let together = check(
+        ForestRuth,
+        &vec![(Spring { a: 10.0 }, starts.collect())],
+        0.05,
+    );
+    // Slopes at x, and as many at a.
+    assert!(together >= 3 * 162);
+    assert_eq!(apart, 2 * together);
 }
