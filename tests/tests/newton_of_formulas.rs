@@ -1,5 +1,8 @@
 //! What Newton's iteration finds out from a formula by itself: exact second derivatives, and how wide their band is.
 
+// Crates that forbid this compile: the code of a formula allows nothing of the kind.
+#![forbid(dead_code)]
+
 use symplectic::nalgebra::{DVector, SMatrix, SVector};
 use symplectic::solver::{
     AnalyticOrDifferences, Banded, Dense, Derivatives, Differences, DualNumbers, Newton, Solver,

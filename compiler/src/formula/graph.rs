@@ -168,6 +168,8 @@ pub struct Dependence {
     pub v: bool,
     /// On the time.
     pub time: bool,
+    /// On a parameter.
+    pub parameter: bool,
     /// The loops in which its value changes, as bits.
     pub loops: u64,
 }
@@ -179,6 +181,7 @@ impl Dependence {
         self.p |= other.p;
         self.v |= other.v;
         self.time |= other.time;
+        self.parameter |= other.parameter;
         self.loops |= other.loops;
     }
 
@@ -271,6 +274,7 @@ impl Graph {
                 depends.loops = bits(&coordinate.index);
             }
             Node::Parameter(_, indices) => {
+                depends.parameter = true;
                 depends.loops = indices.iter().map(bits).fold(0, |all, bits| all | bits);
             }
             _ => {

@@ -65,6 +65,17 @@ fn the_code_does_not_grow_with_the_number_of_bodies() {
 }
 
 #[test]
+fn numbers_without_parameters_are_doubles_in_lanes_too() {
+    let code = code("Well { a } q: [x], p: [px]; H = px^2/2 + sqrt(2) x^4/4 + exp(-a) x^2");
+    assert!(code.contains("Scalar::sqrt(2.0)") && code.contains("Scalar::exp(-self.a)"));
+    // Only the exponential of a parameter is computed in every lane.
+    assert!(
+        !code.contains(".sqrt()") && code.contains(".exp()"),
+        "{code}"
+    );
+}
+
+#[test]
 fn what_is_found_in_a_formula() {
     let kinetic = |h: &str| {
         read(&format!(
@@ -155,6 +166,11 @@ fn wrong_formulas_are_refused_at_their_place() {
         ),
         refused("P q: [x], p: [px]; H = px^2 invariants: { a = px, a = px }"),
         refused("P<i> q: [i], p: [i]; H = sum(a < b: p[a] p[b])"),
+        refused("P { self } q: [x], p: [px]; H = px^2/2 + self x^2"),
+        refused("P { super: 2 } q: [x], p: [px]; H = px^2/2 + super x^2"),
+        refused("P { crate: 2 } q: [x], p: [px]; H = px^2/2 + crate x^2"),
+        refused("P<Self> { m: [Self] } q: [Self], p: [Self]; H = sum(i: p[i]^2)"),
+        refused("P { fn: 2 } q: [x], p: [px]; H = px^2/2 + fn x^2"),
         refused("P q: [x], p: [px]; extern fn force with dV, d2V; H = px^2 + force(x)"),
         refused("P q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + sum(i in 0..2: q[i]^2)"),
         refused("P q: [3], p: [3]; H = |p|^2 + sum(i in -1..2: q[i+1]^4)"),

@@ -34,6 +34,7 @@ pub(super) struct Group<'a, M: Method, S: System<V>, V: Vector, R: Summation, N:
 {
     pub(super) ensemble: &'a Ensemble<M, S, V, R, N, L>,
     pub(super) members: Vec<Member<M, S, V, R, N, A>>,
+    has_one_system: bool,
 }
 
 pub(super) struct Member<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, A> {
@@ -80,6 +81,7 @@ where
         };
         Self {
             ensemble,
+            has_one_system: places.end <= ensemble.family_of(places.start).1,
             members: places.map(member).collect(),
         }
     }
@@ -190,6 +192,10 @@ where
     F: Fn(&mut A, &State<V>),
 {
     type Output = Attempt;
+
+    fn has_one_system(&self) -> bool {
+        self.group.has_one_system
+    }
 
     fn run<W, J>(mut self, join: Join<S, J>) -> Attempt
     where

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | Final states, states at given times | [`Ensemble::integrate_to`], [`Ensemble::take_steps`], [`Ensemble::integrate_at`] |
 //! | Events, and everything else that an integrator offers | [`Ensemble::each`] |
-//! | Steps of variable size, and other runs than integrators | [`Ensemble::each_as`] |
+//! | Steps of variable size, and runs other than integrators | [`Ensemble::each_as`] |
 //! | Result of a trajectory, or its error | [`Row`] |
 //! | Mean, variance, histogram over the trajectories | [`Moments`], [`Histogram`] |
 //! | Several machines, and interrupted runs | [`Ensemble::shard`], [`Ensemble::checkpoint`]; with MPI the package `symplectic-mpi` |
@@ -16,8 +16,8 @@
 //!
 //! A method advances as many trajectories at once as there are [lanes](Ensemble::in_lanes), if the system is written for
 //! every [`Scalar`](crate::Scalar). The trajectories in the lanes have the same start time, consecutive numbers, and
-//! the same system. Systems of a formula may have different parameters in each lane, as long as arrays have the same
-//! lengths, and lists of pairs the same pairs.
+//! the same system. Systems of a formula without friction and applied forces may have different parameters in each
+//! lane, as long as arrays have the same lengths, and lists of pairs the same pairs.
 //!
 //! With coupled stages every sweep of the default solver computes the stages of all trajectories, and a trajectory whose
 //! stages have settled waits for the others. A trajectory takes a step alone, and returns to its lane, where its stages
@@ -26,8 +26,9 @@
 //! the stages of one trajectory in lanes, is as fast.
 //!
 //! All other trajectories run one by one: those with another solver, with constraints or with a composition of implicit
-//! methods; those of closures and chains; and those whose [system](Ensemble::of_families) is written by hand and
-//! differs from trajectory to trajectory.
+//! methods; those of closures and chains; those of [`each`](Ensemble::each) and [`each_as`](Ensemble::each_as); and those
+//! whose [system](Ensemble::of_families) differs from trajectory to trajectory and is written by hand, or is a formula with
+//! friction or applied forces.
 //!
 //! A system rounds differently in lanes if it depends on the number type, as products of large matrices in nalgebra do.
 //! So velocity and force are compared at every start, and trajectories run one by one where they differ. A system for

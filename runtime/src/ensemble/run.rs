@@ -31,11 +31,41 @@ struct Known;
 impl<V: Vector, S: System<V>, L: Lanes> LaneWork<V, S, L> for Known {
     type Output = ();
 
+    fn has_one_system(&self) -> bool {
+        true
+    }
+
     fn run<W, J>(self, _join: Join<S, J>)
     where
         W: Vector<Scalar = L>,
         J: System<W, Class = <S as System<V>>::Class>,
     {
+    }
+}
+
+/// Counts the systems that join from the first on.
+struct Joining<'i, 's, S> {
+    systems: &'i mut dyn Iterator<Item = &'s S>,
+}
+
+impl<V: Vector, S: System<V>, L: Lanes> LaneWork<V, S, L> for Joining<'_, '_, S> {
+    type Output = usize;
+
+    fn has_one_system(&self) -> bool {
+        false
+    }
+
+    fn run<W, J>(self, join: Join<S, J>) -> usize
+    where
+        W: Vector<Scalar = L>,
+        J: System<W, Class = <S as System<V>>::Class>,
+    {
+        let mut read = 0;
+        // The last system that is read is the one that does not join.
+        match join(&mut self.systems.inspect(|_| read += 1)) {
+            Some(_) => read,
+            None => read.saturating_sub(1).max(1),
+        }
     }
 }
 
@@ -147,10 +177,11 @@ where
         self.each_as(Ok, output, work, show)
     }
 
-    /// [`each`](Self::each) with other runs than integrators: `make` makes the [`Run`] of a trajectory from its integrator, for example
-    /// with [reversible steps of variable size](crate::adaptive::Adaptive).
+    /// [`each`](Self::each) for runs other than integrators: `make` makes the [`Run`] of a trajectory from its integrator, for example
+    /// with [reversible steps of variable size](crate::adaptive::Adaptive). [`set_retry`](Self::set_retry) has no effect on runs with steps of
+    /// variable size.
     ///
-    /// If `make` fails, its error is that of the row, with the start. A [checkpoint](Self::checkpoint) does not know what `make` and
+    /// If `make` fails, the row has its error and the start. A [checkpoint](Self::checkpoint) does not know what `make` and
     /// `work` do: pass the same ones again.
     ///
     /// ```
@@ -310,22 +341,37 @@ where
         self.stop.as_ref().is_some_and(|stop| stop())
     }
 
-    /// The end of a group of at most `width` trajectories with the same start time and, unless systems [join](System::join), the same
+    /// The end of a group of at most `width` trajectories with the same start time and, unless systems [join](System::JOINS), the same
     /// system.
     fn end_of_group(&self, first: usize, width: usize) -> usize {
-        let systems_end = match S::JOINS {
-            true => self.starts.len(),
-            false => self.family_of(first).1,
-        };
-        let most = (first + width).min(systems_end);
         let time = self.starts[first].time.to_bits();
+        let most = (first + width).min(self.starts.len());
         let others = first + 1..most;
         let other = others.take_while(|&place| self.starts[place].time.to_bits() == time);
-        first + 1 + other.count()
+        let end = first + 1 + other.count();
+        let families = || self.families_in(first..end);
+        let joined = match S::JOINS && families().nth(1).is_some() {
+            true => S::over_lanes::<L, _>(Joining {
+                systems: &mut families().map(|(system, _)| system),
+            }),
+            false => None,
+        };
+        let last = families().take(joined.unwrap_or(1)).last();
+        last.map_or(end, |(_, last)| end.min(*last))
+    }
+
+    /// The systems of a range of starts, each with the end of its own range.
+    fn families_in(&self, range: Range<usize>) -> impl Iterator<Item = &(S, usize)> {
+        let mut next = range.start;
+        core::iter::from_fn(move || {
+            let family = (next < range.end).then(|| self.family_of(next))?;
+            next = family.1;
+            Some(family)
+        })
     }
 
     /// The system of a start, with the end of its range of starts.
-    fn family_of(&self, place: usize) -> &(S, usize) {
+    pub(super) fn family_of(&self, place: usize) -> &(S, usize) {
         let number = self.systems.partition_point(|(_, end)| *end <= place);
         &self.systems[number]
     }

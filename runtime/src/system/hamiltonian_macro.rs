@@ -64,8 +64,8 @@
 /// | `bonds: walls;` and `sum(bonds d: d^2/2)` | the bonds of a chain between `walls`, with `free` ends, or in a `ring`; `d` is the stretch |
 ///
 /// `let d = a - b;` is an abbreviation, `let s(i, j) = sigma^2/|q[i] - q[j]|^2;` one with arguments. `extern fn V with dV, d2V;` names
-/// functions in scope, `fn V<T: Scalar>(x: T) -> T` and its two derivatives. H has to be twice continuously differentiable: `abs`, `min`
-/// and `max` are refused; `|x|^3` is not.
+/// functions in scope, `fn V<T: Scalar>(x: T) -> T` and its two derivatives. They must be generic, also functions of a parameter alone. H
+/// has to be twice continuously differentiable: `abs`, `min` and `max` are refused; `|x|^3` is not.
 ///
 /// # Constraints and friction
 ///

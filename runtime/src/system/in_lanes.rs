@@ -9,6 +9,9 @@ pub trait LaneWork<V: Vector, S: System<V>, L: Lanes> {
     /// The result of the work.
     type Output;
 
+    /// Whether all lanes have the same system. Functions of its parameters are then computed once, and not in every lane.
+    fn has_one_system(&self) -> bool;
+
     /// Runs the work with a system of type `J` over the vectors `W`.
     fn run<W, J>(self, join: Join<S, J>) -> Self::Output
     where
@@ -17,7 +20,7 @@ pub trait LaneWork<V: Vector, S: System<V>, L: Lanes> {
 }
 
 /// Makes a system with the parameters of each of these systems in one lane, where it has the bits of that system; `None` if they differ in
-/// more than the values of parameters, or if there is no system.
+/// more than the values of parameters, or if there is no system. It reads no system after the first that differs.
 #[doc(hidden)]
 pub type Join<S, J> = for<'a> fn(&mut dyn Iterator<Item = &'a S>) -> Option<J>;
 

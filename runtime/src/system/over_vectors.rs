@@ -6,7 +6,7 @@ use crate::error::{ConstraintName, Error};
 use crate::method::Solver;
 use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector};
 use crate::solver::Automatic;
-use crate::system::{Class, Components, Hamiltonian, LaneWork, Layout, StageRows};
+use crate::system::{Class, Components, Hamiltonian, LaneWork, Layout, StageRows, first};
 #[cfg(feature = "alloc")]
 use crate::system::{Gradients, Jacobian};
 
@@ -346,7 +346,10 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
     where
         Self: Clone,
     {
-        Some(H::in_lanes(work))
+        Some(match H::JOINS && !work.has_one_system() {
+            true => H::in_lanes(work),
+            false => work.run::<H::Vector<L>, H>(first),
+        })
     }
 }
 

@@ -62,6 +62,31 @@ symplectic::hamiltonian! {
     H = sum(i: p[i]^2/(2 m[i])) + sum(s = (i, j) in links: k[s] (q[i] - q[j])^4/4) + sum(i: trough(q[i]))
 }
 
+symplectic::hamiltonian! {
+    /// With a function of a parameter alone.
+    Spring { a }
+    q: [x], p: [px];
+    extern fn trough with slope, curvature;
+    extern fn slope with curvature, curvature;
+    H = px^2/2 + slope(a) x^2/2 + trough(x)
+}
+
+mod sites {
+    use super::{curvature, slope, trough};
+
+    symplectic::hamiltonian! {
+        /// With lengths that have the names of the generated code.
+        pub Sites<Scalar, LaneVector, LaneScalar, LaneWork, SitesInLanes> {
+            a: [Scalar], b: [LaneVector], c: [LaneScalar], d: [LaneWork], e: [SitesInLanes], a_spare_one: 1,
+        }
+        q: [Scalar], p: [Scalar];
+        extern fn trough with slope, curvature;
+        let some = sum(i in 0..LaneVector: b[i]) + sum(i in 0..LaneScalar: c[i]);
+        let others = sum(i in 0..LaneWork: d[i]) + sum(i in 0..SitesInLanes: e[i]);
+        H = sum(i: p[i]^2)/2 + sum(i: a[i] q[i]^2)/2 + trough(q[0]) + sqrt(2) (some + others) q[0]^2
+    }
+}
+
 /// Families of systems, with their starts.
 type Families<S, V> = Vec<(S, Vec<State<V>>)>;
 
@@ -180,12 +205,76 @@ fn net(x: f64, links: Vec<(usize, usize)>) -> (Net, State<DVector<f64>>) {
 fn lists_of_pairs_are_the_same_in_all_lanes() {
     let nets = families(|x| net(x, vec![(0, 1), (1, 2), (2, 3)]));
     assert!(check(ForestRuth, &nets, 0.05) > 2 * 3 * 100);
-    // With other pairs, or with more of them, trajectories run one by one.
+    // With other pairs, or with fewer of them, a trajectory runs alone between those in lanes.
     for other in [vec![(0, 1), (1, 2), (0, 3)], vec![(0, 1)]] {
         let mut nets = families(|x| net(x, vec![(0, 1), (1, 2), (2, 3)]));
         nets.truncate(6);
         let (system, start) = net(0.35, other);
         nets.insert(3, (system, vec![start]));
-        assert_eq!(check(ForestRuth, &nets, 0.05), 0);
+        // Two groups, four entries, three forces a step, 100 steps and 62 to the last time.
+        assert!(check(ForestRuth, &nets, 0.05) >= 2 * 4 * 3 * 162);
     }
+}
+
+#[test]
+fn families_that_do_not_join_run_in_lanes_of_their_own() {
+    let line = vec![(0, 1), (1, 2), (2, 3)];
+    for others in [
+        [vec![(0, 1), (1, 2), (0, 3)], line.clone()],
+        [vec![(0, 1)], vec![]],
+    ] {
+        // Twelve trajectories in families of four; the middle one has no starts.
+        let [second, last] = others;
+        let sizes = [(line.clone(), 4), (second, 4), (line.clone(), 0), (last, 4)];
+        let mut count = 0;
+        let nets = sizes.map(|(links, size)| {
+            let (system, start) = net(0.1, links);
+            let start = |k: u32| {
+                let mut start = start.clone();
+                start.q[0] = 0.1 + 0.01 * f64::from(k);
+                start
+            };
+            count += size;
+            (system, (count - size..count).map(start).collect())
+        });
+        // Three groups: see above.
+        let in_lanes = check(ForestRuth, &nets.to_vec(), 0.05);
+        assert!(in_lanes >= 3 * 4 * 3 * 162, "{in_lanes}");
+    }
+}
+
+#[test]
+fn lengths_with_the_names_of_the_code() {
+    let sites = families(|x| {
+        let mut system = sites::Sites::new([1.0 + x, 2.0], [x], [0.1, x], [0.2], [0.3; 3]);
+        system.a_spare_one += x;
+        (system, State::from_arrays(0.0, [0.3, 0.2], [0.1, 0.5]))
+    });
+    assert!(check(ForestRuth, &sites, 0.05) > 2 * 3 * 100);
+}
+
+#[test]
+fn functions_of_parameters_are_in_lanes_only_if_systems_differ() {
+    let springs = |step: f64| {
+        let spring = |k: u32| {
+            let start = State::from_arrays(0.0, [0.3 + 0.01 * f64::from(k)], [0.1]);
+            (
+                Spring {
+                    a: 10.0 + step * f64::from(k),
+                },
+                vec![start],
+            )
+        };
+        (0..16).map(spring).collect::<Families<_, _>>()
+    };
+    let apart = check(ForestRuth, &springs(0.1), 0.05);
+    let starts = springs(0.0).into_iter().flat_map(|(_, starts)| starts);
+    let together = check(
+        ForestRuth,
+        &vec![(Spring { a: 10.0 }, starts.collect())],
+        0.05,
+    );
+    // Slopes at x, and as many at a.
+    assert!(together >= 3 * 162);
+    assert_eq!(apart, 2 * together);
 }

@@ -8,7 +8,7 @@ use quote::{format_ident, quote};
 use super::names::{identifier, index_name, index_tokens, length_tokens, pair_name};
 use crate::formula::System;
 use crate::formula::graph::{Base, LoopId, LoopRange};
-use crate::formula::operations::{Op, Operation, Operations};
+use crate::formula::operations::{Op, Operations};
 use crate::formula::statements::{Goal, Statement, statements};
 use crate::formula::syntax::Length;
 
@@ -94,13 +94,8 @@ impl<'a> Writer<'a> {
 
     /// Whether a value is an `f64` for every scalar type.
     pub(super) fn is_fixed(&self, op: Op) -> bool {
-        match self.in_lanes {
-            true => matches!(
-                self.operations.get(op),
-                Operation::Constant(_) | Operation::Pi
-            ),
-            false => self.operations.depends(op).is_fixed(),
-        }
+        let depends = self.operations.depends(op);
+        depends.is_fixed() && !(self.in_lanes && depends.parameter)
     }
 
     /// The statements of some tasks.

@@ -18,7 +18,7 @@ impl Emitter<'_> {
     pub(super) fn chain(&mut self, parts: &ChainParts) -> TokenStream {
         let name = self.header.name.clone();
         let [generics, parameters, arguments] = self.generics();
-        let scalar = self.scalar.clone();
+        let (scalar, bound) = (self.scalar.clone(), self.bound.clone());
         let ends = match self.system.ends {
             Some(Ends::Walls) => quote!(between_walls),
             Some(Ends::Free) => quote!(with_free_ends),
@@ -80,15 +80,15 @@ impl Emitter<'_> {
             });
             quote! {
                 #[inline(always)]
-                fn outer_force<#scalar: Scalar>(&self, time: #scalar, position: #scalar) -> ::core::option::Option<#scalar> {
+                fn outer_force<#scalar: #bound>(&self, time: #scalar, position: #scalar) -> ::core::option::Option<#scalar> {
                     ::core::option::Option::Some({ #force })
                 }
 
-                fn outer_stiffness<#scalar: Scalar>(&self, time: #scalar, position: #scalar) -> ::core::option::Option<#scalar> {
+                fn outer_stiffness<#scalar: #bound>(&self, time: #scalar, position: #scalar) -> ::core::option::Option<#scalar> {
                     ::core::option::Option::Some({ #stiffness })
                 }
 
-                fn outer_energy<#scalar: Scalar>(&self, time: #scalar, position: #scalar) -> ::core::option::Option<#scalar> {
+                fn outer_energy<#scalar: #bound>(&self, time: #scalar, position: #scalar) -> ::core::option::Option<#scalar> {
                     ::core::option::Option::Some({ #energy })
                 }
             }
@@ -97,15 +97,15 @@ impl Emitter<'_> {
             #[allow(unused_variables, non_snake_case, clippy::all)]
             impl #generics ::symplectic::emitted::Bonds for #name #arguments {
                 #[inline(always)]
-                fn tension<#scalar: Scalar>(&self, time: #scalar, stretch: #scalar) -> #scalar {
+                fn tension<#scalar: #bound>(&self, time: #scalar, stretch: #scalar) -> #scalar {
                     #tension
                 }
 
-                fn stiffness<#scalar: Scalar>(&self, time: #scalar, stretch: #scalar) -> ::core::option::Option<#scalar> {
+                fn stiffness<#scalar: #bound>(&self, time: #scalar, stretch: #scalar) -> ::core::option::Option<#scalar> {
                     ::core::option::Option::Some({ #stiffness })
                 }
 
-                fn bond_energy<#scalar: Scalar>(&self, time: #scalar, stretch: #scalar) -> ::core::option::Option<#scalar> {
+                fn bond_energy<#scalar: #bound>(&self, time: #scalar, stretch: #scalar) -> ::core::option::Option<#scalar> {
                     ::core::option::Option::Some({ #bond_energy })
                 }
 

@@ -95,7 +95,7 @@ impl Emitter<'_> {
             quote!(return;),
             |place, value| quote!(gradients.set(#place, #value);),
         );
-        let scalar = &self.scalar;
+        let (scalar, bound) = (&self.scalar, &self.bound);
         let over = self.vector(&quote!(#scalar));
         let names = self.constraint_names(&constraints, &starts);
         quote! {
@@ -106,13 +106,13 @@ impl Emitter<'_> {
             #names
 
             #[inline(always)]
-            fn constraint_values<#scalar: Scalar>(&self, q: &#over, values: &mut [#scalar]) {
+            fn constraint_values<#scalar: #bound>(&self, q: &#over, values: &mut [#scalar]) {
                 #values
             }
 
             ::symplectic::emitted::if_alloc! {
                 #[inline(always)]
-                fn constraint_gradients<#scalar: Scalar>(&self, q: &#over, gradients: &mut ::symplectic::system::Gradients<#scalar>) {
+                fn constraint_gradients<#scalar: #bound>(&self, q: &#over, gradients: &mut ::symplectic::system::Gradients<#scalar>) {
                     #gradients
                 }
             }
@@ -143,7 +143,7 @@ impl Emitter<'_> {
             quote!(return;),
             |place, value| quote!(rows.set(#place, #value);),
         );
-        let scalar = &self.scalar;
+        let (scalar, bound) = (&self.scalar, &self.bound);
         let over = self.vector(&quote!(#scalar));
         let names = self.constraint_names(&constraints, &starts);
         quote! {
@@ -155,7 +155,7 @@ impl Emitter<'_> {
 
             ::symplectic::emitted::if_alloc! {
                 #[inline(always)]
-                fn nonholonomic_rows<#scalar: Scalar>(&self, q: &#over, rows: &mut ::symplectic::system::Gradients<#scalar>) {
+                fn nonholonomic_rows<#scalar: #bound>(&self, q: &#over, rows: &mut ::symplectic::system::Gradients<#scalar>) {
                     #rows
                 }
             }

@@ -16,6 +16,27 @@ pub(super) struct Lanes {
     pub(super) join: TokenStream,
 }
 
+/// The names of types in the code for lanes: none of them is a name of the user.
+pub(super) struct LaneNames {
+    /// The type of the joined systems.
+    system: Ident,
+    vector: Ident,
+    scalar: Ident,
+    work: Ident,
+}
+
+impl LaneNames {
+    /// The names for a system; `unused` makes a name of the user differ.
+    pub(super) fn new(system: &Ident, unused: impl Fn(&str) -> Ident) -> Self {
+        LaneNames {
+            system: unused(&format_ident!("{system}InLanes").to_string()),
+            vector: unused("LaneVector"),
+            scalar: unused("LaneScalar"),
+            work: unused("LaneWork"),
+        }
+    }
+}
+
 /// A derivative and its parts.
 type Parts = (&'static str, Vec<Scatter>);
 
@@ -31,7 +52,8 @@ impl Emitter<'_> {
             return Lanes::default();
         }
         let [generics, _, arguments] = self.generics();
-        let (name, scalar) = (self.name_in_lanes(), &self.scalar);
+        let name = &self.lanes.system;
+        let (scalar, bound) = (&self.scalar, &self.bound);
         let over = self.vector(&quote!(#scalar));
         let velocity = self.derivatives_by(&["p"], velocities, &["velocity"], |writer| {
             writer.in_lanes()
@@ -45,17 +67,17 @@ impl Emitter<'_> {
 
                 #[allow(unused_variables, non_snake_case, clippy::all)]
                 impl #generics ::symplectic::SeparableHamiltonian for #name #arguments {
-                    type Vector<#scalar: Scalar> = #over;
+                    type Vector<#scalar: #bound> = #over;
 
                     #unit
 
                     #[inline(always)]
-                    fn velocity<#scalar: Scalar>(&self, time: #scalar, p: &#over, velocity: &mut #over) {
+                    fn velocity<#scalar: #bound>(&self, time: #scalar, p: &#over, velocity: &mut #over) {
                         #velocity
                     }
 
                     #[inline(always)]
-                    fn force<#scalar: Scalar>(&self, time: #scalar, q: &#over, force: &mut #over) {
+                    fn force<#scalar: #bound>(&self, time: #scalar, q: &#over, force: &mut #over) {
                         #force
                     }
                 }
@@ -69,7 +91,8 @@ impl Emitter<'_> {
             return Lanes::default();
         }
         let [generics, _, arguments] = self.generics();
-        let (name, scalar) = (self.name_in_lanes(), &self.scalar);
+        let name = &self.lanes.system;
+        let (scalar, bound) = (&self.scalar, &self.bound);
         let over = self.vector(&quote!(#scalar));
         let written = ["velocity", "force"];
         let slopes = self.derivatives_by(&["q", "p"], parts, &written, |writer| writer.in_lanes());
@@ -82,20 +105,20 @@ impl Emitter<'_> {
                 #[allow(unused_variables, non_snake_case, clippy::all)]
                 impl #generics ::symplectic::Hamiltonian for #name #arguments {
                     type Class = ::symplectic::General;
-                    type Vector<#scalar: Scalar> = #over;
+                    type Vector<#scalar: #bound> = #over;
 
                     #[inline(always)]
-                    fn velocity<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over, velocity: &mut #over) {
+                    fn velocity<#scalar: #bound>(&self, time: #scalar, q: &#over, p: &#over, velocity: &mut #over) {
                         ::symplectic::Hamiltonian::slopes(self, time, q, p, (velocity, &mut q.clone()));
                     }
 
                     #[inline(always)]
-                    fn force<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over, force: &mut #over) {
+                    fn force<#scalar: #bound>(&self, time: #scalar, q: &#over, p: &#over, force: &mut #over) {
                         ::symplectic::Hamiltonian::slopes(self, time, q, p, (&mut q.clone(), force));
                     }
 
                     #[inline(always)]
-                    fn slopes<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over, (velocity, force): (&mut #over, &mut #over)) {
+                    fn slopes<#scalar: #bound>(&self, time: #scalar, q: &#over, p: &#over, (velocity, force): (&mut #over, &mut #over)) {
                         #slopes
                     }
                 }
@@ -103,27 +126,28 @@ impl Emitter<'_> {
         }
     }
 
-    fn name_in_lanes(&self) -> Ident {
-        format_ident!("{}InLanes", self.header.name)
-    }
-
     /// The items of the trait of the system.
     fn join(&self, function: &TokenStream, class: &TokenStream) -> TokenStream {
         let [_, _, arguments] = self.generics();
-        let name = self.name_in_lanes();
-        let over = self.vector(&quote!(LaneScalar));
+        let LaneNames {
+            system,
+            vector,
+            scalar,
+            work,
+        } = &self.lanes;
+        let over = self.vector(&quote!(#scalar));
         quote! {
             const JOINS: bool = true;
 
             #[inline(always)]
-            fn #function<LaneVector, LaneScalar, LaneWork>(work: LaneWork) -> LaneWork::Output
+            fn #function<#vector, #scalar, #work>(work: #work) -> #work::Output
             where
-                Self: ::symplectic::System<LaneVector, Class = ::symplectic::#class>,
-                LaneVector: ::symplectic::Vector,
-                LaneScalar: ::symplectic::simd::Lanes,
-                LaneWork: ::symplectic::emitted::LaneWork<LaneVector, Self, LaneScalar>,
+                Self: ::symplectic::System<#vector, Class = ::symplectic::#class>,
+                #vector: ::symplectic::Vector,
+                #scalar: ::symplectic::simd::Lanes,
+                #work: ::symplectic::emitted::LaneWork<#vector, Self, #scalar>,
             {
-                work.run::<#over, #name #arguments>(#name::join)
+                work.run::<#over, #system #arguments>(#system::join)
             }
         }
     }
@@ -131,13 +155,13 @@ impl Emitter<'_> {
     /// The type, and the function that makes it.
     fn joined(&self) -> TokenStream {
         let [generics, _, arguments] = self.generics();
-        let (own, name) = (&self.header.name, self.name_in_lanes());
+        let (own, name) = (&self.header.name, &self.lanes.system);
         let parameters = self.system.parameters.iter();
         let (fields, kinds): (Vec<Ident>, Vec<TokenStream>) = parameters
             .map(|parameter| (identifier(&parameter.name), Self::field(&parameter.shape)))
             .unzip();
         quote! {
-            #[allow(dead_code, non_snake_case)]
+            #[allow(non_snake_case)]
             struct #name #generics {
                 #(#fields: <#kinds as ::symplectic::emitted::LaneParameter>::InLanes),*
             }

@@ -169,7 +169,7 @@ impl Emitter<'_> {
         alone: bool,
     ) -> TokenStream {
         let name = identifier(name);
-        let scalar = &self.scalar;
+        let (scalar, bound) = (&self.scalar, &self.bound);
         let over = self.vector(&quote!(#scalar));
         let nan = vec![quote!(#scalar::from_f64(f64::NAN)); parts.len()];
         let outside = match alone {
@@ -188,7 +188,7 @@ impl Emitter<'_> {
         let time = self.depends_on_time(parts).then(|| quote!(time: #scalar,));
         quote! {
             #[doc = #what]
-            pub fn #name<#scalar: Scalar>(&self, #time q: &#over, p: &#over) -> #result {
+            pub fn #name<#scalar: #bound>(&self, #time q: &#over, p: &#over) -> #result {
                 #values
                 #finish
             }

@@ -19,7 +19,7 @@ const MOST_PARTS: usize = 2_000;
 impl Emitter<'_> {
     /// The second derivatives and their bandwidth, for Newton's iteration: methods of the trait.
     pub(super) fn jacobian(&mut self, split: Option<Split>) -> TokenStream {
-        let scalar = self.scalar.clone();
+        let (scalar, bound) = (self.scalar.clone(), self.bound.clone());
         let over = self.vector(&quote!(#scalar));
         let energy = self.system.energy;
         // The matrix, H or its part, the sign, the half of the row and that of the column.
@@ -101,7 +101,7 @@ impl Emitter<'_> {
         let half_bandwidth = self.half_bandwidth(places);
         quote! {
             ::symplectic::emitted::if_alloc! {
-                fn second_derivatives<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over, jacobian: &mut ::symplectic::system::Jacobian<#scalar>) -> bool {
+                fn second_derivatives<#scalar: #bound>(&self, time: #scalar, q: &#over, p: &#over, jacobian: &mut ::symplectic::system::Jacobian<#scalar>) -> bool {
                     #views #least #statements
                     true
                 }

@@ -16,7 +16,8 @@ impl Emitter<'_> {
             return TokenStream::new();
         }
         let [generics, _, arguments] = self.generics();
-        let (name, scalar) = (&self.header.name, &self.scalar.clone());
+        let name = &self.header.name;
+        let (scalar, bound) = (&self.scalar.clone(), &self.bound.clone());
         let over = self.vector(&quote!(#scalar));
         let outside = quote!(return #scalar::from_f64(f64::NAN););
         let value = self.values(&["q", "v"], &[lagrangian.formula], outside);
@@ -35,7 +36,7 @@ impl Emitter<'_> {
             quote! {
                 const FORCED: bool = true;
 
-                fn force<#scalar: Scalar>(&self, time: #scalar, q: &#over, v: &#over, force: &mut #over) {
+                fn force<#scalar: #bound>(&self, time: #scalar, q: &#over, v: &#over, force: &mut #over) {
                     #statements
                 }
             }
@@ -43,14 +44,14 @@ impl Emitter<'_> {
         quote! {
             #[allow(unused_variables, non_snake_case, clippy::all)]
             impl #generics ::symplectic::Lagrangian for #name #arguments {
-                type Vector<#scalar: Scalar> = #over;
+                type Vector<#scalar: #bound> = #over;
 
-                fn lagrangian<#scalar: Scalar>(&self, time: #scalar, q: &#over, v: &#over) -> #scalar {
+                fn lagrangian<#scalar: #bound>(&self, time: #scalar, q: &#over, v: &#over) -> #scalar {
                     #value
                     result_1
                 }
 
-                fn gradient<#scalar: Scalar>(&self, time: #scalar, q: &#over, v: &#over, by_velocity: &mut #over, by_position: &mut #over) -> bool {
+                fn gradient<#scalar: #bound>(&self, time: #scalar, q: &#over, v: &#over, by_velocity: &mut #over, by_position: &mut #over) -> bool {
                     let write = |by_velocity: &mut #over, by_position: &mut #over| {
                         #gradient
                     };

@@ -21,7 +21,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use self::block::{Task, Write, Writer};
-use self::in_lanes::Lanes;
+use self::in_lanes::{LaneNames, Lanes};
 use self::names::{entry, identifier, length_tokens};
 use super::Header;
 use crate::formula::derivative::{Scatter, gradient};
@@ -43,8 +43,12 @@ struct Emitter<'a> {
     header: &'a Header,
     /// The scalar of generic functions.
     scalar: Ident,
+    /// The trait of scalars.
+    bound: Ident,
     /// Prefix of the names of values.
     prefix: String,
+    /// The names of the code for lanes.
+    lanes: LaneNames,
 }
 
 /// A derivative, the vector it is written to, and its sign.
@@ -68,6 +72,13 @@ impl<'a> Emitter<'a> {
                 .chain(functions)
                 .chain(system.lengths.iter().map(String::as_str))
         };
+        let unused = |name: &str| {
+            let mut name = name.to_owned();
+            while users().any(|user| user == name) {
+                name.push('_');
+            }
+            format_ident!("{name}")
+        };
         let free = |candidates: &[&str], taken: &dyn Fn(&str, &str) -> bool| {
             let found = candidates
                 .iter()
@@ -85,7 +96,9 @@ impl<'a> Emitter<'a> {
             structure,
             header,
             scalar: format_ident!("{scalar}"),
+            bound: unused("Scalar"),
             prefix,
+            lanes: LaneNames::new(&header.name, unused),
         }
     }
 
@@ -103,11 +116,18 @@ impl<'a> Emitter<'a> {
         if self.system.graph.overflowed() {
             return quote!(::core::compile_error!("the derivatives have too many sums in one another"););
         }
+        let bound = match self.bound == "Scalar" {
+            true => quote!(Scalar),
+            false => {
+                let name = &self.bound;
+                quote!(Scalar as #name)
+            }
+        };
         quote! {
             #fields
             const _: () = {
                 #[allow(unused_imports, clippy::all)]
-                use ::symplectic::emitted::{One as _, Scalar, Zero as _};
+                use ::symplectic::emitted::{One as _, #bound, Zero as _};
 
                 #dynamics
 
@@ -367,7 +387,7 @@ impl<'a> Emitter<'a> {
     fn separable(&mut self, split: Split) -> TokenStream {
         let name = self.header.name.clone();
         let [generics, _, arguments] = self.generics();
-        let scalar = self.scalar.clone();
+        let (scalar, bound) = (self.scalar.clone(), self.bound.clone());
         let over = self.vector(&quote!(#scalar));
         let unit = (self.structure.kinetic == Kinetic::Unit).then(|| {
             quote!(
@@ -395,23 +415,23 @@ impl<'a> Emitter<'a> {
         quote! {
             #[allow(unused_variables, non_snake_case, clippy::all)]
             impl #generics ::symplectic::SeparableHamiltonian for #name #arguments {
-                type Vector<#scalar: Scalar> = #over;
+                type Vector<#scalar: #bound> = #over;
 
                 #unit
 
                 #join
 
                 #[inline(always)]
-                fn velocity<#scalar: Scalar>(&self, time: #scalar, p: &#over, velocity: &mut #over) {
+                fn velocity<#scalar: #bound>(&self, time: #scalar, p: &#over, velocity: &mut #over) {
                     #velocity
                 }
 
                 #[inline(always)]
-                fn force<#scalar: Scalar>(&self, time: #scalar, q: &#over, force: &mut #over) {
+                fn force<#scalar: #bound>(&self, time: #scalar, q: &#over, force: &mut #over) {
                     #force
                 }
 
-                fn energy<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over) -> ::core::option::Option<#scalar> {
+                fn energy<#scalar: #bound>(&self, time: #scalar, q: &#over, p: &#over) -> ::core::option::Option<#scalar> {
                     #energy
                 }
 
@@ -426,7 +446,7 @@ impl<'a> Emitter<'a> {
     fn general(&mut self, split: Option<Split>) -> TokenStream {
         let name = self.header.name.clone();
         let [generics, _, arguments] = self.generics();
-        let scalar = self.scalar.clone();
+        let (scalar, bound) = (self.scalar.clone(), self.bound.clone());
         let over = self.vector(&quote!(#scalar));
         let energy = self.system.energy;
         let [kinetic, potential] =
@@ -477,7 +497,7 @@ impl<'a> Emitter<'a> {
             let both = self.derivatives(&halves, &parts, &["velocity", "force"]);
             quote! {
                 #[inline(always)]
-                fn slopes<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over, (velocity, force): (&mut #over, &mut #over)) {
+                fn slopes<#scalar: #bound>(&self, time: #scalar, q: &#over, p: &#over, (velocity, force): (&mut #over, &mut #over)) {
                     #both
                 }
             }
@@ -498,7 +518,7 @@ impl<'a> Emitter<'a> {
             quote! {
                 const FORCED: bool = true;
 
-                fn applied_force<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over, applied: &mut #over) {
+                fn applied_force<#scalar: #bound>(&self, time: #scalar, q: &#over, p: &#over, applied: &mut #over) {
                     #statements
                 }
             }
@@ -508,25 +528,25 @@ impl<'a> Emitter<'a> {
             #[allow(unused_variables, non_snake_case, clippy::all)]
             impl #generics ::symplectic::Hamiltonian for #name #arguments {
                 type Class = #class;
-                type Vector<#scalar: Scalar> = #over;
+                type Vector<#scalar: #bound> = #over;
 
                 #masses
 
                 #join
 
                 #[inline(always)]
-                fn velocity<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over, velocity: &mut #over) {
+                fn velocity<#scalar: #bound>(&self, time: #scalar, q: &#over, p: &#over, velocity: &mut #over) {
                     #velocity
                 }
 
                 #[inline(always)]
-                fn force<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over, force: &mut #over) {
+                fn force<#scalar: #bound>(&self, time: #scalar, q: &#over, p: &#over, force: &mut #over) {
                     #force
                 }
 
                 #both
 
-                fn energy<#scalar: Scalar>(&self, time: #scalar, q: &#over, p: &#over) -> ::core::option::Option<#scalar> {
+                fn energy<#scalar: #bound>(&self, time: #scalar, q: &#over, p: &#over) -> ::core::option::Option<#scalar> {
                     #energy
                 }
 

@@ -21,13 +21,13 @@ impl Emitter<'_> {
         let statements = self.derivative(&["q", "v"], momentum);
         let [generics, _, arguments] = self.generics();
         let name = &self.header.name;
-        let scalar = &self.scalar;
+        let (scalar, bound) = (&self.scalar, &self.bound);
         let over = self.vector(&quote!(#scalar));
         quote! {
             #[allow(unused_variables, non_snake_case, clippy::all)]
             impl #generics #name #arguments {
                 /// The momenta `p = ∂L/∂v` of these velocities: `State::new(t, q, system.momentum_of_velocity(t, &q, &v))` is where to start.
-                pub fn momentum_of_velocity<#scalar: Scalar>(&self, time: #scalar, q: &#over, v: &#over) -> #over {
+                pub fn momentum_of_velocity<#scalar: #bound>(&self, time: #scalar, q: &#over, v: &#over) -> #over {
                     let mut result = v.clone();
                     let write = |momentum: &mut #over| {
                         #statements

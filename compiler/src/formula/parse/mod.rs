@@ -227,11 +227,25 @@ impl<'a> Parser<'a> {
             word if is_function(word) => "a function",
             _ => return Ok(name),
         };
+        Err(self.taken(name, meaning))
+    }
+
+    /// A name of the user's choice that the generated code contains.
+    fn new_rust_name(&mut self, expected: &str) -> Result<Name, Error> {
+        let name = self.new_name(expected)?;
+        match name.text.as_str() {
+            // Other words of Rust become raw identifiers.
+            "self" | "Self" | "super" | "crate" | "_" => Err(self.taken(name, "a word of Rust")),
+            _ => Ok(name),
+        }
+    }
+
+    fn taken(&self, name: Name, meaning: &str) -> Error {
         let kind = FormulaError::Taken {
             name: name.text,
             meaning: meaning.to_owned(),
         };
-        Err(self.input.error(&name.span, kind.into()))
+        self.input.error(&name.span, kind.into())
     }
 
     fn list(&mut self, end: char) -> Result<Vec<Expression>, Error> {

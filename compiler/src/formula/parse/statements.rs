@@ -33,7 +33,7 @@ impl Parser<'_> {
         };
         if self.accept('<') {
             while !self.is('>') {
-                let length = self.new_name("a length such as `N`, or `>`")?;
+                let length = self.new_rust_name("a length such as `N`, or `>`")?;
                 if !length.text.starts_with(char::is_uppercase) {
                     let kind = ErrorKind::Type {
                         found: format!("the length `{}`", length.text),
@@ -70,7 +70,7 @@ impl Parser<'_> {
 
     /// The name of a Rust function; it must differ from the names in the generated code of a system.
     fn function_name(&mut self, expected: &str) -> Result<Name, Error> {
-        let name = self.new_name(expected)?;
+        let name = self.new_rust_name(expected)?;
         let letters = name.text.trim_end_matches(|c: char| c.is_ascii_digit());
         let used = ["i", "j", "k", "l", "m", "n", "u", "v", "w", "x", "y", "z"];
         let words = [
@@ -80,17 +80,13 @@ impl Parser<'_> {
             || words.contains(&name.text.as_str())
             || name.text.contains("result_")
         {
-            let kind = FormulaError::Taken {
-                name: name.text,
-                meaning: "a name in the code of a system".to_owned(),
-            };
-            return Err(self.input.error(&name.span, kind.into()));
+            return Err(self.taken(name, "a name in the code of a system"));
         }
         Ok(name)
     }
 
     fn parameter(&mut self, definition: &Definition) -> Result<Parameter, Error> {
-        let name = self.new_name("a parameter such as `g: 9.81`, or `}`")?;
+        let name = self.new_rust_name("a parameter such as `g: 9.81`, or `}`")?;
         let kind = if !self.accept(':') {
             ParameterKind::Number(None)
         } else if self.accept_word("pairs") {
@@ -294,7 +290,7 @@ impl Parser<'_> {
                 let open = self.span();
                 self.expect('{', FORM)?;
                 while !self.is('}') {
-                    let name = self.new_name("the name of an invariant, or `}`")?;
+                    let name = self.new_rust_name("the name of an invariant, or `}`")?;
                     self.expect('=', "`=`")?;
                     definition.invariants.push((name, self.expression()?));
                     if !self.accept(',') {

@@ -205,7 +205,7 @@ const _: () = {
             .force_by_position.add(i * 3 + 2, i * 3 + 2, - x7); } true }
         }
     }
-    #[allow(dead_code, non_snake_case)]
+    #[allow(non_snake_case)]
     struct PlanetsInLanes<const N: usize> {
         m: <[f64; N] as ::symplectic::emitted::LaneParameter>::InLanes,
         G: <f64 as ::symplectic::emitted::LaneParameter>::InLanes,

@@ -178,7 +178,7 @@ const _: () = {
             1
         }
     }
-    #[allow(dead_code, non_snake_case)]
+    #[allow(non_snake_case)]
     struct DoublePendulumInLanes {
         g: <f64 as ::symplectic::emitted::LaneParameter>::InLanes,
     }
