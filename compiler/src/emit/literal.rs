@@ -101,8 +101,22 @@ mod tests {
         let seventh = exact(1e300) / ratio(7, 1);
         let seventh = code(seventh);
         assert!(
-            seventh.ends_with(":: core :: primitive :: f32 :: INFINITY)"),
+            seventh.starts_with("emitted :: rounded (1.4285714285714"),
             "{seventh}"
         );
+    }
+
+    /// A number above the middle of two singles, whose double is that middle: to a single it is not rounded by way of the double.
+    #[test]
+    fn a_single_that_the_double_does_not_give_is_written() {
+        let middle = 1.0 + f64::from(f32::EPSILON) / 2.0;
+        let above = exact(middle) + exact(f64::EPSILON / 16.0);
+        assert_eq!(middle as f32, 1.0);
+        let code = coefficient(&Number::Rational(above)).to_string();
+        assert!(
+            code.starts_with("emitted :: Coefficient :: new (1.0000000596046448"),
+            "{code}"
+        );
+        assert!(code.ends_with("1.0000001)"), "{code}");
     }
 }

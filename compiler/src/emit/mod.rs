@@ -1,11 +1,11 @@
 //! From an exact tableau to Rust code.
 //!
-//! The generated code names everything as `::symplectic::emitted::…`, or as `emitted::…` in a block that imports this. It contains the coefficients as constants,
-//! each rounded correctly to a double. It also contains them in the form that the runtime computes with: the exact value
-//! rounded correctly to a double, and again to a single. The single is infinite for a coefficient beyond the
-//! largest single, because the method is sound in doubles. For each class of Hamiltonians there is a plan of the step in which
-//! every stage is a line of its own: no product with zero, equal stages computed once, explicit stages
-//! in order, and no evaluation that the previous step has made already.
+//! The generated code names everything as `::symplectic::emitted::…`, or as `emitted::…` in a block that imports this module. It contains
+//! the coefficients as constants, each rounded correctly to a double. It also contains them in the form that the runtime computes with: the
+//! exact value rounded correctly to a double, the rest rounded to another, and the exact value rounded to a single. The single is infinite
+//! for a coefficient beyond the largest single, because the method is sound in doubles. For each class of Hamiltonians there is a plan of
+//! the step, or one for both, in which every evaluation and every sum is written once: no product with zero, equal stages computed once,
+//! explicit stages in order, and no evaluation that the previous step has made already.
 
 mod constrained;
 mod dense_output;
@@ -29,6 +29,7 @@ use crate::algebra::Number;
 use crate::coefficients::Coefficients;
 use crate::derive::{fewer_functions, substeps};
 use crate::error::ErrorKind;
+use crate::formula::FormulaError;
 use crate::pair::Staircase;
 use crate::schedule::Class;
 use crate::tableau::Tableau;
@@ -48,9 +49,15 @@ pub struct Header {
 /// The type of a method with its coefficients and its plans.
 ///
 /// # Errors
-/// [`ErrorKind::Overflow`] if a coefficient is beyond the largest double; [`ErrorKind::ExpressionSize`] if a
+/// [`FormulaError::Taken`] for the name `emitted`; [`ErrorKind::Overflow`] if a coefficient is beyond the largest double; [`ErrorKind::ExpressionSize`] if a
 /// fraction of a composition of compositions would be too long.
 pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKind> {
+    if header.name == "emitted" {
+        return Err(ErrorKind::from(FormulaError::Taken {
+            name: header.name.to_string(),
+            meaning: "the module that generated code imports".to_owned(),
+        }));
+    }
     let numbers = tableau.numbers();
     let matrices = left_out(tableau);
     // The entries of the matrices that are left out are weights.

@@ -99,7 +99,7 @@ fn factors(code: &str) -> Vec<f64> {
     factors
 }
 
-/// The coefficients in a piece of code, but the starts of substeps.
+/// The coefficients in a piece of code, except the starts of substeps.
 fn coefficients(code: &str) -> Vec<f64> {
     let parts: Vec<&str> = code.split("emitted::").collect();
     let calls = ["exact(", "rounded(", "Coefficient::new("];
@@ -123,12 +123,12 @@ fn nothing_is_multiplied_by_zero_or_computed_twice() {
         let factors = factors(&code);
         assert!(!factors.is_empty());
         assert!(factors.iter().all(|&c| c != 0.0), "{}", entry.name);
-        // Where all is explicit there is nothing to relax in the plan for separable systems.
+        // Where all is explicit there is nothing to sweep over in the plan for separable systems.
         let plan = |name: &str| code.split_once(name).map(|parts| parts.1);
         let separable = plan("struct MethodSeparable").or_else(|| plan("struct MethodPlan"));
         assert_eq!(
             tableau.properties().explicit.holds,
-            !separable.expect("the plan").contains("emitted::Sweep"),
+            !separable.expect("the plan").contains("emitted::StageSums"),
             "{}",
             entry.name
         );
@@ -150,7 +150,7 @@ fn a_composition_of_explicit_methods_is_explicit() {
     // Four positions with a force, the last of which is the first of the next step, and three momenta.
     assert!(code.contains("Separable = emitted::Splitting<TripleJumpSeparable>"));
     assert!(separable.contains("step.kept_force(1, "), "{separable}");
-    assert!(!separable.contains("emitted::Sweep") && !separable.contains("combine"));
+    assert!(!separable.contains("emitted::StageSums") && !separable.contains("combine"));
     assert_eq!(separable.matches("force(").count(), 4);
     // Each of them is applied once, with the sum of the weights where two steps meet.
     let calls = ["step.kick(", "step.drift("].map(|call| separable.matches(call).count());
@@ -158,34 +158,61 @@ fn a_composition_of_explicit_methods_is_explicit() {
     assert!(factors(&code).iter().all(|&c| c != 0.0));
 }
 
-/// Every line of generated code that the book shows.
+/// The code that the book shows occurs as it stands in what is written.
 #[test]
 fn the_book_shows_what_is_written() {
     let ruth = catalogue::find("forest-ruth-1990").expect("known");
     let ruth = emitted(&ruth.derive().expect("derived"), "ForestRuth");
     let gauss = emitted(&derived("polynomial(2)", "gauss(2)"), "Gauss2");
-    let lines =
-        |text: &str| -> Vec<String> { text.lines().map(|line| line.trim().to_owned()).collect() };
-    let written = [lines(&ruth), lines(&gauss)];
+    let trimmed = |text: &str| -> String {
+        let lines = text.lines().map(|line| format!("{}\n", line.trim()));
+        lines.collect()
+    };
     let book = include_str!("../../../docs/src/guide/methods.md");
-    let section = book
-        .split("## What the macro writes")
-        .nth(1)
-        .expect("the section");
-    let section = section.split("\n## ").next().expect("a section");
-    let shown: Vec<String> = section
+    let section = book.split("## What the macro writes").nth(1);
+    let section = section.and_then(|rest| rest.split("\n## ").next());
+    let blocks = section
+        .expect("the section")
         .split("```")
         .skip(1)
-        .step_by(2)
-        .flat_map(|block| {
-            lines(block)
-                .into_iter()
-                .skip(1)
-                .filter(|line| !line.is_empty())
-        })
-        .collect();
-    assert!(shown.len() > 10);
-    for line in shown {
-        assert!(written.iter().any(|code| code.contains(&line)), "{line}");
+        .step_by(2);
+    let blocks: Vec<&str> = blocks.collect();
+    assert_eq!(blocks.len(), 2);
+    for (block, code) in blocks.iter().zip([ruth, gauss]) {
+        let shown = block.strip_prefix("rust,ignore\n").expect("Rust");
+        assert!(trimmed(&code).contains(&trimmed(shown)), "{shown}");
     }
+}
+
+/// Stages with equal times c but different times c̃: velocities can be extrapolated, forces cannot. A separable system needs velocities only.
+#[test]
+fn separable_systems_keep_an_extrapolation_that_others_lack() {
+    let text = "a: [[1/12, 1/4], [1/3, 0]], b: [1/2, 1/2], a_tilde: symplectic_partner";
+    let definition = Definition::parse(text).expect("a definition");
+    let code = emitted(
+        &definition.derive(&Limits::default()).expect("derived"),
+        "OneTime",
+    );
+    let (general, separable) = code
+        .split_once("struct OneTimeSeparable")
+        .expect("a plan for each class");
+    let counts = [general, separable].map(|plan| plan.matches("emitted::transform(").count());
+    assert_eq!(counts, [0, 1]);
+    // Without extrapolation every step begins with a velocity.
+    assert!(general.contains("begin: 1,") && general.contains("start: 0,"));
+    assert!(separable.contains("begin: 0,") && separable.contains("start: 1,"));
+}
+
+#[test]
+fn the_name_of_the_imported_module_is_refused() {
+    let header = Header {
+        attributes: quote!(),
+        visibility: quote!(),
+        name: Ident::new("emitted", Span::call_site()),
+    };
+    let refused = method(&derived("1", "1/2"), &header).expect_err("taken");
+    assert_eq!(
+        refused.to_string(),
+        "`emitted` is the module that generated code imports already; choose another name"
+    );
 }

@@ -16,12 +16,14 @@ pub(crate) mod lane_stages;
 #[cfg(feature = "alloc")]
 pub(crate) mod nonholonomic;
 pub(crate) mod proved;
+mod relax;
 #[cfg(feature = "alloc")]
 pub(crate) mod run_time;
 pub(crate) mod separable_only;
 pub(crate) mod solver;
 pub(crate) mod splitting;
 pub(crate) mod splitting_macros;
+mod stage_sums;
 pub(crate) mod step;
 pub(crate) mod stopping;
 pub(crate) mod storage;
@@ -55,6 +57,7 @@ pub use separable_only::{SeparableOnly, rows, staircase};
 pub use solver::Solver;
 pub use splitting::{Splitting, SplittingPlan, SplittingStep};
 pub use splitting_macros::{composition, splitting};
+pub use stage_sums::{StageSums, Starting, Sweep};
 pub use step::{EvaluationCounts, EvaluationObserver, Outcome, Span, StageView, Step, WarmStart};
 pub use stopping::Stopping;
 pub use storage::{Evaluations, StageStorage, Stages};
@@ -426,16 +429,61 @@ pub trait StagePlan {
         kept: WarmStart,
     );
 
+    /// The forces at the coupled stages.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn forces<R: Summation, V: Vector, S: System<V, Class = Self::Class>>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _stages: &mut Self::Stages<V>,
+    ) {
+    }
+
+    /// The momenta of the coupled stages, from the forces.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn momenta<V: Vector, A: StageSums>(
+        _step: &Step<'_, V>,
+        _stages: &mut Self::Stages<V>,
+        _sums: &mut A,
+    ) {
+    }
+
+    /// The velocities at the coupled stages.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn velocities<R: Summation, V: Vector, S: System<V, Class = Self::Class>>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _stages: &mut Self::Stages<V>,
+    ) {
+    }
+
+    /// The positions of the coupled stages, from the velocities.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn positions<V: Vector, A: StageSums>(
+        _step: &Step<'_, V>,
+        _stages: &mut Self::Stages<V>,
+        _sums: &mut A,
+    ) {
+    }
+
     /// One fixed-point sweep over the coupled stages: new forces, the momenta that follow from them, new velocities, and the
     /// positions that follow from those. Returns how much the stage values changed.
     ///
-    /// For a separable system the second half uses the new evaluations of the first: the stopping criterion of
-    /// [`FixedPoint`](crate::solver::FixedPoint) relies on it.
+    /// Each kind uses the newest values of the previous one (Gauss–Seidel), which converges in fewer sweeps than all stage values from old
+    /// evaluations. The positions come last: their change measures what the next sweep would gain. The stopping criterion of
+    /// [`FixedPoint`](crate::solver::FixedPoint) relies on this order.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep<R: Summation, V: Vector, S: System<V, Class = Self::Class>>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Self::Stages<V>,
-    ) -> StageChange;
+    ) -> StageChange {
+        let mut change = StageChange::default();
+        Self::forces::<R, V, S>(step, system, stages);
+        Self::momenta(step, stages, &mut Sweep::<R>::new(&mut change.p));
+        Self::velocities::<R, V, S>(step, system, stages);
+        Self::positions(step, stages, &mut Sweep::<R>::new(&mut change.q));
+        change
+    }
 
     /// Turns the evaluations of the coupled stages into increments, if the plan uses increments. With [compensated](Summation::COMPENSATED)
     /// sums every sweep does this. With plain sums the evaluations stay unscaled until then, and the factors of the sums make up for it.

@@ -30,18 +30,18 @@ pub trait SplittingPlan {
         W: EvaluationObserver;
 }
 
-/// A step of a splitting on its way, in place.
+/// A step of a splitting in progress: the state is advanced in place.
 pub struct SplittingStep<'a, R, V, S, K, W> {
     span: Span,
     system: &'a S,
     /// The latest velocity and force.
     evaluations: &'a mut Evaluations<V>,
-    /// Whether these are still those of the previous step, at its end.
+    /// Whether they are those at the end of the previous step.
     kept: bool,
     state: Outcome<'a, V>,
     /// How kicks and drifts are applied.
     kick_drift: &'a mut K,
-    /// Is shown the evaluations.
+    /// Receives every evaluation.
     witness: &'a mut W,
     sums: PhantomData<R>,
 }
@@ -72,7 +72,7 @@ where
         );
     }
 
-    /// [`force`](Self::force), unless the previous step has left it.
+    /// [`force`](Self::force), unless the previous step has kept it.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn kept_force(&mut self, stage: usize, time: Coefficient) {
         if !self.kept {
@@ -101,7 +101,7 @@ where
         self.drift_by(stage, time, weight, false);
     }
 
-    /// [`drift`](Self::drift) by the velocity that the previous step has left, if it has.
+    /// [`drift`](Self::drift), with the velocity that the previous step has kept, if it has.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn kept_drift(&mut self, stage: usize, time: Coefficient, weight: Coefficient) {
         self.drift_by(stage, time, weight, self.kept);

@@ -66,7 +66,7 @@ pub fn scale<V: Vector>(vector: &mut V, h: f64, coefficient: Coefficient) {
     }
 }
 
-/// [`scale`] of some vectors, each with its own coefficient.
+/// [`scale`] of these entries of an array, each with its own coefficient.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub fn scale_all<V: Vector, const N: usize>(
     vectors: &mut [V],
@@ -296,7 +296,7 @@ pub fn copy<V: Vector>(out: &mut V, from: &V) {
     out[..n].copy_from_slice(&from[..n]);
 }
 
-/// Copies a vector to some of an array.
+/// Copies a vector to these entries of an array.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub fn reset<V: Vector, const N: usize>(vectors: &mut [V], indices: [usize; N], from: &V) {
     for index in indices {

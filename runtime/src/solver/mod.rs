@@ -9,11 +9,9 @@ pub(crate) mod in_lanes;
 pub(crate) mod newton;
 pub(crate) mod nystrom;
 pub(crate) mod predictor;
-mod relax;
 #[cfg(feature = "alloc")]
 pub(crate) mod run_time;
 pub(crate) mod simd;
-mod stage_sums;
 
 pub use crate::method::{
     Decoupling, EvaluationCounts, Failure, HalfChange, HalfTableau, Outcome, SecondOrderTableau,
@@ -34,4 +32,3 @@ pub use newton::{DualNumbers, SystemInDuals};
 pub use simd::gauss_seidel::SimdFixedPoint;
 pub use simd::jacobi::SimdJacobi;
 pub use simd::stages::SimdStages;
-pub use stage_sums::{StageSums, Starting, Sweep};

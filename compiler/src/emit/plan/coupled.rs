@@ -1,4 +1,4 @@
-//! Coupled stages: the sums that give them, each written once, and how a solver starts and sweeps over them.
+//! Coupled stages: the evaluations and the sums of a sweep, each written once, and the starting values.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 use super::increments::{Form, Row};
 use super::stages::Stored;
 use super::{evaluation_name, index, literal, predictor, slot};
-use crate::schedule::{Class, Evaluation, Node, StageValue};
+use crate::schedule::{Class, Evaluation, Node};
 
 /// The kinds of stage values and of evaluations, in the order of a sweep.
 const KINDS: [Node; 4] = [
@@ -17,14 +17,13 @@ const KINDS: [Node; 4] = [
 ];
 
 impl Stored<'_, '_> {
-    /// The coefficients of the coupled stages, and a function for each kind of them.
-    pub(super) fn coupled(&self, class: &TokenStream) -> TokenStream {
-        let constants = self.constants();
+    /// A function for each kind of coupled node.
+    pub(super) fn coupled(&self) -> TokenStream {
         let functions = KINDS.map(|kind| match kind {
-            Node::Force(_) | Node::Velocity(_) => self.evaluations(kind, class),
+            Node::Force(_) | Node::Velocity(_) => self.evaluations(kind),
             Node::Momentum(_) | Node::Position(_) => self.sums(kind),
         });
-        quote!(#constants #(#functions)*)
+        quote!(#(#functions)*)
     }
 
     /// The starting values of the coupled stages.
@@ -33,36 +32,6 @@ impl Stored<'_, '_> {
         match self.extrapolated() {
             Some(extrapolated) => quote!(if kept.stages { #extrapolated } else { #initial }),
             None => initial,
-        }
-    }
-
-    /// A sweep: each kind uses the newest values of the previous kind (Gauss–Seidel), which converges in fewer sweeps than
-    /// computing all stage values from old evaluations. The positions come last: their change measures what the next sweep would gain.
-    pub(super) fn sweep(&self) -> TokenStream {
-        let mut changes = false;
-        let calls: Vec<TokenStream> = KINDS
-            .into_iter()
-            .filter(|&kind| !self.coupled_of_kind(kind).is_empty())
-            .map(|kind| {
-                let function = function_name(kind);
-                let half = match kind {
-                    Node::Force(_) | Node::Velocity(_) => {
-                        return quote!(Self::#function::<R, V, S>(step, system, stages););
-                    }
-                    Node::Momentum(_) => literal::identifier("p"),
-                    Node::Position(_) => literal::identifier("q"),
-                };
-                changes = true;
-                quote!(Self::#function(step, stages, &mut emitted::Sweep::<R>::new(&mut change.#half));)
-            })
-            .collect();
-        if !changes {
-            return quote!(emitted::StageChange::default());
-        }
-        quote! {
-            let mut change = emitted::StageChange::default();
-            #(#calls)*
-            change
         }
     }
 
@@ -75,9 +44,7 @@ impl Stored<'_, '_> {
     /// The coupled nodes of the kind of a node.
     fn coupled_of_kind(&self, kind: Node) -> Vec<Node> {
         let same = |node: &&Node| std::mem::discriminant(*node) == std::mem::discriminant(&kind);
-        let is_start = |node: &Node| self.graph.value(*node).is_some_and(StageValue::is_start);
-        let nodes = self.phases.coupled.iter().filter(same).copied();
-        nodes.filter(|node| !is_start(node)).collect()
+        self.phases.coupled.iter().filter(same).copied().collect()
     }
 
     fn evaluations_of_kind(&self, kind: Node) -> &[Evaluation<'_>] {
@@ -88,7 +55,7 @@ impl Stored<'_, '_> {
     }
 
     /// Each list of coefficients once: a list that equals an earlier one refers to it.
-    fn constants(&self) -> TokenStream {
+    pub(super) fn constants(&self) -> TokenStream {
         let mut written: Vec<(String, Ident)> = Vec::new();
         let mut constant = |name: Ident, values: &[TokenStream]| {
             let list = quote!([#(#values),*]);
@@ -126,8 +93,8 @@ impl Stored<'_, '_> {
         quote!(#(#constants)*)
     }
 
-    /// The function that makes the coupled evaluations of a kind.
-    fn evaluations(&self, kind: Node, class: &TokenStream) -> Option<TokenStream> {
+    /// The function that computes the coupled evaluations of a kind.
+    fn evaluations(&self, kind: Node) -> Option<TokenStream> {
         let nodes = self.coupled_of_kind(kind);
         if nodes.is_empty() {
             return None;
@@ -142,13 +109,12 @@ impl Stored<'_, '_> {
             quote!(system.#evaluation(step.at(Self::#times[#number]), #q, #p, &mut #out); #scale)
         });
         let (function, array) = (function_name(kind), evaluation_name(kind));
-        let stages = self.memory();
         Some(quote! {
             #[inline]
-            fn #function<R: emitted::Summation, V: emitted::Vector, S: emitted::System<V, Class = #class>>(
+            fn #function<R: emitted::Summation, V: emitted::Vector, S: emitted::System<V, Class = Self::Class>>(
                 step: &emitted::Step<'_, V>,
                 system: &S,
-                stages: &mut #stages,
+                stages: &mut Self::Stages<V>,
             ) {
                 let emitted::Stages { q, p, #array, .. } = stages;
                 #(#lines)*
@@ -212,13 +178,12 @@ impl Stored<'_, '_> {
             function_name(kind),
             evaluation_name(super::terms_of(kind)(0)),
         );
-        let stages = self.memory();
         let numbers = (0..count).map(literal::count);
         Some(quote! {
             #[inline]
             fn #function<V: emitted::Vector, A: emitted::StageSums>(
                 step: &emitted::Step<'_, V>,
-                stages: &mut #stages,
+                stages: &mut Self::Stages<V>,
                 sums: &mut A,
             ) {
                 let emitted::Stages { #values, #array, .. } = stages;
@@ -257,7 +222,7 @@ impl Stored<'_, '_> {
 
     /// Starting values from the increments of the previous step: those of the velocities and, if forces depend on
     /// the momenta, those of the forces too. `None` if there is no extrapolation.
-    fn extrapolated(&self) -> Option<TokenStream> {
+    pub(super) fn extrapolated(&self) -> Option<TokenStream> {
         let Form::Increments(_) = self.form else {
             return None;
         };
@@ -270,7 +235,7 @@ impl Stored<'_, '_> {
         let momenta = self.start(Node::Momentum(0));
         let momenta = quote!(#forces #momenta);
         let momenta = match self.separable {
-            Some(_) => quote!(if !C::SEPARABLE { #momenta }),
+            Some(_) => quote!(if !K::SEPARABLE { #momenta }),
             None => momenta,
         };
         Some(quote!(#velocities #positions #momenta))
@@ -337,7 +302,7 @@ fn times_name(kind: Node) -> Ident {
     })
 }
 
-/// The weights of the evaluations of a kind, or of those that a kind of stages is made of.
+/// The weights of the evaluations of a kind, or of the terms of a kind of stages.
 fn weights_name(kind: Node) -> Ident {
     literal::identifier(match kind {
         Node::Force(_) | Node::Momentum(_) => "B_TILDE",

@@ -130,7 +130,7 @@ impl Matrices<'_, '_, '_, '_> {
         let lanes = literal::identifier(lanes.name);
         let increments = self.increments();
         let of_class = match self.separable {
-            Some(_) => quote!(impl<C: emitted::Class> emitted::StageTableau for #name<C>),
+            Some(_) => quote!(impl<K: emitted::Class> emitted::StageTableau for #name<K>),
             None => quote!(impl emitted::StageTableau for #name),
         };
         quote! {
@@ -169,7 +169,7 @@ impl Matrices<'_, '_, '_, '_> {
             (general, separable) => {
                 let [general, separable] =
                     [general, separable].map(|code| code.unwrap_or_else(none));
-                decoupling::constant(quote!(if C::SEPARABLE { #separable } else { #general }))
+                decoupling::constant(quote!(if K::SEPARABLE { #separable } else { #general }))
             }
         }
     }
@@ -269,7 +269,7 @@ impl Matrices<'_, '_, '_, '_> {
             })
         };
         match self.separable {
-            Some(_) => quote!(if C::SEPARABLE { #some } else { #none }),
+            Some(_) => quote!(if K::SEPARABLE { #some } else { #none }),
             None => some,
         }
     }

@@ -31,10 +31,11 @@ struct Bodies {
     coupling: &'static str,
     /// The type of the memory.
     stages: TokenStream,
-    /// Constants and functions of the plan itself, for its coupled stages.
+    /// The coefficients of the coupled stages.
+    constants: TokenStream,
+    /// The functions that make a sweep.
     coupled: TokenStream,
     begin: TokenStream,
-    sweep: TokenStream,
     /// The code after the last sweep if sums are plain (not compensated), if any.
     increments: Option<TokenStream>,
     finish: TokenStream,
@@ -52,8 +53,8 @@ pub(super) struct Plan {
     pub(super) code: TokenStream,
 }
 
-/// The plans of a method, under these names; one plan for both classes has the name `shared`. A composition of at least two substeps with coupled stages is computed
-/// substep by substep, from its methods and substeps.
+/// The plans of a method, under these names; one plan for both classes has the name `shared`. A composition of at least two substeps with
+/// coupled stages is computed substep by substep, from its methods and substeps.
 pub(super) fn plans(
     tableau: &Tableau,
     numbers: &Coefficients<Number<'_>>,
@@ -66,21 +67,26 @@ pub(super) fn plans(
     let known = Known::new(tableau);
     let parts_known: Vec<_> = methods.iter().map(Known::new).collect();
     let long = left_out(tableau).is_some();
-    let graph = |class| StepGraph::new(class, tableau, numbers);
-    if !long && substeps.len() < 2 {
-        let [general, separable] = names.map(|(class, _)| graph(class));
-        if let Some(step) = Stored::for_both([&general, &separable], &known, &polynomials) {
-            return of_both(&step, shared, &polynomials);
-        }
+    // There is no plan for general systems if the matrices are left out.
+    let graphs = names.map(|(class, _)| {
+        let stepped = !long || class == Class::Separable;
+        stepped.then(|| StepGraph::new(class, tableau, numbers))
+    });
+    if let [Some(general), Some(separable)] = &graphs
+        && substeps.len() < 2
+        && let Some(step) = Stored::for_both([general, separable], &known, &polynomials)
+    {
+        return of_both(&step, shared, &polynomials);
     }
-    names.map(|(class, name)| {
-        if long && class == Class::General {
+    let [general, separable] = names;
+    let [general_graph, separable_graph] = graphs;
+    [(general, general_graph), (separable, separable_graph)].map(|((class, name), graph)| {
+        let Some(graph) = graph else {
             return Plan {
                 name: quote!(emitted::SeparableOnly),
                 code: TokenStream::new(),
             };
-        }
-        let graph = graph(class);
+        };
         if substeps.len() < 2 || Phases::new(&graph).coupled.is_empty() {
             return of_stages(&graph, name, &known, Some(&polynomials));
         }
@@ -118,7 +124,7 @@ fn of_stages(
     }
     let class = class_name(graph.class);
     let stored = Stored::new(graph, known);
-    let bodies = stored.bodies(&quote!(emitted::#class));
+    let bodies = stored.bodies();
     let coupling = identifier(bodies.coupling);
     let matrices = stored.matrices(name, polynomials);
     let plan = bodies.code(&quote!(), &quote!(#name), &quote!(emitted::#class));
@@ -134,11 +140,11 @@ fn of_both(
     name: &Ident,
     polynomials: &StagePolynomials<'_, '_>,
 ) -> [Plan; 2] {
-    let bodies = step.bodies(&quote!(C));
+    let bodies = step.bodies();
     let matrices = step.matrices(name, Some(polynomials));
-    let plan = bodies.code(&quote!(<C: emitted::Class>), &quote!(#name<C>), &quote!(C));
+    let plan = bodies.code(&quote!(<K: emitted::Class>), &quote!(#name<K>), &quote!(K));
     let code = quote! {
-        pub struct #name<C>(::core::marker::PhantomData<C>);
+        pub struct #name<K>(::core::marker::PhantomData<K>);
 
         #plan
         #matrices
@@ -161,9 +167,9 @@ impl Bodies {
     fn code(self, generics: &TokenStream, name: &TokenStream, class: &TokenStream) -> TokenStream {
         let Bodies {
             stages,
+            constants,
             coupled,
             begin,
-            sweep,
             increments,
             finish,
             ..
@@ -178,20 +184,14 @@ impl Bodies {
                 }
             }
         });
-        let coupled = (!coupled.is_empty()).then(|| {
-            quote! {
-                #[allow(unused_variables)]
-                impl #generics #name {
-                    #coupled
-                }
-            }
-        });
+        let constants =
+            (!constants.is_empty()).then(|| quote!(impl #generics #name { #constants }));
         let system = quote!(S: emitted::System<V, Class = Self::Class>);
         let arguments = quote! {
             step: &emitted::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>
         };
         quote! {
-            #coupled
+            #constants
 
             #[allow(unused_variables)]
             impl #generics emitted::StagePlan for #name {
@@ -211,10 +211,7 @@ impl Bodies {
                     #begin
                 }
 
-                #[inline]
-                fn sweep<R: emitted::Summation, V: emitted::Vector, #system>(#arguments) -> emitted::StageChange {
-                    #sweep
-                }
+                #coupled
 
                 #increments
 

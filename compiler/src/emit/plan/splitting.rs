@@ -32,6 +32,7 @@ impl<'g, 'a> Chain<'g, 'a> {
         let code = quote! {
             pub struct #name;
 
+            #[allow(unused_variables)]
             impl emitted::SplittingPlan for #name {
                 type Class = emitted::#class;
 

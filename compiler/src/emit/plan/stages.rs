@@ -50,6 +50,7 @@ impl<'g, 'a> Stored<'g, 'a> {
             && step.phases.begin == other.phases.begin
             && step.phases.finish == other.phases.finish
             && step.carried == other.carried
+            && step.extrapolated().is_some() == other.extrapolated().is_some()
             && !step.phases.coupled.is_empty();
         let halves = |step: &Self| step.matrices_of(Some(polynomials)).halves();
         (same && halves(&step) == halves(&other)).then_some(Stored {
@@ -58,15 +59,8 @@ impl<'g, 'a> Stored<'g, 'a> {
         })
     }
 
-    /// The memory of the step.
-    pub(super) fn memory(&self) -> TokenStream {
-        let forces = literal::count(self.graph.forces.len());
-        let velocities = literal::count(self.graph.velocities.len());
-        quote!(emitted::Stages<V, #forces, #velocities>)
-    }
-
-    /// The code of the step, for systems of this class.
-    pub(super) fn bodies(&self, class: &TokenStream) -> Bodies {
+    /// The code of the step.
+    pub(super) fn bodies(&self) -> Bodies {
         let with_slots = |code: TokenStream| match code.is_empty() {
             true => code,
             false => quote! {
@@ -76,6 +70,8 @@ impl<'g, 'a> Stored<'g, 'a> {
         };
         let [begin, finish] = [self.begin(), self.finish()].map(with_slots);
         let starting_values = self.starting_values();
+        let forces = literal::count(self.graph.forces.len());
+        let velocities = literal::count(self.graph.velocities.len());
         let increments = self.increments();
         let evaluations = |nodes: &[Node]| {
             nodes
@@ -85,20 +81,25 @@ impl<'g, 'a> Stored<'g, 'a> {
         };
         let is_velocity = |node: &Node| matches!(node, Node::Velocity(_));
         let starts = usize::from(self.phases.coupled.iter().any(is_velocity));
+        // Without extrapolation every step starts with an evaluation.
+        let (always, starts) = match self.extrapolated() {
+            Some(_) => (0, starts),
+            None => (starts, 0),
+        };
         Bodies {
             coupling: if self.phases.coupled.is_empty() {
                 "Explicit"
             } else {
                 "Coupled"
             },
-            stages: self.memory(),
-            coupled: self.coupled(class),
+            stages: quote!(emitted::Stages<V, #forces, #velocities>),
+            constants: self.constants(),
+            coupled: self.coupled(),
             begin: quote!(#begin #starting_values),
-            sweep: self.sweep(),
             increments: (!increments.is_empty()).then_some(increments),
             finish,
             counts: [
-                evaluations(&self.phases.begin),
+                evaluations(&self.phases.begin) + always,
                 starts,
                 evaluations(&self.phases.coupled),
                 evaluations(&self.phases.finish),

@@ -193,7 +193,6 @@ const _: () = {
     impl emitted::ProvedFor<()> for ForestRuth {}
     impl emitted::ProvedFor<emitted::Damped> for ForestRuth {}
     pub struct ForestRuthGeneral;
-    #[allow(unused_variables)]
     impl ForestRuthGeneral {
         const C: [emitted::Coefficient; 4] = [
             emitted::exact(0.0),
@@ -237,16 +236,46 @@ const _: () = {
             emitted::rounded((-0.17560359597982883), 1.337406245399903e-17),
             emitted::rounded(0.6756035959798288, 4.21370887772588e-17),
         ];
+    }
+    #[allow(unused_variables)]
+    impl emitted::StagePlan for ForestRuthGeneral {
+        type Class = emitted::General;
+        type Stages<V: emitted::Vector> = emitted::Stages<V, 4, 4>;
+        const EVALUATIONS: emitted::EvaluationCounts = emitted::EvaluationCounts {
+            begin: 1,
+            start: 0,
+            sweep: 7,
+            finish: 1,
+            carried: 0,
+        };
+        #[inline]
+        fn begin<
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
+        >(
+            step: &emitted::Step<'_, V>,
+            system: &S,
+            stages: &mut Self::Stages<V>,
+            kept: emitted::WarmStart,
+        ) {
+            emitted::reset(&mut stages.p, [0, 1, 2, 3], step.p);
+            system
+                .velocity(
+                    step.at(Self::C_TILDE[0]),
+                    step.q,
+                    step.p,
+                    &mut stages.velocity[0],
+                );
+            emitted::copy_to(&mut stages.velocity, 0, [1, 2]);
+            Self::positions(step, stages, &mut emitted::Starting::<R>::new());
+        }
         #[inline]
         fn forces<
             R: emitted::Summation,
             V: emitted::Vector,
-            S: emitted::System<V, Class = emitted::General>,
-        >(
-            step: &emitted::Step<'_, V>,
-            system: &S,
-            stages: &mut emitted::Stages<V, 4, 4>,
-        ) {
+            S: emitted::System<V, Class = Self::Class>,
+        >(step: &emitted::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>) {
             let emitted::Stages { q, p, force, .. } = stages;
             system.force(step.at(Self::C[0]), step.q, &p[0], &mut force[0]);
             system.force(step.at(Self::C[1]), &q[1], &p[1], &mut force[1]);
@@ -256,7 +285,7 @@ const _: () = {
         #[inline]
         fn momenta<V: emitted::Vector, A: emitted::StageSums>(
             step: &emitted::Step<'_, V>,
-            stages: &mut emitted::Stages<V, 4, 4>,
+            stages: &mut Self::Stages<V>,
             sums: &mut A,
         ) {
             let emitted::Stages { p, force, .. } = stages;
@@ -293,12 +322,8 @@ const _: () = {
         fn velocities<
             R: emitted::Summation,
             V: emitted::Vector,
-            S: emitted::System<V, Class = emitted::General>,
-        >(
-            step: &emitted::Step<'_, V>,
-            system: &S,
-            stages: &mut emitted::Stages<V, 4, 4>,
-        ) {
+            S: emitted::System<V, Class = Self::Class>,
+        >(step: &emitted::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>) {
             let emitted::Stages { q, p, velocity, .. } = stages;
             system.velocity(step.at(Self::C_TILDE[0]), step.q, &p[0], &mut velocity[0]);
             system.velocity(step.at(Self::C_TILDE[1]), &q[1], &p[1], &mut velocity[1]);
@@ -307,7 +332,7 @@ const _: () = {
         #[inline]
         fn positions<V: emitted::Vector, A: emitted::StageSums>(
             step: &emitted::Step<'_, V>,
-            stages: &mut emitted::Stages<V, 4, 4>,
+            stages: &mut Self::Stages<V>,
             sums: &mut A,
         ) {
             let emitted::Stages { q, velocity, .. } = stages;
@@ -333,57 +358,6 @@ const _: () = {
                 emitted::weights(step.size, Self::Q_3),
                 [terms[0], terms[1], terms[2]],
             );
-        }
-    }
-    #[allow(unused_variables)]
-    impl emitted::StagePlan for ForestRuthGeneral {
-        type Class = emitted::General;
-        type Stages<V: emitted::Vector> = emitted::Stages<V, 4, 4>;
-        const EVALUATIONS: emitted::EvaluationCounts = emitted::EvaluationCounts {
-            begin: 0,
-            start: 1,
-            sweep: 7,
-            finish: 1,
-            carried: 0,
-        };
-        #[inline]
-        fn begin<
-            R: emitted::Summation,
-            V: emitted::Vector,
-            S: emitted::System<V, Class = Self::Class>,
-        >(
-            step: &emitted::Step<'_, V>,
-            system: &S,
-            stages: &mut Self::Stages<V>,
-            kept: emitted::WarmStart,
-        ) {
-            emitted::reset(&mut stages.p, [0, 1, 2, 3], step.p);
-            system
-                .velocity(
-                    step.at(Self::C_TILDE[0]),
-                    step.q,
-                    step.p,
-                    &mut stages.velocity[0],
-                );
-            emitted::copy_to(&mut stages.velocity, 0, [1, 2]);
-            Self::positions(step, stages, &mut emitted::Starting::<R>::new());
-        }
-        #[inline]
-        fn sweep<
-            R: emitted::Summation,
-            V: emitted::Vector,
-            S: emitted::System<V, Class = Self::Class>,
-        >(
-            step: &emitted::Step<'_, V>,
-            system: &S,
-            stages: &mut Self::Stages<V>,
-        ) -> emitted::StageChange {
-            let mut change = emitted::StageChange::default();
-            Self::forces::<R, V, S>(step, system, stages);
-            Self::momenta(step, stages, &mut emitted::Sweep::<R>::new(&mut change.p));
-            Self::velocities::<R, V, S>(step, system, stages);
-            Self::positions(step, stages, &mut emitted::Sweep::<R>::new(&mut change.q));
-            change
         }
         #[inline]
         fn finish<
@@ -509,6 +483,7 @@ const _: () = {
         }
     }
     pub struct ForestRuthSeparable;
+    #[allow(unused_variables)]
     impl emitted::SplittingPlan for ForestRuthSeparable {
         type Class = emitted::Separable;
         const EVALUATIONS: u32 = 7;

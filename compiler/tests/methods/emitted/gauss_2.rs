@@ -94,9 +94,8 @@ const _: () = {
         type Separable = emitted::Coupled<Gauss2Plan<emitted::Separable>>;
     }
     impl<C: emitted::Unconstrained> emitted::ProvedFor<C> for Gauss2 {}
-    pub struct Gauss2Plan<C>(::core::marker::PhantomData<C>);
-    #[allow(unused_variables)]
-    impl<C: emitted::Class> Gauss2Plan<C> {
+    pub struct Gauss2Plan<K>(::core::marker::PhantomData<K>);
+    impl<K: emitted::Class> Gauss2Plan<K> {
         const C: [emitted::Coefficient; 2] = [
             emitted::rounded(0.2113248654051871, 1.1030435245950743e-17),
             emitted::rounded(0.7886751345948129, 1.6725140369678172e-17),
@@ -121,66 +120,10 @@ const _: () = {
         ];
         const P_0: [emitted::Coefficient; 2] = Self::Q_0;
         const P_1: [emitted::Coefficient; 2] = Self::Q_1;
-        #[inline]
-        fn forces<
-            R: emitted::Summation,
-            V: emitted::Vector,
-            S: emitted::System<V, Class = C>,
-        >(
-            step: &emitted::Step<'_, V>,
-            system: &S,
-            stages: &mut emitted::Stages<V, 2, 2>,
-        ) {
-            let emitted::Stages { q, p, force, .. } = stages;
-            system.force(step.at(Self::C[0]), &q[0], &p[0], &mut force[0]);
-            emitted::increment::<R, V>(&mut force[0], step.size, Self::B_TILDE[0]);
-            system.force(step.at(Self::C[1]), &q[1], &p[1], &mut force[1]);
-            emitted::increment::<R, V>(&mut force[1], step.size, Self::B_TILDE[1]);
-        }
-        #[inline]
-        fn momenta<V: emitted::Vector, A: emitted::StageSums>(
-            step: &emitted::Step<'_, V>,
-            stages: &mut emitted::Stages<V, 2, 2>,
-            sums: &mut A,
-        ) {
-            let emitted::Stages { p, force, .. } = stages;
-            let (base, terms) = ((step.p, step.p_low), [&force[0], &force[1]]);
-            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B_TILDE);
-            sums.increments(&mut p[0], base, Self::P_0, weights, terms);
-            sums.increments(&mut p[1], base, Self::P_1, weights, terms);
-        }
-        #[inline]
-        fn velocities<
-            R: emitted::Summation,
-            V: emitted::Vector,
-            S: emitted::System<V, Class = C>,
-        >(
-            step: &emitted::Step<'_, V>,
-            system: &S,
-            stages: &mut emitted::Stages<V, 2, 2>,
-        ) {
-            let emitted::Stages { q, p, velocity, .. } = stages;
-            system.velocity(step.at(Self::C_TILDE[0]), &q[0], &p[0], &mut velocity[0]);
-            emitted::increment::<R, V>(&mut velocity[0], step.size, Self::B[0]);
-            system.velocity(step.at(Self::C_TILDE[1]), &q[1], &p[1], &mut velocity[1]);
-            emitted::increment::<R, V>(&mut velocity[1], step.size, Self::B[1]);
-        }
-        #[inline]
-        fn positions<V: emitted::Vector, A: emitted::StageSums>(
-            step: &emitted::Step<'_, V>,
-            stages: &mut emitted::Stages<V, 2, 2>,
-            sums: &mut A,
-        ) {
-            let emitted::Stages { q, velocity, .. } = stages;
-            let (base, terms) = ((step.q, step.q_low), [&velocity[0], &velocity[1]]);
-            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B);
-            sums.increments(&mut q[0], base, Self::Q_0, weights, terms);
-            sums.increments(&mut q[1], base, Self::Q_1, weights, terms);
-        }
     }
     #[allow(unused_variables)]
-    impl<C: emitted::Class> emitted::StagePlan for Gauss2Plan<C> {
-        type Class = C;
+    impl<K: emitted::Class> emitted::StagePlan for Gauss2Plan<K> {
+        type Class = K;
         type Stages<V: emitted::Vector> = emitted::Stages<V, 2, 2>;
         const EVALUATIONS: emitted::EvaluationCounts = emitted::EvaluationCounts {
             begin: 0,
@@ -210,7 +153,7 @@ const _: () = {
                     ],
                 );
                 Self::positions(step, stages, &mut emitted::Starting::<R>::new());
-                if !C::SEPARABLE {
+                if !K::SEPARABLE {
                     emitted::transform(
                         &mut stages.force,
                         [0, 1],
@@ -236,21 +179,52 @@ const _: () = {
             }
         }
         #[inline]
-        fn sweep<
+        fn forces<
             R: emitted::Summation,
             V: emitted::Vector,
             S: emitted::System<V, Class = Self::Class>,
-        >(
+        >(step: &emitted::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>) {
+            let emitted::Stages { q, p, force, .. } = stages;
+            system.force(step.at(Self::C[0]), &q[0], &p[0], &mut force[0]);
+            emitted::increment::<R, V>(&mut force[0], step.size, Self::B_TILDE[0]);
+            system.force(step.at(Self::C[1]), &q[1], &p[1], &mut force[1]);
+            emitted::increment::<R, V>(&mut force[1], step.size, Self::B_TILDE[1]);
+        }
+        #[inline]
+        fn momenta<V: emitted::Vector, A: emitted::StageSums>(
             step: &emitted::Step<'_, V>,
-            system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> emitted::StageChange {
-            let mut change = emitted::StageChange::default();
-            Self::forces::<R, V, S>(step, system, stages);
-            Self::momenta(step, stages, &mut emitted::Sweep::<R>::new(&mut change.p));
-            Self::velocities::<R, V, S>(step, system, stages);
-            Self::positions(step, stages, &mut emitted::Sweep::<R>::new(&mut change.q));
-            change
+            sums: &mut A,
+        ) {
+            let emitted::Stages { p, force, .. } = stages;
+            let (base, terms) = ((step.p, step.p_low), [&force[0], &force[1]]);
+            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B_TILDE);
+            sums.increments(&mut p[0], base, Self::P_0, weights, terms);
+            sums.increments(&mut p[1], base, Self::P_1, weights, terms);
+        }
+        #[inline]
+        fn velocities<
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
+        >(step: &emitted::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>) {
+            let emitted::Stages { q, p, velocity, .. } = stages;
+            system.velocity(step.at(Self::C_TILDE[0]), &q[0], &p[0], &mut velocity[0]);
+            emitted::increment::<R, V>(&mut velocity[0], step.size, Self::B[0]);
+            system.velocity(step.at(Self::C_TILDE[1]), &q[1], &p[1], &mut velocity[1]);
+            emitted::increment::<R, V>(&mut velocity[1], step.size, Self::B[1]);
+        }
+        #[inline]
+        fn positions<V: emitted::Vector, A: emitted::StageSums>(
+            step: &emitted::Step<'_, V>,
+            stages: &mut Self::Stages<V>,
+            sums: &mut A,
+        ) {
+            let emitted::Stages { q, velocity, .. } = stages;
+            let (base, terms) = ((step.q, step.q_low), [&velocity[0], &velocity[1]]);
+            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B);
+            sums.increments(&mut q[0], base, Self::Q_0, weights, terms);
+            sums.increments(&mut q[1], base, Self::Q_1, weights, terms);
         }
         #[inline]
         fn increments<V: emitted::Vector>(
@@ -288,7 +262,7 @@ const _: () = {
             >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
         }
     }
-    impl<C: emitted::Class> emitted::StageTableau for Gauss2Plan<C> {
+    impl<K: emitted::Class> emitted::StageTableau for Gauss2Plan<K> {
         type Lanes = emitted::F64x2;
         type Groups<T: ::core::fmt::Debug> = [T; 1];
         const INCREMENTS: bool = true;
@@ -307,7 +281,7 @@ const _: () = {
             }),
         };
         const MOMENTA: emitted::HalfTableau = Self::POSITIONS;
-        const SECOND_ORDER: ::core::option::Option<emitted::SecondOrderTableau> = if C::SEPARABLE {
+        const SECOND_ORDER: ::core::option::Option<emitted::SecondOrderTableau> = if K::SEPARABLE {
             ::core::option::Option::Some(emitted::SecondOrderTableau {
                 nodes: &[0.21132486540518713, 0.7886751345948129],
                 columns: &[
@@ -323,7 +297,7 @@ const _: () = {
         } else {
             ::core::option::Option::None
         };
-        const DECOUPLING: ::core::option::Option<emitted::Decoupling> = if C::SEPARABLE {
+        const DECOUPLING: ::core::option::Option<emitted::Decoupling> = if K::SEPARABLE {
             ::core::option::Option::Some(emitted::Decoupling {
                 blocks: &[(0.041666666666666664, 0.07216878364870322)],
                 to_stages: &[&[0.0, (-0.2679491924311227)], &[1.0, 0.0]],

@@ -167,7 +167,6 @@ const _: () = {
     }
     impl<C: emitted::Holonomic> emitted::ProvedFor<C> for Lobatto3 {}
     pub struct Lobatto3General;
-    #[allow(unused_variables)]
     impl Lobatto3General {
         const C: [emitted::Coefficient; 3] = [
             emitted::exact(0.0),
@@ -203,89 +202,6 @@ const _: () = {
             emitted::exact(1.0),
             emitted::exact(1.25),
         ];
-        #[inline]
-        fn forces<
-            R: emitted::Summation,
-            V: emitted::Vector,
-            S: emitted::System<V, Class = emitted::General>,
-        >(
-            step: &emitted::Step<'_, V>,
-            system: &S,
-            stages: &mut emitted::Stages<V, 3, 3>,
-        ) {
-            let emitted::Stages { q, p, force, .. } = stages;
-            system.force(step.at(Self::C[0]), step.q, &p[0], &mut force[0]);
-            emitted::increment::<R, V>(&mut force[0], step.size, Self::B_TILDE[0]);
-            system.force(step.at(Self::C[1]), &q[1], &p[1], &mut force[1]);
-            emitted::increment::<R, V>(&mut force[1], step.size, Self::B_TILDE[1]);
-        }
-        #[inline]
-        fn momenta<V: emitted::Vector, A: emitted::StageSums>(
-            step: &emitted::Step<'_, V>,
-            stages: &mut emitted::Stages<V, 3, 3>,
-            sums: &mut A,
-        ) {
-            let emitted::Stages { p, force, .. } = stages;
-            let (base, terms) = (
-                (step.p, step.p_low),
-                [&force[0], &force[1], &force[2]],
-            );
-            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B_TILDE);
-            sums.increments(
-                &mut p[0],
-                base,
-                Self::P_0,
-                [weights[0], weights[1]],
-                [terms[0], terms[1]],
-            );
-            sums.increments(
-                &mut p[1],
-                base,
-                Self::P_1,
-                [weights[0], weights[1]],
-                [terms[0], terms[1]],
-            );
-            sums.increments(
-                &mut p[2],
-                base,
-                Self::P_2,
-                [weights[0], weights[1]],
-                [terms[0], terms[1]],
-            );
-        }
-        #[inline]
-        fn velocities<
-            R: emitted::Summation,
-            V: emitted::Vector,
-            S: emitted::System<V, Class = emitted::General>,
-        >(
-            step: &emitted::Step<'_, V>,
-            system: &S,
-            stages: &mut emitted::Stages<V, 3, 3>,
-        ) {
-            let emitted::Stages { q, p, velocity, .. } = stages;
-            system.velocity(step.at(Self::C_TILDE[0]), step.q, &p[0], &mut velocity[0]);
-            emitted::increment::<R, V>(&mut velocity[0], step.size, Self::B[0]);
-            system.velocity(step.at(Self::C_TILDE[1]), &q[1], &p[1], &mut velocity[1]);
-            emitted::increment::<R, V>(&mut velocity[1], step.size, Self::B[1]);
-            system.velocity(step.at(Self::C_TILDE[2]), &q[2], &p[2], &mut velocity[2]);
-            emitted::increment::<R, V>(&mut velocity[2], step.size, Self::B[2]);
-        }
-        #[inline]
-        fn positions<V: emitted::Vector, A: emitted::StageSums>(
-            step: &emitted::Step<'_, V>,
-            stages: &mut emitted::Stages<V, 3, 3>,
-            sums: &mut A,
-        ) {
-            let emitted::Stages { q, velocity, .. } = stages;
-            let (base, terms) = (
-                (step.q, step.q_low),
-                [&velocity[0], &velocity[1], &velocity[2]],
-            );
-            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B);
-            sums.increments(&mut q[1], base, Self::Q_1, weights, terms);
-            sums.increments(&mut q[2], base, Self::Q_2, weights, terms);
-        }
     }
     #[allow(unused_variables)]
     impl emitted::StagePlan for Lobatto3General {
@@ -337,21 +253,79 @@ const _: () = {
             }
         }
         #[inline]
-        fn sweep<
+        fn forces<
             R: emitted::Summation,
             V: emitted::Vector,
             S: emitted::System<V, Class = Self::Class>,
-        >(
+        >(step: &emitted::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>) {
+            let emitted::Stages { q, p, force, .. } = stages;
+            system.force(step.at(Self::C[0]), step.q, &p[0], &mut force[0]);
+            emitted::increment::<R, V>(&mut force[0], step.size, Self::B_TILDE[0]);
+            system.force(step.at(Self::C[1]), &q[1], &p[1], &mut force[1]);
+            emitted::increment::<R, V>(&mut force[1], step.size, Self::B_TILDE[1]);
+        }
+        #[inline]
+        fn momenta<V: emitted::Vector, A: emitted::StageSums>(
             step: &emitted::Step<'_, V>,
-            system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> emitted::StageChange {
-            let mut change = emitted::StageChange::default();
-            Self::forces::<R, V, S>(step, system, stages);
-            Self::momenta(step, stages, &mut emitted::Sweep::<R>::new(&mut change.p));
-            Self::velocities::<R, V, S>(step, system, stages);
-            Self::positions(step, stages, &mut emitted::Sweep::<R>::new(&mut change.q));
-            change
+            sums: &mut A,
+        ) {
+            let emitted::Stages { p, force, .. } = stages;
+            let (base, terms) = (
+                (step.p, step.p_low),
+                [&force[0], &force[1], &force[2]],
+            );
+            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B_TILDE);
+            sums.increments(
+                &mut p[0],
+                base,
+                Self::P_0,
+                [weights[0], weights[1]],
+                [terms[0], terms[1]],
+            );
+            sums.increments(
+                &mut p[1],
+                base,
+                Self::P_1,
+                [weights[0], weights[1]],
+                [terms[0], terms[1]],
+            );
+            sums.increments(
+                &mut p[2],
+                base,
+                Self::P_2,
+                [weights[0], weights[1]],
+                [terms[0], terms[1]],
+            );
+        }
+        #[inline]
+        fn velocities<
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
+        >(step: &emitted::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>) {
+            let emitted::Stages { q, p, velocity, .. } = stages;
+            system.velocity(step.at(Self::C_TILDE[0]), step.q, &p[0], &mut velocity[0]);
+            emitted::increment::<R, V>(&mut velocity[0], step.size, Self::B[0]);
+            system.velocity(step.at(Self::C_TILDE[1]), &q[1], &p[1], &mut velocity[1]);
+            emitted::increment::<R, V>(&mut velocity[1], step.size, Self::B[1]);
+            system.velocity(step.at(Self::C_TILDE[2]), &q[2], &p[2], &mut velocity[2]);
+            emitted::increment::<R, V>(&mut velocity[2], step.size, Self::B[2]);
+        }
+        #[inline]
+        fn positions<V: emitted::Vector, A: emitted::StageSums>(
+            step: &emitted::Step<'_, V>,
+            stages: &mut Self::Stages<V>,
+            sums: &mut A,
+        ) {
+            let emitted::Stages { q, velocity, .. } = stages;
+            let (base, terms) = (
+                (step.q, step.q_low),
+                [&velocity[0], &velocity[1], &velocity[2]],
+            );
+            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B);
+            sums.increments(&mut q[1], base, Self::Q_1, weights, terms);
+            sums.increments(&mut q[2], base, Self::Q_2, weights, terms);
         }
         #[inline]
         fn increments<V: emitted::Vector>(
@@ -473,7 +447,6 @@ const _: () = {
         }
     }
     pub struct Lobatto3Separable;
-    #[allow(unused_variables)]
     impl Lobatto3Separable {
         const C: [emitted::Coefficient; 3] = [
             emitted::exact(0.0),
@@ -504,87 +477,6 @@ const _: () = {
             emitted::exact(1.0),
             emitted::exact(1.25),
         ];
-        #[inline]
-        fn forces<
-            R: emitted::Summation,
-            V: emitted::Vector,
-            S: emitted::System<V, Class = emitted::Separable>,
-        >(
-            step: &emitted::Step<'_, V>,
-            system: &S,
-            stages: &mut emitted::Stages<V, 3, 3>,
-        ) {
-            let emitted::Stages { q, p, force, .. } = stages;
-            system.force(step.at(Self::C[1]), &q[1], step.p, &mut force[1]);
-            emitted::increment::<R, V>(&mut force[1], step.size, Self::B_TILDE[1]);
-        }
-        #[inline]
-        fn momenta<V: emitted::Vector, A: emitted::StageSums>(
-            step: &emitted::Step<'_, V>,
-            stages: &mut emitted::Stages<V, 3, 3>,
-            sums: &mut A,
-        ) {
-            let emitted::Stages { p, force, .. } = stages;
-            let (base, terms) = (
-                (step.p, step.p_low),
-                [&force[0], &force[1], &force[2]],
-            );
-            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B_TILDE);
-            let one = <V::Scalar as emitted::Scalar>::from_f64(1.0);
-            sums.increments(
-                &mut p[0],
-                base,
-                Self::P_0,
-                [one, weights[1]],
-                [terms[0], terms[1]],
-            );
-            sums.increments(
-                &mut p[1],
-                base,
-                Self::P_1,
-                [one, weights[1]],
-                [terms[0], terms[1]],
-            );
-            sums.increments(
-                &mut p[2],
-                base,
-                Self::P_2,
-                [one, weights[1]],
-                [terms[0], terms[1]],
-            );
-        }
-        #[inline]
-        fn velocities<
-            R: emitted::Summation,
-            V: emitted::Vector,
-            S: emitted::System<V, Class = emitted::Separable>,
-        >(
-            step: &emitted::Step<'_, V>,
-            system: &S,
-            stages: &mut emitted::Stages<V, 3, 3>,
-        ) {
-            let emitted::Stages { q, p, velocity, .. } = stages;
-            system.velocity(step.at(Self::C_TILDE[0]), step.q, &p[0], &mut velocity[0]);
-            emitted::increment::<R, V>(&mut velocity[0], step.size, Self::B[0]);
-            system.velocity(step.at(Self::C_TILDE[1]), step.q, &p[1], &mut velocity[1]);
-            emitted::increment::<R, V>(&mut velocity[1], step.size, Self::B[1]);
-            system.velocity(step.at(Self::C_TILDE[2]), step.q, &p[2], &mut velocity[2]);
-            emitted::increment::<R, V>(&mut velocity[2], step.size, Self::B[2]);
-        }
-        #[inline]
-        fn positions<V: emitted::Vector, A: emitted::StageSums>(
-            step: &emitted::Step<'_, V>,
-            stages: &mut emitted::Stages<V, 3, 3>,
-            sums: &mut A,
-        ) {
-            let emitted::Stages { q, velocity, .. } = stages;
-            let (base, terms) = (
-                (step.q, step.q_low),
-                [&velocity[0], &velocity[1], &velocity[2]],
-            );
-            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B);
-            sums.increments(&mut q[1], base, Self::Q_1, weights, terms);
-        }
     }
     #[allow(unused_variables)]
     impl emitted::StagePlan for Lobatto3Separable {
@@ -641,21 +533,77 @@ const _: () = {
             }
         }
         #[inline]
-        fn sweep<
+        fn forces<
             R: emitted::Summation,
             V: emitted::Vector,
             S: emitted::System<V, Class = Self::Class>,
-        >(
+        >(step: &emitted::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>) {
+            let emitted::Stages { q, p, force, .. } = stages;
+            system.force(step.at(Self::C[1]), &q[1], step.p, &mut force[1]);
+            emitted::increment::<R, V>(&mut force[1], step.size, Self::B_TILDE[1]);
+        }
+        #[inline]
+        fn momenta<V: emitted::Vector, A: emitted::StageSums>(
             step: &emitted::Step<'_, V>,
-            system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> emitted::StageChange {
-            let mut change = emitted::StageChange::default();
-            Self::forces::<R, V, S>(step, system, stages);
-            Self::momenta(step, stages, &mut emitted::Sweep::<R>::new(&mut change.p));
-            Self::velocities::<R, V, S>(step, system, stages);
-            Self::positions(step, stages, &mut emitted::Sweep::<R>::new(&mut change.q));
-            change
+            sums: &mut A,
+        ) {
+            let emitted::Stages { p, force, .. } = stages;
+            let (base, terms) = (
+                (step.p, step.p_low),
+                [&force[0], &force[1], &force[2]],
+            );
+            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B_TILDE);
+            let one = <V::Scalar as emitted::Scalar>::from_f64(1.0);
+            sums.increments(
+                &mut p[0],
+                base,
+                Self::P_0,
+                [one, weights[1]],
+                [terms[0], terms[1]],
+            );
+            sums.increments(
+                &mut p[1],
+                base,
+                Self::P_1,
+                [one, weights[1]],
+                [terms[0], terms[1]],
+            );
+            sums.increments(
+                &mut p[2],
+                base,
+                Self::P_2,
+                [one, weights[1]],
+                [terms[0], terms[1]],
+            );
+        }
+        #[inline]
+        fn velocities<
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
+        >(step: &emitted::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>) {
+            let emitted::Stages { q, p, velocity, .. } = stages;
+            system.velocity(step.at(Self::C_TILDE[0]), step.q, &p[0], &mut velocity[0]);
+            emitted::increment::<R, V>(&mut velocity[0], step.size, Self::B[0]);
+            system.velocity(step.at(Self::C_TILDE[1]), step.q, &p[1], &mut velocity[1]);
+            emitted::increment::<R, V>(&mut velocity[1], step.size, Self::B[1]);
+            system.velocity(step.at(Self::C_TILDE[2]), step.q, &p[2], &mut velocity[2]);
+            emitted::increment::<R, V>(&mut velocity[2], step.size, Self::B[2]);
+        }
+        #[inline]
+        fn positions<V: emitted::Vector, A: emitted::StageSums>(
+            step: &emitted::Step<'_, V>,
+            stages: &mut Self::Stages<V>,
+            sums: &mut A,
+        ) {
+            let emitted::Stages { q, velocity, .. } = stages;
+            let (base, terms) = (
+                (step.q, step.q_low),
+                [&velocity[0], &velocity[1], &velocity[2]],
+            );
+            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B);
+            sums.increments(&mut q[1], base, Self::Q_1, weights, terms);
         }
         #[inline]
         fn increments<V: emitted::Vector>(

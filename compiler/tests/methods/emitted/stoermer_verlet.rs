@@ -138,7 +138,6 @@ const _: () = {
     }
     impl<C> emitted::ProvedFor<C> for StoermerVerlet {}
     pub struct StoermerVerletGeneral;
-    #[allow(unused_variables)]
     impl StoermerVerletGeneral {
         const C: [emitted::Coefficient; 2] = [emitted::exact(0.0), emitted::exact(1.0)];
         const B_TILDE: [emitted::Coefficient; 2] = [
@@ -152,66 +151,14 @@ const _: () = {
             emitted::exact(1.0),
         ];
         const P_0: [emitted::Coefficient; 1] = [emitted::exact(1.0)];
-        #[inline]
-        fn forces<
-            R: emitted::Summation,
-            V: emitted::Vector,
-            S: emitted::System<V, Class = emitted::General>,
-        >(
-            step: &emitted::Step<'_, V>,
-            system: &S,
-            stages: &mut emitted::Stages<V, 2, 2>,
-        ) {
-            let emitted::Stages { q, p, force, .. } = stages;
-            system.force(step.at(Self::C[0]), step.q, &p[0], &mut force[0]);
-            emitted::increment::<R, V>(&mut force[0], step.size, Self::B_TILDE[0]);
-        }
-        #[inline]
-        fn momenta<V: emitted::Vector, A: emitted::StageSums>(
-            step: &emitted::Step<'_, V>,
-            stages: &mut emitted::Stages<V, 2, 2>,
-            sums: &mut A,
-        ) {
-            let emitted::Stages { p, force, .. } = stages;
-            let (base, terms) = ((step.p, step.p_low), [&force[0], &force[1]]);
-            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B_TILDE);
-            sums.increments(&mut p[0], base, Self::P_0, [weights[0]], [terms[0]]);
-        }
-        #[inline]
-        fn velocities<
-            R: emitted::Summation,
-            V: emitted::Vector,
-            S: emitted::System<V, Class = emitted::General>,
-        >(
-            step: &emitted::Step<'_, V>,
-            system: &S,
-            stages: &mut emitted::Stages<V, 2, 2>,
-        ) {
-            let emitted::Stages { q, p, velocity, .. } = stages;
-            system.velocity(step.at(Self::C_TILDE[0]), step.q, &p[0], &mut velocity[0]);
-            emitted::increment::<R, V>(&mut velocity[0], step.size, Self::B[0]);
-            system.velocity(step.at(Self::C_TILDE[1]), &q[1], &p[0], &mut velocity[1]);
-            emitted::increment::<R, V>(&mut velocity[1], step.size, Self::B[1]);
-        }
-        #[inline]
-        fn positions<V: emitted::Vector, A: emitted::StageSums>(
-            step: &emitted::Step<'_, V>,
-            stages: &mut emitted::Stages<V, 2, 2>,
-            sums: &mut A,
-        ) {
-            let emitted::Stages { q, velocity, .. } = stages;
-            let (base, terms) = ((step.q, step.q_low), [&velocity[0], &velocity[1]]);
-            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B);
-            sums.increments(&mut q[1], base, Self::Q_1, weights, terms);
-        }
     }
     #[allow(unused_variables)]
     impl emitted::StagePlan for StoermerVerletGeneral {
         type Class = emitted::General;
         type Stages<V: emitted::Vector> = emitted::Stages<V, 2, 2>;
         const EVALUATIONS: emitted::EvaluationCounts = emitted::EvaluationCounts {
-            begin: 0,
-            start: 1,
+            begin: 1,
+            start: 0,
             sweep: 3,
             finish: 1,
             carried: 0,
@@ -240,21 +187,48 @@ const _: () = {
             Self::positions(step, stages, &mut emitted::Starting::<R>::new());
         }
         #[inline]
-        fn sweep<
+        fn forces<
             R: emitted::Summation,
             V: emitted::Vector,
             S: emitted::System<V, Class = Self::Class>,
-        >(
+        >(step: &emitted::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>) {
+            let emitted::Stages { q, p, force, .. } = stages;
+            system.force(step.at(Self::C[0]), step.q, &p[0], &mut force[0]);
+            emitted::increment::<R, V>(&mut force[0], step.size, Self::B_TILDE[0]);
+        }
+        #[inline]
+        fn momenta<V: emitted::Vector, A: emitted::StageSums>(
             step: &emitted::Step<'_, V>,
-            system: &S,
             stages: &mut Self::Stages<V>,
-        ) -> emitted::StageChange {
-            let mut change = emitted::StageChange::default();
-            Self::forces::<R, V, S>(step, system, stages);
-            Self::momenta(step, stages, &mut emitted::Sweep::<R>::new(&mut change.p));
-            Self::velocities::<R, V, S>(step, system, stages);
-            Self::positions(step, stages, &mut emitted::Sweep::<R>::new(&mut change.q));
-            change
+            sums: &mut A,
+        ) {
+            let emitted::Stages { p, force, .. } = stages;
+            let (base, terms) = ((step.p, step.p_low), [&force[0], &force[1]]);
+            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B_TILDE);
+            sums.increments(&mut p[0], base, Self::P_0, [weights[0]], [terms[0]]);
+        }
+        #[inline]
+        fn velocities<
+            R: emitted::Summation,
+            V: emitted::Vector,
+            S: emitted::System<V, Class = Self::Class>,
+        >(step: &emitted::Step<'_, V>, system: &S, stages: &mut Self::Stages<V>) {
+            let emitted::Stages { q, p, velocity, .. } = stages;
+            system.velocity(step.at(Self::C_TILDE[0]), step.q, &p[0], &mut velocity[0]);
+            emitted::increment::<R, V>(&mut velocity[0], step.size, Self::B[0]);
+            system.velocity(step.at(Self::C_TILDE[1]), &q[1], &p[0], &mut velocity[1]);
+            emitted::increment::<R, V>(&mut velocity[1], step.size, Self::B[1]);
+        }
+        #[inline]
+        fn positions<V: emitted::Vector, A: emitted::StageSums>(
+            step: &emitted::Step<'_, V>,
+            stages: &mut Self::Stages<V>,
+            sums: &mut A,
+        ) {
+            let emitted::Stages { q, velocity, .. } = stages;
+            let (base, terms) = ((step.q, step.q_low), [&velocity[0], &velocity[1]]);
+            let weights = emitted::weights::<V::Scalar, _>(step.size, Self::B);
+            sums.increments(&mut q[1], base, Self::Q_1, weights, terms);
         }
         #[inline]
         fn increments<V: emitted::Vector>(
@@ -335,6 +309,7 @@ const _: () = {
         }
     }
     pub struct StoermerVerletSeparable;
+    #[allow(unused_variables)]
     impl emitted::SplittingPlan for StoermerVerletSeparable {
         type Class = emitted::Separable;
         const EVALUATIONS: u32 = 3;

@@ -12,7 +12,8 @@ use crate::number::{Coefficient, Summation, Vector};
 
 /// What the sums are for: [`Starting`] values, or a [`Sweep`].
 pub trait StageSums {
-    /// `stage = base + Σ_j coefficients_j increments_j`. In sweeps the terms are the evaluations, which the `weights` turn into increments.
+    /// `stage = base + Σ_j coefficients_j increments_j`. With plain sums, the terms of a sweep are evaluations, and the increments are
+    /// `weights_j terms_j`.
     fn increments<V: Vector, const N: usize>(
         &mut self,
         stage: &mut V,
