@@ -430,7 +430,7 @@ pub trait StagePlan {
     );
 
     /// The forces at the coupled stages.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn forces<R: Summation, V: Vector, S: System<V, Class = Self::Class>>(
         _step: &Step<'_, V>,
         _system: &S,
@@ -439,7 +439,7 @@ pub trait StagePlan {
     }
 
     /// The momenta of the coupled stages, from the forces.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn momenta<V: Vector, A: StageSums>(
         _step: &Step<'_, V>,
         _stages: &mut Self::Stages<V>,
@@ -448,7 +448,7 @@ pub trait StagePlan {
     }
 
     /// The velocities at the coupled stages.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn velocities<R: Summation, V: Vector, S: System<V, Class = Self::Class>>(
         _step: &Step<'_, V>,
         _system: &S,
@@ -457,7 +457,7 @@ pub trait StagePlan {
     }
 
     /// The positions of the coupled stages, from the velocities.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn positions<V: Vector, A: StageSums>(
         _step: &Step<'_, V>,
         _stages: &mut Self::Stages<V>,
@@ -471,7 +471,7 @@ pub trait StagePlan {
     /// Each kind uses the newest values of the previous one (Gauss–Seidel), which converges in fewer sweeps than all stage values from old
     /// evaluations. The positions come last: their change measures what the next sweep would gain. The stopping criterion of
     /// [`FixedPoint`](crate::solver::FixedPoint) relies on this order.
-    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[inline]
     fn sweep<R: Summation, V: Vector, S: System<V, Class = Self::Class>>(
         step: &Step<'_, V>,
         system: &S,
