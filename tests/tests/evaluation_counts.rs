@@ -166,6 +166,11 @@ fn a_method_that_is_explicit_for_separable_systems_iterates_for_others_and_gets_
         split.step()?;
     }
     assert!(whole.iterations() >= STEPS && counts.forces() > 2 * STEPS);
+    // Nothing is extrapolated, so every step begins with a velocity.
+    assert_eq!(
+        whole.statistics().evaluations,
+        counts.forces() + counts.velocities()
+    );
     assert_eq!(split.iterations(), 0);
     // The same steps up to rounding, which the orbit enlarges with the step errors it makes: 100 steps, 2 ε each.
     let distance = position_error(whole.state(), split.state());

@@ -49,8 +49,8 @@ pub struct Header {
 /// The type of a method with its coefficients and its plans.
 ///
 /// # Errors
-/// [`FormulaError::Taken`] for the name `emitted`; [`ErrorKind::Overflow`] if a coefficient is beyond the largest double; [`ErrorKind::ExpressionSize`] if a
-/// fraction of a composition of compositions would be too long.
+/// [`FormulaError::Taken`] for the name `emitted`; [`ErrorKind::Overflow`] if a coefficient is beyond the largest double;
+/// [`ErrorKind::ExpressionSize`] if a fraction of a composition of compositions would be too long.
 pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKind> {
     if header.name == "emitted" {
         return Err(ErrorKind::from(FormulaError::Taken {

@@ -57,7 +57,7 @@ pub use separable_only::{SeparableOnly, rows, staircase};
 pub use solver::Solver;
 pub use splitting::{Splitting, SplittingPlan, SplittingStep};
 pub use splitting_macros::{composition, splitting};
-pub use stage_sums::{StageSums, Starting, Sweep};
+pub use stage_sums::{StageSums, StartingValues, Sweep};
 pub use step::{EvaluationCounts, EvaluationObserver, Outcome, Span, StageView, Step, WarmStart};
 pub use stopping::Stopping;
 pub use storage::{Evaluations, StageStorage, Stages};

@@ -2,18 +2,23 @@
 
 use core::marker::PhantomData;
 
-use num_traits::Zero;
-
 use super::relax::relax;
 use crate::method::HalfChange;
 use crate::number::array::array;
 use crate::number::linear_combination::{combine, factors};
-use crate::number::{Coefficient, Summation, Vector};
+use crate::number::{Coefficient, Scalar, Summation, Vector};
 
-/// What the sums are for: [`Starting`] values, or a [`Sweep`].
+/// What the sums are for: [`StartingValues`], or a [`Sweep`].
 pub trait StageSums {
+    /// The factors of terms that are increments, or that the `weights` turn into increments.
+    fn factors<T: Scalar, const N: usize>(
+        coefficients: [Coefficient; N],
+        weights: [T; N],
+    ) -> [T; N];
+
     /// `stage = base + Σ_j coefficients_j increments_j`. With plain sums, the terms of a sweep are evaluations, and the increments are
     /// `weights_j terms_j`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn increments<V: Vector, const N: usize>(
         &mut self,
         stage: &mut V,
@@ -21,7 +26,9 @@ pub trait StageSums {
         coefficients: [Coefficient; N],
         weights: [V::Scalar; N],
         terms: [&V; N],
-    );
+    ) {
+        self.evaluations(stage, base, Self::factors(coefficients, weights), terms);
+    }
 
     /// `stage = base + Σ_j factors_j evaluations_j`
     fn evaluations<V: Vector, const N: usize>(
@@ -34,28 +41,24 @@ pub trait StageSums {
 }
 
 /// The sums of starting values: all terms are increments.
-pub struct Starting<R>(PhantomData<R>);
+pub struct StartingValues<R>(PhantomData<R>);
 
-impl<R> Starting<R> {
+impl<R> StartingValues<R> {
     /// Starting values.
     #[cfg_attr(not(debug_assertions), inline(always))]
     #[expect(clippy::new_without_default, reason = "for generated code")]
     pub const fn new() -> Self {
-        Starting(PhantomData)
+        StartingValues(PhantomData)
     }
 }
 
-impl<R: Summation> StageSums for Starting<R> {
+impl<R: Summation> StageSums for StartingValues<R> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn increments<V: Vector, const N: usize>(
-        &mut self,
-        stage: &mut V,
-        base: (&V, &V),
+    fn factors<T: Scalar, const N: usize>(
         coefficients: [Coefficient; N],
-        _weights: [V::Scalar; N],
-        terms: [&V; N],
-    ) {
-        self.evaluations(stage, base, factors(coefficients), terms);
+        _weights: [T; N],
+    ) -> [T; N] {
+        factors(coefficients)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -92,20 +95,15 @@ impl<'a, R> Sweep<'a, R> {
 
 impl<R: Summation> StageSums for Sweep<'_, R> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn increments<V: Vector, const N: usize>(
-        &mut self,
-        stage: &mut V,
-        base: (&V, &V),
+    fn factors<T: Scalar, const N: usize>(
         coefficients: [Coefficient; N],
-        weights: [V::Scalar; N],
-        terms: [&V; N],
-    ) {
+        weights: [T; N],
+    ) -> [T; N] {
         let factors = factors(coefficients);
-        let factors = match R::COMPENSATED {
+        match R::COMPENSATED {
             true => factors,
-            false => array(V::Scalar::zero(), |j| factors[j] * weights[j]),
-        };
-        self.evaluations(stage, base, factors, terms);
+            false => array(T::zero(), |j| factors[j] * weights[j]),
+        }
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::increments::{Form, Row};
+use super::increments::Form;
 use super::stages::Stored;
 use super::{evaluation_name, index, literal, predictor, slot};
 use crate::schedule::{Class, Evaluation, Node};
@@ -26,10 +26,10 @@ impl Stored<'_, '_> {
         quote!(#(#functions)*)
     }
 
-    /// The starting values of the coupled stages.
-    pub(super) fn starting_values(&self) -> TokenStream {
+    /// The starting values of the coupled stages, `extrapolated` if the previous step allows it.
+    pub(super) fn starting_values(&self, extrapolated: Option<&TokenStream>) -> TokenStream {
         let initial = self.initial();
-        match self.extrapolated() {
+        match extrapolated {
             Some(extrapolated) => quote!(if kept.stages { #extrapolated } else { #initial }),
             None => initial,
         }
@@ -86,8 +86,8 @@ impl Stored<'_, '_> {
         }
         for kind in [Node::Position(0), Node::Momentum(0)] {
             for node in self.coupled_of_kind(kind) {
-                let row = self.form.row(self.graph, node);
-                constants.push(constant(row_name(node), &row.coefficients));
+                let coefficients = self.form.coefficients(self.graph, node);
+                constants.push(constant(row_name(node), &coefficients));
             }
         }
         quote!(#(#constants)*)
@@ -129,12 +129,12 @@ impl Stored<'_, '_> {
             return None;
         }
         let count = self.evaluations_of_kind(kind).len();
-        let mut scaled = false;
+        let mut any_made = false;
         let lines: Vec<TokenStream> = nodes
             .iter()
             .map(|&node| {
                 let (stage, name) = (slot(node), row_name(node));
-                let Row { terms, .. } = self.form.row(self.graph, node);
+                let terms = Form::terms(self.graph, node);
                 let chosen = |array: &str, one: &dyn Fn(Node) -> bool| {
                     let array = literal::identifier(array);
                     if terms.len() == count && !terms.iter().any(|&term| one(term)) {
@@ -158,7 +158,7 @@ impl Stored<'_, '_> {
                     // Evaluations made before the sweeps are increments already.
                     Form::Increments(_) => {
                         let made = |term: Node| !self.phases.coupled.contains(&term);
-                        scaled |= terms.iter().any(|&term| made(term));
+                        any_made |= terms.iter().any(|&term| made(term));
                         let weights = chosen("weights", &made);
                         quote!(sums.increments(&mut #stage, base, Self::#name, #weights, #list);)
                     }
@@ -169,7 +169,8 @@ impl Stored<'_, '_> {
         let weights = matches!(self.form, Form::Increments(_)).then(
             || quote!(let weights = emitted::weights::<V::Scalar, _>(step.size, Self::#weights);),
         );
-        let one = scaled.then(|| quote!(let one = <V::Scalar as emitted::Scalar>::from_f64(1.0);));
+        let one =
+            any_made.then(|| quote!(let one = <V::Scalar as emitted::Scalar>::from_f64(1.0);));
         let (values, base) = match kind {
             Node::Momentum(_) => (literal::identifier("p"), super::base(kind)),
             _ => (literal::identifier("q"), super::base(kind)),
@@ -245,7 +246,9 @@ impl Stored<'_, '_> {
     fn start(&self, kind: Node) -> Option<TokenStream> {
         let function = function_name(kind);
         let any = !self.coupled_of_kind(kind).is_empty();
-        any.then(|| quote!(Self::#function(step, stages, &mut emitted::Starting::<R>::new());))
+        any.then(
+            || quote!(Self::#function(step, stages, &mut emitted::StartingValues::<R>::new());),
+        )
     }
 
     /// The line that scales the coupled evaluations of a kind to increments; empty in the other form.

@@ -19,14 +19,6 @@ pub(super) enum Form {
     Weighted,
 }
 
-/// A sum over evaluations that gives a stage value.
-pub(super) struct Row {
-    /// The evaluations with a nonzero coefficient.
-    pub(super) terms: Vec<Node>,
-    /// Their coefficients.
-    pub(super) coefficients: Vec<TokenStream>,
-}
-
 impl Form {
     /// The form with increments, if the method admits it.
     pub(super) fn new(graph: &StepGraph<'_>, known: &Known) -> Self {
@@ -35,11 +27,8 @@ impl Form {
 
     /// The factors and terms of a stage value as two arguments: `factors, [terms]`.
     pub(super) fn sum(&self, graph: &StepGraph<'_>, node: Node) -> TokenStream {
-        let Row {
-            terms,
-            coefficients,
-        } = self.row(graph, node);
-        let slots = terms.iter().map(|&term| slot(term));
+        let coefficients = self.coefficients(graph, node);
+        let slots = Self::terms(graph, node).into_iter().map(slot);
         let factors = match self {
             Form::Increments(_) => quote!(emitted::factors([#(#coefficients),*])),
             Form::Weighted => quote!(emitted::weights(step.size, [#(#coefficients),*])),
@@ -47,13 +36,15 @@ impl Form {
         quote!(#factors, [#(&#slots),*])
     }
 
-    /// The nonzero coefficients of a stage value.
-    pub(super) fn row(&self, graph: &StepGraph<'_>, node: Node) -> Row {
-        let term = terms_of(node);
-        let value = graph.value(node);
-        let coefficients = value.map_or(&[][..], |value| &value.coefficients);
-        let nonzero = (0..coefficients.len()).filter(|&j| !coefficients[j].is_zero());
-        let coefficient = |j: usize| match self {
+    /// The evaluations that a stage value needs.
+    pub(super) fn terms(graph: &StepGraph<'_>, node: Node) -> Vec<Node> {
+        let nonzero = nonzero(graph, node).into_iter();
+        nonzero.map(|(j, _)| terms_of(node)(j)).collect()
+    }
+
+    /// Their coefficients.
+    pub(super) fn coefficients(&self, graph: &StepGraph<'_>, node: Node) -> Vec<TokenStream> {
+        let coefficient = |(j, number): (usize, &Number<'_>)| match self {
             Form::Increments(relative) => {
                 let row = match node {
                     Node::Momentum(i) => &relative.momenta[i],
@@ -61,13 +52,9 @@ impl Form {
                 };
                 literal::rounded(row[j])
             }
-            Form::Weighted => literal::coefficient(&coefficients[j]),
+            Form::Weighted => literal::coefficient(number),
         };
-        let (terms, coefficients) = nonzero.map(|j| (term(j), coefficient(j))).unzip();
-        Row {
-            terms,
-            coefficients,
-        }
+        nonzero(graph, node).into_iter().map(coefficient).collect()
     }
 
     /// The line that scales an evaluation, just written to its place, to an increment; empty in the other form.
@@ -117,6 +104,14 @@ impl Form {
         let (slot, weight) = (slot(node), literal::coefficient(&evaluation.weight));
         quote!(emitted::advance::<R, V>(#out, step.size, #weight, &#slot);)
     }
+}
+
+/// The nonzero coefficients of a stage value, each with the number of its evaluation.
+fn nonzero<'g, 'a>(graph: &'g StepGraph<'a>, node: Node) -> Vec<(usize, &'g Number<'a>)> {
+    let value = graph.value(node);
+    let coefficients = value.map_or(&[][..], |value| &value.coefficients);
+    let numbered = coefficients.iter().enumerate();
+    numbered.filter(|(_, number)| !number.is_zero()).collect()
 }
 
 /// Factors of evaluations, times the step size.

@@ -1,6 +1,6 @@
 //! Coupled stages as the matrices of a `StageTableau`.
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::super::dense_output::{Extension, StagePolynomials};
@@ -96,24 +96,25 @@ pub(super) struct Matrices<'m, 'g, 'n, 'a> {
 }
 
 impl Matrices<'_, '_, '_, '_> {
-    /// The implementation of `StageTableau` for the plan of a step, a type of this name. Its memory keeps the
+    /// The implementation of `StageTableau` for the plan of a step, a type with these generic parameters. Its memory keeps the
     /// `carried` evaluations unscaled.
-    pub(super) fn code(&self, name: &Ident, carried: &[Node]) -> TokenStream {
+    pub(super) fn code(
+        &self,
+        generics: &TokenStream,
+        name: &TokenStream,
+        carried: &[Node],
+    ) -> TokenStream {
         let lanes = Lanes::new(self.graph);
         let [positions, momenta] = self.halves();
         let place = |half: &str| {
             let half = literal::identifier(half);
-            match self.separable {
-                Some(_) => quote!(Self::#half),
-                None => quote!(<#name as emitted::StageTableau>::#half),
-            }
+            quote!(<#name as emitted::StageTableau>::#half)
         };
-        let positions = self
-            .known
-            .written(place("POSITIONS"), positions, HalfTableau::code);
-        let momenta = self
-            .known
-            .written(place("MOMENTA"), momenta, HalfTableau::code);
+        let momenta = match positions == momenta {
+            true => quote!(Self::POSITIONS),
+            false => (self.known).written(place("MOMENTA"), momenta, HalfTableau::code),
+        };
+        let positions = (self.known).written(place("POSITIONS"), positions, HalfTableau::code);
         let second_order = self.second_order(&lanes);
         let decoupling = self.decoupling();
         let carried = |kind: Node| {
@@ -129,12 +130,8 @@ impl Matrices<'_, '_, '_, '_> {
         let groups = Literal::usize_unsuffixed(lanes.groups);
         let lanes = literal::identifier(lanes.name);
         let increments = self.increments();
-        let of_class = match self.separable {
-            Some(_) => quote!(impl<K: emitted::Class> emitted::StageTableau for #name<K>),
-            None => quote!(impl emitted::StageTableau for #name),
-        };
         quote! {
-            #of_class {
+            impl #generics emitted::StageTableau for #name {
                 type Lanes = emitted::#lanes;
                 type Groups<T: ::core::fmt::Debug> = [T; #groups];
 

@@ -1,4 +1,4 @@
-//! The plan of a step for one class of Hamiltonians, as code.
+//! The plan of a step as code, for one class of Hamiltonians or for both.
 
 mod composition;
 mod coupled;
@@ -126,8 +126,9 @@ fn of_stages(
     let stored = Stored::new(graph, known);
     let bodies = stored.bodies();
     let coupling = identifier(bodies.coupling);
-    let matrices = stored.matrices(name, polynomials);
-    let plan = bodies.code(&quote!(), &quote!(#name), &quote!(emitted::#class));
+    let (generics, name) = (TokenStream::new(), quote!(#name));
+    let matrices = stored.matrices(&generics, &name, polynomials);
+    let plan = bodies.code(&generics, &name, &quote!(emitted::#class));
     Plan {
         name: quote!(emitted::#coupling<#name>),
         code: quote!(pub struct #name; #plan #matrices),
@@ -140,9 +141,9 @@ fn of_both(
     name: &Ident,
     polynomials: &StagePolynomials<'_, '_>,
 ) -> [Plan; 2] {
-    let bodies = step.bodies();
-    let matrices = step.matrices(name, Some(polynomials));
-    let plan = bodies.code(&quote!(<K: emitted::Class>), &quote!(#name<K>), &quote!(K));
+    let (generics, generic_name) = (quote!(<K: emitted::Class>), quote!(#name<K>));
+    let matrices = step.matrices(&generics, &generic_name, Some(polynomials));
+    let plan = (step.bodies()).code(&generics, &generic_name, &quote!(K));
     let code = quote! {
         pub struct #name<K>(::core::marker::PhantomData<K>);
 

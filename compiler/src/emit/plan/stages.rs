@@ -1,6 +1,6 @@
 //! Steps whose stages are stored: coupled ones, and explicit ones that are not splittings.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::super::dense_output::StagePolynomials;
@@ -69,7 +69,8 @@ impl<'g, 'a> Stored<'g, 'a> {
             },
         };
         let [begin, finish] = [self.begin(), self.finish()].map(with_slots);
-        let starting_values = self.starting_values();
+        let extrapolated = self.extrapolated();
+        let starting_values = self.starting_values(extrapolated.as_ref());
         let forces = literal::count(self.graph.forces.len());
         let velocities = literal::count(self.graph.velocities.len());
         let increments = self.increments();
@@ -82,7 +83,7 @@ impl<'g, 'a> Stored<'g, 'a> {
         let is_velocity = |node: &Node| matches!(node, Node::Velocity(_));
         let starts = usize::from(self.phases.coupled.iter().any(is_velocity));
         // Without extrapolation every step starts with an evaluation.
-        let (always, starts) = match self.extrapolated() {
+        let (always, starts) = match extrapolated {
             Some(_) => (0, starts),
             None => (starts, 0),
         };
@@ -108,16 +109,18 @@ impl<'g, 'a> Stored<'g, 'a> {
         }
     }
 
-    /// All stages as the matrices of the type of this name, if they are coupled.
+    /// All stages as the matrices of a type with these generic parameters, if they are coupled.
     pub(super) fn matrices(
         &self,
-        name: &Ident,
+        generics: &TokenStream,
+        name: &TokenStream,
         polynomials: Option<&StagePolynomials<'_, '_>>,
     ) -> Option<TokenStream> {
         let coupled = !self.phases.coupled.is_empty();
         coupled.then(|| {
             let carried: Vec<Node> = self.carried.iter().map(|&(_, last)| last).collect();
-            self.matrices_of(polynomials).code(name, &carried)
+            let matrices = self.matrices_of(polynomials);
+            matrices.code(generics, name, &carried)
         })
     }
 

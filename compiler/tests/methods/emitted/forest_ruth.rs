@@ -268,7 +268,7 @@ const _: () = {
                     &mut stages.velocity[0],
                 );
             emitted::copy_to(&mut stages.velocity, 0, [1, 2]);
-            Self::positions(step, stages, &mut emitted::Starting::<R>::new());
+            Self::positions(step, stages, &mut emitted::StartingValues::<R>::new());
         }
         #[inline]
         fn forces<

@@ -152,7 +152,7 @@ const _: () = {
                         [(-1.7320508075688772), 2.732050807568877],
                     ],
                 );
-                Self::positions(step, stages, &mut emitted::Starting::<R>::new());
+                Self::positions(step, stages, &mut emitted::StartingValues::<R>::new());
                 if !K::SEPARABLE {
                     emitted::transform(
                         &mut stages.force,
@@ -162,7 +162,11 @@ const _: () = {
                             [(-1.7320508075688772), 2.732050807568877],
                         ],
                     );
-                    Self::momenta(step, stages, &mut emitted::Starting::<R>::new());
+                    Self::momenta(
+                        step,
+                        stages,
+                        &mut emitted::StartingValues::<R>::new(),
+                    );
                 }
             } else {
                 emitted::reset(&mut stages.p, [0, 1], step.p);
@@ -175,7 +179,7 @@ const _: () = {
                     );
                 emitted::copy_to(&mut stages.velocity, 0, [1]);
                 emitted::scale_all(&mut stages.velocity, [0, 1], step.size, Self::B);
-                Self::positions(step, stages, &mut emitted::Starting::<R>::new());
+                Self::positions(step, stages, &mut emitted::StartingValues::<R>::new());
             }
         }
         #[inline]

@@ -231,13 +231,13 @@ const _: () = {
                     [0, 1, 2],
                     [[0.0, 0.0, 1.0], [4.0, (-3.0), 12.0], [3.0, (-2.0), 6.0]],
                 );
-                Self::positions(step, stages, &mut emitted::Starting::<R>::new());
+                Self::positions(step, stages, &mut emitted::StartingValues::<R>::new());
                 emitted::transform(
                     &mut stages.force,
                     [0, 1],
                     [[(-1.0), 0.5], [(-8.0), 3.0]],
                 );
-                Self::momenta(step, stages, &mut emitted::Starting::<R>::new());
+                Self::momenta(step, stages, &mut emitted::StartingValues::<R>::new());
             } else {
                 emitted::reset(&mut stages.p, [0, 1, 2], step.p);
                 system
@@ -249,7 +249,7 @@ const _: () = {
                     );
                 emitted::copy_to(&mut stages.velocity, 0, [1, 2]);
                 emitted::scale_all(&mut stages.velocity, [0, 1, 2], step.size, Self::B);
-                Self::positions(step, stages, &mut emitted::Starting::<R>::new());
+                Self::positions(step, stages, &mut emitted::StartingValues::<R>::new());
             }
         }
         #[inline]
@@ -517,7 +517,7 @@ const _: () = {
                     [0, 1, 2],
                     [[0.0, 0.0, 1.0], [4.0, (-3.0), 12.0], [3.0, (-2.0), 6.0]],
                 );
-                Self::positions(step, stages, &mut emitted::Starting::<R>::new());
+                Self::positions(step, stages, &mut emitted::StartingValues::<R>::new());
             } else {
                 emitted::reset(&mut stages.p, [0, 1, 2], step.p);
                 system
@@ -529,7 +529,7 @@ const _: () = {
                     );
                 emitted::copy_to(&mut stages.velocity, 0, [1, 2]);
                 emitted::scale_all(&mut stages.velocity, [0, 1, 2], step.size, Self::B);
-                Self::positions(step, stages, &mut emitted::Starting::<R>::new());
+                Self::positions(step, stages, &mut emitted::StartingValues::<R>::new());
             }
         }
         #[inline]

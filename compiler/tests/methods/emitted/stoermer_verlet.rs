@@ -184,7 +184,7 @@ const _: () = {
                 );
             emitted::copy_to(&mut stages.velocity, 0, [1]);
             emitted::scale_all(&mut stages.velocity, [0, 1], step.size, Self::B);
-            Self::positions(step, stages, &mut emitted::Starting::<R>::new());
+            Self::positions(step, stages, &mut emitted::StartingValues::<R>::new());
         }
         #[inline]
         fn forces<
