@@ -112,7 +112,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         let waits = !R::COMPENSATED && self.course.state.q.dimension() >= LONG;
         let alone = !R::COMPENSATED || size_of::<V>() <= FEW;
         match (size_of::<V>() <= SHORT, alone) {
-            _ if waits => self.run_here(clock, steps, size, FusedKicks::new(steps)),
+            _ if waits => self.run_here(clock, steps, size, FusedKicks::new()),
             (true, true) => self.run_alone(clock, steps, size),
             (true, false) => self.run_apart(clock, steps, size),
             (false, _) => self.run_here(clock, steps, size, ()),

@@ -1,12 +1,10 @@
 //! Kicks and drifts, the parts of a splitting.
 
-use core::mem;
-
 use crate::error::Quantity;
 use crate::method::{EvaluationObserver, Span};
 use crate::number::linear_combination::{advance, kick_and_drift};
 use crate::number::{Coefficient, Scalar, Summation, Vector};
-use crate::system::{Layout, System};
+use crate::system::System;
 
 /// A velocity of a splitting and its drift.
 #[derive(Clone, Copy, Debug)]
@@ -141,7 +139,7 @@ impl KickDrift for () {
 
 /// A deferred force and deferred kicks: the force is not yet evaluated, and the kicks by one force are not yet added to the momentum. The
 /// next drift applies them in its own pass through the momentum, because with long vectors every pass through memory counts. The same pass
-/// evaluates the force if the system [can](System::kick_and_drift). Many passes use the preferred [layout](System::layout) of the system.
+/// evaluates the force if the system [can](System::kick_and_drift).
 ///
 /// The sums are plain, and every component has the same bits as without deferral.
 #[derive(Clone, Copy, Debug)]
@@ -151,24 +149,15 @@ pub(crate) struct FusedKicks {
     kicks: [(f64, Coefficient); 2],
     /// Number of deferred kicks.
     count: usize,
-    /// Lower bound on the number of passes to come, while the layout has not been chosen.
-    passes: u64,
-    /// How positions and momenta lie in memory.
-    layout: Layout,
 }
 
-/// Number of passes that is worth two changes of the layout.
-const MANY: u64 = 1 << 6;
-
 impl FusedKicks {
-    /// Nothing is deferred, and at least `passes` passes will come.
-    pub(crate) const fn new(passes: u64) -> Self {
+    /// Nothing is deferred.
+    pub(crate) const fn new() -> Self {
         Self {
             force: None,
             kicks: [(0.0, Coefficient::exact(0.0)); 2],
             count: 0,
-            passes,
-            layout: Layout::NATURAL,
         }
     }
 
@@ -177,51 +166,6 @@ impl FusedKicks {
     fn factors<T: Scalar>(&self) -> ([T; 2], usize) {
         let factors = self.kicks.map(|(h, weight)| T::weight(h, weight));
         (factors, self.count.min(factors.len()))
-    }
-
-    /// Kicks and a drift in one pass. Returns `false`, with positions and momenta in their natural order, if the system cannot do this.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn pass<V: Vector, S: System<V>>(
-        &mut self,
-        system: &S,
-        time: V::Scalar,
-        (q, p): (&mut V, &mut V),
-        place: &mut V,
-        kicks: &[V::Scalar],
-        drift: V::Scalar,
-    ) -> bool {
-        if mem::take(&mut self.passes) > MANY {
-            let layout = system.layout(q.as_slice(), p.as_slice());
-            if layout.put_vectors((q, p), place) {
-                self.layout = layout;
-            }
-        }
-        let state = (q.as_mut_slice(), p.as_mut_slice());
-        let made = system.kick_and_drift(time, state, self.layout, kicks, drift);
-        if !made {
-            self.put_back((q, p), place);
-        }
-        made
-    }
-
-    /// A drift without a kick before it, in the present layout.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn drift_alone<V: Vector>(&self, q: &mut V, p: &V, drift: V::Scalar) {
-        let (q, p) = (q.as_mut_slice(), p.as_slice());
-        let n = q.len().min(p.len());
-        for part in self.layout.parts(n) {
-            let (of_q, of_p) = (&mut q[part.in_q()], &p[part.in_p()]);
-            for (q, p) in of_q.iter_mut().zip(of_p) {
-                *q = drift.fused(*p, *q);
-            }
-        }
-    }
-
-    /// Puts positions and momenta back into their natural order.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn put_back<V: Vector>(&mut self, (q, p): (&mut V, &mut V), place: &mut V) {
-        let are_back = mem::take(&mut self.layout).put_vectors_back((q, p), place);
-        debug_assert!(are_back, "a place as long as the one before");
     }
 
     /// Evaluates the deferred force.
@@ -299,15 +243,12 @@ impl KickDrift for FusedKicks {
         let step = V::Scalar::weight(drift.span.size, drift.weight);
         if let (Some(Force { span, time, .. }), true) = (self.force, count > 0) {
             // Velocities are momenta, so the vector `velocity` is free.
-            if self.pass(system, span.at(time), (q, p), velocity, kicks, step) {
+            let state = (q.as_mut_slice(), p.as_mut_slice());
+            if system.kick_and_drift(span.at(time), state, kicks, step) {
                 (self.force, self.count) = (None, 0);
                 return;
             }
         }
-        if self.force.is_none() && count == 0 {
-            return self.drift_alone(q, p, step);
-        }
-        self.put_back((q, p), velocity);
         self.evaluate(system, force, q, p);
         self.count = 0;
         kick_and_drift(q, p, force, kicks, step);
@@ -321,7 +262,6 @@ impl KickDrift for FusedKicks {
         position: &mut V,
         (p, p_low): (&mut V, &mut V),
     ) {
-        self.put_back((position, p), force);
         self.evaluate(system, force, position, p);
         for (number, &(h, weight)) in self.kicks.iter().enumerate() {
             if number < self.count {
@@ -474,10 +414,7 @@ mod tests {
                 force: waves(1.9),
             };
             let expected = all((), start.clone(), system);
-            for passes in [0, u64::MAX] {
-                let fused = FusedKicks::new(passes);
-                assert_eq!(all(fused, start.clone(), system), expected);
-            }
+            assert_eq!(all(FusedKicks::new(), start.clone(), system), expected);
             assert!(expected.q.0.iter().all(|q| q.is_finite()));
         }
         check(&Chain::ring(Pulling));

@@ -16,7 +16,6 @@ pub(crate) mod lane_parameters;
 pub(crate) mod linearity;
 pub(crate) mod local_force;
 pub(crate) mod over_vectors;
-pub(crate) mod strands;
 
 pub use class::{
     Class, Conservative, Damped, FreePositions, General, Holonomic, Separable, Unconstrained,
@@ -46,5 +45,3 @@ pub use lane_parameters::LaneParameter;
 #[doc(hidden)]
 pub use local_force::{Components, MOST_ROW_STAGES, StageRows};
 pub use over_vectors::{OverEveryScalar, System, SystemInLanes};
-#[doc(hidden)]
-pub use strands::Layout;

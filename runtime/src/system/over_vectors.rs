@@ -6,7 +6,7 @@ use crate::error::{ConstraintName, Error};
 use crate::method::Solver;
 use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector};
 use crate::solver::Automatic;
-use crate::system::{Class, Components, Hamiltonian, LaneWork, Layout, StageRows, first};
+use crate::system::{Class, Components, Hamiltonian, LaneWork, StageRows, first};
 #[cfg(feature = "alloc")]
 use crate::system::{Gradients, Jacobian};
 
@@ -222,18 +222,10 @@ pub trait System<V: Vector>: Sized {
         &self,
         _time: V::Scalar,
         _state: (&mut [V::Scalar], &mut [V::Scalar]),
-        _layout: Layout,
         _kicks: &[V::Scalar],
         _drift: V::Scalar,
     ) -> bool {
         false
-    }
-
-    /// The layout in which [`kick_and_drift`](Self::kick_and_drift) is fastest for positions and momenta at these places in memory.
-    #[doc(hidden)]
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn layout(&self, _q: &[V::Scalar], _p: &[V::Scalar]) -> Layout {
-        Layout::NATURAL
     }
 }
 

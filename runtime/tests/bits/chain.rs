@@ -10,7 +10,6 @@ use symplectic::emitted::{Bonds, Chain};
 use symplectic::nalgebra::DVector;
 use symplectic::simd::{F64x4, Lanes};
 use symplectic::solver::FixedPoint;
-use symplectic::system::Layout;
 use symplectic::{
     Compensated, Error, Integrator, Method, Scalar, Separable, State, System, Vector, acceleration,
 };
@@ -120,7 +119,7 @@ fn rows_have_the_bits_of_single_particles() {
     }
 }
 
-/// Wherever rows begin in memory, and in strands.
+/// Wherever rows begin in memory.
 #[test]
 fn one_pass_has_the_bits_of_three() {
     type Part = std::ops::Range<usize>;
@@ -130,27 +129,18 @@ fn one_pass_has_the_bits_of_three() {
         all: [&DVector<T>; 2],
         parts: [Part; 2],
         kicks: &[f64],
-        in_strands: bool,
     ) {
         let kicks: Vec<T> = kicks.iter().copied().map(T::from_f64).collect();
         let (time, drift) = (T::from_f64(0.7), T::from_f64(0.011));
         let [mut q, mut p] = all.map(|x| x.as_slice().to_vec());
         let (in_q, in_p) = (&mut q[parts[0].clone()], &mut p[parts[1].clone()]);
-        let layout = match in_strands {
-            true => System::<DVector<T>>::layout(chain, in_q, in_p),
-            false => Layout::NATURAL,
-        };
-        let mut place = in_q.to_vec();
-        assert!(layout.put((&mut *in_q, &mut *in_p), &mut place));
         let made = System::<DVector<T>>::kick_and_drift(
             chain,
             time,
             (&mut *in_q, &mut *in_p),
-            layout,
             &kicks,
             drift,
         );
-        assert!(layout.put_back((in_q, in_p), &mut place));
         assert_eq!(made, (1..=2).contains(&kicks.len()));
         let [mut expected_q, mut expected_p] = all.map(|x| x.as_slice().to_vec());
         if made {
@@ -181,31 +171,22 @@ fn one_pass_has_the_bits_of_three() {
         ] {
             let parts = [in_q..in_q + n, in_p..in_p + n];
             for kicks in [&[0.03][..], &[0.02, 0.007], &[], &[0.1, 0.2, 0.3]] {
-                for in_strands in [false, true] {
-                    for chain in &chains(Driven) {
-                        check(chain, [&q, &p], parts.clone(), kicks, in_strands);
-                        check(
-                            chain,
-                            [&q_single, &p_single],
-                            parts.clone(),
-                            kicks,
-                            in_strands,
-                        );
-                    }
-                    for chain in &chains(Springs) {
-                        check(chain, [&q, &p], parts.clone(), kicks, in_strands);
-                    }
+                for chain in &chains(Driven) {
+                    check(chain, [&q, &p], parts.clone(), kicks);
+                    check(chain, [&q_single, &p_single], parts.clone(), kicks);
+                }
+                for chain in &chains(Springs) {
+                    check(chain, [&q, &p], parts.clone(), kicks);
                 }
             }
         }
     }
 }
 
-/// A chain whose passes are counted, and may be too many kicks for it, or in a layout that it asks for and does not know.
+/// A chain whose passes are counted, and may be too many kicks for it.
 struct Watched<'a> {
     passes: &'a Cell<u64>,
     most_kicks: usize,
-    layout: Option<Layout>,
 }
 
 impl System<DVector<f64>> for Watched<'_> {
@@ -232,7 +213,6 @@ impl System<DVector<f64>> for Watched<'_> {
         &self,
         time: f64,
         state: (&mut [f64], &mut [f64]),
-        layout: Layout,
         kicks: &[f64],
         drift: f64,
     ) -> bool {
@@ -241,12 +221,7 @@ impl System<DVector<f64>> for Watched<'_> {
         }
         self.passes.set(self.passes.get() + 1);
         let chain = Chain::ring(Driven);
-        System::<DVector<f64>>::kick_and_drift(&chain, time, state, layout, kicks, drift)
-    }
-
-    fn layout(&self, q: &[f64], p: &[f64]) -> Layout {
-        let best = || System::<DVector<f64>>::layout(&Chain::ring(Driven), q, p);
-        self.layout.unwrap_or_else(best)
+        System::<DVector<f64>>::kick_and_drift(&chain, time, state, kicks, drift)
     }
 }
 
@@ -258,7 +233,6 @@ fn long_vectors_make_passes() -> Result<(), Error> {
         let watched = Watched {
             passes: &passes,
             most_kicks,
-            layout: None,
         };
         let start = State::new(0.0, waves(64, 0.1), waves(64, 1.3));
         let mut plain = Integrator::plain(method, watched, start.clone(), 0.02)?;
@@ -275,36 +249,6 @@ fn long_vectors_make_passes() -> Result<(), Error> {
     check(TripleJump, 2, 299)?;
     check(TripleJump, 1, 200)?;
     check(SymplecticEuler, 1, 100)
-}
-
-/// One that has no place in the vectors is the natural one; of one that the system does not know after all it declines the first pass.
-#[test]
-fn a_system_may_ask_for_any_layout() -> Result<(), Error> {
-    let start = State::new(0.0, waves(70, 0.1), waves(70, 1.3));
-    let mut chain = Integrator::plain(PositionJump, Chain::ring(Driven), start.clone(), 0.02)?;
-    let expected = chain.take_steps(200)?;
-    for layout in [
-        Layout::NATURAL,
-        Layout::strands(1, 5, [2, 3]),
-        Layout::strands(8, 9, [0, 0]),
-        Layout::strands(8, 8, [0, 7]),
-        Layout::strands(usize::MAX, 2, [0, 0]),
-        Layout::strands(2, 2, [usize::MAX, 0]),
-        Layout::strands(2, 30, [1, 3]),
-        Layout::strands(2, 30, [10, 0]),
-    ] {
-        let passes = Cell::new(0);
-        let watched = Watched {
-            passes: &passes,
-            most_kicks: 2,
-            layout: Some(layout),
-        };
-        let mut plain = Integrator::plain(PositionJump, watched, start.clone(), 0.02)?;
-        passes.set(0);
-        assert_eq!(plain.take_steps(200)?, expected, "{layout:?}");
-        assert_eq!(passes.get(), 594, "{layout:?}");
-    }
-    Ok(())
 }
 
 #[test]

@@ -4,7 +4,7 @@
 mod derivatives;
 mod system_macro;
 
-use core::mem;
+use core::ops::Range;
 
 use num_traits::Zero;
 
@@ -14,9 +14,8 @@ use crate::number::{F64x8, Lanes, Scalar, Vector, copy};
 use crate::solver::Automatic;
 #[cfg(feature = "alloc")]
 use crate::system::Jacobian;
-use crate::system::strands::{Part, parts};
 use crate::system::{
-    Components, Layout, MOST_ROW_STAGES, OverEveryScalar, Separable, StageRows, System,
+    Components, MOST_ROW_STAGES, OverEveryScalar, Separable, StageRows, System,
 };
 
 /// The forces on the particles of a [`Chain`].
@@ -104,9 +103,8 @@ enum Ends {
 /// [ring](Self::ring), for `q_{n+1} = q_1`.
 ///
 /// An integrator knows the neighbours of every particle of a chain. Blocks of explicit steps with plain sums and at least 64
-/// components compute force, kicks and drift in one pass through the chain, with eight particles of doubles side by side.
-/// For many passes the chain is stored as eight strands (a [`Layout`]), one in each lane, and put back after the passes. Single steps
-/// have the same bits.
+/// components compute force, kicks and drift in one pass through the chain, with eight particles of doubles side by side. Single
+/// steps have the same bits.
 ///
 /// ```
 /// use symplectic::nalgebra::DVector;
@@ -209,10 +207,9 @@ impl<B: Bonds> Chain<B> {
 
     /// Makes a pass from the first particle to the last, in full rows as far as possible.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn walk<T: Scalar, R: Row<T>>(&self, time: T, layout: Layout, pass: &mut impl Pass<T>) {
+    fn walk<T: Scalar, R: Row<T>>(&self, time: T, pass: &mut impl Pass<T>) {
         let q = pass.positions();
         let n = q.len();
-        // The first and the last component are in place in every layout.
         let (Some(&first), Some(&last)) = (q.first(), q.last()) else {
             return;
         };
@@ -220,27 +217,12 @@ impl<B: Bonds> Chain<B> {
         let mut tension = self.first_tension(time, first, last);
         // A last particle without a bond to its right is computed separately.
         let bound = self.bound(n);
-        let [before, between, rows, after, last_ones] = if layout.is_natural() {
-            let begin = R::misaligned(q).min(bound);
-            let end = bound - (bound - begin) % R::WIDTH;
-            parts((begin, end), begin, bound)
-        } else {
-            layout.parts(bound)
-        };
-        self.part::<T, Single>(time, pass, before, beyond, &mut tension);
-        self.part::<T, Single>(time, pass, between, beyond, &mut tension);
-        match layout.is_natural() {
-            true => self.part::<T, R>(time, pass, rows, beyond, &mut tension),
-            false => self.strands::<T, R>(time, pass, rows, beyond, &mut tension),
-        }
-        self.part::<T, Single>(time, pass, after, beyond, &mut tension);
-        self.part::<T, Single>(time, pass, last_ones, beyond, &mut tension);
-        let apart = Part {
-            q: bound,
-            p: bound,
-            length: n - bound,
-        };
-        pass.rows::<Single>(apart, last, |here, _after| {
+        let begin = R::misaligned(q).min(bound);
+        let end = bound - (bound - begin) % R::WIDTH;
+        self.part::<T, Single>(time, pass, 0..begin, beyond, &mut tension);
+        self.part::<T, R>(time, pass, begin..end, beyond, &mut tension);
+        self.part::<T, Single>(time, pass, end..bound, beyond, &mut tension);
+        pass.rows::<Single>(bound..n, last, |here, _after| {
             self.between(time, tension, here, T::zero())
         });
     }
@@ -252,14 +234,12 @@ impl<B: Bonds> Chain<B> {
         &self,
         time: T,
         (q, p): (&mut [T], &mut [T]),
-        layout: Layout,
         kicks: &[T],
         drift: T,
     ) -> bool {
         match *kicks {
             [kick] => self.walk::<T, R>(
                 time,
-                layout,
                 &mut KicksAndDrift {
                     q,
                     p,
@@ -269,7 +249,7 @@ impl<B: Bonds> Chain<B> {
             ),
             [earlier, later] => {
                 let kicks = [earlier, later];
-                self.walk::<T, R>(time, layout, &mut KicksAndDrift { q, p, kicks, drift });
+                self.walk::<T, R>(time, &mut KicksAndDrift { q, p, kicks, drift });
             }
             _ => return false,
         }
@@ -282,11 +262,11 @@ impl<B: Bonds> Chain<B> {
         &self,
         time: T,
         pass: &mut impl Pass<T>,
-        part: Part,
+        part: Range<usize>,
         beyond: Option<T>,
         tension: &mut T,
     ) {
-        let after = (pass.positions().get(part.in_q().end).copied()).or(beyond);
+        let after = (pass.positions().get(part.end).copied()).or(beyond);
         let (time, after) = (R::splat(time), R::splat(after.unwrap_or(T::zero())));
         let mut before = R::splat(*tension);
         pass.rows::<R>(part, after, |here, next| {
@@ -294,37 +274,6 @@ impl<B: Bonds> Chain<B> {
             let left = R::left(before, right);
             before = right;
             self.between(time, left, here, right)
-        });
-        *tension = R::last(before);
-    }
-
-    /// [`part`](Self::part) for strands, one in each lane. The right neighbours of a row are the next row; those of the last row
-    /// are the first particles of the next strands.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn strands<T: Scalar, R: Row<T>>(
-        &self,
-        time: T,
-        pass: &mut impl Pass<T>,
-        part: Part,
-        beyond: Option<T>,
-        tension: &mut T,
-    ) {
-        let q = pass.positions();
-        let after = q
-            .get(part.in_q().end)
-            .copied()
-            .or(beyond)
-            .unwrap_or(T::zero());
-        let (rows, _) = R::rows(&q[part.in_q()]);
-        let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
-            return;
-        };
-        let (time, after) = (R::splat(time), R::right(R::load(first), R::splat(after)));
-        let between_strands = self.bonds.tension(time, after - R::load(last));
-        let mut before = R::left(R::splat(*tension), between_strands);
-        pass.rows::<R>(part, after, |here, next| {
-            let left = mem::replace(&mut before, self.bonds.tension(time, next - here));
-            self.between(time, left, here, before)
         });
         *tension = R::last(before);
     }
@@ -339,7 +288,7 @@ trait Pass<T: Scalar> {
     /// positions and those of the next row; the row after the last one is `after`.
     fn rows<R: Row<T>>(
         &mut self,
-        part: Part,
+        part: Range<usize>,
         after: R::Numbers,
         force: impl FnMut(R::Numbers, R::Numbers) -> R::Numbers,
     );
@@ -360,12 +309,12 @@ impl<T: Scalar> Pass<T> for Forces<'_, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn rows<R: Row<T>>(
         &mut self,
-        part: Part,
+        part: Range<usize>,
         after: R::Numbers,
         mut force: impl FnMut(R::Numbers, R::Numbers) -> R::Numbers,
     ) {
-        let (out, _) = R::rows_mut(&mut self.force[part.in_q()]);
-        let (q, _) = R::rows(&self.q[part.in_q()]);
+        let (out, _) = R::rows_mut(&mut self.force[part.clone()]);
+        let (q, _) = R::rows(&self.q[part.clone()]);
         let n = q.len().min(out.len());
         let (q, out) = (&q[..n], &mut out[..n]);
         let (Some(first), Some(last)) = (q.first(), n.checked_sub(1)) else {
@@ -398,12 +347,12 @@ impl<T: Scalar, const K: usize> Pass<T> for KicksAndDrift<'_, T, K> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn rows<R: Row<T>>(
         &mut self,
-        part: Part,
+        part: Range<usize>,
         after: R::Numbers,
         mut force: impl FnMut(R::Numbers, R::Numbers) -> R::Numbers,
     ) {
-        let (q, _) = R::rows_mut(&mut self.q[part.in_q()]);
-        let (p, _) = R::rows_mut(&mut self.p[part.in_p()]);
+        let (q, _) = R::rows_mut(&mut self.q[part.clone()]);
+        let (p, _) = R::rows_mut(&mut self.p[part]);
         let n = q.len().min(p.len());
         let (q, p) = (&mut q[..n], &mut p[..n]);
         let (kicks, drift) = (splats::<T, R, K>(self.kicks), R::splat(self.drift));
@@ -462,9 +411,9 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
             V::Scalar::doubles(q),
             V::Scalar::doubles_mut(&mut *force),
         ) {
-            return self.walk::<f64, Eight>(time, Layout::NATURAL, &mut Forces { q, force });
+            return self.walk::<f64, Eight>(time, &mut Forces { q, force });
         }
-        self.walk::<V::Scalar, Single>(time, Layout::NATURAL, &mut Forces { q, force });
+        self.walk::<V::Scalar, Single>(time, &mut Forces { q, force });
     }
 
     const LOCAL_FORCE: bool = true;
@@ -553,36 +502,20 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
         &self,
         time: V::Scalar,
         (q, p): (&mut [V::Scalar], &mut [V::Scalar]),
-        layout: Layout,
         kicks: &[V::Scalar],
         drift: V::Scalar,
     ) -> bool {
         let n = q.len().min(p.len());
         let (q, p) = (&mut q[..n], &mut p[..n]);
-        if !layout.is_natural() && layout != System::<V>::layout(self, q, p) {
-            return false;
-        }
         if let (Some(&[time, drift]), Some(kicks), Some(q), Some(p)) = (
             V::Scalar::doubles(&[time, drift]),
             V::Scalar::doubles(kicks),
             V::Scalar::doubles_mut(&mut *q),
             V::Scalar::doubles_mut(&mut *p),
         ) {
-            return self.kicks_and_drift::<f64, Eight>(time, (q, p), layout, kicks, drift);
+            return self.kicks_and_drift::<f64, Eight>(time, (q, p), kicks, drift);
         }
-        self.kicks_and_drift::<V::Scalar, Single>(time, (q, p), layout, kicks, drift)
-    }
-
-    /// One strand in each lane.
-    #[inline]
-    fn layout(&self, q: &[V::Scalar], p: &[V::Scalar]) -> Layout {
-        let (Some(q), Some(p)) = (V::Scalar::doubles(q), V::Scalar::doubles(p)) else {
-            return Layout::NATURAL;
-        };
-        let bound = self.bound(q.len().min(p.len()));
-        let begin = [q, p].map(|vector| <Eight as Row<f64>>::misaligned(vector).min(bound));
-        let width = <Eight as Row<f64>>::WIDTH;
-        Layout::strands(width, (bound - begin[0].max(begin[1])) / width, begin)
+        self.kicks_and_drift::<V::Scalar, Single>(time, (q, p), kicks, drift)
     }
 
     fn energy(&self, time: V::Scalar, q: &V, p: &V) -> Option<V::Scalar> {

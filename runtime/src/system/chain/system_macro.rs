@@ -41,16 +41,10 @@ macro_rules! chain_system {
                 &self,
                 time: V::Scalar,
                 state: (&mut [V::Scalar], &mut [V::Scalar]),
-                layout: $crate::emitted::Layout,
                 kicks: &[V::Scalar],
                 drift: V::Scalar,
             ) -> bool {
-                $crate::System::<V>::kick_and_drift(&$crate::emitted::Chain::$ends($bonds(self)), time, state, layout, kicks, drift)
-            }
-
-            #[inline]
-            fn layout(&self, q: &[V::Scalar], p: &[V::Scalar]) -> $crate::emitted::Layout {
-                $crate::System::<V>::layout(&$crate::emitted::Chain::$ends($bonds(self)), q, p)
+                $crate::System::<V>::kick_and_drift(&$crate::emitted::Chain::$ends($bonds(self)), time, state, kicks, drift)
             }
 
             fn energy(&self, time: V::Scalar, q: &V, p: &V) -> ::core::option::Option<V::Scalar> {
