@@ -1,13 +1,13 @@
 //! Many steps of one size, in place if possible.
 
-use core::{hint, mem};
+use core::mem;
 
 use super::{Integrator, MemoryOf, PlanOf, StepMemory};
 use crate::error::Error;
 use crate::integrator::clock::Clock;
 use crate::method::kick_drift::FusedKicks;
 use crate::method::{KickDrift, Method, Outcome, Plan, Solver, Span, StageStorage, WarmStart};
-use crate::number::vector::{LIGHT, SHORT, is_in_place};
+use crate::number::vector::{LIGHT, is_in_place};
 use crate::number::{Summation, Vector, copy};
 use crate::system::System;
 
@@ -19,9 +19,6 @@ fn block(dimension: usize) -> u64 {
 
 /// Smallest dimension at which forces and kicks wait for the next drift.
 const LONG: usize = 1 << 6;
-
-/// Largest size in bytes of a vector of few components, or of one whose components are elsewhere.
-const FEW: usize = 1 << 6;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Takes `count` steps of one size by a clock; the last one goes to the time `end`, if it is given.
@@ -110,12 +107,9 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             copy(&mut next_low.1, &low.1);
         }
         let waits = !R::COMPENSATED && self.course.state.q.dimension() >= LONG;
-        let alone = !R::COMPENSATED || size_of::<V>() <= FEW;
-        match (size_of::<V>() <= SHORT, alone) {
-            _ if waits => self.run_here(clock, steps, size, FusedKicks::new()),
-            (true, true) => self.run_alone(clock, steps, size),
-            (true, false) => self.run_apart(clock, steps, size),
-            (false, _) => self.run_here(clock, steps, size, ()),
+        match waits {
+            true => self.run(clock, steps, size, FusedKicks::new()),
+            false => self.run(clock, steps, size, ()),
         }
         if !self.course.is_sound() {
             self.course.memory = StageStorage::like(&self.course.state.q);
@@ -133,66 +127,16 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         true
     }
 
-    /// Takes steps in the memory of `next`.
+    /// Takes steps that overwrite `next`.
     #[inline]
-    fn run_here(&mut self, clock: &Clock, steps: u64, size: f64, kick_drift: impl KickDrift) {
+    fn run(&mut self, clock: &Clock, steps: u64, size: f64, mut kick_drift: impl KickDrift) {
         let StepMemory {
-            next,
-            next_low,
+            next: (q, p),
+            next_low: (q_low, p_low),
             memory,
             ..
         } = &mut self.course;
         let system = &self.system;
-        Self::run(
-            system,
-            clock,
-            steps,
-            size,
-            (next, next_low),
-            memory,
-            kick_drift,
-        );
-    }
-
-    /// Takes steps with `next` moved out of the memory of the integrator, so that it stays in registers from step to step.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run_apart(&mut self, clock: &Clock, steps: u64, size: f64) {
-        let blank = || (V::blank(), V::blank());
-        // The order affects how registers are assigned to six components: see `ratios`, springs, and `instructions`.
-        let mut low = mem::replace(&mut self.course.next_low, blank());
-        let mut memory = mem::replace(&mut self.course.memory, StageStorage::like(&V::blank()));
-        let mut next = mem::replace(&mut self.course.next, blank());
-        Self::run(
-            &self.system,
-            clock,
-            steps,
-            size,
-            (&mut next, &mut low),
-            &mut memory,
-            (),
-        );
-        (self.course.next, self.course.next_low) = (next, low);
-        self.course.memory = memory;
-    }
-
-    /// [`run_apart`](Self::run_apart), in a function of its own. Plain steps and steps of few components are so short that other values in
-    /// registers slow them down. The compiler would also pack components to suit the use of the last step.
-    #[inline(never)]
-    fn run_alone(&mut self, clock: &Clock, steps: u64, size: f64) {
-        self.run_apart(clock, steps, size);
-    }
-
-    /// Takes steps that overwrite a state.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run(
-        system: &S,
-        clock: &Clock,
-        steps: u64,
-        size: f64,
-        ((q, p), (q_low, p_low)): (&mut (V, V), &mut (V, V)),
-        memory: &mut MemoryOf<M, S, V, N>,
-        mut kick_drift: impl KickDrift,
-    ) {
         for number in 0..steps {
             // The compiler removes this if the system does not depend on time.
             let time = clock.later(number);
@@ -242,11 +186,6 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     ) -> Result<u64, Error> {
         let before = self.course.anew();
         let mut course = mem::replace(&mut self.course, before);
-        // Increments already wait for their weights; in registers they would also have to be stored before they can be broadcast.
-        if !R::COMPENSATED && <MemoryOf<M, S, V, N> as StageStorage<V>>::BROADCASTS {
-            // `black_box` does nothing, but the compiler cannot know this and leaves the memory in place.
-            hint::black_box(&mut course);
-        }
         let mut failed = None;
         let mut taken = 0;
         while taken < steps && failed.is_none() {
