@@ -199,13 +199,13 @@ impl<V: Vector, A: Flow<V>, B: Flow<V>> Flows<'_, V, A, B> {
 }
 
 impl<U: Vector, A: Flow<U>, B: Flow<U>> KickDrift for Flows<'_, U, A, B> {
-    fn force<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
+    fn force<V: Vector, S: System<V>, W: EvaluationObserver>(
         &mut self,
         _force: Force,
         _system: &S,
+        _q: &V,
+        _p: &V,
         _place: &mut V,
-        _position: &mut V,
-        _momentum: (&mut V, &mut V),
         _witness: &mut W,
     ) {
     }
@@ -215,8 +215,8 @@ impl<U: Vector, A: Flow<U>, B: Flow<U>> KickDrift for Flows<'_, U, A, B> {
         _h: f64,
         weight: Coefficient,
         _system: &S,
-        _force: &mut V,
-        _position: &mut V,
+        _q: &V,
+        _force: &V,
         _momentum: (&mut V, &mut V),
     ) {
         self.next(Part::Kick, weight);
@@ -226,20 +226,11 @@ impl<U: Vector, A: Flow<U>, B: Flow<U>> KickDrift for Flows<'_, U, A, B> {
         &mut self,
         drift: Drift,
         _system: &S,
-        _evaluations: (&mut V, &mut V),
+        _place: &mut V,
         _position: (&mut V, &mut V),
-        _momentum: (&mut V, &mut V),
+        _p: &V,
         _witness: &mut W,
     ) {
         self.next(Part::Drift, drift.weight);
-    }
-
-    fn settle<R: Summation, V: Vector, S: System<V>>(
-        &mut self,
-        _system: &S,
-        _force: &mut V,
-        _position: &mut V,
-        _momentum: (&mut V, &mut V),
-    ) {
     }
 }

@@ -5,8 +5,7 @@ use core::mem;
 use super::{Integrator, MemoryOf, PlanOf, StepMemory};
 use crate::error::Error;
 use crate::integrator::clock::Clock;
-use crate::method::kick_drift::FusedKicks;
-use crate::method::{KickDrift, Method, Outcome, Plan, Solver, Span, StageStorage, WarmStart};
+use crate::method::{Method, Outcome, Plan, Solver, Span, StageStorage, WarmStart};
 use crate::number::vector::{LIGHT, is_in_place};
 use crate::number::{Summation, Vector, copy};
 use crate::system::System;
@@ -16,9 +15,6 @@ use crate::system::System;
 fn block(dimension: usize) -> u64 {
     (1 << 20) / (dimension as u64).clamp(16, 1 << 13)
 }
-
-/// Smallest dimension at which forces and kicks wait for the next drift.
-const LONG: usize = 1 << 6;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Takes `count` steps of one size by a clock; the last one goes to the time `end`, if it is given.
@@ -106,11 +102,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             copy(&mut next_low.0, &low.0);
             copy(&mut next_low.1, &low.1);
         }
-        let waits = !R::COMPENSATED && self.course.state.q.dimension() >= LONG;
-        match waits {
-            true => self.run(clock, steps, size, FusedKicks::new()),
-            false => self.run(clock, steps, size, ()),
-        }
+        self.run(clock, steps, size);
         if !self.course.is_sound() {
             self.course.memory = StageStorage::like(&self.course.state.q);
             return false;
@@ -129,7 +121,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 
     /// Takes steps that overwrite `next`.
     #[inline]
-    fn run(&mut self, clock: &Clock, steps: u64, size: f64, mut kick_drift: impl KickDrift) {
+    fn run(&mut self, clock: &Clock, steps: u64, size: f64) {
         let StepMemory {
             next: (q, p),
             next_low: (q_low, p_low),
@@ -152,16 +144,9 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
                 system,
                 memory,
                 state,
-                &mut kick_drift,
+                &mut (),
             );
         }
-        let state = Outcome { q, q_low, p, p_low };
-        <PlanOf<M, S, V> as Plan>::settle_in_place::<R, V, S, N, _>(
-            system,
-            memory,
-            state,
-            &mut kick_drift,
-        );
     }
 
     /// Whether the memory that steps change is small and contiguous, so that copying it is cheap beside a few steps.

@@ -5,9 +5,9 @@ use core::slice;
 
 use crate::error::{Error, Quantity};
 use crate::method::{
-    Drift, EvaluationObserver, Evaluations, Failure, Force, Inside, Interpolation, KickDrift,
-    Method, Outcome, Plan, ProvedFor, Solver, StageStorage, Step, StepStatistics, Stopping,
-    WarmStart, check_no_constraints,
+    EvaluationObserver, Evaluations, Failure, Inside, Interpolation, KickDrift, Method, Outcome,
+    Plan, ProvedFor, Solver, StageStorage, Step, StepStatistics, Stopping, WarmStart,
+    check_no_constraints,
 };
 use crate::number::linear_combination::add_products;
 use crate::number::summation::add;
@@ -115,32 +115,19 @@ struct DampedKicks<'a, C> {
 
 impl<C: Vector> KickDrift for DampedKicks<'_, C> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn force<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
-        &mut self,
-        force: Force,
-        system: &S,
-        place: &mut V,
-        position: &mut V,
-        momentum: (&mut V, &mut V),
-        witness: &mut W,
-    ) {
-        ().force::<R, V, S, W>(force, system, place, position, momentum, witness);
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn kick<R: Summation, V: Vector, S: System<V>>(
         &mut self,
         h: f64,
         weight: Coefficient,
         system: &S,
-        force: &mut V,
-        position: &mut V,
+        q: &V,
+        force: &V,
         (p, p_low): (&mut V, &mut V),
     ) {
         let time = h * weight.double();
         // `C` and `V` are the same type.
         if let Some(change) = same_mut::<C, V>(self.change)
-            && system.kick(V::Scalar::from_f64(time), position, force, p, change)
+            && system.kick(V::Scalar::from_f64(time), q, force, p, change)
         {
             let found = change.dimension();
             if found != p.dimension() {
@@ -171,29 +158,6 @@ impl<C: Vector> KickDrift for DampedKicks<'_, C> {
             let count = if R::COMPENSATED { 3 } else { 2 };
             (*p, *low) = add::<R, _>(*p, *low, count, |j| terms[j]);
         }
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn drift<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
-        &mut self,
-        drift: Drift,
-        system: &S,
-        evaluations: (&mut V, &mut V),
-        position: (&mut V, &mut V),
-        momentum: (&mut V, &mut V),
-        witness: &mut W,
-    ) {
-        ().drift::<R, V, S, W>(drift, system, evaluations, position, momentum, witness);
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn settle<R: Summation, V: Vector, S: System<V>>(
-        &mut self,
-        _system: &S,
-        _force: &mut V,
-        _position: &mut V,
-        _momentum: (&mut V, &mut V),
-    ) {
     }
 }
 

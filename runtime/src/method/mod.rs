@@ -240,26 +240,10 @@ pub trait Plan {
     }
 
     /// Takes a step from `state`, in place, with the evaluations [kept](WarmStart::evaluation) by the previous step. Does nothing if
-    /// [`EVALUATIONS_IN_PLACE`](Self::EVALUATIONS_IN_PLACE) is `None`. `kick_drift` may defer a force and kicks.
+    /// [`EVALUATIONS_IN_PLACE`](Self::EVALUATIONS_IN_PLACE) is `None`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take_in_place<R, V, S, N, K>(
         _span: Span,
-        _system: &S,
-        _memory: &mut Self::Memory<V, S, N>,
-        _state: Outcome<'_, V>,
-        _kick_drift: &mut K,
-    ) where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-        N: Solver<V, S>,
-        K: KickDrift,
-    {
-    }
-
-    /// Applies to the state what steps [taken in place](Self::take_in_place) have deferred.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn settle_in_place<R, V, S, N, K>(
         _system: &S,
         _memory: &mut Self::Memory<V, S, N>,
         _state: Outcome<'_, V>,

@@ -58,16 +58,16 @@ where
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn force(&mut self, stage: usize, time: Coefficient) {
         let state = &mut self.state;
-        self.kick_drift.force::<R, V, S, W>(
+        self.kick_drift.force::<V, S, W>(
             Force {
                 span: self.span,
                 stage,
                 time,
             },
             self.system,
-            &mut self.evaluations.force,
             state.q,
-            (state.p, state.p_low),
+            state.p,
+            &mut self.evaluations.force,
             self.witness,
         );
     }
@@ -88,8 +88,8 @@ where
             self.span.size,
             weight,
             self.system,
-            &mut self.evaluations.force,
             state.q,
+            &self.evaluations.force,
             (state.p, state.p_low),
         );
     }
@@ -109,7 +109,7 @@ where
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn drift_by(&mut self, stage: usize, time: Coefficient, weight: Coefficient, known: bool) {
-        let (state, evaluations) = (&mut self.state, &mut *self.evaluations);
+        let state = &mut self.state;
         self.kick_drift.drift::<R, V, S, W>(
             Drift {
                 span: self.span,
@@ -119,9 +119,9 @@ where
                 known,
             },
             self.system,
-            (&mut evaluations.velocity, &mut evaluations.force),
+            &mut self.evaluations.velocity,
             (state.q, state.q_low),
-            (state.p, state.p_low),
+            state.p,
             self.witness,
         );
     }
@@ -261,22 +261,5 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
             witness: &mut (),
             sums: PhantomData,
         });
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn settle_in_place<R, V, S, N, K>(
-        system: &S,
-        memory: &mut Evaluations<V>,
-        state: Outcome<'_, V>,
-        kick_drift: &mut K,
-    ) where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = P::Class>,
-        N: Solver<V, S>,
-        K: KickDrift,
-    {
-        let momentum = (state.p, state.p_low);
-        kick_drift.settle::<R, V, S>(system, &mut memory.force, state.q, momentum);
     }
 }

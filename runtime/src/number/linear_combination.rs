@@ -213,50 +213,6 @@ fn add_one_by_one<T: Scalar>(out: &mut [T], low: &mut [T], factor: T, terms: &[T
     }
 }
 
-/// Several kicks in sequence and a drift with unit masses, component by component, with the same bits as one [`advance`] each.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn kick_and_drift<V: Vector>(
-    q: &mut V,
-    p: &mut V,
-    force: &V,
-    kicks: &[V::Scalar],
-    drift: V::Scalar,
-) {
-    let (q, p, force) = (q.as_mut_slice(), p.as_mut_slice(), force.as_slice());
-    match *kicks {
-        [] => add_kicked(q, p, force, [], drift),
-        [kick] => add_kicked(q, p, force, [kick], drift),
-        [first, second] => add_kicked(q, p, force, [first, second], drift),
-        _ => {
-            for (p, &force) in p.iter_mut().zip(force) {
-                *p = (kicks.iter()).fold(*p, |p, kick| kick.fused(force, p));
-            }
-            add_kicked(q, p, force, [], drift);
-        }
-    }
-}
-
-/// [`kick_and_drift`] of slices, which are known not to overlap.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn add_kicked<T: Scalar, const N: usize>(
-    q: &mut [T],
-    p: &mut [T],
-    force: &[T],
-    kicks: [T; N],
-    drift: T,
-) {
-    let n = q.len().min(p.len()).min(force.len());
-    let (q, p, force) = (&mut q[..n], &mut p[..n], &force[..n]);
-    for i in 0..n {
-        let mut momentum = p[i];
-        for kick in kicks {
-            momentum = kick.fused(force[i], momentum);
-        }
-        p[i] = momentum;
-        q[i] = drift.fused(momentum, q[i]);
-    }
-}
-
 /// `vectors_i = Σ_j matrix_ij vectors_j` for the vectors with these `indices`: starting values from the previous step.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub fn transform<V: Vector, const N: usize>(

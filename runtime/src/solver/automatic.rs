@@ -180,7 +180,7 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
 
     #[cfg(feature = "alloc")]
     fn goes_in_lanes() -> bool {
-        V::Scalar::IS_DOUBLE && !<S as System<V>>::LOCAL_FORCE
+        V::Scalar::IS_DOUBLE
     }
 
     #[cfg(feature = "alloc")]

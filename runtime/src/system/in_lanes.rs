@@ -1,7 +1,7 @@
 //! Systems over SIMD lanes.
 
 use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector};
-use crate::system::{Components, System, SystemInLanes};
+use crate::system::{System, SystemInLanes};
 
 /// Work with vectors of lanes in place of vectors `V`.
 #[doc(hidden)]
@@ -53,18 +53,6 @@ pub trait SystemLanes: Lanes {
         V: Vector,
         S: SystemInLanes<V>;
 
-    /// [`System::LOCAL_FORCE`] of a system over these lanes.
-    fn has_local_force<V, S>() -> bool
-    where
-        V: Vector,
-        S: SystemInLanes<V>;
-
-    /// [`System::local_force`] in every lane at once.
-    fn local_force<V, S>(system: &S, time: Self, components: &mut impl Components<Self>)
-    where
-        V: Vector,
-        S: SystemInLanes<V>;
-
     /// [`System::slopes`] in every lane at once.
     fn slopes<V, S>(
         system: &S,
@@ -106,24 +94,6 @@ macro_rules! system_lanes {
                 S: SystemInLanes<V>,
             {
                 System::<V::With<Self>>::force(system, time, q, p, force);
-            }
-
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn has_local_force<V, S>() -> bool
-            where
-                V: Vector,
-                S: SystemInLanes<V>,
-            {
-                <S as System<V::With<Self>>>::LOCAL_FORCE
-            }
-
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn local_force<V, S>(system: &S, time: Self, components: &mut impl Components<Self>)
-            where
-                V: Vector,
-                S: SystemInLanes<V>,
-            {
-                System::<V::With<Self>>::local_force(system, time, components);
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]

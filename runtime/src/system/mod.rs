@@ -14,7 +14,6 @@ pub(crate) mod lagrangian;
 pub(crate) mod lagrangian_macro;
 pub(crate) mod lane_parameters;
 pub(crate) mod linearity;
-pub(crate) mod local_force;
 pub(crate) mod over_vectors;
 
 pub use class::{
@@ -42,6 +41,4 @@ pub use lagrangian::Lagrangian;
 pub use lagrangian_macro::lagrangian;
 #[doc(hidden)]
 pub use lane_parameters::LaneParameter;
-#[doc(hidden)]
-pub use local_force::{Components, MOST_ROW_STAGES, StageRows};
 pub use over_vectors::{OverEveryScalar, System, SystemInLanes};

@@ -6,7 +6,7 @@ use crate::error::{ConstraintName, Error};
 use crate::method::Solver;
 use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector};
 use crate::solver::Automatic;
-use crate::system::{Class, Components, Hamiltonian, LaneWork, StageRows, first};
+use crate::system::{Class, Hamiltonian, LaneWork, first};
 #[cfg(feature = "alloc")]
 use crate::system::{Gradients, Jacobian};
 
@@ -188,45 +188,6 @@ pub trait System<V: Vector>: Sized {
     /// Whether trajectories of systems with different parameters run in lanes side by side.
     #[doc(hidden)]
     const JOINS: bool = false;
-
-    // The following items make a `Chain` fast; no other system implements them.
-
-    /// Whether there is a [`local_force`](Self::local_force).
-    #[doc(hidden)]
-    const LOCAL_FORCE: bool = false;
-
-    /// The force, component by component.
-    #[doc(hidden)]
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn local_force(&self, _time: V::Scalar, _components: &mut impl Components<V::Scalar>) {}
-
-    /// Whether there are [`row_forces`](Self::row_forces).
-    #[doc(hidden)]
-    const ROW_FORCES: bool = false;
-
-    /// The local force of all stages and of eight components at once.
-    #[doc(hidden)]
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn row_forces(&self, _rows: &mut impl StageRows) {}
-
-    /// Several kicks of the momenta by one force and a drift of the positions, in one pass over the components:
-    ///
-    /// ```text
-    /// p = kick_k.fused(force(time, q), p)   for each kick      q = drift.fused(p, q)
-    /// ```
-    ///
-    /// Returns `false`, and changes nothing, if the system cannot do so.
-    #[doc(hidden)]
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn kick_and_drift(
-        &self,
-        _time: V::Scalar,
-        _state: (&mut [V::Scalar], &mut [V::Scalar]),
-        _kicks: &[V::Scalar],
-        _drift: V::Scalar,
-    ) -> bool {
-        false
-    }
 }
 
 impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {

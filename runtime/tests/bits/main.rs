@@ -7,7 +7,6 @@ mod blocks;
 mod chain;
 mod elementary;
 mod lanes;
-mod local_force;
 mod not_a_number;
 mod plain_steps;
 mod slopes;

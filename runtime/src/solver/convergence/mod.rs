@@ -48,10 +48,6 @@ pub(crate) trait Sweeps {
     /// Whether a change at the level of rounding errors is the last if the next one would be at most one unit of EPSILON.
     const STOPS_AT_ROUNDING: bool;
 
-    /// Whether the size of the stages is measured after each sweep. Otherwise it is measured at the start of the step only, and serves
-    /// for [`are_about`](Self::are_about).
-    const MEASURED: bool = true;
-
     /// Numbers of evaluations that a step makes.
     fn evaluations(&self) -> EvaluationCounts;
 
@@ -77,18 +73,6 @@ pub(crate) trait Sweeps {
     /// One sweep over all stages.
     fn sweep(&mut self) -> Self::Movement;
 
-    /// Number of first sweeps after a warm start whose change need not be measured, because further sweeps follow.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn unexamined(&self) -> u32 {
-        0
-    }
-
-    /// A sweep whose change is not needed.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn sweep_unexamined(&mut self) {
-        self.sweep();
-    }
-
     /// A sweep that moves the stages twice as far (over-relaxation with factor 2). It is called only for systems that are not separable,
     /// with sums that wait for stagnation, in a warm start. Other implementations need not override it.
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -96,7 +80,7 @@ pub(crate) trait Sweeps {
         self.sweep()
     }
 
-    /// The change of all stages together in a sweep; see [`MEASURED`](Self::MEASURED) for the size.
+    /// The change of all stages together in a sweep.
     fn change(&self, movement: &Self::Movement) -> StageChange;
 
     /// [`settle_from_cold_start`], on a copy of the stages if that keeps the original in registers.
@@ -195,8 +179,7 @@ impl Movement for StageChange {
 pub(crate) struct Begun<M> {
     /// Number of sweeps made.
     iterations: u32,
-    /// The change of the first sweep, if it was not examined but may be needed. It is not kept if that sweep was
-    /// [unexamined](Sweeps::unexamined). A change then counts as noise if it is small compared with the examined changes.
+    /// The change of the first sweep, if it was not examined but may be needed. A change then counts as noise if it is small compared with the examined changes.
     first: Option<M>,
     /// The change of the sweep before the one that is examined next, if known.
     before: Option<M>,

@@ -30,15 +30,7 @@ pub(super) fn settle_from_warm_start<C: Class, T: Scalar, W: Sweeps>(
     }
     sweeps.begin(kept);
     let late = stopping.max_iterations.min(PATIENCE);
-    // At least two early sweeps are examined.
-    let unexamined = sweeps.unexamined().min(late - 2);
-    for _ in 0..unexamined {
-        sweeps.sweep_unexamined();
-    }
-    let mut begun = Begun {
-        iterations: unexamined,
-        ..Begun::NOTHING
-    };
+    let mut begun = Begun::NOTHING;
     let bound = stopping.max_iterations.min(STAGNATION);
     // If one half suffices, the smallest change may belong to a sweep that was not near rounding; if both must settle, it cannot.
     let near_by = if C::SEPARABLE { late } else { bound };
@@ -54,22 +46,22 @@ pub(super) fn settle_from_warm_start<C: Class, T: Scalar, W: Sweeps>(
     let [q, p] = units::<T>(WITHIN_REACH, kept.scales);
     let tolerance = stopping.tolerance;
     if tolerance >= q && (!both || tolerance >= p) {
-        let settled = to_tolerance(sweeps, tolerance, unexamined, near_by, both);
+        let settled = to_tolerance(sweeps, tolerance, near_by, both);
         settled.map(|iterations| (iterations, kept.scales))
     } else {
         to_rounding::<T, W>(sweeps, kept.scales, begun, late, both)
     }
 }
 
-/// Sweeps, after `iterations` earlier ones, until a change is within the tolerance.
+/// Sweeps until a change is within the tolerance.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn to_tolerance<W: Sweeps>(
     sweeps: &mut W,
     tolerance: f64,
-    mut iterations: u32,
     bound: u32,
     both: bool,
 ) -> Result<u32, Begun<W::Movement>> {
+    let mut iterations = 0;
     while iterations + 1 < bound {
         let this = sweeps.sweep();
         iterations += 1;
@@ -103,18 +95,10 @@ fn to_rounding<T: Scalar, W: Sweeps>(
                 this.is_within(one, both) || begun.before.is_some_and(next)
             };
             let before = size.scales;
-            let are_about_that = || sweeps.are_about(&this, before, both);
-            if is_last(before) && are_about_that() {
+            if is_last(before) && sweeps.are_about(&this, before, both) {
                 return Ok((begun.iterations, before));
             }
-            let scales = if W::MEASURED {
-                sweeps.change(&this).scales()
-            } else if are_about_that() {
-                before
-            } else {
-                begun.last = Some(this);
-                return Err(begun);
-            };
+            let scales = sweeps.change(&this).scales();
             if is_known::<T>(scales, both) {
                 size = Size::of::<T>(scales);
                 if this.is_within(size.near, both) {
@@ -153,10 +137,6 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
             if sweeps.are_about(&this, size.scales, true) {
                 break this;
             }
-            if !W::MEASURED {
-                begun.last = Some(this);
-                return Err(begun);
-            }
             let scales = sweeps.change(&this).scales();
             if is_known::<T>(scales, true) {
                 size = Size::of::<T>(scales);
@@ -192,7 +172,7 @@ fn to_stagnation<T: Scalar, W: Sweeps>(
     // Any nonzero change is below infinity.
     let is_moving = this.shrinks(f64::INFINITY, size.weights, both);
     if is_moving && dither_last_sweep(sweeps.time()) {
-        sweeps.sweep_unexamined();
+        sweeps.sweep();
         begun.iterations += 1;
     }
     Ok((begun.iterations, size.scales))

@@ -1,15 +1,11 @@
 //! Second-order systems (Nyström form): coupled stages with the momenta eliminated.
 
-mod local;
-mod rows;
 mod stages;
 mod update;
 
 use core::marker::PhantomData;
 use core::mem;
 
-use self::local::{Locally, is_local};
-use self::rows::are_in_rows;
 pub use self::stages::NystromStages;
 use crate::error::Quantity;
 use crate::method::tableau::Columns;
@@ -17,7 +13,6 @@ use crate::method::{
     EvaluationCounts, Failure, Inside, Outcome, SecondOrderTableau, Solver, StageChange,
     StageTableau, Step, StepStatistics, Stopping, WarmStart,
 };
-use crate::number::dither::dither_last_sweep;
 use crate::number::lanes::lanes;
 use crate::number::vector::is_in_place;
 use crate::number::{Lanes, Scalar, Summation, Vector};
@@ -33,15 +28,6 @@ use crate::system::{Class, System, SystemInLanes, SystemLanes};
 /// Takes a step of a second-order system `q'' = M⁻¹ f(t, q)`, whose velocity `M⁻¹ p` is linear in the momentum. Only the positions are
 /// iterated, with the coefficients of a [`SecondOrderTableau`]. Methods without such coefficients, and systems that are not
 /// separable, are solved as by [`SimdFixedPoint`].
-///
-/// For a [`Chain`](crate::emitted::Chain) on the heap, with up to eight stages at different times, a sweep is a single pass over the
-/// memory. The positions of the stages are computed, and used, component by component. This holds for a step with a warm start that
-/// settles in its early sweeps.
-/// A tolerance is then compared with a bound on the next change of the positions, up to rounding.
-/// The first sweeps of a step are not measured: three fewer than the previous step took. So a step takes at most two sweeps
-/// less than the previous step.
-/// With fewer than eight stages, and a number of components that is a multiple of eight, the lanes run along the components. Both
-/// layouts give the same bits.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn nystrom<P, R, V, S>(
     step: &Step<'_, V>,
@@ -61,8 +47,6 @@ where
         lanes,
         start,
         of_increments,
-        in_rows,
-        sweeps: sweeps_before,
         eliminated,
     } = memory;
     if !eliminates::<P>() {
@@ -70,8 +54,6 @@ where
     }
     *eliminated = true;
     *of_increments = R::COMPENSATED;
-    // If the iteration fails, the forces are not in rows.
-    *in_rows = false;
     if !<S as System<V>>::UNIT_MASSES {
         velocity::<P, V, S>(system, step, step.p, start, lanes);
     }
@@ -85,24 +67,10 @@ where
         },
         start,
     };
-    let mut work = match is_local::<P, V, S>() {
-        true => {
-            let mut locally = Locally::new(&mut sweeps, *sweeps_before);
-            let work = settle::<P::Class, f64>(&mut locally, kept, stopping)?;
-            let by_coin = R::COMPENSATED && dither_last_sweep(step.time);
-            *sweeps_before = work.iterations.saturating_sub(u32::from(by_coin));
-            work
-        }
-        false => settle::<P::Class, f64>(&mut sweeps, kept, stopping)?,
-    };
+    let mut work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
     // With unit masses, the velocity of the low part of the momentum is counted, like all velocities, but not computed.
     work.evaluations += sweeps.evaluations().finish;
-    *in_rows = are_in_rows::<P, V, S>(step.q.dimension());
-    if *in_rows {
-        update::in_rows::<P, R, V>(step, lanes, outcome);
-    } else if is_local::<P, V, S>() {
-        update::by_eights::<P, R, V>(step, lanes, outcome);
-    } else if R::COMPENSATED {
+    if R::COMPENSATED {
         update::compensated::<P, R, V, S>(step, system, start, lanes, outcome);
     } else {
         update::plain::<P, V, S>(step, start, lanes, outcome);
@@ -126,10 +94,8 @@ where
         true => 1.0,
         false => P::POSITIONS.weights[stage] * at.size,
     };
-    let force = |stage: usize, k: usize| match memory.in_rows {
-        true => rows::force(stages, stage, k) * factor(stage),
-        false => entry::<P, V>(stages.force.as_ref(), stage, k) * factor(stage),
-    };
+    let force =
+        |stage: usize, k: usize| entry::<P, V>(stages.force.as_ref(), stage, k) * factor(stage);
     sums::extend::<P, V>(&P::POSITIONS, at, force, p);
     let Some(polynomial) = P::MOMENTA.polynomial else {
         return;

@@ -1,6 +1,5 @@
 //! Memory of the Nyström form.
 
-use super::rows;
 use crate::error::Quantity;
 #[cfg(feature = "alloc")]
 use crate::method::{StagePart, StageVisit};
@@ -17,10 +16,6 @@ pub struct NystromStages<V: Vector, P: StageTableau> {
     pub(crate) start: V,
     /// Whether the forces, and `M⁻¹` times them, are stored as increments between steps: with compensated sums.
     pub(crate) of_increments: bool,
-    /// Whether the forces are stored in rows, in the place of the velocities.
-    pub(crate) in_rows: bool,
-    /// Number of sweeps of the previous step, without a sweep that the dither of the last sweep added. For local forces only.
-    pub(crate) sweeps: u32,
     /// Whether the momenta of the stages are eliminated.
     pub(crate) eliminated: bool,
 }
@@ -43,8 +38,6 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for NystromStages
             lanes: SimdStages::like(prototype),
             start: prototype.zeros_like(),
             of_increments: false,
-            in_rows: false,
-            sweeps: 0,
             eliminated: false,
         }
     }
@@ -52,7 +45,7 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for NystromStages
     fn words(&mut self, visit: &mut Visit<'_>) {
         self.lanes.words(visit);
         vector_words(core::array::from_mut(&mut self.start), visit);
-        words!(visit: self.of_increments, self.in_rows, self.sweeps, self.eliminated);
+        words!(visit: self.of_increments, self.eliminated);
     }
 
     #[cfg(feature = "alloc")]
@@ -64,19 +57,11 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for NystromStages
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
-        match self.in_rows {
-            true => self
-                .non_finite_force()
-                .map(|stage| (Quantity::Force, stage)),
-            false => self.lanes.non_finite(),
-        }
+        self.lanes.non_finite()
     }
 
     fn non_finite_force(&self) -> Option<usize> {
-        match self.in_rows {
-            true => rows::non_finite_force(&self.lanes),
-            false => self.lanes.non_finite_force(),
-        }
+        self.lanes.non_finite_force()
     }
 
     #[inline]

@@ -22,31 +22,6 @@ macro_rules! chain_system {
                 $crate::System::force(&$crate::emitted::Chain::$ends($bonds(self)), time, q, p, force);
             }
 
-            const LOCAL_FORCE: bool = true;
-
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn local_force(&self, time: V::Scalar, components: &mut impl $crate::emitted::Components<V::Scalar>) {
-                $crate::System::<V>::local_force(&$crate::emitted::Chain::$ends($bonds(self)), time, components);
-            }
-
-            const ROW_FORCES: bool = true;
-
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn row_forces(&self, rows: &mut impl $crate::emitted::StageRows) {
-                $crate::System::<V>::row_forces(&$crate::emitted::Chain::$ends($bonds(self)), rows);
-            }
-
-            #[inline]
-            fn kick_and_drift(
-                &self,
-                time: V::Scalar,
-                state: (&mut [V::Scalar], &mut [V::Scalar]),
-                kicks: &[V::Scalar],
-                drift: V::Scalar,
-            ) -> bool {
-                $crate::System::<V>::kick_and_drift(&$crate::emitted::Chain::$ends($bonds(self)), time, state, kicks, drift)
-            }
-
             fn energy(&self, time: V::Scalar, q: &V, p: &V) -> ::core::option::Option<V::Scalar> {
                 $crate::System::energy(&$crate::emitted::Chain::$ends($bonds(self)), time, q, p)
             }
