@@ -4,7 +4,6 @@ mod stages;
 mod update;
 
 use core::marker::PhantomData;
-use core::mem;
 
 pub use self::stages::NystromStages;
 use crate::error::Quantity;
@@ -224,12 +223,6 @@ pub(crate) fn position<R: Summation, L: Lanes>(
     factor.fused(sum, (h * node).fused(velocity, base))
 }
 
-/// Runs `work` in a separate function.
-#[inline(never)]
-fn apart<T>(work: impl FnOnce() -> T) -> T {
-    work()
-}
-
 /// Whether the momenta of the stages of this method are eliminated.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) const fn eliminates<P: StageTableau>() -> bool {
@@ -431,11 +424,7 @@ where
             self.lanes.scale_forces();
         }
         self.velocities();
-        let q = match mem::needs_drop::<V>() {
-            // The loops of long vectors run faster with all registers.
-            true => apart(|| self.positions()),
-            false => self.positions(),
-        };
+        let q = self.positions();
         // Positions stand for both halves.
         LaneMovement { q, p: q }
     }
