@@ -7,7 +7,6 @@ use crate::method::storage::is_finite;
 use crate::method::{
     Failure, Outcome, Plan, Solver, StageStorage, Step, StepStatistics, Stopping, WarmStart,
 };
-use crate::number::vector::{SHORT, is_in_place};
 use crate::number::{Summation, Vector, copy};
 #[cfg(feature = "alloc")]
 use crate::number::{Visit, scalar_words};
@@ -174,11 +173,11 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
     /// Exchanges the state and `next`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn swap<R: Summation>(&mut self) {
-        swap(&mut self.state.q, &mut self.next.0);
-        swap(&mut self.state.p, &mut self.next.1);
+        mem::swap(&mut self.state.q, &mut self.next.0);
+        mem::swap(&mut self.state.p, &mut self.next.1);
         if R::COMPENSATED {
-            swap(&mut self.low.0, &mut self.next_low.0);
-            swap(&mut self.low.1, &mut self.next_low.1);
+            mem::swap(&mut self.low.0, &mut self.next_low.0);
+            mem::swap(&mut self.low.1, &mut self.next_low.1);
         }
     }
 
@@ -221,25 +220,5 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
             p_low: &mut self.next_low.1,
         };
         (step, outcome, &mut self.memory)
-    }
-}
-
-/// Exchanges two vectors, or their handles. Short vectors avoid [`mem::swap`], which may be a call and keep them out of registers. Copying
-/// six components as a whole takes two overlapping copies, for which processors wait; copies by component do not overlap.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn swap<V: Vector>(a: &mut V, b: &mut V) {
-    let short = size_of::<V>() <= SHORT && is_in_place(a) && is_in_place(b);
-    match short {
-        true if size_of::<V>().is_power_of_two() => {
-            let first = mem::replace(a, V::blank());
-            *a = mem::replace(b, first);
-        }
-        true => {
-            let (a, b) = (a.as_mut_slice(), b.as_mut_slice());
-            for k in 0..a.len().min(b.len()) {
-                (a[k], b[k]) = (b[k], a[k]);
-            }
-        }
-        false => mem::swap(a, b),
     }
 }

@@ -1,17 +1,13 @@
-//! Chains: forces, energies, and one pass for all.
-
-use std::cell::Cell;
+//! Chains: forces, energies, and many steps at once.
 
 use crate::common::methods::{
     AdjointEuler, Gauss2, PositionJump, StoermerVerlet, SymplecticEuler, TripleJump,
 };
-use symplectic::emitted::copy;
 use symplectic::emitted::{Bonds, Chain};
 use symplectic::nalgebra::DVector;
 use symplectic::simd::{F64x4, Lanes};
-use symplectic::solver::FixedPoint;
 use symplectic::{
-    Compensated, Error, Integrator, Method, Scalar, Separable, State, System, Vector, acceleration,
+    Compensated, Error, Integrator, Method, Scalar, State, System, Vector,
 };
 
 /// `V(d) = d²/2 + d³/3`, which pulls at rest length too once it is moved by a quarter; a driven pendulum on every particle.
@@ -117,151 +113,6 @@ fn rows_have_the_bits_of_single_particles() {
             }
         }
     }
-}
-
-/// Wherever rows begin in memory.
-#[test]
-fn one_pass_has_the_bits_of_three() {
-    type Part = std::ops::Range<usize>;
-    /// Moves parts of two vectors.
-    fn check<T: Scalar>(
-        chain: &Chain<impl Bonds>,
-        all: [&DVector<T>; 2],
-        parts: [Part; 2],
-        kicks: &[f64],
-    ) {
-        let kicks: Vec<T> = kicks.iter().copied().map(T::from_f64).collect();
-        let (time, drift) = (T::from_f64(0.7), T::from_f64(0.011));
-        let [mut q, mut p] = all.map(|x| x.as_slice().to_vec());
-        let (in_q, in_p) = (&mut q[parts[0].clone()], &mut p[parts[1].clone()]);
-        let made = System::<DVector<T>>::kick_and_drift(
-            chain,
-            time,
-            (&mut *in_q, &mut *in_p),
-            &kicks,
-            drift,
-        );
-        assert_eq!(made, (1..=2).contains(&kicks.len()));
-        let [mut expected_q, mut expected_p] = all.map(|x| x.as_slice().to_vec());
-        if made {
-            let place = DVector::from_column_slice(&expected_q[parts[0].clone()]);
-            let force = force(chain, 0.7, &place);
-            let places = parts[0].clone().zip(parts[1].clone());
-            for (i, (in_q, in_p)) in places.enumerate() {
-                for &kick in &kicks {
-                    expected_p[in_p] = kick.fused(force[i], expected_p[in_p]);
-                }
-                expected_q[in_q] = drift.fused(expected_p[in_p], expected_q[in_q]);
-            }
-        }
-        assert!((q, p) == (expected_q, expected_p), "{parts:?}");
-    }
-    for n in (0..40).chain([64, 127, 200]) {
-        let (q, p) = (waves(n + 8, 0.4), waves(n + 8, 2.0));
-        let (q_single, p_single) = (q.map(|q| q as f32), p.map(|p| p as f32));
-        for (in_q, in_p) in [
-            (0, 0),
-            (1, 0),
-            (2, 5),
-            (3, 3),
-            (4, 1),
-            (5, 7),
-            (6, 2),
-            (7, 6),
-        ] {
-            let parts = [in_q..in_q + n, in_p..in_p + n];
-            for kicks in [&[0.03][..], &[0.02, 0.007], &[], &[0.1, 0.2, 0.3]] {
-                for chain in &chains(Driven) {
-                    check(chain, [&q, &p], parts.clone(), kicks);
-                    check(chain, [&q_single, &p_single], parts.clone(), kicks);
-                }
-                for chain in &chains(Springs) {
-                    check(chain, [&q, &p], parts.clone(), kicks);
-                }
-            }
-        }
-    }
-}
-
-/// A chain whose passes are counted, and may be too many kicks for it.
-struct Watched<'a> {
-    passes: &'a Cell<u64>,
-    most_kicks: usize,
-}
-
-impl System<DVector<f64>> for Watched<'_> {
-    type Class = Separable;
-    type Solver = FixedPoint;
-
-    const UNIT_MASSES: bool = true;
-
-    fn velocity(
-        &self,
-        _time: f64,
-        _q: &DVector<f64>,
-        p: &DVector<f64>,
-        velocity: &mut DVector<f64>,
-    ) {
-        copy(velocity, p);
-    }
-
-    fn force(&self, time: f64, q: &DVector<f64>, _p: &DVector<f64>, force: &mut DVector<f64>) {
-        System::force(&Chain::ring(Driven), time, q, q, force);
-    }
-
-    fn kick_and_drift(
-        &self,
-        time: f64,
-        state: (&mut [f64], &mut [f64]),
-        kicks: &[f64],
-        drift: f64,
-    ) -> bool {
-        if kicks.len() > self.most_kicks {
-            return false;
-        }
-        self.passes.set(self.passes.get() + 1);
-        let chain = Chain::ring(Driven);
-        System::<DVector<f64>>::kick_and_drift(&chain, time, state, kicks, drift)
-    }
-}
-
-/// Every drift after a kick in a block: all but those of the two steps by themselves and the first one.
-#[test]
-fn long_vectors_make_passes() -> Result<(), Error> {
-    fn check<M: Method>(method: M, most_kicks: usize, expected: u64) -> Result<(), Error> {
-        let passes = Cell::new(0);
-        let watched = Watched {
-            passes: &passes,
-            most_kicks,
-        };
-        let start = State::new(0.0, waves(64, 0.1), waves(64, 1.3));
-        let mut plain = Integrator::plain(method, watched, start.clone(), 0.02)?;
-        passes.set(0);
-        plain.take_steps(102)?;
-        assert_eq!(passes.get(), expected, "{}", M::NAME);
-        let mut chain = Integrator::plain(method, Chain::ring(Driven), start, 0.02)?;
-        assert_eq!(chain.take_steps(102)?, plain.state());
-        Ok(())
-    }
-    check(StoermerVerlet, 2, 99)?;
-    // Two kicks meet at every step.
-    check(StoermerVerlet, 1, 0)?;
-    check(TripleJump, 2, 299)?;
-    check(TripleJump, 1, 200)?;
-    check(SymplecticEuler, 1, 100)
-}
-
-#[test]
-fn a_system_without_passes_is_not_evaluated_while_an_integrator_is_made() -> Result<(), Error> {
-    let calls = Cell::new(0);
-    let system = acceleration(|_, q: &DVector<f64>, force: &mut DVector<f64>| {
-        calls.set(calls.get() + 1);
-        copy(force, q);
-    });
-    let start = State::new(0.0, waves(70, 0.1), waves(70, 1.3));
-    Integrator::plain(StoermerVerlet, system, start, 0.02)?;
-    assert_eq!(calls.get(), 0);
-    Ok(())
 }
 
 #[test]

@@ -178,7 +178,7 @@ fn steps_make_no_vectors() -> Result<(), Error> {
     check(Midpoint, 6 + 4)
 }
 
-/// In blocks of one pass for all, and by themselves.
+/// In blocks, and by themselves.
 #[test]
 fn steps_of_a_chain_make_no_vectors() -> Result<(), Error> {
     struct Springs;

@@ -18,8 +18,6 @@ struct Scripted<'a, const STOPS_AT_ROUNDING: bool> {
     begun: usize,
     /// Number of sweeps before the over-relaxed sweep.
     beyond: Option<usize>,
-    /// The number of sweeps that may be unexamined, and the number that were.
-    unexamined: [u32; 2],
     time: f64,
 }
 
@@ -31,7 +29,6 @@ impl<'a, const STOPS_AT_ROUNDING: bool> Scripted<'a, STOPS_AT_ROUNDING> {
             made: 0,
             begun: 0,
             beyond: None,
-            unexamined: [0; 2],
             time,
         }
     }
@@ -74,15 +71,6 @@ impl<const STOPS_AT_ROUNDING: bool> Sweeps for Scripted<'_, STOPS_AT_ROUNDING> {
             .map(|units| HalfChange::new(units * f64::EPSILON * scale, scale));
         self.made += 1;
         StageChange { q, p }
-    }
-
-    fn unexamined(&self) -> u32 {
-        self.unexamined[0]
-    }
-
-    fn sweep_unexamined(&mut self) {
-        self.unexamined[1] += 1;
-        self.sweep();
     }
 
     fn overrelaxed_sweep(&mut self) -> StageChange {
@@ -185,53 +173,6 @@ fn what_stagnates_after_another_step_has_one_sweep_more_at_half_of_all_times() {
     }
     assert_eq!(after(true, 5), Ok(5));
     assert!(after(true, 4).is_err());
-}
-
-/// The number of sweeps of an iteration that may leave `unexamined` sweeps unexamined, and the number that it left.
-fn passing_over<const STOPS_AT_ROUNDING: bool>(
-    unexamined: u32,
-    changes: &[f64],
-    bound: usize,
-) -> (Option<u32>, u32) {
-    let changes: Vec<_> = changes.iter().map(|&change| [change; 2]).collect();
-    let mut script = Scripted::<STOPS_AT_ROUNDING>::new(&changes, &[1.0], time(false));
-    script.unexamined[0] = unexamined;
-    let settled = made::<Separable, _>(&mut script, stages([1.0; 2]), at_most(bound));
-    (settled.ok().map(|x| x.0), script.unexamined[1])
-}
-
-#[test]
-fn sweeps_that_others_follow_are_not_looked_at() {
-    fn check<const STOPS_AT_ROUNDING: bool>(changes: [f64; 12], sweeps: u32, looks: u32) {
-        for unexamined in 0..sweeps {
-            let settled = Some(sweeps.max(unexamined + looks));
-            let found = passing_over::<STOPS_AT_ROUNDING>(unexamined, &changes, 20);
-            assert_eq!(found, (settled, unexamined), "{STOPS_AT_ROUNDING}");
-        }
-        // At least two sweeps are examined, and the bound is kept.
-        for bound in 2..=sweeps as usize {
-            let (settled, passed_over) = passing_over::<STOPS_AT_ROUNDING>(9, &changes, bound);
-            assert_eq!(passed_over, bound as u32 - 2, "{STOPS_AT_ROUNDING}");
-            let (expected, _) = passing_over::<STOPS_AT_ROUNDING>(0, &changes, bound);
-            assert_eq!(settled, expected, "{STOPS_AT_ROUNDING} {bound}");
-        }
-        // A NaN is missed only if it does not persist.
-        let mut changes = changes;
-        changes[0] = f64::NAN;
-        assert_eq!(
-            passing_over::<STOPS_AT_ROUNDING>(2, &changes, 20),
-            (Some(sweeps), 2)
-        );
-        changes[2..].fill(f64::NAN);
-        assert_eq!(passing_over::<STOPS_AT_ROUNDING>(2, &changes, 12).0, None);
-    }
-    let mut changes = [0.5; 12];
-    changes[..3].copy_from_slice(&[1e3, 200.0, 50.0]);
-    check::<true>(changes, 4, 1);
-    // Two sweeps must be examined to see that the second change is not smaller.
-    let mut changes = [6.0; 12];
-    changes[..5].copy_from_slice(&[1e12, 1e6, 50.0, 4.0, 5.0]);
-    check::<false>(changes, 5, 2);
 }
 
 #[test]
