@@ -9,9 +9,6 @@ use nalgebra::SMatrix;
 use crate::error::Error;
 use crate::number::Scalar;
 
-/// Largest size in bytes of a vector that is moved out of the memory of the integrator, where it may be in registers.
-pub(crate) const SHORT: usize = 1 << 8;
-
 /// Largest size in bytes of a memory that may be moved for several steps, or for one step that is repeated with more care.
 pub(crate) const LIGHT: usize = 1 << 14;
 
