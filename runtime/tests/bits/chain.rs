@@ -6,9 +6,7 @@ use crate::common::methods::{
 use symplectic::emitted::{Bonds, Chain};
 use symplectic::nalgebra::DVector;
 use symplectic::simd::{F64x4, Lanes};
-use symplectic::{
-    Compensated, Error, Integrator, Method, Scalar, State, System, Vector,
-};
+use symplectic::{Compensated, Error, Integrator, Method, Scalar, State, System, Vector};
 
 /// `V(d) = d²/2 + d³/3`, which pulls at rest length too once it is moved by a quarter; a driven pendulum on every particle.
 #[derive(Clone, Copy)]

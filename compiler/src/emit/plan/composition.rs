@@ -2,38 +2,51 @@
 
 use num_rational::BigRational;
 use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 
-use super::super::facts::Known;
-use super::{Plan, class_name, literal, of_stages};
-use crate::algebra::{Field, Number, Real, Reals};
-use crate::coefficients::Coefficients;
+use super::{Plan, class_name, for_each_class, literal};
+use crate::algebra::{Field, Real, Reals};
 use crate::derive::Substep;
-use crate::schedule::{Class, StepGraph};
+use crate::schedule::Class;
 use crate::tableau::Tableau;
 
-/// A composition of different methods for one class of Hamiltonians.
+/// A composition of different methods.
 pub(super) struct Composed<'a> {
-    pub(super) class: Class,
+    /// The plans of the methods.
+    pub(super) plans: Vec<Plan>,
     pub(super) methods: &'a [Tableau],
-    pub(super) numbers: &'a [Coefficients<Number<'a>>],
-    pub(super) known: &'a [Known],
     pub(super) substeps: &'a [Substep],
 }
 
 impl Composed<'_> {
-    /// The plans of the methods, and the list of the substeps as a type of this name.
-    pub(super) fn code(&self, name: &Ident) -> TokenStream {
-        let count = self.methods.len();
-        let names: Vec<Ident> = (1..=count).map(|k| format_ident!("{name}{k}")).collect();
-        let plans = (0..count).map(|k| {
-            let graph = StepGraph::new(self.class, &self.methods[k], &self.numbers[k]);
-            of_stages(&graph, &names[k], &self.known[k], None)
-        });
-        let plans: Vec<Plan> = plans.collect();
+    /// The plan for one class.
+    pub(super) fn of_class(&self, class: Class, name: &Ident) -> Plan {
+        let class = class_name(class);
+        let (generics, of_class) = (TokenStream::new(), quote!(emitted::#class));
+        let substeps = self.code(&generics, &quote!(#name), &of_class);
+        Plan {
+            name: quote!(emitted::Composition<#name>),
+            code: quote!(pub struct #name; #substeps),
+        }
+    }
+
+    /// The plans for both classes, from plans of the methods that are generic over the class `K`.
+    pub(super) fn of_both(&self, name: &Ident) -> [Plan; 2] {
+        let generics = quote!(<K: emitted::Class>);
+        let substeps = self.code(&generics, &quote!(#name<K>), &quote!(K));
+        let code = quote! {
+            pub struct #name<K>(::core::marker::PhantomData<K>);
+
+            #substeps
+        };
+        for_each_class(code, &quote!(Composition), name)
+    }
+
+    /// The plans of the methods, and the list of the substeps of a type, with these generic parameters.
+    fn code(&self, generics: &TokenStream, name: &TokenStream, class: &TokenStream) -> TokenStream {
+        let (plans, count) = (&self.plans, self.plans.len());
         let names: Vec<&TokenStream> = plans.iter().map(|plan| &plan.name).collect();
         let codes = plans.iter().map(|plan| &plan.code);
-        let class = class_name(self.class);
         // Memories as nested pairs.
         let memory = names.iter().rev().fold(TokenStream::new(), |rest, plan| {
             let own = quote!(<#plan as emitted::Plan>::Memory<V, S, N>);
@@ -90,10 +103,8 @@ impl Composed<'_> {
         quote! {
             #(#codes)*
 
-            pub struct #name;
-
-            impl emitted::Substeps for #name {
-                type Class = emitted::#class;
+            impl #generics emitted::Substeps for #name {
+                type Class = #class;
                 type Memory<#vector, S: emitted::System<V>, #solver> = #memory;
 
                 const SUBSTEPS: &'static [emitted::Substep] = &[#(#substeps),*];

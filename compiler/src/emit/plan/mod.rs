@@ -9,7 +9,7 @@ mod splitting;
 mod stages;
 
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 
 use super::dense_output::StagePolynomials;
 use super::facts::Known;
@@ -72,11 +72,24 @@ pub(super) fn plans(
         let stepped = !long || class == Class::Separable;
         stepped.then(|| StepGraph::new(class, tableau, numbers))
     });
-    if let [Some(general), Some(separable)] = &graphs
-        && substeps.len() < 2
-        && let Some(step) = Stored::for_both([general, separable], &known, &polynomials)
-    {
-        return of_both(&step, shared, &polynomials);
+    let composed = |plans| Composed {
+        plans,
+        methods,
+        substeps,
+    };
+    let is_composed =
+        |graph: &StepGraph<'_>| substeps.len() > 1 && !Phases::new(graph).coupled.is_empty();
+    if let [Some(general), Some(separable)] = &graphs {
+        if is_composed(general) && is_composed(separable) {
+            if let Some(plans) = parts_of_both(methods, &parts, &parts_known, shared) {
+                return composed(plans).of_both(shared);
+            }
+        } else if let Some(step) =
+            Stored::for_both([general, separable], &known, Some(&polynomials))
+        {
+            let code = of_both(&step, shared, Some(&polynomials));
+            return for_each_class(code, &quote!(Coupled), shared);
+        }
     }
     let [general, separable] = names;
     let [general_graph, separable_graph] = graphs;
@@ -87,21 +100,46 @@ pub(super) fn plans(
                 code: TokenStream::new(),
             };
         };
-        if substeps.len() < 2 || Phases::new(&graph).coupled.is_empty() {
+        if !is_composed(&graph) {
             return of_stages(&graph, name, &known, Some(&polynomials));
         }
-        let composed = Composed {
-            class,
-            methods,
-            numbers: &parts,
-            known: &parts_known,
-            substeps,
+        let part = |(k, name): (usize, Ident)| {
+            let graph = StepGraph::new(class, &methods[k], &parts[k]);
+            of_stages(&graph, &name, &parts_known[k], None)
         };
-        Plan {
-            name: quote!(emitted::Composition<#name>),
-            code: composed.code(name),
-        }
+        let plans = numbered(name, methods.len())
+            .enumerate()
+            .map(part)
+            .collect();
+        composed(plans).of_class(class, name)
     })
+}
+
+/// The plans of the methods of a composition for both classes, generic over the class `K`, if each has one.
+fn parts_of_both(
+    methods: &[Tableau],
+    numbers: &[Coefficients<Number<'_>>],
+    known: &[Known],
+    name: &Ident,
+) -> Option<Vec<Plan>> {
+    let plan = |(k, name): (usize, Ident)| {
+        let graphs = [Class::General, Class::Separable]
+            .map(|class| StepGraph::new(class, &methods[k], &numbers[k]));
+        let step = Stored::for_both(graphs.each_ref(), &known[k], None)?;
+        Some(Plan {
+            code: of_both(&step, &name, None),
+            name: quote!(emitted::Coupled<#name<K>>),
+        })
+    };
+    numbered(name, methods.len())
+        .enumerate()
+        .map(plan)
+        .collect()
+}
+
+/// The name with the numbers 1 to `count`.
+fn numbered(name: &Ident, count: usize) -> impl Iterator<Item = Ident> {
+    (1..=count).map(move |k| format_ident!("{name}{k}"))
 }
 
 fn class_name(class: Class) -> Ident {
@@ -135,21 +173,25 @@ fn of_stages(
     }
 }
 
-/// A plan of coupled stages for both classes: a type of this name, generic over the class.
+/// A plan of coupled stages for both classes: a type of this name, generic over the class. Without polynomials there is no dense output.
 fn of_both(
     step: &Stored<'_, '_>,
     name: &Ident,
-    polynomials: &StagePolynomials<'_, '_>,
-) -> [Plan; 2] {
+    polynomials: Option<&StagePolynomials<'_, '_>>,
+) -> TokenStream {
     let (generics, generic_name) = (quote!(<K: emitted::Class>), quote!(#name<K>));
-    let matrices = step.matrices(&generics, &generic_name, Some(polynomials));
+    let matrices = step.matrices(&generics, &generic_name, polynomials);
     let plan = (step.bodies()).code(&generics, &generic_name, &quote!(K));
-    let code = quote! {
+    quote! {
         pub struct #name<K>(::core::marker::PhantomData<K>);
 
         #plan
         #matrices
-    };
+    }
+}
+
+/// The plans of both classes, from the code of a type that is generic over the class.
+fn for_each_class(code: TokenStream, kind: &TokenStream, name: &Ident) -> [Plan; 2] {
     [
         (Class::General, code),
         (Class::Separable, TokenStream::new()),
@@ -157,7 +199,7 @@ fn of_both(
     .map(|(class, code)| {
         let class = class_name(class);
         Plan {
-            name: quote!(emitted::Coupled<#name<emitted::#class>>),
+            name: quote!(emitted::#kind<#name<emitted::#class>>),
             code,
         }
     })

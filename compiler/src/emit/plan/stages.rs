@@ -40,7 +40,7 @@ impl<'g, 'a> Stored<'g, 'a> {
     pub(super) fn for_both(
         [general, separable]: [&'g StepGraph<'a>; 2],
         known: &'g Known,
-        polynomials: &StagePolynomials<'_, '_>,
+        polynomials: Option<&StagePolynomials<'_, '_>>,
     ) -> Option<Self> {
         if !general.has_the_stages_of(separable) {
             return None;
@@ -52,7 +52,7 @@ impl<'g, 'a> Stored<'g, 'a> {
             && step.carried == other.carried
             && step.extrapolated().is_some() == other.extrapolated().is_some()
             && !step.phases.coupled.is_empty();
-        let halves = |step: &Self| step.matrices_of(Some(polynomials)).halves();
+        let halves = |step: &Self| step.matrices_of(polynomials).halves();
         (same && halves(&step) == halves(&other)).then_some(Stored {
             separable: Some(separable),
             ..step
