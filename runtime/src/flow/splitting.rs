@@ -5,9 +5,7 @@ use core::marker::PhantomData;
 use nalgebra::Vector1;
 
 use super::{Flow, FlowError, Span};
-use crate::method::{
-    Drift, EvaluationObserver, Force, KickDrift, Method, Outcome, Plan, StageStorage,
-};
+use crate::method::{KickDrift, Method, Outcome, Plan, StageStorage};
 use crate::number::{Coefficient, Plain, Summation, Vector};
 use crate::solver::FixedPoint;
 use crate::system::{Separable, System};
@@ -199,17 +197,6 @@ impl<V: Vector, A: Flow<V>, B: Flow<V>> Flows<'_, V, A, B> {
 }
 
 impl<U: Vector, A: Flow<U>, B: Flow<U>> KickDrift for Flows<'_, U, A, B> {
-    fn force<V: Vector, S: System<V>, W: EvaluationObserver>(
-        &mut self,
-        _force: Force,
-        _system: &S,
-        _q: &V,
-        _p: &V,
-        _place: &mut V,
-        _witness: &mut W,
-    ) {
-    }
-
     fn kick<R: Summation, V: Vector, S: System<V>>(
         &mut self,
         _h: f64,
@@ -222,15 +209,13 @@ impl<U: Vector, A: Flow<U>, B: Flow<U>> KickDrift for Flows<'_, U, A, B> {
         self.next(Part::Kick, weight);
     }
 
-    fn drift<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
+    fn drift<R: Summation, V: Vector>(
         &mut self,
-        drift: Drift,
-        _system: &S,
-        _place: &mut V,
+        _h: f64,
+        weight: Coefficient,
+        _velocity: &V,
         _position: (&mut V, &mut V),
-        _p: &V,
-        _witness: &mut W,
     ) {
-        self.next(Part::Drift, drift.weight);
+        self.next(Part::Drift, weight);
     }
 }

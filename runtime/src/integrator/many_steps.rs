@@ -5,9 +5,9 @@ use core::mem;
 use super::{Integrator, MemoryOf, PlanOf, StepMemory};
 use crate::error::Error;
 use crate::integrator::clock::Clock;
-use crate::method::{Method, Outcome, Plan, Solver, Span, StageStorage, WarmStart};
+use crate::method::{Method, Plan, Solver, Span, StageStorage, WarmStart};
 use crate::number::vector::{LIGHT, is_in_place};
-use crate::number::{Summation, Vector, copy};
+use crate::number::{Summation, Vector};
 use crate::system::System;
 
 /// Number of steps of vectors of this dimension that are taken in place before the result is checked. The cost of the check is negligible
@@ -89,20 +89,21 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         }
         // The state stays unchanged. If the system panics, nothing that the previous steps left behind is reused.
         let before = mem::take(&mut self.course.kept);
-        let StepMemory {
-            state,
-            low,
-            next,
-            next_low,
-            ..
-        } = &mut self.course;
-        copy(&mut next.0, &state.q);
-        copy(&mut next.1, &state.p);
-        if R::COMPENSATED {
-            copy(&mut next_low.0, &low.0);
-            copy(&mut next_low.1, &low.1);
+        let (step, mut state, memory) = self.course.lend(size);
+        state.copy_from::<R>(&step);
+        for number in 0..steps {
+            // The compiler removes this if the system does not depend on time.
+            let time = clock.later(number);
+            let span = Span { time, size };
+            let (system, place) = (&self.system, state.reborrow());
+            <PlanOf<M, S, V> as Plan>::take_in_place::<R, V, S, N, _>(
+                span,
+                system,
+                memory,
+                place,
+                &mut (),
+            );
         }
-        self.run(clock, steps, size);
         if !self.course.is_sound() {
             self.course.memory = StageStorage::like(&self.course.state.q);
             return false;
@@ -117,36 +118,6 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         self.course.last_size = size;
         self.course.statistics.count_explicit(steps, evaluations);
         true
-    }
-
-    /// Takes steps that overwrite `next`.
-    #[inline]
-    fn run(&mut self, clock: &Clock, steps: u64, size: f64) {
-        let StepMemory {
-            next: (q, p),
-            next_low: (q_low, p_low),
-            memory,
-            ..
-        } = &mut self.course;
-        let system = &self.system;
-        for number in 0..steps {
-            // The compiler removes this if the system does not depend on time.
-            let time = clock.later(number);
-            let state = Outcome {
-                q: &mut *q,
-                q_low: &mut *q_low,
-                p: &mut *p,
-                p_low: &mut *p_low,
-            };
-            let span = Span { time, size };
-            <PlanOf<M, S, V> as Plan>::take_in_place::<R, V, S, N, _>(
-                span,
-                system,
-                memory,
-                state,
-                &mut (),
-            );
-        }
     }
 
     /// Whether the memory that steps change is small and contiguous, so that copying it is cheap beside a few steps.

@@ -43,7 +43,7 @@ pub use coupled::Coupled;
 pub use damped::{DampedMemory, DampedPlan, friction_growth};
 pub use explicit::Explicit;
 pub use interpolation::{Inside, Interpolation};
-pub use kick_drift::{Drift, Force, KickDrift};
+pub use kick_drift::KickDrift;
 #[cfg(feature = "alloc")]
 pub use lane_stages::{LaneMemory, LaneOutcome, LaneStages, StagePart, StageVisit};
 #[cfg(feature = "alloc")]

@@ -5,7 +5,7 @@ use num_traits::Zero;
 use crate::method::HalfChange;
 use crate::number::array::array;
 use crate::number::linear_combination::{shortest, starts, value};
-use crate::number::rows::{Eight, Row, splats};
+use crate::number::rows::{Eight, Row};
 use crate::number::summation::moved;
 use crate::number::{F64x8, Lanes, Scalar, Summation, Vector};
 
@@ -63,7 +63,7 @@ fn relax_rows<R: Summation, T: Scalar, const N: usize>(
     }
     let (out, base, low) = (&mut out[..n], &base[..n], &low[..n]);
     let terms: [_; N] = array(&[][..], |j| &terms[j][..n]);
-    let factors = splats::<f64, Eight, N>(array(0.0, |j| factors[j]));
+    let factors = array(F64x8::zero(), |j| Eight::splat(factors[j]));
     let zero = F64x8::zero();
     let (mut difference, mut scale) = (zero, zero);
     for i in 0..n {

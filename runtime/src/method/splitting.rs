@@ -2,11 +2,12 @@
 
 use core::marker::PhantomData;
 
+use crate::error::Quantity;
 use crate::method::{
-    Drift, EvaluationObserver, Evaluations, Failure, Force, Inside, Interpolation, KickDrift,
-    Outcome, Plan, Solver, Span, StageStorage, Step, StepStatistics, Stopping, WarmStart,
+    EvaluationObserver, Evaluations, Failure, Inside, Interpolation, KickDrift, Outcome, Plan,
+    Solver, Span, StageStorage, Step, StepStatistics, Stopping, WarmStart,
 };
-use crate::number::{Coefficient, Summation, Vector, copy};
+use crate::number::{Coefficient, Summation, Vector};
 use crate::system::{Class, System};
 
 /// How a splitting takes one step of a system of one [`Class`]. Every evaluation enters the later stages with its full weight, so it is
@@ -57,19 +58,9 @@ where
     /// Evaluates the force of a stage, from 1, at a time given as a fraction of the step.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn force(&mut self, stage: usize, time: Coefficient) {
-        let state = &mut self.state;
-        self.kick_drift.force::<V, S, W>(
-            Force {
-                span: self.span,
-                stage,
-                time,
-            },
-            self.system,
-            state.q,
-            state.p,
-            &mut self.evaluations.force,
-            self.witness,
-        );
+        let (state, force) = (&mut self.state, &mut self.evaluations.force);
+        (self.system).force(self.span.at(time), state.q, state.p, force);
+        (self.witness).evaluation(Quantity::Force, stage, &*state.q, force);
     }
 
     /// [`force`](Self::force), unless the previous step has kept it.
@@ -109,40 +100,25 @@ where
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn drift_by(&mut self, stage: usize, time: Coefficient, weight: Coefficient, known: bool) {
-        let state = &mut self.state;
-        self.kick_drift.drift::<R, V, S, W>(
-            Drift {
-                span: self.span,
-                stage,
-                time,
-                weight,
-                known,
-            },
-            self.system,
-            &mut self.evaluations.velocity,
-            (state.q, state.q_low),
-            state.p,
-            self.witness,
-        );
+        let (state, place) = (&mut self.state, &mut self.evaluations.velocity);
+        let velocity = match S::UNIT_MASSES {
+            true => &*state.p,
+            false => {
+                if !known {
+                    (self.system).velocity(self.span.at(time), state.q, state.p, place);
+                }
+                &*place
+            }
+        };
+        (self.witness).evaluation(Quantity::Velocity, stage, &*state.p, velocity);
+        let position = (&mut *state.q, &mut *state.q_low);
+        (self.kick_drift).drift::<R, V>(self.span.size, weight, velocity, position);
     }
 }
 
 /// The plan of a splitting. Its code contains no solver.
 #[derive(Clone, Copy, Debug)]
 pub struct Splitting<P>(PhantomData<P>);
-
-impl<P: SplittingPlan> Splitting<P> {
-    /// Copies the state before `step` to `state`, where the step is applied.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn start<R: Summation, V: Vector>(step: &Step<'_, V>, state: &mut Outcome<'_, V>) {
-        copy(state.q, step.q);
-        copy(state.p, step.p);
-        if R::COMPENSATED {
-            copy(state.q_low, step.q_low);
-            copy(state.p_low, step.p_low);
-        }
-    }
-}
 
 impl<P: SplittingPlan> Plan for Splitting<P> {
     type Class = P::Class;
@@ -190,7 +166,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         K: KickDrift,
         W: EvaluationObserver,
     {
-        Self::start::<R, V>(step, &mut outcome);
+        outcome.copy_from::<R>(step);
         P::apply(&mut SplittingStep::<R, V, S, K, W> {
             span: step.span(),
             system,

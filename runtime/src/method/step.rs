@@ -2,7 +2,7 @@
 
 use crate::error::Quantity;
 use crate::number::vector::{same, same_mut};
-use crate::number::{Coefficient, Scalar, Vector};
+use crate::number::{Coefficient, Scalar, Summation, Vector, copy};
 
 /// The step that is taken: from `(q, p)` at `time` to `time + size`.
 #[derive(Debug)]
@@ -145,6 +145,17 @@ impl<'a, V: Vector> Outcome<'a, V> {
             p: same_mut(self.p)?,
             p_low: same_mut(self.p_low)?,
         })
+    }
+
+    /// Copies the state before `step`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn copy_from<R: Summation>(&mut self, step: &Step<'_, V>) {
+        copy(self.q, step.q);
+        copy(self.p, step.p);
+        if R::COMPENSATED {
+            copy(self.q_low, step.q_low);
+            copy(self.p_low, step.p_low);
+        }
     }
 }
 

@@ -10,9 +10,6 @@ use crate::number::{Scalar, Vector, Visit, vector_words};
 
 /// Memory of one [`Plan`](crate::emitted::Plan), made once and used for every step.
 pub trait StageStorage<V: Vector>: Sized + Clone {
-    /// Whether single doubles are read from groups of lanes so wide that processors read them faster from memory than from a register.
-    const BROADCASTS: bool = false;
-
     /// Whether it holds a [tableau](Self::tableau) that is known only at run time.
     const AT_RUN_TIME: bool = false;
 

@@ -96,12 +96,6 @@ pub(crate) fn lane_of<L: Lanes>(group: L, stage: usize) -> f64 {
     group.to_array().as_ref()[stage % L::WIDTH]
 }
 
-/// The double of a stage, from a list of groups.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn in_groups<L: Lanes>(groups: &[L], stage: usize) -> f64 {
-    lane_of(groups[stage / L::WIDTH], stage)
-}
-
 /// The largest of several numbers, any of them if one is NaN: by halves, because narrower registers are enough for these.
 trait Largest {
     fn largest(self) -> f64;

@@ -1,8 +1,5 @@
 //! Long vectors by rows: the lanes run along the components.
 
-use num_traits::Zero;
-
-use crate::number::array::array;
 use crate::number::{F64x4, F64x8, Lanes, Scalar};
 
 /// Several components side by side.
@@ -167,10 +164,4 @@ row! {
 row! {
     /// Eight doubles side by side.
     Eight, F64x8, 8
-}
-
-/// Each factor as a row of equal components.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn splats<T: Scalar, R: Row<T>, const N: usize>(factors: [T; N]) -> [R::Numbers; N] {
-    array(R::Numbers::zero(), |i| R::splat(factors[i]))
 }

@@ -123,7 +123,7 @@ pub trait Scalar:
     #[doc(hidden)]
     fn as_words(&mut self, _visit: &mut Visit<'_>) {}
 
-    /// The numbers as doubles if they are doubles; doubles have rows, see [`Chain`](crate::emitted::Chain).
+    /// The numbers as doubles, if they are doubles.
     #[doc(hidden)]
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn doubles(_numbers: &[Self]) -> Option<&[f64]> {

@@ -67,11 +67,6 @@ const NO_DOUBLES: &str = "vectors over f64 are those of the system over f64";
 impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> StageStorage<V>
     for AutomaticStages<V, S, P>
 {
-    const BROADCASTS: bool = match V::Scalar::IS_DOUBLE {
-        true => <NystromStages<S::Doubles, P> as StageStorage<S::Doubles>>::BROADCASTS,
-        false => <P::Stages<V> as StageStorage<V>>::BROADCASTS,
-    };
-
     fn like(prototype: &V) -> Self {
         // A constant condition: doubles compile without the other branch, and other scalars without code for lanes.
         if V::Scalar::IS_DOUBLE {

@@ -60,7 +60,7 @@ pub(super) fn solve<C: Class, T: Scalar, W: Sweeps>(
     let solved = iterate::<C, T, _>(sweeps, kept, stopping, begun);
     let iterations = match solved {
         Ok((iterations, scales)) => {
-            work.scales = known::<T>(scales, W::both::<C>() || !W::STOPS_AT_ROUNDING);
+            work.scales = known::<T>(scales, !C::SEPARABLE || !W::STOPS_AT_ROUNDING);
             iterations
         }
         Err(Failure::NoConvergence { iterations, .. } | Failure::Stagnation { iterations, .. }) => {
@@ -87,7 +87,7 @@ fn iterate<C: Class, T: Scalar, W: Sweeps>(
         max_iterations,
         tolerance,
     } = stopping;
-    let both = W::both::<C>();
+    let both = !C::SEPARABLE;
     // Sweeps before this one are early.
     let late = max_iterations.min(PATIENCE);
     let tolerates = W::STOPS_AT_ROUNDING && tolerance > 0.0;

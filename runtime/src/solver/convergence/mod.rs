@@ -51,13 +51,6 @@ pub(crate) trait Sweeps {
     /// Numbers of evaluations that a step makes.
     fn evaluations(&self) -> EvaluationCounts;
 
-    /// Whether the momenta are tested for convergence too. In a separable system they are not: a sweep computes them from the old
-    /// positions.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn both<C: Class>() -> bool {
-        !C::SEPARABLE
-    }
-
     /// Time at the start of the step.
     fn time(&self) -> f64;
 

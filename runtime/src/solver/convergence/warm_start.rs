@@ -22,7 +22,7 @@ pub(super) fn settle_from_warm_start<C: Class, T: Scalar, W: Sweeps>(
     kept: WarmStart,
     stopping: Stopping,
 ) -> Settled<W::Movement> {
-    let both = W::both::<C>();
+    let both = !C::SEPARABLE;
     let goes_on = kept.stages && kept.scales[0] > 0.0;
     // The last allowed sweep is left to the cold start, which examines it.
     if !goes_on || stopping.max_iterations < 2 {

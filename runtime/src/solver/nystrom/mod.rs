@@ -163,44 +163,19 @@ struct Terms<C: 'static> {
     factor: f64,
 }
 
-impl<C: AsRef<[f64]>> Terms<C> {
-    /// For slopes computed from increments, with step size `h`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    const fn of_increments(columns: &'static [C], h: f64) -> Self {
-        Self { columns, factor: h }
-    }
-
-    /// For slopes computed from forces, whose weights are in the columns.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    const fn of_forces(columns: &'static [C], h: f64) -> Self {
-        let factor = h * h;
-        Self { columns, factor }
-    }
-
-    /// The sums, with an optional factor multiplied into the columns.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn sums(
-        &self,
-        factor: Option<f64>,
-    ) -> Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>> {
-        let columns = self.columns;
-        Sums {
-            count: columns.len(),
-            column: |j: usize| columns[j].as_ref(),
-            factor: move |_| factor,
-            with_low: false,
-            beyond: false,
-        }
-    }
-}
-
 impl Terms<&'static [f64]> {
-    /// For slopes computed from increments or from forces.
+    /// For slopes computed from increments, or from forces, whose weights are in the columns; with step size `h`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     const fn new<P: StageTableau>(of_increments: bool, h: f64) -> Self {
         match of_increments {
-            true => Self::of_increments(Columns::<P>::SECOND_ORDER, h),
-            false => Self::of_forces(Columns::<P>::OF_FORCES, h),
+            true => Self {
+                columns: Columns::<P>::SECOND_ORDER,
+                factor: h,
+            },
+            false => Self {
+                columns: Columns::<P>::OF_FORCES,
+                factor: h * h,
+            },
         }
     }
 }
@@ -257,8 +232,14 @@ impl<P: StageTableau> Start<P> {
     fn terms(of_increments: bool, h: f64) -> Terms<[f64; MOST]> {
         let count = P::POSITIONS.extrapolation.len();
         match of_increments {
-            true => Terms::of_increments(&Self::OF_INCREMENTS[..count], h),
-            false => Terms::of_forces(&Self::OF_FORCES[..count], h),
+            true => Terms {
+                columns: &Self::OF_INCREMENTS[..count],
+                factor: h,
+            },
+            false => Terms {
+                columns: &Self::OF_FORCES[..count],
+                factor: h * h,
+            },
         }
     }
 }
@@ -275,16 +256,20 @@ where
     fn positions(&mut self) -> P::Lanes {
         let terms = Terms::new::<P>(R::COMPENSATED, self.lanes.step.size);
         // Multiplied into the columns, the factor is computed once for all sweeps.
-        self.with(&terms, (!R::COMPENSATED).then_some(terms.factor))
+        self.with(&terms, !R::COMPENSATED)
     }
 
     /// Computes the positions with these terms, whose factor may be multiplied into the columns; returns their change.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn with(&mut self, terms: &Terms<impl AsRef<[f64]>>, in_columns: Option<f64>) -> P::Lanes {
-        let before = if in_columns.is_some() {
-            1.0
-        } else {
-            terms.factor
+    fn with(&mut self, terms: &Terms<impl AsRef<[f64]>>, in_columns: bool) -> P::Lanes {
+        let (columns, factor) = (terms.columns, in_columns.then_some(terms.factor));
+        let before = if in_columns { 1.0 } else { terms.factor };
+        let sums = Sums {
+            count: columns.len(),
+            column: |j: usize| columns[j].as_ref(),
+            factor: |_| factor,
+            with_low: false,
+            beyond: false,
         };
         let (step, stages) = (self.lanes.step, &mut *self.lanes.stages);
         let start = self.start.as_slice();
@@ -295,13 +280,7 @@ where
         };
         let base = (step.q, step.q_low);
         let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force);
-        values::<P, V>(
-            &terms.sums(in_columns),
-            stages.q.as_mut(),
-            base,
-            slopes.as_ref(),
-            value,
-        )
+        values::<P, V>(&sums, stages.q.as_mut(), base, slopes.as_ref(), value)
     }
 
     /// Computes `M⁻¹` times the increments of the momentum, except with unit masses.
@@ -363,7 +342,7 @@ where
     fn begin(&mut self, kept: WarmStart) {
         if kept.stages && starts_at_once(&P::POSITIONS) {
             let h = self.lanes.step.size;
-            self.with(&Start::<P>::terms(R::COMPENSATED, h), None);
+            self.with(&Start::<P>::terms(R::COMPENSATED, h), false);
             return;
         }
         if kept.stages && !P::POSITIONS.extrapolation.is_empty() {
@@ -379,7 +358,7 @@ where
             }
         }
         self.velocities();
-        self.with(&Terms::new::<P>(true, self.lanes.step.size), None);
+        self.with(&Terms::new::<P>(true, self.lanes.step.size), false);
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

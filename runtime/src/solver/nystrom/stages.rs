@@ -31,8 +31,6 @@ impl<V: Vector, P: StageTableau> Clone for NystromStages<V, P> {
 }
 
 impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for NystromStages<V, P> {
-    const BROADCASTS: bool = <SimdStages<V, P> as StageStorage<V>>::BROADCASTS;
-
     fn like(prototype: &V) -> Self {
         Self {
             lanes: SimdStages::like(prototype),

@@ -2,7 +2,7 @@
 
 use super::{slopes, tableau, velocity};
 use crate::method::{Outcome, StageTableau, Step};
-use crate::number::lanes::{in_groups, lane_of, lanes};
+use crate::number::lanes::{lane_of, lanes};
 use crate::number::linear_combination::sum_of_products;
 use crate::number::summation::add;
 use crate::number::{Lanes, Plain, Scalar, Summation, Vector};
@@ -79,7 +79,7 @@ pub(super) fn plain<P, V, S>(
     // `base + Σ_j factor_j term_j` in component k.
     let total = |base: f64, terms: &[Laned<V, P>], factor: &[P::Lanes], k: usize| {
         let terms = P::groups(|group| factor[group] * terms[group].as_slice()[k]);
-        let term = |stage: usize| in_groups(terms.as_ref(), stage);
+        let term = |stage: usize| lane_of(terms.as_ref()[stage / P::Lanes::WIDTH], stage);
         add::<Plain, f64>(base, 0.0, P::POSITIONS.count, term).0
     };
     let factors = P::groups(|group| rest.as_ref()[group] * weights[group]);

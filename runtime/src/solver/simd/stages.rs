@@ -54,8 +54,6 @@ impl<V: Vector, P: StageTableau> SimdStages<V, P> {
 }
 
 impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SimdStages<V, P> {
-    const BROADCASTS: bool = P::Lanes::WIDTH > 4;
-
     fn like(prototype: &V) -> Self {
         let zeros = || P::groups(|_| prototype.zeros_with::<P::Lanes>());
         Self {

@@ -23,16 +23,6 @@ pub(crate) fn times<P: StageTableau, V>(
     P::Lanes::from_f64(step.time) + fractions * P::Lanes::from_f64(step.size)
 }
 
-/// The factors that scale the evaluations of a group to increments.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn increment_factor<P: StageTableau>(
-    half: &HalfTableau,
-    h: f64,
-    group: usize,
-) -> P::Lanes {
-    lanes::<P::Lanes>(half.weights, group) * P::Lanes::from_f64(h)
-}
-
 /// Scales evaluations to increments.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn scale<P: StageTableau, V: Vector>(
@@ -42,7 +32,8 @@ pub(crate) fn scale<P: StageTableau, V: Vector>(
 ) {
     if P::INCREMENTS {
         for (group, evaluation) in evaluations.iter_mut().enumerate() {
-            let factor = increment_factor::<P>(half, h, group);
+            let weights = lanes::<P::Lanes>(half.weights, group);
+            let factor = weights * P::Lanes::from_f64(h);
             for component in evaluation.as_mut_slice() {
                 *component *= factor;
             }
@@ -193,7 +184,7 @@ pub(crate) fn sum<P: StageTableau>(
 
 /// `start + Σ_j factor_j columns_j terms_j` in one component, for the stages of one group; a factor is multiplied into the column.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn combination<L: Lanes>(
+fn combination<L: Lanes>(
     sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
     group: usize,
     start: Option<L>,

@@ -156,11 +156,6 @@ impl<B: Bonds> Chain<B> {
         }
     }
 
-    /// The bonds.
-    pub const fn bonds(&self) -> &B {
-        &self.bonds
-    }
-
     /// The position to the right of the last particle; `None` if there is no bond.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn beyond<T: Scalar>(&self, first: T) -> Option<T> {
