@@ -52,10 +52,11 @@ fn relax_rows<R: Summation, T: Scalar, const N: usize>(
     ) else {
         return 0;
     };
-    let rows = |slice| Eight::rows(slice).0;
-    let (out, _) = Eight::rows_mut(out);
-    let (base, low) = (rows(base), rows(low));
-    let terms: [_; N] = array(&[][..], |j| T::doubles(terms[j]).map_or(&[][..], rows));
+    let out = Eight::rows_mut(out);
+    let (base, low) = (Eight::rows(base), Eight::rows(low));
+    let terms: [_; N] = array(&[][..], |j| {
+        T::doubles(terms[j]).map_or(&[][..], Eight::rows)
+    });
     let n = (out.len()).min(base.len()).min(low.len());
     let n = terms.iter().fold(n, |n, term| n.min(term.len()));
     if n == 0 {

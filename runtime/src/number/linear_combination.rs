@@ -4,12 +4,9 @@
 //! result can bring them here; the integrator then returns
 //! [`Error::EvaluationDimension`](crate::Error::EvaluationDimension).
 
-use core::mem;
-
 use num_traits::Zero;
 
 use crate::number::array::array;
-use crate::number::rows::{Four, Row};
 use crate::number::summation::{add, add_sum};
 use crate::number::{Coefficient, Scalar, Summation, Vector};
 
@@ -164,52 +161,10 @@ pub(crate) fn add_products<R: Summation, V: Vector>(
         for i in 0..n {
             out[i] = factor.fused(terms[i], out[i]);
         }
-    } else if !mem::needs_drop::<V>()
-        && let (Some(out), Some(low), Some(&[factor]), Some(terms)) = (
-            V::Scalar::doubles_mut(&mut *out),
-            V::Scalar::doubles_mut(&mut *low),
-            V::Scalar::doubles(&[factor]),
-            V::Scalar::doubles(terms),
-        )
-    {
-        // Loops over few components whose number is known at compile time are written out. Whether the compiler vectorises them by itself
-        // would depend on the code around them.
-        let (out, low, terms) = add_rows(out, low, factor, terms);
-        add_one_by_one(out, low, factor, terms);
     } else {
-        add_one_by_one(out, low, factor, terms);
-    }
-}
-
-/// `out + low + factor terms` with compensated sums, four components side by side; returns the remaining components.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn add_rows<'a>(
-    out: &'a mut [f64],
-    low: &'a mut [f64],
-    factor: f64,
-    terms: &'a [f64],
-) -> (&'a mut [f64], &'a mut [f64], &'a [f64]) {
-    let (out, last_out) = Four::rows_mut(out);
-    let (low, last_low) = Four::rows_mut(low);
-    let (terms, last_terms) = Four::rows(terms);
-    let n = out.len().min(low.len()).min(terms.len());
-    let (out, low, terms) = (&mut out[..n], &mut low[..n], &terms[..n]);
-    let factor = Four::splat(factor);
-    for i in 0..n {
-        let (high, rest) = (Four::load(&out[i]), Four::load(&low[i]));
-        let (high, rest) = add_sum(high, rest, (factor * Four::load(&terms[i]), None));
-        (out[i], low[i]) = (Four::store(high), Four::store(rest));
-    }
-    (last_out, last_low, last_terms)
-}
-
-/// [`add_rows`], component by component.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn add_one_by_one<T: Scalar>(out: &mut [T], low: &mut [T], factor: T, terms: &[T]) {
-    let n = out.len().min(low.len()).min(terms.len());
-    let (out, low, terms) = (&mut out[..n], &mut low[..n], &terms[..n]);
-    for i in 0..n {
-        (out[i], low[i]) = add_sum(out[i], low[i], (factor * terms[i], None));
+        for i in 0..n {
+            (out[i], low[i]) = add_sum(out[i], low[i], (factor * terms[i], None));
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Long vectors by rows: the lanes run along the components.
 
-use crate::number::{F64x4, F64x8, Lanes, Scalar};
+use crate::number::{F64x8, Lanes, Scalar};
 
 /// Several components side by side.
 pub(crate) trait Row<T: Scalar> {
@@ -12,13 +12,10 @@ pub(crate) trait Row<T: Scalar> {
     /// Number of components of a row.
     const WIDTH: usize;
 
-    /// Number of components before the first one at which a row is aligned in memory.
-    fn misaligned(vector: &[T]) -> usize;
-
-    /// The rows of a vector, and the components that do not fill a row.
-    fn rows(vector: &[T]) -> (&[Self::Array], &[T]);
+    /// The full rows of a vector.
+    fn rows(vector: &[T]) -> &[Self::Array];
     /// Mutable [`rows`](Self::rows).
-    fn rows_mut(vector: &mut [T]) -> (&mut [Self::Array], &mut [T]);
+    fn rows_mut(vector: &mut [T]) -> &mut [Self::Array];
 
     /// Loads a row from memory.
     fn load(row: &Self::Array) -> Self::Numbers;
@@ -45,18 +42,13 @@ impl<T: Scalar> Row<T> for Single {
     const WIDTH: usize = 1;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn misaligned(_vector: &[T]) -> usize {
-        0
+    fn rows(vector: &[T]) -> &[[T; 1]] {
+        vector.as_chunks().0
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn rows(vector: &[T]) -> (&[[T; 1]], &[T]) {
-        vector.as_chunks()
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn rows_mut(vector: &mut [T]) -> (&mut [[T; 1]], &mut [T]) {
-        vector.as_chunks_mut()
+    fn rows_mut(vector: &mut [T]) -> &mut [[T; 1]] {
+        vector.as_chunks_mut().0
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -90,78 +82,54 @@ impl<T: Scalar> Row<T> for Single {
     }
 }
 
-macro_rules! row {
-    ($(#[$text:meta])* $name:ident, $lanes:ident, $width:literal) => {
-        $(#[$text])*
-        pub(crate) struct $name;
+/// Rows of eight doubles.
+pub(crate) struct Eight;
 
-        impl Row<f64> for $name {
-            type Array = [f64; $width];
-            type Numbers = $lanes;
+impl Row<f64> for Eight {
+    type Array = [f64; 8];
+    type Numbers = F64x8;
 
-            const WIDTH: usize = $width;
+    const WIDTH: usize = 8;
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn misaligned(vector: &[f64]) -> usize {
-                vector.as_ptr().align_offset(align_of::<$lanes>())
-            }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn rows(vector: &[f64]) -> &[[f64; 8]] {
+        vector.as_chunks().0
+    }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn rows(vector: &[f64]) -> (&[[f64; $width]], &[f64]) {
-                vector.as_chunks()
-            }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn rows_mut(vector: &mut [f64]) -> &mut [[f64; 8]] {
+        vector.as_chunks_mut().0
+    }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn rows_mut(vector: &mut [f64]) -> (&mut [[f64; $width]], &mut [f64]) {
-                vector.as_chunks_mut()
-            }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn load(row: &[f64; 8]) -> F64x8 {
+        F64x8::from_array(*row)
+    }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn load(row: &[f64; $width]) -> $lanes {
-                $lanes::from_array(*row)
-            }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn store(numbers: F64x8) -> [f64; 8] {
+        numbers.to_array()
+    }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn store(numbers: $lanes) -> [f64; $width] {
-                numbers.to_array()
-            }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn splat(number: f64) -> F64x8 {
+        F64x8::from_f64(number)
+    }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn splat(number: f64) -> $lanes {
-                $lanes::from_f64(number)
-            }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn last(numbers: F64x8) -> f64 {
+        numbers.to_array()[7]
+    }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn last(numbers: $lanes) -> f64 {
-                numbers.to_array()[$width - 1]
-            }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn right(numbers: F64x8, next: F64x8) -> F64x8 {
+        let (numbers, [after, ..]) = (numbers.to_array(), next.to_array());
+        F64x8::from_fn(|lane| if lane < 7 { numbers[lane + 1] } else { after })
+    }
 
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn right(numbers: $lanes, next: $lanes) -> $lanes {
-                let (numbers, [after, ..]) = (numbers.to_array(), next.to_array());
-                $lanes::from_fn(|lane| {
-                    if lane + 1 < $width {
-                        numbers[lane + 1]
-                    } else {
-                        after
-                    }
-                })
-            }
-
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn left(previous: $lanes, numbers: $lanes) -> $lanes {
-                let ([.., before], numbers) = (previous.to_array(), numbers.to_array());
-                $lanes::from_fn(|lane| if lane > 0 { numbers[lane - 1] } else { before })
-            }
-        }
-    };
-}
-
-row! {
-    /// Four doubles side by side.
-    Four, F64x4, 4
-}
-row! {
-    /// Eight doubles side by side.
-    Eight, F64x8, 8
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn left(previous: F64x8, numbers: F64x8) -> F64x8 {
+        let ([.., before], numbers) = (previous.to_array(), numbers.to_array());
+        F64x8::from_fn(|lane| if lane > 0 { numbers[lane - 1] } else { before })
+    }
 }

@@ -238,16 +238,15 @@ fn relax_rows<R: Summation, V: Vector>(
     if n == 0 {
         return 0;
     }
-    let (out, _) = Eight::rows_mut(out);
-    let rows = |slice| Eight::rows(slice).0;
-    let (base, low) = (rows(base), rows(low));
+    let out = Eight::rows_mut(out);
+    let (base, low) = (Eight::rows(base), Eight::rows(low));
     let zero = F64x8::zero();
     let (mut difference, mut scale) = (zero, zero);
     for i in 0..n {
         let start = Eight::load(&base[i]);
         let new = value::<R, F64x8>(start, Eight::load(&low[i]), row, |index| {
             let increment = V::Scalar::doubles(increments[index].as_slice());
-            Eight::load(&rows(increment.unwrap_or(&[]))[i])
+            Eight::load(&Eight::rows(increment.unwrap_or(&[]))[i])
         });
         let old = Eight::load(&out[i]);
         let new = moved(R::BEYOND, old, new);

@@ -27,8 +27,8 @@
 /// ```
 ///
 /// The macro makes the type with a field for each parameter, and implements [`SeparableHamiltonian`](crate::SeparableHamiltonian) or
-/// [`Hamiltonian`](crate::Hamiltonian) for it, whichever it finds. The derivatives are exact, first and second. The [second](crate::Hamiltonian::second_derivatives) are for
-/// Newton's iteration, [`by_newton`](crate::Integrator::by_newton), with a
+/// [`Hamiltonian`](crate::Hamiltonian) for it, whichever it finds. The derivatives are exact, first and second. The
+/// [second](crate::Hamiltonian::second_derivatives) are for Newton's iteration, [`by_newton`](crate::Integrator::by_newton), with a
 /// [band](crate::Hamiltonian::half_bandwidth) where only neighbours interact. The page of the type shows H, the equations of motion
 /// and what was found.
 ///

@@ -131,7 +131,7 @@ fn many_steps_are_the_steps_one_by_one() -> Result<(), Error> {
         }
         Ok(())
     }
-    for n in [63, 64, 70, 257] {
+    for n in [3, 8, 70, 257] {
         check(StoermerVerlet, n)?;
         check(SymplecticEuler, n)?;
         check(AdjointEuler, n)?;

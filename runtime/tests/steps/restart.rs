@@ -81,7 +81,7 @@ fn waves(n: usize) -> State<DVector<f64>> {
     State::new(0.0, wave(0.1), wave(1.3))
 }
 
-/// Long vectors: passes through a chain, its stages in rows and in lanes.
+/// Long vectors: a ring of particles.
 #[test]
 fn restored_chains_have_the_bits_of_those_that_went_on() -> Result<(), Error> {
     fn all<M: Method + ProvedFor<Separable>>(method: M) -> Result<(), Error> {

@@ -172,7 +172,8 @@ impl Movement for StageChange {
 pub(crate) struct Begun<M> {
     /// Number of sweeps made.
     iterations: u32,
-    /// The change of the first sweep, if it was not examined but may be needed. A change then counts as noise if it is small compared with the examined changes.
+    /// The change of the first sweep, if it was not examined but may be needed. A change then counts as noise if it is small compared
+    /// with the examined changes.
     first: Option<M>,
     /// The change of the sweep before the one that is examined next, if known.
     before: Option<M>,

@@ -116,38 +116,7 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
         .min(base.dimension())
         .min(low.dimension());
     let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
-    if mem::needs_drop::<V>() {
-        return long_values::<P, V>(sums, out, (base, low), terms, value);
-    }
-    let mut largest = None;
-    for k in 0..n {
-        let start = P::Lanes::from_f64(base[k]);
-        for (group, out) in out.iter_mut().enumerate() {
-            let low = P::Lanes::from_f64(low[k]);
-            let with = sums.with_low.then_some(low);
-            let sum_of_terms = combination(sums, group, with, |j| entry::<P, V>(terms, j, k));
-            let new = value((group, k), (start, low), sum_of_terms);
-            let component = &mut out.as_mut_slice()[k];
-            let new = moved(sums.beyond, *component, new);
-            let change = (new - *component).abs();
-            *component = new;
-            largest = Some(noted(largest, change));
-        }
-    }
-    largest.unwrap_or_else(P::Lanes::zero)
-}
-
-/// [`values`] for vectors on the heap. It looks up the location of their components once; otherwise the compiler would repeat that
-/// after every write.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn long_values<P: StageTableau, V: Vector<Scalar = f64>>(
-    sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
-    out: &mut [Laned<V, P>],
-    (base, low): (&[f64], &[f64]),
-    terms: &[Laned<V, P>],
-    value: impl Fn((usize, usize), (P::Lanes, P::Lanes), P::Lanes) -> P::Lanes,
-) -> P::Lanes {
-    let n = base.len();
+    // Where components lie is looked up once: the compiler would repeat that after every write.
     let mut places = out.iter_mut();
     let mut out = P::groups(|_| match places.next() {
         Some(group) => &mut group.as_mut_slice()[..n],

@@ -203,16 +203,11 @@ impl<B: Bonds> Chain<B> {
         let mut tension = self.first_tension(time, first, last);
         // A last particle without a bond to its right is computed separately.
         let bound = self.bound(q.len());
-        let begin = R::misaligned(q).min(bound);
-        let end = bound - (bound - begin) % R::WIDTH;
-        for (part, rows) in [(0..begin, false), (begin..end, true), (end..bound, false)] {
-            let after = q.get(part.end).copied().or(beyond).unwrap_or(T::zero());
-            let (q, force) = (&q[part.clone()], &mut force[part]);
-            match rows {
-                true => self.part::<T, R>(time, q, after, &mut tension, force),
-                false => self.part::<T, Single>(time, q, after, &mut tension, force),
-            }
-        }
+        let end = bound - bound % R::WIDTH;
+        let after = |end: usize| q.get(end).copied().or(beyond).unwrap_or(T::zero());
+        let (rows, rest) = force[..bound].split_at_mut(end);
+        self.part::<T, R>(time, &q[..end], after(end), &mut tension, rows);
+        self.part::<T, Single>(time, &q[end..bound], after(bound), &mut tension, rest);
         if let (Some(&here), Some(force)) = (q.get(bound), force.get_mut(bound)) {
             *force = self.between(time, tension, here, T::zero());
         }
@@ -229,7 +224,7 @@ impl<B: Bonds> Chain<B> {
         tension: &mut T,
         force: &mut [T],
     ) {
-        let ((q, _), (force, _)) = (R::rows(q), R::rows_mut(force));
+        let (q, force) = (R::rows(q), R::rows_mut(force));
         let n = q.len().min(force.len());
         let (q, force) = (&q[..n], &mut force[..n]);
         let (Some(first), Some(last)) = (q.first(), n.checked_sub(1)) else {
