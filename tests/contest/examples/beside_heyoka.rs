@@ -1,4 +1,5 @@
-//! The ensembles that `tests/contest/beside_heyoka.py` integrates with heyoka: the time of the fastest method for an error, on one thread.
+//! The ensembles that `tests/contest/beside_heyoka.py` integrates with heyoka: the time of the fastest method for an error, on one thread,
+//! in plain sums as heyoka.
 //!
 //! `cargo run --release -p symplectic-contest --example beside_heyoka`
 
@@ -45,7 +46,7 @@ impl<S: System<Vector2<f64>, Class = Separable> + Copy + Send + Sync> Problem<S>
         M: Method + ProvedFor<Separable> + Copy,
     {
         let size = self.end / steps as f64;
-        let ensemble = Ensemble::new(method, self.system, self.starts.clone(), size);
+        let ensemble = Ensemble::plain(method, self.system, self.starts.clone(), size);
         let ensemble = ensemble.expect("starts");
         let mut ends = vec![Vector2::repeat(f64::NAN); self.starts.len()];
         let began = Instant::now();
