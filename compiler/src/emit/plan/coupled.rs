@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
+use super::super::facts::Extrapolation;
 use super::increments::Form;
 use super::stages::Stored;
 use super::{evaluation_name, index, literal, predictor, slot};
@@ -29,10 +30,13 @@ impl Stored<'_, '_> {
     /// The starting values of the coupled stages, `extrapolated` if the previous step allows it.
     pub(super) fn starting_values(&self, extrapolated: Option<&TokenStream>) -> TokenStream {
         let initial = self.initial();
-        match extrapolated {
+        let code = match extrapolated {
             Some(extrapolated) => quote!(if kept.stages { #extrapolated } else { #initial }),
             None => initial,
-        }
+        };
+        let sums = (!code.is_empty())
+            .then(|| quote!(let sums = &mut emitted::StartingValues::<R>::new();));
+        quote!(#sums #code)
     }
 
     /// The lines that scale the evaluations of sweeps to increments; empty in the other form.
@@ -57,7 +61,7 @@ impl Stored<'_, '_> {
     /// Each list of coefficients once: a list that equals an earlier one refers to it.
     pub(super) fn constants(&self) -> TokenStream {
         let mut written: Vec<(String, Ident)> = Vec::new();
-        let mut constant = |name: Ident, values: &[TokenStream]| {
+        let mut constant = |name: Ident, kind: TokenStream, values: &[TokenStream]| {
             let list = quote!([#(#values),*]);
             let text = list.to_string();
             let value = match written.iter().find(|(known, _)| *known == text) {
@@ -66,8 +70,9 @@ impl Stored<'_, '_> {
             };
             written.push((text, name.clone()));
             let count = literal::count(values.len());
-            quote!(const #name: [emitted::Coefficient; #count] = #value;)
+            quote!(const #name: [#kind; #count] = #value;)
         };
+        let coefficient = || quote!(emitted::Coefficient);
         let mut constants = Vec::new();
         for kind in [Node::Force(0), Node::Velocity(0)] {
             if self.coupled_of_kind(kind).is_empty() {
@@ -78,16 +83,31 @@ impl Stored<'_, '_> {
                 evaluations.iter().map(value).collect()
             };
             let times = list(|evaluation| literal::coefficient(&evaluation.time));
-            constants.push(constant(times_name(kind), &times));
+            constants.push(constant(times_name(kind), coefficient(), &times));
             if let Form::Increments(_) = self.form {
                 let weights = list(|evaluation| literal::coefficient(&evaluation.weight));
-                constants.push(constant(weights_name(kind), &weights));
+                constants.push(constant(weights_name(kind), coefficient(), &weights));
             }
         }
         for kind in [Node::Position(0), Node::Momentum(0)] {
             for node in self.coupled_of_kind(kind) {
                 let coefficients = self.form.coefficients(self.graph, node);
-                constants.push(constant(row_name(node), &coefficients));
+                constants.push(constant(row_name(node), coefficient(), &coefficients));
+            }
+        }
+        if self.extrapolated().is_some() {
+            let general = self.graph.class == Class::General;
+            for (kind, used) in [(Node::Velocity(0), true), (Node::Force(0), general)] {
+                let used = used && !self.coupled_of_kind(kind).is_empty();
+                if let Some(matrix) = used.then(|| self.extrapolation(kind)).flatten() {
+                    let rows: Vec<_> = matrix.iter().map(|row| literal::array(row)).collect();
+                    let count = literal::count(rows.len());
+                    constants.push(constant(
+                        extrapolation_name(kind),
+                        quote!([f64; #count]),
+                        &rows,
+                    ));
+                }
             }
         }
         quote!(#(#constants)*)
@@ -210,7 +230,8 @@ impl Stored<'_, '_> {
         };
         let (number, times) = (literal::count(index(first)), times_name(first));
         let evaluate = quote! {
-            system.velocity(step.at(Self::#times[#number]), step.q, step.p, &mut stages.velocity[#number]);
+            let time = step.at(Self::#times[#number]);
+            system.velocity(time, step.q, step.p, &mut stages.velocity[#number]);
         };
         let copies = (!others.is_empty()).then(|| {
             let others = others.iter().map(|&node| literal::count(index(node)));
@@ -246,9 +267,7 @@ impl Stored<'_, '_> {
     fn start(&self, kind: Node) -> Option<TokenStream> {
         let function = function_name(kind);
         let any = !self.coupled_of_kind(kind).is_empty();
-        any.then(
-            || quote!(Self::#function(step, stages, &mut emitted::StartingValues::<R>::new());),
-        )
+        any.then(|| quote!(Self::#function(step, stages, sums);))
     }
 
     /// The line that scales the coupled evaluations of a kind to increments; empty in the other form.
@@ -276,15 +295,17 @@ impl Stored<'_, '_> {
         if nodes.is_empty() {
             return Some(TokenStream::new());
         }
-        let evaluations: Vec<_> = nodes
-            .iter()
-            .map(|&node| self.graph.evaluation(node))
-            .collect();
-        let matrix = predictor::matrix(self.graph, kind, &evaluations, self.known)?;
-        let rows = matrix.iter().map(|row| literal::array(row));
+        self.extrapolation(kind)?;
         let numbers = nodes.iter().map(|&node| literal::count(index(node)));
-        let array = evaluation_name(kind);
-        Some(quote!(emitted::transform(&mut stages.#array, [#(#numbers),*], [#(#rows),*]);))
+        let (array, name) = (evaluation_name(kind), extrapolation_name(kind));
+        Some(quote!(emitted::transform(&mut stages.#array, [#(#numbers),*], Self::#name);))
+    }
+
+    /// The matrix that extrapolates the increments of one kind to the next step, if there is one.
+    fn extrapolation(&self, kind: Node) -> Extrapolation {
+        let nodes = self.coupled_of_kind(kind).into_iter();
+        let evaluations: Vec<_> = nodes.map(|node| self.graph.evaluation(node)).collect();
+        predictor::matrix(self.graph, kind, &evaluations, self.known)
     }
 }
 
@@ -310,6 +331,14 @@ fn weights_name(kind: Node) -> Ident {
     literal::identifier(match kind {
         Node::Force(_) | Node::Momentum(_) => "B_TILDE",
         Node::Velocity(_) | Node::Position(_) => "B",
+    })
+}
+
+/// The matrix that extrapolates the increments of a kind: see [`predictor::matrix`].
+fn extrapolation_name(kind: Node) -> Ident {
+    literal::identifier(match kind {
+        Node::Force(_) => "E_TILDE",
+        _ => "E",
     })
 }
 

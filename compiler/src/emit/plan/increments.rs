@@ -86,11 +86,17 @@ impl Form {
         let slots = nonzero.iter().map(|&j| slot(term(j)));
         match self {
             Form::Increments(_) => {
-                quote!(emitted::total::<R, V, _>(#out, #base, [#(&#slots),*]);)
+                quote! {
+                    let increments = [#(&#slots),*];
+                    emitted::total::<R, V, _>(#out, #base, increments);
+                }
             }
             Form::Weighted => {
                 let weights = weights(nonzero.iter().map(|&j| &evaluations[j].weight));
-                quote!(emitted::weighted_total::<R, V, _>(#out, #base, #weights, [#(&#slots),*]);)
+                quote! {
+                    let (weights, terms) = (#weights, [#(&#slots),*]);
+                    emitted::weighted_total::<R, V, _>(#out, #base, weights, terms);
+                }
             }
         }
     }

@@ -259,16 +259,12 @@ const _: () = {
             stages: &mut Self::Stages<V>,
             kept: emitted::WarmStart,
         ) {
+            let sums = &mut emitted::StartingValues::<R>::new();
             emitted::reset(&mut stages.p, [0, 1, 2, 3], step.p);
-            system
-                .velocity(
-                    step.at(Self::C_TILDE[0]),
-                    step.q,
-                    step.p,
-                    &mut stages.velocity[0],
-                );
+            let time = step.at(Self::C_TILDE[0]);
+            system.velocity(time, step.q, step.p, &mut stages.velocity[0]);
             emitted::copy_to(&mut stages.velocity, 0, [1, 2]);
-            Self::positions(step, stages, &mut emitted::StartingValues::<R>::new());
+            Self::positions(step, stages, sums);
         }
         #[inline]
         fn forces<
@@ -377,15 +373,7 @@ const _: () = {
             let emitted::Stages { q, p, velocity, force } = &mut *stages;
             system
                 .velocity(step.at(emitted::exact(1.0)), &q[3], &p[3], &mut velocity[3]);
-            emitted::weighted_total::<
-                R,
-                V,
-                _,
-            >(
-                q1,
-                q1_low,
-                step.q,
-                step.q_low,
+            let (weights, terms) = (
                 emitted::weights(
                     step.size,
                     [
@@ -400,11 +388,8 @@ const _: () = {
                 R,
                 V,
                 _,
-            >(
-                p1,
-                p1_low,
-                step.p,
-                step.p_low,
+            >(q1, q1_low, step.q, step.q_low, weights, terms);
+            let (weights, terms) = (
                 emitted::weights(
                     step.size,
                     [
@@ -416,6 +401,11 @@ const _: () = {
                 ),
                 [&force[0], &force[1], &force[2], &force[3]],
             );
+            emitted::weighted_total::<
+                R,
+                V,
+                _,
+            >(p1, p1_low, step.p, step.p_low, weights, terms);
         }
     }
     impl emitted::StageTableau for ForestRuthGeneral {

@@ -120,6 +120,11 @@ const _: () = {
         ];
         const P_0: [emitted::Coefficient; 2] = Self::Q_0;
         const P_1: [emitted::Coefficient; 2] = Self::Q_1;
+        const E: [[f64; 2]; 2] = [
+            [(-0.7320508075688773), 1.7320508075688772],
+            [(-1.7320508075688772), 2.732050807568877],
+        ];
+        const E_TILDE: [[f64; 2]; 2] = Self::E;
     }
     #[allow(unused_variables)]
     impl<K: emitted::Class> emitted::StagePlan for Gauss2Plan<K> {
@@ -143,43 +148,21 @@ const _: () = {
             stages: &mut Self::Stages<V>,
             kept: emitted::WarmStart,
         ) {
+            let sums = &mut emitted::StartingValues::<R>::new();
             if kept.stages {
-                emitted::transform(
-                    &mut stages.velocity,
-                    [0, 1],
-                    [
-                        [(-0.7320508075688773), 1.7320508075688772],
-                        [(-1.7320508075688772), 2.732050807568877],
-                    ],
-                );
-                Self::positions(step, stages, &mut emitted::StartingValues::<R>::new());
+                emitted::transform(&mut stages.velocity, [0, 1], Self::E);
+                Self::positions(step, stages, sums);
                 if !K::SEPARABLE {
-                    emitted::transform(
-                        &mut stages.force,
-                        [0, 1],
-                        [
-                            [(-0.7320508075688773), 1.7320508075688772],
-                            [(-1.7320508075688772), 2.732050807568877],
-                        ],
-                    );
-                    Self::momenta(
-                        step,
-                        stages,
-                        &mut emitted::StartingValues::<R>::new(),
-                    );
+                    emitted::transform(&mut stages.force, [0, 1], Self::E_TILDE);
+                    Self::momenta(step, stages, sums);
                 }
             } else {
                 emitted::reset(&mut stages.p, [0, 1], step.p);
-                system
-                    .velocity(
-                        step.at(Self::C_TILDE[0]),
-                        step.q,
-                        step.p,
-                        &mut stages.velocity[0],
-                    );
+                let time = step.at(Self::C_TILDE[0]);
+                system.velocity(time, step.q, step.p, &mut stages.velocity[0]);
                 emitted::copy_to(&mut stages.velocity, 0, [1]);
                 emitted::scale_all(&mut stages.velocity, [0, 1], step.size, Self::B);
-                Self::positions(step, stages, &mut emitted::StartingValues::<R>::new());
+                Self::positions(step, stages, sums);
             }
         }
         #[inline]
@@ -254,16 +237,10 @@ const _: () = {
         ) {
             let emitted::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
             let emitted::Stages { q, p, velocity, force } = &mut *stages;
-            emitted::total::<
-                R,
-                V,
-                _,
-            >(q1, q1_low, step.q, step.q_low, [&velocity[0], &velocity[1]]);
-            emitted::total::<
-                R,
-                V,
-                _,
-            >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
+            let increments = [&velocity[0], &velocity[1]];
+            emitted::total::<R, V, _>(q1, q1_low, step.q, step.q_low, increments);
+            let increments = [&force[0], &force[1]];
+            emitted::total::<R, V, _>(p1, p1_low, step.p, step.p_low, increments);
         }
     }
     impl<K: emitted::Class> emitted::StageTableau for Gauss2Plan<K> {

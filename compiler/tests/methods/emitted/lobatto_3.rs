@@ -202,6 +202,12 @@ const _: () = {
             emitted::exact(1.0),
             emitted::exact(1.25),
         ];
+        const E: [[f64; 3]; 3] = [
+            [0.0, 0.0, 1.0],
+            [4.0, (-3.0), 12.0],
+            [3.0, (-2.0), 6.0],
+        ];
+        const E_TILDE: [[f64; 2]; 2] = [[(-1.0), 0.5], [(-8.0), 3.0]];
     }
     #[allow(unused_variables)]
     impl emitted::StagePlan for Lobatto3General {
@@ -225,31 +231,19 @@ const _: () = {
             stages: &mut Self::Stages<V>,
             kept: emitted::WarmStart,
         ) {
+            let sums = &mut emitted::StartingValues::<R>::new();
             if kept.stages {
-                emitted::transform(
-                    &mut stages.velocity,
-                    [0, 1, 2],
-                    [[0.0, 0.0, 1.0], [4.0, (-3.0), 12.0], [3.0, (-2.0), 6.0]],
-                );
-                Self::positions(step, stages, &mut emitted::StartingValues::<R>::new());
-                emitted::transform(
-                    &mut stages.force,
-                    [0, 1],
-                    [[(-1.0), 0.5], [(-8.0), 3.0]],
-                );
-                Self::momenta(step, stages, &mut emitted::StartingValues::<R>::new());
+                emitted::transform(&mut stages.velocity, [0, 1, 2], Self::E);
+                Self::positions(step, stages, sums);
+                emitted::transform(&mut stages.force, [0, 1], Self::E_TILDE);
+                Self::momenta(step, stages, sums);
             } else {
                 emitted::reset(&mut stages.p, [0, 1, 2], step.p);
-                system
-                    .velocity(
-                        step.at(Self::C_TILDE[0]),
-                        step.q,
-                        step.p,
-                        &mut stages.velocity[0],
-                    );
+                let time = step.at(Self::C_TILDE[0]);
+                system.velocity(time, step.q, step.p, &mut stages.velocity[0]);
                 emitted::copy_to(&mut stages.velocity, 0, [1, 2]);
                 emitted::scale_all(&mut stages.velocity, [0, 1, 2], step.size, Self::B);
-                Self::positions(step, stages, &mut emitted::StartingValues::<R>::new());
+                Self::positions(step, stages, sums);
             }
         }
         #[inline]
@@ -362,22 +356,10 @@ const _: () = {
                 step.size,
                 emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
             );
-            emitted::total::<
-                R,
-                V,
-                _,
-            >(
-                q1,
-                q1_low,
-                step.q,
-                step.q_low,
-                [&velocity[0], &velocity[1], &velocity[2]],
-            );
-            emitted::total::<
-                R,
-                V,
-                _,
-            >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1], &force[2]]);
+            let increments = [&velocity[0], &velocity[1], &velocity[2]];
+            emitted::total::<R, V, _>(q1, q1_low, step.q, step.q_low, increments);
+            let increments = [&force[0], &force[1], &force[2]];
+            emitted::total::<R, V, _>(p1, p1_low, step.p, step.p_low, increments);
         }
     }
     impl emitted::StageTableau for Lobatto3General {
@@ -477,6 +459,11 @@ const _: () = {
             emitted::exact(1.0),
             emitted::exact(1.25),
         ];
+        const E: [[f64; 3]; 3] = [
+            [0.0, 0.0, 1.0],
+            [4.0, (-3.0), 12.0],
+            [3.0, (-2.0), 6.0],
+        ];
     }
     #[allow(unused_variables)]
     impl emitted::StagePlan for Lobatto3Separable {
@@ -511,25 +498,17 @@ const _: () = {
                 step.size,
                 emitted::rounded(0.16666666666666666, 9.25185853854297e-18),
             );
+            let sums = &mut emitted::StartingValues::<R>::new();
             if kept.stages {
-                emitted::transform(
-                    &mut stages.velocity,
-                    [0, 1, 2],
-                    [[0.0, 0.0, 1.0], [4.0, (-3.0), 12.0], [3.0, (-2.0), 6.0]],
-                );
-                Self::positions(step, stages, &mut emitted::StartingValues::<R>::new());
+                emitted::transform(&mut stages.velocity, [0, 1, 2], Self::E);
+                Self::positions(step, stages, sums);
             } else {
                 emitted::reset(&mut stages.p, [0, 1, 2], step.p);
-                system
-                    .velocity(
-                        step.at(Self::C_TILDE[0]),
-                        step.q,
-                        step.p,
-                        &mut stages.velocity[0],
-                    );
+                let time = step.at(Self::C_TILDE[0]);
+                system.velocity(time, step.q, step.p, &mut stages.velocity[0]);
                 emitted::copy_to(&mut stages.velocity, 0, [1, 2]);
                 emitted::scale_all(&mut stages.velocity, [0, 1, 2], step.size, Self::B);
-                Self::positions(step, stages, &mut emitted::StartingValues::<R>::new());
+                Self::positions(step, stages, sums);
             }
         }
         #[inline]
@@ -629,23 +608,11 @@ const _: () = {
         ) {
             let emitted::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
             let emitted::Stages { q, p, velocity, force } = &mut *stages;
-            emitted::total::<
-                R,
-                V,
-                _,
-            >(
-                q1,
-                q1_low,
-                step.q,
-                step.q_low,
-                [&velocity[0], &velocity[1], &velocity[2]],
-            );
+            let increments = [&velocity[0], &velocity[1], &velocity[2]];
+            emitted::total::<R, V, _>(q1, q1_low, step.q, step.q_low, increments);
             system.force(step.at(emitted::exact(1.0)), &*q1, step.p, &mut force[2]);
-            emitted::total::<
-                R,
-                V,
-                _,
-            >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
+            let increments = [&force[0], &force[1]];
+            emitted::total::<R, V, _>(p1, p1_low, step.p, step.p_low, increments);
             emitted::advance::<
                 R,
                 V,

@@ -174,17 +174,13 @@ const _: () = {
             stages: &mut Self::Stages<V>,
             kept: emitted::WarmStart,
         ) {
+            let sums = &mut emitted::StartingValues::<R>::new();
             emitted::reset(&mut stages.p, [0], step.p);
-            system
-                .velocity(
-                    step.at(Self::C_TILDE[0]),
-                    step.q,
-                    step.p,
-                    &mut stages.velocity[0],
-                );
+            let time = step.at(Self::C_TILDE[0]);
+            system.velocity(time, step.q, step.p, &mut stages.velocity[0]);
             emitted::copy_to(&mut stages.velocity, 0, [1]);
             emitted::scale_all(&mut stages.velocity, [0, 1], step.size, Self::B);
-            Self::positions(step, stages, &mut emitted::StartingValues::<R>::new());
+            Self::positions(step, stages, sums);
         }
         #[inline]
         fn forces<
@@ -256,16 +252,10 @@ const _: () = {
             let emitted::Stages { q, p, velocity, force } = &mut *stages;
             system.force(step.at(emitted::exact(1.0)), &q[1], &p[0], &mut force[1]);
             emitted::scale(&mut force[1], step.size, emitted::exact(0.5));
-            emitted::total::<
-                R,
-                V,
-                _,
-            >(q1, q1_low, step.q, step.q_low, [&velocity[0], &velocity[1]]);
-            emitted::total::<
-                R,
-                V,
-                _,
-            >(p1, p1_low, step.p, step.p_low, [&force[0], &force[1]]);
+            let increments = [&velocity[0], &velocity[1]];
+            emitted::total::<R, V, _>(q1, q1_low, step.q, step.q_low, increments);
+            let increments = [&force[0], &force[1]];
+            emitted::total::<R, V, _>(p1, p1_low, step.p, step.p_low, increments);
         }
     }
     impl emitted::StageTableau for StoermerVerletGeneral {
