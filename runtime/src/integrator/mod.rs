@@ -160,8 +160,8 @@ impl<M: Method, S: System<V>, V: Vector> Integrator<M, S, V, Plain> {
 impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> Integrator<M, S, V, Plain, N> {
     /// Sets the tolerance of the iteration of coupled stages: a sweep is the last one if it moves no position by more than `tolerance`, in
     /// its unit. If the Hamiltonian is not separable, or the iteration is Newton's, this also holds for momenta. With a contraction rate
-    /// `κ` per sweep, the remaining error is `κ/(1 − κ)` of the last change. Zero (the default), and any tolerance below eight units of
-    /// [`Scalar::EPSILON`] of the largest position or momentum, mean: down to rounding.
+    /// `κ` per sweep, the remaining error is `κ/(1 − κ)` of the last change. Zero (the default) means: down to rounding. An iteration whose
+    /// next change would be one rounding error ends in any case.
     ///
     /// A tolerance saves sweeps, and the search for the largest position, which rounding is compared with. It is for plain sums only:
     /// compensated sums are for runs without drift, and iterations that end above rounding make the energy drift.

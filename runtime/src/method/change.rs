@@ -55,11 +55,6 @@ pub struct HalfChange {
 }
 
 impl HalfChange {
-    /// A change of the size `difference` of values of the size `scale`.
-    pub(crate) const fn new(difference: f64, scale: f64) -> Self {
-        Self { difference, scale }
-    }
-
     /// Whether the [relative](Self::relative) change is NaN.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) const fn is_undefined(&self) -> bool {

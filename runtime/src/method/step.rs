@@ -25,22 +25,6 @@ pub struct Step<'a, V> {
 }
 
 impl<V: Vector> Step<'_, V> {
-    /// Calls `take` with a copy of the step, so that nothing points to the original vectors.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn copied<T>(&self, take: impl FnOnce(&Step<'_, V>) -> T) -> T {
-        let (q, q_low) = (self.q.clone(), self.q_low.clone());
-        let (p, p_low) = (self.p.clone(), self.p_low.clone());
-        take(&Step {
-            time: self.time,
-            size: self.size,
-            q: &q,
-            q_low: &q_low,
-            p: &p,
-            p_low: &p_low,
-            linear_velocity: self.linear_velocity,
-        })
-    }
-
     /// The same step for vectors of another type, if that is the same type.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn same<W: Vector>(&self) -> Option<Step<'_, W>> {

@@ -2,10 +2,13 @@
 
 use core::array;
 
+use core::mem;
+
 use crate::error::Quantity;
 use crate::method::StoredEvaluations;
 #[cfg(feature = "alloc")]
 use crate::method::{RunTimeTableau, StageVisit};
+use crate::number::vector::LIGHT;
 use crate::number::{Scalar, Vector, Visit, vector_words};
 
 /// Memory of one [`Plan`](crate::emitted::Plan), made once and used for every step.
@@ -62,6 +65,15 @@ pub trait StageStorage<V: Vector>: Sized + Clone {
     /// The first evaluation whose dimension is not `dimension`: the quantity, the number of the stage, from 1, or 0 outside the
     /// stages, and the dimension found.
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)>;
+}
+
+/// Looks at a copy of stages on the stack: stages to which no pointer exists can stay in registers from step to step.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn aside<M: Clone, T>(stages: &M, look: impl FnOnce(&M) -> T) -> T {
+    match mem::needs_drop::<M>() || size_of::<M>() > LIGHT {
+        true => look(stages),
+        false => look(&stages.clone()),
+    }
 }
 
 /// The memories of two plans.

@@ -15,9 +15,8 @@ pub struct StepStatistics {
     pub factorisations: u32,
     /// Failed attempts to find the stages after which another solver succeeded.
     pub rejected: u32,
-    /// The largest absolute values of the positions and of the momenta of the coupled stages, as last measured; zero if unknown. For several
-    /// steps, those of the last step. Without a tolerance they are accurate to a factor of two, the second only if the stopping criterion
-    /// uses the momenta: it does not for separable systems with plain sums.
+    /// The largest absolute values of the positions and of the momenta of the coupled stages, when their change was first of the size of
+    /// rounding errors; zero if unknown. For several steps, those of the last step.
     pub scales: [f64; 2],
     /// Relative change of the stages in the last sweep of a Newton iteration; for several steps, the largest one. Zero for other solvers.
     pub residual: f64,

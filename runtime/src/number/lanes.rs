@@ -50,6 +50,9 @@ pub trait Lanes: Scalar {
     /// The larger of two numbers in each lane, both results of [`abs`](Scalar::abs); NaN if one of them is NaN.
     fn larger_or_nan(self, other: Self) -> Self;
 
+    /// The number of one lane in all lanes.
+    fn broadcast(self, lane: usize) -> Self;
+
     /// The largest number; any lane if one of them is NaN.
     fn largest(self) -> f64;
 
@@ -94,6 +97,34 @@ pub(crate) fn lanes<L: Lanes>(list: &[f64], group: usize) -> L {
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn lane_of<L: Lanes>(group: L, stage: usize) -> f64 {
     group.to_array().as_ref()[stage % L::WIDTH]
+}
+
+/// The number of one lane in all lanes. Of two lanes by an exchange between registers: the compiler would read the second lane from
+/// memory before it has been written there.
+trait Broadcast {
+    fn broadcast(self, lane: usize) -> Self;
+}
+
+impl Broadcast for wide::f64x2 {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn broadcast(self, lane: usize) -> Self {
+        let [first, second] = Self::transpose([self; 2]);
+        if lane == 0 { first } else { second }
+    }
+}
+
+impl Broadcast for wide::f64x4 {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn broadcast(self, lane: usize) -> Self {
+        Self::splat(self.to_array()[lane])
+    }
+}
+
+impl Broadcast for wide::f64x8 {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn broadcast(self, lane: usize) -> Self {
+        Self::splat(self.to_array()[lane])
+    }
 }
 
 /// The largest of several numbers, any of them if one is NaN: by halves, because narrower registers are enough for these.
@@ -328,6 +359,11 @@ macro_rules! lanes {
                 } else {
                     self.larger_by_sums(other)
                 }
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn broadcast(self, lane: usize) -> Self {
+                Self(Broadcast::broadcast(self.0, lane))
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]

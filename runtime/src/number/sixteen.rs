@@ -170,6 +170,12 @@ impl Lanes for F64x16 {
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
+    fn broadcast(self, lane: usize) -> Self {
+        let half = self.0[lane / 8].broadcast(lane % 8);
+        Self([half; 2])
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn largest(self) -> f64 {
         let [a, b] = self.0.map(Lanes::largest);
         if a > b { a } else { b }

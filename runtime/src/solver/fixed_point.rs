@@ -1,19 +1,18 @@
 //! Coupled stages by fixed-point iteration.
 
 use core::marker::PhantomData;
-use core::mem;
 
 use crate::error::Quantity;
 #[cfg(feature = "alloc")]
 use crate::method::RunTimeStages;
+use crate::method::storage::aside;
 use crate::method::{
     EvaluationCounts, Failure, Inside, Outcome, Solver, StageChange, StagePlan, StageStorage,
     StageTableau, Step, StepStatistics, Stopping, WarmStart,
 };
 use crate::number::summation::Overrelaxed;
-use crate::number::vector::{LIGHT, is_in_place};
-use crate::number::{Scalar, Summation, Vector};
-use crate::solver::convergence::{Begun, Sweeps, settle, settle_from_cold_start};
+use crate::number::{Summation, Vector};
+use crate::solver::convergence::{Sweeps, settle};
 #[cfg(feature = "alloc")]
 use crate::solver::run_time::by_rows;
 use crate::system::{Class, System};
@@ -22,21 +21,24 @@ use crate::system::{Class, System};
 /// times the Lipschitz constant of the system is small.
 ///
 /// The iteration runs until it stagnates, because with a tolerance above the rounding errors the energy would drift
-/// (Hairer, McLachlan & Razakarivony, 2008). It has settled when a sweep changes nothing, or when the change has
-/// stopped shrinking and is at the level of rounding errors. That level is 64 units of
-/// [`Scalar::EPSILON`](crate::Scalar::EPSILON) relative to the largest position and the largest momentum. A separable system must
-/// reach it in either half, a general one in both.
-/// The change has stopped shrinking after at least one sweep, and more than a sixteenth of all sweeps, without progress. A slow
-/// iteration with oscillations has changes that grow now and then before that. In the last allowed sweep, one suffices.
+/// (Hairer, McLachlan & Razakarivony, 2008). It has settled when a sweep changes nothing, or when the change can be rounding errors and
+/// has stopped shrinking.
 ///
-/// If evaluations are noisier than that, or sweeps amplify rounding errors, the iteration has also settled under four conditions. The
-/// change has shrunk by a factor of 1024, and made no progress for ten sweeps. The smallest change was at most 64 units in one half,
-/// and the current change is at most 256 units. The first nine sweeps do not count while the change is above 4096 units
-/// of the first stages. After a warm start, they do not count while no change has been within 64 units.
+/// - *Can be rounding errors:* at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON), relative to the largest position and the
+///   largest momentum. In a separable system one half suffices, in a general one both must be.
+/// - *Has stopped shrinking:* at least one sweep, and more than a sixteenth of all sweeps, made no progress. A slow iteration with
+///   oscillations has changes that grow now and then before that. In the last allowed sweep, one sweep without progress suffices.
+/// - The first nine sweeps count only from the first change on that can be rounding errors.
+///
+/// If evaluations are noisier than that, or sweeps amplify rounding errors, the iteration has also settled where all of this holds:
+///
+/// - no sweep of the last ten made progress;
+/// - the smallest change was 1024 times smaller than the first one, or than the largest one after nine sweeps;
+/// - the smallest change was at most 64 units in one half, and the present change is at most 256 units.
 ///
 /// If the iteration settles with a nonzero change, rounding makes the stages alternate between two values. The side
 /// from which the starting values come decides at which of them it ends. This would cause an energy drift, though only of a relative
-/// 1e-21 per step (measured; Hénon–Heiles, Gauss 8). In half of these steps, by a pseudo-random bit of their time, one more sweep is
+/// 1e-21 per step (measured; Hénon–Heiles, Gauss 8). In half of the steps, by a pseudo-random bit of their time, one more sweep is
 /// made.
 ///
 /// If the stages stand still, they stand at one of several roundings that solve the rounded equations. The same side decides at
@@ -46,12 +48,8 @@ use crate::system::{Class, System};
 /// the stages after the first sweep. Both sweeps are counted. If fewer than ten sweeps are allowed, this is omitted.
 ///
 /// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for stagnation. It
-/// ends with a change of at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) if the next change would be at most one unit.
-/// The next change is predicted by the same contraction rate. With a [tolerance](crate::Integrator::set_tolerance) the first change
-/// within it is the last; a tolerance below eight units is not waited for.
-///
-/// After a warm start, the largest position and momentum of the previous step are used if they are correct up to a
-/// factor of two. In the first nine sweeps nothing else is tested before a change is within 64 units of them.
+/// ends with a change of at most 64 units if the next change would be at most one unit. The next change is predicted by the same
+/// contraction rate. With a [tolerance](crate::Integrator::set_tolerance) it also ends with the first change within it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint;
 
@@ -121,7 +119,7 @@ where
         stages: &mut *stages,
         sums: PhantomData,
     };
-    let mut work = settle::<P::Class, V::Scalar>(&mut sweeps, kept, stopping)?;
+    let mut work = settle::<P::Class, V::Scalar, _>(&mut sweeps, kept, stopping)?;
     if !R::COMPENSATED {
         P::increments(step, stages);
     }
@@ -164,37 +162,14 @@ where
         P::begin::<R, V, S>(self.step, self.system, self.stages, kept);
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn non_finite(&self) -> Option<(Quantity, usize)> {
-        self.stages.non_finite()
-    }
-
-    fn non_finite_force(&self) -> Option<usize> {
-        self.stages.non_finite_force()
+        aside(self.stages, StageStorage::non_finite)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn go_on<C: Class, T: Scalar>(
-        &mut self,
-        kept: WarmStart,
-        stopping: Stopping,
-        begun: Begun<StageChange>,
-    ) -> Result<StepStatistics, Failure> {
-        if !is_in_place(self.step.q) || size_of::<P::Stages<V>>() > LIGHT {
-            return settle_from_cold_start::<C, T, _>(self, kept, stopping, begun);
-        }
-        let mut stages = mem::replace(self.stages, StageStorage::like(&V::blank()));
-        let (system, sums) = (self.system, PhantomData);
-        let made = self.step.copied(|step| {
-            let mut there = ByStages::<P, R, V, S> {
-                step,
-                system,
-                stages: &mut stages,
-                sums,
-            };
-            settle_from_cold_start::<C, T, _>(&mut there, kept, stopping, begun)
-        });
-        *self.stages = stages;
-        made
+    fn non_finite_force(&self) -> Option<usize> {
+        aside(self.stages, StageStorage::non_finite_force)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -208,7 +183,7 @@ where
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn change(&self, movement: &StageChange) -> StageChange {
-        *movement
+    fn scales(&self, movement: &StageChange) -> [f64; 2] {
+        movement.scales()
     }
 }

@@ -58,7 +58,7 @@ where
         force,
         sums: PhantomData,
     };
-    let work = settle::<C, V::Scalar>(&mut sweeps, kept, stopping)?;
+    let work = settle::<C, V::Scalar, _>(&mut sweeps, kept, stopping)?;
     let Outcome {
         q: q1,
         q_low,
@@ -176,8 +176,8 @@ impl<R: Summation, V: Vector, S: System<V>> Sweeps for ByRows<'_, R, V, S> {
         self.sweep_by::<Overrelaxed<R>>()
     }
 
-    fn change(&self, movement: &StageChange) -> StageChange {
-        *movement
+    fn scales(&self, movement: &StageChange) -> [f64; 2] {
+        movement.scales()
     }
 }
 

@@ -304,7 +304,8 @@ fn a_step_that_fails_leaves_the_state() -> Result<(), Error> {
         })
     };
     let start = || State::from_arrays(0.0, [1.0], [0.0]);
-    for (tableau, stage) in [(tableau(StoermerVerlet), 2), (tableau(Gauss2), 1)] {
+    // Only the second stage lies behind the wall.
+    for tableau in [tableau(StoermerVerlet), tableau(Gauss2)] {
         let mut integrator = Integrator::at_run_time(&tableau, wall(), start(), 0.25)?;
         let error = loop {
             let before = integrator.state().clone();
@@ -321,7 +322,7 @@ fn a_step_that_fails_leaves_the_state() -> Result<(), Error> {
         else {
             panic!("{error}");
         };
-        assert!(found <= stage, "{error}");
+        assert_eq!(found, 2, "{error}");
         // The tableau is still there.
         integrator.set_state(start())?;
         integrator.step()?;

@@ -1,17 +1,9 @@
 //! Fixed-point iteration of coupled stages until they have settled.
 
-mod cold_start;
-mod warm_start;
-
-pub(crate) use self::cold_start::settle_from_cold_start;
-#[cfg(feature = "alloc")]
-pub(crate) use self::cold_start::{is_last, non_finite};
-#[cfg(feature = "alloc")]
-pub(crate) use self::warm_start::WITHIN_REACH;
-use self::warm_start::settle_from_warm_start;
 use crate::error::Quantity;
 use crate::method::{EvaluationCounts, Failure, StageChange, StepStatistics, Stopping, WarmStart};
 use crate::number::Scalar;
+use crate::number::dither::{dither_last_sweep, dither_side};
 use crate::system::Class;
 
 /// Changes up to this many units of EPSILON can be rounding errors: one sweep rounds s products, s sums and the
@@ -20,16 +12,12 @@ use crate::system::Class;
 pub(crate) const ROUNDING: f64 = 64.0;
 
 /// Sweeps without progress after which a change that has shrunk by [`CONTRACTION`] counts as noise. The sweeps before
-/// this one are the early sweeps.
+/// this one are the early sweeps: they are not examined before the change can be rounding errors.
 pub(crate) const PATIENCE: u32 = 10;
 
 /// An iteration has stagnated when the latest 1/`STAGNATION` of its sweeps made no progress. If it converges slowly and with
 /// oscillations, its change grows now and then long before it has settled. With fewer sweeps, one without progress suffices.
 pub(crate) const STAGNATION: u32 = 16;
-
-/// Early sweeps that change the stages by more than this many units of EPSILON are not examined further: none of them is the last.
-/// The unit refers to the stages of the previous step, or to the first stages that were examined.
-const FAR: f64 = ROUNDING * ROUNDING;
 
 /// Noise up to this many units of EPSILON still counts as noise if the smallest change was at most [`ROUNDING`].
 const AMPLIFIED: f64 = 4.0 * ROUNDING;
@@ -73,186 +61,314 @@ pub(crate) trait Sweeps {
         self.sweep()
     }
 
-    /// The change of all stages together in a sweep.
-    fn change(&self, movement: &Self::Movement) -> StageChange;
-
-    /// [`settle_from_cold_start`], on a copy of the stages if that keeps the original in registers.
-    fn go_on<C: Class, T: Scalar>(
-        &mut self,
-        kept: WarmStart,
-        stopping: Stopping,
-        begun: Begun<Self::Movement>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        Self: Sized,
-    {
-        settle_from_cold_start::<C, T, _>(self, kept, stopping, begun)
-    }
-
-    /// Whether the positions, and if `both` the momenta, have these sizes up to a factor of two.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn are_about(&self, movement: &Self::Movement, [q, p]: [f64; 2], both: bool) -> bool {
-        let is_about = |size: f64, other: f64| size > 0.5 * other && size <= 2.0 * other;
-        let change = self.change(movement);
-        is_about(change.q.scale(), q) && (!both || is_about(change.p.scale(), p))
-    }
+    /// The largest position and the largest momentum of the step so far.
+    fn scales(&self, movement: &Self::Movement) -> [f64; 2];
 }
 
-/// Change of the stages in a sweep. All comparisons except [`is_within`](Self::is_within) may miss a NaN: see
-/// [`is_number`](Self::is_number).
+/// Change of the stages in a sweep.
 pub(crate) trait Movement: Copy {
-    /// Whether the changes of the positions, and if `both` of the momenta, are within these bounds, and neither change is NaN.
-    fn is_within(&self, bounds: [f64; 2], both: bool) -> bool;
+    /// Whether the change of the positions and that of the momenta exceed these bounds; a NaN exceeds none.
+    fn exceeds(&self, bounds: [f64; 2]) -> [bool; 2];
 
-    /// Like [`is_within`](Self::is_within), but without `both` one of the two halves suffices: [`settling`].
-    fn settles_within(&self, bounds: [f64; 2], both: bool) -> bool;
-
-    /// Whether the changes of the positions, and if `both` of the momenta, exceed these bounds.
-    fn exceeds(&self, bounds: [f64; 2], both: bool) -> bool;
-
-    /// Whether the next change of the positions, and if `both` of the momenta, [would be within](is_next_within) these bounds.
-    fn is_next_within(&self, before: &Self, bounds: [f64; 2], both: bool) -> bool;
-
-    /// The change of the positions; if `both`, the larger of the changes of positions and momenta, each multiplied by its weight.
-    fn size(&self, weights: [f64; 2], both: bool) -> f64;
-
-    /// Whether the [size](Self::size) is below this bound, but not zero.
-    fn shrinks(&self, below: f64, weights: [f64; 2], both: bool) -> bool;
-
-    /// Whether no component of the change is NaN. Checked wherever an iteration could end.
-    fn is_number(&self) -> bool;
+    /// The largest change of a position and of a momentum; NaN if any change is NaN.
+    fn differences(&self) -> [f64; 2];
 }
 
 impl Movement for StageChange {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn is_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
-        self.q.difference() <= q && (!both || self.p.difference() <= p)
+    fn exceeds(&self, [q, p]: [f64; 2]) -> [bool; 2] {
+        [self.q.difference() > q, self.p.difference() > p]
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn settles_within(&self, [q, p]: [f64; 2], both: bool) -> bool {
-        let (of_q, of_p) = (self.q.difference() <= q, self.p.difference() <= p);
-        !self.is_undefined() && if both { of_q && of_p } else { of_q || of_p }
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn exceeds(&self, [q, p]: [f64; 2], both: bool) -> bool {
-        self.q.difference() > q && (!both || self.p.difference() > p)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn is_next_within(&self, before: &Self, [q, p]: [f64; 2], both: bool) -> bool {
-        is_next_within(before.q.difference(), self.q.difference(), q)
-            && (!both || is_next_within(before.p.difference(), self.p.difference(), p))
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn size(&self, [q, p]: [f64; 2], both: bool) -> f64 {
-        match both {
-            true => larger(self.q.difference() * q, self.p.difference() * p),
-            false => self.q.difference(),
-        }
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn shrinks(&self, below: f64, weights: [f64; 2], both: bool) -> bool {
-        let size = self.size(weights, both);
-        size < below && size > 0.0
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn is_number(&self) -> bool {
-        // A NaN is neither within a bound nor above it.
-        true
-    }
-}
-
-/// An iteration that has not ended yet.
-#[derive(Clone, Copy)]
-pub(crate) struct Begun<M> {
-    /// Number of sweeps made.
-    iterations: u32,
-    /// The change of the first sweep, if it was not examined but may be needed. A change then counts as noise if it is small compared
-    /// with the examined changes.
-    first: Option<M>,
-    /// The change of the sweep before the one that is examined next, if known.
-    before: Option<M>,
-    /// The smallest of the examined changes, and the number of its sweep.
-    least: Option<(u32, M)>,
-    /// The change of the last sweep, if it was not examined.
-    last: Option<M>,
-}
-
-impl<M> Begun<M> {
-    /// An iteration that has not begun.
-    const NOTHING: Self = Self {
-        iterations: 0,
-        first: None,
-        before: None,
-        least: None,
-        last: None,
-    };
-
-    /// Whether the iteration has not begun.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) const fn is_nothing(&self) -> bool {
-        self.iterations == 0
+    fn differences(&self) -> [f64; 2] {
+        [self.q.difference(), self.p.difference()]
     }
 }
 
 /// Iterates until the stages have settled; returns the statistics of the step.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn settle<C: Class, T: Scalar>(
-    sweeps: &mut impl Sweeps,
-    kept: WarmStart,
+pub(crate) fn settle<C: Class, T: Scalar, W: Sweeps>(
+    sweeps: &mut W,
+    mut kept: WarmStart,
     stopping: Stopping,
 ) -> Result<StepStatistics, Failure> {
-    match settle_from_warm_start::<C, T, _>(sweeps, kept, stopping) {
-        Ok((iterations, scales)) => {
-            let counts = sweeps.evaluations();
-            Ok(StepStatistics {
-                iterations,
-                evaluations: counts.at_begin(kept) + iterations * counts.sweep,
-                scales,
-                ..StepStatistics::default()
-            })
+    let mut work = StepStatistics::default();
+    loop {
+        let solved = attempt::<C, T, W>(sweeps, kept, stopping, &mut work);
+        if solved.is_ok() || !kept.stages {
+            return solved.map(|()| work);
         }
-        Err(begun) => sweeps.go_on::<C, T>(kept, stopping, begun),
+        // The warm start may be misleading: repeat the iteration without it.
+        kept.stages = false;
     }
 }
 
-/// `count` units of EPSILON of positions and of momenta of these sizes.
+/// Finds the coupled stages from one start, and adds the statistics to `work`.
+///
+/// A growing change does not end the iteration. With many stages and a coupling matrix far from normal, it can
+/// grow for many sweeps and vanish after all. A true divergence ends at the bound or overflows.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn units<T: Scalar>(count: f64, [q, p]: [f64; 2]) -> [f64; 2] {
-    [count * T::EPSILON * q, count * T::EPSILON * p]
+fn attempt<C: Class, T: Scalar, W: Sweeps>(
+    sweeps: &mut W,
+    kept: WarmStart,
+    stopping: Stopping,
+    work: &mut StepStatistics,
+) -> Result<(), Failure> {
+    let (both, waits) = (!C::SEPARABLE, !W::STOPS_AT_ROUNDING);
+    let max_iterations = stopping.max_iterations;
+    let tolerance = if waits { 0.0 } else { stopping.tolerance };
+    // Sweeps before this one are early.
+    let late = max_iterations.min(PATIENCE);
+    sweeps.begin(kept);
+    let counts = sweeps.evaluations();
+    let made = counts.at_begin(kept);
+    work.evaluations += made;
+    // After a warm start the first sweep reveals it, and the second attempt, without the warm start, reports it.
+    if made > 0
+        && !kept.stages
+        && let Some((what, stage)) = sweeps.non_finite()
+    {
+        let stage = Some(stage);
+        return Err(Failure::NonFinite { what, stage });
+    }
+    // Half of the steps approach from the other side.
+    let reflects = waits && both && kept.stages && late == PATIENCE && dither_side(sweeps.time());
+    let mut sizes = Sizes::new(if kept.stages { kept.scales } else { [0.0; 2] });
+    // Early sweeps that change more than this are not examined.
+    let mut near = sizes.rounding::<T>(tolerance);
+    let is_far = |this: &W::Movement, near: [f64; 2]| {
+        let [q, p] = this.exceeds(near);
+        if both { q | p } else { q & p }
+    };
+    // Of relative changes: what shrinks from sweep to sweep, and whether it is at most so many units of EPSILON.
+    let size_of = |[q, p]: [f64; 2]| if both { larger(q, p) } else { q };
+    let is_within = |count: f64, [q, p]: [f64; 2], both: bool| {
+        let bound = count * T::EPSILON;
+        match both {
+            true => q <= bound && p <= bound,
+            false => q <= bound || p <= bound,
+        }
+    };
+    let mut progress = Progress::NONE;
+    let (mut first, mut before) = (None, None);
+    let (mut has_settled, mut once_more) = (false, false);
+    let mut iteration = 0;
+    let solved = loop {
+        let this = sweeps.sweep();
+        iteration += 1;
+        let previous: Option<W::Movement> = before.replace(this);
+        if once_more {
+            break Ok(());
+        }
+        if iteration == 1 {
+            first = Some(this);
+            if reflects {
+                // The ordinary sweep leaves mostly the slowest-decaying error, which is reflected.
+                sweeps.overrelaxed_sweep();
+                iteration += 1;
+                continue;
+            }
+        }
+        if iteration < late && is_far(&this, near) {
+            continue;
+        }
+        let [q, p] = this.differences();
+        if !(q + p).is_finite() {
+            break Err(match iteration {
+                1 => non_finite(
+                    sweeps.non_finite_force(),
+                    || sweeps.non_finite(),
+                    !q.is_finite(),
+                ),
+                _ => {
+                    let last = previous.map(|last| size_of(sizes.change(&last)));
+                    Failure::NoConvergence {
+                        residual: last.filter(|size| !size.is_nan()).unwrap_or(f64::INFINITY),
+                        iterations: iteration,
+                    }
+                }
+            });
+        }
+        // Once a change can be rounding errors, the sizes no longer vary.
+        if !has_settled {
+            sizes = Sizes::new(sweeps.scales(&this));
+        }
+        let change = sizes.change(&this);
+        let size = size_of(change);
+        if !waits {
+            let before = previous.map(|before| sizes.change(&before));
+            if q <= tolerance && (!both || p <= tolerance)
+                || is_last::<T>(before.map(|before| before[0]), change[0])
+                    && (!both || is_last::<T>(before.map(|before| before[1]), change[1]))
+            {
+                break Ok(());
+            }
+        }
+        if size == 0.0 {
+            break Ok(());
+        }
+        let is_rounding = is_within(ROUNDING, change, both);
+        has_settled |= is_rounding;
+        if iteration < late && !has_settled {
+            near = sizes.rounding::<T>(tolerance);
+            continue;
+        }
+        near = [f64::INFINITY; 2];
+        // Comparisons, because `size` is not NaN: `min` and `max` would test for it.
+        if size < progress.smallest {
+            (progress.smallest, progress.idle) = (size, 0);
+            progress.was_rounding = is_within(ROUNDING, change, false);
+        } else {
+            progress.idle += 1;
+        }
+        let at_bound = iteration == max_iterations;
+        if iteration >= late {
+            progress.note(size);
+        }
+        // At the bound, one sweep without progress suffices.
+        let has_stagnated = progress.idle > if at_bound { 0 } else { iteration / STAGNATION };
+        let first = || first.map_or(0.0, |first| size_of(sizes.change(&first)));
+        let is_noise = || progress.is_noise(first()) && is_within(AMPLIFIED, change, false);
+        if has_stagnated && (is_rounding || is_noise()) {
+            // At the bound, no further sweep is allowed.
+            once_more = waits && !at_bound && dither_last_sweep(sweeps.time());
+            if once_more {
+                continue;
+            }
+            break Ok(());
+        }
+        if at_bound {
+            break Err(progress.failure(size, first(), iteration));
+        }
+    };
+    work.iterations += iteration;
+    work.evaluations += iteration * counts.sweep;
+    work.scales = sizes.scales;
+    solved
 }
 
-/// Whether the sizes of the positions, and if `both` of the momenta, are known and their rounding errors can be squared safely.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn is_known<T: Scalar>(scales: [f64; 2], both: bool) -> bool {
-    let [q, p] = units::<T>(1.0, scales);
-    is_square_safe(q) && (!both || is_square_safe(p))
+/// The sizes of the stages.
+#[derive(Clone, Copy)]
+struct Sizes {
+    /// The largest position and the largest momentum; zero if unknown.
+    scales: [f64; 2],
+    /// The factors that express changes relative to these.
+    inverse: [f64; 2],
 }
 
-/// These sizes if they are [known](is_known), zero otherwise.
-fn known<T: Scalar>(scales: [f64; 2], both: bool) -> [f64; 2] {
-    match is_known::<T>(scales, both) {
-        true => scales,
-        false => [0.0; 2],
+impl Sizes {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn new(scales: [f64; 2]) -> Self {
+        // Finite, so that no change is none beside a size of zero.
+        let inverse = scales.map(|size| smaller(1.0 / size, f64::MAX));
+        Self { scales, inverse }
+    }
+
+    /// The largest changes that are examined in early sweeps: all that can be rounding errors, even if the sizes grow to twice these, or
+    /// are within the tolerance. Where the size is not known, all changes are examined.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn rounding<T: Scalar>(&self, tolerance: f64) -> [f64; 2] {
+        self.scales.map(|size| match size == 0.0 {
+            true => f64::INFINITY,
+            false => larger(2.0 * ROUNDING * T::EPSILON * size, tolerance),
+        })
+    }
+
+    /// A change relative to these sizes.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn change(&self, movement: &impl Movement) -> [f64; 2] {
+        let [q, p] = movement.differences();
+        [q * self.inverse[0], p * self.inverse[1]]
     }
 }
 
-/// Whether the next change is within a bound. It is estimated as `this²/before`, by a constant contraction rate.
-/// The square of the bound [must neither overflow nor underflow](is_square_safe).
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn is_next_within(before: f64, this: f64, bound: f64) -> bool {
-    this * this <= before * bound
+/// The course of the examined relative changes.
+struct Progress {
+    smallest: f64,
+    /// Whether the smallest change can be rounding errors in one half.
+    was_rounding: bool,
+    /// Number of sweeps since the smallest change.
+    idle: u32,
+    /// The largest change after the early sweeps.
+    largest: f64,
+    /// The last change, after the early sweeps, that was at most half of the previous such, and the number of sweeps since.
+    mark: f64,
+    slow: u32,
 }
 
-/// Whether the square of a number of this size neither overflows nor underflows.
+impl Progress {
+    const NONE: Self = Self {
+        smallest: f64::INFINITY,
+        was_rounding: false,
+        idle: 0,
+        largest: 0.0,
+        mark: f64::INFINITY,
+        slow: 0,
+    };
+
+    /// Notes a change after the early sweeps.
+    fn note(&mut self, size: f64) {
+        self.largest = larger(size, self.largest);
+        (self.mark, self.slow) = match size <= 0.5 * self.mark {
+            true => (size, 0),
+            false => (self.mark, self.slow + 1),
+        };
+    }
+
+    /// Whether changes up to [`AMPLIFIED`] are noise of the evaluations or amplified rounding errors: see [`PATIENCE`].
+    fn is_noise(&self, first: f64) -> bool {
+        self.idle >= PATIENCE
+            && self.was_rounding
+            && self.smallest <= CONTRACTION * larger(first, self.largest)
+    }
+
+    /// An iteration that has not settled in the allowed number of sweeps.
+    fn failure(&self, residual: f64, first: f64, iterations: u32) -> Failure {
+        // The change shrank and then stagnated at the level of its noise.
+        let came_down = residual <= NOISIEST
+            && self.smallest <= CONTRACTION * larger(first, self.largest)
+            && residual <= ROUNDING * self.smallest;
+        match self.slow >= PATIENCE && came_down {
+            true => Failure::Stagnation {
+                residual,
+                iterations,
+            },
+            false => Failure::NoConvergence {
+                residual,
+                iterations,
+            },
+        }
+    }
+}
+
+/// Whether a relative change ends an iteration that does not wait for stagnation: if it is at most one unit of EPSILON, or if it can be
+/// rounding errors and the next one would be at most one unit. The next one is estimated by a constant contraction rate.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn is_square_safe(size: f64) -> bool {
-    size > 1e-140 && size < 1e140
+fn is_last<T: Scalar>(before: Option<f64>, this: f64) -> bool {
+    let is_next_within = |before: f64| this * this <= before * T::EPSILON;
+    this <= T::EPSILON || this <= ROUNDING * T::EPSILON && before.is_some_and(is_next_within)
+}
+
+/// The cause of a first sweep that is NaN or infinite: the force of a stage, or the first such evaluation.
+pub(crate) fn non_finite(
+    force: Option<usize>,
+    evaluation: impl FnOnce() -> Option<(Quantity, usize)>,
+    of_positions: bool,
+) -> Failure {
+    let culprit = match force {
+        Some(stage) => Some((Quantity::Force, stage)),
+        None => evaluation(),
+    };
+    let part = match of_positions {
+        true => Quantity::Position,
+        false => Quantity::Momentum,
+    };
+    let (what, stage) = match culprit {
+        Some((what, stage)) => (what, Some(stage)),
+        None => (part, None),
+    };
+    Failure::NonFinite { what, stage }
 }
 
 /// The larger of two numbers.
@@ -261,20 +377,11 @@ fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
+/// The smaller of two numbers.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
 #[cfg(test)]
 mod tests;
-
-/// The relative change of the stages that must be at the level of rounding errors when an iteration has settled.
-///
-/// In a general system both halves must be. In a separable system one half suffices, once the positions have stopped shrinking. The
-/// other half then moves at most by the noise of the system's evaluations. This noise can be far above the rounding errors of a
-/// sum, as with stiff springs between masses far from the origin. One half alone proves nothing: beside a huge momentum, the changes
-/// of all other momenta are negligible from the start.
-#[inline]
-pub(crate) fn settling<C: Class>(change: &StageChange) -> f64 {
-    if C::SEPARABLE {
-        change.q.relative().min(change.p.relative())
-    } else {
-        change.residual()
-    }
-}

@@ -1,7 +1,7 @@
 //! Coupled stages of several trajectories, each in one lane, with the bits of [`Automatic`](crate::solver::Automatic).
 //!
 //! A sweep computes the stages of all trajectories at once, with the operations of a single run in the same order. Only steps with a warm
-//! start are taken here. If the stages of a trajectory do not settle as they do in [`warm_start`](crate::solver::convergence), the
+//! start are taken here. If the stages of a trajectory do not settle in few [sweeps](crate::solver::convergence), the
 //! trajectory takes the step alone.
 
 mod by_halves;

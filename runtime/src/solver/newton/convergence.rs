@@ -2,12 +2,13 @@
 
 use super::linear_solver::LinearSolver;
 use super::sweep::ByIncrements;
-use crate::method::{Failure, StageChange, StageTableau, StepStatistics, Stopping, WarmStart};
+use crate::method::{
+    Failure, HalfChange, StageChange, StageTableau, StepStatistics, Stopping, WarmStart,
+};
 use crate::number::dither::dither_last_sweep;
 use crate::number::{Scalar, Summation, Vector};
-use crate::solver::convergence::settling;
 use crate::solver::convergence::{
-    CONTRACTION, NOISIEST, PATIENCE, ROUNDING, STAGNATION, is_last, non_finite,
+    CONTRACTION, NOISIEST, PATIENCE, ROUNDING, STAGNATION, non_finite,
 };
 use crate::system::{Class, Separable, System};
 
@@ -123,7 +124,11 @@ where
         work.evaluations += sweeps.evaluations();
         if change.is_undefined() {
             return Err(match iteration {
-                1 => non_finite(sweeps.non_finite_force(), || sweeps.non_finite(), &change),
+                1 => non_finite(
+                    sweeps.non_finite_force(),
+                    || sweeps.non_finite(),
+                    change.q.is_undefined(),
+                ),
                 _ => course.failure(iteration),
             });
         }
@@ -250,5 +255,32 @@ impl Course {
                 iterations,
             }
         }
+    }
+}
+
+/// Whether this change, after the change `before`, ends an iteration that does not wait for stagnation.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn is_last<T: Scalar>(before: Option<StageChange>, change: &StageChange, both: bool) -> bool {
+    let of = |before: Option<f64>, change: &HalfChange| {
+        let (unit, this) = (T::EPSILON * change.scale(), change.difference());
+        // Estimates the next change by a constant contraction rate, with a quotient, which works for numbers of any size.
+        let is_next_within = |before| this / before * this <= unit;
+        this <= unit || this <= ROUNDING * unit && before.is_some_and(is_next_within)
+    };
+    of(before.map(|x| x.q.difference()), &change.q)
+        && (!both || of(before.map(|x| x.p.difference()), &change.p))
+}
+
+/// The relative change of the stages that must be at the level of rounding errors when an iteration has settled.
+///
+/// In a general system both halves must be. In a separable system one half suffices, once the positions have stopped shrinking. The
+/// other half then moves at most by the noise of the system's evaluations. This noise can be far above the rounding errors of a
+/// sum, as with stiff springs between masses far from the origin. One half alone proves nothing: beside a huge momentum, the changes
+/// of all other momenta are negligible from the start.
+fn settling<C: Class>(change: &StageChange) -> f64 {
+    if C::SEPARABLE {
+        change.q.relative().min(change.p.relative())
+    } else {
+        change.residual()
     }
 }

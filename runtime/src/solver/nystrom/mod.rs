@@ -9,19 +9,18 @@ pub use self::stages::NystromStages;
 use crate::error::Quantity;
 use crate::method::tableau::Columns;
 use crate::method::{
-    EvaluationCounts, Failure, Inside, Outcome, SecondOrderTableau, Solver, StageChange,
-    StageTableau, Step, StepStatistics, Stopping, WarmStart,
+    EvaluationCounts, Failure, Inside, Outcome, SecondOrderTableau, Solver, StageTableau, Step,
+    StepStatistics, Stopping, WarmStart,
 };
 use crate::number::lanes::lanes;
-use crate::number::vector::is_in_place;
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::solver::SimdFixedPoint;
-use crate::solver::convergence::{Begun, Sweeps, settle, settle_from_cold_start};
+use crate::solver::convergence::{Sweeps, settle};
 use crate::solver::predictor::{MOST, StartingColumns, starting_columns, starts_at_once, weighted};
-use crate::solver::simd::change::{LaneMovement, part_change};
+use crate::solver::simd::change::LaneMovement;
 use crate::solver::simd::gauss_seidel::{ByLanes, gauss_seidel};
 use crate::solver::simd::stages::SimdStages;
-use crate::solver::simd::sums::{self, Sums, entry, extrapolate, is_about, scale_of, values};
+use crate::solver::simd::sums::{self, Sums, entry, extrapolate, scale_of, values};
 use crate::system::{Class, System, SystemInLanes, SystemLanes};
 
 /// Takes a step of a second-order system `q'' = M⁻¹ f(t, q)`, whose velocity `M⁻¹ p` is linear in the momentum. Only the positions are
@@ -66,7 +65,7 @@ where
         },
         start,
     };
-    let mut work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
+    let mut work = settle::<P::Class, f64, _>(&mut sweeps, kept, stopping)?;
     // With unit masses, the velocity of the low part of the momentum is counted, like all velocities, but not computed.
     work.evaluations += sweeps.evaluations().finish;
     if R::COMPENSATED {
@@ -372,31 +371,6 @@ where
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn go_on<C: Class, T: Scalar>(
-        &mut self,
-        kept: WarmStart,
-        stopping: Stopping,
-        begun: Begun<Self::Movement>,
-    ) -> Result<StepStatistics, Failure> {
-        let start = self.start;
-        self.lanes.elsewhere(begun.is_nothing(), |lanes| {
-            let settle_from_cold_start = |start| {
-                settle_from_cold_start::<C, T, _>(
-                    &mut Positions { lanes, start },
-                    kept,
-                    stopping,
-                    begun,
-                )
-            };
-            // A copy, so that no pointer prevents the start from staying in registers from step to step.
-            match is_in_place(start) {
-                true => settle_from_cold_start(&start.clone()),
-                false => settle_from_cold_start(start),
-            }
-        })
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
         self.lanes.forces();
         if R::COMPENSATED {
@@ -409,15 +383,8 @@ where
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn change(&self, movement: &LaneMovement<P::Lanes>) -> StageChange {
-        let stages = self.lanes.stages.q.as_ref();
-        let q = part_change(movement.q, scale_of::<P, V>(self.lanes.step.q, stages));
-        StageChange { q, p: q }
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn are_about(&self, _movement: &Self::Movement, [q, _]: [f64; 2], _both: bool) -> bool {
-        let stages = self.lanes.stages.q.as_ref();
-        is_about(scale_of::<P, V>(self.lanes.step.q, stages), q)
+    fn scales(&self, _movement: &Self::Movement) -> [f64; 2] {
+        let q = scale_of::<P, V>(self.lanes.step.q, self.lanes.stages.q.as_ref());
+        [q, q]
     }
 }

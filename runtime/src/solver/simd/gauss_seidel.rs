@@ -1,19 +1,19 @@
 //! Coupled stages side by side in SIMD lanes, with Gauss–Seidel sweeps.
 
 use crate::error::Quantity;
+use crate::method::storage::aside;
 use crate::method::tableau::Columns;
 use crate::method::{
-    EvaluationCounts, Failure, Inside, Outcome, Solver, StageChange, StageStorage, StageTableau,
-    Step, StepStatistics, Stopping, WarmStart,
+    EvaluationCounts, Failure, Inside, Outcome, Solver, StageStorage, StageTableau, Step,
+    StepStatistics, Stopping, WarmStart,
 };
 use crate::number::summation::Overrelaxed;
-use crate::number::vector::{LIGHT, is_in_place};
-use crate::number::{Scalar, Summation, Vector};
-use crate::solver::convergence::{Begun, Sweeps, settle, settle_from_cold_start};
-use crate::solver::simd::change::{LaneMovement, part_change};
+use crate::number::{Summation, Vector};
+use crate::solver::convergence::{Sweeps, settle};
+use crate::solver::simd::change::LaneMovement;
 use crate::solver::simd::stages::SimdStages;
 use crate::solver::simd::sums::{
-    entry, extend, extrapolate, fill, is_about, scale, scale_of, sum, sums, times, totals, values,
+    entry, extend, extrapolate, fill, scale, scale_of, sum, sums, times, totals, values,
 };
 use crate::system::SystemInLanes;
 use crate::system::SystemLanes;
@@ -83,7 +83,7 @@ where
         stages: &mut *stages,
         sums: PhantomData,
     };
-    let work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
+    let work = settle::<P::Class, f64, _>(&mut sweeps, kept, stopping)?;
     if !R::COMPENSATED {
         sweeps.increments();
     }
@@ -154,24 +154,12 @@ where
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn non_finite(&self) -> Option<(Quantity, usize)> {
-        self.stages.non_finite()
+        aside(self.stages, StageStorage::non_finite)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn non_finite_force(&self) -> Option<usize> {
-        self.stages.non_finite_force()
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn go_on<C: Class, T: Scalar>(
-        &mut self,
-        kept: WarmStart,
-        stopping: Stopping,
-        begun: Begun<Self::Movement>,
-    ) -> Result<StepStatistics, Failure> {
-        self.elsewhere(begun.is_nothing(), |mut lanes| {
-            settle_from_cold_start::<C, T, _>(&mut lanes, kept, stopping, begun)
-        })
+        aside(self.stages, StageStorage::non_finite_force)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -195,19 +183,12 @@ where
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn change(&self, movement: &LaneMovement<P::Lanes>) -> StageChange {
+    fn scales(&self, _movement: &Self::Movement) -> [f64; 2] {
         let (step, stages) = (self.step, &*self.stages);
-        StageChange {
-            q: part_change(movement.q, scale_of::<P, V>(step.q, stages.q.as_ref())),
-            p: part_change(movement.p, scale_of::<P, V>(step.p, stages.p.as_ref())),
-        }
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn are_about(&self, _movement: &Self::Movement, [q, p]: [f64; 2], both: bool) -> bool {
-        let (step, stages) = (self.step, &*self.stages);
-        is_about(scale_of::<P, V>(step.q, stages.q.as_ref()), q)
-            && (!both || is_about(scale_of::<P, V>(step.p, stages.p.as_ref()), p))
+        [
+            scale_of::<P, V>(step.q, stages.q.as_ref()),
+            scale_of::<P, V>(step.p, stages.p.as_ref()),
+        ]
     }
 }
 
@@ -233,37 +214,6 @@ where
             stages: &mut *self.stages,
             sums: PhantomData,
         }
-    }
-
-    /// Applies `go_on` to a copy of these stages, unless they are large or on the heap. Stages to which no pointer exists can stay in
-    /// registers from step to step. If the iteration begins `anew`, the old positions and momenta are not copied.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn elsewhere<T>(
-        &mut self,
-        anew: bool,
-        go_on: impl FnOnce(ByLanes<'_, P, R, V, S>) -> T,
-    ) -> T {
-        let (system, sums) = (self.system, PhantomData);
-        if !is_in_place(self.step.q) || size_of::<SimdStages<V, P>>() > LIGHT {
-            let (step, stages) = (self.step, &mut *self.stages);
-            return go_on(ByLanes {
-                step,
-                system,
-                stages,
-                sums,
-            });
-        }
-        let mut stages = self.stages.take(!anew);
-        let made = self.step.copied(|step| {
-            go_on(ByLanes {
-                step,
-                system,
-                stages: &mut stages,
-                sums,
-            })
-        });
-        *self.stages = stages;
-        made
     }
 
     /// Computes new positions from velocities, which may be `of_increments`; returns their change.

@@ -4,12 +4,12 @@ use core::marker::PhantomData;
 
 use crate::error::Quantity;
 use crate::method::{
-    EvaluationCounts, Failure, HalfTableau, Inside, Outcome, Solver, StageChange, StageTableau,
-    Step, StepStatistics, Stopping, WarmStart,
+    EvaluationCounts, Failure, HalfTableau, Inside, Outcome, Solver, StageTableau, Step,
+    StepStatistics, Stopping, WarmStart,
 };
-use crate::number::{Scalar, Summation, Vector};
+use crate::number::{Summation, Vector};
 use crate::solver::SimdFixedPoint;
-use crate::solver::convergence::{Begun, Sweeps, settle, settle_from_cold_start};
+use crate::solver::convergence::{Sweeps, settle};
 use crate::solver::predictor::{Starting, StartingColumns, starts_at_once};
 use crate::solver::simd::change::LaneMovement;
 use crate::solver::simd::gauss_seidel::{ByLanes, extrapolates, gauss_seidel};
@@ -84,7 +84,7 @@ where
         stages: &mut *stages,
         sums: PhantomData,
     });
-    let work = settle::<P::Class, f64>(&mut sweeps, kept, stopping)?;
+    let work = settle::<P::Class, f64, _>(&mut sweeps, kept, stopping)?;
     if !R::COMPENSATED {
         sweeps.0.increments();
     }
@@ -212,18 +212,6 @@ where
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn go_on<C: Class, T: Scalar>(
-        &mut self,
-        kept: WarmStart,
-        stopping: Stopping,
-        begun: Begun<Self::Movement>,
-    ) -> Result<StepStatistics, Failure> {
-        self.0.elsewhere(begun.is_nothing(), |lanes| {
-            settle_from_cold_start::<C, T, _>(&mut Halves(lanes), kept, stopping, begun)
-        })
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
         if Self::AT_ONE_TIME {
             self.0.slopes();
@@ -240,12 +228,7 @@ where
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn change(&self, movement: &LaneMovement<P::Lanes>) -> StageChange {
-        self.0.change(movement)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn are_about(&self, movement: &Self::Movement, scales: [f64; 2], both: bool) -> bool {
-        self.0.are_about(movement, scales, both)
+    fn scales(&self, movement: &Self::Movement) -> [f64; 2] {
+        self.0.scales(movement)
     }
 }

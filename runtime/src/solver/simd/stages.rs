@@ -1,7 +1,5 @@
 //! Memory of coupled stages in SIMD lanes.
 
-use core::mem;
-
 use crate::error::Quantity;
 use crate::method::{HalfTableau, StageStorage, StageTableau};
 #[cfg(feature = "alloc")]
@@ -30,26 +28,6 @@ impl<V: Vector, P: StageTableau> Clone for SimdStages<V, P> {
             velocity: clone(&self.velocity),
             force: clone(&self.force),
         }
-    }
-}
-
-impl<V: Vector, P: StageTableau> SimdStages<V, P> {
-    /// Moves the stages out, so that no pointer to them exists. Without `with_values`, positions and momenta are left blank.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn take(&mut self, with_values: bool) -> Self {
-        let blank = || P::groups(|_| Laned::<V, P>::blank());
-        let mut taken = Self {
-            q: blank(),
-            p: blank(),
-            velocity: mem::replace(&mut self.velocity, blank()),
-            force: mem::replace(&mut self.force, blank()),
-        };
-        // Not a choice between two values for one place: the compiler would keep both in memory and select the address.
-        if with_values {
-            taken.q = mem::replace(&mut self.q, blank());
-            taken.p = mem::replace(&mut self.p, blank());
-        }
-        taken
     }
 }
 

@@ -127,9 +127,11 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
     let mut largest = None;
     for k in 0..n {
         let [start, low] = [base[k], low[k]].map(P::Lanes::from_f64);
+        let terms = P::groups(|group| terms[group][k]);
         for (group, out) in out.iter_mut().enumerate() {
             let with = sums.with_low.then_some(low);
-            let term = |j: usize| lane_of(terms[j / P::Lanes::WIDTH][k], j);
+            let term =
+                |j: usize| terms.as_ref()[j / P::Lanes::WIDTH].broadcast(j % P::Lanes::WIDTH);
             let sum_of_terms = combination(sums, group, with, term);
             let new = value((group, k), (start, low), sum_of_terms);
             let new = moved(sums.beyond, out[k], new);
@@ -157,7 +159,7 @@ fn combination<L: Lanes>(
     sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
     group: usize,
     start: Option<L>,
-    term: impl Fn(usize) -> f64,
+    term: impl Fn(usize) -> L,
 ) -> L {
     sum_of_products(start, sums.count, |j| {
         let column: L = lanes((sums.column)(j), group);
@@ -165,7 +167,7 @@ fn combination<L: Lanes>(
             Some(factor) => column * L::from_f64(factor),
             None => column,
         };
-        (column, L::from_f64(term(j)))
+        (column, term(j))
     })
 }
 
@@ -187,7 +189,9 @@ pub(crate) fn extrapolate<P: StageTableau, V: Vector>(
     let mut new = P::groups(|_| P::Lanes::from_f64(0.0));
     for k in 0..n {
         for (group, new) in new.as_mut().iter_mut().enumerate() {
-            *new = combination(&sums, group, None, |j| entry::<P, V>(increments, j, k));
+            *new = combination(&sums, group, None, |j| {
+                P::Lanes::from_f64(entry::<P, V>(increments, j, k))
+            });
         }
         for (group, new) in new.as_ref().iter().enumerate() {
             increments[group].as_mut_slice()[k] = *new;
@@ -281,12 +285,12 @@ pub(crate) fn extend<P: StageTableau, V: Vector<Scalar = f64>>(
     }
 }
 
-/// The largest component of the stages and of the base, distributed over the lanes.
+/// The largest component of the stages and of the base.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn scale_of<P: StageTableau, V: Vector<Scalar = f64>>(
     base: &V,
     groups: &[Laned<V, P>],
-) -> P::Lanes {
+) -> f64 {
     let components = base.as_slice();
     // Vectors on the heap may be long, so all lanes are used.
     let rows = match mem::needs_drop::<V>() {
@@ -306,11 +310,5 @@ pub(crate) fn scale_of<P: StageTableau, V: Vector<Scalar = f64>>(
             scale = scale.larger(component.abs());
         }
     }
-    scale
-}
-
-/// Returns whether the largest lane equals `other` up to a factor of two.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn is_about<L: Lanes>(scale: L, other: f64) -> bool {
-    scale.any_above(0.5 * other) && !scale.any_above(2.0 * other)
+    scale.largest()
 }
