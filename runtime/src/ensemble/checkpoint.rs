@@ -139,7 +139,7 @@ where
     pub fn check(&self, checkpoint: &EnsembleCheckpoint) -> Result<(), CheckpointError> {
         if checkpoint.checksum != checkpoint.sum() {
             return Err(CheckpointError::Damaged {
-                reason: "its checksum is that of other contents",
+                reason: "its checksum does not match its contents",
             });
         }
         let own = self.checkpoint(checkpoint.next)?;

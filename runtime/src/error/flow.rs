@@ -17,7 +17,7 @@ pub enum FlowError {
     },
 
     /// The number of components of the state differs from that of the flow.
-    #[error("the flow is for {expected} components of the position, and there are {found}")]
+    #[error("the flow has {expected} components, the state {found}")]
     Dimension {
         /// Number of components of the flow.
         expected: usize,
@@ -25,17 +25,17 @@ pub enum FlowError {
         found: usize,
     },
 
-    /// A flow without an inverse was asked to go backward: the step size, or a coefficient of the method, is negative.
+    /// A flow without an inverse cannot run backward: the step size or a coefficient of the method is negative.
     #[error(
-        "the flow cannot go backward, by {size}; take a positive step size and a method whose coefficients are positive"
+        "the flow cannot run backward (duration {size}); take a positive step size and a method whose coefficients are positive"
     )]
     Backward {
         /// The requested duration.
         size: f64,
     },
 
-    /// Two bodies are at the same place.
-    #[error("bodies {first} and {second} are in one place; their gravity is infinite")]
+    /// Two bodies are at the same position.
+    #[error("bodies {first} and {second} are at the same position; their gravity is infinite")]
     Collision {
         /// The first body, from 0.
         first: usize,

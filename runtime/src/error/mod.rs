@@ -18,7 +18,7 @@ pub enum Error {
     /// The iteration for the coupled stages diverged, or converged too slowly. Take a smaller step, or for a stiff
     /// system [`Newton`](crate::solver::Newton) instead of a fixed-point iteration.
     #[error(
-        "step {step} of size {step_size} at time {time}: the stages {}; take a smaller step",
+        "step {step} of size {step_size} at time {time}: the stages {}; take a smaller step, or `by_newton()` for a stiff system",
         Divergence { residual: *.residual, iterations: *.iterations }
     )]
     NoConvergence {
@@ -36,9 +36,9 @@ pub enum Error {
 
     /// The iteration for the coupled stages stagnates far above rounding errors, because evaluations are noisy.
     #[error(
-        "step {step} of size {step_size} at time {time}: after {iterations} iterations the stages still change by {residual:e} and no \
-         longer less; the velocity or the force has larger errors than rounding, or jumps: evaluate it more precisely, or take \
-         `Plain` sums and set a tolerance above that change"
+        "step {step} of size {step_size} at time {time}: after {iterations} iterations the change of the stages stagnates at {residual:e}; \
+         the velocity or the force has larger errors than rounding, or jumps: evaluate it more precisely, or take `Plain` sums and set a \
+         tolerance above that change"
     )]
     Stagnation {
         /// Time at the start of the step.
@@ -89,7 +89,7 @@ pub enum Error {
     /// An evaluation of the system changed the dimension of its output vector.
     #[error(
         "step {step} of size {step_size} at time {time}: the {what}{} has dimension {found} instead \
-         of {expected}; the system has to write into the vector it is given without resizing it",
+         of {expected}; the system must write into the given vector without resizing it",
         AtStage(*.stage)
     )]
     EvaluationDimension {
@@ -111,8 +111,8 @@ pub enum Error {
 
     /// An evaluation of the system at a given state changed the dimension of its output vector.
     #[error(
-        "the {what} of the state at time {time} has dimension {found} instead of {expected}; the system has to write into the vector it \
-         is given without resizing it"
+        "the {what} of the state at time {time} has dimension {found} instead of {expected}; the system must write into the given \
+         vector without resizing it"
     )]
     ResizedEvaluation {
         /// The time of the state.
@@ -185,8 +185,8 @@ pub enum Error {
     /// the momentum.
     #[error(
         "`{method}` has order {order} where the kinetic energy is pᵀM⁻¹p/2 with a constant M, and order {lower_order} for other separable systems; \
-         component {component} of the velocity is {velocity} in size, and {linear} if it were linear in the momentum: take a \
-         method for separable systems, or write `.accept_lower_order()` after the method"
+         |velocity[{component}]| is {velocity}; a velocity linear in p would give {linear}: take a method for separable systems, or write \
+         `.accept_lower_order()` after the method"
     )]
     NotQuadraticKinetic {
         /// Name of the method.
@@ -218,8 +218,8 @@ pub enum Error {
 
     /// A system declares unit masses, but its velocity differs from the momentum.
     #[error(
-        "component {component} of the velocity is {velocity} in size where the momentum is {momentum}: leave out \
-         `UNIT_MASSES = true`, or let `velocity` copy the momentum"
+        "|velocity[{component}]| is {velocity}, but |p[{component}]| is {momentum}: leave out `UNIT_MASSES = true`, or let `velocity` copy \
+         the momentum"
     )]
     NotUnitMasses {
         /// The component, from 0.
@@ -236,7 +236,7 @@ pub enum Error {
 
     /// The displacement whose growth is requested is zero.
     #[error(
-        "the displacement is zero and stays so: take one in a general direction, of any length"
+        "the displacement is zero and remains zero; choose a nonzero one in a general direction"
     )]
     NoDisplacement,
 
@@ -256,7 +256,7 @@ pub enum Error {
     },
 
     /// There is no last step for dense output: no step has led to the present state.
-    #[error("there is no last step; take one first")]
+    #[error("no step has led to the present state; take a step first")]
     NoStep,
 
     /// The requested time is not in the last step.
@@ -345,7 +345,7 @@ pub enum Error {
 
     /// An entry of a gradient was set for a constraint or a component that does not exist.
     #[error(
-        "the gradient of constraint {constraint} by component {component} was set, and there are {constraints} constraints and \
+        "the gradient of constraint {constraint} by component {component} was set, but there are only {constraints} constraints and \
          {dimension} components, counted from 0"
     )]
     GradientPlace {
@@ -361,8 +361,8 @@ pub enum Error {
 
     /// The gradient of a constraint is not its derivative.
     #[error(
-        "the gradient of constraint {constraint}{} is not its derivative: in one direction {stated:e} where differences of the constraint give \
-         {found:e}; correct `constraint_gradients`",
+        "the gradient of constraint {constraint}{} is not the derivative of the constraint: its directional derivative is {stated:e}, but \
+         difference quotients give {found:e}; correct `constraint_gradients`",
         Named(*name)
     )]
     GradientMismatch {
@@ -378,7 +378,7 @@ pub enum Error {
 
     /// The entries of the gradients of the constraints were set at other indices, or in another order, than before.
     #[error(
-        "at time {time} the gradients of the constraints were set in other places than at first; set the same entries in the same order, \
+        "at time {time} the gradients of the constraints were set at other indices than before; set the same entries in the same order, \
          also where they are zero"
     )]
     MovingGradients {
@@ -388,8 +388,8 @@ pub enum Error {
 
     /// The start violates the constraints.
     #[error(
-        "the state is not on the constraints: constraint {constraint}{} is {value:e} and changes at the rate {rate:e}, where both must \
-         be 0; `consistent(&system, state)` gives a state that is",
+        "the state is not on the constraints: for constraint {constraint}{} |φ| = {value:e}, |dφ/dt| = {rate:e}; both must be 0; \
+         `consistent(&system, state)` returns a consistent state",
         Named(*name)
     )]
     InconsistentStart {
@@ -405,9 +405,8 @@ pub enum Error {
 
     /// The velocity at the start violates the non-holonomic constraints.
     #[error(
-        "the velocity does not obey the constraints: w·q' of constraint {constraint}{} is {rate:e}, and must be 0; \
-         `consistent_momentum(&system, state)` gives a state of a Hamiltonian system with a velocity that does, \
-         `momentum_of_velocity` the momentum of such a velocity for a Lagrangian",
+        "the velocity violates the constraints: |w·q'| of constraint {constraint}{} is {rate:e}, but must be 0; use \
+         `consistent_momentum(&system, state)`; for a Lagrangian use `momentum_of_velocity` with a consistent velocity",
         Named(*name)
     )]
     InconsistentVelocity {
@@ -421,7 +420,8 @@ pub enum Error {
 
     /// No state that satisfies the constraints was found near the given state.
     #[error(
-        "no state on the constraints was found near this one: they are still {value:e}, and change at the rate {rate:e}; begin nearer"
+        "no state on the constraints was found near this one: the largest |φ| is {value:e}, the largest rate {rate:e}; start closer to the \
+         constraints"
     )]
     NoConsistentState {
         /// The largest |φ|.
@@ -450,8 +450,8 @@ pub enum Error {
 
     /// Newton's iteration for the end of a step of a discrete Lagrangian or a rigid body does not converge.
     #[error(
-        "step {step} of size {step_size} at time {time}: no end of the step was found in {iterations} iterations (relative change \
-         {residual:e} in the last one); take a smaller step"
+        "step {step} of size {step_size} at time {time}: no end of the step was found in {iterations} iterations (last relative change \
+         {residual:e}); take a smaller step"
     )]
     NoEndOfStep {
         /// Time at the start of the step.
@@ -471,7 +471,7 @@ pub enum Error {
     #[error(
         "step {step} of size {step_size} at time {time}: the Lagrangian does not determine component {component} at the end of the step \
          (pivot {pivot:e}); take a Lagrangian that determines every velocity, or keep away from this position. If ∂²L/∂v∂v is singular, \
-         `primary_constraints` returns what the momenta then obey, and `DiracIntegrator` steps such a Lagrangian"
+         `primary_constraints` returns the constraints on the momenta, and `DiracIntegrator` steps such a Lagrangian"
     )]
     IrregularLagrangian {
         /// Time at the start of the step.
@@ -523,7 +523,7 @@ pub enum Error {
 
     /// A Lagrangian has no velocity for the given momentum.
     #[error(
-        "no velocity was found for this momentum at time {time}{}; take a Lagrangian whose ∂²L/∂v∂v is regular, and a momentum that it can have",
+        "no velocity was found for this momentum at time {time}{}; take a Lagrangian whose ∂²L/∂v∂v is regular, and a momentum in the range of ∂L/∂v",
         Undetermined(*component)
     )]
     NoVelocity {
@@ -568,9 +568,9 @@ pub enum Error {
 
     /// The equations of a step of a degenerate Lagrangian contradict each other.
     #[error(
-        "step {step} of size {step_size} at time {time}: the conditions on the step contradict each other, by {value:e} in that of {what} \
-         {index}; start where the conditions on positions hold, take the rule `AtEnd` for the first step, and for a Lagrangian that is linear \
-         in the velocities the rule `Midpoint`"
+        "step {step} of size {step_size} at time {time}: the conditions on the step contradict each other; the condition for {what} {index} \
+         is violated by {value:e}; start where the conditions on positions hold, take the rule `AtEnd` for the first step, and for a \
+         Lagrangian that is linear in the velocities the rule `Midpoint`"
     )]
     ContradictoryStep {
         /// Time at the start of the step.
@@ -610,9 +610,8 @@ pub enum Error {
 
     /// The velocity is not `M⁻¹p` with a constant M; the logarithmic Hamiltonian requires `T = p·M⁻¹p/2`.
     #[error(
-        "component {component} of the velocity is {velocity} in size, and {linear} if it were linear in the momentum and without time: \
-         the logarithmic Hamiltonian is for H = pᵀM⁻¹p/2 + U(t, q) with a constant M; take `Poincare` or `Integrator::adaptive` for this \
-         system"
+        "|velocity[{component}]| is {velocity}; a velocity linear in p and independent of time would give {linear}: the logarithmic \
+         Hamiltonian is for H = pᵀM⁻¹p/2 + U(t, q) with a constant M; take `Poincare` or `Integrator::adaptive` for this system"
     )]
     LogarithmicMasses {
         /// The component of the velocity, from 0.
@@ -625,8 +624,8 @@ pub enum Error {
 
     /// The velocity is not `M⁻¹p` with a constant M; Newmark's method requires the acceleration `M⁻¹ force`.
     #[error(
-        "component {component} of the velocity is {velocity} in size, and {linear} if it were linear in the momentum and without time: \
-         Newmark's method is for H = pᵀM⁻¹p/2 + V(t, q) with a constant M; take Störmer–Verlet or Gauss for this system"
+        "|velocity[{component}]| is {velocity}; a velocity linear in p and independent of time would give {linear}: Newmark's method is for \
+         H = pᵀM⁻¹p/2 + V(t, q) with a constant M; take Störmer–Verlet or Gauss for this system"
     )]
     NewmarkMasses {
         /// The component of the velocity, from 0.
@@ -639,8 +638,7 @@ pub enum Error {
 
     /// No position was found for a shifted position of Newmark's method.
     #[error(
-        "at time {time} no position q with q − βh² a(q) = x was found (relative change {residual:e} in the last iteration); take a smaller \
-         step"
+        "at time {time} no position q with q − βh² a(q) = x was found (last relative change {residual:e}); take a smaller step"
     )]
     NewmarkPosition {
         /// The time.
@@ -651,8 +649,8 @@ pub enum Error {
 
     /// A rigid body turns by π or more in a step, so that the rotation of the step is not unique.
     #[error(
-        "step {step} of size {step_size} at time {time}: the body turns by {angle} rad, and a step is for less than half a turn; take a \
-         smaller step"
+        "step {step} of size {step_size} at time {time}: the body turns by {angle} rad, but a step must turn by less than π; take a smaller \
+         step"
     )]
     HalfTurn {
         /// Time at the start of the step.
@@ -704,7 +702,7 @@ pub enum Error {
     /// change sign.
     #[error(
         "step {step} at time {time}: no step between half and twice the size {step_size} of the step before conserves the discrete energy \
-         here (curvature {curvature:e}); go on with steps of one size, by `VariationalIntegrator`"
+         here (curvature {curvature:e}); continue with `VariationalIntegrator` (constant steps)"
     )]
     NoEnergyStep {
         /// Time at the start of the step.
@@ -719,8 +717,7 @@ pub enum Error {
 
     /// The monitor of variable steps is not positive and finite, or its derivative along the motion is not finite.
     #[error(
-        "the monitor of the step sizes is {value} at time {time}; it must be finite and positive wherever the motion goes, and so must \
-         its slope be finite"
+        "the monitor of the step sizes is {value} at time {time}; it must be finite and positive along the orbit, with a finite derivative"
     )]
     Monitor {
         /// Time of the state.
@@ -746,7 +743,7 @@ pub enum Error {
 
     /// An argument of a logarithm is not positive: the logarithmic Hamiltonian requires `U < 0` and `T + B > 0`.
     #[error(
-        "step {step} from time {time}: {what} is {value}, and the logarithmic Hamiltonian needs it positive; take a smaller step, or \
+        "step {step} from time {time}: {what} is {value}, but the logarithmic Hamiltonian requires {what} > 0; take a smaller step, or \
          `Integrator::adaptive` where the potential is not negative everywhere"
     )]
     LogarithmicDomain {
@@ -763,7 +760,7 @@ pub enum Error {
     /// The step is so small that it does not change the time.
     #[error(
         "a step of size {step_size} does not change the time {time}, which has 53 bits; take a larger step, or \
-         count the time from nearer"
+         choose a time origin closer to the present time"
     )]
     TimeResolution {
         /// Time of the state.

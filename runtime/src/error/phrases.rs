@@ -53,7 +53,7 @@ impl fmt::Display for Divergence {
         if residual.is_finite() {
             write!(
                 formatter,
-                "did not converge in {iterations} iterations (relative change {residual:e} in the last one)"
+                "did not converge in {iterations} iterations (last relative change {residual:e})"
             )
         } else {
             write!(formatter, "are not finite after {iterations} iterations")

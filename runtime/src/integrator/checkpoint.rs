@@ -78,7 +78,7 @@ pub enum CheckpointError {
 
     /// The checkpoint belongs to another run.
     #[error(
-        "the {what} of the checkpoint is `{found}`, that of this integrator `{expected}`: make the integrator as it was made before"
+        "the {what} of the checkpoint is `{found}`, that of this integrator `{expected}`: construct the integrator with the same {what}"
     )]
     OtherRun {
         /// Version, method, definition, scalar, sums, solver or dimension.
@@ -154,7 +154,7 @@ impl Checkpoint {
             None => missing = true,
         });
         if missing || words.next().is_some() {
-            return Err(DAMAGED("it has not as many words as this run"));
+            return Err(DAMAGED("it has more or fewer words than this run"));
         }
         Ok(())
     }
@@ -191,16 +191,16 @@ impl Checkpoint {
     /// The words, if the checksum matches.
     fn decoded(&self) -> Result<Vec<u64>, CheckpointError> {
         if self.checksum != self.sum() {
-            return Err(DAMAGED("its checksum is that of other contents"));
+            return Err(DAMAGED("its checksum does not match its contents"));
         }
         let digits = self.words.as_bytes();
         let words = digits.chunks(16).map(|word| {
             let word = core::str::from_utf8(word).ok()?;
             (word.len() == 16).then_some(u64::from_str_radix(word, 16).ok()?)
         });
-        words.collect::<Option<Vec<u64>>>().ok_or(DAMAGED(
-            "its words are no hexadecimal numbers of sixteen digits",
-        ))
+        words
+            .collect::<Option<Vec<u64>>>()
+            .ok_or(DAMAGED("a word is not sixteen hexadecimal digits"))
     }
 }
 

@@ -92,7 +92,9 @@ impl NpzArray {
         let skipped = number(file, local + 28, 2)?;
         let data = part(file, local + 30 + letters + skipped, size)?;
         if crc32(data) as usize != number(file, at + 16, 4)? {
-            return Err(other("its checksum is that of other contents".to_string()));
+            return Err(other(
+                "its checksum does not match its contents".to_string(),
+            ));
         }
         let (shape, values) = npy(data).map_err(|error| other(error.to_string()))?;
         let more = number(file, at + 30, 2)? + number(file, at + 32, 2)?;

@@ -84,7 +84,7 @@ impl Attraction {
         load(&self.places, first)
     }
 
-    /// Adds the forces of gravity between the planets. They are not finite where two are in one place.
+    /// Adds the forces of gravity between the planets. They are not finite where two are at the same position.
     ///
     /// The planets k and k + d are pairs side by side, for d = 1, …, n/2; for `2d = n` each pair comes twice, once from either side.
     pub(super) fn attract(&mut self) {
@@ -132,7 +132,7 @@ impl Attraction {
         }
     }
 
-    /// Why forces are not finite: two planets are in one place, or the star, if given, and another planet than the first.
+    /// Why forces are not finite: two planets are at the same position, or the star, if given, and another planet than the first.
     #[cold]
     pub(super) fn failure(&self, star: Option<[f64; 3]>) -> FlowError {
         let count = self.count;

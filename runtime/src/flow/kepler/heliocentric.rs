@@ -141,7 +141,7 @@ impl Heliocentric {
 ///
 /// # Errors
 ///
-/// [`FlowError::Collision`] for planets in one place, [`FlowError::NonFinite`] for other forces that are not finite, [`FlowError::Dimension`].
+/// [`FlowError::Collision`] for planets at the same position, [`FlowError::NonFinite`] for other forces that are not finite, [`FlowError::Dimension`].
 #[derive(Clone, Debug)]
 pub struct HeliocentricKick {
     /// The mass of the star.

@@ -153,7 +153,7 @@ fn to_positions(bodies: &Bodies, q: &[f64], mut put: impl FnMut(usize, [f64; 3])
 ///
 /// # Errors
 ///
-/// [`FlowError::Collision`] for bodies in one place, [`FlowError::NonFinite`] for other forces that are not finite, [`FlowError::Dimension`].
+/// [`FlowError::Collision`] for bodies at the same position, [`FlowError::NonFinite`] for other forces that are not finite, [`FlowError::Dimension`].
 #[derive(Clone, Debug)]
 pub struct JacobiKick {
     bodies: Bodies,
