@@ -35,9 +35,9 @@ use crate::system::{Class, Unconstrained};
 #[diagnostic::on_unimplemented(
     message = "`{Self}` loses its order or its symplecticity on systems of class `{C}`",
     label = "not proved for this class",
-    note = "if H = T(p) + U(q), write the system with `separable(…)` or implement `SeparableHamiltonian`; a function that returns one says `impl System<V, Class = Separable>`",
+    note = "if H = T(p) + U(q), write the system with `separable(…)` or implement `SeparableHamiltonian`; a function that returns such a system needs the return type `impl System<V, Class = Separable>`",
     note = "otherwise take a method for general Hamiltonians, such as `basis: polynomial(s), nodes: gauss(s)` or `lobatto(s)`",
-    note = "for holonomic constraints, class `Constrained`, take a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, or a composition of such",
+    note = "for holonomic constraints, class `Constrained`, take a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, or a composition of these methods",
     note = "for non-holonomic constraints, class `Nonholonomic`, take a method that is `nonholonomic`: `basis: polynomial(1), nodes: gauss(1)`, or a composition of it",
     note = "for friction, class `Damped`, take a splitting whose order holds for every separable Hamiltonian, such as `velocity-verlet` or `forest-ruth-1990`",
     note = "without constraints, to go on knowingly with a lower order, write `.accept_lower_order()` after the method"

@@ -38,10 +38,10 @@ pub trait Class: sealed::Sealed + Sized + 'static {
 #[diagnostic::on_unimplemented(
     message = "this method has no steps for systems of class `{Self}`",
     label = "no steps for these constraints",
-    note = "class `Constrained`, with holonomic constraints, needs a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, which with two stages is RATTLE, or a composition of such",
+    note = "class `Constrained`, with holonomic constraints, needs a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, which with two stages is RATTLE, or a composition of these methods",
     note = "class `Nonholonomic` needs a method that is `nonholonomic`: `basis: polynomial(1), nodes: gauss(1)`, or a composition of it",
-    note = "`require: [constrained]` or `require: [nonholonomic]` in `tableau!` checks that a method is",
-    note = "code that is generic over the system, and takes a method for systems without constraints, says `S::Class: Unconstrained`"
+    note = "`require: [constrained]` or `require: [nonholonomic]` in `tableau!` checks that a method has constrained or non-holonomic steps",
+    note = "with a method for systems without constraints, generic code needs the bound `S::Class: Unconstrained`"
 )]
 pub trait Unconstrained {}
 
@@ -66,7 +66,7 @@ pub trait Holonomic {}
 #[diagnostic::on_unimplemented(
     message = "this method has no steps for systems of class `{Self}`",
     label = "no steps for holonomic constraints",
-    note = "class `Constrained` needs a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, which with two stages is RATTLE, or a composition of such"
+    note = "class `Constrained` needs a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, which with two stages is RATTLE, or a composition of these methods"
 )]
 pub trait FreePositions {}
 
@@ -86,7 +86,7 @@ impl<C> FreePositions for Nonholonomic<C> {}
 #[diagnostic::on_unimplemented(
     message = "steps of systems of class `{Self}` have no generating function",
     label = "with friction or constraints there is none",
-    note = "code that is generic over the system says `S::Class: Conservative`"
+    note = "generic code needs the bound `S::Class: Conservative`"
 )]
 pub trait Conservative {}
 
