@@ -4,18 +4,15 @@
 //! q' = ∂H/∂p(t, q, p)      p' = −∂H/∂q(t, q, p)
 //! ```
 //!
-//! The methods are symplectic partitioned Runge–Kutta methods that a macro derives, proves and emits as Rust
-//! types; this crate is what steps them. With step size `h` and stages `i = 1..s`:
+//! The methods are symplectic partitioned Runge–Kutta methods. A macro derives them, proves their properties and emits them as Rust types;
+//! this crate integrates with them. With step size `h` and stages `i = 1..s`:
 //!
 //! ```text
-//! Q_i = q0 + h Σ_j a_ij velocity_j      q1 = q0 + h Σ_i b_i velocity_i
-//! P_i = p0 + h Σ_j ã_ij force_j         p1 = p0 + h Σ_i b_i force_i
-//! ```
+//! Q_i = q0 + h Σ_j a_ij velocity_j      q1 = q0 + h Σ_i b_i velocity_i      velocity_i = ∂H/∂p(Q_i, P_i)
+//! P_i = p0 + h Σ_j ã_ij force_j         p1 = p0 + h Σ_i b̃_i force_i         force_i = −∂H/∂q(Q_i, P_i)
 //!
-//! $$ Q_i = q_0 + h \sum_j a_{ij} \dot Q_j \qquad P_i = p_0 + h \sum_j \tilde a_{ij} \dot P_j \qquad
-//! q_1 = q_0 + h \sum_i b_i \dot Q_i \qquad p_1 = p_0 + h \sum_i b_i \dot P_i $$
-//! $$ \dot Q_i = \frac{\partial H}{\partial p}(Q_i, P_i) \qquad \dot P_i = -\frac{\partial H}{\partial q}(Q_i, P_i) \qquad
-//! b_i \tilde a_{ij} + b_j a_{ji} = b_i b_j $$
+//! symplectic for every H:   b_i ã_ij + b̃_j a_ji = b_i b̃_j      b_i = b̃_i
+//! ```
 //!
 //! | What | Where |
 //! |---|---|
@@ -28,11 +25,11 @@
 //! | Discrete and degenerate Lagrangians, generating functions, stages and balances | [`variational`] |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`]; [`RunTimeTableau`] |
 //! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
-//! | What is seen of a run | [`Event`], [`Invariant`], [`Progress`]; [`output`] |
+//! | Output and events | [`Event`], [`Invariant`], [`Progress`]; [`output`] |
 //! | Many trajectories, in lanes and on all cores | [`ensemble`] |
 //! | Is an orbit chaotic? MEGNO, Lyapunov exponent, tangent map | [`tangent`] |
 //! | How coupled stages are found | [`solver`] |
-//! | Which method to take | the package `symplectic-report` |
+//! | Choosing a method | the chapter of this name in the book (`docs/`); the package `symplectic-report` compares methods on your problem |
 //!
 //! The types of the system and of the method decide how a step is taken. Splittings of [`Separable`] systems are straight-line code.
 //! Coupled stages are found by an iteration: by fixed points unless a [`solver`] such as Newton's is named.
@@ -64,9 +61,12 @@
 //! # Features
 //!
 //! * `std` (default): `tan`, inverse and hyperbolic functions, and all functions of singles, from the standard library; implies `alloc`.
-//! * `alloc`: dynamic vectors, [`nalgebra::DVector`], Newton's iteration, generating functions and tableaux at run time.
+//! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), constraints, Newton's iteration, tableaux at run time, checkpoints, ensembles,
+//!   tangent maps, variational integrators and generating functions; of `adaptive` and `flow` also [`adaptive::Logarithmic`],
+//!   [`adaptive::Poincare`], Kepler orbits, linear, mollified and asynchronous flows, and correctors.
 //! * `serde`: a [`Checkpoint`] can be written and read in any format; implies `alloc`.
 //! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and Newton's iteration takes derivatives by dual numbers; implies `std`.
+//! * `fma`: products in sums are rounded once, everywhere; very slow without the instruction.
 //! * `parallel`: the trajectories of an [`ensemble`] are shared among threads; implies `std`.
 //! * `npz`: ensembles are written to files for NumPy; implies `std`.
 //! * `parquet`: ensembles are written to tables of Apache Parquet; implies `std`.
@@ -134,7 +134,7 @@ macro_rules! if_alloc {
     ($($code:tt)*) => { $($code)* };
 }
 
-/// Code that needs vectors on the heap: there are none.
+/// Omits code that needs vectors on the heap: this build has no allocator.
 #[cfg(not(feature = "alloc"))]
 #[doc(hidden)]
 #[macro_export]

@@ -1,9 +1,9 @@
-//! Coefficients for second-order systems `q'' = f(q)`, where the velocity is the momentum: the momentum stages can be left
-//! out,
+//! Coefficients for second-order systems `q'' = M⁻¹ f(q)` with a constant M, whose velocity is `v(p) = M⁻¹p`. The momentum
+//! stages are eliminated:
 //!
 //! ```text
-//! Q_i = q0 + h c_i p0 + h Σ_k ν_ik w_k      q1 = q0 + h p0 + h Σ_k (1 − c_k) w_k
-//! p1 = p0 + Σ_k w_k                         w_k = h b̃_k f(Q_k)
+//! Q_i = q0 + h c_i v(p0) + h Σ_k ν_ik v(w_k)      q1 = q0 + h v(p0) + h Σ_k (1 − c_k) v(w_k)
+//! p1 = p0 + Σ_k w_k                               w_k = h b̃_k f(Q_k)
 //! ```
 //!
 //! with `ν_ik = Σ_j a_ij μ̃_jk` (Nyström, 1925). Where `μ̃_ij + μ_ji = 1`,

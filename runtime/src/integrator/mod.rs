@@ -281,8 +281,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// Takes `count` steps and returns the state after them. The result equals that of `count` calls of [`step`](Self::step) to the last
     /// bit, but it is faster for splittings and for short vectors.
     ///
-    /// A splitting takes the steps in place and checks after some hundred steps whether the states are finite. If a state is
-    /// NaN or infinite, these steps are repeated one by one. Coupled stages of short vectors stay in registers from step to step.
+    /// A splitting takes the steps in place, in blocks of 128 to 65 536 steps, and checks after each block whether the state is finite. If
+    /// it is not, the block is repeated step by step. Coupled stages of short vectors stay in registers from step to step.
     ///
     /// # Errors
     ///

@@ -393,8 +393,7 @@ pub(crate) fn check_no_friction<V: Vector, S: System<V>>(system: &S, q: &V) -> R
 ///
 /// If the method is symplectic and no weight is zero, coupled stages are sums of increments `h b_j velocity_j` and `h b̃_j force_j` with
 /// the coefficients `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`, rounded so that `μ̃_ij + μ_ji = 1` exactly: the rounded method is symplectic
-/// too. A splitting, in which every evaluation enters the later stages with its full weight, applies it to the state at once and stores no
-/// stages.
+/// too.
 pub trait StagePlan {
     /// The class of systems that it steps.
     type Class: Class;
@@ -469,14 +468,13 @@ pub trait StagePlan {
         change
     }
 
-    /// Turns the evaluations of the coupled stages into increments, if the plan uses increments. With [compensated](Summation::COMPENSATED)
-    /// sums every sweep does this. With plain sums the evaluations stay unscaled until then, and the factors of the sums make up for it.
+    /// Turns the evaluations of the coupled stages into increments after the last sweep, if the plan uses increments. With
+    /// [compensated](Summation::COMPENSATED) sums every sweep does this. With plain sums the evaluations stay unscaled until here, and the
+    /// factors of the sums contain the weights.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn increments<V: Vector>(_step: &Step<'_, V>, _stages: &mut Self::Stages<V>) {}
 
-    /// Evaluates what comes after the coupled stages, and writes the result of the step.
-    ///
-    /// A splitting makes all its evaluations here, and shows them to `witness`.
+    /// Makes the evaluations after the coupled stages, and writes the result of the step.
     fn finish<R: Summation, V: Vector, S: System<V, Class = Self::Class>, W: EvaluationObserver>(
         step: &Step<'_, V>,
         system: &S,

@@ -30,7 +30,7 @@
 ///
 /// | key | value |
 /// |---|---|
-/// | `kick`, `drift` | two lists of the same length, each with sum 1; 0 for no kick or no drift |
+/// | `kick`, `drift` | two lists of the same length, each with sum 1; 0 omits the kick or drift |
 /// | `first` | `drift` if each drift comes before the kick of the same number; default `kick` |
 /// | `claim` | `separable(6)`, `nystrom(6)` or `perturbed(8, 6, 4)`: the lists are printed digits, and the method is the exact one of that order, proved to lie near them |
 /// | `symmetric` | `true` if the lists are the first half of a palindrome: the last entry is the middle and occurs once. The flow that comes first may have one entry more than the other; its last entry is then the middle |
@@ -116,7 +116,7 @@ pub use symplectic_macros::splitting;
 /// The triple jump raises the order of a symmetric method from `p` to `p + 2` by `γ_1 = γ_3 = 1/(2 − 2^{1/(p+1)})`, `γ_2 = 1 − 2γ_1`,
 /// Suzuki's fractal by `γ_1 = γ_2 = γ_4 = γ_5 = 1/(4 − 4^{1/(p+1)})`, `γ_3 = 1 − 4γ_1`. This is repeated up to the required order (Hairer,
 /// Lubich & Wanner, *Geometric numerical integration*, §II.4). The weights are exact. Up to order 6 they lie in a number field, in which
-/// everything is proved; from order 8 on the properties are verified.
+/// everything is proved. From order 8 on the theorem on symmetric compositions proves the order.
 ///
 /// A composition of splittings is a splitting, in which neighbouring drifts and kicks are merged. Any other composition has the stages of
 /// all its steps; it is symplectic for all Hamiltonians if its methods are. If it has implicit stages, its steps are taken one by one, each

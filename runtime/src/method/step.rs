@@ -189,7 +189,7 @@ impl Default for WarmStart {
 /// Evaluations that a [`StagePlan`](crate::emitted::StagePlan) makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EvaluationCounts {
-    /// Before the coupled stages; all of a splitting.
+    /// Before the coupled stages.
     pub begin: u32,
     /// For the starting values of the coupled stages, if no stages are [kept](WarmStart::stages).
     pub start: u32,

@@ -32,7 +32,7 @@ pub trait StageTableau: StagePlan {
     const POSITIONS: HalfTableau;
     /// Momenta, and the velocities there.
     const MOMENTA: HalfTableau;
-    /// For systems whose velocity is the momentum, if the method is symplectic for separable systems.
+    /// For systems with the velocity `M⁻¹p`, M constant; `None` if the method is not symplectic for separable systems.
     const SECOND_ORDER: Option<SecondOrderTableau>;
 
     /// How the linear systems of a Newton iteration decouple; `None` if they do not, or if this is not known.

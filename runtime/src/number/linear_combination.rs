@@ -22,7 +22,7 @@ pub fn factors<T: Scalar, const N: usize>(coefficients: [Coefficient; N]) -> [T;
     array(T::zero(), |j| T::from_coefficient(coefficients[j]))
 }
 
-/// `out = base + Σ_j factors_j terms_j`, for a base that is the sum of `base` and `low`.
+/// `out = base + low + Σ_j factors_j terms_j`; `low` is ignored with plain sums.
 ///
 /// The terms are summed before the base is added, because the base is usually larger.
 ///

@@ -20,7 +20,8 @@ use crate::system::{Gradients, Jacobian};
 /// error of the step. As in all code for every scalar, no branch may depend on a value.
 ///
 /// A system whose velocity depends only on `p`, and whose force only on `q`, implements [`SeparableHamiltonian`] instead and gets this
-/// trait from it. Any other system sets `type Class = General`. [`hamiltonian`](crate::hamiltonian()) makes a system from two closures.
+/// trait from it. Any other system sets `type Class` to [`General`](crate::General), [`Damped`](crate::Damped), `Constrained<…>` or
+/// `Nonholonomic<…>`. [`hamiltonian`](crate::hamiltonian()) makes a system from two closures.
 ///
 /// # Time
 ///
@@ -57,7 +58,7 @@ use crate::system::{Gradients, Jacobian};
     note = "a Lagrangian that is not quadratic in the velocities is for `variational::LagrangianIntegrator`"
 )]
 pub trait Hamiltonian {
-    /// The variables that the derivatives depend on: [`General`](crate::General) or [`Separable`].
+    /// The class of the Hamiltonian: see [`Class`].
     type Class: Class;
 
     /// Positions and momenta over a scalar: [`SVector<T, N>`](nalgebra::SVector), or `DVector<T>` if the dimension is known only at
@@ -72,7 +73,8 @@ pub trait Hamiltonian {
     /// Whether the velocity is the momentum, as with unit masses: see [`SeparableHamiltonian::UNIT_MASSES`].
     const UNIT_MASSES: bool = false;
 
-    /// Whether the velocity depends on the momentum alone, though the force depends on momenta too: constant masses are then found once.
+    /// Whether the velocity depends on the momentum alone in a system of class [`General`](crate::General), whose force depends on momenta
+    /// too. If the velocity is `M⁻¹p` with constant M, constrained steps then compute M⁻¹ once.
     const CONSTANT_MASSES: bool = false;
 
     /// Whether the force has a part without a potential: [`applied_force`](Self::applied_force).

@@ -1,4 +1,4 @@
-//! Systems: Hamiltonians, separable or not, and chains of particles.
+//! Systems: Hamiltonians, Lagrangians, closures and chains of particles, and their classes.
 
 pub(crate) mod chain;
 pub(crate) mod class;

@@ -46,7 +46,7 @@ use crate::system::{Gradients, Jacobian};
     label = "implement `SeparableHamiltonian`, or `Hamiltonian` with `type Class = General`"
 )]
 pub trait System<V: Vector>: Sized {
-    /// The variables that the derivatives depend on: [`General`](crate::General) or [`Separable`](crate::Separable).
+    /// The class of the Hamiltonian: see [`Class`].
     type Class: Class;
 
     /// The solver of coupled stages unless another solver is [named](crate::Integrator::with_solver):
@@ -56,11 +56,11 @@ pub trait System<V: Vector>: Sized {
     /// Whether the velocity is the momentum: see [`SeparableHamiltonian::UNIT_MASSES`](crate::SeparableHamiltonian::UNIT_MASSES).
     const UNIT_MASSES: bool = false;
 
-    /// Whether the velocity depends on the momentum alone: see [`Hamiltonian::CONSTANT_MASSES`].
+    /// Whether the velocity depends on the momentum alone in a system of class General: see [`Hamiltonian::CONSTANT_MASSES`].
     const CONSTANT_MASSES: bool = false;
 
-    /// Whether the second half of the positions is a displacement of the first, as in [`Tangent`](crate::tangent::Tangent): monitors of
-    /// step sizes do not see it.
+    /// Whether the second half of the positions is a displacement of the first, as in [`Tangent`](crate::tangent::Tangent). Monitors of
+    /// step sizes ignore the second half.
     const DISPLACED: bool = false;
 
     /// Writes ∂H/∂p at `(time, q, p)` into `velocity`.
