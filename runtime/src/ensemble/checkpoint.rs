@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 
 use super::Ensemble;
-use crate::integrator::brief::system_in_brief;
+use crate::integrator::fingerprint::system_fingerprint;
 use crate::integrator::{Checkpoint, CheckpointError};
 use crate::method::{Method, Solver};
 use crate::number::{Lanes, Summation, Vector, scalar_words};
@@ -37,13 +37,13 @@ impl EnsembleCheckpoint {
     fn sum(&self) -> String {
         let numbers = [self.range[0], self.range[1], self.next].map(|number| number as u64);
         let letters = self.starts.bytes().map(u64::from);
-        format!("{:016x}", brief(letters.chain(numbers)))
+        format!("{:016x}", hash_of_words(letters.chain(numbers)))
     }
 }
 
 /// FNV-1a on words. The upper half of each product is folded onto the lower half; otherwise two simultaneous changes of
 /// sign could cancel.
-fn brief(words: impl Iterator<Item = u64>) -> u64 {
+fn hash_of_words(words: impl Iterator<Item = u64>) -> u64 {
     words.fold(0xcbf2_9ce4_8422_2325, |hash, word| {
         let product = (hash ^ word).wrapping_mul(0x0100_0000_01b3);
         product ^ (product >> 32)
@@ -108,7 +108,7 @@ where
                 true => None,
                 false => Some(self.integrator(0).1.checkpoint()?),
             },
-            starts: self.starts_in_brief(),
+            starts: self.starts_fingerprint(),
             range,
             next: next.clamp(range[0], range[1]),
             checksum: String::new(),
@@ -171,17 +171,17 @@ where
     }
 
     /// Hash of all starts and of the system at each.
-    fn starts_in_brief(&self) -> String {
+    fn starts_fingerprint(&self) -> String {
         let mut hash = 0;
         let mut place = 0;
         for (system, end) in &self.systems {
             for State { time, q, p } in &self.starts[place..*end] {
-                let mut add = |word: &mut u64| hash = brief([hash, *word].into_iter());
+                let mut add = |word: &mut u64| hash = hash_of_words([hash, *word].into_iter());
                 add(&mut time.to_bits());
                 for vector in [&mut q.clone(), &mut p.clone()] {
                     scalar_words(vector.as_mut_slice(), &mut add);
                 }
-                let mut system = system_in_brief(system, *time, q, p);
+                let mut system = system_fingerprint(system, *time, q, p);
                 system.iter_mut().for_each(add);
             }
             place = place.max(*end);

@@ -98,7 +98,7 @@ where
     /// Runs all trajectories.
     pub(super) fn run(mut self, task: &Task<'_>) -> Attempt {
         let attempt = match *task {
-            Task::To(_) | Task::Steps(_) => self.take_leg(task),
+            Task::To(_) | Task::Steps(_) => self.take_remaining(task),
             Task::At(times) => self.see_at(times),
         };
         for lane in bits(self.ready) {
@@ -107,18 +107,18 @@ where
         attempt
     }
 
-    fn take_leg(&mut self, task: &Task<'_>) -> Attempt {
+    fn take_remaining(&mut self, task: &Task<'_>) -> Attempt {
         let run = &self.group.members[0].run;
-        let leg = match *task {
-            Task::To(end) => run.leg_to(end),
-            Task::Steps(count) => Ok(run.leg_of(count)),
+        let remaining = match *task {
+            Task::To(end) => run.steps_to_time(end),
+            Task::Steps(count) => Ok(run.steps_left(count)),
             Task::At(_) => return Attempt::Refused,
         };
-        let Ok(mut leg) = leg else {
+        let Ok(mut remaining) = remaining else {
             return Attempt::Refused;
         };
         let mut count = 0;
-        while let Some((size, time)) = leg.next_step() {
+        while let Some((size, time)) = remaining.next_step() {
             if count % BLOCK == 0 && self.group.ensemble.is_stopped() {
                 return Attempt::Stopped;
             }

@@ -222,7 +222,7 @@ where
             return Attempt::Refused;
         }
         match *self.task {
-            Task::To(_) | Task::Steps(_) => self.take_leg(&mut lanes, join, &mut live),
+            Task::To(_) | Task::Steps(_) => self.take_remaining(&mut lanes, join, &mut live),
             Task::At(times) => self.see_at(times, &mut lanes, &live),
         }
     }
@@ -261,9 +261,9 @@ where
         }
     }
 
-    /// Takes the steps of a leg. If a step fails in a lane, every trajectory repeats the current block of steps alone;
+    /// Takes the remaining steps. If a step fails in a lane, every trajectory repeats the current block of steps alone;
     /// those that succeed continue in lanes.
-    fn take_leg<W, J>(
+    fn take_remaining<W, J>(
         &mut self,
         lanes: &mut InLanes<M, J, W, R>,
         join: Join<S, J>,
@@ -273,24 +273,24 @@ where
         W: Vector<Scalar = L>,
         J: System<W>,
     {
-        let leg = match *self.task {
-            Task::To(end) => lanes.leg_to(end),
-            Task::Steps(count) => Ok(lanes.leg_of(count)),
+        let remaining = match *self.task {
+            Task::To(end) => lanes.steps_to_time(end),
+            Task::Steps(count) => Ok(lanes.steps_left(count)),
             Task::At(_) => return Attempt::Refused,
         };
-        let Ok(mut leg) = leg else {
+        let Ok(mut remaining) = remaining else {
             return Attempt::Refused;
         };
-        while !leg.is_done() {
+        while !remaining.is_done() {
             if self.group.ensemble.is_stopped() {
                 return Attempt::Stopped;
             }
-            let (mark, begun) = (lanes.mark(), leg);
-            let block = lanes.block_of(&leg);
-            if lanes.take_block_together(block, &mut leg) {
+            let (saved, begun) = (lanes.saved(), remaining);
+            let block = lanes.block_of(&remaining);
+            if lanes.take_block_together(block, &mut remaining) {
                 continue;
             }
-            lanes.go_back(mark);
+            lanes.return_to(saved);
             self.take_from_lanes(lanes, live);
             let mut first = None;
             live.retain(|&place| {
@@ -300,11 +300,11 @@ where
                 let statistics = *member.run.statistics();
                 if member.outcome.is_ok() && *first.get_or_insert(statistics) != statistics {
                     // A retry changed its steps, so that it no longer runs in lockstep with the others.
-                    member.outcome = member.run.take_leg(&mut own);
+                    member.outcome = member.run.take_remaining(&mut own);
                     return false;
                 }
                 if member.outcome.is_ok() {
-                    leg = own;
+                    remaining = own;
                 }
                 member.outcome.is_ok()
             });
@@ -314,7 +314,7 @@ where
                         return Attempt::Stopped;
                     }
                     let member = &mut self.group.members[place];
-                    member.outcome = member.run.take_leg(&mut leg.clone());
+                    member.outcome = member.run.take_remaining(&mut remaining.clone());
                 }
                 return Attempt::Ended;
             };
@@ -356,9 +356,9 @@ where
             if self.group.ensemble.is_stopped() {
                 return Attempt::Stopped;
             }
-            let mark = lanes.mark();
+            let saved = lanes.saved();
             let Ok(seen) = self.see_next(rest, lanes, live, &mut shown) else {
-                lanes.go_back(mark);
+                lanes.return_to(saved);
                 self.take_from_lanes(lanes, live);
                 for &place in live {
                     if self.group.ensemble.is_stopped() {

@@ -1,9 +1,9 @@
 //! Checkpoints of runs of a flow, which continue with the same bits.
 
-use super::integrator::{Course, FlowIntegrator};
+use super::integrator::{FlowIntegrator, RunState};
 use super::memory::Memory;
 use super::{Flow, Span};
-use crate::integrator::brief::hash;
+use crate::integrator::fingerprint::hash;
 use crate::integrator::{Checkpoint, CheckpointError};
 use crate::number::Vector;
 use crate::number::words::{Visit, Words, vector_words, words};
@@ -39,11 +39,11 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// # }
     /// ```
     pub fn checkpoint(&mut self) -> Checkpoint {
-        let (mut course, mut memory) = (self.course.clone(), self.present_memory());
+        let (mut run_state, mut memory) = (self.run_state.clone(), self.present_memory());
         let mut tried = self.tried_step();
-        let blank = Checkpoint::of_flow(course.state.q.dimension(), memory.len());
+        let blank = Checkpoint::of_flow(run_state.state.q.dimension(), memory.len());
         blank.filled(|visit| {
-            words!(visit: course, memory, tried);
+            words!(visit: run_state, memory, tried);
         })
     }
 
@@ -54,17 +54,17 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// [`CheckpointError`], with [`OtherSystem`](CheckpointError::OtherSystem) if a step of the flow from the state of the checkpoint has
     /// another result; the run is then unchanged.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
-        let (mut course, mut memory) = (self.course.clone(), self.present_memory());
-        let own = Checkpoint::of_flow(course.state.q.dimension(), memory.len());
+        let (mut run_state, mut memory) = (self.run_state.clone(), self.present_memory());
+        let own = Checkpoint::of_flow(run_state.state.q.dimension(), memory.len());
         let mut tried = 0_u64;
         checkpoint.read(&own, |visit| {
-            words!(visit: course, memory, tried);
+            words!(visit: run_state, memory, tried);
         })?;
         let present = self.present_memory();
-        core::mem::swap(&mut self.course, &mut course);
+        core::mem::swap(&mut self.run_state, &mut run_state);
         memory.put_back(&mut self.flow);
         if self.tried_step() != tried {
-            self.course = course;
+            self.run_state = run_state;
             present.put_back(&mut self.flow);
             return Err(CheckpointError::OtherSystem);
         }
@@ -80,7 +80,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// A hash of the result of the next step, or of the state that a failed step leaves.
     fn tried_step(&mut self) -> u64 {
         let memory = self.present_memory();
-        let State { time, q, p } = &self.course.state;
+        let State { time, q, p } = &self.run_state.state;
         let span = Span {
             time: *time,
             size: self.step_size(),
@@ -93,16 +93,16 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     }
 }
 
-impl<V: Vector<Scalar = f64>> Words for Course<V> {
+impl<V: Vector<Scalar = f64>> Words for RunState<V> {
     fn words(&mut self, visit: &mut Visit<'_>) {
         let Self {
-            pace,
+            step_clock,
             state: State { time, q, p },
             before,
             last,
             memory,
         } = self;
-        words!(visit: *time, *pace, *last, *memory);
+        words!(visit: *time, *step_clock, *last, *memory);
         for vector in [q, p, &mut before.0, &mut before.1] {
             vector_words(core::slice::from_mut(vector), visit);
         }

@@ -4,7 +4,7 @@ use super::memory::Memory;
 use super::{Flow, FlowError, Span};
 use crate::error::{Error, Quantity};
 use crate::integrator::StepMap;
-use crate::integrator::pace::{Pace, Stepper};
+use crate::integrator::step_clock::{StepClock, Stepper};
 use crate::integrator::validation::check_state;
 use crate::method::storage::is_finite;
 use crate::number::words::{Visit, Words, words};
@@ -35,7 +35,7 @@ use crate::state::State;
 #[derive(Clone, Debug)]
 pub struct FlowIntegrator<V, F> {
     pub(super) flow: F,
-    pub(super) course: Course<V>,
+    pub(super) run_state: RunState<V>,
     /// Room for the memory of the flow during a partial step.
     #[cfg(feature = "alloc")]
     present: Memory,
@@ -43,8 +43,8 @@ pub struct FlowIntegrator<V, F> {
 
 /// What the steps change, beside the flow.
 #[derive(Clone, Debug)]
-pub(super) struct Course<V> {
-    pub(super) pace: Pace,
+pub(super) struct RunState<V> {
+    pub(super) step_clock: StepClock,
     pub(super) state: State<V>,
     /// Position and momentum before the last step.
     pub(super) before: (V, V),
@@ -78,8 +78,8 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
         memory.keep(&mut flow);
         Ok(Self {
             flow,
-            course: Course {
-                pace: Pace::new(state.time, step_size)?,
+            run_state: RunState {
+                step_clock: StepClock::new(state.time, step_size)?,
                 before: (state.q.clone(), state.p.clone()),
                 last: None,
                 memory,
@@ -97,7 +97,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// [`Error::Flow`], [`Error::NonFinite`], [`Error::TimeResolution`]; the state is untouched.
     pub fn step(&mut self) -> Result<&State<V>, Error> {
         self.one_step()?;
-        Ok(&self.course.state)
+        Ok(&self.run_state.state)
     }
 
     /// Takes `count` steps and returns the state after them.
@@ -109,7 +109,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
         for _ in 0..count {
             self.one_step()?;
         }
-        Ok(&self.course.state)
+        Ok(&self.run_state.state)
     }
 
     /// An endless iterator over the states after each step, cloned. After an error there are no more items.
@@ -132,7 +132,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last good step.
     pub fn integrate_to(&mut self, end: f64) -> Result<&State<V>, Error> {
         self.steps_to(end)?;
-        Ok(&self.course.state)
+        Ok(&self.run_state.state)
     }
 
     /// [`integrate_to`](Self::integrate_to) that calls `observe` with the state after every step.
@@ -145,18 +145,18 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
         end: f64,
         mut observe: O,
     ) -> Result<&State<V>, Error> {
-        self.steps_in_sight(end, |run| observe(&run.course.state))?;
-        Ok(&self.course.state)
+        self.steps_in_sight(end, |run| observe(&run.run_state.state))?;
+        Ok(&self.run_state.state)
     }
 
     /// The present state.
     pub const fn state(&self) -> &State<V> {
-        &self.course.state
+        &self.run_state.state
     }
 
     /// The present state, moved out.
     pub fn into_state(self) -> State<V> {
-        self.course.state
+        self.run_state.state
     }
 
     /// Replaces the present state by another one of the same dimension. The [memory](Flow::memory) of the flow stays.
@@ -165,11 +165,11 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     ///
     /// [`Error::Dimension`], [`Error::NonFiniteState`]; the state is then untouched.
     pub fn set_state(&mut self, state: State<V>) -> Result<(), Error> {
-        let dimension = self.course.state.q.dimension();
+        let dimension = self.run_state.state.q.dimension();
         check_state(state.time, &state.q, &state.p, dimension)?;
-        self.course.pace.restart(state.time);
-        self.course.state = state;
-        self.course.last = None;
+        self.run_state.step_clock.restart(state.time);
+        self.run_state.state = state;
+        self.run_state.last = None;
         Ok(())
     }
 
@@ -180,12 +180,12 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
 
     /// The step size.
     pub const fn step_size(&self) -> f64 {
-        self.course.pace.step_size()
+        self.run_state.step_clock.step_size()
     }
 
     /// Steps taken.
     pub const fn steps(&self) -> u64 {
-        self.course.pace.taken()
+        self.run_state.step_clock.taken()
     }
 
     /// Changes the step size; negative to go backward.
@@ -194,20 +194,20 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     ///
     /// [`Error::StepSize`]; the one before then holds.
     pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
-        let time = self.course.state.time;
-        self.course.pace.set_step_size(time, step_size)
+        let time = self.run_state.state.time;
+        self.run_state.step_clock.set_step_size(time, step_size)
     }
 
     /// Writes the state at a time of the last step, or at the present one.
     #[cfg(feature = "alloc")]
     pub(super) fn look_at(&mut self, time: f64, out: &mut State<V>) -> Result<(), Error> {
-        let Course {
+        let RunState {
             state,
             before,
             last,
             memory,
-            pace,
-        } = &self.course;
+            step_clock,
+        } = &self.run_state;
         out.time = time;
         if time == state.time {
             copy(&mut out.q, &state.q);
@@ -231,7 +231,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
         memory.put_back(&mut self.flow);
         let taken = take(&mut self.flow, span, out);
         self.present.put_back(&mut self.flow);
-        taken.map_err(|failure| failed(failure, span, pace.taken()))
+        taken.map_err(|failure| failed(failure, span, step_clock.taken()))
     }
 }
 
@@ -284,22 +284,22 @@ pub(super) const fn failed(failure: FlowError, span: Span, step: u64) -> Error {
 }
 
 impl<V: Vector<Scalar = f64>, F: Flow<V>> Stepper for FlowIntegrator<V, F> {
-    fn pace(&mut self) -> &mut Pace {
-        &mut self.course.pace
+    fn step_clock(&mut self) -> &mut StepClock {
+        &mut self.run_state.step_clock
     }
 
     fn time(&self) -> f64 {
-        self.course.state.time
+        self.run_state.state.time
     }
 
     fn advance(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
-        let Course {
+        let RunState {
             state,
             before,
             last,
             memory,
             ..
-        } = &mut self.course;
+        } = &mut self.run_state;
         let span = Span {
             time: state.time,
             size,
@@ -328,7 +328,7 @@ where
     type State = State<V>;
 
     fn present(&self) -> &State<V> {
-        &self.course.state
+        &self.run_state.state
     }
 
     fn step_from(&self, state: State<V>) -> Result<State<V>, Error> {

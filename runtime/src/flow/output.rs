@@ -70,7 +70,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// [`Error::Flow`] and [`Error::NonFinite`] where the shorter step fails.
     pub fn state_at(&mut self, time: f64) -> Result<State<V>, Error> {
         let mut state = self.state().clone();
-        if self.course.last.is_none() {
+        if self.run_state.last.is_none() {
             return Err(Error::NoStep);
         }
         self.look_at(time, &mut state)?;
@@ -80,7 +80,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// The start of the last step, or the present time where there is none, or where the last step went the other way.
     fn start_of_last_step(&self) -> f64 {
         let present = self.state().time;
-        match self.course.last {
+        match self.run_state.last {
             Some(last) if is_after(self.step_size(), present, last.start) => last.start,
             _ => present,
         }

@@ -5,8 +5,8 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt::Write as _;
 
-use crate::integrator::brief::system_in_brief;
 use crate::integrator::clock::Clock;
+use crate::integrator::fingerprint::system_fingerprint;
 use crate::integrator::last_event::LastEvent;
 use crate::integrator::memory::StepMemory;
 use crate::integrator::{Integrator, Retry, Statistics};
@@ -251,11 +251,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             run.words(visit);
             beside.words(visit);
         })?;
-        let known = run.brief == run.brief_of(&self.system);
-        if !known || !mine(&run.course.state.q, beside) {
+        let known = run.fingerprint == run.fingerprint_of(&self.system);
+        if !known || !mine(&run.step_memory.state.q, beside) {
             return Err(CheckpointError::OtherSystem);
         }
-        self.course = run.course;
+        self.step_memory = run.step_memory;
         self.clock = run.clock;
         self.step_size = run.step_size;
         self.stopping = run.stopping;
@@ -277,7 +277,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
                 "" => M::NAME.to_string(),
                 _ => format!("{}, {kind}", M::NAME),
             },
-            definition: match self.course.memory.tableau() {
+            definition: match self.step_memory.memory.tableau() {
                 Some(tableau) => tableau.definition(),
                 None => M::DEFINITION.to_string(),
             },
@@ -286,7 +286,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
                 .to_string(),
             sums: sums.to_string(),
             solver: N::name().to_string(),
-            dimension: self.course.state.q.dimension(),
+            dimension: self.step_memory.state.q.dimension(),
             words: String::new(),
             checksum: String::new(),
         })
@@ -295,36 +295,36 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// Everything that the words store.
     fn all_that_changes(&self) -> Run<V, super::MemoryOf<M, S, V, N>> {
         let mut run = Run {
-            course: self.course.clone(),
+            step_memory: self.step_memory.clone(),
             clock: self.clock,
             step_size: self.step_size,
             stopping: self.stopping,
             retry: self.retry,
             last_event: self.last_event,
-            brief: [0; 2],
+            fingerprint: [0; 2],
         };
-        run.brief = run.brief_of(&self.system);
+        run.fingerprint = run.fingerprint_of(&self.system);
         run
     }
 }
 
 /// The data that change in a run.
 struct Run<V, T> {
-    course: StepMemory<V, T>,
+    step_memory: StepMemory<V, T>,
     clock: Clock,
     step_size: f64,
     stopping: Stopping,
     retry: Retry,
     last_event: Option<LastEvent>,
     /// Detects a system with other parameters.
-    brief: [u64; 2],
+    fingerprint: [u64; 2],
 }
 
 impl<V: Vector, T: StageStorage<V>> Run<V, T> {
     /// Shows `visit` every word, first those of the state.
     fn words(&mut self, visit: &mut Visit<'_>) {
-        words!(visit: self.course.state.time, self.step_size);
-        self.course.scalar_words(visit);
+        words!(visit: self.step_memory.state.time, self.step_size);
+        self.step_memory.scalar_words(visit);
         let StepMemory {
             work,
             kept,
@@ -333,7 +333,7 @@ impl<V: Vector, T: StageStorage<V>> Run<V, T> {
             statistics,
             linear_velocity,
             ..
-        } = &mut self.course;
+        } = &mut self.step_memory;
         let WarmStart {
             evaluation,
             stages,
@@ -365,12 +365,12 @@ impl<V: Vector, T: StageStorage<V>> Run<V, T> {
             Retry::Never => None,
             Retry::Split { halvings } => Some(halvings),
         };
-        words!(visit: halvings, self.last_event, self.brief);
+        words!(visit: halvings, self.last_event, self.fingerprint);
         self.retry = halvings.map_or(Retry::Never, |halvings| Retry::Split { halvings });
     }
-    /// [`system_in_brief`] at the state.
-    fn brief_of<S: System<V>>(&self, system: &S) -> [u64; 2] {
-        let State { time, q, p } = &self.course.state;
-        system_in_brief(system, *time, q, p)
+    /// [`system_fingerprint`] at the state.
+    fn fingerprint_of<S: System<V>>(&self, system: &S) -> [u64; 2] {
+        let State { time, q, p } = &self.step_memory.state;
+        system_fingerprint(system, *time, q, p)
     }
 }

@@ -21,7 +21,7 @@ use crate::system::System;
 
 /// The state of runs: position and momentum, their low parts, and the same at the start of the last step.
 #[derive(Clone, Debug)]
-struct Course<W> {
+struct StatesInLanes<W> {
     now: Box<[W; 4]>,
     other: Box<[W; 4]>,
 }
@@ -34,7 +34,7 @@ pub(crate) struct CoupledLanes<M, S, V, R, N, W: Vector, J> {
     system: J,
     linear_velocity: bool,
     stopping: Stopping,
-    course: Course<W>,
+    states: StatesInLanes<W>,
     memory: LaneMemory<W>,
     taken: Option<LaneOutcome<W::Scalar>>,
     time: f64,
@@ -63,16 +63,16 @@ where
     /// Empty lanes for runs like this one, of a system with the parameters of each of them, in vectors like `zeros`.
     pub(crate) fn like(run: &mut Integrator<M, S, V, R, N>, system: J, zeros: &W) -> Self {
         let vectors = || Box::new(core::array::from_fn(|_| zeros.clone()));
-        let time = run.course.state.time;
+        let time = run.step_memory.state.time;
         Self {
             system,
-            linear_velocity: run.course.linear_velocity,
+            linear_velocity: run.step_memory.linear_velocity,
             stopping: run.stopping,
-            course: Course {
+            states: StatesInLanes {
                 now: vectors(),
                 other: vectors(),
             },
-            memory: LaneMemory::like(&mut run.course.memory, zeros),
+            memory: LaneMemory::like(&mut run.step_memory.memory, zeros),
             taken: None,
             time,
             last_time: time,
@@ -88,7 +88,7 @@ where
     /// Whether a run can be in these lanes.
     pub(crate) fn takes(&self, run: &Integrator<M, S, V, R, N>) -> bool {
         // The last allowed sweep of a step is left to the run.
-        run.course.linear_velocity == self.linear_velocity && self.stopping.max_iterations > 1
+        run.step_memory.linear_velocity == self.linear_velocity && self.stopping.max_iterations > 1
     }
 
     /// Time of all runs in lanes.
@@ -98,7 +98,7 @@ where
 
     /// The states of the runs in lanes.
     pub(crate) fn state(&self) -> State<W> {
-        let [q, p, ..] = &*self.course.now;
+        let [q, p, ..] = &*self.states.now;
         State::new(self.time, q.clone(), p.clone())
     }
 
@@ -114,59 +114,59 @@ where
         run: &mut Integrator<M, S, V, R, N>,
         size: f64,
     ) -> bool {
-        let course = &mut run.course;
+        let step_memory = &mut run.step_memory;
         let numbers = [
-            &course.state.q,
-            &course.state.p,
-            &course.low.0,
-            &course.low.1,
-            &course.next.0,
-            &course.next.1,
-            &course.next_low.0,
-            &course.next_low.1,
+            &step_memory.state.q,
+            &step_memory.state.p,
+            &step_memory.low.0,
+            &step_memory.low.1,
+            &step_memory.next.0,
+            &step_memory.next.1,
+            &step_memory.next_low.0,
+            &step_memory.next_low.1,
         ];
-        let Course { now, other } = &mut self.course;
+        let StatesInLanes { now, other } = &mut self.states;
         for (lanes, numbers) in now.iter_mut().chain(other.iter_mut()).zip(numbers) {
             let numbers = V::Scalar::doubles(numbers.as_slice()).unwrap_or(&[]);
             for (lanes, &number) in lanes.as_mut_slice().iter_mut().zip(numbers) {
                 set_lane(lanes, lane, number);
             }
         }
-        self.memory.load(lane, &mut course.memory);
-        let WarmStart { stages, scales, .. } = course.kept;
+        self.memory.load(lane, &mut step_memory.memory);
+        let WarmStart { stages, scales, .. } = step_memory.kept;
         for (lanes, scale) in self.memory.scales.iter_mut().zip(scales) {
             set_lane(lanes, lane, scale);
         }
         self.count_from_here(lane);
-        stages && scales[0] > 0.0 && course.last_size == size
+        stages && scales[0] > 0.0 && step_memory.last_size == size
     }
 
     /// Copies a lane into its run.
     pub(crate) fn store(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>) {
-        let course = &mut run.course;
+        let step_memory = &mut run.step_memory;
         let numbers = [
-            &mut course.state.q,
-            &mut course.state.p,
-            &mut course.low.0,
-            &mut course.low.1,
-            &mut course.next.0,
-            &mut course.next.1,
-            &mut course.next_low.0,
-            &mut course.next_low.1,
+            &mut step_memory.state.q,
+            &mut step_memory.state.p,
+            &mut step_memory.low.0,
+            &mut step_memory.low.1,
+            &mut step_memory.next.0,
+            &mut step_memory.next.1,
+            &mut step_memory.next_low.0,
+            &mut step_memory.next_low.1,
         ];
-        let Course { now, other } = &self.course;
+        let StatesInLanes { now, other } = &self.states;
         for (lanes, numbers) in now.iter().chain(other.iter()).zip(numbers) {
             let numbers = V::Scalar::doubles_mut(numbers.as_mut_slice()).unwrap_or(&mut []);
             for (lanes, number) in lanes.as_slice().iter().zip(numbers) {
                 *number = of_lane(*lanes, lane);
             }
         }
-        self.memory.store(lane, &mut course.memory);
+        self.memory.store(lane, &mut step_memory.memory);
         let steps = self.steps - self.since[lane];
         if steps > 0 {
             let counts = self.taken.map(|taken| taken.counts);
             let sweeps = of_lane(self.sweeps, lane) as u64;
-            let statistics = &mut course.statistics;
+            let statistics = &mut step_memory.statistics;
             statistics.steps += steps;
             statistics.iterations += sweeps;
             let most = of_lane(self.most, lane) as u32;
@@ -176,10 +176,10 @@ where
                 statistics.evaluations += steps * per_step + sweeps * u64::from(counts.sweep);
             }
         }
-        course.state.time = self.time;
-        course.last_time = self.last_time;
-        course.last_size = self.last_size;
-        course.kept = WarmStart {
+        step_memory.state.time = self.time;
+        step_memory.last_time = self.last_time;
+        step_memory.last_size = self.last_size;
+        step_memory.kept = WarmStart {
             evaluation: true,
             stages: true,
             scales: self.memory.scales.map(|scale| of_lane(scale, lane)),
@@ -189,7 +189,7 @@ where
 
     /// Computes a step of the runs in the lanes `live`; returns the lanes in which it succeeds. The others are as before.
     pub(crate) fn attempt(&mut self, size: f64, live: u32) -> u32 {
-        let [q, p, q_low, p_low] = &*self.course.now;
+        let [q, p, q_low, p_low] = &*self.states.now;
         let step = Step {
             time: self.time,
             size,
@@ -199,7 +199,7 @@ where
             p_low,
             linear_velocity: self.linear_velocity,
         };
-        let [q, p, q_low, p_low] = &mut *self.course.other;
+        let [q, p, q_low, p_low] = &mut *self.states.other;
         let outcome = Outcome { q, q_low, p, p_low };
         let taken = PlanOf::<M, S, V>::take_in_lanes::<R, V, S, N, W, J>(
             &step,
@@ -219,7 +219,7 @@ where
     /// The lanes in which the computed state is finite.
     #[inline]
     fn finite(&self) -> u32 {
-        let [q, p, ..] = &*self.course.other;
+        let [q, p, ..] = &*self.states.other;
         let components = q.as_slice().iter().chain(p.as_slice());
         let zero = W::Scalar::zero();
         let largest = components.fold(zero, |largest, component| {
@@ -231,7 +231,7 @@ where
     /// Makes a computed step, to the time `time`, the present state. Lanes in which it failed have to be [loaded](Self::load) again.
     pub(crate) fn accept(&mut self, size: f64, time: f64) {
         // With plain sums all low parts are zero.
-        mem::swap(&mut self.course.now, &mut self.course.other);
+        mem::swap(&mut self.states.now, &mut self.states.other);
         mem::swap(&mut self.memory.before, &mut self.memory.settled);
         if let Some(taken) = &self.taken {
             self.memory.scales = taken.scales;

@@ -47,8 +47,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     #[inline]
     pub(super) fn next_block(&self, left: u64) -> u64 {
         // The last step is taken separately, so that the state before it remains available.
-        let block = (left - 1).min(block(self.course.state.q.dimension()));
-        match self.course.kept.evaluation {
+        let block = (left - 1).min(block(self.step_memory.state.q.dimension()));
+        match self.step_memory.kept.evaluation {
             true => block.max(1),
             false => 1,
         }
@@ -64,7 +64,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         clock: &mut Clock,
         end: Option<f64>,
     ) -> Result<(), Error> {
-        let ready = self.course.kept.evaluation && left > 1;
+        let ready = self.step_memory.kept.evaluation && left > 1;
         if ready && self.advance_in_place(block, size, clock) {
             return Ok(());
         }
@@ -84,12 +84,12 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             return false;
         };
         let (first, last) = (clock.next(), clock.later(steps));
-        if first == self.course.state.time || clock.later(steps - 1) == last && steps > 1 {
+        if first == self.step_memory.state.time || clock.later(steps - 1) == last && steps > 1 {
             return false;
         }
         // The state stays unchanged. If the system panics, nothing that the previous steps left behind is reused.
-        let before = mem::take(&mut self.course.kept);
-        let (step, mut state, memory) = self.course.lend(size);
+        let before = mem::take(&mut self.step_memory.kept);
+        let (step, mut state, memory) = self.step_memory.lend(size);
         state.copy_from::<R>(&step);
         for number in 0..steps {
             // The compiler removes this if the system does not depend on time.
@@ -104,19 +104,21 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
                 &mut (),
             );
         }
-        if !self.course.is_sound() {
-            self.course.memory = StageStorage::like(&self.course.state.q);
+        if !self.step_memory.is_sound() {
+            self.step_memory.memory = StageStorage::like(&self.step_memory.state.q);
             return false;
         }
-        self.course.swap::<R>();
-        self.course.kept = WarmStart {
+        self.step_memory.swap::<R>();
+        self.step_memory.kept = WarmStart {
             stages: false,
             ..before
         };
         clock.skip(steps);
-        self.course.state.time = last;
-        self.course.last_size = size;
-        self.course.statistics.count_explicit(steps, evaluations);
+        self.step_memory.state.time = last;
+        self.step_memory.last_size = size;
+        self.step_memory
+            .statistics
+            .count_explicit(steps, evaluations);
         true
     }
 
@@ -124,7 +126,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     fn is_light(&self) -> bool {
         let bytes = size_of::<StepMemory<V, MemoryOf<M, S, V, N>>>();
         let at_run_time = <MemoryOf<M, S, V, N> as StageStorage<V>>::AT_RUN_TIME;
-        !at_run_time && is_in_place(&self.course.state.q) && bytes <= LIGHT
+        !at_run_time && is_in_place(&self.step_memory.state.q) && bytes <= LIGHT
     }
 
     /// Takes steps until one fails; returns the number of steps taken, zero if the first one does not change the time. The last of
@@ -140,8 +142,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         clock: &mut Clock,
         end: Option<f64>,
     ) -> Result<u64, Error> {
-        let before = self.course.anew();
-        let mut course = mem::replace(&mut self.course, before);
+        let before = self.step_memory.anew();
+        let mut step_memory = mem::replace(&mut self.step_memory, before);
         let mut failed = None;
         let mut taken = 0;
         while taken < steps && failed.is_none() {
@@ -149,21 +151,21 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
                 Some(end) if taken + 1 == steps => end,
                 _ => clock.next(),
             };
-            if time == course.state.time {
+            if time == step_memory.state.time {
                 break;
             }
             let attempt =
-                course.attempt::<PlanOf<M, S, V>, R, S, N>(&self.system, size, self.stopping);
+                step_memory.attempt::<PlanOf<M, S, V>, R, S, N>(&self.system, size, self.stopping);
             match attempt {
                 Ok(()) => {
-                    course.accept::<R>(size, time);
+                    step_memory.accept::<R>(size, time);
                     clock.tick();
                     taken += 1;
                 }
                 Err(failure) => failed = Some((failure, time)),
             }
         }
-        self.course = course;
+        self.step_memory = step_memory;
         if let Some((failure, time)) = failed {
             let error = self.fail(size, failure);
             self.take_again(size, time, error)?;

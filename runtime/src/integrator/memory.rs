@@ -82,7 +82,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
         memory.words(visit);
     }
 
-    /// Copies everything except scalars from a run with other vectors, but not the knowledge about the system.
+    /// Copies time, statistics and flags from a run with other vectors, but neither scalars nor [`linear_velocity`](Self::linear_velocity).
     #[cfg(feature = "alloc")]
     pub(super) fn same_place<W, U>(&mut self, other: &StepMemory<W, U>) {
         self.state.time = other.state.time;

@@ -3,10 +3,10 @@
 pub(crate) mod clock;
 pub(crate) mod last_event;
 pub(crate) mod last_step;
-pub(crate) mod pace;
 pub(crate) mod partial_step;
 pub(crate) mod retry;
 pub(crate) mod statistics;
+pub(crate) mod step_clock;
 
 #[cfg(feature = "alloc")]
 pub use checkpoint::{Checkpoint, CheckpointError};
@@ -34,9 +34,9 @@ use crate::state::State;
 use crate::system::{Class, System};
 
 #[cfg(feature = "alloc")]
-pub(crate) mod brief;
-#[cfg(feature = "alloc")]
 pub(crate) mod checkpoint;
+#[cfg(feature = "alloc")]
+pub(crate) mod fingerprint;
 #[cfg(feature = "alloc")]
 mod in_lanes;
 mod many_steps;
@@ -103,7 +103,7 @@ pub struct Integrator<
     N: Solver<V, S> = <S as System<V>>::Solver,
 > {
     system: S,
-    course: StepMemory<V, MemoryOf<M, S, V, N>>,
+    step_memory: StepMemory<V, MemoryOf<M, S, V, N>>,
     clock: Clock,
     step_size: f64,
     stopping: Stopping,
@@ -250,12 +250,18 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     pub(crate) fn unchecked(system: S, state: State<V>, step_size: f64) -> Self {
         let clock = Clock::new(state.time, step_size);
         let linear_velocity = has_linear_velocity::<V, S, N>(&system, &state);
-        let mut course: StepMemory<V, MemoryOf<M, S, V, N>> =
+        let mut step_memory: StepMemory<V, MemoryOf<M, S, V, N>> =
             StepMemory::new(linear_velocity, state);
-        let State { time, q, p } = &course.state;
-        <PlanOf<M, S, V> as Plan>::prepare::<V, S, N>(&mut course.memory, &system, *time, q, p);
+        let State { time, q, p } = &step_memory.state;
+        <PlanOf<M, S, V> as Plan>::prepare::<V, S, N>(
+            &mut step_memory.memory,
+            &system,
+            *time,
+            q,
+            p,
+        );
         Self {
-            course,
+            step_memory,
             system,
             clock,
             step_size,
@@ -275,7 +281,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     pub fn step(&mut self) -> Result<&State<V>, Error> {
         self.advance(self.step_size, self.clock.next())?;
         self.clock.tick();
-        Ok(&self.course.state)
+        Ok(&self.step_memory.state)
     }
 
     /// Takes `count` steps and returns the state after them. The result equals that of `count` calls of [`step`](Self::step) to the last
@@ -309,7 +315,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         let size = self.step_size;
         let outcome = self.advance_by(count, size, &mut clock, None);
         self.clock = clock;
-        outcome.map(|()| &self.course.state)
+        outcome.map(|()| &self.step_memory.state)
     }
 
     /// Takes a step whose stages `solve` computes from the step, the momentum after it, and its number.
@@ -320,20 +326,20 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     ) -> Result<T, Error> {
         let (size, time) = (self.step_size, self.clock.next());
         self.prepare(size, time)?;
-        let number = self.course.statistics.steps + 1;
+        let number = self.step_memory.statistics.steps + 1;
         let step = Step {
-            time: self.course.state.time,
+            time: self.step_memory.state.time,
             size,
-            q: &self.course.state.q,
-            q_low: &self.course.low.0,
-            p: &self.course.state.p,
-            p_low: &self.course.low.1,
-            linear_velocity: self.course.linear_velocity,
+            q: &self.step_memory.state.q,
+            q_low: &self.step_memory.low.0,
+            p: &self.step_memory.state.p,
+            p_low: &self.step_memory.low.1,
+            linear_velocity: self.step_memory.linear_velocity,
         };
         let outcome = solve(
             &self.system,
             &step,
-            &self.course.next.1,
+            &self.step_memory.next.1,
             number,
             self.stopping,
         );
@@ -342,7 +348,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             self.clock.tick();
         } else {
             // The stages belong to a step that was not taken.
-            self.course.kept = WarmStart::default();
+            self.step_memory.kept = WarmStart::default();
         }
         outcome
     }
@@ -355,11 +361,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that after the
     /// last successful step.
     pub fn integrate_to(&mut self, end: f64) -> Result<&State<V>, Error> {
-        let (count, size) = uniform(self.course.state.time, end, self.step_size)?;
-        let mut clock = Clock::new(self.course.state.time, size);
+        let (count, size) = uniform(self.step_memory.state.time, end, self.step_size)?;
+        let mut clock = Clock::new(self.step_memory.state.time, size);
         let outcome = self.advance_by(count, size, &mut clock, Some(end));
         self.restart_clock();
-        outcome.map(|()| &self.course.state)
+        outcome.map(|()| &self.step_memory.state)
     }
 
     /// [`integrate_to`](Self::integrate_to) that calls `observe` with the state after every step.
@@ -392,7 +398,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             observe(integrator.state());
             Ok(ControlFlow::<Infallible>::Continue(()))
         })?;
-        Ok(&self.course.state)
+        Ok(&self.step_memory.state)
     }
 
     /// Calls `take` for each step of [`integrate_to`](Self::integrate_to), until it breaks.
@@ -402,7 +408,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         end: f64,
         mut take: impl FnMut(&mut Self, NextStep) -> Result<ControlFlow<B>, Error>,
     ) -> Result<ControlFlow<B>, Error> {
-        let start = self.course.state.time;
+        let start = self.step_memory.state.time;
         let (steps, size) = uniform(start, end, self.step_size)?;
         let mut clock = Clock::new(start, size);
         let mut outcome = Ok(ControlFlow::Continue(()));
@@ -442,13 +448,13 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 
     /// The present state, rounded.
     pub const fn state(&self) -> &State<V> {
-        &self.course.state
+        &self.step_memory.state
     }
 
     /// The round-off of position and momentum in [`state`](Self::state): less than half a unit in their last
     /// places, and zero with [`Plain`] sums.
     pub const fn remainder(&self) -> (&V, &V) {
-        (&self.course.low.0, &self.course.low.1)
+        (&self.step_memory.low.0, &self.step_memory.low.1)
     }
 
     /// Replaces the present state by another one of the same dimension.
@@ -461,10 +467,10 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             state.time,
             &state.q,
             &state.p,
-            self.course.state.q.dimension(),
+            self.step_memory.state.q.dimension(),
         )?;
         <PlanOf<M, S, V> as Plan>::check(&self.system, state.time, &state.q, &state.p)?;
-        self.course.set_state(state);
+        self.step_memory.set_state(state);
         self.restart_clock();
         Ok(())
     }
@@ -475,10 +481,10 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             state.time,
             &state.q,
             &state.p,
-            self.course.state.q.dimension(),
+            self.step_memory.state.q.dimension(),
         )?;
         <PlanOf<M, S, V> as Plan>::check(&self.system, state.time, &state.q, &state.p)?;
-        self.course.copy_state(state);
+        self.step_memory.copy_state(state);
         self.restart_clock();
         Ok(())
     }
@@ -494,7 +500,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 
     /// Returns the present state and drops the integrator.
     pub fn into_state(self) -> State<V> {
-        self.course.state
+        self.step_memory.state
     }
 
     /// The step size.
@@ -560,22 +566,22 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 
     /// The statistics of all steps so far.
     pub const fn statistics(&self) -> &Statistics {
-        &self.course.statistics
+        &self.step_memory.statistics
     }
 
     /// Number of steps taken.
     pub const fn steps(&self) -> u64 {
-        self.course.statistics.steps
+        self.step_memory.statistics.steps
     }
 
     /// Number of fixed-point sweeps in all steps taken; 0 for an explicit method.
     pub const fn iterations(&self) -> u64 {
-        self.course.statistics.iterations
+        self.step_memory.statistics.iterations
     }
 
     /// The energy of the present state, if the system knows it.
     pub fn energy(&self) -> Option<V::Scalar> {
-        let State { time, q, p } = &self.course.state;
+        let State { time, q, p } = &self.step_memory.state;
         self.system.energy(V::Scalar::from_f64(*time), q, p)
     }
 
@@ -586,24 +592,24 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 
     /// The last step, if its stages are still stored.
     pub(crate) fn last_step(&self) -> Option<LastStep<'_, V>> {
-        self.course.kept.stages.then_some(LastStep {
-            start: self.course.last_time,
-            end: self.course.state.time,
-            size: self.course.last_size,
+        self.step_memory.kept.stages.then_some(LastStep {
+            start: self.step_memory.last_time,
+            end: self.step_memory.state.time,
+            size: self.step_memory.last_size,
             positions: Line {
-                start: (&self.course.next.0, &self.course.next_low.0),
-                end: (&self.course.state.q, &self.course.low.0),
+                start: (&self.step_memory.next.0, &self.step_memory.next_low.0),
+                end: (&self.step_memory.state.q, &self.step_memory.low.0),
             },
             momenta: Line {
-                start: (&self.course.next.1, &self.course.next_low.1),
-                end: (&self.course.state.p, &self.course.low.1),
+                start: (&self.step_memory.next.1, &self.step_memory.next_low.1),
+                end: (&self.step_memory.state.p, &self.step_memory.low.1),
             },
         })
     }
 
     /// Whether the velocity is known to be linear in the momentum.
     pub(crate) const fn has_linear_velocity(&self) -> bool {
-        self.course.linear_velocity
+        self.step_memory.linear_velocity
     }
 
     /// The stopping criterion of the iteration of a step.
@@ -613,11 +619,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 
     /// Adds the contribution of the stages to a state inside the last step: see [`Plan::extend`].
     pub(crate) fn extend(&self, at: Inside<'_, V>, q: &mut V, p: &mut V) {
-        <PlanOf<M, S, V> as Plan>::extend::<V, S, N>(&self.course.memory, at, q, p);
+        <PlanOf<M, S, V> as Plan>::extend::<V, S, N>(&self.step_memory.memory, at, q, p);
     }
 
     const fn restart_clock(&mut self) {
-        self.clock = Clock::new(self.course.state.time, self.step_size);
+        self.clock = Clock::new(self.step_memory.state.time, self.step_size);
     }
 }
 
@@ -628,7 +634,7 @@ impl<M: Method, S: System<V> + Clone, V: Vector, R: Summation, N: Solver<V, S>> 
     fn clone(&self) -> Self {
         Self {
             system: self.system.clone(),
-            course: self.course.clone(),
+            step_memory: self.step_memory.clone(),
             ..*self
         }
     }
@@ -641,9 +647,9 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt::Deb
         formatter
             .debug_struct("Integrator")
             .field("method", &M::NAME)
-            .field("state", &self.course.state)
+            .field("state", &self.step_memory.state)
             .field("step_size", &self.step_size)
-            .field("statistics", &self.course.statistics)
+            .field("statistics", &self.step_memory.statistics)
             .finish_non_exhaustive()
     }
 }

@@ -42,14 +42,14 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// Computes a step of size `size`, to the time `time`, into `next`.
     #[inline]
     pub(super) fn prepare(&mut self, size: f64, time: f64) -> Result<(), Error> {
-        if time == self.course.state.time {
+        if time == self.step_memory.state.time {
             return Err(Error::TimeResolution {
                 time,
                 step_size: size,
             });
         }
         let attempt =
-            self.course
+            self.step_memory
                 .attempt::<PlanOf<M, S, V>, R, S, N>(&self.system, size, self.stopping);
         attempt.map_err(|failure| self.fail(size, failure))
     }
@@ -57,21 +57,21 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// Makes the step computed by [`prepare`](Self::prepare) the present state.
     #[inline]
     pub(super) fn accept(&mut self, size: f64, time: f64) {
-        self.course.accept::<R>(size, time);
+        self.step_memory.accept::<R>(size, time);
     }
 
     /// Returns the reason of a failed step, and forgets all data that the step left behind.
     #[cold]
     pub(super) fn fail(&mut self, size: f64, failure: Option<Failure>) -> Error {
         let attempt = Attempt {
-            time: self.course.state.time,
+            time: self.step_memory.state.time,
             step_size: size,
-            step: self.course.statistics.steps + 1,
-            dimension: self.course.state.q.dimension(),
+            step: self.step_memory.statistics.steps + 1,
+            dimension: self.step_memory.state.q.dimension(),
         };
         let mut fault = FirstFault::new(attempt.dimension);
         if failure.is_none() {
-            let (step, outcome, memory) = self.course.lend(size);
+            let (step, outcome, memory) = self.step_memory.lend(size);
             <PlanOf<M, S, V> as Plan>::observe::<R, V, S, N, FirstFault>(
                 &step,
                 &self.system,
@@ -80,9 +80,14 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
                 &mut fault,
             );
         }
-        let error = attempt.error(failure, &fault, &self.course.memory, &self.course.next.0);
-        self.course.forget();
+        let error = attempt.error(
+            failure,
+            &fault,
+            &self.step_memory.memory,
+            &self.step_memory.next.0,
+        );
+        self.step_memory.forget();
         let error = error.named(|constraint| self.system.constraint_name(constraint));
-        self.system.explain(error, &self.course.state.q)
+        self.system.explain(error, &self.step_memory.state.q)
     }
 }

@@ -20,7 +20,7 @@ impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S, V, 
     pub(crate) fn of<R: Summation>(integrator: &Integrator<M, S, V, R, N>) -> Self {
         let prototype = &integrator.state().q;
         Self {
-            memory: StageStorage::of_method(&integrator.course.memory, prototype),
+            memory: StageStorage::of_method(&integrator.step_memory.memory, prototype),
             low: (prototype.zeros_like(), prototype.zeros_like()),
         }
     }

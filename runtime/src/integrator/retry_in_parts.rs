@@ -21,12 +21,16 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         error: Error,
         see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
     ) -> Result<ControlFlow<B>, Error> {
-        let (state, low) = (self.course.state.clone(), self.course.low.clone());
+        let (state, low) = (self.step_memory.state.clone(), self.step_memory.low.clone());
         let parts = self.take_again(size, time, error)?;
-        let statistics = self.course.statistics;
-        (self.course.state, self.course.low, self.course.kept) = (state, low, WarmStart::default());
+        let statistics = self.step_memory.statistics;
+        (
+            self.step_memory.state,
+            self.step_memory.low,
+            self.step_memory.kept,
+        ) = (state, low, WarmStart::default());
         let seen = self.take_in_parts(size, time, parts, see);
-        self.course.statistics = statistics;
+        self.step_memory.statistics = statistics;
         seen
     }
 
@@ -43,17 +47,17 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         if !of_the_size || self.retry == Retry::Never {
             return Err(error);
         }
-        let (state, low) = (self.course.state.clone(), self.course.low.clone());
-        let statistics = self.course.statistics;
+        let (state, low) = (self.step_memory.state.clone(), self.step_memory.low.clone());
+        let statistics = self.step_memory.statistics;
         for (failed, parts) in (1..).zip(self.retry.parts()) {
             let mut ignore = |_: &Self| Ok(ControlFlow::<Infallible>::Continue(()));
             if self.take_in_parts(size, time, parts, &mut ignore).is_ok() {
-                self.course.statistics.rejected += failed;
+                self.step_memory.statistics.rejected += failed;
                 return Ok(parts);
             }
-            self.course.state = state.clone();
-            self.course.low = low.clone();
-            self.course.statistics = statistics;
+            self.step_memory.state = state.clone();
+            self.step_memory.low = low.clone();
+            self.step_memory.statistics = statistics;
         }
         Err(error)
     }
@@ -68,7 +72,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     ) -> Result<ControlFlow<B>, Error> {
         let mut seen = ControlFlow::Continue(());
         let part = size / f64::from(parts);
-        let mut clock = Clock::new(self.course.state.time, part);
+        let mut clock = Clock::new(self.step_memory.state.time, part);
         for number in 1..=parts {
             let time = if number == parts { end } else { clock.next() };
             self.prepare(part, time)?;

@@ -105,7 +105,7 @@ impl<S: System<V>, V: Vector, R: Summation> Integrator<AtRunTime, S, V, R> {
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Sets the tableau in the memory of steps.
     pub(crate) fn set_tableau(&mut self, tableau: &RunTimeTableau) {
-        let StepMemory { memory, state, .. } = &mut self.course;
+        let StepMemory { memory, state, .. } = &mut self.step_memory;
         memory.set_tableau(tableau, &state.q);
     }
 }

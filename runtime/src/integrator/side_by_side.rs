@@ -17,7 +17,7 @@ use crate::system::System;
 
 /// Remaining steps of one size.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Leg {
+pub(crate) struct RemainingSteps {
     left: u64,
     size: f64,
     clock: Clock,
@@ -25,7 +25,7 @@ pub(crate) struct Leg {
     end: Option<f64>,
 }
 
-impl Leg {
+impl RemainingSteps {
     /// Whether all steps are taken.
     pub(crate) const fn is_done(&self) -> bool {
         self.left == 0
@@ -41,22 +41,22 @@ impl Leg {
     }
 }
 
-/// A saved position of a run.
-pub(crate) struct Mark<V, T> {
-    course: StepMemory<V, T>,
+/// The state of a run at an earlier step, and the data that steps left behind there.
+pub(crate) struct SavedRun<V, T> {
+    step_memory: StepMemory<V, T>,
     clock: Clock,
 }
 
-/// The mark of an integrator.
-pub(crate) type MarkOf<M, S, V, N> = Mark<V, MemoryOf<M, S, V, N>>;
+/// The saved run of an integrator.
+pub(crate) type SavedRunOf<M, S, V, N> = SavedRun<V, MemoryOf<M, S, V, N>>;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Whether every lane of a step over lanes has the bits of a step of doubles.
     pub(crate) const LANEWISE: bool = <PlanOf<M, S, V> as Plan>::LANEWISE;
 
     /// The steps of [`take_steps`](Self::take_steps).
-    pub(crate) const fn leg_of(&self, count: u64) -> Leg {
-        Leg {
+    pub(crate) const fn steps_left(&self, count: u64) -> RemainingSteps {
+        RemainingSteps {
             left: count,
             size: self.step_size,
             clock: self.clock,
@@ -65,10 +65,10 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 
     /// The steps of [`integrate_to`](Self::integrate_to).
-    pub(crate) fn leg_to(&self, end: f64) -> Result<Leg, Error> {
-        let start = self.course.state.time;
+    pub(crate) fn steps_to_time(&self, end: f64) -> Result<RemainingSteps, Error> {
+        let start = self.step_memory.state.time;
         let (left, size) = uniform(start, end, self.step_size)?;
-        Ok(Leg {
+        Ok(RemainingSteps {
             left,
             size,
             clock: Clock::new(start, size),
@@ -86,54 +86,67 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         self.clock
     }
 
-    /// Number of steps of a leg that are taken at once.
-    pub(crate) fn block_of(&self, leg: &Leg) -> u64 {
-        self.next_block(leg.left)
+    /// Number of the remaining steps that are taken at once.
+    pub(crate) fn block_of(&self, remaining: &RemainingSteps) -> u64 {
+        self.next_block(remaining.left)
     }
 
-    /// Takes the next [block](Self::block_of) of a leg, as its integrator would.
-    pub(crate) fn take_block(&mut self, block: u64, leg: &mut Leg) -> Result<(), Error> {
-        let Leg {
+    /// Takes the next [block](Self::block_of) of the remaining steps, as an integrator alone would.
+    pub(crate) fn take_block(
+        &mut self,
+        block: u64,
+        remaining: &mut RemainingSteps,
+    ) -> Result<(), Error> {
+        let RemainingSteps {
             left,
             size,
             clock,
             end,
-        } = leg;
+        } = remaining;
         self.advance_block(block, *left, *size, clock, *end)?;
         *left -= block;
         Ok(())
     }
 
-    /// [`take_block`](Self::take_block) for runs side by side; returns `false` if one of them fails or is not finite. The data that steps
-    /// left behind for the others are then lost, and the run has to [go back](Self::go_back).
-    pub(crate) fn take_block_together(&mut self, block: u64, leg: &mut Leg) -> bool {
-        let ready = self.course.kept.evaluation && leg.left > 1;
-        if ready && self.advance_in_place(block, leg.size, &mut leg.clock) {
-            leg.left -= block;
+    /// [`take_block`](Self::take_block) for runs side by side; returns `false` if one of them fails or is not finite. The warm starts of the
+    /// other runs are then lost, and all have to [return](Self::return_to) to the start of the block.
+    pub(crate) fn take_block_together(
+        &mut self,
+        block: u64,
+        remaining: &mut RemainingSteps,
+    ) -> bool {
+        let ready = self.step_memory.kept.evaluation && remaining.left > 1;
+        if ready && self.advance_in_place(block, remaining.size, &mut remaining.clock) {
+            remaining.left -= block;
             return true;
         }
-        let is_lost = ready && !self.course.kept.evaluation;
-        !is_lost && self.take_block(block, leg).is_ok()
+        let is_lost = ready && !self.step_memory.kept.evaluation;
+        !is_lost && self.take_block(block, remaining).is_ok()
     }
 
-    /// Takes all steps of a leg.
-    pub(crate) fn take_leg(&mut self, leg: &mut Leg) -> Result<(), Error> {
-        self.advance_by(leg.left, leg.size, &mut leg.clock, leg.end)?;
-        leg.left = 0;
+    /// Takes all remaining steps.
+    pub(crate) fn take_remaining(&mut self, remaining: &mut RemainingSteps) -> Result<(), Error> {
+        self.advance_by(
+            remaining.left,
+            remaining.size,
+            &mut remaining.clock,
+            remaining.end,
+        )?;
+        remaining.left = 0;
         Ok(())
     }
 
-    /// Saves the position of the run.
-    pub(crate) fn mark(&self) -> MarkOf<M, S, V, N> {
-        Mark {
-            course: self.course.clone(),
+    /// A copy of the run to [return](Self::return_to) to.
+    pub(crate) fn saved(&self) -> SavedRunOf<M, S, V, N> {
+        SavedRun {
+            step_memory: self.step_memory.clone(),
             clock: self.clock,
         }
     }
 
-    /// Returns to a saved position.
-    pub(crate) fn go_back(&mut self, mark: MarkOf<M, S, V, N>) {
-        (self.course, self.clock) = (mark.course, mark.clock);
+    /// Returns to a [saved](Self::saved) run.
+    pub(crate) fn return_to(&mut self, saved: SavedRunOf<M, S, V, N>) {
+        (self.step_memory, self.clock) = (saved.step_memory, saved.clock);
     }
 
     /// An integrator for runs like this one, with the system of their lanes, in vectors like `zeros`; every lane still has to be
@@ -147,10 +160,10 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         W: Vector<Scalar: Lanes>,
         J: System<W>,
     {
-        let blank = State::new(self.course.state.time, zeros.clone(), zeros.clone());
+        let blank = State::new(self.step_memory.state.time, zeros.clone(), zeros.clone());
         let mut lanes = Integrator {
             system,
-            course: StepMemory::new(false, blank),
+            step_memory: StepMemory::new(false, blank),
             clock: self.clock,
             step_size: self.step_size,
             stopping: self.stopping,
@@ -159,7 +172,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             last_event: self.last_event,
             method: PhantomData,
         };
-        if let Some(tableau) = self.course.memory.tableau() {
+        if let Some(tableau) = self.step_memory.memory.tableau() {
             lanes.set_tableau(tableau);
         }
         lanes
@@ -185,15 +198,15 @@ where
         lane: usize,
         run: &Integrator<M, S, V, R, O>,
     ) {
-        let words = words_of(&mut run.course.clone());
+        let words = words_of(&mut run.step_memory.clone());
         let mut number = 0;
-        self.course.scalar_words(&mut |word| {
+        self.step_memory.scalar_words(&mut |word| {
             if number % <W::Scalar as Lanes>::WIDTH == lane {
                 *word = words[number / <W::Scalar as Lanes>::WIDTH];
             }
             number += 1;
         });
-        self.course.same_place(&run.course);
+        self.step_memory.same_place(&run.step_memory);
         self.clock = run.clock;
     }
 
@@ -203,13 +216,13 @@ where
         lane: usize,
         run: &mut Integrator<M, S, V, R, O>,
     ) {
-        let words = words_of(&mut self.course.clone());
+        let words = words_of(&mut self.step_memory.clone());
         let mut number = lane;
-        run.course.scalar_words(&mut |word| {
+        run.step_memory.scalar_words(&mut |word| {
             *word = words[number];
             number += <W::Scalar as Lanes>::WIDTH;
         });
-        run.course.same_place(&self.course);
+        run.step_memory.same_place(&self.step_memory);
         run.clock = self.clock;
     }
 
@@ -219,17 +232,17 @@ where
         lane: usize,
         run: &Integrator<M, S, V, R, O>,
     ) -> bool {
-        let lanes = evaluations(&self.system, &self.course.state);
-        let alone = evaluations(&run.system, &run.course.state);
+        let lanes = evaluations(&self.system, &self.step_memory.state);
+        let alone = evaluations(&run.system, &run.step_memory.state);
         let in_lane = lanes.iter().skip(lane).step_by(<W::Scalar as Lanes>::WIDTH);
         in_lane.eq(&alone)
     }
 }
 
 /// The words of all scalars of a run.
-fn words_of<V: Vector, T: StageStorage<V>>(course: &mut StepMemory<V, T>) -> Vec<u64> {
+fn words_of<V: Vector, T: StageStorage<V>>(step_memory: &mut StepMemory<V, T>) -> Vec<u64> {
     let mut words = Vec::new();
-    course.scalar_words(&mut |word| words.push(*word));
+    step_memory.scalar_words(&mut |word| words.push(*word));
     words
 }
 

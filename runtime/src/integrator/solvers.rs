@@ -16,19 +16,19 @@ use crate::system::System;
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// The same integrator with another [`Solver`] for coupled stages from here on; the counts continue.
     pub fn with_solver<O: Solver<V, S>>(self, _solver: O) -> Integrator<M, S, V, R, O> {
-        let linear_velocity = has_linear_velocity::<V, S, O>(&self.system, &self.course.state);
-        let mut course: StepMemory<V, MemoryOf<M, S, V, O>> =
-            self.course.with_memory(linear_velocity);
-        let State { time, q, p } = &course.state;
+        let linear_velocity = has_linear_velocity::<V, S, O>(&self.system, &self.step_memory.state);
+        let mut step_memory: StepMemory<V, MemoryOf<M, S, V, O>> =
+            self.step_memory.with_memory(linear_velocity);
+        let State { time, q, p } = &step_memory.state;
         <PlanOf<M, S, V> as Plan>::prepare::<V, S, O>(
-            &mut course.memory,
+            &mut step_memory.memory,
             &self.system,
             *time,
             q,
             p,
         );
         Integrator {
-            course,
+            step_memory,
             system: self.system,
             clock: self.clock,
             step_size: self.step_size,

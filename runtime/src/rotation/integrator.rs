@@ -8,7 +8,7 @@ use super::free_step::{NoRotation, rotation};
 use super::state::RotationState;
 use crate::error::{Error, Quantity};
 use crate::integrator::StepMap;
-use crate::integrator::pace::{Pace, Stepper};
+use crate::integrator::step_clock::{StepClock, Stepper};
 use crate::method::Method;
 use crate::method::symmetric_steps::{Part, SymmetricSteps};
 
@@ -38,14 +38,14 @@ pub struct RotationIntegrator<B> {
     body: B,
     moments: Vector3<f64>,
     steps: SymmetricSteps,
-    pace: Pace,
-    course: Course,
+    step_clock: StepClock,
+    precise: PreciseState,
     state: RotationState,
 }
 
 /// The variables that a step changes.
 #[derive(Clone, Copy, Debug)]
-struct Course {
+struct PreciseState {
     attitude: Attitude,
     /// The angular momentum in space.
     momentum: Precise<3>,
@@ -53,7 +53,7 @@ struct Course {
     torque: Option<Vector3<f64>>,
 }
 
-impl Course {
+impl PreciseState {
     fn new(state: &RotationState) -> Self {
         Self {
             attitude: Attitude::new(&state.attitude),
@@ -109,7 +109,7 @@ impl<B: RigidBody> RotationIntegrator<B> {
         state: RotationState,
         step_size: f64,
     ) -> Result<Self, Error> {
-        let pace = Pace::new(state.time, step_size)?;
+        let step_clock = StepClock::new(state.time, step_size)?;
         let moments = body.moments();
         for (axis, &value) in moments.iter().enumerate() {
             if !(value > 0.0 && value.is_finite()) {
@@ -121,8 +121,8 @@ impl<B: RigidBody> RotationIntegrator<B> {
             body,
             moments,
             steps,
-            pace,
-            course: Course::new(&state),
+            step_clock,
+            precise: PreciseState::new(&state),
             state,
         })
     }
@@ -157,7 +157,7 @@ impl<B: RigidBody> RotationIntegrator<B> {
 
     /// The angular momentum `RΠ` in the space frame. Without torque it is constant to the last bit.
     pub fn spatial_momentum(&self) -> Vector3<f64> {
-        self.course.spatial()
+        self.precise.spatial()
     }
 
     /// The energy `Π·I⁻¹Π/2 + V(t, R)`; `None` if the body has no potential.
@@ -178,12 +178,12 @@ impl<B: RigidBody> RotationIntegrator<B> {
 
     /// The step size.
     pub const fn step_size(&self) -> f64 {
-        self.pace.step_size()
+        self.step_clock.step_size()
     }
 
     /// Number of steps taken.
     pub const fn steps(&self) -> u64 {
-        self.pace.taken()
+        self.step_clock.taken()
     }
 
     /// Changes the step size; a negative size goes backward.
@@ -192,23 +192,23 @@ impl<B: RigidBody> RotationIntegrator<B> {
     ///
     /// [`Error::StepSize`]; the step size is then unchanged.
     pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
-        self.pace.set_step_size(self.state.time, step_size)
+        self.step_clock.set_step_size(self.state.time, step_size)
     }
 
     /// A step of order 2: half a kick, the free step, half a kick.
-    fn kick_free_step_kick(&self, course: &mut Course, part: Part) -> Result<(), Failure> {
-        let before = match course.torque {
+    fn kick_free_step_kick(&self, precise: &mut PreciseState, part: Part) -> Result<(), Failure> {
+        let before = match precise.torque {
             Some(torque) => torque,
-            None => self.torque(part.time, &course.attitude.rounded())?,
+            None => self.torque(part.time, &precise.attitude.rounded())?,
         };
-        course.momentum.add((before * (part.size / 2.0)).into());
-        let attitude = course.attitude.rounded();
-        let momentum = attitude.inverse_transform_vector(&course.spatial());
+        precise.momentum.add((before * (part.size / 2.0)).into());
+        let attitude = precise.attitude.rounded();
+        let momentum = attitude.inverse_transform_vector(&precise.spatial());
         let rotation = rotation(&self.moments, &momentum, part.size).map_err(Failure::Rotation)?;
-        course.attitude.turn(&rotation);
-        let after = self.torque(part.end, &course.attitude.rounded())?;
-        course.momentum.add((after * (part.size / 2.0)).into());
-        course.torque = Some(after);
+        precise.attitude.turn(&rotation);
+        let after = self.torque(part.end, &precise.attitude.rounded())?;
+        precise.momentum.add((after * (part.size / 2.0)).into());
+        precise.torque = Some(after);
         Ok(())
     }
 
@@ -224,8 +224,8 @@ impl<B: RigidBody> RotationIntegrator<B> {
 }
 
 impl<B: RigidBody> Stepper for RotationIntegrator<B> {
-    fn pace(&mut self) -> &mut Pace {
-        &mut self.pace
+    fn step_clock(&mut self) -> &mut StepClock {
+        &mut self.step_clock
     }
 
     fn time(&self) -> f64 {
@@ -234,14 +234,14 @@ impl<B: RigidBody> Stepper for RotationIntegrator<B> {
 
     fn advance(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
         let start = self.state.time;
-        let mut course = self.course;
+        let mut precise = self.precise;
         for part in self.steps.parts(start, size, end) {
-            self.kick_free_step_kick(&mut course, part)
+            self.kick_free_step_kick(&mut precise, part)
                 .map_err(|failure| failure.error(start, size, number))?;
         }
-        let attitude = course.attitude.rounded();
-        let momentum = attitude.inverse_transform_vector(&course.spatial());
-        self.course = course;
+        let attitude = precise.attitude.rounded();
+        let momentum = attitude.inverse_transform_vector(&precise.spatial());
+        self.precise = precise;
         self.state = RotationState::new(end, attitude, momentum);
         Ok(())
     }
@@ -257,8 +257,8 @@ impl<B: RigidBody + Clone> StepMap for RotationIntegrator<B> {
     fn step_from(&self, state: RotationState) -> Result<RotationState, Error> {
         check_state(&state)?;
         let mut run = self.clone();
-        run.pace.restart(state.time);
-        run.course = Course::new(&state);
+        run.step_clock.restart(state.time);
+        run.precise = PreciseState::new(&state);
         run.state = state;
         run.step()?;
         Ok(run.state)

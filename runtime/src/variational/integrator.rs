@@ -6,7 +6,7 @@ use super::given_ends::GeneratingFunctions;
 use super::regular::Factors;
 use crate::error::{Error, Quantity};
 use crate::integrator::StepMap;
-use crate::integrator::pace::{Pace, Stepper};
+use crate::integrator::step_clock::{StepClock, Stepper};
 use crate::integrator::validation::check_state;
 use crate::method::Method;
 use crate::method::symmetric_steps::{Part, SymmetricSteps};
@@ -64,7 +64,7 @@ use crate::state::State;
 pub struct VariationalIntegrator<L: DiscreteLagrangian> {
     lagrangian: L,
     steps: SymmetricSteps,
-    pace: Pace,
+    step_clock: StepClock,
     state: State<L::Vector<f64>>,
     /// The state inside a step.
     next: State<L::Vector<f64>>,
@@ -109,12 +109,12 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
         state: State<L::Vector<f64>>,
         step_size: f64,
     ) -> Result<Self, Error> {
-        let pace = Pace::new(state.time, step_size)?;
+        let step_clock = StepClock::new(state.time, step_size)?;
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
         Ok(Self {
             lagrangian,
             steps,
-            pace,
+            step_clock,
             next: state.clone(),
             q1: state.q.clone(),
             derivatives: Derivatives::new(&state.q)?,
@@ -163,12 +163,12 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
 
     /// The step size.
     pub const fn step_size(&self) -> f64 {
-        self.pace.step_size()
+        self.step_clock.step_size()
     }
 
     /// Number of steps taken.
     pub const fn steps(&self) -> u64 {
-        self.pace.taken()
+        self.step_clock.taken()
     }
 
     /// Sets the step size, which is negative to go backward.
@@ -177,7 +177,7 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
     ///
     /// [`Error::StepSize`]; the step size is then unchanged.
     pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
-        self.pace.set_step_size(self.state.time, step_size)
+        self.step_clock.set_step_size(self.state.time, step_size)
     }
 
     /// A step of the discrete Lagrangian, from `next` to `next`.
@@ -239,8 +239,8 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
 }
 
 impl<L: DiscreteLagrangian> Stepper for VariationalIntegrator<L> {
-    fn pace(&mut self) -> &mut Pace {
-        &mut self.pace
+    fn step_clock(&mut self) -> &mut StepClock {
+        &mut self.step_clock
     }
 
     fn time(&self) -> f64 {
@@ -271,7 +271,7 @@ impl<L: DiscreteLagrangian + Clone> VariationalIntegrator<L> {
     fn stepped_from(&self, state: State<L::Vector<f64>>) -> Result<Self, Error> {
         check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
         let mut run = self.clone();
-        run.pace.restart(state.time);
+        run.step_clock.restart(state.time);
         run.state = state;
         run.step()?;
         Ok(run)

@@ -7,7 +7,7 @@ use super::step::Equations;
 use super::{DiracRule, DiracSystem};
 use crate::error::Error;
 use crate::integrator::StepMap;
-use crate::integrator::pace::{Pace, Stepper};
+use crate::integrator::step_clock::{StepClock, Stepper};
 use crate::integrator::validation::check_state;
 use crate::method::Method;
 use crate::method::symmetric_steps::SymmetricSteps;
@@ -100,7 +100,7 @@ pub struct DiracIntegrator<L: DiracSystem> {
     system: L,
     equations: Equations<L>,
     steps: SymmetricSteps,
-    pace: Pace,
+    step_clock: StepClock,
     state: State<L::Vector<f64>>,
     velocity: L::Vector<f64>,
     /// State and velocity inside a step.
@@ -151,14 +151,14 @@ impl<L: DiracSystem> DiracIntegrator<L> {
         state: State<L::Vector<f64>>,
         step_size: f64,
     ) -> Result<Self, Error> {
-        let pace = Pace::new(state.time, step_size)?;
+        let step_clock = StepClock::new(state.time, step_size)?;
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
         let velocity = consistent_velocity(&system, &state)?;
         Ok(Self {
             equations: Equations::new(rule, &system, state.q.as_slice())?,
             system,
             steps,
-            pace,
+            step_clock,
             next: (state.clone(), velocity.clone()),
             state,
             velocity,
@@ -190,13 +190,13 @@ impl<L: DiracSystem> DiracIntegrator<L> {
     pub fn step_with_stages(&mut self) -> Result<StagesOfStep<L::Vector<f64>>, Error> {
         let (mut state, mut velocity) = (self.state.clone(), self.velocity.clone());
         self.step()?;
-        let (start, end, size) = (state.time, self.state.time, self.pace.step_size());
+        let (start, end, size) = (state.time, self.state.time, self.step_clock.step_size());
         let mut stages = Vec::new();
         for part in self.steps.parts(start, size, end) {
             let q0 = state.q.clone();
             self.equations
                 .take(&self.system, part, &mut state, &mut velocity)
-                .map_err(|failure| failure.error(start, size, self.pace.taken()))?;
+                .map_err(|failure| failure.error(start, size, self.step_clock.taken()))?;
             stages.extend(self.equations.stages(&self.system, part, q0.as_slice()));
         }
         Ok(StagesOfStep::new(stages))
@@ -237,12 +237,12 @@ impl<L: DiracSystem> DiracIntegrator<L> {
 
     /// The step size.
     pub const fn step_size(&self) -> f64 {
-        self.pace.step_size()
+        self.step_clock.step_size()
     }
 
     /// Number of steps taken.
     pub const fn steps(&self) -> u64 {
-        self.pace.taken()
+        self.step_clock.taken()
     }
 
     /// Sets the step size, which is negative to go backward.
@@ -251,13 +251,13 @@ impl<L: DiracSystem> DiracIntegrator<L> {
     ///
     /// [`Error::StepSize`]; the step size is then unchanged.
     pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
-        self.pace.set_step_size(self.state.time, step_size)
+        self.step_clock.set_step_size(self.state.time, step_size)
     }
 }
 
 impl<L: DiracSystem> Stepper for DiracIntegrator<L> {
-    fn pace(&mut self) -> &mut Pace {
-        &mut self.pace
+    fn step_clock(&mut self) -> &mut StepClock {
+        &mut self.step_clock
     }
 
     fn time(&self) -> f64 {
@@ -298,7 +298,7 @@ impl<L: DiracSystem + Clone> StepMap for DiracIntegrator<L> {
         check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
         let mut run = self.clone();
         run.velocity = consistent_velocity(&run.system, &state)?;
-        run.pace.restart(state.time);
+        run.step_clock.restart(state.time);
         run.state = state;
         run.step()?;
         Ok(run.state)

@@ -5,7 +5,7 @@ use super::legendre::{momentum_of_velocity, velocity_near, velocity_of_momentum}
 use super::stages::{Stages, Start};
 use crate::error::{Error, Quantity};
 use crate::integrator::StepMap;
-use crate::integrator::pace::{Pace, Stepper};
+use crate::integrator::step_clock::{StepClock, Stepper};
 use crate::integrator::validation::check_state;
 use crate::method::{Method, ProvedFor};
 use crate::number::Vector;
@@ -71,7 +71,7 @@ use crate::variational::two_ends::dot;
 #[derive(Clone)]
 pub struct LagrangianIntegrator<L: Lagrangian> {
     lagrangian: L,
-    pace: Pace,
+    step_clock: StepClock,
     state: State<L::Vector<f64>>,
     next: State<L::Vector<f64>>,
     stages: Stages<L>,
@@ -165,7 +165,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         let n = state.q.dimension();
         check_state(state.time, &state.q, &state.p, n)?;
         Ok(Self {
-            pace: Pace::new(state.time, step_size)?,
+            step_clock: StepClock::new(state.time, step_size)?,
             stages: Stages::new(coefficients, n)?,
             next: state.clone(),
             lagrangian,
@@ -239,7 +239,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         self.step()?;
         let start = Start {
             time,
-            size: self.pace.step_size(),
+            size: self.step_clock.step_size(),
             q: q.as_slice(),
             p: p.as_slice(),
         };
@@ -300,12 +300,12 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
 
     /// The step size.
     pub const fn step_size(&self) -> f64 {
-        self.pace.step_size()
+        self.step_clock.step_size()
     }
 
     /// Number of steps taken.
     pub const fn steps(&self) -> u64 {
-        self.pace.taken()
+        self.step_clock.taken()
     }
 
     /// Sets the step size, which is negative to go backward.
@@ -314,13 +314,13 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     ///
     /// [`Error::StepSize`]; the step size is then unchanged.
     pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
-        self.pace.set_step_size(self.state.time, step_size)
+        self.step_clock.set_step_size(self.state.time, step_size)
     }
 }
 
 impl<L: Lagrangian> Stepper for LagrangianIntegrator<L> {
-    fn pace(&mut self) -> &mut Pace {
-        &mut self.pace
+    fn step_clock(&mut self) -> &mut StepClock {
+        &mut self.step_clock
     }
 
     fn time(&self) -> f64 {
@@ -350,7 +350,7 @@ impl<L: Lagrangian + Clone> LagrangianIntegrator<L> {
     fn stepped_from(&self, state: State<L::Vector<f64>>) -> Result<Self, Error> {
         check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
         let mut run = self.clone();
-        run.pace.restart(state.time);
+        run.step_clock.restart(state.time);
         run.stages.forget();
         run.state = state;
         run.step()?;

@@ -1,4 +1,4 @@
-//! Steps of one size, for integrators without stages.
+//! Steps of one size, for integrators that manage their state themselves.
 
 use super::clock::{Clock, uniform};
 use super::validation::check_step_size;
@@ -7,19 +7,19 @@ use crate::number::words::{Visit, Words, words};
 
 /// The step size, the times of the steps, and their number.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pace {
+pub(crate) struct StepClock {
     step_size: f64,
     clock: Clock,
     taken: u64,
 }
 
-impl Words for Pace {
+impl Words for StepClock {
     fn words(&mut self, visit: &mut Visit<'_>) {
         words!(visit: self.step_size, self.clock, self.taken);
     }
 }
 
-impl Pace {
+impl StepClock {
     /// Steps of this size from `time` on.
     pub(crate) fn new(time: f64, step_size: f64) -> Result<Self, Error> {
         check_step_size(step_size)?;
@@ -57,7 +57,7 @@ impl Pace {
 
 /// An integrator that takes steps.
 pub(crate) trait Stepper {
-    fn pace(&mut self) -> &mut Pace;
+    fn step_clock(&mut self) -> &mut StepClock;
 
     fn time(&self) -> f64;
 
@@ -66,9 +66,9 @@ pub(crate) trait Stepper {
 
     /// Takes one step: after `k` steps the time is `start + k h`.
     fn one_step(&mut self) -> Result<(), Error> {
-        let pace = *self.pace();
-        self.counted(pace.step_size, pace.clock.next())?;
-        self.pace().clock.tick();
+        let step_clock = *self.step_clock();
+        self.counted(step_clock.step_size, step_clock.clock.next())?;
+        self.step_clock().clock.tick();
         Ok(())
     }
 
@@ -80,7 +80,7 @@ pub(crate) trait Stepper {
     /// [`steps_to`](Self::steps_to) that calls `see` after every step.
     fn steps_in_sight(&mut self, end: f64, mut see: impl FnMut(&Self)) -> Result<(), Error> {
         let start = self.time();
-        let step_size = self.pace().step_size;
+        let step_size = self.step_clock().step_size;
         let (count, size) = uniform(start, end, step_size)?;
         let clock = Clock::new(start, size);
         let outcome = (1..=count).try_for_each(|number| {
@@ -90,7 +90,7 @@ pub(crate) trait Stepper {
             Ok(())
         });
         let time = self.time();
-        self.pace().restart(time);
+        self.step_clock().restart(time);
         outcome
     }
 
@@ -102,9 +102,9 @@ pub(crate) trait Stepper {
                 step_size: size,
             });
         }
-        let number = self.pace().taken + 1;
+        let number = self.step_clock().taken + 1;
         self.advance(size, end, number)?;
-        self.pace().taken = number;
+        self.step_clock().taken = number;
         Ok(())
     }
 }

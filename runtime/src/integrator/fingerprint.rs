@@ -9,20 +9,20 @@ use crate::system::{Gradients, System};
 /// A hash of vectors. The upper half of each product is folded onto the lower half; otherwise it could miss changed signs of two
 /// components.
 pub(crate) fn hash<V: Vector>(vectors: &mut [V]) -> u64 {
-    let mut brief = 0_u64;
-    vector_words(vectors, &mut |word| brief = joined(brief, *word));
-    brief
+    let mut found = 0_u64;
+    vector_words(vectors, &mut |word| found = joined(found, *word));
+    found
 }
 
 /// The hash of a hash and a word.
-const fn joined(brief: u64, word: u64) -> u64 {
-    let product = (brief ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+const fn joined(hash: u64, word: u64) -> u64 {
+    let product = (hash ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     product ^ (product >> 32)
 }
 
-/// Hashes of a system at a state and at a point beside it, where no symmetry hides a parameter as it may at the state: of velocity and
-/// force at both, and of friction, constraints and rows at the second.
-pub(crate) fn system_in_brief<V: Vector, S: System<V>>(
+/// Two hashes that identify a system: of velocity and force at a state and at a second point, and of friction, constraints and rows at the
+/// second point. There is a second point, because symmetry may hide a parameter at the first.
+pub(crate) fn system_fingerprint<V: Vector, S: System<V>>(
     system: &S,
     time: f64,
     q: &V,
