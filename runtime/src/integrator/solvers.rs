@@ -41,9 +41,9 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 
     /// The same integrator with [`Newton`]'s iteration, for stiff and strongly coupled systems. An explicit method does not change.
     ///
-    /// The second derivatives are exact if the system [gives them](System::second_derivatives), as one from a
-    /// [formula](crate::hamiltonian!) does, and differences otherwise. The matrices are bands of the
-    /// [half bandwidth](System::half_bandwidth) of the system, and full if it does not know that; room for them is made in the first step.
+    /// The second derivatives are exact if the system [implements them](System::second_derivatives), as a system from a
+    /// [formula](crate::hamiltonian!) does. Otherwise they are difference quotients. The matrices are banded if the system knows its
+    /// [half bandwidth](System::half_bandwidth), and full otherwise. The first step allocates them.
     ///
     /// ```
     /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }

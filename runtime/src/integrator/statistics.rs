@@ -25,7 +25,7 @@ use crate::method::StepStatistics;
 pub struct Statistics {
     /// Steps taken; for a [split](crate::Retry::Split) step, its parts.
     pub steps: u64,
-    /// Failed attempts at a step, or at its parts, that shorter steps or another solver replaced.
+    /// Failed attempts that were repeated with shorter steps or another solver.
     pub rejected: u64,
     /// Fixed-point sweeps; 0 for an explicit method.
     pub iterations: u64,
@@ -35,8 +35,8 @@ pub struct Statistics {
     pub evaluations: u64,
     /// Factorisations of the linear systems of Newton's iteration: one for each pair of stages.
     pub factorisations: u64,
-    /// The largest residual of a step by Newton's iteration: the relative change of the stages in its last sweep, of the positions or of
-    /// the momenta. In a stiff system it is the rounding error of the force, divided by the step size; it may be far above
+    /// The largest residual of a step by Newton's iteration: the relative change of the positions or momenta of the stages in its last sweep.
+    /// In a stiff system it is the rounding error of the force, divided by the step size. It may be far above
     /// [`Scalar::EPSILON`](crate::Scalar::EPSILON). Zero for other iterations.
     pub largest_residual: f64,
 }

@@ -47,7 +47,7 @@ impl<P: StageTableau> Plan for Coupled<P> {
         S: System<V, Class = P::Class>,
         N: Solver<V, S>,
     {
-        // Without momenta the slopes of the positions have the places of the velocities: one for each force.
+        // If momenta are eliminated, the velocities' memory holds the slopes of the positions, one for each force.
         let slopes_fit = P::SECOND_ORDER.is_none() || P::POSITIONS.count == P::MOMENTA.count;
         slopes_fit && N::goes_in_lanes()
     }

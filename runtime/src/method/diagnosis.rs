@@ -1,11 +1,11 @@
-//! Why a step failed, with the details for the user.
+//! The cause of a failed step, with details for the user.
 
 use crate::error::{Error, Quantity};
 use crate::method::storage::is_finite;
 use crate::method::{EvaluationObserver, Failure, StageStorage};
 use crate::number::Vector;
 
-/// What is wrong with an evaluation.
+/// A fault of an evaluation.
 #[derive(Clone, Copy)]
 enum Fault {
     NonFinite,
@@ -13,7 +13,7 @@ enum Fault {
     Dimension(usize),
 }
 
-/// Looks for the first evaluation that is wrong although its argument is not.
+/// Records the first evaluation that is not finite although its argument is, or that has a wrong dimension.
 pub(crate) struct FirstFault {
     dimension: usize,
     found: Option<(Quantity, usize, Fault)>,

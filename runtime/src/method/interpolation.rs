@@ -19,18 +19,19 @@ use crate::number::{Scalar, Vector};
 pub enum Interpolation {
     /// The polynomials through the velocities and the forces of the stages, integrated.
     ///
-    /// If the basis has as many polynomials as there are nodes, this is the Galerkin polynomial itself. For `a` it has the stages as its
-    /// values at the nodes (collocation; Hairer, Nørsett & Wanner, *Solving ODEs I*, Theorem II.7.10). Its orders follow from the order of
-    /// interpolation and from the stage orders, `C(η)` and `Ĉ(η̂)`: `min(s, η̂ + 1) + 1` for positions of a separable system,
-    /// `min(s, η + 1) + 1` for momenta, and the smaller one for both of a general system. So Gauss and Radau with s > 1 stages have the
-    /// order `s + 1`.
+    /// If the basis has as many polynomials as there are nodes, this is the Galerkin polynomial itself. With collocation coefficients `a` it
+    /// passes through the stages (Hairer, Nørsett & Wanner, *Solving ODEs I*, Theorem II.7.10).
+    ///
+    /// Its orders follow from the order of interpolation and from the stage orders, `C(η)` and `Ĉ(η̂)`. In a separable system it has the
+    /// order `min(s, η̂ + 1) + 1` for positions and `min(s, η + 1) + 1` for momenta. In a general system both have the smaller one. So Gauss
+    /// and Radau with s > 1 stages have the order `s + 1`.
     Stages {
         /// The order of positions.
         positions: u32,
         /// The order of momenta.
         momenta: u32,
     },
-    /// The cubic polynomials with the values and the derivatives at both ends, where the system is evaluated: order 4.
+    /// The cubic polynomials with the values and derivatives of both ends, for which the system is evaluated there: order 4.
     Hermite,
 }
 
@@ -71,7 +72,7 @@ impl Interpolation {
     }
 }
 
-/// A place inside a step.
+/// A time inside a step.
 #[derive(Debug)]
 pub struct Inside<'a, V> {
     /// The fraction θ of the step.
@@ -91,7 +92,7 @@ impl<V> Clone for Inside<'_, V> {
 impl<V> Copy for Inside<'_, V> {}
 
 impl<'a, V: Vector> Inside<'a, V> {
-    /// The same place for vectors of another type, if that is the same type.
+    /// The same time for vectors of another type, if that is the same type.
     pub(crate) fn same<W: Vector>(self) -> Option<Inside<'a, W>> {
         Some(Inside {
             fraction: self.fraction,

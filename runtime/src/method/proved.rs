@@ -6,17 +6,17 @@ use crate::system::{Class, Unconstrained};
 
 /// A method that keeps its order and its symplecticity on all systems of class `C`.
 ///
-/// The macros implement it if the compiler proves that, on class `C`, the order is as high as on the narrower classes and the step is
-/// symplectic if it is symplectic on those. Every method has it for [`Separable`](crate::Separable). A splitting is symplectic for separable
-/// Hamiltonians only and lacks it for [`General`](crate::General): [`Integrator::new`](crate::Integrator::new) does not compile there.
-/// [`Method::accept_lower_order`] lifts that.
+/// The macros implement it if the compiler proves that on class `C` the order is as high as on the narrower classes, and that the step is
+/// symplectic if it is on those. Every method has it for [`Separable`](crate::Separable). A splitting is symplectic for separable
+/// Hamiltonians only and lacks it for [`General`](crate::General), so [`Integrator::new`](crate::Integrator::new) does not compile for a
+/// general system. [`Method::accept_lower_order`] lifts this restriction.
 ///
 /// Every method also has it for `()`, which is not a class. If a method had it for one class only, rustc would infer that class from the
 /// method and report an error in the system.
 ///
-/// Code that is generic over the method and the system asks for `M: Method + ProvedFor<S::Class>`.
+/// Code that is generic over the method and the system needs the bound `M: Method + ProvedFor<S::Class>`.
 ///
-/// A method whose order holds for quadratic kinetic energy only (Runge–Kutta–Nyström) is checked when the integrator is made: see
+/// A method whose order holds for quadratic kinetic energy only (Runge–Kutta–Nyström) is checked when the integrator is created: see
 /// [`Error::NotQuadraticKinetic`](crate::Error::NotQuadraticKinetic).
 ///
 /// ```compile_fail

@@ -1,6 +1,6 @@
 //! The macro that makes a method.
 
-/// Derives a method from its definition, proves what is required of it, and emits it as a type.
+/// Derives a method from its definition, proves the required properties, and emits the method as a type.
 ///
 /// ```
 /// symplectic::tableau! {
@@ -32,14 +32,31 @@
 /// | `exchange` | `true` exchanges positions and momenta at the end |
 /// | `adjoint` | `true` for the adjoint of the method |
 /// | `file` | instead of all these: a TOML file with a definition or a whole tableau, relative to the crate: `"tableaux/gauss-4.toml"`; it is derived and proved anew, and an edit of it rebuilds the crate |
-/// | `require` | properties to be proved: `symplectic`, `symmetric`, `consistent`, `equal_matrices`, `explicit`, `first_row_zero`, `stiffly_accurate`, `first_same_as_last`, `positive_weights`, `constrained`, `nonholonomic`; `symplectic(separable)` and `symmetric(separable)` for separable systems only; orders for a class of Hamiltonians: `order >= 4`, `order(separable) == 6`, `order(nystrom) >= 4`; orders in `ε`, `ε²`, … of splittings for perturbed systems `H_A + εH_B`, drifts for `H_A` and kicks for `εH_B`: `order(perturbed) >= (8, 4)`; stability on the oscillator: `p_stable`, `stable_to(14/5)`, that is for 0 < hω ≤ 14/5 |
+/// | `require` | a list of the requirements below |
 /// | `accept` | `verified(100 bits)`: a property verified to that many bits satisfies a requirement too; needed only for tableaux that no exact arithmetic can represent |
 /// | `max_stages` | maximum number of stages; default 36 |
 ///
-/// The coefficients are those of Leok & Zhang, *Discrete Hamiltonian variational integrators*, §4.4: with
-/// `M = [ψ_i(c_j)]` and `B_i = ∫_0^1 ψ_i`, `b = M⁻¹B`, `a = A_ψ M⁻ᵀ` where `(A_ψ)_ij = ∫_0^{c_i} ψ_j`, and
-/// `ã_ij = (b_i b_j − b_j a_ji)/b_i`. The rectangular construction is that of Tang, *Two types of
-/// variational integrators*, §2.2.
+/// | requirement | meaning |
+/// |---|---|
+/// | `symplectic`, `symmetric`; `symplectic(separable)`, `symmetric(separable)` | for every Hamiltonian; for separable Hamiltonians |
+/// | `order >= 4`, `order(separable) == 6`, `order(nystrom) >= 4` | the order for every Hamiltonian, for `T(p) + U(q)`, for `pᵀM⁻¹p/2 + U(q)` |
+/// | `order(perturbed) >= (8, 4)` | the order in `ε`, `ε²`, … of a splitting for `H_A + εH_B`, with drifts for `H_A` and kicks for `εH_B` |
+/// | `consistent` | `Σ b_i = Σ b̃_i = 1`: order at least 1 |
+/// | `explicit` | for separable Hamiltonians the stages are computed one after another |
+/// | `equal_matrices` | `ã = a` and `b̃ = b` |
+/// | `positive_weights` | `b_i > 0` and `b̃_i > 0` |
+/// | `first_row_zero`, `stiffly_accurate`, `first_same_as_last` | `Q_1 = q0`; `Q_s = q1`; both |
+/// | `constrained`, `nonholonomic` | it steps systems with holonomic constraints; with non-holonomic constraints |
+/// | `p_stable`, `stable_to(14/5)` | stable on the oscillator for every hω; for 0 < hω ≤ 14/5 |
+///
+/// The coefficients are those of Leok & Zhang, *Discrete Hamiltonian variational integrators*, §4.4, with `M = [ψ_i(c_j)]`,
+/// `B_i = ∫_0^1 ψ_i` and `(A_ψ)_ij = ∫_0^{c_i} ψ_j`:
+///
+/// ```text
+/// b = M⁻¹B      a = A_ψ M⁻ᵀ      ã_ij = (b_i b_j − b_j a_ji)/b_i
+/// ```
+///
+/// The rectangular construction is that of Tang, *Two types of variational integrators*, §2.2.
 ///
 /// # Errors
 ///

@@ -1,9 +1,8 @@
 //! Arrays filled by loops.
 //!
-//! [`core::array::from_fn`], `map` of arrays and `zip` call functions of the standard library that are not marked for
-//! inlining. Until the optimiser works across codegen units, late in the compilation, they stay calls. Memory that a call may point to is
-//! not kept in registers: for (q² + 1)(p² + 1)/2 and two stages this took a quarter of the time of a step. Sweeps, sums, kicks and drifts
-//! therefore have loops over indices instead.
+//! [`core::array::from_fn`], `map` of arrays and `zip` call functions of the standard library that are not marked for inlining. They are
+//! inlined late in the compilation only, across codegen units. Until then memory whose address a call may know is not kept in registers.
+//! For (q² + 1)(p² + 1)/2 and two stages this took a quarter of the time of a step. So sweeps, sums, kicks and drifts loop over indices.
 
 /// Returns `[make(0), make(1), …]`; each entry is `blank` until it is made.
 #[cfg_attr(not(debug_assertions), inline(always))]

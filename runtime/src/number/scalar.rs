@@ -80,9 +80,9 @@ pub trait Scalar:
 
     /// `step_size` times a coefficient of a method, as a constant: the factor of an evaluation in a stage.
     ///
-    /// The product is computed in double precision, as the step size is, and rounded to the scalar last. For f32 it is
-    /// then within 2⁻²⁴ of the exact product, the smallest possible error. Computed from the coefficient as an f32 it would be within twice
-    /// that, always with the same sign: a Kepler orbit of 20 000 steps of Gauss with five stages then has twice the energy error.
+    /// The product is computed in double precision and rounded to the scalar last. For f32 its relative error is then at most 2⁻²⁴, the
+    /// smallest possible bound. From the coefficient as an f32 the bound would be twice as large, and the error would have the same sign in
+    /// every step. On a Kepler orbit of 20 000 steps of Gauss with five stages the energy error would be twice as large.
     #[inline]
     fn weight(step_size: f64, coefficient: Coefficient) -> Self {
         Self::from_f64(step_size * coefficient.double())

@@ -144,7 +144,7 @@ fn two<R: Summation, T: Scalar>(first: usize, count: usize, term: &impl Fn(usize
     joined::<R, T>((term(first), None), second)
 }
 
-/// The sum of a sum and another one, if there is one.
+/// The sum of `first` and, if present, `second`.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn joined<R: Summation, T: Scalar>(first: Sum<T>, second: Option<Sum<T>>) -> Sum<T> {
     match second {

@@ -9,7 +9,7 @@ use nalgebra::SMatrix;
 use crate::error::Error;
 use crate::number::Scalar;
 
-/// Largest size in bytes of a memory that may be moved for several steps, or for one step that is repeated with more care.
+/// Largest memory, in bytes, that is copied to keep it in registers.
 pub(crate) const LIGHT: usize = 1 << 14;
 
 /// Whether a vector holds its components, and nothing else, in place. Moving the vector out then leaves one of the same length.

@@ -2,7 +2,7 @@
 
 use crate::number::{Scalar, Vector};
 
-/// A visitor of words: it writes each word down, or replaces it by another.
+/// A visitor of words: it saves each word, or replaces it by a saved one.
 pub type Visit<'a> = dyn FnMut(&mut u64) + 'a;
 
 /// A value that consists of words of 64 bits: numbers, flags, and lists of them.

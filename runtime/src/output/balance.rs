@@ -1,12 +1,12 @@
-//! Balance of a quantity and its supply.
+//! Balances: a quantity against the total supply of it.
 
 /// Observes a balance: the deviation of a function of the state from its first value plus the total supply since.
 ///
 /// Examples: the energy and the [work](crate::variational::StagesOfStep::work) of an applied force; a momentum map and
-/// its [impulse](crate::variational::StagesOfStep::impulse). With no supply it is an [`Invariant`](crate::Invariant).
+/// its [impulse](crate::variational::StagesOfStep::impulse). Without supply it is an [`Invariant`](crate::Invariant).
 ///
-/// The observer itself is one sum. The supplies of a run come from [`step_with_stages`](crate::Integrator::step_with_stages), for Gauss
-/// methods by two to four times as many evaluations as a step, for explicit methods by many more.
+/// [`step_with_stages`](crate::Integrator::step_with_stages) returns the supply of each step. For Gauss methods it needs two to four times
+/// as many evaluations as a step, for explicit methods many more.
 ///
 /// ```
 /// use symplectic::State;
@@ -59,7 +59,7 @@ impl<F> Balance<F> {
         self.rest = add - (sum - self.supplied);
         self.supplied = sum;
         self.last = (self.function)(state) - self.initial - self.supplied;
-        // A NaN stays.
+        // A NaN remains.
         if !(self.last.abs() <= self.largest || self.largest.is_nan()) {
             self.largest = self.last.abs();
         }

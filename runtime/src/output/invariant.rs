@@ -1,12 +1,12 @@
-//! How well something is conserved.
+//! Observers of conserved quantities.
 
 use crate::number::Vector;
 use crate::state::State;
 use crate::system::System;
 
-/// An observer of a function of the state: the energy, a momentum map, anything that the exact flow conserves.
+/// An observer of a function of the state that the exact flow conserves, such as the energy or a momentum map.
 ///
-/// It keeps the value at the first state and the largest deviation from it, and nothing else.
+/// It keeps the first value, the latest value and the largest deviation from the first one.
 ///
 /// ```
 /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
@@ -59,14 +59,14 @@ impl<F> Invariant<F> {
         }
     }
 
-    /// Looks at a state.
+    /// Observes a state.
     pub fn observe<T>(&mut self, state: &T)
     where
         F: Fn(&T) -> f64,
     {
         self.last = (self.function)(state);
         let deviation = (self.last - self.initial).abs();
-        // NaN once and for all.
+        // A NaN remains.
         if !(deviation <= self.largest || self.largest.is_nan()) {
             self.largest = deviation;
         }
@@ -82,7 +82,7 @@ impl<F> Invariant<F> {
         self.last
     }
 
-    /// The largest distance from the first value so far; NaN if one of the values was.
+    /// The largest distance from the first value so far; NaN if any value was NaN.
     pub const fn deviation(&self) -> f64 {
         self.largest
     }
@@ -92,14 +92,14 @@ impl<F> Invariant<F> {
         self.largest / self.initial.abs()
     }
 
-    /// The distance of the latest value from the first one, with its sign, relative to the latter.
+    /// The latest value minus the first one, relative to the first one.
     pub fn relative_error(&self) -> f64 {
         (self.last - self.initial) / self.initial.abs()
     }
 }
 
 impl Invariant<()> {
-    /// An observer of the energy of `system`, in double precision; NaN where the system does not know it.
+    /// An observer of the energy of `system`, in double precision; NaN if the system does not implement it.
     pub fn energy<V, S>(
         system: S,
         start: &State<V>,
@@ -116,12 +116,12 @@ impl Invariant<()> {
     }
 }
 
-/// An observer with the name of what it watches.
+/// An observer with the name of its quantity.
 type Named<F> = (&'static str, Invariant<F>);
 
-/// Observers of what a system conserves, each with its name: `value` gives a function of the state by its number.
+/// Observers of the conserved quantities of a system, with their names. `value` evaluates the quantity with a given number.
 ///
-/// The method `invariants` of a system from a formula is this.
+/// The method `invariants` of a system from a formula returns them.
 #[doc(hidden)]
 pub fn invariants<S: Clone, V, const COUNT: usize>(
     names: [&'static str; COUNT],

@@ -32,9 +32,10 @@ pub trait Class: sealed::Sealed + Sized + 'static {
     const FRICTION: bool = false;
 }
 
-/// A class without constraints: [`General`], [`Separable`] or [`Damped`]. A method with a proof for general Hamiltonians has one for it.
+/// A class without constraints: [`General`], [`Separable`] or [`Damped`].
 ///
-/// Code that is generic over the system and uses such a method requires `S::Class: Unconstrained`.
+/// A method that is proved for general Hamiltonians is proved for each of them. Generic code that uses such a method needs the bound
+/// `S::Class: Unconstrained`.
 #[diagnostic::on_unimplemented(
     message = "this method has no steps for systems of class `{Self}`",
     label = "no steps for these constraints",

@@ -1,6 +1,6 @@
 //! The macro `hamiltonian!`.
 
-/// A Hamiltonian system from its formula: everything else is derived while the crate compiles.
+/// Defines a Hamiltonian system by its formula. Everything else is derived while the crate compiles.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -26,11 +26,11 @@
 /// # }
 /// ```
 ///
-/// The macro makes the type with a field for each parameter, and implements [`SeparableHamiltonian`](crate::SeparableHamiltonian) or
-/// [`Hamiltonian`](crate::Hamiltonian) for it, whichever it finds. The derivatives are exact, first and second. The
-/// [second](crate::Hamiltonian::second_derivatives) are for Newton's iteration, [`by_newton`](crate::Integrator::by_newton), with a
-/// [band](crate::Hamiltonian::half_bandwidth) where only neighbours interact. The page of the type shows H, the equations of motion
-/// and what was found.
+/// The macro makes the type, with a field for each parameter. It implements [`SeparableHamiltonian`](crate::SeparableHamiltonian) or
+/// [`Hamiltonian`](crate::Hamiltonian), depending on the class of H. The derivatives are exact, first and second. Newton's iteration,
+/// [`by_newton`](crate::Integrator::by_newton), uses the [second](crate::Hamiltonian::second_derivatives); they are
+/// [banded](crate::Hamiltonian::half_bandwidth) if only neighbours interact. The documentation of the type shows H, the equations of motion
+/// and the properties found.
 ///
 /// A system may also be given by its Lagrangian: [`lagrangian!`](macro@crate::lagrangian).
 ///
@@ -41,19 +41,31 @@
 /// | `q: [a, b], p: [pa, pb];` | with names | `SVector<T, 2>` |
 /// | `q: [4], p: [4];` | `q[0]` … `q[3]` | `SVector<T, 4>` |
 /// | `Name<N>`, a capital letter, and `q: [N; 3], p: [N; 3];` | `N` bodies in space, `q[i]` is a vector | `SMatrix<T, 3, N>`, a column each |
-/// | `q: [..], p: [..];`, `q: [..; 3], p: [..; 3];` | as many as there are at run time | `DVector<T>` |
+/// | `q: [..], p: [..];`, `q: [..; 3], p: [..; 3];` | numbers or vectors, whose count is known at run time only | `DVector<T>` |
 ///
 /// # Parameters
 ///
-/// `{ g: 9.81, omega, m: [N], A: [3, 3], charges: [..], springs: pairs, stiffness: [springs] }`: a number with its value unless it is
-/// set, a number, arrays and a matrix, and pairs of indices from data. They are public fields; `Name::new(…)` takes those without a value,
-/// in order. Where all have one there is a `Default`.
+/// They are listed in braces, `{ g: 9.81, omega, m: [N] }`:
+///
+/// | written | parameter |
+/// |---|---|
+/// | `g: 9.81` | a number with a default |
+/// | `omega` | a number |
+/// | `m: [N]`, `charges: [..]` | an array: of `N` numbers, or of a length known at run time only |
+/// | `A: [3, 3]` | a matrix |
+/// | `springs: pairs` | pairs of indices |
+/// | `stiffness: [springs]` | an array with a number for each of these pairs |
+///
+/// Parameters are public fields. `Name::new(…)` takes those without a default, in order. If every parameter has a default, the type
+/// implements `Default`.
 ///
 /// # Formulas
 ///
-/// Factors that follow one another are multiplied; what follows a quotient needs parentheses. There are `+ - * / ^`, whole and rational
-/// powers, `sqrt exp ln sin cos tan asin acos atan sinh cosh tanh atan2 hypot`, `pi`, the time `t`, vectors `[x, y, z]` with `|v|`,
-/// `dot(v, w)` and `cross(v, w)`, and a matrix times a vector.
+/// Juxtaposition is multiplication: `2 a b`. A product after `/` needs parentheses. A formula may contain
+///
+/// * `+ - * / ^` with whole and rational powers, `pi`, and the time `t`;
+/// * `sqrt exp ln sin cos tan asin acos atan sinh cosh tanh atan2 hypot`;
+/// * vectors `[x, y, z]` with `|v|`, `dot(v, w)` and `cross(v, w)`, and a matrix times a vector.
 ///
 /// | written | sum over |
 /// |---|---|
@@ -62,22 +74,22 @@
 /// | `sum((i, j) in springs: …)`, `sum(s = (i, j) in springs: stiffness[s] …)` | the pairs of a parameter; `s` is the number of the pair |
 /// | `bonds: walls;` and `sum(bonds d: d^2/2)` | the bonds of a chain between `walls`, with `free` ends, or in a `ring`; `d` is the stretch |
 ///
-/// `let d = a - b;` is an abbreviation, `let s(i, j) = sigma^2/|q[i] - q[j]|^2;` one with arguments. `extern fn V with dV, d2V;` names
-/// functions in scope, `fn V<T: Scalar>(x: T) -> T` and its two derivatives. They must be generic, also functions of a parameter alone. H
-/// has to be twice continuously differentiable: `abs`, `min` and `max` are refused; `|x|^3` is not.
+/// `let d = a - b;` is an abbreviation; `let s(i, j) = sigma^2/|q[i] - q[j]|^2;` has arguments. `extern fn V with dV, d2V;` names functions in
+/// scope: `fn V<T: Scalar>(x: T) -> T` and its two derivatives. They must be generic, even if they depend on a parameter only. H must be
+/// twice continuously differentiable: `|x|^3` is allowed, `abs`, `min` and `max` are not.
 ///
 /// # Constraints and friction
 ///
-/// `constraints: { rod = |q[0]|^2 - 1, link(i in 1..N) = |q[i] - q[i-1]|^2 - 1 }` says what is zero: functions of the positions, or vectors
-/// of them, one or one for each index; `rod(s = (i, j) in rods) = …` has one for each pair of a parameter. The class of the system is
-/// then [`Constrained`](crate::Constrained), and methods that are `constrained` step it.
+/// `constraints: { rod = |q[0]|^2 - 1, link(i in 1..N) = |q[i] - q[i-1]|^2 - 1 }` lists the functions φ(q) that vanish. They are numbers or
+/// vectors. `link(i in 1..N)` is one for each index; `rod(s = (i, j) in rods) = …` is one for each pair of a parameter. The class of the
+/// system is [`Constrained`](crate::Constrained), for methods that are `constrained`.
 ///
-/// `nonholonomic: { edge = vx sin(a) - vy cos(a) }` says which forms of the velocities are zero, each a sum of velocities times functions of
-/// the positions; `v: [vx, vy, va]` after `p: […]` names the velocities for this section. The class is then
-/// [`Nonholonomic`](crate::Nonholonomic), and methods that are `nonholonomic` step it.
+/// `nonholonomic: { edge = vx sin(a) - vy cos(a) }` lists the linear forms of the velocities that vanish. Their coefficients are functions of
+/// the positions. `v: [vx, vy, va]` after `p: […]` names the velocities for this section. The class of the system is
+/// [`Nonholonomic`](crate::Nonholonomic), for methods that are `nonholonomic`.
 ///
-/// `friction: gamma` adds the force `−γp` to a separable system; `friction: [a, b]` has a rate for each coordinate, or, if positions are
-/// vectors, for each component of a vector. The class is [`Damped`](crate::Damped), for splittings.
+/// `friction: gamma` adds the force `−γp` to a separable system. `friction: [a, b]` has a rate for each coordinate or, if positions are
+/// vectors, for each component of a vector. The class of the system is [`Damped`](crate::Damped), for splittings.
 ///
 /// ```
 /// use symplectic::{Error, Integrator, State};
@@ -103,11 +115,15 @@
 ///
 /// # Conserved quantities
 ///
-/// A momentum is conserved where H has a symmetry that shows in its form: where all positions can be moved together there is a method
-/// `total_momentum`, where they can be turned `angular_momentum`. `invariants: { name = …, }` adds methods of your own. One that belongs
-/// to a symmetry of the formula is proved; of any other the Poisson bracket with H is computed at a few states, and what is not zero there
-/// does not compile. The page of the method says which. `invariants(&start)` makes an [`Invariant`](crate::Invariant) of each of these
-/// numbers, and of the energy, with its name: `observe` the states of a run, and they know the largest deviation.
+/// A symmetry that is visible in the formula gives a conserved momentum and a method for it. Translation symmetry gives `total_momentum`,
+/// rotation symmetry `angular_momentum`.
+///
+/// `invariants: { name = …, }` adds methods for your own invariants. An invariant that follows from a symmetry is proved. For any other the
+/// Poisson bracket with H is evaluated at three states and must vanish; otherwise the definition does not compile. The documentation of the
+/// method says whether the invariant is proved.
+///
+/// `invariants(&start)` makes an [`Invariant`](crate::Invariant) of the energy and of each of these numbers, with its name. `observe` the
+/// states of a run with it; it keeps the largest deviation.
 ///
 /// ```
 /// use symplectic::State;
@@ -135,8 +151,8 @@
 ///
 /// # Requirements
 ///
-/// `require: […]` proves what is found: `separable`, `quadratic_kinetic` (with constant masses), `unit_masses`, `time_independent`,
-/// `chain`. What does not hold is an error at the term that violates it.
+/// `require: […]` demands properties of the system: `separable`, `quadratic_kinetic` (with constant masses), `unit_masses`,
+/// `time_independent`, `chain`. A requirement that fails is an error at the violating term.
 ///
 /// ```compile_fail
 /// symplectic::hamiltonian! {
@@ -147,9 +163,10 @@
 ///
 /// # Order of evaluation
 ///
-/// The same text gives the same bits, in doubles and in lanes. Numbers that are factors are collected exactly; equal terms and factors are
-/// joined; terms and factors are taken in the order in which they first appear, a sum or product in parentheses as one. What depends on
-/// parameters only is computed in double precision first; divisors are multiplied with each other, and divide last. Parts that appear more
-/// than once are computed once, for velocity and force together where H is not separable. Sums are loops, so the code is as long for a
-/// thousand bodies as for three.
+/// * The same text gives the same bits, in doubles and in lanes.
+/// * Numeric factors are multiplied exactly, and equal terms and factors are combined. The others keep the order in which they first appear;
+///   a sum or product in parentheses counts as one.
+/// * Expressions of parameters only are computed first, in double precision. Divisors are multiplied with each other, and divide last.
+/// * Common subexpressions are computed once, for velocity and force together if H is not separable.
+/// * Sums are loops: the code is as long for a thousand bodies as for three.
 pub use symplectic_macros::hamiltonian;

@@ -12,12 +12,12 @@ use crate::number::summation::add;
 use crate::number::{Coefficient, Scalar, Summation, Vector, copy};
 use crate::system::{Class, Gradients, System};
 
-/// A residual of at most this many units of rounding counts as zero if it no longer decreases much.
+/// Residuals are in units of rounding. A residual of at most this size counts as zero if it has [stopped decreasing](STAGNANT).
 pub(in crate::method) const ROUNDING: f64 = 2.0;
-/// A residual of at most this size always does. What is left of a residual that still decreases has a sign, which the energy would follow: with
-/// 1/2 the relative drift for a double pendulum on rods would be up to 10⁻²¹ in a step.
+/// A residual of at most this size always counts as zero. With 1/2 the relative energy drift for a double pendulum on rods would be up to
+/// 10⁻²¹ per step, because a residual that still decreases always has the same sign.
 pub(in crate::method) const SETTLED: f64 = 0.125;
-/// The residual before it, in the same units, up to which a residual decreases no more. With 128 that drift would be 4·10⁻²².
+/// A residual has stopped decreasing if the previous one is at most this size. With 128 that drift would be 4·10⁻²² per step.
 const STAGNANT: f64 = 48.0;
 /// A residual that no longer decreases is accepted up to this size, in units of rounding.
 pub(in crate::method) const NOISE: f64 = 256.0;

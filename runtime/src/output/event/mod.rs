@@ -34,9 +34,8 @@ pub use list::Events;
 ///
 /// # A start on zero
 ///
-/// If g is zero at the start of a search, its sign is that of its derivative along the flow. So the start is no event,
-/// and a later zero is found however close: a ball thrown up from the floor comes down again, perhaps within the first
-/// step.
+/// If g is zero at the start of a search, its sign there is that of its derivative along the flow. So the start is not an
+/// event, and the next zero is found even if it is close: a ball thrown up from the floor may land within the first step.
 ///
 /// A search from the last event (after [`set_state`](crate::Integrator::set_state) with its state, changed or not) also
 /// starts on zero, whatever value g has by rounding. If the new state makes g turn round, the next zero is found. If g
