@@ -20,17 +20,18 @@ use symplectic::{
 
 type Point = State<Vector2<f64>>;
 
-/// What is stated of a method, and has to be seen in its steps.
+/// The stated properties of a method, which its steps must show.
 #[derive(Clone, Copy)]
 struct Row {
     /// For separable and for general Hamiltonians.
     orders: [u32; 2],
-    /// Of the coarsest run for the order: errors are above rounding, and the next power of h is small. None of order 16 is.
+    /// Number of steps of the coarsest run that measures the order. Its errors are above rounding, and the next power of h is small. Zero if
+    /// the order is not measured, because no such run exists for order 16.
     steps: u32,
     /// Whether a step back undoes a step.
     symmetric: bool,
     symplectic: bool,
-    /// Whether stages in lanes have the bits of those one by one: where none is left out of the iteration.
+    /// Whether stages in lanes have the same bits as stages one by one, which holds if all stages are iterated.
     same_bits: bool,
 }
 
@@ -367,14 +368,14 @@ fn is_symplectic(cell: Cell<'_>, made: Made<'_, '_>) -> Result<(), Error> {
     Ok(())
 }
 
-/// A bilinear invariant is one of every symplectic method.
+/// Every symplectic method conserves bilinear invariants.
 fn keeps_the_angular_momentum(cell: Cell<'_>, made: Made<'_, '_>) -> Result<(), Error> {
     let momentum = |state: &Point| state.q.perp(&state.p);
     let mut run = made(start(), SIZE)?;
     let mut rounding = 0.0;
     for _ in 0..100 {
         let state = run.step()?;
-        // Half a unit in the last place of either vector, and as much for the iteration that ends there.
+        // Half a unit in the last place of either vector, and the same again for the stage iteration.
         rounding += 2.0 * state.q.norm() * state.p.norm() * f64::EPSILON;
     }
     let change = (momentum(run.state()) - momentum(&start())).abs();
@@ -401,7 +402,7 @@ fn assert_same(cell: Cell<'_>, found: &dyn Run<'_>, expected: &dyn Run<'_>) {
     assert_eq!(found.statistics(), expected.statistics(), "{}", cell.name);
 }
 
-/// A step that meets what is no number leaves the state, and the run goes on as if it had not been tried.
+/// A step in which an evaluation is NaN leaves the state unchanged, and the run continues as if the step had not been tried.
 fn fails_without_a_trace(cell: Cell<'_>, made: Made<'_, '_>) -> Result<(), Error> {
     let (mut failing, mut good) = (made(start(), SIZE)?, made(start(), SIZE)?);
     for evaluations in [0, 1, 2, 3, 5, 8, 13] {
@@ -422,14 +423,14 @@ fn fails_without_a_trace(cell: Cell<'_>, made: Made<'_, '_>) -> Result<(), Error
             );
             failing.step()?;
         }
-        // Stages that start anew may end a unit in the last place away.
+        // Stages without a warm start may differ by a unit in the last place.
         let apart = distance(failing.state(), good.step()?);
         assert!(apart < 1e-14, "{} {evaluations}: {apart:e}", cell.name);
     }
     Ok(())
 }
 
-/// A run that is saved and restored, and one that is cloned, at every break, beside the one that goes on.
+/// Compares an uninterrupted run with one that is saved and restored and with one that is cloned, at every break.
 fn restarts_to_the_bit(cell: Cell<'_>, made: Made<'_, '_>) -> Result<(), Error> {
     let (mut whole, mut cloned) = (made(start(), SIZE)?, made(start(), SIZE)?);
     let mut saved = cloned.checkpoint();
@@ -438,7 +439,7 @@ fn restarts_to_the_bit(cell: Cell<'_>, made: Made<'_, '_>) -> Result<(), Error> 
         resumed.restore(&saved);
         let mut copy = cloned.copy();
         for run in [&mut whole, &mut resumed, &mut copy] {
-            // Some of them by themselves.
+            // Half of the steps at once, the others one by one.
             run.take_steps(steps / 2)?;
             for _ in steps / 2..steps {
                 run.step()?;

@@ -25,18 +25,18 @@ symplectic::tableau! {
     pub RadauIA { basis: polynomial(2), nodes: radau-right(2), exchange: true }
     /// More nodes than functions.
     pub Tang { basis: legendre(2), quadrature: gauss(3) }
-    /// Functions that are no polynomials.
+    /// A basis that is not polynomial.
     pub Waves { basis: [1, cos(pi*t), sin(pi*t)], nodes: [0, 1/2, 1] }
-    /// Of no rule: not symmetric, and c̃ is not c.
+    /// Nodes that belong to no quadrature rule: not symmetric, and c̃ differs from c.
     pub Askew { basis: polynomial(3), nodes: [1/10, 1/2, 4/5] }
     /// Not symplectic.
     pub RadauIIA { a: [[5/12, -1/12], [3/4, 1/4]], b: [3/4, 1/4] }
-    /// Not symplectic, with two stages in their order.
+    /// Not symplectic; each stage can be solved after the one before it.
     pub Weighted { a: [[1/4, 0], [1/2, 1/3]], b: [1/2, 1/2] }
     /// Stages at the same time: the stages of the next step cannot be extrapolated from them.
     pub Twins { a: [[1/2, 0], [0, 1/2]], b: [1/2, 1/2] }
     pub ForestRuth { base: forest-ruth-1990 }
-    /// Of order 4 for quadratic kinetic energies only.
+    /// Order 4 for quadratic kinetic energy only.
     pub McLachlanAtela { base: mclachlan-atela-1992-order-4-optimal }
 }
 
@@ -44,7 +44,7 @@ symplectic::composition! {
     pub TripleJump { base: velocity-verlet, weights: triple_jump(4) }
     pub PositionJump { base: position-verlet, weights: triple_jump(4) }
     pub Yoshida6 { base: StoermerVerlet, weights: triple_jump(6) }
-    /// Of steps with coupled stages.
+    /// A composition of steps with coupled stages.
     pub TripleMidpoint { base: Midpoint, weights: triple_jump(4) }
     pub Gauss6 { base: gauss-2, weights: triple_jump(6) }
 }

@@ -209,17 +209,17 @@ pub struct PulsatingStar<'a>(pub &'a Fuse);
 
 /// H = (|q|² + 1)(|p|² + 1)/2 + (1 + sin(t)/4)|q|²/2: not separable, depends on time, conserves the angular momentum.
 ///
-/// Time is in the potential only: where `c̃` is not `c`, force and velocity of a stage are taken at different times, and a step
+/// Only the potential depends on time. If `c̃` differs from `c`, force and velocity of a stage are evaluated at different times. A step then
 /// preserves dq ∧ dp only if the derivatives ∂²H/∂q∂p do not depend on time.
 #[derive(Clone, Copy, Debug)]
 pub struct PulsatingProduct<'a>(pub &'a Fuse);
 
-/// A number of evaluations, after which they are NaN.
+/// Counts evaluations down; after the last one, evaluations are NaN.
 #[derive(Debug)]
 pub struct Fuse(Cell<u64>);
 
 impl Fuse {
-    /// Of a system that is always defined.
+    /// For a system whose evaluations are always finite.
     pub const fn never() -> Self {
         Self(Cell::new(u64::MAX))
     }
@@ -233,7 +233,7 @@ impl Fuse {
         self.0.get() > 0
     }
 
-    /// One, or NaN.
+    /// Counts an evaluation: returns 1, or NaN if none is left.
     fn burn<T: Scalar>(&self) -> T {
         match self.0.get() {
             0 => T::from_f64(f64::NAN),

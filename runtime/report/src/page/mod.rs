@@ -203,7 +203,7 @@ fn explain(curve: &Curve, found: &Cost) -> String {
         Cost::NotReached { best } => {
             format!("not reached; the best error is {}", text::scientific(*best))
         }
-        Cost::NoRun => "no run came to the end".into(),
+        Cost::NoRun => "no run reached the end".into(),
     }
 }
 
@@ -252,7 +252,7 @@ fn runs(problem: &ProblemRecord) -> Element {
         problem
             .invariants
             .iter()
-            .map(|name| format!("drift of {name}")),
+            .map(|name| format!("deviation of {name}")),
     );
     let mut count = 0;
     let mut rows = Vec::new();
@@ -263,10 +263,7 @@ fn runs(problem: &ProblemRecord) -> Element {
         }
     }
     Element::new("details")
-        .child(tag(
-            "summary",
-            format!("All {count} runs that came to the end"),
-        ))
+        .child(tag("summary", format!("All {count} completed runs")))
         .child(table("scroll", header, rows.into_iter()))
 }
 
