@@ -16,9 +16,10 @@ use crate::number::{Scalar, Summation, Vector};
 use crate::state::State;
 use crate::system::System;
 
-/// Everything that a run needs to continue from its present state with the bits of an uninterrupted run: the state with the round-off of
-/// its compensated sums, the stages from which the next ones are extrapolated, the matrices of Newton's iteration, clock, step size,
-/// tolerance and statistics.
+/// Everything that a run needs to continue from its present state with the bits of an uninterrupted run.
+///
+/// It contains the state with the round-off of its compensated sums, and the stages from which the next ones are extrapolated. It also
+/// contains the matrices of Newton's iteration, clock, step size, tolerance and statistics.
 ///
 /// With the feature `serde` it can be written in any format. All numbers are in `words`: sixteen hexadecimal digits for each word of
 /// 64 bits. A word is the bits of an IEEE 754 double, of a single in its lower half, or of an integer. The order of the words belongs to
@@ -227,8 +228,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         }))
     }
 
-    /// Continues from a checkpoint of an integrator that was created in the same way: with the same method, system, sums and solver, for
-    /// vectors of the same dimension. State and step size become those of the checkpoint.
+    /// Continues from a checkpoint of an integrator with the same method, system, sums and solver, for vectors of the same dimension. State
+    /// and step size become those of the checkpoint.
     ///
     /// # Errors
     ///

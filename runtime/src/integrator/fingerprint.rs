@@ -20,8 +20,8 @@ const fn joined(hash: u64, word: u64) -> u64 {
     product ^ (product >> 32)
 }
 
-/// Two hashes that identify a system: of velocity and force at a state and at a second point, and of friction, constraints and rows at the
-/// second point. There is a second point, because symmetry may hide a parameter at the first.
+/// Two hashes that identify a system. The first is of velocity and force at a state and at a second point, because symmetry may hide a
+/// parameter at the first. The other is of friction, constraints and rows at the second point.
 pub(crate) fn system_fingerprint<V: Vector, S: System<V>>(
     system: &S,
     time: f64,

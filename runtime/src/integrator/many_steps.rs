@@ -132,8 +132,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// Takes steps until one fails; returns the number of steps taken, zero if the first one does not change the time. The last of
     /// them goes to the time `end`, if it is given.
     ///
-    /// The memory of the steps is moved out of the integrator, so that it is in registers from step to step, or where access is
-    /// faster. If the system panics, the state is that before the steps.
+    /// The memory of the steps is moved out of the integrator, so that it can stay in registers from step to step. If the system panics,
+    /// the state is that before the steps.
     #[inline]
     fn advance_apart(
         &mut self,

@@ -158,17 +158,17 @@ impl<M: Method, S: System<V>, V: Vector> Integrator<M, S, V, Plain> {
 }
 
 impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> Integrator<M, S, V, Plain, N> {
-    /// Sets the tolerance of the iteration of coupled stages: a sweep is the last one if it moves no position by more than `tolerance`, in
+    /// Sets the tolerance of the iteration of coupled stages. A sweep is the last one if it moves no position by more than `tolerance`, in
     /// its unit. If the Hamiltonian is not separable, or the iteration is Newton's, this also holds for momenta. With a contraction rate
     /// `κ` per sweep, the remaining error is `κ/(1 − κ)` of the last change. Zero (the default) means: down to rounding. An iteration whose
     /// next change would be one rounding error ends in any case.
     ///
-    /// A tolerance saves sweeps, and the search for the largest position, which rounding is compared with. It is for plain sums only:
+    /// A tolerance saves sweeps, and the search for the largest position, which sets the level of rounding. It is for plain sums only:
     /// compensated sums are for runs without drift, and iterations that end above rounding make the energy drift.
     ///
     /// # Errors
     ///
-    /// [`Error::Tolerance`] if it is negative, NaN or infinite; the previous tolerance then stays.
+    /// [`Error::Tolerance`] if it is negative, NaN or infinite; the previous tolerance then remains.
     ///
     /// ```
     /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }

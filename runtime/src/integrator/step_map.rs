@@ -12,8 +12,8 @@ pub trait PhasePoint {
     /// The vectors q and p.
     type Vector: Vector;
 
-    /// The time and the point `(q, p)`. Coordinates of a larger space are allowed, such as those of `T*R⁹` for a rotation: `p·dq` has to be
-    /// the canonical form of the smaller one.
+    /// The time and the point `(q, p)`. Coordinates of a larger space are allowed, such as those of `T*R⁹` for a rotation. Then `p·dq` must
+    /// be the canonical form of the smaller space.
     fn canonical(&self) -> State<Self::Vector>;
 }
 
@@ -27,7 +27,7 @@ impl<V: Vector> PhasePoint for State<V> {
 
 /// The next step of an integrator as a map of states, and checks of this map for tests. The integrator itself takes no step.
 ///
-/// With constraints it is a map of the constrained phase space: all states have to obey them, see [`consistent`](crate::consistent).
+/// With constraints it is a map of the constrained phase space: all states must satisfy them, see [`consistent`](crate::consistent).
 ///
 /// ```
 /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
@@ -91,9 +91,9 @@ pub trait StepMap {
         Ok((after - before).magnitude() / size.max(new_size))
     }
 
-    /// How far the step is from commuting with a symmetry, relative to the largest component: the distance between the step from
-    /// `act(state)` and `act` of the step (Marsden & West, 2001, §1.3.3). Zero up to rounding for an equivariant step; all these methods
-    /// are equivariant under linear symmetries of the system.
+    /// The distance between the step from `act(state)` and `act` of the step, relative to the largest component (Marsden & West, 2001,
+    /// §1.3.3). It is zero up to rounding if the step commutes with the symmetry `act`. The methods of this crate are equivariant under
+    /// linear symmetries of the system.
     ///
     /// # Errors
     ///

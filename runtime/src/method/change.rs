@@ -91,7 +91,8 @@ impl HalfChange {
 
     /// The largest |new − old| divided by the largest of all |base| and |new|.
     ///
-    /// Returns 0 if nothing was recorded or everything is zero, 1 if everything changed to zero, and NaN if a new value is NaN or infinite.
+    /// Returns 0 if nothing was recorded or everything is zero. Returns 1 if everything changed to zero, and NaN if a new value is NaN or
+    /// infinite.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn relative(&self) -> f64 {
         // Without a branch, whether both, one or neither of the two are zero.

@@ -22,12 +22,12 @@ use crate::system::{Damped, Separable, System};
 /// p ← e^{−γτ} p + (1 − e^{−γτ})/γ · force      τ = h b̃_i
 /// ```
 ///
-/// so the order is that for separable Hamiltonians. With one rate γ every step shrinks dq∧dp by exactly `e^{−γh}`; with several it shrinks
-/// the volume of phase space by exactly `e^{−h tr Γ}`, where Γ is the diagonal matrix of the rates of all coordinates.
+/// so the order is that for separable Hamiltonians. With one rate γ every step shrinks dq∧dp by exactly `e^{−γh}`. With several rates it
+/// shrinks the volume of phase space by exactly `e^{−h tr Γ}`, where Γ is the diagonal matrix of the rates.
 #[derive(Debug)]
 pub struct DampedPlan<M>(PhantomData<M>);
 
-/// The exponent x of the largest growth `e^x` of a momentum by friction, in one kick of a step of size h with the rate γ:
+/// The exponent x of the largest growth `e^x` of a momentum by friction in a kick of a step:
 ///
 /// ```text
 /// x = max(0, −γ h β_1, …, −γ h β_m)
@@ -36,10 +36,9 @@ pub struct DampedPlan<M>(PhantomData<M>);
 /// `h β_k` is the length of kick k; β_k is the sum of the weights `b̃_i` of successive stages with the same position. For h > 0 only
 /// negative kicks grow, and x is 0 if there are none. The method is one that steps systems of class [`Damped`].
 ///
-/// `rate` is γ, one over time, as in [`Hamiltonian::friction`](crate::Hamiltonian::friction); `step_size` is h, a time; x has no unit, and
-/// is NaN if either is. With
-/// x = 1 a kick multiplies a momentum and its errors by e, and the positive kicks of the step undo it. Keep x well below 1, by a smaller step
-/// or by a method whose kicks are positive.
+/// `rate` is γ, in units of 1/time, as in [`Hamiltonian::friction`](crate::Hamiltonian::friction). `step_size` is h, in units of time. x
+/// has no unit, and is NaN if either argument is NaN. With x = 1 a kick multiplies a momentum and its errors by e, and the positive kicks
+/// of the step undo it. Keep x well below 1, by a smaller step or by a method whose kicks are positive.
 ///
 /// ```
 /// use symplectic::friction_growth;

@@ -59,8 +59,8 @@ impl EvaluationObserver for FirstFault {
     }
 }
 
-/// The cause of a result that is not finite and whose position is `q1`: an evaluation with its stage, in `stages` or `observed`, otherwise
-/// the position or momentum of the result.
+/// The cause of a result that is not finite and whose position is `q1`. It is an evaluation in `stages` or `observed`, with its stage, or
+/// otherwise the position or momentum of the result.
 pub(crate) fn culprit<V: Vector, T: StageStorage<V>>(
     observed: &FirstFault,
     stages: &T,

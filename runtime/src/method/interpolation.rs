@@ -13,8 +13,7 @@ use crate::number::{Scalar, Vector};
 
 /// How values inside a step are computed.
 ///
-/// An order m means that values inside steps of size h have errors of `O(hᵐ)`, apart from the errors that the states between the steps
-/// already have.
+/// An order m means that values inside steps of size h have errors of `O(hᵐ)`, in addition to the errors at the ends of the steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
     /// The polynomials through the velocities and the forces of the stages, integrated.
@@ -150,8 +149,8 @@ impl<V: Vector> Inside<'_, V> {
         }
     }
 
-    /// Adds to `out` the part that vanishes at both ends, `θ(1 − θ)((1 − θ)(h f0 − Δ) − θ(h f1 − Δ))`, with the derivatives `f0` and `f1`
-    /// at the ends and the difference Δ of the ends.
+    /// Adds to `out` the part that vanishes at both ends, `θ(1 − θ)((1 − θ)(h f0 − Δ) − θ(h f1 − Δ))`. The derivatives at the ends are `f0`
+    /// and `f1`; Δ is the difference of the ends.
     pub(crate) fn add_cubic(self, [start, end]: [&V; 2], line: &Line<'_, V>, out: &mut V) {
         let Self { fraction, size, .. } = self;
         let bubble = fraction * (1.0 - fraction);

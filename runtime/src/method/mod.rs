@@ -133,8 +133,12 @@ pub trait Method: ProvedFor<Separable> + ProvedFor<()> + Copy + Debug + 'static 
     type Separable: Plan<Class = Separable>;
 }
 
-/// How a [`Method`] takes one step of a system of one [`Class`]: by drifts and kicks ([`Splitting`]), by other explicit stages
-/// ([`Explicit`]), by stages that a [`Solver`] finds ([`Coupled`]), or by steps of other methods ([`Composition`]).
+/// How a [`Method`] takes one step of a system of one [`Class`]:
+///
+/// * by drifts and kicks ([`Splitting`]),
+/// * by other explicit stages ([`Explicit`]),
+/// * by coupled stages, which a [`Solver`] computes ([`Coupled`]),
+/// * by steps of other methods ([`Composition`]).
 ///
 /// [`Splitting`]: crate::emitted::Splitting
 /// [`Explicit`]: crate::emitted::Explicit
@@ -215,8 +219,8 @@ pub trait Plan {
         false
     }
 
-    /// Takes a step of the trajectories in the lanes `live`, after a step that has left its stages in `memory`; writes the results of those
-    /// whose stages settle into `outcome`. They have the bits of [`take`](Self::take) with the solver `N`. `None` if that is impossible.
+    /// Takes a step of the trajectories in the lanes `live`, after a step that has left its stages in `memory`. Writes the results of those
+    /// whose stages converge into `outcome`. They have the bits of [`take`](Self::take) with the solver `N`. `None` if that is impossible.
     #[cfg(feature = "alloc")]
     #[doc(hidden)]
     #[inline]
@@ -329,8 +333,8 @@ pub trait Plan {
     /// How values inside a step are computed.
     const INTERPOLATION: Interpolation;
 
-    /// Adds to `q` and `p` their deviations from the straight line between the ends of the last step, if these follow from the
-    /// [stages](Interpolation::Stages) in `memory`.
+    /// Adds to `q` and `p` their deviations from the straight line between the ends of the last step, if the
+    /// [stages](Interpolation::Stages) in `memory` determine them.
     fn extend<V, S, N>(memory: &Self::Memory<V, S, N>, at: Inside<'_, V>, q: &mut V, p: &mut V)
     where
         V: Vector,
@@ -383,7 +387,7 @@ pub(crate) fn check_no_friction<V: Vector, S: System<V>>(system: &S, q: &V) -> R
     })
 }
 
-/// How the stages of a [`Method`] are found for systems of one [`Class`].
+/// How the stages of a [`Method`] are computed for systems of one [`Class`].
 ///
 /// A step is `begin`, then `sweep` until the stages have converged (never in an [`Explicit`](crate::emitted::Explicit) plan), then
 /// `increments` with plain sums, then `finish`.
@@ -391,9 +395,9 @@ pub(crate) fn check_no_friction<V: Vector, S: System<V>>(system: &S, q: &V) -> R
 /// Stage `i` evaluates the force at `t0 + c_i h` and the velocity at `t0 + c̃_i h`: see [`Hamiltonian`](crate::Hamiltonian#time). Plans of
 /// the class [`Separable`] pass an arbitrary vector for the argument that the system does not read.
 ///
-/// If the method is symplectic and no weight is zero, coupled stages are sums of increments `h b_j velocity_j` and `h b̃_j force_j` with
-/// the coefficients `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`, rounded so that `μ̃_ij + μ_ji = 1` exactly: the rounded method is symplectic
-/// too.
+/// If the method is symplectic and no weight is zero, coupled stages are sums of increments `h b_j velocity_j` and `h b̃_j force_j`. Their
+/// coefficients are `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`, rounded so that `μ̃_ij + μ_ji = 1` exactly. So the rounded method is
+/// symplectic too.
 pub trait StagePlan {
     /// The class of systems that it steps.
     type Class: Class;
@@ -451,8 +455,8 @@ pub trait StagePlan {
     /// One fixed-point sweep over the coupled stages: new forces, the momenta that follow from them, new velocities, and the
     /// positions that follow from those. Returns how much the stage values changed.
     ///
-    /// Each kind uses the newest values of the previous one (Gauss–Seidel), which converges in fewer sweeps than all stage values from old
-    /// evaluations. The positions come last: their change measures what the next sweep would gain. The stopping criterion of
+    /// Each kind uses the newest values of the previous one (Gauss–Seidel). This converges in fewer sweeps than computing all stage values
+    /// from old evaluations. The positions come last: their change measures the effect of the next sweep. The stopping criterion of
     /// [`FixedPoint`](crate::solver::FixedPoint) relies on this order.
     #[inline]
     fn sweep<R: Summation, V: Vector, S: System<V, Class = Self::Class>>(

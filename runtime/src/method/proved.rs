@@ -6,8 +6,8 @@ use crate::system::{Class, Unconstrained};
 
 /// A method that keeps its order and its symplecticity on all systems of class `C`.
 ///
-/// The macros implement it if the compiler proves that on class `C` the order is as high as on the narrower classes, and that the step is
-/// symplectic if it is on those. Every method has it for [`Separable`](crate::Separable). A splitting is symplectic for separable
+/// The macros implement it if the compiler proves two things for class `C`. The order is as high as on the narrower classes, and the step
+/// is symplectic if it is on those. Every method has it for [`Separable`](crate::Separable). A splitting is symplectic for separable
 /// Hamiltonians only and lacks it for [`General`](crate::General), so [`Integrator::new`](crate::Integrator::new) does not compile for a
 /// general system. [`Method::accept_lower_order`] lifts this restriction.
 ///

@@ -7,8 +7,8 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stopping {
     /// Maximum number of sweeps in one attempt to find the stages, at least one; after these the attempt has failed.
-    /// [`Newton`](crate::solver::Newton) makes up to three attempts: from the stages of the previous step, from the start of the step, and
-    /// with the derivatives of every stage.
+    /// [`Newton`](crate::solver::Newton) makes up to three attempts. They start from the stages of the previous step and from the start of
+    /// the step; the last one uses the derivatives at every stage.
     pub max_iterations: u32,
     /// With [`Plain`](crate::Plain) sums: how far the last sweep may move the positions of the stages, and the momenta if they matter, in
     /// their units. Zero: iterates down to round-off. See [`Integrator::set_tolerance`](crate::Integrator::set_tolerance).

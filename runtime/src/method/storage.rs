@@ -62,8 +62,8 @@ pub trait StageStorage<V: Vector>: Sized + Clone {
         None
     }
 
-    /// The first evaluation whose dimension is not `dimension`: the quantity, the number of the stage, from 1, or 0 outside the
-    /// stages, and the dimension found.
+    /// The first evaluation whose dimension is not `dimension`: the quantity, the number of the stage and the dimension found. Stages are
+    /// numbered from 1; outside the stages the number is 0.
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)>;
 }
 

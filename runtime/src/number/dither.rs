@@ -16,8 +16,8 @@ pub(crate) const fn dither_last_sweep(time: f64) -> bool {
 ///
 /// Stages that no longer change solve the rounded equations, which have several solutions. The side from which the iteration approaches
 /// decides between them. It is used for coupled stages of systems that are not separable and for steps with holonomic constraints. Without
-/// it the relative energy drift would be 1e-20 per step for `(q² + 1)(p² + 1)/2` and Gauss 6, and 3e-20 for a double pendulum on rods and
-/// Lobatto 5.
+/// it the relative energy drift per step would be 1e-20 for `(q² + 1)(p² + 1)/2` and Gauss 6. For a double pendulum on rods and Lobatto 5
+/// it would be 3e-20.
 #[inline]
 pub(crate) const fn dither_side(time: f64) -> bool {
     bits(time) & 2 == 2

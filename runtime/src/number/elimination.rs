@@ -121,8 +121,8 @@ impl<T: Scalar + Neg<Output = T>> Entry for Complex<T> {
     }
 }
 
-/// The factors of a square matrix whose entries `(i, j)` are zero if `|i − j|` exceeds the half bandwidth, with partial pivoting
-/// (Golub & Van Loan, *Matrix Computations*, 4.3.5).
+/// The factors of a banded square matrix, with partial pivoting (Golub & Van Loan, *Matrix Computations*, 4.3.5). Its entries `(i, j)` are
+/// zero if `|i − j|` exceeds the half bandwidth.
 #[derive(Clone, Debug)]
 pub(crate) struct Elimination<E> {
     size: usize,

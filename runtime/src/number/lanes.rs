@@ -65,7 +65,7 @@ pub trait Lanes: Scalar {
     /// Whether any number is NaN.
     fn any_nan(self) -> bool;
 
-    /// The number of `yes` in the lanes where this one is below `bound`, and that of `no` in the others; also where one of them is NaN.
+    /// Selects in each lane the number of `yes` if this number is below `bound`, and otherwise, also for NaN, that of `no`.
     fn if_below(self, bound: Self, yes: Self, no: Self) -> Self;
 
     /// The lanes in which the first number is at most the second, as bits; not those with NaN.

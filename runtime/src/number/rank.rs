@@ -15,8 +15,8 @@ struct Sum {
 
 /// A system of linear equations, of any shape and rank, eliminated with complete pivoting.
 ///
-/// Each coefficient carries the size of the terms of its sum. A coefficient that is no larger than their rounding errors counts as zero,
-/// so the rank depends neither on the units of the unknowns nor on those of the equations.
+/// Each coefficient carries the size of the terms of its sum. A coefficient that is not larger than their rounding errors counts as zero.
+/// So the rank is independent of the units of the unknowns and of the equations.
 #[derive(Clone, Debug)]
 pub(crate) struct RankElimination {
     columns: usize,

@@ -16,7 +16,7 @@ use crate::number::{Coefficient, MOST_LANES};
 /// SIMD lanes have none: code that is generic over scalars cannot branch on a value.
 ///
 /// Sine, cosine, exponential function and logarithm of doubles use the same operations on every platform and in
-/// [lanes](crate::simd::Lanes); their error is below one unit in the last place. They may differ in the last bit from those of `f64`, which
+/// [lanes](crate::simd::Lanes). Their error is below one unit in the last place. They may differ in the last bit from those of `f64`, which
 /// depend on the platform. `Scalar::sin(x)` calls them where `x` is known to be an f64.
 ///
 /// ```
@@ -88,8 +88,8 @@ pub trait Scalar:
         Self::from_f64(step_size * coefficient.double())
     }
 
-    /// The largest absolute value among the parts: |x| for a float, the largest over value and derivatives for a
-    /// dual number, the largest over the lanes for SIMD lanes.
+    /// The largest absolute value among the parts. For a float it is |x|, for a dual number the largest over value and derivatives, for
+    /// SIMD lanes the largest over the lanes.
     ///
     /// NaN if any part is NaN, even if another part is larger: the solver and the checks for finiteness rely on it.
     fn magnitude(self) -> f64;

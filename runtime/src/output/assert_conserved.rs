@@ -3,8 +3,8 @@
 /// Takes steps and asserts that a function of the state stays within a bound of its first value.
 ///
 /// `assert_conserved!(run, steps, function, bound)` takes `steps` steps of `run`, an [`Integrator`](crate::Integrator) or any other
-/// integrator of this crate; `function` maps a reference to its state to `f64`. It panics if a step fails or if the function differs from
-/// its first value by more than `bound`; the message states the difference and the step.
+/// integrator of this crate; `function` maps a reference to its state to `f64`. It panics if a step fails, or if the function differs from
+/// its first value by more than `bound`. The message states the difference and the step.
 ///
 /// ```
 /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }

@@ -4,8 +4,8 @@
 /// The last time before a zero of a function with opposite signs at two times, by Brent's method (ch. 4): inverse
 /// quadratic interpolation and secants, with bisection where they converge badly.
 ///
-/// The function at the returned time is zero or has the sign of its value at the first time; the sign change lies
-/// within two units in the last place of the time. Returns `None` if the signs agree.
+/// At the returned time the function is zero or has the sign of its value at the first time. The sign change lies within two units in the
+/// last place of the time. Returns `None` if the signs agree.
 pub(crate) fn before_zero<E>(
     (mut a, mut b): (f64, f64),
     mut function: impl FnMut(f64) -> Result<f64, E>,

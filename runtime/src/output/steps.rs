@@ -43,8 +43,8 @@ where
         }
     }
 
-    /// Earliest output time of a run to an end time: the start of the last step if a run may step beyond its end time,
-    /// otherwise the present time.
+    /// Earliest output time of a run to an end time. If a run may step beyond its end time, it is the start of the last step; otherwise it
+    /// is the present time.
     fn first_output(&self) -> f64;
 
     /// Checks that the number of steps to `end` is small enough to count.

@@ -25,11 +25,11 @@ use crate::system::{Gradients, Jacobian};
 ///
 /// # Time
 ///
-/// If H depends on time, a partitioned method uses two times per stage: stage `i` evaluates the *force* at
-/// `t0 + c_i h`, the time of its position `Q_i`, and the *velocity* at `t0 + c̃_i h`, the time of its momentum
-/// `P_i`. For a separable H this is the autonomous system in which each half has a time variable of its own, so the method keeps its
-/// order. If `c = c̃`, as MW 4.9.3 (Marsden & West, 2001) requires, both times are the same.
-/// With two times a step of a non-separable H is not symplectic if ∂²H/∂q∂p depends on time: choose a method with `c = c̃`.
+/// If H depends on time, a partitioned method uses two times per stage. Stage `i` evaluates the *force* at `t0 + c_i h`, the time of its
+/// position `Q_i`. It evaluates the *velocity* at `t0 + c̃_i h`, the time of its momentum `P_i`. For a separable H this is an autonomous
+/// system in which each half has its own time variable, so the method keeps its order. If `c = c̃`, as MW 4.9.3 (Marsden & West, 2001)
+/// requires, both times are the same. With two times a step of a non-separable H is not symplectic if ∂²H/∂q∂p depends on time: choose a
+/// method with `c = c̃`.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -212,8 +212,8 @@ pub trait Hamiltonian {
     /// where a method has its order for general Hamiltonians (Marsden & West, 2001, Example 3.2.5). A separable system with a force that
     /// depends on time and positions only stays separable.
     ///
-    /// The time of a stage is `t0 + c_i h`, even if the nodes c̃ of the momenta differ, as in Störmer–Verlet: time counts as one more
-    /// position, with velocity 1. So the order holds for forces of time and momentum, too.
+    /// The time of a stage is `t0 + c_i h`, even if the nodes c̃ of the momenta differ, as in Störmer–Verlet. Time counts as one more
+    /// position, with velocity 1, so the order holds for forces of time and momentum, too.
     ///
     /// ```
     /// use symplectic::nalgebra::SVector;
@@ -328,8 +328,8 @@ pub trait Hamiltonian {
         0.0
     }
 
-    /// The flow of `p' = force + f(q, p)` at a fixed position, for any force f of positions and momenta whose flow is known, in a system of
-    /// class [`Damped`](crate::Damped). Writes `p(duration) − p` into `change` and returns `true`. With `false` the kicks use the rates of
+    /// The flow of `p' = force + f(q, p)` at a fixed position, in a system of class [`Damped`](crate::Damped). f is any force of positions
+    /// and momenta whose flow is known. Writes `p(duration) − p` into `change` and returns `true`. With `false` the kicks use the rates of
     /// [`friction`](Self::friction).
     ///
     /// `duration` may be negative. [`force`](Self::force) does not include f here. For output between the steps, write f into

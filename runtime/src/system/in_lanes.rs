@@ -19,8 +19,8 @@ pub trait LaneWork<V: Vector, S: System<V>, L: Lanes> {
         J: System<W, Class = <S as System<V>>::Class>;
 }
 
-/// Makes a system with the parameters of each of these systems in one lane, where it has the bits of that system; `None` if they differ in
-/// more than the values of parameters, or if there is no system. It reads no system after the first that differs.
+/// Makes a system over lanes, each with the parameters and the bits of one of these systems. Returns `None` if there is no system, or if
+/// they differ in more than the values of parameters. It reads no system after the first that differs.
 #[doc(hidden)]
 pub type Join<S, J> = for<'a> fn(&mut dyn Iterator<Item = &'a S>) -> Option<J>;
 

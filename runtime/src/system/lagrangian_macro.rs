@@ -38,16 +38,18 @@
 /// # From L to H
 ///
 /// L is quadratic in the velocities if there are functions M, A and U of the positions and the time with
+///
 /// $$ L = \tfrac12 v^T M v + A^T v - U \qquad p = \frac{\partial L}{\partial v} = M v + A \qquad
 /// H = \tfrac12 (p - A)^T M^{-1} (p - A) + U $$
-/// Then H is a formula too. Velocities that M does not couple are not coupled in H: a sum over bodies stays a loop, of any length, and the code
-/// is that of the same system written with H. Two or three coupled velocities are inverted in closed form, up to sixteen by elimination.
+///
+/// Then H is a formula too. Velocities that M does not couple are not coupled in H. So a sum over bodies remains a loop, and the code is that
+/// of the same system written with H. M is inverted in closed form for two or three coupled velocities, by elimination for up to sixteen.
 /// Cartesian velocities may be written with sines and cosines of angles: `cos a cos b + sin a sin b = cos(a − b)` is used in M.
 ///
 /// # Momenta
 ///
-/// `momentum_of_velocity(time, &q, &v)` gives p for the start. The momentum of a coordinate `a` is called `pa`, or `p_a` if that name is taken;
-/// `invariants: { … }` are written with momenta.
+/// `momentum_of_velocity(time, &q, &v)` returns p for the start. The momentum of a coordinate `a` is called `pa`, or `p_a` if that name is
+/// taken. `invariants: { … }` are written with momenta.
 ///
 /// # Regular Lagrangians
 ///

@@ -15,15 +15,15 @@ const STEPS: usize = 5;
 /// What the last steps contribute to the next, the last step first.
 type Weights = [f64; STEPS];
 
-/// The quartic through the last five steps, less or plus an eighth of its difference from the parabola through the last three: errors of either
-/// sign.
+/// The quartic through the last five steps, minus or plus an eighth of its difference from the parabola through the last three. So the
+/// error has either sign.
 const SIDES: [Weights; 2] = [
     [4.75, -9.125, 8.875, -4.375, 0.875],
     [5.25, -10.875, 11.125, -5.625, 1.125],
 ];
 
-/// Steps are too long if the two extrapolations of the impulses are further apart than this fraction of the largest impulse, a quarter of the
-/// difference between quartic and parabola. The iteration could then end at another solution of the equations.
+/// Steps are too long if the two extrapolations of the impulses differ by more than this fraction of the largest impulse. They differ by a
+/// quarter of the difference between quartic and parabola. The iteration could then end at another solution of the equations.
 const APART: f64 = 0.0125;
 
 /// What is extrapolated of a step.
@@ -70,7 +70,7 @@ impl<V: Vector> History<V> {
     }
 
     /// Begins a step at a time, of a size. Extrapolates the impulses and returns the weights for stages. Returns `None` if too few steps of
-    /// this size are known, or if they are too long for that; `negligible(d)` tells whether a difference d of impulses is a rounding error.
+    /// this size are known, or if the steps are too long. `negligible(d)` returns whether a difference d of impulses is a rounding error.
     pub(super) fn begin(
         &mut self,
         time: f64,

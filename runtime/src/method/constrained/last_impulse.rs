@@ -34,8 +34,8 @@ impl<T: Scalar> LastImpulse<T> {
         }
     }
 
-    /// Adds the impulse to the last of the `increments` of the momentum, and writes the momentum after the step into `outcome`, which
-    /// already holds the position. `end` is the point there.
+    /// Adds the impulse to the last of the `increments` of the momentum. Writes the momentum after the step into `outcome`, which already
+    /// holds the position. `end` is the point there.
     ///
     /// # Errors
     ///

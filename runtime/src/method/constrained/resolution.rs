@@ -12,8 +12,8 @@ const RANGE: i32 = 48;
 /// The values respond to a displacement if they change as the gradient predicts, up to this fraction.
 const ANSWER: f64 = 0.25;
 
-/// The rounding errors of constraints at a state. The terms of a constraint may be much larger than gradient times position: for example
-/// those of a pendulum with the pivot `c` at `q = 0`, in `|q − c|² − |c|²`.
+/// The rounding errors of constraints at a state. The terms of a constraint may be much larger than gradient times position. An example is
+/// `|q − c|² − |c|²` at `q = 0`, of a pendulum with the pivot `c`.
 #[derive(Clone, Debug)]
 pub(super) struct Resolution {
     /// The size of the terms of each constraint; its values have a rounding error of about `ε` times this size.

@@ -202,8 +202,8 @@ pub(in crate::method) fn check_numbers<V: Vector>(q: &V, p: &V) -> Result<(), Er
     Ok(())
 }
 
-/// Checks that a state is on the constraints, `φ(q) = 0` and `G ∂H/∂p = 0`, that the constraints are independent, and that the gradients
-/// stated by the system are right.
+/// Checks that a state is on the constraints, `φ(q) = 0` and `G ∂H/∂p = 0`. Also checks that the constraints are independent and that the
+/// system's gradients are correct.
 pub(crate) fn check_start<V: Vector, S: System<V>>(
     system: &S,
     time: f64,

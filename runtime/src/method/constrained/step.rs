@@ -14,8 +14,8 @@ use crate::system::{Class, Gradients, System};
 
 /// Residuals are in units of rounding. A residual of at most this size counts as zero if it has [stopped decreasing](STAGNANT).
 pub(in crate::method) const ROUNDING: f64 = 2.0;
-/// A residual of at most this size always counts as zero. With 1/2 the relative energy drift for a double pendulum on rods would be up to
-/// 10⁻²¹ per step, because a residual that still decreases always has the same sign.
+/// A residual of at most this size always counts as zero. A residual that still decreases always has the same sign. With 1/2 the relative
+/// energy drift for a double pendulum on rods would be up to 10⁻²¹ per step.
 pub(in crate::method) const SETTLED: f64 = 0.125;
 /// A residual has stopped decreasing if the previous one is at most this size. With 128 that drift would be 4·10⁻²² per step.
 const STAGNANT: f64 = 48.0;
@@ -30,8 +30,8 @@ impl<V: Vector> Workspace<V> {
     /// Takes the step of a number in its composition; `carried` means that the previous step ended where this one starts.
     ///
     /// Stages and multipliers start from those of the last five steps if these had the same size. A sweep evaluates the forces at the
-    /// stages, computes the stages with the present multipliers, and corrects the multipliers by a Newton step, or, in the first sweep without
-    /// previous steps, by
+    /// stages, computes the stages with the present multipliers, and corrects the multipliers by a Newton step. In the first sweep without
+    /// previous steps it corrects them by
     ///
     /// ```text
     /// h b_k Λ_k += (b_k/h) Σ_i (X⁻¹)_ki S⁻¹ φ(Q_i)      S = G M⁻¹ Gᵀ at q0
@@ -283,8 +283,8 @@ impl<V: Vector> Workspace<V> {
         }
     }
 
-    /// The positions of the stages. Returns their distance from the constraints, and the movement of the positions that forces depend on,
-    /// both in units of rounding, and the size of these positions.
+    /// The positions of the stages. Returns their distance from the constraints, the movement of the positions that forces depend on, and
+    /// the size of these positions. The first two are in units of rounding.
     fn positions<R: Summation, S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,

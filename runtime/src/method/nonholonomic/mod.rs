@@ -5,14 +5,14 @@
 //! Σ_i b_i w(Q_i)·(q1 − q0) = 0    q1 = q0 + h Σ_i b_i velocity_i    p1 = p + h Σ_i b_i force_i − w(q1)ᵀμ,   w(q1) ∂H/∂p(q1, p1) = 0
 //! ```
 //!
-//! The discrete constraint is imposed at the midpoint for Gauss with one stage, as the mean of both ends for Lobatto IIIA–IIIB with two
-//! stages, and at one end for the Euler methods. Each step is its own adjoint, or the adjoint of the other, as its tableau is. So a
-//! symmetric tableau gives a symmetric step of order 2, which can be composed as such. Positions do not depend on μ: the next step finds λ
-//! for any momentum in `p1 + span wᵀ`.
+//! For Gauss with one stage the discrete constraint is imposed at the midpoint. For Lobatto IIIA–IIIB with two stages it is the mean of
+//! both ends. For the Euler methods it is imposed at one end. Each step is its own adjoint, or the adjoint of the other, as its tableau is.
+//! So a symmetric tableau gives a symmetric step of order 2, which can be composed as such. Positions do not depend on μ: the next step
+//! finds λ for any momentum in `p1 + span wᵀ`.
 //!
-//! The stages need only H, so H may be degenerate as long as `w H_pp wᵀ` is invertible. With the generating functions of the same tableau
-//! without constraints, a step also satisfies the implicit discrete Hamilton's equations (Leok & Ohsawa 4.35 and 4.52), with
-//! `P = p1 + w(q1)ᵀμ` and `p = p0 − w(q0)ᵀλ`:
+//! The stages need only H, so H may be degenerate as long as `w H_pp wᵀ` is invertible. Let `H_d^±` be the generating functions of the same
+//! tableau without constraints, `P = p1 + w(q1)ᵀμ` and `p = p0 − w(q0)ᵀλ`. A step then satisfies the implicit discrete Hamilton's equations
+//! (Leok & Ohsawa 4.35 and 4.52):
 //!
 //! ```text
 //! (+)  p0 − D1 H_d⁺(q0, P) ∈ span w(q0)ᵀ     q1 = D2 H_d⁺(q0, P)                     P − p1 ∈ span w(q1)ᵀ

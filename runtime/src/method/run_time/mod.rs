@@ -97,10 +97,13 @@ impl RunTimeTableau {
     ///
     /// # Errors
     ///
-    /// [`TableauError`], with the row that is wrong: [`Shape`](TableauError::Shape), [`NotFinite`](TableauError::NotFinite),
-    /// [`Weights`](TableauError::Weights) if weights do not sum to 1, [`Node`](TableauError::Node) if a node is not the sum of its row, and
-    /// [`NotSymplectic`](TableauError::NotSymplectic) if `b_i ã_ij + b̃_j a_ji` is not `b_i b̃_j`. All except the first two are tested up
-    /// to rounding of the coefficients.
+    /// [`TableauError`], with the row that is wrong:
+    ///
+    /// * [`Shape`](TableauError::Shape) and [`NotFinite`](TableauError::NotFinite);
+    /// * [`Weights`](TableauError::Weights) if weights do not sum to 1;
+    /// * [`Node`](TableauError::Node) if a node is not the sum of its row;
+    /// * [`NotSymplectic`](TableauError::NotSymplectic) if `b_i ã_ij + b̃_j a_ji` is not `b_i b̃_j`. All except the first two are tested up
+    ///   to rounding of the coefficients.
     pub fn new(
         name: &str,
         coefficients: &RunTimeCoefficients,

@@ -7,8 +7,8 @@ use super::track::Track;
 use super::{Event, Kind};
 use crate::state::State;
 
-/// Events of one search: an [`Event`], an array, a slice or a vector of events (the latter two with the feature
-/// `alloc`), a tuple of up to eight events with different functions, or `()` for none.
+/// Events of one search: an [`Event`], an array of events, a tuple of up to eight events with different functions, or `()` for none. With
+/// the feature `alloc` also a slice or a vector of events.
 pub trait Events<V>: EventList<V> {}
 
 impl<V, E: EventList<V> + ?Sized> Events<V> for E {}

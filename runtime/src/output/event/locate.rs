@@ -31,8 +31,8 @@ where
     V: Vector,
     N: Solver<V, S>,
 {
-    /// Finds the events of a function in the panel from `start`, with the middle and the end in `ahead`, and advances
-    /// its track to the end.
+    /// Finds the events of a function in the panel from `start`, and advances its track to the end. `ahead` holds the middle and the end of
+    /// the panel.
     pub(super) fn detect<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -167,8 +167,8 @@ where
         Ok(zero((last.start, time), true)?.or(Some(time)))
     }
 
-    /// A time at which a function that starts on zero exceeds its rounding error: the first of the midpoint of the
-    /// panel, a quarter of it, and so on.
+    /// A time at which a function that starts on zero exceeds its rounding error. The midpoint of the panel is tried first, then a quarter
+    /// of it, and so on.
     fn departure<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,

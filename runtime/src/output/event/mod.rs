@@ -18,14 +18,18 @@ pub use list::Events;
 /// [dense output](crate::Integrator::dense) at the start, the middle and the end of each panel. A sign change between
 /// neighbouring points is an event, located by Brent's method to rounding.
 ///
-/// If the three signs agree, the three values and the slope at the end with the smallest value may indicate an extremum
-/// nearer to zero. That extremum is then located; if g has the other sign there, the zeros on both sides are events. So
-/// no zero is missed in a panel in which g has at most one extremum, provided that the extremum differs from the three
-/// values by at most four times their largest difference.
+/// If the three signs agree, the three values and the slope at the end with the smallest value may indicate an extremum nearer to zero.
+/// That extremum is then located; if g has the other sign there, the zeros on both sides are events. So no zero is missed in a panel in
+/// which g has at most one extremum. The only condition is that the extremum differs from the three values by at most four times their
+/// largest difference.
 ///
-/// The search can miss: two zeros, or any even number, in a panel in which g has several extrema or a sharp extremum;
-/// two zeros closer than about 1e-5 of a panel; a zero without a sign change. Of three zeros between neighbouring
-/// points one is found. More samples miss fewer zeros.
+/// The search can miss
+///
+/// * two zeros, or any even number, in a panel in which g has several extrema or a sharp extremum;
+/// * two zeros closer than about 1e-5 of a panel;
+/// * a zero without a sign change.
+///
+/// Of three zeros between neighbouring points one is found. More samples miss fewer zeros.
 ///
 /// # The state at an event
 ///
@@ -34,8 +38,8 @@ pub use list::Events;
 ///
 /// # A start on zero
 ///
-/// If g is zero at the start of a search, its sign there is that of its derivative along the flow. So the start is not an
-/// event, and the next zero is found even if it is close: a ball thrown up from the floor may land within the first step.
+/// If g is zero at the start of a search, its sign there is that of its derivative along the flow. So the start is not an event, and the
+/// next zero is found even if it is close. For example, a ball thrown up from the floor may land within the first step.
 ///
 /// A search from the last event (after [`set_state`](crate::Integrator::set_state) with its state, changed or not) also
 /// starts on zero, whatever value g has by rounding. If the new state makes g turn round, the next zero is found. If g
@@ -44,10 +48,9 @@ pub use list::Events;
 ///
 /// # Impacts that accumulate
 ///
-/// Sometimes g should turn round, but the search cannot see it: the flight is shorter than the resolution of time, g
-/// stays within its rounding error, or the state rests on the zero. The search then ends with
-/// [`Error::EventsAccumulate`](crate::Error::EventsAccumulate), at the state of the last event. So does a search that
-/// has found a thousand events at the same time.
+/// The search cannot resolve a flight that is shorter than the resolution of time, a g that stays within its rounding error, or a state
+/// that rests on the zero. The search then ends with [`Error::EventsAccumulate`](crate::Error::EventsAccumulate), at the state of the last
+/// event. So does a search that has found a thousand events at the same time.
 ///
 /// ```
 /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
@@ -126,10 +129,10 @@ impl<G> Event<G> {
 
     /// A wall, which keeps the state at g ≥ 0. An event is a change from plus to minus, in the direction of the steps.
     ///
-    /// A wall differs from [`falling`](Self::falling) in two ways. A start at g ≤ 0 is an event at once unless g rises
-    /// above zero. And the integration does not continue behind the wall: after an event the present state is the state
-    /// at the event, as the handler changed it. A handler that lets the state continue into the wall receives the same
-    /// event again, until [`Error::EventsAccumulate`](crate::Error::EventsAccumulate).
+    /// A wall differs from [`falling`](Self::falling) in two ways. A start at g ≤ 0 is an event at once unless g rises above zero. The
+    /// integration does not continue behind the wall: after an event the present state is the state that the handler leaves. A handler that
+    /// lets the state continue into the wall receives the same event again, until
+    /// [`Error::EventsAccumulate`](crate::Error::EventsAccumulate).
     ///
     /// ```
     /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }

@@ -14,9 +14,9 @@ use crate::state::State;
 use crate::system::System;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// [`integrate_to`](Self::integrate_to) that calls `observe` with the state at every event, in order. If `observe`
-    /// breaks with a value, the integration ends after the step that contains the event, or at the event if it is a
-    /// [`wall`](Event::wall), and returns that value; otherwise it returns `None`.
+    /// [`integrate_to`](Self::integrate_to) that calls `observe` with the state at every event, in order. If `observe` breaks with a value,
+    /// the integration ends and returns that value; otherwise it returns `None`. It ends after the step that contains the event, or at the
+    /// event if it is a [`wall`](Event::wall).
     ///
     /// # Errors
     ///
@@ -63,9 +63,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// At equal times output comes first, then the events in the order of the list. The handler may change the state at
     /// an event. The integration continues from the changed state, and later events at the same time receive it.
     ///
-    /// If the handler breaks with a value, the integration ends and returns it; otherwise it returns `None`. The
-    /// present state is then the state after the step; at a wall and after a change of the state it is the state at the
-    /// event.
+    /// If the handler breaks with a value, the integration ends and returns it; otherwise it returns `None`. The present state is then the
+    /// state after the step. At a wall, and if the handler changed the state, it is the state at the event.
     ///
     /// # Errors
     ///

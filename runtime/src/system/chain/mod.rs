@@ -15,10 +15,10 @@ use crate::system::{OverEveryScalar, Separable, System};
 
 /// The forces on the particles of a [`Chain`].
 ///
-/// Doubles are evaluated eight at a time, as one [`Scalar`]. As in all code that is generic over scalars, no branch may depend on a value;
-/// whether there is an outer force may not depend on a value either.
+/// Doubles are evaluated eight at a time, as one [`Scalar`]. As in all code that is generic over scalars, no branch may depend on a value.
+/// The same holds for whether there is an outer force.
 pub trait Bonds {
-    /// The derivative `V′` of the energy of a bond, at `stretch = q_{i+1} − q_i`: it pulls the left particle to the right and
+    /// The derivative `V′` of the energy of a bond at `stretch = q_{i+1} − q_i`. A positive one pulls the left particle to the right and
     /// the right one to the left.
     fn tension<T: Scalar>(&self, time: T, stretch: T) -> T;
 
