@@ -29,9 +29,9 @@ impl ConstrainedStep {
     }
 }
 
-/// A symplectic tableau without zero weights. Exceptions are symplectic Euler, whose last stage of weight zero is the end of the step, and
-/// its adjoint, whose first stage of weight zero is the start. For holonomic constraints `a_1j = 0`, `a_sj = b_j`, and the matrix
-/// `X = (A Ã)_ik`, `i = 2..s`, `k = 1..s−1`, is regular.
+/// A symplectic tableau without zero weights. There are two exceptions. Symplectic Euler has the end of the step as a last stage of weight
+/// zero; its adjoint has the start as a first stage. For holonomic constraints `a_1j = 0`, `a_sj = b_j`, and the matrix `X = (A Ã)_ik`,
+/// `i = 2..s`, `k = 1..s−1`, is regular.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstrainedTableau {
     /// `μ_ij = a_ij/b_j` by rows.

@@ -13,7 +13,7 @@ use crate::number::{Scalar, Vector};
 
 /// How values inside a step are computed.
 ///
-/// An order m means that values inside steps of size h have errors of `O(hᵐ)`, in addition to the errors at the ends of the steps.
+/// With the order m, values inside steps of size h have errors of `O(hᵐ)`, in addition to the errors at the ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
     /// The polynomials through the velocities and the forces of the stages, integrated.

@@ -150,7 +150,7 @@ pub trait Plan {
     /// Its memory besides the state, allocated once and used for every step.
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>>: StageStorage<V>;
 
-    /// The number of evaluations of a step that is [taken in place](Self::take_in_place); `None` if steps cannot be taken in place.
+    /// Number of evaluations in a step [in place](Self::take_in_place); `None` if the plan takes no steps in place.
     const EVALUATIONS_IN_PLACE: Option<u32> = None;
 
     /// Whether a step has no branch on a value. Then a step of a vector of lanes has in every lane the bits of a step of doubles.

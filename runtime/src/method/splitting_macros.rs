@@ -48,7 +48,7 @@
 /// there only with [`accept_lower_order`](crate::Method::accept_lower_order).
 ///
 /// A step of a [`Separable`](crate::Separable) system is straight-line code. If the step begins and ends with a kick, the force at its end
-/// is evaluated once: it is also the force at the start of the next step.
+/// is also used at the start of the next step.
 ///
 /// # Errors
 ///
@@ -124,8 +124,8 @@ pub use symplectic_macros::splitting;
 ///
 /// # Errors
 ///
-/// As with [`tableau!`](crate::tableau). Other errors are an unknown base (the message lists similar names), weights whose sum is not 1,
-/// and a base that is not symmetric but must be.
+/// As with [`tableau!`](crate::tableau). Also for an unknown base (the message lists similar names), for weights whose sum is not 1, and
+/// for a base that must be symmetric.
 ///
 /// ```compile_fail
 /// symplectic::composition! {

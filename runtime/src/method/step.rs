@@ -155,13 +155,13 @@ impl<V> Outcome<'_, V> {
     }
 }
 
-/// What the memory of the stages still holds from the previous step.
+/// The data of the previous step that the memory of the stages still holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WarmStart {
-    /// Whether its evaluations at the end are kept as those at the start of this step, if there are any.
+    /// Whether the evaluations at its end are kept. They are those at the start of this step.
     pub evaluation: bool,
-    /// Whether the increments of its stages are kept, from which those of this step can be extrapolated. The previous step was then taken
-    /// by the same method with the same step size.
+    /// Whether the increments of its stages are kept, to extrapolate those of this step. It was then taken by the same method with the same
+    /// step size.
     pub stages: bool,
     /// Size of [those stages](crate::solver::StepStatistics::scales), as returned by the previous step: zero if unknown.
     pub scales: [f64; 2],
@@ -197,7 +197,7 @@ pub struct EvaluationCounts {
     pub sweep: u32,
     /// After the coupled stages.
     pub finish: u32,
-    /// Number of first evaluations that are skipped if the previous step has [kept](WarmStart::evaluation) them; every accepted step keeps
+    /// Number of first evaluations that are skipped if the previous step has [kept](WarmStart::evaluation) them. Every accepted step keeps
     /// them.
     pub carried: u32,
 }

@@ -4,8 +4,8 @@ use crate::method::{ConstrainedStep, Method};
 
 /// The fractions `γ_1, …, γ_m` of a composition of Störmer–Verlet steps.
 ///
-/// The order conditions of a composition are the same for every symmetric method of order 2, and so are the fractions (Hairer, Lubich &
-/// Wanner, *Geometric numerical integration*, V.3).
+/// They serve for every symmetric method of order 2, because its compositions have the same order conditions (Hairer, Lubich & Wanner,
+/// *Geometric numerical integration*, V.3).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SymmetricSteps(&'static [ConstrainedStep]);
 

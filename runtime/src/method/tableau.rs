@@ -57,8 +57,9 @@ pub struct StoredEvaluations<'a, V> {
 /// The polynomial through the evaluations of a step at its nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StagePolynomial {
-    /// For k = 1, …, s − 1 a list with an entry for each stage j: the coefficient `γ_jk` of its Lagrange polynomial `ℓ_j = Σ_k γ_jk L_k` in
-    /// Legendre polynomials on [0, 1]. It is divided by the weight `b_j` if evaluations are stored as increments. Correctly rounded.
+    /// For k = 1, …, s − 1 a list with an entry for each stage j. The entry is the coefficient `γ_jk` of the Lagrange polynomial
+    /// `ℓ_j = Σ_k γ_jk L_k` in Legendre polynomials on [0, 1]. It is divided by the weight `b_j` if evaluations are stored as increments.
+    /// Correctly rounded.
     pub legendre: &'static [&'static [f64]],
     /// The order of its integral: see [`Interpolation`](crate::output::Interpolation).
     pub order: u32,

@@ -2,9 +2,9 @@
 
 /// A coefficient of a method: the exact number, rounded to double and to single precision.
 ///
-/// Rounding a number to a double and then to a single does not always give the nearest single: the double may lie midway between two
-/// singles. The single is therefore rounded from the exact number as well. Scalars with more digits than a double use a second double,
-/// which extends the number to 106 bits.
+/// Rounding a number to a double and then to a single may not give the nearest single. The double may lie midway between two singles. The
+/// single is therefore rounded from the exact number as well. Scalars with more digits than a double use a second double, which extends the
+/// number to 106 bits.
 ///
 /// ```
 /// use symplectic::solver::Coefficient;

@@ -26,7 +26,7 @@ pub trait Summation: sealed::Sealed + Copy + Default + 'static {
 /// With plain sums each step has a rounding error relative to the state, and the energy makes a random walk of that size. Here the rounding
 /// error is relative to the increment. Two more conditions are needed: coefficients that are symplectic as rounded (`μ̃_ij + μ_ji = 1`) and
 /// an iteration that continues until it stagnates. Brouwer's law remains: the energy error grows like the square root of the number of
-/// steps, without a drift (Hairer, McLachlan & Razakarivony, 2008; Antoñana, Makazaga & Murua, 2017). This is measured for Kepler,
+/// steps, without drift (Hairer, McLachlan & Razakarivony, 2008; Antoñana, Makazaga & Murua, 2017). This is measured for Kepler,
 /// Hénon–Heiles and `(q² + 1)(p² + 1)/2`, which is not separable (`--example drift` of the tests).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Compensated;

@@ -329,8 +329,8 @@ pub trait Hamiltonian {
     }
 
     /// The flow of `p' = force + f(q, p)` at a fixed position, in a system of class [`Damped`](crate::Damped). f is any force of positions
-    /// and momenta whose flow is known. Writes `p(duration) − p` into `change` and returns `true`. With `false` the kicks use the rates of
-    /// [`friction`](Self::friction).
+    /// and momenta whose flow is known. Writes `p(duration) − p` into `change` and returns `true`. If it returns `false`, kicks use the
+    /// rates of [`friction`](Self::friction).
     ///
     /// `duration` may be negative. [`force`](Self::force) does not include f here. For output between the steps, write f into
     /// [`applied_force`](Self::applied_force), with [`FORCED`](Self::FORCED) `= true`.

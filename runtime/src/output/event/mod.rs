@@ -48,9 +48,9 @@ pub use list::Events;
 ///
 /// # Impacts that accumulate
 ///
-/// The search cannot resolve a flight that is shorter than the resolution of time, a g that stays within its rounding error, or a state
-/// that rests on the zero. The search then ends with [`Error::EventsAccumulate`](crate::Error::EventsAccumulate), at the state of the last
-/// event. So does a search that has found a thousand events at the same time.
+/// The search cannot resolve flights shorter than the resolution of time, a g within its rounding error, or a state at rest on the zero. It
+/// then ends with [`Error::EventsAccumulate`](crate::Error::EventsAccumulate), at the state of the last event. So does a search that has
+/// found a thousand events at the same time.
 ///
 /// ```
 /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
