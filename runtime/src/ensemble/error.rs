@@ -7,7 +7,7 @@ use crate::error::Error;
 #[non_exhaustive]
 pub enum EnsembleError {
     /// There are no starts.
-    #[error("there are no starts: an ensemble needs one at least")]
+    #[error("there are no starts: an ensemble needs at least one")]
     Empty,
 
     /// A start has another dimension than the first.
@@ -32,11 +32,11 @@ pub enum EnsembleError {
         error: Error,
     },
 
-    /// What concerns all trajectories.
+    /// An error of all trajectories.
     #[error(transparent)]
     All(Error),
 
-    /// Bins that hold nothing.
+    /// The ends or the number of bins of a histogram are invalid.
     #[error(
         "a histogram of {bins} bins from {low} to {high}: the number of bins must be from 1 to 2^24, and low < high, both finite"
     )]
@@ -55,7 +55,7 @@ pub enum EnsembleError {
     )]
     OtherBins,
 
-    /// What is read is no such thing.
+    /// A file does not have the expected contents.
     #[error("expected {0} in the file; it is damaged or has other contents")]
     Written(&'static str),
 

@@ -69,7 +69,7 @@ pub struct Checkpoint {
     checksum: String,
 }
 
-/// Why a run cannot be saved, or cannot go on from a checkpoint.
+/// Why a run cannot be saved, or cannot continue from a checkpoint.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckpointError {

@@ -190,8 +190,8 @@ pub(super) fn taken_once_more<V: Vector>(
     take(WarmStart::default(), outcome).map(|_| ())
 }
 
-/// Takes the steps of a composition one after another. `take` takes the step of a number, and is told whether the previous one ended where
-/// it starts.
+/// Takes the steps of a composition one after another. `take` takes the step with a given number; its flag says whether the previous step
+/// ended where this one starts.
 pub(super) fn in_turn<'a, V: Vector>(
     steps: &[ConstrainedStep],
     step: &Step<'_, V>,

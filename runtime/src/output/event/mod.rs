@@ -41,10 +41,9 @@ pub use list::Events;
 /// If g is zero at the start of a search, its sign there is that of its derivative along the flow. So the start is not an event, and the
 /// next zero is found even if it is close. For example, a ball thrown up from the floor may land within the first step.
 ///
-/// A search from the last event (after [`set_state`](crate::Integrator::set_state) with its state, changed or not) also
-/// starts on zero, whatever value g has by rounding. If the new state makes g turn round, the next zero is found. If g
-/// goes on through zero, the event is not found again. If the derivative is zero, the search assumes that g turns
-/// round.
+/// A search from the last event (after [`set_state`](crate::Integrator::set_state) with its state, changed or not) also starts on zero,
+/// whatever value g has by rounding. If the new state reverses the sign of dg/dt, the next zero is found. If g continues through zero, the
+/// event is not found again. If the derivative is zero, the search assumes that g turns back.
 ///
 /// # Impacts that accumulate
 ///
