@@ -20,8 +20,7 @@ use crate::solver::in_lanes;
 use crate::solver::nystrom::{self, NystromStages, nystrom};
 #[cfg(feature = "alloc")]
 use crate::solver::run_time::by_rows;
-use crate::solver::simd::gauss_seidel::gauss_seidel;
-use crate::solver::simd::jacobi::jacobi;
+use crate::solver::simd::sweeps;
 use crate::system::{Class, OverEveryScalar, System};
 
 /// The fastest fixed-point iteration for a method, a system and its scalar. It is the default of an
@@ -147,12 +146,12 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
         let outcome: Outcome<'_, S::Doubles> = outcome.same().expect(NO_DOUBLES);
         if !P::Class::SEPARABLE {
             let stages = &mut stages.lanes;
-            jacobi::<P, R, _, _>(step, system, stages, kept, stopping, outcome)
+            sweeps::take::<P, R, _, _, true>(step, system, stages, kept, stopping, outcome)
         } else if step.linear_velocity {
             nystrom::<P, R, _, _>(step, system, stages, kept, stopping, outcome)
         } else {
             let stages = &mut stages.lanes;
-            gauss_seidel::<P, R, _, _>(step, system, stages, kept, stopping, outcome)
+            sweeps::take::<P, R, _, _, false>(step, system, stages, kept, stopping, outcome)
         }
     }
 

@@ -29,6 +29,5 @@ pub use newton::{
 };
 #[cfg(feature = "num-dual")]
 pub use newton::{DualNumbers, SystemInDuals};
-pub use simd::gauss_seidel::SimdFixedPoint;
-pub use simd::jacobi::SimdJacobi;
 pub use simd::stages::SimdStages;
+pub use simd::{SimdFixedPoint, SimdJacobi};

@@ -7,7 +7,7 @@ use crate::number::summation::Overrelaxed;
 use crate::number::{Lanes, Summation, Vector, copy};
 use crate::solver::predictor::{Starting, starts_at_once};
 use crate::solver::simd::change::LaneMovement;
-use crate::solver::simd::gauss_seidel::extrapolates;
+use crate::solver::simd::sweeps::extrapolates;
 use crate::system::{Class, System};
 
 /// The evaluations of a step.

@@ -13,7 +13,7 @@ use crate::method::{
 use crate::number::summation::add;
 use crate::number::{Lanes, Summation, Vector, copy};
 use crate::solver::nystrom::eliminates;
-use crate::solver::simd::jacobi::are_at_one_time;
+use crate::solver::simd::sweeps::are_at_one_time;
 use crate::system::{Class, System};
 
 /// Takes a step of the trajectories in the lanes `live`, after a step that has left its stages in `memory`.

@@ -16,11 +16,11 @@ use crate::number::lanes::lanes;
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::solver::SimdFixedPoint;
 use crate::solver::convergence::{Sweeps, settle};
-use crate::solver::predictor::{MOST, StartingColumns, starting_columns, starts_at_once, weighted};
+use crate::solver::predictor::{StartingColumns, starting_columns, starts_at_once, weighted};
 use crate::solver::simd::change::LaneMovement;
-use crate::solver::simd::gauss_seidel::{ByLanes, gauss_seidel};
 use crate::solver::simd::stages::SimdStages;
 use crate::solver::simd::sums::{self, Sums, entry, extrapolate, scale_of, values};
+use crate::solver::simd::sweeps::{ByLanes, take};
 use crate::system::{Class, System, SystemInLanes, SystemLanes};
 
 /// Takes a step of a second-order system `q'' = M⁻¹ f(t, q)`, whose velocity `M⁻¹ p` is linear in the momentum. Only the positions are
@@ -48,7 +48,7 @@ where
         eliminated,
     } = memory;
     if !eliminates::<P>() {
-        return gauss_seidel::<P, R, V, S>(step, system, lanes, kept, stopping, outcome);
+        return take::<P, R, V, S, false>(step, system, lanes, kept, stopping, outcome);
     }
     *eliminated = true;
     *of_increments = R::COMPENSATED;
@@ -139,7 +139,7 @@ fn velocity<P, V, S>(
 /// With plain sums, forces are not scaled to increments during the iteration; the matrix contains the weights
 /// instead. This saves one product per sweep.
 struct Positions<'a, P: StageTableau, R, V: Vector, S> {
-    lanes: ByLanes<'a, P, R, V, S>,
+    lanes: ByLanes<'a, P, R, V, S, false>,
     /// The velocity at the start of the step.
     start: &'a V,
 }
@@ -154,29 +154,6 @@ const fn slopes<'a, V: Vector, S: System<V>, G>(velocity: &'a G, force: &'a G) -
 #[cfg_attr(not(debug_assertions), inline(always))]
 const fn start_of<'a, V: Vector, S: System<V>>(momentum: &'a V, velocity: &'a V) -> &'a V {
     if S::UNIT_MASSES { momentum } else { velocity }
-}
-
-/// The terms that are added to positions: `factor Σ_j columns_j slope_j`.
-struct Terms<C: 'static> {
-    columns: &'static [C],
-    factor: f64,
-}
-
-impl Terms<&'static [f64]> {
-    /// For slopes computed from increments, or from forces, whose weights are in the columns; with step size `h`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    const fn new<P: StageTableau>(of_increments: bool, h: f64) -> Self {
-        match of_increments {
-            true => Self {
-                columns: Columns::<P>::SECOND_ORDER,
-                factor: h,
-            },
-            false => Self {
-                columns: Columns::<P>::OF_FORCES,
-                factor: h * h,
-            },
-        }
-    }
 }
 
 /// The position of stages: `base + low + size node velocity + factor sum`. `low` is the low part of the base, `velocity` that at the
@@ -225,22 +202,6 @@ impl<P: StageTableau> Start<P> {
         &starting_columns(tableau::<P>().columns, &P::POSITIONS);
     pub(crate) const OF_FORCES: &'static StartingColumns =
         &weighted(Self::OF_INCREMENTS, P::POSITIONS.weights);
-
-    /// The terms from the evaluations of the previous step, with step size `h`.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn terms(of_increments: bool, h: f64) -> Terms<[f64; MOST]> {
-        let count = P::POSITIONS.extrapolation.len();
-        match of_increments {
-            true => Terms {
-                columns: &Self::OF_INCREMENTS[..count],
-                factor: h,
-            },
-            false => Terms {
-                columns: &Self::OF_FORCES[..count],
-                factor: h * h,
-            },
-        }
-    }
 }
 
 impl<P, R, V, S> Positions<'_, P, R, V, S>
@@ -253,20 +214,42 @@ where
     /// Computes new positions; returns their change.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn positions(&mut self) -> P::Lanes {
-        let terms = Terms::new::<P>(R::COMPENSATED, self.lanes.step.size);
-        // Multiplied into the columns, the factor is computed once for all sweeps.
-        self.with(&terms, !R::COMPENSATED)
+        let h = self.lanes.step.size;
+        match R::COMPENSATED {
+            true => self.with(Columns::<P>::SECOND_ORDER, h, false),
+            // Multiplied into the columns, the factor is computed once for all sweeps.
+            false => self.with(Columns::<P>::OF_FORCES, h * h, true),
+        }
     }
 
-    /// Computes the positions with these terms, whose factor may be multiplied into the columns; returns their change.
+    /// Predicts the positions from the increments or forces of the previous step.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn with(&mut self, terms: &Terms<impl AsRef<[f64]>>, in_columns: bool) -> P::Lanes {
-        let (columns, factor) = (terms.columns, in_columns.then_some(terms.factor));
-        let before = if in_columns { 1.0 } else { terms.factor };
+    fn predict(&mut self) {
+        let count = P::POSITIONS.extrapolation.len();
+        let h = self.lanes.step.size;
+        match R::COMPENSATED {
+            true => self.with(&Start::<P>::OF_INCREMENTS[..count], h, false),
+            false => self.with(&Start::<P>::OF_FORCES[..count], h * h, false),
+        };
+    }
+
+    /// Computes the positions with the terms `factor Σ_j columns_j slope_j`; the factor may be multiplied into the columns. Returns their
+    /// change.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn with(
+        &mut self,
+        columns: &'static [impl AsRef<[f64]>],
+        factor: f64,
+        in_columns: bool,
+    ) -> P::Lanes {
+        let (in_columns, before) = match in_columns {
+            true => (Some(factor), 1.0),
+            false => (None, factor),
+        };
         let sums = Sums {
             count: columns.len(),
             column: |j: usize| columns[j].as_ref(),
-            factor: |_| factor,
+            factor: |_| in_columns,
             with_low: false,
             beyond: false,
         };
@@ -340,9 +323,7 @@ where
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn begin(&mut self, kept: WarmStart) {
         if kept.stages && starts_at_once(&P::POSITIONS) {
-            let h = self.lanes.step.size;
-            self.with(&Start::<P>::terms(R::COMPENSATED, h), false);
-            return;
+            return self.predict();
         }
         if kept.stages && !P::POSITIONS.extrapolation.is_empty() {
             if !R::COMPENSATED {
@@ -357,7 +338,7 @@ where
             }
         }
         self.velocities();
-        self.with(&Terms::new::<P>(true, self.lanes.step.size), false);
+        self.with(Columns::<P>::SECOND_ORDER, self.lanes.step.size, false);
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

@@ -1,69 +1,28 @@
-//! Coupled stages side by side in SIMD lanes, with Gauss–Seidel sweeps.
+//! Sweeps over coupled stages in SIMD lanes.
+
+use core::marker::PhantomData;
 
 use crate::error::Quantity;
 use crate::method::storage::aside;
 use crate::method::tableau::Columns;
 use crate::method::{
-    EvaluationCounts, Failure, Inside, Outcome, Solver, StageStorage, StageTableau, Step,
+    EvaluationCounts, Failure, HalfTableau, Outcome, StageStorage, StageTableau, Step,
     StepStatistics, Stopping, WarmStart,
 };
 use crate::number::summation::Overrelaxed;
 use crate::number::{Summation, Vector};
 use crate::solver::convergence::{Sweeps, settle};
+use crate::solver::predictor::{Starting, StartingColumns, starts_at_once};
 use crate::solver::simd::change::LaneMovement;
 use crate::solver::simd::stages::SimdStages;
 use crate::solver::simd::sums::{
-    entry, extend, extrapolate, fill, scale, scale_of, sum, sums, times, totals, values,
+    Sums, extrapolate, fill, scale, scale_of, sum, sums, times, totals, values,
 };
-use crate::system::SystemInLanes;
-use crate::system::SystemLanes;
-use crate::system::{Class, System};
-use core::marker::PhantomData;
+use crate::system::{Class, SystemInLanes, SystemLanes};
 
-/// The iteration of [`FixedPoint`](crate::solver::FixedPoint) with the stages side by side in lanes: one evaluation of the
-/// system computes two, four or eight stages.
-///
-/// The system must be generic over the scalar. Long vectors are allowed. [`FixedPoint`](crate::solver::FixedPoint) vectorises along
-/// the components instead. Its sums over the stages are slower than sums with all stages of a component at hand
-/// (`--example ratios` of the contest times both for a chain of 1024 particles).
-#[derive(Clone, Copy, Debug, Default)]
-pub struct SimdFixedPoint;
-
-impl<V, S> Solver<V, S> for SimdFixedPoint
-where
-    V: Vector<Scalar = f64>,
-    S: SystemInLanes<V>,
-{
-    type Memory<P: StageTableau> = SimdStages<V, P>;
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn take<P, R>(
-        step: &Step<'_, V>,
-        system: &S,
-        stages: &mut SimdStages<V, P>,
-        kept: WarmStart,
-        stopping: Stopping,
-        outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        P: StageTableau,
-        R: Summation,
-        S: System<V, Class = P::Class>,
-    {
-        gauss_seidel::<P, R, V, S>(step, system, stages, kept, stopping, outcome)
-    }
-
-    fn extend<P: StageTableau>(stages: &SimdStages<V, P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
-        let velocity = |stage, k| entry::<P, V>(stages.velocity.as_ref(), stage, k);
-        let force = |stage, k| entry::<P, V>(stages.force.as_ref(), stage, k);
-        extend::<P, V>(&P::MOMENTA, at, velocity, q);
-        extend::<P, V>(&P::POSITIONS, at, force, p);
-    }
-}
-
-/// [`SimdFixedPoint::take`](Solver::take)
+/// [`Solver::take`](crate::method::Solver::take) with Gauss–Seidel sweeps, or with `JACOBI` sweeps.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn gauss_seidel<P, R, V, S>(
+pub(crate) fn take<P, R, V, S, const JACOBI: bool>(
     step: &Step<'_, V>,
     system: &S,
     stages: &mut SimdStages<V, P>,
@@ -77,7 +36,7 @@ where
     V: Vector<Scalar = f64>,
     S: SystemInLanes<V>,
 {
-    let mut sweeps = ByLanes::<P, R, V, S> {
+    let mut sweeps = ByLanes::<P, R, V, S, JACOBI> {
         step,
         system,
         stages: &mut *stages,
@@ -93,16 +52,19 @@ where
 
 /// The stages of a method in lanes.
 ///
+/// A Gauss–Seidel sweep evaluates the velocities at the new momenta. A `JACOBI` sweep evaluates both halves at the stages of the previous
+/// sweep.
+///
 /// With plain sums, velocities and forces are not scaled to increments during the iteration; the matrices contain the scale
 /// factors instead.
-pub(crate) struct ByLanes<'a, P: StageTableau, R, V: Vector, S> {
+pub(crate) struct ByLanes<'a, P: StageTableau, R, V: Vector, S, const JACOBI: bool> {
     pub(crate) step: &'a Step<'a, V>,
     pub(crate) system: &'a S,
     pub(crate) stages: &'a mut SimdStages<V, P>,
     pub(crate) sums: PhantomData<R>,
 }
 
-impl<P, R, V, S> Sweeps for ByLanes<'_, P, R, V, S>
+impl<P, R, V, S, const JACOBI: bool> Sweeps for ByLanes<'_, P, R, V, S, JACOBI>
 where
     P: StageTableau,
     R: Summation,
@@ -115,16 +77,20 @@ where
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluations(&self) -> EvaluationCounts {
-        let start = P::MOMENTA.count as u32;
-        let (begin, start) = if extrapolates::<P>() {
-            (0, start)
+        let sweep = (P::POSITIONS.count + P::MOMENTA.count) as u32;
+        let first = if JACOBI {
+            sweep
         } else {
-            (start, 0)
+            P::MOMENTA.count as u32
+        };
+        let (begin, start) = match extrapolates::<P>() {
+            true => (0, first),
+            false => (first, 0),
         };
         EvaluationCounts {
             begin,
             start,
-            sweep: (P::POSITIONS.count + P::MOMENTA.count) as u32,
+            sweep,
             finish: 0,
             carried: 0,
         }
@@ -137,6 +103,9 @@ where
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn begin(&mut self, kept: WarmStart) {
+        if JACOBI && kept.stages && starts_at_once(&P::POSITIONS) && starts_at_once(&P::MOMENTA) {
+            return self.start();
+        }
         if kept.stages && extrapolates::<P>() {
             extrapolate::<P, V>(&P::MOMENTA, self.stages.velocity.as_mut());
             if !P::Class::SEPARABLE {
@@ -146,6 +115,10 @@ where
         } else {
             fill::<P, V>(self.stages.q.as_mut(), self.step.q);
             fill::<P, V>(self.stages.p.as_mut(), self.step.p);
+            if JACOBI {
+                self.sweep();
+                return;
+            }
             self.velocities();
             self.scale_velocities();
         }
@@ -164,6 +137,16 @@ where
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep(&mut self) -> LaneMovement<P::Lanes> {
+        if JACOBI {
+            self.slopes();
+            if R::COMPENSATED {
+                self.increments();
+            }
+            return LaneMovement {
+                p: self.momenta(R::COMPENSATED),
+                q: self.positions(R::COMPENSATED),
+            };
+        }
         self.forces();
         if R::COMPENSATED {
             self.scale_forces();
@@ -198,16 +181,36 @@ pub(crate) const fn extrapolates<P: StageTableau>() -> bool {
         && (P::Class::SEPARABLE || !P::POSITIONS.extrapolation.is_empty())
 }
 
-impl<P, R, V, S> ByLanes<'_, P, R, V, S>
+impl<P, R, V, S, const JACOBI: bool> ByLanes<'_, P, R, V, S, JACOBI>
 where
     P: StageTableau,
     R: Summation,
     V: Vector<Scalar = f64>,
     S: SystemInLanes<V>,
 {
+    /// Predicts the stages from the increments of the previous step.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn start(&mut self) {
+        let (step, stages) = (self.step, &mut *self.stages);
+        let factor = (!P::INCREMENTS).then_some(step.size);
+        let sums = |half: &HalfTableau, columns: &'static StartingColumns| Sums {
+            count: half.columns.len(),
+            column: move |j: usize| &columns[j][..],
+            factor: move |_| factor,
+            with_low: R::COMPENSATED,
+            beyond: false,
+        };
+        let momenta = sums(&P::MOMENTA, Starting::<P>::MOMENTA);
+        let (base, forces) = ((step.p, step.p_low), stages.force.as_ref());
+        values::<P, V>(&momenta, stages.p.as_mut(), base, forces, sum::<P>);
+        let positions = sums(&P::POSITIONS, Starting::<P>::POSITIONS);
+        let (base, velocities) = ((step.q, step.q_low), stages.velocity.as_ref());
+        values::<P, V>(&positions, stages.q.as_mut(), base, velocities, sum::<P>);
+    }
+
     /// The same stages with over-relaxed sweeps, which move them twice as far.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn beyond(&mut self) -> ByLanes<'_, P, Overrelaxed<R>, V, S> {
+    fn beyond(&mut self) -> ByLanes<'_, P, Overrelaxed<R>, V, S, JACOBI> {
         ByLanes {
             step: self.step,
             system: self.system,
@@ -218,7 +221,7 @@ where
 
     /// Computes new positions from velocities, which may be `of_increments`; returns their change.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn positions(&mut self, of_increments: bool) -> P::Lanes {
+    fn positions(&mut self, of_increments: bool) -> P::Lanes {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.q, step.q_low);
         let (columns, weights) = (Columns::<P>::POSITIONS, P::MOMENTA.weights);
@@ -229,7 +232,7 @@ where
 
     /// Computes new momenta from forces, which may be `of_increments`; returns their change.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn momenta(&mut self, of_increments: bool) -> P::Lanes {
+    fn momenta(&mut self, of_increments: bool) -> P::Lanes {
         let (step, stages) = (self.step, &mut *self.stages);
         let base = (step.p, step.p_low);
         let (columns, weights) = (Columns::<P>::MOMENTA, P::POSITIONS.weights);
@@ -251,7 +254,7 @@ where
 
     /// Evaluates all velocities, not yet scaled to increments.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn velocities(&mut self) {
+    fn velocities(&mut self) {
         let SimdStages { q, p, velocity, .. } = &mut *self.stages;
         let (q, p) = (q.as_ref(), p.as_ref());
         for (group, velocity) in velocity.as_mut().iter_mut().enumerate() {
@@ -260,9 +263,13 @@ where
         }
     }
 
-    /// Evaluates all velocities and forces, not yet scaled to increments; both are evaluated at the same times.
+    /// Evaluates all velocities and forces, not yet scaled to increments.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn slopes(&mut self) {
+    fn slopes(&mut self) {
+        if !are_at_one_time::<P>() {
+            self.forces();
+            return self.velocities();
+        }
         let SimdStages {
             q,
             p,
@@ -287,14 +294,28 @@ where
 
     /// Scales the velocities to increments.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn scale_velocities(&mut self) {
+    fn scale_velocities(&mut self) {
         scale::<P, V>(&P::MOMENTA, self.step.size, self.stages.velocity.as_mut());
     }
 
     /// Scales velocities and forces to increments.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn increments(&mut self) {
+    fn increments(&mut self) {
         self.scale_forces();
         self.scale_velocities();
     }
+}
+
+/// Whether force and velocity of each stage are evaluated at the same time.
+pub(crate) const fn are_at_one_time<P: StageTableau>() -> bool {
+    same(P::POSITIONS.times, P::MOMENTA.times)
+}
+
+/// Whether two lists are equal.
+const fn same(left: &[f64], right: &[f64]) -> bool {
+    let mut i = 0;
+    while i < left.len() && i < right.len() && left[i] == right[i] {
+        i += 1;
+    }
+    i == left.len() && i == right.len()
 }
