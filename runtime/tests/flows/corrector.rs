@@ -5,7 +5,8 @@ use symplectic::flow::{Corrector, FlowError, FlowIntegrator, OrnsteinUhlenbeck, 
 use symplectic::nalgebra::Vector1;
 use symplectic::{Error, Method, State};
 
-use super::planets::{self, Bodies, Leapfrog, N, Saba3};
+use super::methods::{Leapfrog, Saba3};
+use super::planets::{self, Bodies, N};
 use super::splittings::{END, Quartic, Rotation, exact, near, start};
 use crate::common::distance;
 use crate::common::methods::StoermerVerlet;

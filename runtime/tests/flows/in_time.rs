@@ -9,8 +9,7 @@ use symplectic::{Separable, State, System, acceleration, separable};
 use crate::common::methods::{ForestRuth, Gauss5, StoermerVerlet};
 use crate::common::systems::point;
 use crate::common::{distance, run};
-
-symplectic::tableau! { BlanesMoan6 { base: blanes-moan-2002-s10 } }
+use crate::methods::BlanesMoan6;
 
 symplectic::composition! {
     Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] }

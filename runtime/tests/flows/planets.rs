@@ -7,12 +7,7 @@ use symplectic::{Error, Integrator, Method, Separable, State, System, separable}
 
 use crate::common::distance;
 use crate::common::methods::{Gauss8, StoermerVerlet};
-
-symplectic::tableau! {
-    pub Leapfrog { base: saba-1 }
-    pub Saba3 { base: saba-3 }
-    Aba1064 { base: blanes-2013-aba-10-6-4 }
-}
+use crate::methods::{Aba1064, Leapfrog, Saba3};
 
 pub const N: usize = 4;
 pub const G: f64 = 39.478;

@@ -11,13 +11,7 @@ use symplectic::{Error, Method, Quantity, State, acceleration};
 use crate::common::methods::{ForestRuth, Gauss8, McLachlanAtela, PositionJump, StoermerVerlet};
 use crate::common::systems::{Driven, Pendulum, point};
 use crate::common::{distance, run};
-
-symplectic::tableau! {
-    Saba2 { base: saba-2 }
-    Saba3 { base: saba-3 }
-    Aba1064 { base: blanes-2013-aba-10-6-4 }
-    BlanesMoan6 { base: blanes-moan-2002-s10 }
-}
+use crate::methods::{Aba1064, BlanesMoan6, Saba2, Saba3};
 
 symplectic::composition! {
     Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] }

@@ -1,13 +1,12 @@
 //! Chains of links: the band of `G M⁻¹ Gᵀ`, and the same motion in other formulations.
 
+use crate::methods::{Gauss6, Lobatto5};
 use symplectic::nalgebra::{DVector, SVector};
 use symplectic::system::Gradients;
 use symplectic::variational::{LagrangianIntegrator, momentum_of_velocity};
 use symplectic::{Constrained, Error, Hamiltonian, Integrator, Lagrangian, Scalar, Separable};
 
 use crate::systems::*;
-
-symplectic::tableau! { Gauss6 { basis: polynomial(6), nodes: gauss(6) } }
 
 /// The chain of [`Links`] with gradients that have an entry in every place, most of them zero: `G M⁻¹ Gᵀ` is a full matrix.
 #[derive(Clone, Copy)]

@@ -1,18 +1,12 @@
 //! Discrete Lagrangians that are given, against Runge–Kutta steps of the same systems.
 
+use crate::methods::{Gauss6, Lobatto3, Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, SVector, Vector2};
 use symplectic::variational::{DiscreteLagrangian, DiscretePath, VariationalIntegrator};
 use symplectic::{
     Error, Integrator, Method, ProvedFor, Quantity, Scalar, State, System, Vector, hamiltonian,
     separable,
 };
-
-symplectic::tableau! {
-    StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) }
-    Lobatto3 { basis: polynomial(3), nodes: lobatto(3) }
-    Midpoint { basis: polynomial(1), nodes: gauss(1) }
-    pub Gauss6 { basis: polynomial(6), nodes: gauss(6) }
-}
 
 symplectic::composition! {
     Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] }

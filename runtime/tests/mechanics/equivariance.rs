@@ -1,13 +1,14 @@
 //! Steps with constraints, forces and Galerkin paths commute with the symmetries of their systems, and balance momentum maps.
 
+use crate::methods::{Gauss2, Lobatto3, TwoOfThree};
 use symplectic::nalgebra::{Rotation2, Rotation3, Vector2, Vector3};
 use symplectic::variational::{LagrangianIntegrator, momentum_map};
 use symplectic::{
     Constrained, Error, General, Integrator, Method, ProvedFor, Separable, State, StepMap,
 };
 
-use crate::forces::{FourthRattle, Lobatto3, Resisted, swing};
-use crate::lagrangians::{Gauss2, TwoOfThree, distance};
+use crate::forces::{FourthRattle, Resisted, swing};
+use crate::lagrangians::distance;
 use crate::systems::{AdjointEuler, DoubleSpherical, Euler, Lobatto4, Rattle, double_start};
 
 /// A rotation about the vertical axis, and one about a horizontal one.

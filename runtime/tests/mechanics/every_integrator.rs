@@ -1,5 +1,6 @@
 //! The same checks of every integrator: what is conserved, the form dq∧dp, and symmetries. Each row has a twin that fails.
 
+use crate::methods::{Gauss2, TwoOfThree};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use symplectic::flow::{Drift, FlowIntegrator, Kick, Splitting};
@@ -17,7 +18,7 @@ use symplectic::{
 use crate::dirac::{V6, Vortices, vortices_start};
 use crate::discrete_lagrangians::{Trapezoid, perihelion};
 use crate::forces::Resisted;
-use crate::lagrangians::{Gauss2, Particle, TwoOfThree, near_perihelion};
+use crate::lagrangians::{Particle, near_perihelion};
 use crate::rolling::{Disk, Midpoint, disk_start};
 use crate::rotation::{LOPSIDED, Suzuki4, start as top_start};
 use crate::symmetry::Bead;

@@ -1,20 +1,11 @@
 //! Applied forces: orders, Newton's method, forces in formulas.
 
+use crate::methods::{
+    ForestRuth, Gauss2, Gauss3, Gauss4, Lobatto3, Lobatto4, Lobatto5, Midpoint, StoermerVerlet,
+};
 use symplectic::nalgebra::{DVector, SVector, Vector2, Vector3};
 use symplectic::variational::{StagesOfStep, generating_function};
 use symplectic::{Error, Integrator, Method, ProvedFor, Scalar, State, System, hamiltonian};
-
-symplectic::tableau! {
-    pub Midpoint { basis: polynomial(1), nodes: gauss(1) }
-    pub Gauss2 { basis: polynomial(2), nodes: gauss(2) }
-    pub Gauss3 { basis: polynomial(3), nodes: gauss(3) }
-    pub Gauss4 { basis: polynomial(4), nodes: gauss(4) }
-    pub Lobatto2 { basis: polynomial(2), nodes: lobatto(2) }
-    pub Lobatto3 { basis: polynomial(3), nodes: lobatto(3) }
-    pub Lobatto4 { basis: polynomial(4), nodes: lobatto(4) }
-    pub Lobatto5 { basis: polynomial(5), nodes: lobatto(5) }
-    pub ForestRuth { base: forest-ruth-1990 }
-}
 
 symplectic::hamiltonian! {
     /// The ring of Marsden & West (2001), Figure 2, with friction.
@@ -73,7 +64,7 @@ fn orders_with_a_force_of_momenta() {
         (slope(Gauss2, ring, &start, &end, 48), 4.0),
         (slope(Gauss3, ring, &start, &end, 64), 6.0),
         (slope(Gauss4, ring, &start, &end, 48), 8.0),
-        (slope(Lobatto2, ring, &start, &end, 64), 2.0),
+        (slope(StoermerVerlet, ring, &start, &end, 64), 2.0),
         (slope(Lobatto3, ring, &start, &end, 64), 4.0),
         (slope(Lobatto4, ring, &start, &end, 64), 6.0),
         (slope(Lobatto5, ring, &start, &end, 48), 8.0),
@@ -94,7 +85,10 @@ fn orders_with_a_force_of_the_time() {
     };
     let driven = Driven::new;
     for (found, order) in [
-        (slope(Lobatto2, driven, &exact(0.0), &exact(5.0), 100), 2.0),
+        (
+            slope(StoermerVerlet, driven, &exact(0.0), &exact(5.0), 100),
+            2.0,
+        ),
         (
             slope(ForestRuth, driven, &exact(0.0), &exact(5.0), 100),
             4.0,
@@ -157,7 +151,7 @@ fn forces_and_constraints() {
             assert!(change.abs() > 1e-5, "{change:e}");
         }
     }
-    check(Lobatto2);
+    check(StoermerVerlet);
     check(Lobatto3);
     check(FourthRattle);
 }
@@ -200,7 +194,7 @@ fn forces_and_nonholonomic_constraints() {
             2.0,
         ),
         (
-            slope(Lobatto2, Skate::new, &exact(0.0), &exact(2.0), 50),
+            slope(StoermerVerlet, Skate::new, &exact(0.0), &exact(2.0), 50),
             2.0,
         ),
         (

@@ -1,14 +1,9 @@
 //! Constraints and friction from formulas, against the same motion in other coordinates.
 
+use crate::methods::{ForestRuth, Gauss6, Lobatto4};
+use crate::systems::Rattle;
 use symplectic::nalgebra::{DVector, SMatrix, SVector};
 use symplectic::{ConstraintName, Error, Hamiltonian, Integrator, State, consistent};
-
-symplectic::tableau! {
-    Rattle { basis: polynomial(2), nodes: lobatto(2), require: [constrained] }
-    Lobatto4 { basis: polynomial(4), nodes: lobatto(4), require: [constrained] }
-    Gauss6 { basis: polynomial(6), nodes: gauss(6) }
-    ForestRuth { base: forest-ruth-1990 }
-}
 
 symplectic::hamiltonian! {
     /// The double pendulum in the plane.

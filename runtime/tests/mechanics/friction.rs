@@ -1,15 +1,10 @@
 //! Linear friction with exact kicks.
 
+use crate::methods::{ForestRuth, Gauss4, StoermerVerlet, Yoshida6};
 use symplectic::nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 use symplectic::{
     Damped, Error, Hamiltonian, Integrator, Method, ProvedFor, Scalar, State, friction_growth,
 };
-
-symplectic::tableau! {
-    pub StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) }
-    pub ForestRuth { base: forest-ruth-1990 }
-    pub Yoshida6 { base: yoshida-1990-order-6-a, accept: verified(100 bits) }
-}
 
 symplectic::composition! {
     /// Forest & Ruth's steps; half kicks of successive steps are at the same position.
@@ -330,8 +325,6 @@ symplectic::hamiltonian! {
     H = px^2/2 + x^4/4
     force: { x = -(1 + x^2) px/4 }
 }
-
-symplectic::tableau! { pub Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
 
 #[test]
 fn a_flow_of_the_user() {

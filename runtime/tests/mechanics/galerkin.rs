@@ -1,12 +1,12 @@
 //! Galerkin methods with s basis functions and r ≥ s nodes (Leok & Zhang, 2011; Tang).
 
+use crate::methods::{Gauss2, TwoOfThree};
 use symplectic::nalgebra::{DMatrix, DVector, SVector, Vector2};
 use symplectic::variational::{momentum_of_velocity, primary_constraints};
 use symplectic::{Error, Hamiltonian, Lagrangian, Method, Scalar, State};
 
 use crate::lagrangians::{
-    Gauss2, Particle, Relativistic, Run, TwoOfThree, Vortices, Wrong, distance, near_perihelion,
-    slope,
+    Particle, Relativistic, Run, Vortices, Wrong, distance, near_perihelion, slope,
 };
 
 symplectic::tableau! {

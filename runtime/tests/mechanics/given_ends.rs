@@ -1,6 +1,7 @@
 //! Generating functions of Types I, II and III at given ends of a step: their derivatives, their Legendre transforms, and where there are
 //! none.
 
+use crate::methods::{ForestRuth, Gauss2, Lobatto3, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1, Vector2};
 use symplectic::variational::{
     GeneratingFunctions, GivenEnds, LagrangianIntegrator, VariationalIntegrator,
@@ -9,11 +10,9 @@ use symplectic::variational::{
 use symplectic::{Error, Integrator, Quantity, State, StepMap};
 
 use crate::discrete_lagrangians::{AtTwoPoints, DoublePendulum, Shaken, Trapezoid, perihelion};
-use crate::forces::{ForestRuth, Gauss2, Lobatto3};
 use crate::symmetry::Twisted;
 
 symplectic::composition! { TwoSteps { base: stormer-verlet, weights: [1/2, 1/2] } }
-symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
 
 symplectic::hamiltonian! { pub Oscillator q: [x], p: [px]; H = (px^2 + x^2)/2 }
 symplectic::hamiltonian! { pub Product q: [x], p: [px]; H = x px }

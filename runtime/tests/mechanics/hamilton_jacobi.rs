@@ -1,10 +1,10 @@
 //! Generating functions of whole runs: what a step adds, and their derivatives over families of orbits.
 
+use crate::methods::{Gauss3, Lobatto3};
 use symplectic::nalgebra::{Matrix2, SVector, Vector2};
 use symplectic::variational::{DiscreteHamiltonJacobi, DiscreteLagrangian, VariationalIntegrator};
 use symplectic::{Error, Integrator, Scalar, State};
 
-use super::forces::{Gauss3, Lobatto3};
 use super::symmetry::Twisted;
 
 /// L = |v|²/2 − |q|⁴/4 + q0 q1/2 in the middle of the step.

@@ -22,6 +22,7 @@ mod given_ends;
 mod hamilton_jacobi;
 mod holonomic;
 mod lagrangians;
+mod methods;
 mod multipliers;
 mod newmark;
 mod nonholonomic;

@@ -1,12 +1,13 @@
 //! Newmark's method: its textbook recursion, its order, what it preserves, its stability.
 
+use crate::methods::{Gauss4, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Matrix4, SVector, Vector1, Vector2};
 use symplectic::variational::{Newmark, generating_function};
 use symplectic::{
     Error, Hamiltonian, Integrator, Quantity, Scalar, Separable, State, StepMap, System,
 };
 
-use super::forces::{Driven, Gauss4, Lobatto2};
+use super::forces::Driven;
 
 symplectic::hamiltonian! {
     /// Two masses and a potential that is not convex.
@@ -41,10 +42,10 @@ fn run(
     beta: f64,
     start: &State<Vector2<f64>>,
     h: f64,
-) -> Result<Integrator<Lobatto2, Newmark<Well>, Vector2<f64>>, Error> {
+) -> Result<Integrator<StoermerVerlet, Newmark<Well>, Vector2<f64>>, Error> {
     let newmark = Newmark::new(Well, beta, h)?;
     let start = newmark.shift(start)?;
-    Integrator::new(Lobatto2, newmark, start, h)
+    Integrator::new(StoermerVerlet, newmark, start, h)
 }
 
 fn distance(a: &State<Vector2<f64>>, b: &State<Vector2<f64>>) -> f64 {
@@ -97,7 +98,7 @@ fn steps_are_those_of_the_textbook() -> Result<(), Error> {
 #[test]
 fn without_a_shift_it_is_verlet() -> Result<(), Error> {
     let mut newmark = run(0.0, &near(0.0, 0.0), 0.1)?;
-    let mut verlet = Integrator::new(Lobatto2, Well, near(0.0, 0.0), 0.1)?;
+    let mut verlet = Integrator::new(StoermerVerlet, Well, near(0.0, 0.0), 0.1)?;
     let end = newmark.take_steps(1000)?;
     assert!(distance(end, verlet.take_steps(1000)?) < 1e-12);
     Ok(())
@@ -150,7 +151,7 @@ fn the_shifted_form_is_preserved() -> Result<(), Error> {
     for (beta, changes) in [(0.0, false)].into_iter().chain(shifts) {
         let newmark = Newmark::new(Well, beta, 0.2)?;
         let step = |state: &State<Vector2<f64>>| {
-            let mut run = Integrator::new(Lobatto2, newmark.clone(), state.clone(), 0.2)?;
+            let mut run = Integrator::new(StoermerVerlet, newmark.clone(), state.clone(), 0.2)?;
             run.step().cloned()
         };
         let shifted = defect(step)?;
@@ -181,8 +182,13 @@ fn the_shifted_system_is_hamiltonian() -> Result<(), Error> {
         let slope = (8.0 * (at(1e-3) - at(-1e-3)) - (at(2e-3) - at(-2e-3))) / 12e-3;
         assert!((slope + force[k]).abs() < 1e-10, "{slope} {}", force[k]);
     }
-    let generating = generating_function(Lobatto2, &newmark, 0.0, &q, &p, 0.5)?;
-    let mut step = Integrator::new(Lobatto2, newmark, State::new(0.0, q, generating.p0), 0.5)?;
+    let generating = generating_function(StoermerVerlet, &newmark, 0.0, &q, &p, 0.5)?;
+    let mut step = Integrator::new(
+        StoermerVerlet,
+        newmark,
+        State::new(0.0, q, generating.p0),
+        0.5,
+    )?;
     assert!((step.step()?.q - generating.q1).norm() < 1e-14);
     // Its error is that of Verlet: it does not grow, and with half of the step it is a quarter.
     let errors = |h: f64, steps: u32| -> Result<[f64; 2], Error> {
@@ -211,7 +217,7 @@ fn average_acceleration_is_stable() -> Result<(), Error> {
         Hamiltonian::energy(&Oscillator::new(), 0.0, &state.q, &state.p)
     };
     let newmark = Newmark::new(Oscillator::new(), 0.25, 1.0)?;
-    let mut run = Integrator::new(Lobatto2, newmark.clone(), newmark.shift(&start)?, 1.0)?;
+    let mut run = Integrator::new(StoermerVerlet, newmark.clone(), newmark.shift(&start)?, 1.0)?;
     let before = energy(&start).expect("known");
     for _ in 0..1000 {
         let state = newmark.unshift(run.step()?)?;
@@ -226,7 +232,7 @@ fn average_acceleration_is_stable() -> Result<(), Error> {
         let state = newmark.unshift(run.step()?)?;
         assert!((state.q[0] - (f64::from(k) * angle).cos()).abs() < 1e-11);
     }
-    let mut verlet = Integrator::new(Lobatto2, Oscillator::new(), start.clone(), 1.0)?;
+    let mut verlet = Integrator::new(StoermerVerlet, Oscillator::new(), start.clone(), 1.0)?;
     assert!(matches!(
         verlet.take_steps(1000),
         Err(Error::NonFinite { .. })
@@ -237,7 +243,7 @@ fn average_acceleration_is_stable() -> Result<(), Error> {
         [(limit - 1e-5, true), (limit + 1e-4, false)].map(|(h, stable)| (beta, h, stable))
     }) {
         let newmark = Newmark::new(Oscillator::new(), beta, h)?;
-        let mut run = Integrator::new(Lobatto2, newmark.clone(), newmark.shift(&start)?, h)?;
+        let mut run = Integrator::new(StoermerVerlet, newmark.clone(), newmark.shift(&start)?, h)?;
         let end = newmark.unshift(run.take_steps(500)?)?;
         assert_eq!(end.q[0].abs() < 100.0, stable, "{h}: {}", end.q[0]);
     }
@@ -277,13 +283,13 @@ fn forces_of_the_time() -> Result<(), Error> {
         let h = 5.0 / f64::from(steps);
         let newmark = Newmark::new(Driven::new(), 0.25, h)?;
         let rest = State::from_arrays(0.0, [0.0], [0.0]);
-        let mut run = Integrator::new(Lobatto2, newmark.clone(), newmark.shift(&rest)?, h)?;
+        let mut run = Integrator::new(StoermerVerlet, newmark.clone(), newmark.shift(&rest)?, h)?;
         let end = newmark.unshift(run.integrate_to(5.0)?)?;
         assert_eq!(run.energy(), None);
 
         let heap = Newmark::new(OnTheHeap, 0.25, h)?;
         let rest = heap.shift(&State::from_slices(0.0, &[0.0; 3], &[0.0; 3])?)?;
-        let mut run = Integrator::new(Lobatto2, heap.clone(), rest, h)?;
+        let mut run = Integrator::new(StoermerVerlet, heap.clone(), rest, h)?;
         let other = heap.unshift(run.integrate_to(5.0)?)?;
         assert!(other.q.iter().all(|q| (q - end.q[0]).abs() < 1e-13));
         // x = (cos ωt − cos t)/(1 − ω²)
@@ -321,7 +327,7 @@ fn refusals() -> Result<(), Error> {
         newmark.unshift(&state),
         Err(Error::NewmarkPosition { time: 1.0, .. })
     ));
-    let mut run = Integrator::new(Lobatto2, newmark, state, 2.0)?;
+    let mut run = Integrator::new(StoermerVerlet, newmark, state, 2.0)?;
     assert!(matches!(
         run.step(),
         Err(Error::NonFinite {

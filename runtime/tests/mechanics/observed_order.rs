@@ -1,12 +1,13 @@
 //! The order of discrete Lagrangians, observed along orbits.
 
+use crate::methods::Gauss6;
 use symplectic::nalgebra::{DVector, SVector, Vector1};
 use symplectic::variational::{DiscreteLagrangian, observed_order};
 use symplectic::{Error, Integrator, Scalar, State, System, Vector, system::Unconstrained};
 
 use super::discrete_lagrangians::{
-    AtOnePoint, AtTwoPoints, DoublePendulum, Gauss6, Kepler, Pendulum, Shaken, ShakenLagrangian,
-    Simpson, Trapezoid,
+    AtOnePoint, AtTwoPoints, DoublePendulum, Kepler, Pendulum, Shaken, ShakenLagrangian, Simpson,
+    Trapezoid,
 };
 use super::forces::Ring;
 

@@ -4,8 +4,9 @@ use symplectic::nalgebra::{SVector, Vector3, Vector4};
 use symplectic::system::Gradients;
 use symplectic::{General, Hamiltonian, Nonholonomic, Scalar, Separable, State};
 
+pub use crate::methods::Midpoint;
+
 symplectic::tableau! {
-    pub Midpoint { basis: polynomial(1), nodes: gauss(1), require: [nonholonomic, order == 2] }
     pub Trapezoid { basis: polynomial(2), nodes: lobatto(2), require: [nonholonomic, order == 2] }
     /// Four stages, at 0, 1/3, 2/3 and 1.
     pub Thirds { basis: polynomial(4), nodes: newton-cotes(4), require: [nonholonomic, order == 2] }

@@ -1,14 +1,9 @@
 //! Rigid bodies on SO(3), against closed forms and the same motion in other coordinates.
 
+use crate::methods::{Gauss6, Lobatto3, StoermerVerlet};
 use symplectic::nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector3};
 use symplectic::rotation::{FreeBody, HeavyTop, RigidBody, RotationIntegrator, RotationState};
 use symplectic::{Constrained, Error, Integrator, Method, ProvedFor, Quantity, Separable, State};
-
-symplectic::tableau! {
-    StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) }
-    Lobatto3 { basis: polynomial(3), nodes: lobatto(3) }
-    Gauss6 { basis: polynomial(6), nodes: gauss(6) }
-}
 
 symplectic::composition! {
     pub Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] }

@@ -1,10 +1,11 @@
 //! Generating functions of all types, momentum maps, and checks of a step: symplectic, also with constraints, and equivariant.
 
+use crate::methods::{Gauss2, Gauss3, Lobatto3};
 use symplectic::nalgebra::{Rotation2, Vector2, Vector3};
 use symplectic::variational::momentum_map;
 use symplectic::{Error, Integrator, State, StepMap, assert_conserved, consistent};
 
-use super::forces::{Gauss2, Gauss3, Lobatto3, Ring};
+use super::forces::Ring;
 
 symplectic::hamiltonian! {
     /// Not separable, and symmetric under rotations.

@@ -4,15 +4,14 @@ use symplectic::nalgebra::{DVector, SVector};
 use symplectic::system::Gradients;
 use symplectic::{Constrained, General, Hamiltonian, Scalar, Separable, State, consistent};
 
+pub use crate::methods::{Lobatto3, Lobatto4, Lobatto5};
+
 symplectic::tableau! {
     /// Symplectic Euler.
     pub Euler { basis: polynomial(1), nodes: [0], require: [constrained, order == 1] }
     /// Its adjoint.
     pub AdjointEuler { basis: polynomial(1), nodes: [1], require: [constrained, order == 1] }
     pub Rattle { basis: polynomial(2), nodes: lobatto(2), require: [constrained, order == 2] }
-    pub Lobatto3 { basis: polynomial(3), nodes: lobatto(3), require: [constrained, order == 4] }
-    pub Lobatto4 { basis: polynomial(4), nodes: lobatto(4), require: [constrained, order == 6] }
-    pub Lobatto5 { basis: polynomial(5), nodes: lobatto(5), require: [constrained, order == 8] }
     pub Lobatto6 { basis: polynomial(6), nodes: lobatto(6), require: [constrained, order == 10] }
     pub Lobatto7 { basis: polynomial(7), nodes: lobatto(7), require: [constrained, order == 12] }
     pub Lobatto8 { basis: polynomial(8), nodes: lobatto(8), require: [constrained, order == 14] }
