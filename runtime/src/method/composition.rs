@@ -6,8 +6,8 @@ use crate::error::Quantity;
 use crate::method::diagnosis::{FirstFault, culprit};
 use crate::method::storage::is_finite;
 use crate::method::{
-    EvaluationObserver, Failure, Inside, Interpolation, Outcome, Plan, Solver, StageStorage, Step,
-    StepStatistics, Stopping, WarmStart,
+    EvaluationObserver, Failure, Outcome, Plan, Solver, StageStorage, Step, StepStatistics,
+    Stopping, WarmStart,
 };
 use crate::number::{Coefficient, Summation, Vector, Visit, vector_words};
 use crate::system::{Class, System};
@@ -194,32 +194,5 @@ impl<L: Substeps> Plan for Composition<L> {
             work += taken;
         }
         Ok(work)
-    }
-
-    /// Does nothing: a substep that fails has already been observed.
-    fn observe<R, V, S, N, W>(
-        _step: &Step<'_, V>,
-        _system: &S,
-        _memory: &mut Self::Memory<V, S, N>,
-        _outcome: Outcome<'_, V>,
-        _witness: &mut W,
-    ) where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-        N: Solver<V, S>,
-        W: EvaluationObserver,
-    {
-    }
-
-    const INTERPOLATION: Interpolation = Interpolation::Hermite;
-
-    /// Does nothing: only the stages of the last substep are left.
-    fn extend<V, S, N>(_memory: &Self::Memory<V, S, N>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
-    where
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-        N: Solver<V, S>,
-    {
     }
 }

@@ -3,8 +3,8 @@
 use core::marker::PhantomData;
 
 use crate::method::{
-    EvaluationObserver, Failure, Inside, Interpolation, Outcome, Plan, Solver, StageTableau, Step,
-    StepStatistics, Stopping, WarmStart,
+    Failure, Inside, Interpolation, Outcome, Plan, Solver, StageTableau, Step, StepStatistics,
+    Stopping, WarmStart,
 };
 #[cfg(feature = "alloc")]
 use crate::method::{LaneMemory, LaneOutcome};
@@ -71,22 +71,6 @@ impl<P: StageTableau> Plan for Coupled<P> {
         J: System<W, Class = P::Class>,
     {
         N::take_in_lanes::<P, R, W, J>(step, system, memory, live, stopping, outcome)
-    }
-
-    /// Does nothing: the evaluations are in the memory.
-    fn observe<R, V, S, N, W>(
-        _step: &Step<'_, V>,
-        _system: &S,
-        _memory: &mut N::Memory<P>,
-        _outcome: Outcome<'_, V>,
-        _witness: &mut W,
-    ) where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = P::Class>,
-        N: Solver<V, S>,
-        W: EvaluationObserver,
-    {
     }
 
     const INTERPOLATION: Interpolation =

@@ -5,9 +5,8 @@ use core::slice;
 
 use crate::error::{Error, Quantity};
 use crate::method::{
-    EvaluationObserver, Evaluations, Failure, Inside, Interpolation, KickDrift, Method, Outcome,
-    Plan, ProvedFor, Solver, StageStorage, Step, StepStatistics, Stopping, WarmStart,
-    check_no_constraints,
+    EvaluationObserver, Evaluations, Failure, KickDrift, Method, Outcome, Plan, ProvedFor, Solver,
+    StageStorage, Step, StepStatistics, Stopping, WarmStart, check_no_constraints,
 };
 use crate::number::linear_combination::add_products;
 use crate::number::summation::add;
@@ -302,15 +301,5 @@ impl<M: Method> Plan for DampedPlan<M> {
             let pairs = rate.as_mut_slice().iter_mut().zip(applied.as_slice());
             pairs.for_each(|(rate, &applied)| *rate += applied);
         }
-    }
-
-    const INTERPOLATION: Interpolation = Interpolation::Hermite;
-
-    fn extend<V, S, N>(_memory: &DampedMemory<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
-    where
-        V: Vector,
-        S: System<V, Class = Damped>,
-        N: Solver<V, S>,
-    {
     }
 }

@@ -3,8 +3,8 @@
 use core::marker::PhantomData;
 
 use crate::method::{
-    EvaluationObserver, Failure, Inside, Interpolation, Outcome, Plan, Solver, StagePlan,
-    StageStorage, Step, StepStatistics, Stopping, WarmStart,
+    EvaluationObserver, Failure, Outcome, Plan, Solver, StagePlan, StageStorage, Step,
+    StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Summation, Vector};
 use crate::system::System;
@@ -58,16 +58,5 @@ impl<P: StagePlan> Plan for Explicit<P> {
         *memory = P::Stages::like(step.q);
         P::begin::<R, V, S>(step, system, memory, WarmStart::default());
         P::finish::<R, V, S, W>(step, system, memory, WarmStart::default(), outcome, witness);
-    }
-
-    const INTERPOLATION: Interpolation = Interpolation::Hermite;
-
-    /// The stages of an explicit method define no polynomial.
-    fn extend<V, S, N>(_memory: &P::Stages<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
-    where
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-        N: Solver<V, S>,
-    {
     }
 }

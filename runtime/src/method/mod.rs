@@ -289,19 +289,21 @@ pub trait Plan {
         StepStatistics::default()
     }
 
-    /// Repeats a step that failed, and shows its evaluations to `witness` unless they are in `memory`.
+    /// Repeats a step that failed, and shows its evaluations to `witness`; does nothing if they are in `memory` or have been shown.
     fn observe<R, V, S, N, W>(
-        step: &Step<'_, V>,
-        system: &S,
-        memory: &mut Self::Memory<V, S, N>,
-        outcome: Outcome<'_, V>,
-        witness: &mut W,
+        _step: &Step<'_, V>,
+        _system: &S,
+        _memory: &mut Self::Memory<V, S, N>,
+        _outcome: Outcome<'_, V>,
+        _witness: &mut W,
     ) where
         R: Summation,
         V: Vector,
         S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
-        W: EvaluationObserver;
+        W: EvaluationObserver,
+    {
+    }
 
     /// Repeats a step with new memory, and shows its stages. `None` if the stages follow from the position at its start and the momentum at
     /// its end.
@@ -331,15 +333,17 @@ pub trait Plan {
     }
 
     /// How values inside a step are computed.
-    const INTERPOLATION: Interpolation;
+    const INTERPOLATION: Interpolation = Interpolation::Hermite;
 
     /// Adds to `q` and `p` their deviations from the straight line between the ends of the last step, if the
     /// [stages](Interpolation::Stages) in `memory` determine them.
-    fn extend<V, S, N>(memory: &Self::Memory<V, S, N>, at: Inside<'_, V>, q: &mut V, p: &mut V)
+    fn extend<V, S, N>(_memory: &Self::Memory<V, S, N>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
     where
         V: Vector,
         S: System<V, Class = Self::Class>,
-        N: Solver<V, S>;
+        N: Solver<V, S>,
+    {
+    }
 }
 
 /// Checks that a system whose class has no constraints has none.

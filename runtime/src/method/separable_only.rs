@@ -1,9 +1,6 @@
 //! What the macros emit for a splitting whose matrices are too large to write out.
 
-use crate::method::{
-    EvaluationObserver, Failure, Inside, Interpolation, Outcome, Plan, Solver, Step,
-    StepStatistics, Stopping, WarmStart,
-};
+use crate::method::{Failure, Outcome, Plan, Solver, Step, StepStatistics, Stopping, WarmStart};
 use crate::number::{Summation, Vector};
 use crate::system::{General, System};
 
@@ -82,35 +79,5 @@ impl Plan for SeparableOnly {
     {
         const { Self::refuse::<V>() };
         Ok(StepStatistics::default())
-    }
-
-    fn observe<R, V, S, N, W>(
-        _step: &Step<'_, V>,
-        _system: &S,
-        _memory: &mut crate::method::Evaluations<V>,
-        _outcome: Outcome<'_, V>,
-        _witness: &mut W,
-    ) where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = General>,
-        N: Solver<V, S>,
-        W: EvaluationObserver,
-    {
-        const { Self::refuse::<V>() };
-    }
-
-    const INTERPOLATION: Interpolation = Interpolation::Hermite;
-
-    fn extend<V, S, N>(
-        _memory: &crate::method::Evaluations<V>,
-        _at: Inside<'_, V>,
-        _q: &mut V,
-        _p: &mut V,
-    ) where
-        V: Vector,
-        S: System<V, Class = General>,
-        N: Solver<V, S>,
-    {
     }
 }

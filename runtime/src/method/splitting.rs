@@ -4,8 +4,8 @@ use core::marker::PhantomData;
 
 use crate::error::Quantity;
 use crate::method::{
-    EvaluationObserver, Evaluations, Failure, Inside, Interpolation, KickDrift, Outcome, Plan,
-    Solver, Span, StageStorage, Step, StepStatistics, Stopping, WarmStart,
+    EvaluationObserver, Evaluations, Failure, KickDrift, Outcome, Plan, Solver, Span, StageStorage,
+    Step, StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Coefficient, Summation, Vector};
 use crate::system::{Class, System};
@@ -200,17 +200,6 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         *memory = Evaluations::like(step.q);
         let kept = WarmStart::default();
         Self::take_by::<R, V, S, _, _>(step, system, memory, kept, outcome, &mut (), witness);
-    }
-
-    const INTERPOLATION: Interpolation = Interpolation::Hermite;
-
-    /// Does nothing: a splitting has no stages for a polynomial.
-    fn extend<V, S, N>(_memory: &Evaluations<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
-    where
-        V: Vector,
-        S: System<V, Class = P::Class>,
-        N: Solver<V, S>,
-    {
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

@@ -36,9 +36,8 @@ use core::marker::PhantomData;
 
 use crate::error::Error;
 use crate::method::{
-    ConstrainedStep, EvaluationObserver, Failure, Inside, Interpolation, Method, Outcome, Plan,
-    Solver, StageStorage, StageView, Step, StepStatistics, Stopping, WarmStart, check_no_friction,
-    check_no_rows,
+    ConstrainedStep, Failure, Method, Outcome, Plan, Solver, StageStorage, StageView, Step,
+    StepStatistics, Stopping, WarmStart, check_no_friction, check_no_rows,
 };
 use crate::number::{Scalar, Summation, Vector};
 use crate::system::{Class, Constrained, System, Unconstrained};
@@ -106,22 +105,6 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         }))
     }
 
-    /// Does nothing: the stages are in the memory.
-    fn observe<R, V, S, N, W>(
-        _step: &Step<'_, V>,
-        _system: &S,
-        _memory: &mut ConstrainedStages<V>,
-        _outcome: Outcome<'_, V>,
-        _witness: &mut W,
-    ) where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-        N: Solver<V, S>,
-        W: EvaluationObserver,
-    {
-    }
-
     fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
     where
         V: Vector,
@@ -129,16 +112,6 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
     {
         system.force(V::Scalar::from_f64(time), q, p, rate);
         add_to_force(system, time, (q, p), rate);
-    }
-
-    const INTERPOLATION: Interpolation = Interpolation::Hermite;
-
-    fn extend<V, S, N>(_memory: &ConstrainedStages<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
-    where
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-        N: Solver<V, S>,
-    {
     }
 }
 

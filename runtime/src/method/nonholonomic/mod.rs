@@ -34,9 +34,8 @@ use crate::method::constrained::{
     OfDimension, add_to_force, in_turn, show_stages, taken_once_more,
 };
 use crate::method::{
-    EvaluationObserver, Failure, Inside, Interpolation, Method, Outcome, Plan, Solver,
-    StageStorage, StageView, Step, StepStatistics, Stopping, WarmStart, check_no_friction,
-    check_no_holonomic_constraints,
+    Failure, Method, Outcome, Plan, Solver, StageStorage, StageView, Step, StepStatistics,
+    Stopping, WarmStart, check_no_friction, check_no_holonomic_constraints,
 };
 use crate::number::{Scalar, Summation, Vector};
 use crate::system::{Class, Nonholonomic, System, Unconstrained};
@@ -106,22 +105,6 @@ impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
         }))
     }
 
-    /// Does nothing: the stages are in the memory.
-    fn observe<R, V, S, N, W>(
-        _step: &Step<'_, V>,
-        _system: &S,
-        _memory: &mut NonholonomicStages<V>,
-        _outcome: Outcome<'_, V>,
-        _witness: &mut W,
-    ) where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-        N: Solver<V, S>,
-        W: EvaluationObserver,
-    {
-    }
-
     fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
     where
         V: Vector,
@@ -129,16 +112,6 @@ impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
     {
         system.force(V::Scalar::from_f64(time), q, p, rate);
         add_to_force(&RowsAsGradients(system), time, (q, p), rate);
-    }
-
-    const INTERPOLATION: Interpolation = Interpolation::Hermite;
-
-    fn extend<V, S, N>(_memory: &NonholonomicStages<V>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
-    where
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-        N: Solver<V, S>,
-    {
     }
 }
 
