@@ -10,7 +10,7 @@ use crate::integrator::fingerprint::system_fingerprint;
 use crate::integrator::last_event::LastEvent;
 use crate::integrator::memory::StepMemory;
 use crate::integrator::{Integrator, Retry, Statistics};
-use crate::method::{Method, Solver, StageStorage, StepStatistics, Stopping, WarmStart};
+use crate::method::{Method, Solver, StageStorage, Stopping, WarmStart};
 use crate::number::words::{Visit, Words, words};
 use crate::number::{Scalar, Summation, Vector};
 use crate::state::State;
@@ -327,7 +327,6 @@ impl<V: Vector, T: StageStorage<V>> Run<V, T> {
         words!(visit: self.step_memory.state.time, self.step_size);
         self.step_memory.scalar_words(visit);
         let StepMemory {
-            work,
             kept,
             last_size,
             last_time,
@@ -341,15 +340,6 @@ impl<V: Vector, T: StageStorage<V>> Run<V, T> {
             scales,
         } = kept;
         words!(visit: *evaluation, *stages, *scales, *last_size, *last_time, *linear_velocity);
-        let StepStatistics {
-            iterations,
-            evaluations,
-            factorisations,
-            rejected,
-            scales,
-            residual,
-        } = work;
-        words!(visit: *iterations, *evaluations, *factorisations, *rejected, *scales, *residual);
         let Statistics {
             steps,
             rejected,
@@ -369,6 +359,7 @@ impl<V: Vector, T: StageStorage<V>> Run<V, T> {
         words!(visit: halvings, self.last_event, self.fingerprint);
         self.retry = halvings.map_or(Retry::Never, |halvings| Retry::Split { halvings });
     }
+
     /// [`system_fingerprint`] at the state.
     fn fingerprint_of<S: System<V>>(&self, system: &S) -> [u64; 2] {
         let State { time, q, p } = &self.step_memory.state;

@@ -157,8 +157,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             let attempt =
                 step_memory.attempt::<PlanOf<M, S, V>, R, S, N>(&self.system, size, self.stopping);
             match attempt {
-                Ok(()) => {
-                    step_memory.accept::<R>(size, time);
+                Ok(work) => {
+                    step_memory.accept::<R>(size, time, work);
                     clock.tick();
                     taken += 1;
                 }

@@ -23,8 +23,6 @@ pub(super) struct StepMemory<V, T> {
     pub(super) next: (V, V),
     /// Round-off of `next`.
     pub(super) next_low: (V, V),
-    /// Statistics of that step.
-    pub(super) work: StepStatistics,
     pub(super) memory: T,
     /// The parts of `memory` that the next step reuses.
     pub(super) kept: WarmStart,
@@ -45,7 +43,6 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
             low: zeros(),
             next: zeros(),
             next_low: zeros(),
-            work: StepStatistics::default(),
             memory: T::like(&state.q),
             kept: WarmStart::default(),
             last_size: 0.0,
@@ -86,7 +83,6 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
     #[cfg(feature = "alloc")]
     pub(super) fn same_place<W, U>(&mut self, other: &StepMemory<W, U>) {
         self.state.time = other.state.time;
-        self.work = other.work;
         self.kept = other.kept;
         self.last_size = other.last_size;
         self.last_time = other.last_time;
@@ -111,7 +107,6 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
             low: self.low,
             next: self.next,
             next_low: self.next_low,
-            work: self.work,
             last_size: self.last_size,
             last_time: self.last_time,
             statistics: self.statistics,
@@ -137,14 +132,14 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
         self.kept = WarmStart::default();
     }
 
-    /// Computes a step of size `size` into `next` and checks it.
+    /// Computes a step of size `size` into `next` and checks it; returns its statistics.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn attempt<P, R, S, N>(
         &mut self,
         system: &S,
         size: f64,
         stopping: Stopping,
-    ) -> Result<(), Option<Failure>>
+    ) -> Result<StepStatistics, Option<Failure>>
     where
         P: Plan<Class = S::Class, Memory<V, S, N> = T>,
         R: Summation,
@@ -158,8 +153,8 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
             ..before
         };
         let (step, outcome, memory) = self.lend(size);
-        self.work = P::take::<R, V, S, N>(&step, system, memory, kept, stopping, outcome)?;
-        if self.is_sound() { Ok(()) } else { Err(None) }
+        let work = P::take::<R, V, S, N>(&step, system, memory, kept, stopping, outcome)?;
+        if self.is_sound() { Ok(work) } else { Err(None) }
     }
 
     /// Whether `next` is finite, and all evaluations have the right dimension.
@@ -183,15 +178,15 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
 
     /// Makes the step computed by [`attempt`](Self::attempt), to the time `time`, the present state.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn accept<R: Summation>(&mut self, size: f64, time: f64) {
+    pub(super) fn accept<R: Summation>(&mut self, size: f64, time: f64, work: StepStatistics) {
         self.swap::<R>();
         self.last_time = mem::replace(&mut self.state.time, time);
-        self.statistics.count(self.work);
+        self.statistics.count(work);
         self.last_size = size;
         self.kept = WarmStart {
             evaluation: true,
             stages: true,
-            scales: self.work.scales,
+            scales: work.scales,
         };
     }
 

@@ -325,7 +325,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         solve: impl FnOnce(&S, &Step<'_, V>, &V, u64, Stopping) -> Result<T, Error>,
     ) -> Result<T, Error> {
         let (size, time) = (self.step_size, self.clock.next());
-        self.prepare(size, time)?;
+        let work = self.prepare(size, time)?;
         let number = self.step_memory.statistics.steps + 1;
         let step = Step {
             time: self.step_memory.state.time,
@@ -344,7 +344,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             self.stopping,
         );
         if outcome.is_ok() {
-            self.accept(size, time);
+            self.step_memory.accept::<R>(size, time, work);
             self.clock.tick();
         } else {
             // The stages belong to a step that was not taken.

@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use super::{Integrator, PlanOf};
 use crate::error::Error;
 use crate::method::diagnosis::{Attempt, FirstFault};
-use crate::method::{Failure, Method, Plan, Solver};
+use crate::method::{Failure, Method, Plan, Solver, StepStatistics};
 use crate::number::{Summation, Vector};
 use crate::system::System;
 
@@ -14,8 +14,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     #[inline]
     pub(crate) fn advance(&mut self, size: f64, time: f64) -> Result<(), Error> {
         match self.prepare(size, time) {
-            Ok(()) => {
-                self.accept(size, time);
+            Ok(work) => {
+                self.step_memory.accept::<R>(size, time, work);
                 Ok(())
             }
             Err(error) => self.take_again(size, time, error).map(|_| ()),
@@ -31,17 +31,17 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
     ) -> Result<ControlFlow<B>, Error> {
         match self.prepare(size, time) {
-            Ok(()) => {
-                self.accept(size, time);
+            Ok(work) => {
+                self.step_memory.accept::<R>(size, time, work);
                 see(self)
             }
             Err(error) => self.take_again_in_sight(size, time, error, see),
         }
     }
 
-    /// Computes a step of size `size`, to the time `time`, into `next`.
+    /// Computes a step of size `size`, to the time `time`, into `next`; returns its statistics.
     #[inline]
-    pub(super) fn prepare(&mut self, size: f64, time: f64) -> Result<(), Error> {
+    pub(super) fn prepare(&mut self, size: f64, time: f64) -> Result<StepStatistics, Error> {
         if time == self.step_memory.state.time {
             return Err(Error::TimeResolution {
                 time,
@@ -52,12 +52,6 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             self.step_memory
                 .attempt::<PlanOf<M, S, V>, R, S, N>(&self.system, size, self.stopping);
         attempt.map_err(|failure| self.fail(size, failure))
-    }
-
-    /// Makes the step computed by [`prepare`](Self::prepare) the present state.
-    #[inline]
-    pub(super) fn accept(&mut self, size: f64, time: f64) {
-        self.step_memory.accept::<R>(size, time);
     }
 
     /// Returns the reason of a failed step, and forgets all data that the step left behind.

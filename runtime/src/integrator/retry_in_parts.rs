@@ -75,8 +75,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         let mut clock = Clock::new(self.step_memory.state.time, part);
         for number in 1..=parts {
             let time = if number == parts { end } else { clock.next() };
-            self.prepare(part, time)?;
-            self.accept(part, time);
+            let work = self.prepare(part, time)?;
+            self.step_memory.accept::<R>(part, time, work);
             clock.tick();
             if seen.is_continue() {
                 seen = see(self)?;
