@@ -310,13 +310,10 @@ where
     ///
     /// Those of [`Integrator::set_state`]; [`Error::Monitor`] if σ is not finite and positive there. The state is then unchanged.
     pub fn set_state(&mut self, state: State<V>) -> Result<(), Error> {
-        let controller = self.restarted(&state)?;
-        self.integrator.set_state(state)?;
-        self.controller = controller;
-        Ok(())
+        self.copy_state(&state)
     }
 
-    /// [`set_state`](Self::set_state) without an allocation.
+    /// [`set_state`](Self::set_state) by a copy.
     pub(super) fn copy_state(&mut self, state: &State<V>) -> Result<(), Error> {
         let controller = self.restarted(state)?;
         self.integrator.copy_state(state)?;

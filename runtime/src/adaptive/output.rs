@@ -241,6 +241,6 @@ where
     }
 
     fn keep_last_event(&mut self, event: Option<LastEvent>) {
-        self.integrator.set_last_event(event);
+        self.integrator.last_event = event;
     }
 }

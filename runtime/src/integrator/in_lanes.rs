@@ -115,18 +115,9 @@ where
         size: f64,
     ) -> bool {
         let step_memory = &mut run.step_memory;
-        let numbers = [
-            &step_memory.state.q,
-            &step_memory.state.p,
-            &step_memory.low.0,
-            &step_memory.low.1,
-            &step_memory.next.0,
-            &step_memory.next.1,
-            &step_memory.next_low.0,
-            &step_memory.next_low.1,
-        ];
         let StatesInLanes { now, other } = &mut self.states;
-        for (lanes, numbers) in now.iter_mut().chain(other.iter_mut()).zip(numbers) {
+        let lanes = now.iter_mut().chain(other.iter_mut());
+        for (lanes, numbers) in lanes.zip(step_memory.vectors()) {
             let numbers = V::Scalar::doubles(numbers.as_slice()).unwrap_or(&[]);
             for (lanes, &number) in lanes.as_mut_slice().iter_mut().zip(numbers) {
                 set_lane(lanes, lane, number);
@@ -144,18 +135,9 @@ where
     /// Copies a lane into its run.
     pub(crate) fn store(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>) {
         let step_memory = &mut run.step_memory;
-        let numbers = [
-            &mut step_memory.state.q,
-            &mut step_memory.state.p,
-            &mut step_memory.low.0,
-            &mut step_memory.low.1,
-            &mut step_memory.next.0,
-            &mut step_memory.next.1,
-            &mut step_memory.next_low.0,
-            &mut step_memory.next_low.1,
-        ];
         let StatesInLanes { now, other } = &self.states;
-        for (lanes, numbers) in now.iter().chain(other.iter()).zip(numbers) {
+        let lanes = now.iter().chain(other.iter());
+        for (lanes, numbers) in lanes.zip(step_memory.vectors()) {
             let numbers = V::Scalar::doubles_mut(numbers.as_mut_slice()).unwrap_or(&mut []);
             for (lanes, number) in lanes.as_slice().iter().zip(numbers) {
                 *number = of_lane(*lanes, lane);

@@ -53,30 +53,28 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
         }
     }
 
+    /// Position, momentum and their round-off: of the state, then of the last result.
+    #[cfg(feature = "alloc")]
+    pub(super) const fn vectors(&mut self) -> [&mut V; 8] {
+        [
+            &mut self.state.q,
+            &mut self.state.p,
+            &mut self.low.0,
+            &mut self.low.1,
+            &mut self.next.0,
+            &mut self.next.1,
+            &mut self.next_low.0,
+            &mut self.next_low.1,
+        ]
+    }
+
     /// Shows `visit` the words of all scalars of state, result and memory.
     #[cfg(feature = "alloc")]
     pub(super) fn scalar_words(&mut self, visit: &mut Visit<'_>) {
-        let Self {
-            state: State { q, p, .. },
-            low,
-            next,
-            next_low,
-            memory,
-            ..
-        } = self;
-        for vector in [
-            q,
-            p,
-            &mut low.0,
-            &mut low.1,
-            &mut next.0,
-            &mut next.1,
-            &mut next_low.0,
-            &mut next_low.1,
-        ] {
+        for vector in self.vectors() {
             scalar_words(vector.as_mut_slice(), visit);
         }
-        memory.words(visit);
+        self.memory.words(visit);
     }
 
     /// Copies time, statistics and flags from a run with other vectors, but neither scalars nor [`linear_velocity`](Self::linear_velocity).
@@ -112,13 +110,6 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
             statistics: self.statistics,
             linear_velocity,
         }
-    }
-
-    /// Replaces the state by another of the same dimension.
-    pub(super) fn set_state(&mut self, state: State<V>) {
-        self.state = state;
-        self.low = (self.state.q.zeros_like(), self.state.q.zeros_like());
-        self.kept = WarmStart::default();
     }
 
     /// Replaces the state by a copy of another of the same dimension.

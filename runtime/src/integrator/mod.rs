@@ -106,9 +106,9 @@ pub struct Integrator<
     step_memory: StepMemory<V, MemoryOf<M, S, V, N>>,
     clock: Clock,
     step_size: f64,
-    stopping: Stopping,
-    retry: Retry,
-    last_event: Option<LastEvent>,
+    pub(crate) stopping: Stopping,
+    pub(crate) retry: Retry,
+    pub(crate) last_event: Option<LastEvent>,
     method: PhantomData<(M, R, N)>,
 }
 
@@ -327,22 +327,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         let (size, time) = (self.step_size, self.clock.next());
         let work = self.prepare(size, time)?;
         let number = self.step_memory.statistics.steps + 1;
-        let step = Step {
-            time: self.step_memory.state.time,
-            size,
-            q: &self.step_memory.state.q,
-            q_low: &self.step_memory.low.0,
-            p: &self.step_memory.state.p,
-            p_low: &self.step_memory.low.1,
-            linear_velocity: self.step_memory.linear_velocity,
-        };
-        let outcome = solve(
-            &self.system,
-            &step,
-            &self.step_memory.next.1,
-            number,
-            self.stopping,
-        );
+        let (step, next, _) = self.step_memory.lend(size);
+        let outcome = solve(&self.system, &step, next.p, number, self.stopping);
         if outcome.is_ok() {
             self.step_memory.accept::<R>(size, time, work);
             self.clock.tick();
@@ -463,39 +449,17 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     ///
     /// [`Error::Dimension`], [`Error::NonFiniteState`]; the state is then unchanged.
     pub fn set_state(&mut self, state: State<V>) -> Result<(), Error> {
-        check_state(
-            state.time,
-            &state.q,
-            &state.p,
-            self.step_memory.state.q.dimension(),
-        )?;
-        <PlanOf<M, S, V> as Plan>::check(&self.system, state.time, &state.q, &state.p)?;
-        self.step_memory.set_state(state);
-        self.restart_clock();
-        Ok(())
+        self.copy_state(&state)
     }
 
-    /// [`set_state`](Self::set_state) without an allocation.
+    /// [`set_state`](Self::set_state) by a copy.
     pub(crate) fn copy_state(&mut self, state: &State<V>) -> Result<(), Error> {
-        check_state(
-            state.time,
-            &state.q,
-            &state.p,
-            self.step_memory.state.q.dimension(),
-        )?;
-        <PlanOf<M, S, V> as Plan>::check(&self.system, state.time, &state.q, &state.p)?;
+        let State { time, q, p } = state;
+        check_state(*time, q, p, self.step_memory.state.q.dimension())?;
+        <PlanOf<M, S, V> as Plan>::check(&self.system, *time, q, p)?;
         self.step_memory.copy_state(state);
         self.restart_clock();
         Ok(())
-    }
-
-    /// The last event found.
-    pub(crate) const fn last_event(&self) -> Option<LastEvent> {
-        self.last_event
-    }
-
-    pub(crate) const fn set_last_event(&mut self, event: Option<LastEvent>) {
-        self.last_event = event;
     }
 
     /// Returns the present state and drops the integrator.
@@ -527,12 +491,6 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         } else {
             max_iterations
         };
-    }
-
-    /// Sets the stopping criterion of iterations and the reaction to failed steps.
-    #[cfg(feature = "alloc")]
-    pub(crate) const fn configure(&mut self, stopping: Stopping, retry: Retry) {
-        (self.stopping, self.retry) = (stopping, retry);
     }
 
     /// Sets the reaction to a failed step; the default is [`Retry::Never`].
@@ -605,16 +563,6 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
                 end: (&self.step_memory.state.p, &self.step_memory.low.1),
             },
         })
-    }
-
-    /// Whether the velocity is known to be linear in the momentum.
-    pub(crate) const fn has_linear_velocity(&self) -> bool {
-        self.step_memory.linear_velocity
-    }
-
-    /// The stopping criterion of the iteration of a step.
-    pub(crate) const fn stopping(&self) -> Stopping {
-        self.stopping
     }
 
     /// Adds the contribution of the stages to a state inside the last step: see [`Plan::extend`].

@@ -47,14 +47,14 @@ impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S, V, 
             q_low,
             p,
             p_low,
-            linear_velocity: integrator.has_linear_velocity(),
+            linear_velocity: integrator.step_memory.linear_velocity,
         };
         let taken = <PlanOf<M, S, V> as Plan>::take::<R, V, S, N>(
             &step,
             integrator.system(),
             &mut self.memory,
             WarmStart::default(),
-            integrator.stopping(),
+            integrator.stopping,
             Outcome {
                 q: &mut state.q,
                 q_low: &mut self.low.0,

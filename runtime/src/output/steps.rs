@@ -117,7 +117,7 @@ where
     }
 
     fn keep_last_event(&mut self, event: Option<LastEvent>) {
-        self.set_last_event(event);
+        self.last_event = event;
     }
 }
 

@@ -146,7 +146,7 @@ where
     let step = steps.size_to(end);
     let forward = step.is_sign_positive();
     check_times(times, steps.first_output(), end, step)?;
-    let mut search = Search::new(events, times, run.state(), run.last_event(), forward);
+    let mut search = Search::new(events, times, run.state(), run.last_event, forward);
     search.start(run, step)?;
     let mut ended = search.show_output(run, present, handle)?;
     loop {
