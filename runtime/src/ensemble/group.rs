@@ -281,7 +281,7 @@ where
         let Ok(mut remaining) = remaining else {
             return Attempt::Refused;
         };
-        while !remaining.is_done() {
+        while remaining.left > 0 {
             if self.group.ensemble.is_stopped() {
                 return Attempt::Stopped;
             }

@@ -47,6 +47,62 @@ impl Clock {
     }
 }
 
+/// Remaining steps of one size.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RemainingSteps {
+    /// Number of steps.
+    pub(crate) left: u64,
+    pub(crate) size: f64,
+    pub(crate) clock: Clock,
+    /// The time after the last step, if it is given.
+    pub(crate) end: Option<f64>,
+}
+
+impl RemainingSteps {
+    /// The smallest number of equal steps from `start` to `end` that are no longer than `|step_size|`.
+    pub(crate) fn between(start: f64, end: f64, step_size: f64) -> Result<Self, Error> {
+        let (left, size) = uniform(start, end, step_size)?;
+        Ok(Self::of_size(left, size, start, end))
+    }
+
+    /// Steps of a size from `start` to `end`.
+    pub(crate) const fn of_size(left: u64, size: f64, start: f64, end: f64) -> Self {
+        Self {
+            left,
+            size,
+            clock: Clock::new(start, size),
+            end: Some(end),
+        }
+    }
+
+    /// The time after the next step.
+    #[inline]
+    pub(crate) fn next_time(&self) -> f64 {
+        let end = self.end.filter(|_| self.left == 1);
+        end.unwrap_or_else(|| self.clock.next())
+    }
+
+    /// Counts the next step as taken.
+    pub(crate) const fn tick(&mut self) {
+        self.skip(1);
+    }
+
+    pub(crate) const fn skip(&mut self, steps: u64) {
+        self.left -= steps;
+        self.clock.skip(steps);
+    }
+
+    /// The size of the next step and the time after it, if a step is left; the step counts as taken.
+    #[inline]
+    pub(crate) fn next_step(&mut self) -> Option<(f64, f64)> {
+        (self.left > 0).then(|| {
+            let time = self.next_time();
+            self.tick();
+            (self.size, time)
+        })
+    }
+}
+
 /// Checks that the number of steps from `start` to `end` can be counted.
 pub(crate) fn check_count(start: f64, end: f64, step_size: f64) -> Result<(), Error> {
     if ((end - start) / step_size).abs() < MOST_STEPS {
@@ -64,7 +120,7 @@ pub(crate) fn check_count(start: f64, end: f64, step_size: f64) -> Result<(), Er
 const MOST_STEPS: f64 = (1_u64 << 53) as f64;
 
 /// The smallest number of equal steps from `start` to `end` that are no longer than `|step_size|`, and their size.
-pub(crate) fn uniform(start: f64, end: f64, step_size: f64) -> Result<(u64, f64), Error> {
+fn uniform(start: f64, end: f64, step_size: f64) -> Result<(u64, f64), Error> {
     let span = end - start;
     if !span.is_finite() {
         return Err(Error::EndTime { value: end });

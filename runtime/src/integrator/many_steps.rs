@@ -4,7 +4,7 @@ use core::mem;
 
 use super::{Integrator, MemoryOf, PlanOf, StepMemory};
 use crate::error::Error;
-use crate::integrator::clock::Clock;
+use crate::integrator::clock::RemainingSteps;
 use crate::method::{Method, Plan, Solver, Span, StageStorage, WarmStart};
 use crate::number::vector::{LIGHT, is_in_place};
 use crate::number::{Summation, Vector};
@@ -17,69 +17,68 @@ fn block(dimension: usize) -> u64 {
 }
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// Takes `count` steps of one size by a clock; the last one goes to the time `end`, if it is given.
+    /// The steps of [`take_steps`](Self::take_steps).
+    pub(crate) const fn steps_left(&self, count: u64) -> RemainingSteps {
+        RemainingSteps {
+            left: count,
+            size: self.step_size,
+            clock: self.clock,
+            end: None,
+        }
+    }
+
+    /// The steps of [`integrate_to`](Self::integrate_to).
+    pub(crate) fn steps_to_time(&self, end: f64) -> Result<RemainingSteps, Error> {
+        RemainingSteps::between(self.step_memory.state.time, end, self.step_size)
+    }
+
+    /// Takes all remaining steps.
     #[inline]
-    pub(super) fn advance_by(
-        &mut self,
-        count: u64,
-        size: f64,
-        clock: &mut Clock,
-        end: Option<f64>,
-    ) -> Result<(), Error> {
-        let mut left = count;
-        while left > 0 {
+    pub(crate) fn take_remaining(&mut self, remaining: &mut RemainingSteps) -> Result<(), Error> {
+        while remaining.left > 0 {
             let coupled = PlanOf::<M, S, V>::EVALUATIONS_IN_PLACE.is_none();
-            if coupled && left > 1 && self.is_light() {
-                let taken = self.advance_apart(left, size, clock, end)?;
-                left -= taken;
-                if taken > 0 {
-                    continue;
-                }
+            let apart = coupled && remaining.left > 1 && self.is_light();
+            if apart && self.advance_apart(remaining)? {
+                continue;
             }
-            let block = self.next_block(left);
-            self.advance_block(block, left, size, clock, end)?;
-            left -= block;
+            self.take_block(self.block_of(remaining), remaining)?;
         }
         Ok(())
     }
 
     /// Number of the remaining steps to take next: one, to provide an evaluation to continue from, or many in place.
     #[inline]
-    pub(super) fn next_block(&self, left: u64) -> u64 {
+    pub(crate) fn block_of(&self, remaining: &RemainingSteps) -> u64 {
         // The last step is taken separately, so that the state before it remains available.
-        let block = (left - 1).min(block(self.step_memory.state.q.dimension()));
+        let block = (remaining.left - 1).min(block(self.step_memory.state.q.dimension()));
         match self.step_memory.kept.evaluation {
             true => block.max(1),
             false => 1,
         }
     }
 
-    /// Takes a [block](Self::next_block) of the remaining steps, in place or one by one.
+    /// Takes a [block](Self::block_of) of the remaining steps, in place or one by one.
     #[inline]
-    pub(super) fn advance_block(
+    pub(crate) fn take_block(
         &mut self,
         block: u64,
-        mut left: u64,
-        size: f64,
-        clock: &mut Clock,
-        end: Option<f64>,
+        remaining: &mut RemainingSteps,
     ) -> Result<(), Error> {
-        let ready = self.step_memory.kept.evaluation && left > 1;
-        if ready && self.advance_in_place(block, size, clock) {
+        let ready = self.step_memory.kept.evaluation && remaining.left > 1;
+        if ready && self.advance_in_place(block, remaining) {
             return Ok(());
         }
         for _ in 0..block {
-            left -= 1;
-            let time = end.filter(|_| left == 0).unwrap_or_else(|| clock.next());
-            self.advance(size, time)?;
-            clock.tick();
+            self.advance(remaining.size, remaining.next_time())?;
+            remaining.tick();
         }
         Ok(())
     }
 
     /// Takes steps in place. Returns `false`, with the state unchanged, if that is impossible or if a result is NaN or infinite.
     #[inline]
-    pub(super) fn advance_in_place(&mut self, steps: u64, size: f64, clock: &mut Clock) -> bool {
+    pub(super) fn advance_in_place(&mut self, steps: u64, remaining: &mut RemainingSteps) -> bool {
+        let RemainingSteps { size, clock, .. } = *remaining;
         let Some(evaluations) = PlanOf::<M, S, V>::EVALUATIONS_IN_PLACE else {
             return false;
         };
@@ -113,7 +112,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             stages: false,
             ..before
         };
-        clock.skip(steps);
+        remaining.skip(steps);
         self.step_memory.state.time = last;
         self.step_memory.last_size = size;
         self.step_memory
@@ -129,28 +128,19 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         !at_run_time && is_in_place(&self.step_memory.state.q) && bytes <= LIGHT
     }
 
-    /// Takes steps until one fails; returns the number of steps taken, zero if the first one does not change the time. The last of
-    /// them goes to the time `end`, if it is given.
+    /// Takes steps until one fails; returns whether any was taken. None is taken if the first one does not change the time.
     ///
     /// The memory of the steps is moved out of the integrator, so that it can stay in registers from step to step. If the system panics,
     /// the state is that before the steps.
     #[inline]
-    fn advance_apart(
-        &mut self,
-        steps: u64,
-        size: f64,
-        clock: &mut Clock,
-        end: Option<f64>,
-    ) -> Result<u64, Error> {
+    fn advance_apart(&mut self, remaining: &mut RemainingSteps) -> Result<bool, Error> {
+        let mut steps = *remaining;
+        let size = steps.size;
         let before = self.step_memory.anew();
         let mut step_memory = mem::replace(&mut self.step_memory, before);
         let mut failed = None;
-        let mut taken = 0;
-        while taken < steps && failed.is_none() {
-            let time = match end {
-                Some(end) if taken + 1 == steps => end,
-                _ => clock.next(),
-            };
+        while steps.left > 0 && failed.is_none() {
+            let time = steps.next_time();
             if time == step_memory.state.time {
                 break;
             }
@@ -159,19 +149,18 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             match attempt {
                 Ok(work) => {
                     step_memory.accept::<R>(size, time, work);
-                    clock.tick();
-                    taken += 1;
+                    steps.tick();
                 }
                 Err(failure) => failed = Some((failure, time)),
             }
         }
         self.step_memory = step_memory;
+        let before = mem::replace(remaining, steps);
         if let Some((failure, time)) = failed {
             let error = self.fail(size, failure);
             self.take_again(size, time, error)?;
-            clock.tick();
-            taken += 1;
+            remaining.tick();
         }
-        Ok(taken)
+        Ok(remaining.left < before.left)
     }
 }

@@ -22,7 +22,7 @@ use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
 use crate::error::Error;
-use crate::integrator::clock::{Clock, uniform};
+use crate::integrator::clock::Clock;
 use crate::integrator::last_event::LastEvent;
 use crate::integrator::last_step::LastStep;
 use crate::method::interpolation::Line;
@@ -311,10 +311,9 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// # }
     /// ```
     pub fn take_steps(&mut self, count: u64) -> Result<&State<V>, Error> {
-        let mut clock = self.clock;
-        let size = self.step_size;
-        let outcome = self.advance_by(count, size, &mut clock, None);
-        self.clock = clock;
+        let mut remaining = self.steps_left(count);
+        let outcome = self.take_remaining(&mut remaining);
+        self.clock = remaining.clock;
         outcome.map(|()| &self.step_memory.state)
     }
 
@@ -347,9 +346,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that after the
     /// last successful step.
     pub fn integrate_to(&mut self, end: f64) -> Result<&State<V>, Error> {
-        let (count, size) = uniform(self.step_memory.state.time, end, self.step_size)?;
-        let mut clock = Clock::new(self.step_memory.state.time, size);
-        let outcome = self.advance_by(count, size, &mut clock, Some(end));
+        let mut remaining = self.steps_to_time(end)?;
+        let outcome = self.take_remaining(&mut remaining);
         self.restart_clock();
         outcome.map(|()| &self.step_memory.state)
     }
@@ -379,37 +377,28 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         end: f64,
         mut observe: F,
     ) -> Result<&State<V>, Error> {
-        self.steps_to(end, |integrator, next| {
-            integrator.advance(next.size, next.time)?;
+        self.steps_to(end, |integrator, size, time| {
+            integrator.advance(size, time)?;
             observe(integrator.state());
             Ok(ControlFlow::<Infallible>::Continue(()))
         })?;
         Ok(&self.step_memory.state)
     }
 
-    /// Calls `take` for each step of [`integrate_to`](Self::integrate_to), until it breaks.
+    /// Calls `take` with the size and the end of each step of [`integrate_to`](Self::integrate_to), until it breaks.
     #[inline]
     pub(crate) fn steps_to<B>(
         &mut self,
         end: f64,
-        mut take: impl FnMut(&mut Self, NextStep) -> Result<ControlFlow<B>, Error>,
+        mut take: impl FnMut(&mut Self, f64, f64) -> Result<ControlFlow<B>, Error>,
     ) -> Result<ControlFlow<B>, Error> {
-        let start = self.step_memory.state.time;
-        let (steps, size) = uniform(start, end, self.step_size)?;
-        let mut clock = Clock::new(start, size);
+        let mut remaining = self.steps_to_time(end)?;
         let mut outcome = Ok(ControlFlow::Continue(()));
-        for number in 1..=steps {
-            let next = NextStep {
-                size,
-                time: if number == steps { end } else { clock.next() },
-                number,
-                steps,
-            };
-            outcome = take(self, next);
+        while let Some((size, time)) = remaining.next_step() {
+            outcome = take(self, size, time);
             if !matches!(outcome, Ok(ControlFlow::Continue(()))) {
                 break;
             }
-            clock.tick();
         }
         self.restart_clock();
         outcome
@@ -600,15 +589,4 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt::Deb
             .field("statistics", &self.step_memory.statistics)
             .finish_non_exhaustive()
     }
-}
-
-/// The next step to take.
-#[derive(Clone, Copy)]
-pub(crate) struct NextStep {
-    pub(crate) size: f64,
-    /// Its end.
-    pub(crate) time: f64,
-    /// Its number, from 1, among all `steps`.
-    pub(crate) number: u64,
-    pub(crate) steps: u64,
 }

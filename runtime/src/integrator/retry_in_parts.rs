@@ -6,7 +6,7 @@ use core::ops::ControlFlow;
 use super::Integrator;
 use crate::error::Error;
 use crate::integrator::Retry;
-use crate::integrator::clock::Clock;
+use crate::integrator::clock::RemainingSteps;
 use crate::method::{Method, Solver, WarmStart};
 use crate::number::{Summation, Vector};
 use crate::system::System;
@@ -72,12 +72,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     ) -> Result<ControlFlow<B>, Error> {
         let mut seen = ControlFlow::Continue(());
         let part = size / f64::from(parts);
-        let mut clock = Clock::new(self.step_memory.state.time, part);
-        for number in 1..=parts {
-            let time = if number == parts { end } else { clock.next() };
+        let start = self.step_memory.state.time;
+        let mut remaining = RemainingSteps::of_size(u64::from(parts), part, start, end);
+        while let Some((part, time)) = remaining.next_step() {
             let work = self.prepare(part, time)?;
             self.step_memory.accept::<R>(part, time, work);
-            clock.tick();
             if seen.is_continue() {
                 seen = see(self)?;
             }

@@ -7,39 +7,12 @@ use alloc::vec::Vec;
 use core::marker::PhantomData;
 
 use super::{Integrator, MemoryOf, PlanOf, StepMemory};
-use crate::error::Error;
 use crate::integrator::Retry;
-use crate::integrator::clock::{Clock, uniform};
+use crate::integrator::clock::{Clock, RemainingSteps};
 use crate::method::{Method, Plan, Solver, StageStorage};
 use crate::number::{Lanes, Scalar, Summation, Vector, vector_words};
 use crate::state::State;
 use crate::system::System;
-
-/// Remaining steps of one size.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct RemainingSteps {
-    left: u64,
-    size: f64,
-    clock: Clock,
-    /// The time of the last step, if it is given.
-    end: Option<f64>,
-}
-
-impl RemainingSteps {
-    /// Whether all steps are taken.
-    pub(crate) const fn is_done(&self) -> bool {
-        self.left == 0
-    }
-
-    /// The size of the next step and the time after it, if a step is left; the step counts as taken.
-    pub(crate) fn next_step(&mut self) -> Option<(f64, f64)> {
-        self.left = self.left.checked_sub(1)?;
-        let end = self.end.filter(|_| self.left == 0);
-        let time = end.unwrap_or_else(|| self.clock.next());
-        self.clock.tick();
-        Some((self.size, time))
-    }
-}
 
 /// The state of a run at an earlier step, and the data that steps left behind there.
 pub(crate) struct SavedRun<V, T> {
@@ -54,28 +27,6 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// Whether every lane of a step over lanes has the bits of a step of doubles.
     pub(crate) const LANEWISE: bool = <PlanOf<M, S, V> as Plan>::LANEWISE;
 
-    /// The steps of [`take_steps`](Self::take_steps).
-    pub(crate) const fn steps_left(&self, count: u64) -> RemainingSteps {
-        RemainingSteps {
-            left: count,
-            size: self.step_size,
-            clock: self.clock,
-            end: None,
-        }
-    }
-
-    /// The steps of [`integrate_to`](Self::integrate_to).
-    pub(crate) fn steps_to_time(&self, end: f64) -> Result<RemainingSteps, Error> {
-        let start = self.step_memory.state.time;
-        let (left, size) = uniform(start, end, self.step_size)?;
-        Ok(RemainingSteps {
-            left,
-            size,
-            clock: Clock::new(start, size),
-            end: Some(end),
-        })
-    }
-
     /// Whether steps of several runs are taken in [`CoupledLanes`](crate::integrator::CoupledLanes).
     pub(crate) fn goes_in_lanes() -> bool {
         <PlanOf<M, S, V> as Plan>::goes_in_lanes::<V, S, N>()
@@ -86,28 +37,6 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         self.clock
     }
 
-    /// Number of the remaining steps that are taken at once.
-    pub(crate) fn block_of(&self, remaining: &RemainingSteps) -> u64 {
-        self.next_block(remaining.left)
-    }
-
-    /// Takes the next [block](Self::block_of) of the remaining steps, as an integrator alone would.
-    pub(crate) fn take_block(
-        &mut self,
-        block: u64,
-        remaining: &mut RemainingSteps,
-    ) -> Result<(), Error> {
-        let RemainingSteps {
-            left,
-            size,
-            clock,
-            end,
-        } = remaining;
-        self.advance_block(block, *left, *size, clock, *end)?;
-        *left -= block;
-        Ok(())
-    }
-
     /// [`take_block`](Self::take_block) for runs side by side; returns `false` if one of them fails or is not finite. The warm starts of the
     /// other runs are then lost, and all have to [return](Self::return_to) to the start of the block.
     pub(crate) fn take_block_together(
@@ -116,24 +45,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         remaining: &mut RemainingSteps,
     ) -> bool {
         let ready = self.step_memory.kept.evaluation && remaining.left > 1;
-        if ready && self.advance_in_place(block, remaining.size, &mut remaining.clock) {
-            remaining.left -= block;
+        if ready && self.advance_in_place(block, remaining) {
             return true;
         }
         let is_lost = ready && !self.step_memory.kept.evaluation;
         !is_lost && self.take_block(block, remaining).is_ok()
-    }
-
-    /// Takes all remaining steps.
-    pub(crate) fn take_remaining(&mut self, remaining: &mut RemainingSteps) -> Result<(), Error> {
-        self.advance_by(
-            remaining.left,
-            remaining.size,
-            &mut remaining.clock,
-            remaining.end,
-        )?;
-        remaining.left = 0;
-        Ok(())
     }
 
     /// A copy of the run to [return](Self::return_to) to.

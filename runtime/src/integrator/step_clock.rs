@@ -1,6 +1,6 @@
 //! Steps of one size, for integrators that manage their state themselves.
 
-use super::clock::{Clock, uniform};
+use super::clock::{Clock, RemainingSteps};
 use super::validation::check_step_size;
 use crate::error::Error;
 use crate::number::words::{Visit, Words, words};
@@ -81,14 +81,13 @@ pub(crate) trait Stepper {
     fn steps_in_sight(&mut self, end: f64, mut see: impl FnMut(&Self)) -> Result<(), Error> {
         let start = self.time();
         let step_size = self.step_clock().step_size;
-        let (count, size) = uniform(start, end, step_size)?;
-        let clock = Clock::new(start, size);
-        let outcome = (1..=count).try_for_each(|number| {
-            let last = number == count;
-            self.counted(size, if last { end } else { clock.later(number) })?;
-            see(self);
-            Ok(())
-        });
+        let mut remaining = RemainingSteps::between(start, end, step_size)?;
+        let mut outcome = Ok(());
+        while outcome.is_ok()
+            && let Some((size, time)) = remaining.next_step()
+        {
+            outcome = self.counted(size, time).map(|()| see(self));
+        }
         let time = self.time();
         self.step_clock().restart(time);
         outcome

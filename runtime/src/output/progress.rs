@@ -64,12 +64,14 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     where
         F: FnMut(Progress<'_, V>) -> ControlFlow<B>,
     {
-        let ended = self.steps_to(end, |integrator, next| {
-            integrator.advance(next.size, next.time)?;
+        let (mut step, steps) = (0, self.steps_to_time(end)?.left);
+        let ended = self.steps_to(end, |integrator, size, time| {
+            integrator.advance(size, time)?;
+            step += 1;
             Ok(report(Progress {
                 state: integrator.state(),
-                step: next.number,
-                steps: next.steps,
+                step,
+                steps,
                 statistics: integrator.statistics(),
             }))
         })?;

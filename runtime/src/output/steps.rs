@@ -107,8 +107,8 @@ where
         end: f64,
         mut see: impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
     ) -> Result<ControlFlow<B>, Error> {
-        self.steps_to(end, |integrator, next| {
-            integrator.advance_in_sight(next.size, next.time, &mut see)
+        self.steps_to(end, |integrator, size, time| {
+            integrator.advance_in_sight(size, time, &mut see)
         })
     }
 
