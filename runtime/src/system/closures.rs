@@ -35,12 +35,7 @@ where
     F: Fn(V::Scalar, &V, &mut V),
     G: Fn(V::Scalar, &V, &mut V),
 {
-    SeparableClosures {
-        velocity,
-        force,
-        energy: NoEnergy,
-        vector: PhantomData,
-    }
+    Closures::new(velocity, force)
 }
 
 /// A second-order system `q'' = acceleration(t, q)` given by one closure, `|time, q, acceleration| …`, with `p = q'`.
@@ -64,12 +59,7 @@ where
     V: Vector,
     G: Fn(V::Scalar, &V, &mut V),
 {
-    SeparableClosures {
-        velocity: Momentum,
-        force: acceleration,
-        energy: NoEnergy,
-        vector: PhantomData,
-    }
+    Closures::new(Momentum, acceleration)
 }
 
 /// Replaces the velocity of a system in which the velocity is the momentum.
@@ -97,74 +87,55 @@ where
     F: Fn(V::Scalar, &V, &V, &mut V),
     G: Fn(V::Scalar, &V, &V, &mut V),
 {
-    HamiltonianClosures {
-        velocity,
-        force,
-        energy: NoEnergy,
-        vector: PhantomData,
-    }
+    Closures::new(velocity, force)
 }
 
 /// The result of [`separable`].
-#[derive(Clone, Copy)]
-pub struct SeparableClosures<V, F, G, E = NoEnergy> {
-    velocity: F,
-    force: G,
-    energy: E,
-    vector: PhantomData<fn(V)>,
-}
+pub type SeparableClosures<V, F, G, E = NoEnergy> = Closures<V, F, G, E, Separable>;
 
 /// The result of [`hamiltonian`].
+pub type HamiltonianClosures<V, F, G, E = NoEnergy> = Closures<V, F, G, E, General>;
+
+/// A system of class `C` given by closures for its velocity, force and energy.
 #[derive(Clone, Copy)]
-pub struct HamiltonianClosures<V, F, G, E = NoEnergy> {
+pub struct Closures<V, F, G, E, C> {
     velocity: F,
     force: G,
     energy: E,
-    vector: PhantomData<fn(V)>,
+    kind: PhantomData<fn(V) -> C>,
 }
 
 /// Replaces the energy of a system without a given energy.
 #[derive(Clone, Copy, Debug)]
 pub struct NoEnergy;
 
-impl<V: Vector, F, G> SeparableClosures<V, F, G> {
-    /// The same system, with its Hamiltonian `|time, q, p| …`.
-    pub fn with_energy<E>(self, energy: E) -> SeparableClosures<V, F, G, E>
-    where
-        E: Fn(V::Scalar, &V, &V) -> V::Scalar,
-    {
-        let Self {
+impl<V, F, G, C> Closures<V, F, G, NoEnergy, C> {
+    const fn new(velocity: F, force: G) -> Self {
+        Self {
             velocity,
             force,
-            vector,
-            ..
-        } = self;
-        SeparableClosures {
-            velocity,
-            force,
-            energy,
-            vector,
+            energy: NoEnergy,
+            kind: PhantomData,
         }
     }
-}
 
-impl<V: Vector, F, G> HamiltonianClosures<V, F, G> {
     /// The same system, with its Hamiltonian `|time, q, p| …`.
-    pub fn with_energy<E>(self, energy: E) -> HamiltonianClosures<V, F, G, E>
+    pub fn with_energy<E>(self, energy: E) -> Closures<V, F, G, E, C>
     where
+        V: Vector,
         E: Fn(V::Scalar, &V, &V) -> V::Scalar,
     {
         let Self {
             velocity,
             force,
-            vector,
+            kind,
             ..
         } = self;
-        HamiltonianClosures {
+        Closures {
             velocity,
             force,
             energy,
-            vector,
+            kind,
         }
     }
 }
@@ -221,19 +192,9 @@ where
     }
 }
 
-impl<V, F, G, E> fmt::Debug for SeparableClosures<V, F, G, E> {
+impl<V, F, G, E, C> fmt::Debug for Closures<V, F, G, E, C> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter
-            .debug_struct("SeparableClosures")
-            .finish_non_exhaustive()
-    }
-}
-
-impl<V, F, G, E> fmt::Debug for HamiltonianClosures<V, F, G, E> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter
-            .debug_struct("HamiltonianClosures")
-            .finish_non_exhaustive()
+        formatter.debug_struct("Closures").finish_non_exhaustive()
     }
 }
 
