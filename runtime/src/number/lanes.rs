@@ -1,9 +1,6 @@
 //! Doubles side by side, as one scalar.
 
 use core::fmt::Debug;
-use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
-
-use num_traits::{One, Zero};
 
 use crate::number::Scalar;
 use crate::number::array::array;
@@ -158,26 +155,60 @@ impl Largest for [f64; 2] {
     }
 }
 
-macro_rules! operator {
+/// The arithmetic of lanes, from their `map` and `zip`.
+macro_rules! operators {
+    ($name:ident) => {
+        $crate::number::lanes::operators! { $name,
+            Add add AddAssign add_assign, Sub sub SubAssign sub_assign,
+            Mul mul MulAssign mul_assign, Div div DivAssign div_assign
+        }
+
+        impl core::ops::Neg for $name {
+            type Output = Self;
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn neg(self) -> Self {
+                self.map(core::ops::Neg::neg)
+            }
+        }
+
+        impl num_traits::Zero for $name {
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn zero() -> Self {
+                Self::from_f64(0.0)
+            }
+
+            fn is_zero(&self) -> bool {
+                *self == Self::zero()
+            }
+        }
+
+        impl num_traits::One for $name {
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn one() -> Self {
+                Self::from_f64(1.0)
+            }
+        }
+    };
     ($name:ident, $($operator:ident $function:ident $assign:ident $assigning:ident),*) => {
         $(
-            impl $operator for $name {
+            impl core::ops::$operator for $name {
                 type Output = Self;
                 #[cfg_attr(not(debug_assertions), inline(always))]
                 fn $function(self, other: Self) -> Self {
-                    Self($operator::$function(self.0, other.0))
+                    self.zip(other, core::ops::$operator::$function)
                 }
             }
 
-            impl $assign for $name {
+            impl core::ops::$assign for $name {
                 #[cfg_attr(not(debug_assertions), inline(always))]
                 fn $assigning(&mut self, other: Self) {
-                    *self = $operator::$function(*self, other);
+                    *self = core::ops::$operator::$function(*self, other);
                 }
             }
         )*
     };
 }
+pub(super) use operators;
 
 macro_rules! lane_by_lane {
     ($($function:ident)*) => {
@@ -197,36 +228,7 @@ macro_rules! lanes {
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $name(pub(crate) $inner);
 
-        operator! { $name,
-            Add add AddAssign add_assign, Sub sub SubAssign sub_assign,
-            Mul mul MulAssign mul_assign, Div div DivAssign div_assign
-        }
-
-        impl Neg for $name {
-            type Output = Self;
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn neg(self) -> Self {
-                Self(-self.0)
-            }
-        }
-
-        impl Zero for $name {
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn zero() -> Self {
-                Self::from_f64(0.0)
-            }
-
-            fn is_zero(&self) -> bool {
-                *self == Self::zero()
-            }
-        }
-
-        impl One for $name {
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn one() -> Self {
-                Self::from_f64(1.0)
-            }
-        }
+        operators!($name);
 
         impl Scalar for $name {
             const EPSILON: f64 = f64::EPSILON;
@@ -280,7 +282,7 @@ macro_rules! lanes {
 
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn recip(self) -> Self {
-                Self::one() / self
+                Self::from_f64(1.0) / self
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
@@ -306,6 +308,16 @@ macro_rules! lanes {
         }
 
         impl $name {
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn map(self, function: impl Fn($inner) -> $inner) -> Self {
+                Self(function(self.0))
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn zip(self, other: Self, function: impl Fn($inner, $inner) -> $inner) -> Self {
+                Self(function(self.0, other.0))
+            }
+
             /// [`larger_or_nan`](Lanes::larger_or_nan) by bits: the bits of non-negative numbers have the order of the numbers, and NaN is
             /// above them. All widths use eight lanes: the maximum is then one instruction, which the compiler narrows.
             #[cfg_attr(not(debug_assertions), inline(always))]

@@ -247,13 +247,13 @@ macro_rules! elementary {
 pub(crate) use elementary;
 
 macro_rules! float {
-    ($float:ident, $from:expr, $into:expr, $coefficient:ident, { $($own:tt)* }) => {
+    ($float:ident, $coefficient:ident, { $($own:tt)* }) => {
         impl Scalar for $float {
-            const EPSILON: f64 = $into($float::EPSILON);
+            const EPSILON: f64 = $float::EPSILON as f64;
 
             #[inline]
             fn from_f64(value: f64) -> Self {
-                $from(value)
+                value as $float
             }
 
             #[inline]
@@ -263,7 +263,7 @@ macro_rules! float {
 
             #[inline]
             fn magnitude(self) -> f64 {
-                $into(self.abs())
+                self.abs() as f64
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
@@ -292,19 +292,7 @@ macro_rules! float {
     };
 }
 
-const fn same(value: f64) -> f64 {
-    value
-}
-
-const fn narrow(value: f64) -> f32 {
-    value as f32
-}
-
-const fn widen(value: f32) -> f64 {
-    value as f64
-}
-
-float!(f64, same, same, double, {
+float!(f64, double, {
     const SAVED_AS: Option<&'static str> = Some("f64");
 
     fn as_words(&mut self, visit: &mut Visit<'_>) {
@@ -325,7 +313,7 @@ float!(f64, same, same, double, {
 
     elementary! { exp -> Self, ln -> Self, sin -> Self, cos -> Self, sin_cos -> (Self, Self) }
 });
-float!(f32, narrow, widen, single, {
+float!(f32, single, {
     const SAVED_AS: Option<&'static str> = Some("f32");
 
     fn as_words(&mut self, visit: &mut Visit<'_>) {

@@ -1,10 +1,7 @@
 //! Sixteen doubles side by side.
 
-use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
-
-use num_traits::{One, Zero};
-
 use crate::number::array::array;
+use crate::number::lanes::operators;
 use crate::number::words::{Visit, words};
 use crate::number::{F64x8, Lanes, MOST_LANES, Scalar};
 
@@ -29,57 +26,7 @@ impl F64x16 {
     }
 }
 
-macro_rules! operators {
-    ($($operator:ident $function:ident $assign:ident $assigning:ident),*) => {
-        $(
-            impl $operator for F64x16 {
-                type Output = Self;
-                #[cfg_attr(not(debug_assertions), inline(always))]
-                fn $function(self, other: Self) -> Self {
-                    self.zip(other, $operator::$function)
-                }
-            }
-
-            impl $assign for F64x16 {
-                #[cfg_attr(not(debug_assertions), inline(always))]
-                fn $assigning(&mut self, other: Self) {
-                    *self = $operator::$function(*self, other);
-                }
-            }
-        )*
-    };
-}
-
-operators! {
-    Add add AddAssign add_assign, Sub sub SubAssign sub_assign,
-    Mul mul MulAssign mul_assign, Div div DivAssign div_assign
-}
-
-impl Neg for F64x16 {
-    type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn neg(self) -> Self {
-        self.map(Neg::neg)
-    }
-}
-
-impl Zero for F64x16 {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn zero() -> Self {
-        Self([F64x8::zero(); 2])
-    }
-
-    fn is_zero(&self) -> bool {
-        *self == Self::zero()
-    }
-}
-
-impl One for F64x16 {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn one() -> Self {
-        Self([F64x8::one(); 2])
-    }
-}
+operators!(F64x16);
 
 macro_rules! by_halves {
     ($($function:ident)*) => {
