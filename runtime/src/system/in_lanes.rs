@@ -68,48 +68,32 @@ pub trait SystemLanes: Lanes {
 macro_rules! system_lanes {
     ($name:ident) => {
         impl SystemLanes for $name {
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn velocity<V, S>(
-                system: &S,
-                time: Self,
-                q: &V::With<Self>,
-                p: &V::With<Self>,
-                velocity: &mut V::With<Self>,
-            ) where
-                V: Vector,
-                S: SystemInLanes<V>,
-            {
-                System::<V::With<Self>>::velocity(system, time, q, p, velocity);
-            }
-
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn force<V, S>(
-                system: &S,
-                time: Self,
-                q: &V::With<Self>,
-                p: &V::With<Self>,
-                force: &mut V::With<Self>,
-            ) where
-                V: Vector,
-                S: SystemInLanes<V>,
-            {
-                System::<V::With<Self>>::force(system, time, q, p, force);
-            }
-
-            #[cfg_attr(not(debug_assertions), inline(always))]
-            fn slopes<V, S>(
-                system: &S,
-                time: Self,
-                q: &V::With<Self>,
-                p: &V::With<Self>,
-                slopes: (&mut V::With<Self>, &mut V::With<Self>),
-            ) where
-                V: Vector,
-                S: SystemInLanes<V>,
-            {
-                System::<V::With<Self>>::slopes(system, time, q, p, slopes);
+            forward! {
+                velocity: &mut V::With<Self>;
+                force: &mut V::With<Self>;
+                slopes: (&mut V::With<Self>, &mut V::With<Self>);
             }
         }
+    };
+}
+
+macro_rules! forward {
+    ($($function:ident: $out:ty;)*) => {
+        $(
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn $function<V, S>(
+                system: &S,
+                time: Self,
+                q: &V::With<Self>,
+                p: &V::With<Self>,
+                out: $out,
+            ) where
+                V: Vector,
+                S: SystemInLanes<V>,
+            {
+                System::<V::With<Self>>::$function(system, time, q, p, out);
+            }
+        )*
     };
 }
 
