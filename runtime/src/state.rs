@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::error::Error;
-use crate::number::{Scalar, Vector};
+use crate::number::{Scalar, Vector, copy};
 
 /// A point of phase space at a time.
 ///
@@ -57,6 +57,13 @@ impl<V: Vector> State<V> {
             });
         }
         Ok(Self::new(time, V::from_slice(q)?, V::from_slice(p)?))
+    }
+
+    /// Copies another state of the same dimension.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.time = other.time;
+        copy(&mut self.q, &other.q);
+        copy(&mut self.p, &other.p);
     }
 
     /// The components of position and momentum.

@@ -44,7 +44,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
         mut observe: O,
     ) -> Result<&State<V>, Error> {
         let direction = self.step_size();
-        let end = check_times(direction, times, self.start_of_last_step())?;
+        let end = check_times(direction, times, self.start_of_last_step(), None)?;
         check_count(self.state().time, end, direction)?;
         let mut inside = self.state().clone();
         for &time in times {

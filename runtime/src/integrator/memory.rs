@@ -7,7 +7,7 @@ use crate::method::storage::is_finite;
 use crate::method::{
     Failure, Outcome, Plan, Solver, StageStorage, Step, StepStatistics, Stopping, WarmStart,
 };
-use crate::number::{Summation, Vector, copy};
+use crate::number::{Summation, Vector};
 #[cfg(feature = "alloc")]
 use crate::number::{Visit, scalar_words};
 use crate::state::State;
@@ -114,9 +114,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
 
     /// Replaces the state by a copy of another of the same dimension.
     pub(super) fn copy_state(&mut self, state: &State<V>) {
-        self.state.time = state.time;
-        copy(&mut self.state.q, &state.q);
-        copy(&mut self.state.p, &state.p);
+        self.state.copy_from(state);
         for low in [&mut self.low.0, &mut self.low.1] {
             low.as_mut_slice().fill(num_traits::Zero::zero());
         }

@@ -85,24 +85,36 @@ where
     N: Solver<V, S>,
 {
     let before = steps.start_of_last_step();
-    steps.check_count(check_times(steps.direction(), times, before)?)
+    steps.check_count(check_times(steps.direction(), times, before, None)?)
 }
 
-/// Checks that the times are finite and ordered, starting from `before`, and returns the last of them.
-pub(crate) fn check_times(direction: f64, times: &[f64], mut before: f64) -> Result<f64, Error> {
+/// Checks that the times are finite and ordered, from `before` to `end`, and returns the last of them.
+pub(crate) fn check_times(
+    direction: f64,
+    times: &[f64],
+    mut before: f64,
+    end: Option<f64>,
+) -> Result<f64, Error> {
     for &time in times {
         if !time.is_finite() || is_after(direction, before, time) {
             return Err(Error::OutputTime { time, before });
+        }
+        if let Some(end) = end
+            && is_after(direction, time, end)
+        {
+            return Err(Error::OutputAfterEnd { time, end });
         }
         before = time;
     }
     Ok(before)
 }
 
-/// Storage for interpolated output.
+/// Storage for states inside a step.
 pub(crate) struct Output<V> {
     ends: Ends<V>,
-    state: State<V>,
+    /// Whether `ends` belongs to the last step.
+    pub(crate) evaluated: bool,
+    pub(crate) state: State<V>,
     /// The sign of the step size.
     direction: f64,
 }
@@ -118,15 +130,43 @@ impl<V: Vector> Output<V> {
     {
         Self {
             ends: Ends::new(),
+            evaluated: false,
             state: integrator.state().clone(),
             direction,
         }
     }
 
+    /// Whether `time` comes after `other` in the direction of the steps.
+    pub(crate) fn is_after(&self, time: f64, other: f64) -> bool {
+        is_after(self.direction, time, other)
+    }
+
+    /// Sets `state` to the state at a time inside the last step.
+    pub(crate) fn look_at<M, S, R, N>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        time: f64,
+    ) -> Result<(), Error>
+    where
+        M: Method,
+        S: System<V>,
+        R: Summation,
+        N: Solver<V, S>,
+    {
+        if !self.evaluated {
+            self.ends.evaluate(integrator)?;
+            self.evaluated = true;
+        }
+        let State { q, p, .. } = &mut self.state;
+        self.ends.write(integrator, time, q, p)?;
+        self.state.time = time;
+        Ok(())
+    }
+
     /// Removes the output times up to the time `present` from the list.
     #[cfg(feature = "alloc")]
     pub(crate) fn skip(&self, times: &mut &[f64], present: f64) {
-        let seen = (times.iter()).take_while(|&&time| !is_after(self.direction, time, present));
+        let seen = (times.iter()).take_while(|&&time| !self.is_after(time, present));
         *times = &times[seen.count()..];
     }
 
@@ -143,22 +183,16 @@ impl<V: Vector> Output<V> {
         R: Summation,
         N: Solver<V, S>,
     {
-        let mut evaluated = false;
+        self.evaluated = false;
         while let Some((&time, rest)) = times.split_first() {
             let present = integrator.state();
-            if is_after(self.direction, time, present.time) {
+            if self.is_after(time, present.time) {
                 break;
             }
             if time == present.time {
                 observe(present);
             } else {
-                if !evaluated {
-                    self.ends.evaluate(integrator)?;
-                    evaluated = true;
-                }
-                let State { q, p, .. } = &mut self.state;
-                self.ends.write(integrator, time, q, p)?;
-                self.state.time = time;
+                self.look_at(integrator, time)?;
                 observe(&self.state);
             }
             *times = rest;

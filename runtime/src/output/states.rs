@@ -14,7 +14,11 @@ use crate::system::System;
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// An endless iterator over the states after each step; limit it by [`Iterator::take`].
     pub const fn states(&mut self) -> States<'_, M, S, V, R, N> {
-        States::new(self)
+        States {
+            integrator: self,
+            stride: 1,
+            failed: false,
+        }
     }
 }
 
@@ -35,17 +39,7 @@ pub struct States<
     failed: bool,
 }
 
-impl<'a, M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>>
-    States<'a, M, S, V, R, N>
-{
-    pub(crate) const fn new(integrator: &'a mut Integrator<M, S, V, R, N>) -> Self {
-        Self {
-            integrator,
-            stride: 1,
-            failed: false,
-        }
-    }
-
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> States<'_, M, S, V, R, N> {
     /// Yields the states after every `steps` steps only, without a copy of the states in between; 0 counts as 1.
     ///
     /// ```
@@ -67,11 +61,6 @@ impl<'a, M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>>
         self.stride = if steps == 0 { 1 } else { steps };
         self
     }
-
-    /// Steps to the next item.
-    fn advance(&mut self) -> Result<State<V>, Error> {
-        self.integrator.take_steps(self.stride).cloned()
-    }
 }
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Iterator
@@ -83,7 +72,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Iterator
         if self.failed {
             return None;
         }
-        let state = self.advance();
+        let state = self.integrator.take_steps(self.stride).cloned();
         self.failed = state.is_err();
         Some(state)
     }

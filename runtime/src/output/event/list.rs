@@ -26,22 +26,6 @@ pub trait EventList<V> {
     fn value(&self, index: usize, state: &State<V>) -> f64;
 }
 
-impl<V> EventList<V> for () {
-    type Tracks = [Track; 0];
-
-    fn tracks(&self) -> Self::Tracks {
-        []
-    }
-
-    fn kind(&self, _index: usize) -> Kind {
-        Kind::new([false; 2])
-    }
-
-    fn value(&self, _index: usize, _state: &State<V>) -> f64 {
-        f64::NAN
-    }
-}
-
 impl<V, G: Fn(&State<V>) -> f64> EventList<V> for Event<G> {
     type Tracks = [Track; 1];
 
@@ -104,6 +88,7 @@ macro_rules! tuples {
                 }
             }
 
+            #[allow(unused_variables)]
             fn value(&self, index: usize, state: &State<V>) -> f64 {
                 match index {
                     $($index => (self.$index.function)(state),)*
@@ -115,6 +100,7 @@ macro_rules! tuples {
 }
 
 tuples! {
+    0: ;
     1: A 0;
     2: A 0 B 1;
     3: A 0 B 1 C 2;

@@ -1,7 +1,7 @@
 //! Locates the events of a function in a panel.
 
 use super::list::EventList;
-use super::search::{Search, copy_state};
+use super::search::Search;
 use super::track::{Crossing, Track};
 use crate::error::Error;
 use crate::integrator::Integrator;
@@ -118,7 +118,7 @@ where
             let time = found.unwrap_or(between.0);
             let unseen = track.stays && {
                 self.look_at(integrator, time, kind.by_steps)?;
-                copy_state(&mut self.shown, &self.state);
+                self.shown.copy_from(&self.output.state);
                 let step = between.1 - between.0;
                 time == between.0 || side * self.slope(integrator, index, step) >= 0.0
             };
@@ -204,7 +204,7 @@ where
         self.value(index)
     }
 
-    /// Sets `self.state` to the state at a time inside the last step.
+    /// Sets `output.state` to the state at a time inside the last step.
     pub(super) fn look_at<R: Summation>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -215,16 +215,9 @@ where
             let partial = self
                 .partial
                 .get_or_insert_with(|| PartialSteps::of(integrator));
-            return partial.take(integrator, time, &mut self.state);
+            return partial.take(integrator, time, &mut self.output.state);
         }
-        if !self.evaluated {
-            self.ends.evaluate(integrator)?;
-            self.evaluated = true;
-        }
-        self.state.time = time;
-        let state = &mut self.state;
-        self.ends
-            .write(integrator, time, &mut state.q, &mut state.p)
+        self.output.look_at(integrator, time)
     }
 
     /// Change of a function along the flow through `self.shown`, over a small part of `step`; 0 if it is unreliable.
@@ -243,10 +236,10 @@ where
         system.velocity(time, &state.q, &state.p, velocity);
         system.force(time, &state.q, &state.p, force);
         let [before, after] = [-SMALL * step, SMALL * step].map(|size| {
-            self.state.time = state.time + size;
-            add(&mut self.state.q, &state.q, size, velocity);
-            add(&mut self.state.p, &state.p, size, force);
-            self.events.value(index, &self.state)
+            self.output.state.time = state.time + size;
+            add(&mut self.output.state.q, &state.q, size, velocity);
+            add(&mut self.output.state.p, &state.p, size, force);
+            self.events.value(index, &self.output.state)
         });
         let change = after - before;
         // Not at an extremum, or where the function is undefined on one side.
@@ -262,11 +255,11 @@ where
         value: f64,
     ) -> f64 {
         let changes = (0..4).map(|pattern| {
-            copy_state(&mut self.state, integrator.state());
+            self.output.state.copy_from(integrator.state());
             let size = 4.0 * V::Scalar::EPSILON;
-            perturb(&mut self.state.q, pattern, size);
-            perturb(&mut self.state.p, pattern, size);
-            (self.events.value(index, &self.state) - value).abs()
+            perturb(&mut self.output.state.q, pattern, size);
+            perturb(&mut self.output.state.p, pattern, size);
+            (self.events.value(index, &self.output.state) - value).abs()
         });
         changes.fold(0.0, f64::max)
     }

@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::integrator::Integrator;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
+use crate::output::at_times::check_times;
 use crate::output::steps::{Steps, is_after};
 use crate::state::State;
 use crate::system::System;
@@ -144,9 +145,12 @@ where
     let run = steps.integrator();
     let present = run.state().time;
     let step = steps.size_to(end);
-    let forward = step.is_sign_positive();
-    check_times(times, steps.first_output(), end, step)?;
-    let mut search = Search::new(events, times, run.state(), run.last_event, forward);
+    let before = steps.first_output();
+    if is_after(step, before, end) {
+        return Err(Error::OutputTime { time: end, before });
+    }
+    check_times(step, times, before, Some(end))?;
+    let mut search = Search::new(events, times, run, step);
     search.start(run, step)?;
     let mut ended = search.show_output(run, present, handle)?;
     loop {
@@ -164,7 +168,7 @@ where
         if !matches!(stop, Stop::Broken(_, false)) {
             let changed = steps.replace_state(&search.shown);
             if changed.is_err() {
-                steps.replace_state(&search.state)?;
+                steps.replace_state(&search.output.state)?;
             }
             changed?;
         }
@@ -178,21 +182,4 @@ where
         }
         ended = ControlFlow::Continue(());
     }
-}
-
-/// Checks that the output times are finite and ordered, from `before` to `end` in the given direction.
-fn check_times(times: &[f64], mut before: f64, end: f64, direction: f64) -> Result<(), Error> {
-    if is_after(direction, before, end) {
-        return Err(Error::OutputTime { time: end, before });
-    }
-    for &time in times {
-        if !time.is_finite() || is_after(direction, before, time) {
-            return Err(Error::OutputTime { time, before });
-        }
-        if is_after(direction, time, end) {
-            return Err(Error::OutputAfterEnd { time, end });
-        }
-        before = time;
-    }
-    Ok(())
 }

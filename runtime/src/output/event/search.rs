@@ -11,7 +11,7 @@ use crate::integrator::last_event::LastEvent;
 use crate::integrator::partial_step::PartialSteps;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector, copy};
-use crate::output::dense::Ends;
+use crate::output::at_times::Output;
 use crate::state::State;
 use crate::system::System;
 
@@ -31,17 +31,12 @@ where
     pub(super) tracks: E::Tracks,
     /// Remaining output times.
     pub(super) times: &'e [f64],
-    /// Whether time increases.
-    forward: bool,
     /// Number of sample points per step.
     samples: u32,
-    pub(super) ends: Ends<V>,
-    /// Whether `ends` belongs to the last step.
-    pub(super) evaluated: bool,
+    /// The state under examination.
+    pub(super) output: Output<V>,
     pub(super) partial: Option<PartialSteps<M, S, V, N>>,
     pub(super) slopes: Option<(V, V)>,
-    /// The state under examination.
-    pub(super) state: State<V>,
     /// The state passed to the handler at an event, and as the handler changed it.
     pub(super) shown: State<V>,
     pub(super) last: Option<LastEvent>,
@@ -66,16 +61,17 @@ where
     V: Vector,
     N: Solver<V, S>,
 {
-    pub(super) fn new(
+    /// A search from the present state of the integrator; `direction` has the sign of the step size.
+    pub(super) fn new<R: Summation>(
         events: &'e E,
         times: &'e [f64],
-        start: &State<V>,
-        last: Option<LastEvent>,
-        forward: bool,
+        integrator: &Integrator<M, S, V, R, N>,
+        direction: f64,
     ) -> Self {
         let mut tracks = events.tracks();
         let count = tracks.as_ref().len();
-        let last = last.filter(|last| last.time == start.time);
+        let start = integrator.state();
+        let last = integrator.last_event.filter(|last| last.time == start.time);
         if let Some(last) = last
             && let Some(track) = tracks.as_mut().get_mut(last.index)
         {
@@ -85,16 +81,13 @@ where
             events,
             tracks,
             times,
-            forward,
             samples: (0..count)
                 .map(|k| events.kind(k).samples)
                 .max()
                 .unwrap_or(1),
-            ends: Ends::new(),
-            evaluated: false,
+            output: Output::new(integrator, direction),
             partial: None,
             slopes: None,
-            state: start.clone(),
             shown: start.clone(),
             last,
         }
@@ -106,9 +99,9 @@ where
         integrator: &Integrator<M, S, V, R, N>,
         step: f64,
     ) -> Result<(), Error> {
-        copy_state(&mut self.shown, integrator.state());
+        self.shown.copy_from(integrator.state());
         for index in 0..self.tracks.as_ref().len() {
-            copy_state(&mut self.state, integrator.state());
+            self.output.state.copy_from(integrator.state());
             let value = self.value(index)?;
             let track = self.start_of(integrator, index, value, step);
             self.tracks.as_mut()[index] = track;
@@ -157,7 +150,7 @@ where
     ) -> Result<Seen<B>, Error> {
         let last = integrator.last_step().ok_or(Error::NoStep)?;
         let (start, end) = (last.start, last.end);
-        self.evaluated = false;
+        self.output.evaluated = false;
         let halves = if self.samples == 1 { 1 } else { 2 };
         let panels = self.samples.div_ceil(halves);
         let place = |number: u32| {
@@ -176,7 +169,7 @@ where
                 self.look_ahead(0)?;
             }
             if to == end {
-                copy_state(&mut self.state, integrator.state());
+                self.output.state.copy_from(integrator.state());
             } else {
                 self.look_at(integrator, to, false)?;
             }
@@ -206,7 +199,7 @@ where
             copy(&mut self.shown.q, last.positions.start.0);
             copy(&mut self.shown.p, last.momenta.start.0);
         } else {
-            copy_state(&mut self.shown, integrator.state());
+            self.shown.copy_from(integrator.state());
         }
         ControlFlow::Break(Stop::Failed(error))
     }
@@ -230,7 +223,7 @@ where
             }
             let by_steps = self.events.kind(index).by_steps;
             self.look_at(integrator, time, by_steps)?;
-            copy_state(&mut self.shown, &self.state);
+            self.shown.copy_from(&self.output.state);
             let shown = self.show_events(time, handle);
             if shown.is_break() {
                 return Ok(shown);
@@ -243,20 +236,12 @@ where
         let tracks = self.tracks.as_ref().iter().enumerate();
         let firsts = tracks.filter_map(|(index, track)| Some((index, track.pending[0]?)));
         firsts.reduce(|first, other| {
-            if self.is_after(first.1.time, other.1.time) {
+            if self.output.is_after(first.1.time, other.1.time) {
                 other
             } else {
                 first
             }
         })
-    }
-
-    fn is_after(&self, time: f64, other: f64) -> bool {
-        if self.forward {
-            time > other
-        } else {
-            time < other
-        }
     }
 
     /// Passes all events at a time to the handler; `self.shown` is the state at this time.
@@ -290,7 +275,7 @@ where
             let state = &mut self.shown;
             let handled = handle(Moment::Event { index, state });
             self.shown.time = time;
-            reset |= self.events.kind(index).wall || self.shown != self.state;
+            reset |= self.events.kind(index).wall || self.shown != self.output.state;
             if let ControlFlow::Break(value) = handled {
                 return ControlFlow::Break(Stop::Broken(value, reset));
             }
@@ -313,14 +298,14 @@ where
         handle: &mut impl FnMut(Moment<'_, V>) -> ControlFlow<B>,
     ) -> Result<Seen<B>, Error> {
         while let Some((&time, rest)) = self.times.split_first()
-            && !self.is_after(time, until)
+            && !self.output.is_after(time, until)
         {
             let present = integrator.state();
             let handled = if time == present.time {
                 handle(Moment::Output(present))
             } else {
                 self.look_at(integrator, time, false)?;
-                handle(Moment::Output(&self.state))
+                handle(Moment::Output(&self.output.state))
             };
             self.times = rest;
             if let ControlFlow::Break(value) = handled {
@@ -330,7 +315,7 @@ where
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Stores the values at `self.state`, the middle (0) or the end (1) of the panel.
+    /// Stores the values at `self.output.state`, the middle (0) or the end (1) of the panel.
     fn look_ahead(&mut self, place: usize) -> Result<(), Error> {
         for index in 0..self.tracks.as_ref().len() {
             self.tracks.as_mut()[index].ahead[place] = self.value(index)?;
@@ -338,19 +323,13 @@ where
         Ok(())
     }
 
-    /// Value of a function at `self.state`.
+    /// Value of a function at `self.output.state`.
     pub(super) fn value(&self, index: usize) -> Result<f64, Error> {
-        let value = self.events.value(index, &self.state);
+        let value = self.events.value(index, &self.output.state);
         if value.is_nan() {
-            let time = self.state.time;
+            let time = self.output.state.time;
             return Err(Error::EventValue { time });
         }
         Ok(value)
     }
-}
-
-pub(super) fn copy_state<V: Vector>(out: &mut State<V>, from: &State<V>) {
-    out.time = from.time;
-    copy(&mut out.q, &from.q);
-    copy(&mut out.p, &from.p);
 }
