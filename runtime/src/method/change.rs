@@ -1,6 +1,6 @@
 //! How much a sweep changed the stages.
 
-use crate::number::Scalar;
+use crate::number::{Scalar, larger_or_nan};
 
 /// How much one fixed-point sweep changed the stage values. Positions and momenta are separate because their units differ.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,7 +31,7 @@ impl StageChange {
     /// assert!(change.residual().is_nan());
     /// ```
     pub fn residual(&self) -> f64 {
-        larger(self.q.relative(), self.p.relative())
+        larger_or_nan(self.q.relative(), self.p.relative())
     }
 
     /// Whether the relative change of the positions or that of the momenta is NaN.
@@ -76,17 +76,17 @@ impl HalfChange {
     /// Records that a component of a stage value, `base` plus an increment, changed from `old` to `new`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn record<T: Scalar>(&mut self, base: T, old: T, new: T) {
-        self.difference = larger(self.difference, (new - old).magnitude());
+        self.difference = larger_or_nan(self.difference, (new - old).magnitude());
         // The rounding error of `base + increment` scales with the larger of the base and the result. Where base and increment nearly
         // cancel, the result alone would demand digits that the sum does not have.
-        self.scale = larger(self.scale, larger(base.magnitude(), new.magnitude()));
+        self.scale = larger_or_nan(self.scale, larger_or_nan(base.magnitude(), new.magnitude()));
     }
 
     /// Records a change of size `difference` among values of size `scale`.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn join(&mut self, difference: f64, scale: f64) {
-        self.difference = larger(self.difference, difference);
-        self.scale = larger(self.scale, scale);
+        self.difference = larger_or_nan(self.difference, difference);
+        self.scale = larger_or_nan(self.scale, scale);
     }
 
     /// The largest |new − old| divided by the largest of all |base| and |new|.
@@ -104,10 +104,4 @@ impl HalfChange {
         let scale = if self.scale == 0.0 { alone } else { self.scale };
         self.difference / scale
     }
-}
-
-/// The larger of two numbers; NaN if either is, unlike [`f64::max`].
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn larger(a: f64, b: f64) -> f64 {
-    if a >= b || a.is_nan() { a } else { b }
 }

@@ -11,7 +11,7 @@ use crate::method::{
 use crate::number::linear_combination::add_products;
 use crate::number::summation::add;
 use crate::number::vector::same_mut;
-use crate::number::{Coefficient, Coefficients, Scalar, Summation, Vector, Visit};
+use crate::number::{Coefficient, Coefficients, Scalar, Summation, Vector, Visit, larger_or_nan};
 use crate::solver::FixedPoint;
 use crate::system::{Damped, Separable, System};
 
@@ -62,15 +62,8 @@ pub fn friction_growth<M: Method + ProvedFor<Damped>>(
         let weights = weights.by_ref().take(same.len());
         weights.sum::<f64>()
     });
-    kicks.fold(0.0, |largest, kick| {
-        let growth = -rate * step_size * kick;
-        // A NaN stays.
-        if growth <= largest || largest.is_nan() {
-            largest
-        } else {
-            growth
-        }
-    })
+    let growths = kicks.map(|kick| -rate * step_size * kick);
+    growths.fold(0.0, larger_or_nan)
 }
 
 /// The system as a separable one; only kicks use its friction.

@@ -4,7 +4,7 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 
 use num_traits::{One, Zero};
 
-use crate::number::{Coefficient, Scalar};
+use crate::number::{Coefficient, Scalar, larger_or_nan};
 
 /// `value + slope ε` with `ε² = 0`: a number and its derivative by a parameter. The value has the same bits as without the slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -211,12 +211,7 @@ impl<T: Scalar> Scalar for Dual<T> {
     }
 
     fn magnitude(self) -> f64 {
-        let (value, slope) = (self.value.magnitude(), self.slope.magnitude());
-        if slope > value || slope.is_nan() {
-            slope
-        } else {
-            value
-        }
+        larger_or_nan(self.value.magnitude(), self.slope.magnitude())
     }
 
     #[inline]

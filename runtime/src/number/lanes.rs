@@ -2,10 +2,10 @@
 
 use core::fmt::Debug;
 
-use crate::number::Scalar;
 use crate::number::array::array;
 use crate::number::scalar::elementary;
 use crate::number::words::{Visit, words};
+use crate::number::{Scalar, larger_or_nan};
 
 /// The largest number of [`Lanes`].
 #[doc(hidden)]
@@ -251,15 +251,8 @@ macro_rules! lanes {
 
             #[inline]
             fn magnitude(self) -> f64 {
-                let lanes = self.to_array().map(f64::abs);
-                // NaN if there is one, else the largest.
-                lanes[1..].iter().fold(lanes[0], |largest, &lane| {
-                    if largest >= lane || largest.is_nan() {
-                        largest
-                    } else {
-                        lane
-                    }
-                })
+                let [first, rest @ ..] = self.to_array().map(f64::abs);
+                rest.into_iter().fold(first, larger_or_nan)
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]

@@ -25,6 +25,7 @@ pub use linear_combination::{
     weighted_total, weights,
 };
 pub use scalar::Scalar;
+pub(crate) use scalar::larger_or_nan;
 pub use sixteen::{DefaultLanes, F64x16};
 pub use summation::{Compensated, Plain, Summation};
 pub use vector::Vector;

@@ -217,6 +217,12 @@ pub trait Scalar:
     }
 }
 
+/// The larger of two numbers; NaN if either is, unlike [`f64::max`].
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) const fn larger_or_nan(a: f64, b: f64) -> f64 {
+    if a >= b || a.is_nan() { a } else { b }
+}
+
 macro_rules! forward {
     ($($function:ident)*) => {
         $(
@@ -329,3 +335,19 @@ float!(f32, single, {
         Float::sin_cos(self)
     }
 });
+
+#[cfg(test)]
+mod tests {
+    use super::larger_or_nan;
+
+    #[test]
+    fn not_a_number_is_the_largest() {
+        let larger = [larger_or_nan(1.0, 2.0), larger_or_nan(2.0, 1.0)];
+        assert_eq!(larger, [2.0; 2]);
+        assert_eq!(larger_or_nan(1.0, f64::INFINITY), f64::INFINITY);
+        for other in [0.0, 1.0, f64::INFINITY, f64::NAN] {
+            assert!(larger_or_nan(other, f64::NAN).is_nan(), "{other}");
+            assert!(larger_or_nan(f64::NAN, other).is_nan(), "{other}");
+        }
+    }
+}

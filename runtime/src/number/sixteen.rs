@@ -3,7 +3,7 @@
 use crate::number::array::array;
 use crate::number::lanes::operators;
 use crate::number::words::{Visit, words};
-use crate::number::{F64x8, Lanes, MOST_LANES, Scalar};
+use crate::number::{F64x8, Lanes, MOST_LANES, Scalar, larger_or_nan};
 
 /// Sixteen doubles side by side, [`Lanes`], as two groups of eight.
 ///
@@ -61,7 +61,7 @@ impl Scalar for F64x16 {
     #[inline]
     fn magnitude(self) -> f64 {
         let [a, b] = self.0.map(Scalar::magnitude);
-        if a >= b || a.is_nan() { a } else { b }
+        larger_or_nan(a, b)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

@@ -1,5 +1,7 @@
 //! Balances: a quantity against the total supply of it.
 
+use crate::number::larger_or_nan;
+
 /// Observes a balance: the deviation of a function of the state from its first value plus the total supply since.
 ///
 /// Examples: the energy and the [work](crate::variational::StagesOfStep::work) of an applied force; a momentum map and
@@ -59,10 +61,7 @@ impl<F> Balance<F> {
         self.rest = add - (sum - self.supplied);
         self.supplied = sum;
         self.last = (self.function)(state) - self.initial - self.supplied;
-        // A NaN remains.
-        if !(self.last.abs() <= self.largest || self.largest.is_nan()) {
-            self.largest = self.last.abs();
-        }
+        self.largest = larger_or_nan(self.largest, self.last.abs());
     }
 
     /// The value at the first state.

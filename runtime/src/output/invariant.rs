@@ -1,6 +1,6 @@
 //! Observers of conserved quantities.
 
-use crate::number::Vector;
+use crate::number::{Vector, larger_or_nan};
 use crate::state::State;
 use crate::system::System;
 
@@ -66,10 +66,7 @@ impl<F> Invariant<F> {
     {
         self.last = (self.function)(state);
         let deviation = (self.last - self.initial).abs();
-        // A NaN remains.
-        if !(deviation <= self.largest || self.largest.is_nan()) {
-            self.largest = deviation;
-        }
+        self.largest = larger_or_nan(self.largest, deviation);
     }
 
     /// The value at the first state.

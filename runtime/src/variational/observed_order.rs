@@ -6,7 +6,7 @@ use super::checks::DiscretePath;
 use super::discrete_lagrangian::DiscreteLagrangian;
 use crate::error::Error;
 use crate::integrator::validation::check_step_size;
-use crate::number::Vector;
+use crate::number::{Vector, larger_or_nan};
 use crate::state::State;
 
 /// The order of a discrete Lagrangian observed along an orbit. It is `log2` of the ratio of the errors of its momenta in a step of size
@@ -74,13 +74,7 @@ pub fn observed_order<L: DiscreteLagrangian>(
         Ok(momenta.iter().fold(0.0, |largest, (found, exact)| {
             let pairs = found.as_slice().iter().zip(exact.as_slice());
             pairs.fold(largest, |largest, (found, exact)| {
-                let error = Float::abs(found - exact);
-                // NaN is kept.
-                if error > largest || error.is_nan() {
-                    error
-                } else {
-                    largest
-                }
+                larger_or_nan(largest, Float::abs(found - exact))
             })
         }))
     };

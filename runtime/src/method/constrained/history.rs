@@ -4,10 +4,9 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::array;
 
-use super::maximum::maximum;
 use crate::number::dither::dither_side;
 use crate::number::words::words;
-use crate::number::{Scalar, Vector, Visit, scalar_words, vector_words};
+use crate::number::{Scalar, Vector, Visit, larger_or_nan, scalar_words, vector_words};
 
 /// Number of steps from which stages are extrapolated.
 const STEPS: usize = 5;
@@ -89,8 +88,8 @@ impl<V: Vector> History<V> {
         for (k, impulse) in impulses.iter_mut().enumerate() {
             let last = |step: usize| self.steps[step].impulses[k];
             let (less, more) = (next(SIDES[0], last), next(SIDES[1], last));
-            largest = maximum(largest, less.magnitude());
-            apart = maximum(apart, (more - less).magnitude());
+            largest = larger_or_nan(largest, less.magnitude());
+            apart = larger_or_nan(apart, (more - less).magnitude());
             *impulse = if side == 0 { less } else { more };
         }
         (apart <= APART * largest || negligible(apart)).then_some(SIDES[side])

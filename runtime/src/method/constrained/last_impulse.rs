@@ -3,12 +3,11 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::maximum::maximum;
 use super::metric::Point;
 use super::step::{NOISE, PATIENCE, ROUNDING, SETTLED, result};
 use crate::error::Quantity;
 use crate::method::{Failure, Outcome, Step, StepStatistics, Stopping};
-use crate::number::{Scalar, Summation, Vector};
+use crate::number::{Scalar, Summation, Vector, larger_or_nan};
 use crate::system::{System, Terms};
 
 /// The impulse `−Gᵀy` at the end of a step with `G velocity(q1, p1) = 0`.
@@ -132,7 +131,7 @@ impl<T: Scalar> LastImpulse<T> {
             if first {
                 self.drive[c] = rate;
             }
-            residual = maximum(residual, self.terms[c].relative(rate, self.drive[c]));
+            residual = larger_or_nan(residual, self.terms[c].relative(rate, self.drive[c]));
         }
         residual / T::EPSILON
     }

@@ -10,7 +10,6 @@
 mod force;
 mod history;
 mod last_impulse;
-mod maximum;
 mod memory;
 mod metric;
 mod newton;
@@ -23,7 +22,6 @@ mod step;
 pub(super) use force::add_to_force;
 pub use force::{ConstraintForce, constraint_force};
 pub(super) use last_impulse::LastImpulse;
-pub(super) use maximum::maximum;
 pub use memory::ConstrainedStages;
 pub(super) use metric::{Metric, Point};
 pub(super) use of_dimension::{OfDimension, place_of_resized};

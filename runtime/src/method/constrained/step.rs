@@ -1,7 +1,6 @@
 //! One constrained step.
 
 use super::history::History;
-use super::maximum::maximum;
 use super::memory::Workspace;
 use crate::error::Quantity;
 use crate::method::storage::is_finite;
@@ -9,7 +8,7 @@ use crate::method::{
     ConstrainedTableau, Failure, Outcome, StageView, Step, StepStatistics, Stopping,
 };
 use crate::number::summation::add;
-use crate::number::{Coefficient, Scalar, Summation, Vector, copy};
+use crate::number::{Coefficient, Scalar, Summation, Vector, copy, larger_or_nan};
 use crate::system::{Class, Gradients, System};
 
 /// Residuals are in units of rounding. A residual of at most this size counts as zero if it has [stopped decreasing](STAGNANT).
@@ -171,7 +170,7 @@ impl<V: Vector> Workspace<V> {
             } else {
                 1.0
             };
-            let residual = maximum(defect, movement * rate);
+            let residual = larger_or_nan(defect, movement * rate);
             moved = movement;
             let last = before <= STAGNANT || sweep == stopping.max_iterations;
             if residual <= SETTLED || residual <= ROUNDING && last {
@@ -318,7 +317,7 @@ impl<V: Vector> Workspace<V> {
             if i < moving {
                 let pairs = self.q[i].as_slice().iter().zip(old.as_slice());
                 for (&new, &old) in pairs {
-                    movement = maximum(movement, (new - old).magnitude());
+                    movement = larger_or_nan(movement, (new - old).magnitude());
                     // A position that is NaN has moved by NaN.
                     size = size.max(new.magnitude());
                 }
@@ -330,7 +329,7 @@ impl<V: Vector> Workspace<V> {
         let mut residual = 0.0;
         for defects in defects {
             for (defect, terms) in defects.iter().zip(&self.terms) {
-                residual = maximum(residual, terms.relative(defect.magnitude(), 0.0));
+                residual = larger_or_nan(residual, terms.relative(defect.magnitude(), 0.0));
             }
         }
         let unit = V::Scalar::EPSILON;
@@ -349,7 +348,7 @@ impl<V: Vector> Workspace<V> {
             let defects = defects.iter().zip(&self.terms).zip(&resolution.values);
             for ((defect, terms), &resolved) in defects {
                 let defect = terms.relative(defect.magnitude(), resolved);
-                noise = maximum(noise, defect / V::Scalar::EPSILON);
+                noise = larger_or_nan(noise, defect / V::Scalar::EPSILON);
             }
         }
         noise
@@ -590,5 +589,5 @@ fn largest<V: Vector>(vector: &V) -> f64 {
 
 fn largest_of<T: Scalar>(numbers: &[T]) -> f64 {
     let sizes = numbers.iter().map(|number| number.magnitude());
-    sizes.fold(0.0, maximum)
+    sizes.fold(0.0, larger_or_nan)
 }

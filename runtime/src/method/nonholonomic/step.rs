@@ -2,12 +2,10 @@
 
 use super::memory::Workspace;
 use crate::error::Quantity;
-use crate::method::constrained::{
-    NOISE, PATIENCE, ROUNDING, maximum, result, same_momentum, stage,
-};
+use crate::method::constrained::{NOISE, PATIENCE, ROUNDING, result, same_momentum, stage};
 use crate::method::storage::is_finite;
 use crate::method::{ConstrainedTableau, Failure, Outcome, Step, StepStatistics, Stopping};
-use crate::number::{Coefficient, Scalar, Summation, Vector, copy};
+use crate::number::{Coefficient, Scalar, Summation, Vector, copy, larger_or_nan};
 use crate::system::{Class, System};
 
 impl<V: Vector> Workspace<V> {
@@ -101,7 +99,7 @@ impl<V: Vector> Workspace<V> {
             } else {
                 1.0
             };
-            let residual = maximum(defect.own, movement.own * rate);
+            let residual = larger_or_nan(defect.own, movement.own * rate);
             moved = movement.own;
             if residual <= ROUNDING {
                 return Ok(());
@@ -114,7 +112,7 @@ impl<V: Vector> Workspace<V> {
                 (best, since) = (residual, 0);
             } else {
                 since += 1;
-                let noise = maximum(defect.largest.min(change), movement.largest);
+                let noise = larger_or_nan(defect.largest.min(change), movement.largest);
                 if since >= PATIENCE && (best <= NOISE || noise <= NOISE) {
                     return Ok(());
                 }
@@ -218,12 +216,12 @@ impl<V: Vector> Workspace<V> {
             let pairs = self.q[i].as_slice().iter().zip(old.as_slice()).zip(reach);
             for ((&new, &old), &reach) in pairs {
                 let change = (new - old).magnitude();
-                let scale = maximum(new.magnitude(), old.magnitude()) + reach.magnitude();
+                let scale = larger_or_nan(new.magnitude(), old.magnitude()) + reach.magnitude();
                 if change != 0.0 {
-                    own = maximum(own, change / scale);
+                    own = larger_or_nan(own, change / scale);
                 }
-                difference = maximum(difference, change);
-                size = maximum(size, scale);
+                difference = larger_or_nan(difference, change);
+                size = larger_or_nan(size, scale);
             }
         }
         Residual::new::<V>(own, difference / size)
@@ -251,12 +249,12 @@ impl<V: Vector> Workspace<V> {
         let (mut own, mut largest) = (0.0_f64, 0.0_f64);
         self.rows.sizes(|k| reach[k].magnitude(), &mut self.terms);
         for (defect, terms) in self.defects.iter().zip(&self.terms) {
-            own = maximum(own, terms.relative(defect.magnitude(), 0.0));
+            own = larger_or_nan(own, terms.relative(defect.magnitude(), 0.0));
         }
         self.rows
             .sizes(|k| q[k].magnitude() + reach[k].magnitude(), &mut self.terms);
         for (defect, terms) in self.defects.iter().zip(&self.terms) {
-            largest = maximum(largest, terms.relative(defect.magnitude(), 0.0));
+            largest = larger_or_nan(largest, terms.relative(defect.magnitude(), 0.0));
         }
         Ok(Residual::new::<V>(own, largest))
     }
