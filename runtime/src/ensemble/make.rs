@@ -4,9 +4,9 @@ use alloc::vec::Vec;
 use core::marker::PhantomData;
 
 use super::{Ensemble, EnsembleError, Wanted};
-use crate::integrator::validation::{check_kinetic, check_step_size};
+use crate::integrator::validation::{check_quadratic_kinetic, check_step_size};
 use crate::integrator::{Integrator, Retry};
-use crate::method::{Method, ProvedFor, RunTimeTableau, Stopping};
+use crate::method::{AtRunTime, Method, ProvedFor, RunTimeTableau, Stopping};
 use crate::number::{Plain, Summation, Vector};
 use crate::state::State;
 use crate::system::System;
@@ -159,6 +159,7 @@ fn check_starts<M: Method, S: System<V>, V: Vector, R: Summation>(
     step_size: f64,
     tableau: Option<&RunTimeTableau>,
 ) -> Result<(), EnsembleError> {
+    let orders = tableau.and_then(RunTimeTableau::needs_quadratic_kinetic);
     for (trajectory, start) in starts.iter().enumerate().skip(first) {
         let (found, expected) = (start.q.dimension(), starts[0].q.dimension());
         if found != expected {
@@ -168,12 +169,8 @@ fn check_starts<M: Method, S: System<V>, V: Vector, R: Summation>(
                 expected,
             });
         }
-        let kinetic = || match tableau {
-            Some(tableau) => check_kinetic::<V, S>(tableau, system, start),
-            None => Ok(()),
-        };
         Integrator::<M, S, V, R>::check(system, start, step_size)
-            .and_then(|()| kinetic())
+            .and_then(|()| check_quadratic_kinetic::<AtRunTime, V, S>(orders, system, start))
             .map_err(|error| EnsembleError::Start { trajectory, error })?;
     }
     Ok(())

@@ -242,7 +242,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         check_step_size(step_size)?;
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
         check_masses(system, state)?;
-        check_quadratic_kinetic::<M, V, S>(system, state)?;
+        let orders = M::NEEDS_QUADRATIC_KINETIC.then_some(M::ORDERS);
+        check_quadratic_kinetic::<M, V, S>(orders, system, state)?;
         <PlanOf<M, S, V> as Plan>::check(system, state.time, &state.q, &state.p)
     }
 

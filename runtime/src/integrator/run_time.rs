@@ -1,7 +1,7 @@
 //! Integrators of methods that are known only at run time.
 
 use super::memory::StepMemory;
-use super::validation::{check_kinetic, check_orders};
+use super::validation::{check_orders, check_quadratic_kinetic};
 use crate::error::Error;
 use crate::integrator::Integrator;
 use crate::method::{AtRunTime, Method, RunTimeTableau, Solver, StageStorage};
@@ -96,7 +96,8 @@ impl<S: System<V>, V: Vector, R: Summation> Integrator<AtRunTime, S, V, R> {
     ) -> Result<Self, Error> {
         check_orders::<V, S>(tableau)?;
         let mut made = Self::made(system, state, step_size)?;
-        check_kinetic::<V, S>(tableau, &made.system, made.state())?;
+        let orders = tableau.needs_quadratic_kinetic();
+        check_quadratic_kinetic::<AtRunTime, V, S>(orders, &made.system, made.state())?;
         made.set_tableau(tableau);
         Ok(made)
     }

@@ -1,9 +1,9 @@
 //! Checks before an integrator is created or changed.
 
 use crate::error::{Error, Quantity};
-use crate::method::storage::is_finite;
 #[cfg(feature = "alloc")]
-use crate::method::{AtRunTime, RunTimeTableau};
+use crate::method::RunTimeTableau;
+use crate::method::storage::is_finite;
 use crate::method::{Method, Orders, Solver};
 use crate::number::{Scalar, Vector};
 use crate::state::State;
@@ -38,26 +38,15 @@ pub(super) fn check_masses<V: Vector, S: System<V>>(
     })
 }
 
-/// Checks that the velocity is linear in the momentum, for a method that has its order only then.
-pub(super) fn check_quadratic_kinetic<M: Method, V: Vector, S: System<V>>(
+/// Checks that the velocity is linear in the momentum, for a method that has the order of these `orders` only then.
+pub(crate) fn check_quadratic_kinetic<M: Method, V: Vector, S: System<V>>(
+    orders: Option<Orders>,
     system: &S,
     state: &State<V>,
 ) -> Result<(), Error> {
-    if !M::NEEDS_QUADRATIC_KINETIC {
+    let Some(orders) = orders.filter(|_| !S::UNIT_MASSES) else {
         return Ok(());
-    }
-    check_quadratic_kinetic_of::<M, V, S>(M::ORDERS, system, state)
-}
-
-/// [`check_quadratic_kinetic`] for a method of these orders that needs a quadratic kinetic energy.
-pub(super) fn check_quadratic_kinetic_of<M: Method, V: Vector, S: System<V>>(
-    orders: Orders,
-    system: &S,
-    state: &State<V>,
-) -> Result<(), Error> {
-    if S::UNIT_MASSES {
-        return Ok(());
-    }
+    };
     let State { time, q, p } = state;
     non_linear_velocity(system, *time, q, p).map_or(Ok(()), |found| {
         Err(Error::NotQuadraticKinetic {
@@ -80,18 +69,6 @@ pub(crate) fn check_orders<V: Vector, S: System<V>>(tableau: &RunTimeTableau) ->
     Err(Error::SeparableTableau {
         order: tableau.orders().separable,
         lower_order: tableau.orders().general,
-    })
-}
-
-/// Checks that a system has the kinetic energy that a tableau requires.
-#[cfg(feature = "alloc")]
-pub(crate) fn check_kinetic<V: Vector, S: System<V>>(
-    tableau: &RunTimeTableau,
-    system: &S,
-    state: &State<V>,
-) -> Result<(), Error> {
-    tableau.needs_quadratic_kinetic().map_or(Ok(()), |orders| {
-        check_quadratic_kinetic_of::<AtRunTime, V, S>(orders, system, state)
     })
 }
 
