@@ -439,6 +439,6 @@ fn cycle<L: Lanes>(live: &[usize]) -> impl Iterator<Item = usize> {
 /// Copies the vector of a lane.
 fn copy_lane<V: Vector, W: Vector<Scalar: Lanes>>(lane: usize, from: &W, to: &mut V) {
     for (to, from) in to.as_mut_slice().iter_mut().zip(from.as_slice()) {
-        *to = V::Scalar::from_f64(from.to_array().as_ref()[lane]);
+        *to = V::Scalar::from_f64(from.get(lane));
     }
 }

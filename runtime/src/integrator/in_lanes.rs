@@ -11,7 +11,6 @@ use core::mem;
 use num_traits::Zero;
 
 use super::{Integrator, PlanOf};
-use crate::method::lane_stages::set_lane;
 use crate::method::{
     LaneMemory, LaneOutcome, Method, Outcome, Plan, Solver, Step, Stopping, WarmStart,
 };
@@ -120,13 +119,13 @@ where
         for (lanes, numbers) in lanes.zip(step_memory.vectors()) {
             let numbers = V::Scalar::doubles(numbers.as_slice()).unwrap_or(&[]);
             for (lanes, &number) in lanes.as_mut_slice().iter_mut().zip(numbers) {
-                set_lane(lanes, lane, number);
+                lanes.set(lane, number);
             }
         }
         self.memory.load(lane, &mut step_memory.memory);
         let WarmStart { stages, scales, .. } = step_memory.kept;
         for (lanes, scale) in self.memory.scales.iter_mut().zip(scales) {
-            set_lane(lanes, lane, scale);
+            lanes.set(lane, scale);
         }
         self.count_from_here(lane);
         stages && scales[0] > 0.0 && step_memory.last_size == size
@@ -140,18 +139,18 @@ where
         for (lanes, numbers) in lanes.zip(step_memory.vectors()) {
             let numbers = V::Scalar::doubles_mut(numbers.as_mut_slice()).unwrap_or(&mut []);
             for (lanes, number) in lanes.as_slice().iter().zip(numbers) {
-                *number = of_lane(*lanes, lane);
+                *number = lanes.get(lane);
             }
         }
         self.memory.store(lane, &mut step_memory.memory);
         let steps = self.steps - self.since[lane];
         if steps > 0 {
             let counts = self.taken.map(|taken| taken.counts);
-            let sweeps = of_lane(self.sweeps, lane) as u64;
+            let sweeps = self.sweeps.get(lane) as u64;
             let statistics = &mut step_memory.statistics;
             statistics.steps += steps;
             statistics.iterations += sweeps;
-            let most = of_lane(self.most, lane) as u32;
+            let most = self.most.get(lane) as u32;
             statistics.most_iterations = statistics.most_iterations.max(most);
             if let Some(counts) = counts {
                 let per_step = u64::from(counts.begin + counts.finish);
@@ -164,7 +163,7 @@ where
         step_memory.kept = WarmStart {
             evaluation: true,
             stages: true,
-            scales: self.memory.scales.map(|scale| of_lane(scale, lane)),
+            scales: self.memory.scales.map(|scale| scale.get(lane)),
         };
         self.count_from_here(lane);
     }
@@ -233,12 +232,7 @@ where
     /// Counts the steps of a lane from here.
     fn count_from_here(&mut self, lane: usize) {
         self.since[lane] = self.steps;
-        set_lane(&mut self.sweeps, lane, 0.0);
-        set_lane(&mut self.most, lane, 0.0);
+        self.sweeps.set(lane, 0.0);
+        self.most.set(lane, 0.0);
     }
-}
-
-/// The number of a lane.
-fn of_lane<L: Lanes>(lanes: L, lane: usize) -> f64 {
-    lanes.to_array().as_ref()[lane]
 }

@@ -103,7 +103,7 @@ impl<W: Vector<Scalar: Lanes>> LaneMemory<W> {
             if let Some(vector) = self.before.part(part).get_mut(stage)
                 && let Some(lanes) = vector.as_mut_slice().get_mut(component)
             {
-                set_lane(lanes, lane, *number);
+                lanes.set(lane, *number);
             }
         });
     }
@@ -114,17 +114,10 @@ impl<W: Vector<Scalar: Lanes>> LaneMemory<W> {
             if let Some(vector) = self.before.part(part).get(stage)
                 && let Some(lanes) = vector.as_slice().get(component)
             {
-                *number = lanes.to_array().as_ref()[lane];
+                *number = lanes.get(lane);
             }
         });
     }
-}
-
-/// Sets the number of a lane.
-#[inline]
-pub(crate) fn set_lane<L: Lanes>(lanes: &mut L, lane: usize, number: f64) {
-    let old = lanes.to_array();
-    *lanes = L::from_fn(|k| if k == lane { number } else { old.as_ref()[k] });
 }
 
 /// The result of a step of several trajectories.

@@ -41,6 +41,19 @@ pub trait Lanes: Scalar {
     /// The doubles of the lanes.
     fn to_array(self) -> Self::Array;
 
+    /// The number of a lane.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn get(self, lane: usize) -> f64 {
+        self.to_array().as_ref()[lane]
+    }
+
+    /// Sets the number of a lane.
+    #[inline]
+    fn set(&mut self, lane: usize, number: f64) {
+        let old = self.to_array();
+        *self = Self::from_fn(|k| if k == lane { number } else { old.as_ref()[k] });
+    }
+
     /// The larger of two numbers in each lane; either of them if one is NaN.
     fn larger(self, other: Self) -> Self;
 
@@ -93,7 +106,7 @@ pub(crate) fn lanes<L: Lanes>(list: &[f64], group: usize) -> L {
 /// The double of a stage, from the lanes of its group.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn lane_of<L: Lanes>(group: L, stage: usize) -> f64 {
-    group.to_array().as_ref()[stage % L::WIDTH]
+    group.get(stage % L::WIDTH)
 }
 
 /// The number of one lane in all lanes. Of two lanes by an exchange between registers: the compiler would read the second lane from

@@ -129,8 +129,7 @@ fn one_by_one<L: Lanes>(
         }
         let alone = orbit.lane(lane).end(h).map_err(|why| (lane, why))?;
         for (lanes, alone) in changes.iter_mut().zip(alone) {
-            let old = lanes.to_array();
-            *lanes = L::from_fn(|k| if k == lane { alone } else { old.as_ref()[k] });
+            lanes.set(lane, alone);
         }
     }
     Ok(changes)
@@ -139,7 +138,7 @@ fn one_by_one<L: Lanes>(
 impl<L: Lanes> Orbit<L> {
     /// The orbit of a lane.
     fn lane(&self, lane: usize) -> Orbit<f64> {
-        let one = |lanes: L| lanes.to_array().as_ref()[lane];
+        let one = |lanes: L| lanes.get(lane);
         Orbit {
             distance: one(self.distance),
             inverse: one(self.inverse),
