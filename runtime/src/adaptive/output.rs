@@ -6,7 +6,7 @@ use super::integrator::Adaptive;
 use super::monitor::Monitor;
 use crate::error::Error;
 use crate::integrator::Integrator;
-use crate::integrator::last_event::LastEvent;
+use crate::integrator::last_step::LastEvent;
 use crate::integrator::partial_step::PartialSteps;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};

@@ -7,7 +7,7 @@ use core::fmt::Write as _;
 
 use crate::integrator::clock::Clock;
 use crate::integrator::fingerprint::system_fingerprint;
-use crate::integrator::last_event::LastEvent;
+use crate::integrator::last_step::LastEvent;
 use crate::integrator::memory::StepMemory;
 use crate::integrator::{Integrator, Retry, Statistics};
 use crate::method::{Method, Solver, StageStorage, Stopping, WarmStart};

@@ -1,7 +1,6 @@
 //! Integrators and their steps.
 
 pub(crate) mod clock;
-pub(crate) mod last_event;
 pub(crate) mod last_step;
 pub(crate) mod partial_step;
 pub(crate) mod retry;
@@ -23,8 +22,7 @@ use core::ops::ControlFlow;
 
 use crate::error::Error;
 use crate::integrator::clock::Clock;
-use crate::integrator::last_event::LastEvent;
-use crate::integrator::last_step::LastStep;
+use crate::integrator::last_step::{LastEvent, LastStep};
 use crate::method::interpolation::Line;
 use crate::method::{Inside, Interpolation, Method, Plan, ProvedFor, Solver, Stopping};
 #[cfg(feature = "alloc")]
@@ -42,7 +40,6 @@ mod in_lanes;
 mod many_steps;
 mod memory;
 mod one_step;
-mod retry_in_parts;
 #[cfg(feature = "alloc")]
 mod run_time;
 #[cfg(feature = "alloc")]

@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use crate::error::Error;
 use crate::integrator::Integrator;
 use crate::integrator::clock::check_count;
-use crate::integrator::last_event::LastEvent;
+use crate::integrator::last_step::LastEvent;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 use crate::state::State;

@@ -7,7 +7,7 @@ use super::list::EventList;
 use super::track::{Crossing, Track, sign};
 use crate::error::Error;
 use crate::integrator::Integrator;
-use crate::integrator::last_event::LastEvent;
+use crate::integrator::last_step::LastEvent;
 use crate::integrator::partial_step::PartialSteps;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector, copy};
