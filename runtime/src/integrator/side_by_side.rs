@@ -67,15 +67,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 
     /// An integrator for runs like this one, with the system of their lanes, in vectors like `zeros`; every lane still has to be
     /// [set](Self::set_lane).
-    pub(crate) fn over_lanes<W, J>(
+    pub(crate) fn over_lanes<W: Vector<Scalar: Lanes>, J: System<W>>(
         &self,
         system: J,
         zeros: &W,
-    ) -> Integrator<M, J, W, R, <J as System<W>>::Solver>
-    where
-        W: Vector<Scalar: Lanes>,
-        J: System<W>,
-    {
+    ) -> Integrator<M, J, W, R, <J as System<W>>::Solver> {
         let blank = State::new(self.step_memory.state.time, zeros.clone(), zeros.clone());
         let mut lanes = Integrator {
             system,
@@ -95,13 +91,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 }
 
-impl<M, J, W, R, N> Integrator<M, J, W, R, N>
-where
-    M: Method,
-    J: System<W>,
-    W: Vector<Scalar: Lanes>,
-    R: Summation,
-    N: Solver<W, J>,
+impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<W, J>>
+    Integrator<M, J, W, R, N>
 {
     /// Sets the system, with the parameters of the run in each lane.
     pub(crate) fn set_system(&mut self, system: J) {

@@ -73,12 +73,10 @@ pub(crate) fn check_orders<V: Vector, S: System<V>>(tableau: &RunTimeTableau) ->
 }
 
 /// Whether the velocity is linear in the momentum, if the solver uses this.
-pub(super) fn has_linear_velocity<V, S, N>(system: &S, state: &State<V>) -> bool
-where
-    V: Vector,
-    S: System<V>,
-    N: Solver<V, S>,
-{
+pub(super) fn has_linear_velocity<V: Vector, S: System<V>, N: Solver<V, S>>(
+    system: &S,
+    state: &State<V>,
+) -> bool {
     let State { time, q, p } = state;
     N::TRIES_LINEARITY
         && S::Class::SEPARABLE

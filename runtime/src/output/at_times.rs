@@ -49,18 +49,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 }
 
 /// [`Integrator::integrate_at`] for constant and variable step sizes.
-pub(crate) fn integrate_at<M, S, V, R, N>(
+pub(crate) fn integrate_at<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>>(
     steps: &mut impl Steps<M, S, V, R, N>,
     times: &[f64],
     observe: &mut impl FnMut(&State<V>),
-) -> Result<(), Error>
-where
-    M: Method,
-    S: System<V>,
-    V: Vector,
-    R: Summation,
-    N: Solver<V, S>,
-{
+) -> Result<(), Error> {
     check(steps, times)?;
     let direction = steps.direction();
     let mut rest = times;
@@ -73,17 +66,10 @@ where
 }
 
 /// Checks the times of [`integrate_at`].
-pub(crate) fn check<M, S, V, R, N>(
+pub(crate) fn check<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>>(
     steps: &impl Steps<M, S, V, R, N>,
     times: &[f64],
-) -> Result<(), Error>
-where
-    M: Method,
-    S: System<V>,
-    V: Vector,
-    R: Summation,
-    N: Solver<V, S>,
-{
+) -> Result<(), Error> {
     let before = steps.start_of_last_step();
     steps.check_count(check_times(steps.direction(), times, before, None)?)
 }
@@ -121,13 +107,10 @@ pub(crate) struct Output<V> {
 
 impl<V: Vector> Output<V> {
     /// Storage for states like the present one of an integrator; `direction` has the sign of the step size.
-    pub(crate) fn new<M, S, R, N>(integrator: &Integrator<M, S, V, R, N>, direction: f64) -> Self
-    where
-        M: Method,
-        S: System<V>,
-        R: Summation,
-        N: Solver<V, S>,
-    {
+    pub(crate) fn new<M: Method, S: System<V>, R: Summation, N: Solver<V, S>>(
+        integrator: &Integrator<M, S, V, R, N>,
+        direction: f64,
+    ) -> Self {
         Self {
             ends: Ends::new(),
             evaluated: false,
@@ -142,17 +125,11 @@ impl<V: Vector> Output<V> {
     }
 
     /// Sets `state` to the state at a time inside the last step.
-    pub(crate) fn look_at<M, S, R, N>(
+    pub(crate) fn look_at<M: Method, S: System<V>, R: Summation, N: Solver<V, S>>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
         time: f64,
-    ) -> Result<(), Error>
-    where
-        M: Method,
-        S: System<V>,
-        R: Summation,
-        N: Solver<V, S>,
-    {
+    ) -> Result<(), Error> {
         if !self.evaluated {
             self.ends.evaluate(integrator)?;
             self.evaluated = true;
@@ -171,18 +148,12 @@ impl<V: Vector> Output<V> {
     }
 
     /// Observes the states at the output times up to the present time and removes these times from the list.
-    pub(crate) fn show<M, S, R, N>(
+    pub(crate) fn show<M: Method, S: System<V>, R: Summation, N: Solver<V, S>>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
         times: &mut &[f64],
         observe: &mut impl FnMut(&State<V>),
-    ) -> Result<(), Error>
-    where
-        M: Method,
-        S: System<V>,
-        R: Summation,
-        N: Solver<V, S>,
-    {
+    ) -> Result<(), Error> {
         self.evaluated = false;
         while let Some((&time, rest)) = times.split_first() {
             let present = integrator.state();

@@ -63,16 +63,10 @@ impl<V: Vector> Ends<V> {
     }
 
     /// Evaluates the derivatives for the last step of an integrator.
-    pub(crate) fn evaluate<M, S, R, N>(
+    pub(crate) fn evaluate<M: Method, S: System<V>, R: Summation, N: Solver<V, S>>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
-    ) -> Result<(), Error>
-    where
-        M: Method,
-        S: System<V>,
-        R: Summation,
-        N: Solver<V, S>,
-    {
+    ) -> Result<(), Error> {
         let last = integrator.last_step().ok_or(Error::NoStep)?;
         if Integrator::<M, S, V, R, N>::INTERPOLATION != Interpolation::Hermite {
             return Ok(());
@@ -115,19 +109,13 @@ impl<V: Vector> Ends<V> {
     }
 
     /// Writes the state at a time inside the last step, for which `evaluate` was called.
-    pub(crate) fn write<M, S, R, N>(
+    pub(crate) fn write<M: Method, S: System<V>, R: Summation, N: Solver<V, S>>(
         &self,
         integrator: &Integrator<M, S, V, R, N>,
         time: f64,
         q: &mut V,
         p: &mut V,
-    ) -> Result<(), Error>
-    where
-        M: Method,
-        S: System<V>,
-        R: Summation,
-        N: Solver<V, S>,
-    {
+    ) -> Result<(), Error> {
         let last = integrator.last_step().ok_or(Error::NoStep)?;
         let (start, end) = (last.start, last.end);
         if !(start.min(end) <= time && time <= start.max(end)) {

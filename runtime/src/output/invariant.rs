@@ -97,14 +97,10 @@ impl<F> Invariant<F> {
 
 impl Invariant<()> {
     /// An observer of the energy of `system`, in double precision; NaN if the system does not implement it.
-    pub fn energy<V, S>(
+    pub fn energy<V: Vector<Scalar = f64>, S: System<V>>(
         system: S,
         start: &State<V>,
-    ) -> Invariant<impl Fn(&State<V>) -> f64 + use<V, S>>
-    where
-        V: Vector<Scalar = f64>,
-        S: System<V>,
-    {
+    ) -> Invariant<impl Fn(&State<V>) -> f64 + use<V, S>> {
         let energy = move |state: &State<V>| {
             let energy = system.energy(state.time, &state.q, &state.p);
             energy.unwrap_or(f64::NAN)

@@ -60,10 +60,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// # Ok(())
     /// # }
     /// ```
-    pub fn integrate_while<B, F>(&mut self, end: f64, mut report: F) -> Result<Option<B>, Error>
-    where
-        F: FnMut(Progress<'_, V>) -> ControlFlow<B>,
-    {
+    pub fn integrate_while<B, F: FnMut(Progress<'_, V>) -> ControlFlow<B>>(
+        &mut self,
+        end: f64,
+        mut report: F,
+    ) -> Result<Option<B>, Error> {
         let (mut step, steps) = (0, self.steps_to_time(end)?.left);
         let ended = self.steps_to(end, |integrator, size, time| {
             integrator.advance(size, time)?;

@@ -70,13 +70,8 @@ where
     fn keep_last_event(&mut self, event: Option<LastEvent>);
 }
 
-impl<M, S, V, R, N> Steps<M, S, V, R, N> for Integrator<M, S, V, R, N>
-where
-    M: Method,
-    S: System<V>,
-    V: Vector,
-    R: Summation,
-    N: Solver<V, S>,
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Steps<M, S, V, R, N>
+    for Integrator<M, S, V, R, N>
 {
     fn integrator(&self) -> &Self {
         self

@@ -29,12 +29,10 @@ use crate::system::{General, Separable, System};
 /// # symplectic::System::force(&oscillator, 0.0, &x, &x, &mut Vector1::new(0.0));
 /// # symplectic::System::force(&kepler, 0.0, &y, &y, &mut Vector2::zeros());
 /// ```
-pub const fn separable<V, F, G>(velocity: F, force: G) -> SeparableClosures<V, F, G>
-where
-    V: Vector,
-    F: Fn(V::Scalar, &V, &mut V),
-    G: Fn(V::Scalar, &V, &mut V),
-{
+pub const fn separable<V: Vector, F: Fn(V::Scalar, &V, &mut V), G: Fn(V::Scalar, &V, &mut V)>(
+    velocity: F,
+    force: G,
+) -> SeparableClosures<V, F, G> {
     Closures::new(velocity, force)
 }
 
@@ -54,11 +52,9 @@ where
 /// # symplectic::System::velocity(&kepler, 0.0, &p, &p, &mut velocity);
 /// # assert_eq!(velocity, Vector2::new(1.0, 2.0));
 /// ```
-pub const fn acceleration<V, G>(acceleration: G) -> SeparableClosures<V, Momentum, G>
-where
-    V: Vector,
-    G: Fn(V::Scalar, &V, &mut V),
-{
+pub const fn acceleration<V: Vector, G: Fn(V::Scalar, &V, &mut V)>(
+    acceleration: G,
+) -> SeparableClosures<V, Momentum, G> {
     Closures::new(Momentum, acceleration)
 }
 
@@ -140,12 +136,8 @@ impl<V, F, G, C> Closures<V, F, G, NoEnergy, C> {
     }
 }
 
-impl<V, F, G, E> System<V> for SeparableClosures<V, F, G, E>
-where
-    V: Vector,
-    F: Velocity<V>,
-    G: Fn(V::Scalar, &V, &mut V),
-    E: Energy<V>,
+impl<V: Vector, F: Velocity<V>, G: Fn(V::Scalar, &V, &mut V), E: Energy<V>> System<V>
+    for SeparableClosures<V, F, G, E>
 {
     type Class = Separable;
     type Solver = FixedPoint;
@@ -167,12 +159,8 @@ where
     }
 }
 
-impl<V, F, G, E> System<V> for HamiltonianClosures<V, F, G, E>
-where
-    V: Vector,
-    F: Fn(V::Scalar, &V, &V, &mut V),
-    G: Fn(V::Scalar, &V, &V, &mut V),
-    E: Energy<V>,
+impl<V: Vector, F: Fn(V::Scalar, &V, &V, &mut V), G: Fn(V::Scalar, &V, &V, &mut V), E: Energy<V>>
+    System<V> for HamiltonianClosures<V, F, G, E>
 {
     type Class = General;
     type Solver = FixedPoint;

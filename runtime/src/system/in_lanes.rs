@@ -13,10 +13,10 @@ pub trait LaneWork<V: Vector, S: System<V>, L: Lanes> {
     fn has_one_system(&self) -> bool;
 
     /// Runs the work with a system of type `J` over the vectors `W`.
-    fn run<W, J>(self, join: Join<S, J>) -> Self::Output
-    where
-        W: Vector<Scalar = L>,
-        J: System<W, Class = <S as System<V>>::Class>;
+    fn run<W: Vector<Scalar = L>, J: System<W, Class = <S as System<V>>::Class>>(
+        self,
+        join: Join<S, J>,
+    ) -> Self::Output;
 }
 
 /// Makes a system over lanes, each with the parameters and the bits of one of these systems. Returns `None` if there is no system, or if
@@ -32,37 +32,31 @@ pub(crate) fn first<S: Clone>(systems: &mut dyn Iterator<Item = &S>) -> Option<S
 /// Lanes in which systems are evaluated.
 pub trait SystemLanes: Lanes {
     /// [`System::velocity`] in every lane at once.
-    fn velocity<V, S>(
+    fn velocity<V: Vector, S: SystemInLanes<V>>(
         system: &S,
         time: Self,
         q: &V::With<Self>,
         p: &V::With<Self>,
         velocity: &mut V::With<Self>,
-    ) where
-        V: Vector,
-        S: SystemInLanes<V>;
+    );
 
     /// [`System::force`] in every lane at once.
-    fn force<V, S>(
+    fn force<V: Vector, S: SystemInLanes<V>>(
         system: &S,
         time: Self,
         q: &V::With<Self>,
         p: &V::With<Self>,
         force: &mut V::With<Self>,
-    ) where
-        V: Vector,
-        S: SystemInLanes<V>;
+    );
 
     /// [`System::slopes`] in every lane at once.
-    fn slopes<V, S>(
+    fn slopes<V: Vector, S: SystemInLanes<V>>(
         system: &S,
         time: Self,
         q: &V::With<Self>,
         p: &V::With<Self>,
         slopes: (&mut V::With<Self>, &mut V::With<Self>),
-    ) where
-        V: Vector,
-        S: SystemInLanes<V>;
+    );
 }
 
 macro_rules! system_lanes {

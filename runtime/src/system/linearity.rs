@@ -15,11 +15,12 @@ pub(crate) struct NonLinear {
 
 /// The first component in which the velocity is not linear in the momentum, or depends on time. The test evaluates it at `p`, at another
 /// momentum of size at least 1, at combinations of both, and at another time.
-pub(crate) fn non_linear_velocity<V, S>(system: &S, time: f64, q: &V, p: &V) -> Option<NonLinear>
-where
-    V: Vector,
-    S: System<V>,
-{
+pub(crate) fn non_linear_velocity<V: Vector, S: System<V>>(
+    system: &S,
+    time: f64,
+    q: &V,
+    p: &V,
+) -> Option<NonLinear> {
     let velocity = |time: f64, momentum: &dyn Fn(usize) -> V::Scalar| {
         let (mut point, mut velocity) = (p.zeros_like(), p.zeros_like());
         for (k, component) in point.as_mut_slice().iter_mut().enumerate() {

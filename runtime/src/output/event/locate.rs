@@ -23,13 +23,8 @@ const DEEPEST: f64 = 4.0;
 /// Increment of the difference quotient for the derivative along the flow, relative to the step.
 const SMALL: f64 = 1.0 / 16_384.0;
 
-impl<E, M, S, V, N> Search<'_, E, M, S, V, N>
-where
-    E: EventList<V> + ?Sized,
-    M: Method,
-    S: System<V>,
-    V: Vector,
-    N: Solver<V, S>,
+impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, S>>
+    Search<'_, E, M, S, V, N>
 {
     /// Finds the events of a function in the panel from `start`, and advances its track to the end. `ahead` holds the middle and the end of
     /// the panel.

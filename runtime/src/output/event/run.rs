@@ -24,16 +24,16 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// Those of [`integrate_to`](Self::integrate_to) and of [`dense`](Self::dense). [`Error::EventValue`] if the
     /// function is NaN; the present state is then the state before the step. [`Error::EventsAccumulate`], see
     /// [`Event`].
-    pub fn integrate_with_events<G, B, F>(
+    pub fn integrate_with_events<
+        G: Fn(&State<V>) -> f64,
+        B,
+        F: FnMut(&State<V>) -> ControlFlow<B>,
+    >(
         &mut self,
         end: f64,
         event: &Event<G>,
         mut observe: F,
-    ) -> Result<Option<B>, Error>
-    where
-        G: Fn(&State<V>) -> f64,
-        F: FnMut(&State<V>) -> ControlFlow<B>,
-    {
+    ) -> Result<Option<B>, Error> {
         self.integrate_through(end, &[], event, |moment| match moment {
             Moment::Event { state, .. } => observe(state),
             Moment::Output(_) => ControlFlow::Continue(()),
@@ -111,17 +111,17 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// # Ok(())
     /// # }
     /// ```
-    pub fn integrate_through<E, B, F>(
+    pub fn integrate_through<
+        E: Events<V> + ?Sized,
+        B,
+        F: FnMut(Moment<'_, V>) -> ControlFlow<B>,
+    >(
         &mut self,
         end: f64,
         times: &[f64],
         events: &E,
         mut handle: F,
-    ) -> Result<Option<B>, Error>
-    where
-        E: Events<V> + ?Sized,
-        F: FnMut(Moment<'_, V>) -> ControlFlow<B>,
-    {
+    ) -> Result<Option<B>, Error> {
         integrate_through(self, end, times, events, &mut handle)
     }
 }

@@ -53,13 +53,8 @@ pub(super) enum Stop<B> {
 
 type Seen<B> = ControlFlow<Stop<B>>;
 
-impl<'e, E, M, S, V, N> Search<'e, E, M, S, V, N>
-where
-    E: EventList<V> + ?Sized,
-    M: Method,
-    S: System<V>,
-    V: Vector,
-    N: Solver<V, S>,
+impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, S>>
+    Search<'e, E, M, S, V, N>
 {
     /// A search from the present state of the integrator; `direction` has the sign of the step size.
     pub(super) fn new<R: Summation>(
