@@ -78,7 +78,7 @@ macro_rules! tuples {
             type Tracks = [Track; $count];
 
             fn tracks(&self) -> Self::Tracks {
-                [Track::default(); $count]
+                core::array::from_fn(|_| Track::default())
             }
 
             fn kind(&self, index: usize) -> Kind {
