@@ -123,7 +123,7 @@ impl<L: Substeps> Plan for Composition<L> {
         memory: &mut Self::Memory<V, S, N>,
         kept: WarmStart,
         stopping: Stopping,
-        mut outcome: Outcome<'_, V>,
+        outcome: Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure>
     where
         R: Summation,
@@ -135,64 +135,81 @@ impl<L: Substeps> Plan for Composition<L> {
             plans,
             between: [q, q_low, p, p_low],
         } = memory;
-        let mut between = Outcome { q, q_low, p, p_low };
-        let mut outcome = outcome.reborrow();
-        let mut work = StepStatistics::default();
-        let count = L::SUBSTEPS.len();
-        for (number, substep) in L::SUBSTEPS.iter().enumerate() {
-            // Results alternate between two places, so that the last one is written to `outcome`.
-            let (here, there) = if (count - number) % 2 == 1 {
-                (&mut outcome, &between)
-            } else {
-                (&mut between, &outcome)
-            };
-            let (q, q_low, p, p_low) = if number == 0 {
-                (step.q, step.q_low, step.p, step.p_low)
-            } else {
-                (&*there.q, &*there.q_low, &*there.p, &*there.p_low)
-            };
-            let part = Step {
-                time: step.time + substep.start.double() * step.size,
-                size: substep.fraction.double() * step.size,
-                q,
-                q_low,
-                p,
-                p_low,
-                linear_velocity: step.linear_velocity,
-            };
+        let between = Outcome { q, q_low, p, p_low };
+        let take = |(number, substep): (usize, &Substep),
+                    part: &Step<'_, V>,
+                    kept: WarmStart,
+                    here: &mut Outcome<'_, V>| {
             let kept = WarmStart {
-                evaluation: substep.kept.evaluation && (number > 0 || kept.evaluation),
-                stages: substep.kept.stages && (number > 0 || kept.stages),
-                scales: if number > 0 { work.scales } else { kept.scales },
+                evaluation: substep.kept.evaluation && kept.evaluation,
+                stages: substep.kept.stages && kept.stages,
+                ..kept
             };
-            let taken = L::take::<R, V, S, N>(
-                number,
-                &part,
-                system,
-                plans,
-                kept,
-                stopping,
-                here.reborrow(),
-            );
+            let result = here.reborrow();
+            let taken = L::take::<R, V, S, N>(number, part, system, plans, kept, stopping, result);
             let taken = taken.and_then(|taken| {
                 if is_finite(here.q) && is_finite(here.p) {
                     return Ok(taken);
                 }
                 let mut fault = FirstFault::new(step.q.dimension());
-                L::observe::<R, V, S, N, _>(
-                    number,
-                    &part,
-                    system,
-                    plans,
-                    here.reborrow(),
-                    &mut fault,
-                );
+                let result = here.reborrow();
+                L::observe::<R, V, S, N, _>(number, part, system, plans, result, &mut fault);
                 let (what, stage) = culprit(&fault, plans, here.q);
                 Err(Failure::NonFinite { what, stage })
             });
-            let taken = taken.map_err(|failure| failure.after(substep.stages))?;
-            work += taken;
-        }
-        Ok(work)
+            taken.map_err(|failure| failure.after(substep.stages))
+        };
+        let place = |substep: &Substep| (substep.start, substep.fraction);
+        in_turn(L::SUBSTEPS, place, step, kept, between, outcome, take)
     }
+}
+
+/// Takes substeps one after another. `place` gives the start and the size of a substep, as fractions of the whole step. `take` takes the
+/// substep with a number, from 0; its [`WarmStart`] says what the previous substep or step has left.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn in_turn<'a, V: Vector, P>(
+    substeps: &[P],
+    place: impl Fn(&P) -> (Coefficient, Coefficient),
+    step: &Step<'_, V>,
+    mut kept: WarmStart,
+    mut between: Outcome<'a, V>,
+    mut outcome: Outcome<'a, V>,
+    mut take: impl FnMut(
+        (usize, &P),
+        &Step<'_, V>,
+        WarmStart,
+        &mut Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure>,
+) -> Result<StepStatistics, Failure> {
+    let mut work = StepStatistics::default();
+    for (number, substep) in substeps.iter().enumerate() {
+        // Results alternate between two places, so that the last one is written to `outcome`.
+        let (here, there) = if (substeps.len() - number) % 2 == 1 {
+            (&mut outcome, &between)
+        } else {
+            (&mut between, &outcome)
+        };
+        let (q, q_low, p, p_low) = if number == 0 {
+            (step.q, step.q_low, step.p, step.p_low)
+        } else {
+            (&*there.q, &*there.q_low, &*there.p, &*there.p_low)
+        };
+        let (start, fraction) = place(substep);
+        let part = Step {
+            time: step.time + start.double() * step.size,
+            size: fraction.double() * step.size,
+            q,
+            q_low,
+            p,
+            p_low,
+            linear_velocity: step.linear_velocity,
+        };
+        work += take((number, substep), &part, kept, here)?;
+        kept = WarmStart {
+            evaluation: true,
+            stages: true,
+            scales: work.scales,
+        };
+    }
+    Ok(work)
 }

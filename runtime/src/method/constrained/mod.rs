@@ -33,6 +33,7 @@ pub(super) use step::{NOISE, PATIENCE, ROUNDING, result, same_momentum, show_sta
 use core::marker::PhantomData;
 
 use crate::error::Error;
+use crate::method::composition::in_turn;
 use crate::method::{
     ConstrainedStep, Failure, Method, Outcome, Plan, Solver, StageStorage, StageView, Step,
     StepStatistics, Stopping, WarmStart, check_no_friction, check_no_rows,
@@ -133,14 +134,24 @@ impl<V: Vector> ConstrainedStages<V> {
         let workspace = workspace
             .get_or_insert_with(|| Workspace::new::<M, _>(system, step.time, step.q, step.p));
         let between = Outcome { q, q_low, p, p_low };
-        let take = |number: usize, part: &Step<'_, V>, carried, here: &mut Outcome<'_, V>| {
-            let tableau = M::CONSTRAINED[number].tableau;
-            let taken =
-                workspace.take::<R, _>((number, tableau), part, system, carried, stopping, here);
+        let take = |(number, substep): (usize, &ConstrainedStep),
+                    part: &Step<'_, V>,
+                    kept: WarmStart,
+                    here: &mut Outcome<'_, V>| {
+            let tableau = substep.tableau;
+            let taken = workspace.take::<R, _>(
+                (number, tableau),
+                part,
+                system,
+                kept.evaluation,
+                stopping,
+                here,
+            );
             show_stages::<V, S>(tableau, part, (&workspace.q, &workspace.p), &mut show);
             taken
         };
-        let taken = in_turn(M::CONSTRAINED, step, kept, between, outcome, take);
+        let place = |substep: &ConstrainedStep| (substep.start, substep.fraction);
+        let taken = in_turn(M::CONSTRAINED, place, step, kept, between, outcome, take);
         *resized = system.resized();
         taken
     }
@@ -159,47 +170,4 @@ pub(super) fn taken_once_more<V: Vector>(
         p_low: &mut p_low,
     };
     take(WarmStart::default(), outcome).map(|_| ())
-}
-
-/// Takes the steps of a composition one after another. `take` takes the step with a given number; its flag says whether the previous step
-/// ended where this one starts.
-pub(super) fn in_turn<'a, V: Vector>(
-    steps: &[ConstrainedStep],
-    step: &Step<'_, V>,
-    kept: WarmStart,
-    mut between: Outcome<'a, V>,
-    mut outcome: Outcome<'a, V>,
-    mut take: impl FnMut(
-        usize,
-        &Step<'_, V>,
-        bool,
-        &mut Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>,
-) -> Result<StepStatistics, Failure> {
-    let mut work = StepStatistics::default();
-    for (number, substep) in steps.iter().enumerate() {
-        // Results alternate between two places, so that the last one is written to `outcome`.
-        let (here, there) = if (steps.len() - number) % 2 == 1 {
-            (&mut outcome, &between)
-        } else {
-            (&mut between, &outcome)
-        };
-        let (q, q_low, p, p_low) = if number == 0 {
-            (step.q, step.q_low, step.p, step.p_low)
-        } else {
-            (&*there.q, &*there.q_low, &*there.p, &*there.p_low)
-        };
-        let part = Step {
-            time: step.time + substep.start.double() * step.size,
-            size: substep.fraction.double() * step.size,
-            q,
-            q_low,
-            p,
-            p_low,
-            linear_velocity: step.linear_velocity,
-        };
-        let carried = number > 0 || kept.evaluation;
-        work += take(number, &part, carried, here)?;
-    }
-    Ok(work)
 }

@@ -30,10 +30,10 @@ pub use start::consistent_momentum;
 use core::marker::PhantomData;
 
 use crate::error::Error;
-use crate::method::constrained::{
-    OfDimension, add_to_force, in_turn, show_stages, taken_once_more,
-};
+use crate::method::composition::in_turn;
+use crate::method::constrained::{OfDimension, add_to_force, show_stages, taken_once_more};
 use crate::method::{
+    ConstrainedStep,
     Failure, Method, Outcome, Plan, Solver, StageStorage, StageView, Step, StepStatistics,
     Stopping, WarmStart, check_no_friction, check_no_holonomic_constraints,
 };
@@ -142,14 +142,19 @@ impl<V: Vector> NonholonomicStages<V> {
         let workspace = workspace
             .get_or_insert_with(|| Workspace::new::<M, _>(system, step.time, step.q, step.p));
         let between = Outcome { q, q_low, p, p_low };
-        let take = |number: usize, part: &Step<'_, V>, carried, here: &mut Outcome<'_, V>| {
-            let tableau = M::NONHOLONOMIC[number].tableau;
-            let taken = workspace.take::<R, _>(tableau, part, system, carried, stopping, here);
+        let take = |(_, substep): (usize, &ConstrainedStep),
+                    part: &Step<'_, V>,
+                    kept: WarmStart,
+                    here: &mut Outcome<'_, V>| {
+            let tableau = substep.tableau;
+            let taken =
+                workspace.take::<R, _>(tableau, part, system, kept.evaluation, stopping, here);
             let places = (&workspace.q[..], &workspace.p[..]);
             show_stages::<V, RowsAsGradients<'_, S>>(tableau, part, places, &mut show);
             taken
         };
-        let taken = in_turn(M::NONHOLONOMIC, step, kept, between, outcome, take);
+        let place = |substep: &ConstrainedStep| (substep.start, substep.fraction);
+        let taken = in_turn(M::NONHOLONOMIC, place, step, kept, between, outcome, take);
         *resized = system.resized();
         taken
     }
