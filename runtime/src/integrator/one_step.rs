@@ -57,15 +57,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// Returns the reason of a failed step, and forgets all data that the step left behind.
     #[cold]
     pub(super) fn fail(&mut self, size: f64, failure: Option<Failure>) -> Error {
-        let attempt = Attempt {
-            time: self.step_memory.state.time,
-            step_size: size,
-            step: self.step_memory.statistics.steps + 1,
-            dimension: self.step_memory.state.q.dimension(),
-        };
+        let number = self.step_memory.statistics.steps + 1;
+        let (step, outcome, memory) = self.step_memory.lend(size);
+        let attempt = Attempt::of(&step, number);
         let mut fault = FirstFault::new(attempt.dimension);
         if failure.is_none() {
-            let (step, outcome, memory) = self.step_memory.lend(size);
             <PlanOf<M, S, V> as Plan>::observe::<R, V, S, N, FirstFault>(
                 &step,
                 &self.system,

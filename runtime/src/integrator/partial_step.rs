@@ -62,18 +62,10 @@ impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S, V, 
                 p_low: &mut self.low.1,
             },
         );
-        match taken {
-            Ok(_) => Ok(()),
-            Err(failure) => {
-                let attempt = Attempt {
-                    time: step.time,
-                    step_size: step.size,
-                    step: integrator.steps(),
-                    dimension: q.dimension(),
-                };
-                let fault = FirstFault::new(attempt.dimension);
-                Err(attempt.error(Some(failure), &fault, &self.memory, &state.q))
-            }
-        }
+        taken.map(|_| ()).map_err(|failure| {
+            let attempt = Attempt::of(&step, integrator.steps());
+            let fault = FirstFault::new(attempt.dimension);
+            attempt.error(Some(failure), &fault, &self.memory, &state.q)
+        })
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Quantity};
 use crate::method::storage::is_finite;
-use crate::method::{EvaluationObserver, Failure, StageStorage};
+use crate::method::{EvaluationObserver, Failure, StageStorage, Step};
 use crate::number::Vector;
 
 /// A fault of an evaluation.
@@ -86,6 +86,16 @@ pub(crate) struct Attempt {
 }
 
 impl Attempt {
+    /// For a step with this number, from 1.
+    pub(crate) fn of<V: Vector>(step: &Step<'_, V>, number: u64) -> Self {
+        Self {
+            time: step.time,
+            step_size: step.size,
+            step: number,
+            dimension: step.q.dimension(),
+        }
+    }
+
     /// The error for a `failure` to find the stages. Without a failure, the error for an invalid result whose position is `q1`. The invalid
     /// evaluation is in `stages`, or it was `observed`.
     pub(crate) fn error<V: Vector, T: StageStorage<V>>(
@@ -114,58 +124,50 @@ impl Attempt {
                 found,
             };
         }
+        let failure = failure.unwrap_or_else(|| {
+            let (what, stage) = culprit(observed, stages, q1);
+            Failure::NonFinite { what, stage }
+        });
         match failure {
-            Some(Failure::NoConvergence {
+            Failure::NoConvergence {
                 residual,
                 iterations,
-            }) => Error::NoConvergence {
+            } => Error::NoConvergence {
                 time,
                 step_size,
                 step,
                 residual,
                 iterations,
             },
-            Some(Failure::Stagnation {
+            Failure::Stagnation {
                 residual,
                 iterations,
-            }) => Error::Stagnation {
+            } => Error::Stagnation {
                 time,
                 step_size,
                 step,
                 residual,
                 iterations,
             },
-            Some(Failure::SingularMatrix) => Error::SingularMatrix {
+            Failure::SingularMatrix => Error::SingularMatrix {
                 time,
                 step_size,
                 step,
             },
-            Some(Failure::DependentConstraints { constraint, pivot }) => {
-                Error::DependentConstraints {
-                    time,
-                    constraint,
-                    name: None,
-                    pivot,
-                }
-            }
-            Some(Failure::MovingGradients) => Error::MovingGradients { time },
-            Some(Failure::NonFinite { what, stage }) => Error::NonFinite {
+            Failure::DependentConstraints { constraint, pivot } => Error::DependentConstraints {
+                time,
+                constraint,
+                name: None,
+                pivot,
+            },
+            Failure::MovingGradients => Error::MovingGradients { time },
+            Failure::NonFinite { what, stage } => Error::NonFinite {
                 time,
                 step_size,
                 step,
                 what,
                 stage,
             },
-            None => {
-                let (what, stage) = culprit(observed, stages, q1);
-                Error::NonFinite {
-                    time,
-                    step_size,
-                    step,
-                    what,
-                    stage,
-                }
-            }
         }
     }
 }

@@ -246,12 +246,7 @@ fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
 
 /// The error of a step that succeeded once and fails when it is repeated.
 fn error<V: Vector>(step: &Step<'_, V>, number: u64, failure: Failure) -> Error {
-    let attempt = Attempt {
-        time: step.time,
-        step_size: step.size,
-        step: number,
-        dimension: step.q.dimension(),
-    };
+    let attempt = Attempt::of(step, number);
     let observed = FirstFault::new(attempt.dimension);
     let nothing: crate::method::Evaluations<V> = crate::method::StageStorage::like(step.q);
     attempt.error(Some(failure), &observed, &nothing, step.q)

@@ -46,12 +46,7 @@ pub(super) fn solve<const FORWARD: bool, M: Method, S: System<V>, V: Vector>(
             p_low: &mut zeros(),
         },
     );
-    let attempt = Attempt {
-        time: step.time,
-        step_size: step.size,
-        step: number,
-        dimension: step.q.dimension(),
-    };
+    let attempt = Attempt::of(step, number);
     let mismatch = stages.mismatch(attempt.dimension);
     let sound = mismatch.is_none() && is_finite(&q1) && is_finite(&p);
     if outcome.is_err() || !sound {
