@@ -182,15 +182,11 @@ where
         };
         let [q, p, q_low, p_low] = &mut *self.states.other;
         let outcome = Outcome { q, q_low, p, p_low };
-        let taken = PlanOf::<M, S, V>::take_in_lanes::<R, V, S, N, W, J>(
-            &step,
-            &self.system,
-            &mut self.memory,
-            live,
-            self.stopping,
-            outcome,
-        );
-        let Some(taken) = taken else {
+        let Some(take) = PlanOf::<M, S, V>::lane_step::<R, V, S, N, W, J>() else {
+            return 0;
+        };
+        let (system, memory) = (&self.system, &mut self.memory);
+        let Some(taken) = take(&step, system, memory, live, self.stopping, outcome) else {
             return 0;
         };
         self.taken = Some(taken);

@@ -2,12 +2,12 @@
 
 use core::marker::PhantomData;
 
+#[cfg(feature = "alloc")]
+use crate::method::LaneStep;
 use crate::method::{
     Failure, Inside, Interpolation, Outcome, Plan, Solver, StageTableau, Step, StepStatistics,
     Stopping, WarmStart,
 };
-#[cfg(feature = "alloc")]
-use crate::method::{LaneMemory, LaneOutcome};
 #[cfg(feature = "alloc")]
 use crate::number::Lanes;
 use crate::number::{Summation, Vector};
@@ -54,14 +54,7 @@ impl<P: StageTableau> Plan for Coupled<P> {
 
     #[cfg(feature = "alloc")]
     #[inline]
-    fn take_in_lanes<R, V, S, N, W, J>(
-        step: &Step<'_, W>,
-        system: &J,
-        memory: &mut LaneMemory<W>,
-        live: u32,
-        stopping: Stopping,
-        outcome: Outcome<'_, W>,
-    ) -> Option<LaneOutcome<W::Scalar>>
+    fn lane_step<R, V, S, N, W, J>() -> Option<LaneStep<W, J>>
     where
         R: Summation,
         V: Vector,
@@ -70,7 +63,7 @@ impl<P: StageTableau> Plan for Coupled<P> {
         W: Vector<Scalar: Lanes>,
         J: System<W, Class = P::Class>,
     {
-        N::take_in_lanes::<P, R, W, J>(step, system, memory, live, stopping, outcome)
+        N::lane_step::<P, R, W, J>()
     }
 
     const INTERPOLATION: Interpolation =

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use crate::method::{EvaluationCounts, RunTimeTableau, StageStorage};
+use crate::method::{EvaluationCounts, Outcome, RunTimeTableau, StageStorage, Step, Stopping};
 use crate::number::{Lanes, Vector};
 
 /// A part of the memory of coupled stages.
@@ -132,3 +132,15 @@ pub struct LaneOutcome<L> {
     /// The evaluations of the step.
     pub(crate) counts: EvaluationCounts,
 }
+
+/// Takes a step of the trajectories in some lanes, given as bits, after a step that has left its stages in the memory. Writes the results
+/// of those whose stages converge into the outcome. They have the bits of [`Plan::take`](crate::emitted::Plan::take) with the solver of the
+/// run. `None` if that is impossible.
+pub type LaneStep<W, J> = fn(
+    &Step<'_, W>,
+    &J,
+    &mut LaneMemory<W>,
+    u32,
+    Stopping,
+    Outcome<'_, W>,
+) -> Option<LaneOutcome<<W as Vector>::Scalar>>;

@@ -45,7 +45,7 @@ pub use explicit::Explicit;
 pub use interpolation::{Inside, Interpolation};
 pub use kick_drift::KickDrift;
 #[cfg(feature = "alloc")]
-pub use lane_stages::{LaneMemory, LaneOutcome, LaneStages, StagePart, StageVisit};
+pub use lane_stages::{LaneMemory, LaneOutcome, LaneStages, LaneStep, StagePart, StageVisit};
 #[cfg(feature = "alloc")]
 pub use nonholonomic::{NonholonomicPlan, NonholonomicStages, consistent_momentum};
 pub use proved::{LowerOrder, Orders, ProvedFor, Symmetry};
@@ -206,7 +206,7 @@ pub trait Plan {
         S: System<V, Class = Self::Class>,
         N: Solver<V, S>;
 
-    /// Whether steps are taken [in lanes](Self::take_in_lanes).
+    /// Whether steps are taken [in lanes](Self::lane_step).
     #[cfg(feature = "alloc")]
     #[doc(hidden)]
     #[inline]
@@ -219,19 +219,11 @@ pub trait Plan {
         false
     }
 
-    /// Takes a step of the trajectories in the lanes `live`, after a step that has left its stages in `memory`. Writes the results of those
-    /// whose stages converge into `outcome`. They have the bits of [`take`](Self::take) with the solver `N`. `None` if that is impossible.
+    /// How it takes a step in lanes; `None` if that is impossible.
     #[cfg(feature = "alloc")]
     #[doc(hidden)]
     #[inline]
-    fn take_in_lanes<R, V, S, N, W, J>(
-        _step: &Step<'_, W>,
-        _system: &J,
-        _memory: &mut LaneMemory<W>,
-        _live: u32,
-        _stopping: Stopping,
-        _outcome: Outcome<'_, W>,
-    ) -> Option<LaneOutcome<W::Scalar>>
+    fn lane_step<R, V, S, N, W, J>() -> Option<LaneStep<W, J>>
     where
         R: Summation,
         V: Vector,

@@ -6,7 +6,7 @@ use crate::method::{
     Failure, Inside, Outcome, StageStorage, StageTableau, Step, StepStatistics, Stopping, WarmStart,
 };
 #[cfg(feature = "alloc")]
-use crate::method::{LaneMemory, LaneOutcome, RunTimeStages};
+use crate::method::{LaneStep, RunTimeStages};
 #[cfg(feature = "alloc")]
 use crate::number::Lanes;
 use crate::number::{Summation, Vector};
@@ -76,7 +76,7 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
         Ok(StepStatistics::default())
     }
 
-    /// Whether several trajectories can run [in lanes](Self::take_in_lanes).
+    /// Whether several trajectories can run [in lanes](Self::lane_step).
     #[cfg(feature = "alloc")]
     #[doc(hidden)]
     #[inline]
@@ -84,18 +84,11 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
         false
     }
 
-    /// [`Plan::take_in_lanes`](crate::emitted::Plan::take_in_lanes)
+    /// [`Plan::lane_step`](crate::emitted::Plan::lane_step)
     #[cfg(feature = "alloc")]
     #[doc(hidden)]
     #[inline]
-    fn take_in_lanes<P, R, W, J>(
-        _step: &Step<'_, W>,
-        _system: &J,
-        _memory: &mut LaneMemory<W>,
-        _live: u32,
-        _stopping: Stopping,
-        _outcome: Outcome<'_, W>,
-    ) -> Option<LaneOutcome<W::Scalar>>
+    fn lane_step<P, R, W, J>() -> Option<LaneStep<W, J>>
     where
         P: StageTableau,
         R: Summation,
@@ -105,18 +98,11 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
         None
     }
 
-    /// [`take_in_lanes`](Self::take_in_lanes) of a tableau at run time.
+    /// [`lane_step`](Self::lane_step) of a tableau at run time.
     #[cfg(feature = "alloc")]
     #[doc(hidden)]
     #[inline]
-    fn take_in_lanes_at_run_time<C, R, W, J>(
-        _step: &Step<'_, W>,
-        _system: &J,
-        _memory: &mut LaneMemory<W>,
-        _live: u32,
-        _stopping: Stopping,
-        _outcome: Outcome<'_, W>,
-    ) -> Option<LaneOutcome<W::Scalar>>
+    fn lane_step_at_run_time<C, R, W, J>() -> Option<LaneStep<W, J>>
     where
         C: Class,
         R: Summation,

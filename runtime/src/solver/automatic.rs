@@ -8,7 +8,7 @@ use crate::method::{
     WarmStart,
 };
 #[cfg(feature = "alloc")]
-use crate::method::{LaneMemory, LaneOutcome, RunTimeStages, StageVisit};
+use crate::method::{LaneStep, RunTimeStages, StageVisit};
 #[cfg(feature = "alloc")]
 use crate::number::Lanes;
 use crate::number::vector::{same, same_mut};
@@ -179,41 +179,26 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
 
     #[cfg(feature = "alloc")]
     #[inline]
-    fn take_in_lanes<P, R, W, J>(
-        step: &Step<'_, W>,
-        system: &J,
-        memory: &mut LaneMemory<W>,
-        live: u32,
-        stopping: Stopping,
-        outcome: Outcome<'_, W>,
-    ) -> Option<LaneOutcome<W::Scalar>>
+    fn lane_step<P, R, W, J>() -> Option<LaneStep<W, J>>
     where
         P: StageTableau,
         R: Summation,
         W: Vector<Scalar: Lanes>,
         J: System<W, Class = P::Class>,
     {
-        let taken = in_lanes::take::<P, R, W, J>(step, system, memory, live, stopping, outcome);
-        Some(taken)
+        Some(in_lanes::take::<P, R, W, J>)
     }
 
     #[cfg(feature = "alloc")]
     #[inline]
-    fn take_in_lanes_at_run_time<C, R, W, J>(
-        step: &Step<'_, W>,
-        system: &J,
-        memory: &mut LaneMemory<W>,
-        live: u32,
-        stopping: Stopping,
-        outcome: Outcome<'_, W>,
-    ) -> Option<LaneOutcome<W::Scalar>>
+    fn lane_step_at_run_time<C, R, W, J>() -> Option<LaneStep<W, J>>
     where
         C: Class,
         R: Summation,
         W: Vector<Scalar: Lanes>,
         J: System<W, Class = C>,
     {
-        in_lanes::take_at_run_time::<C, R, W, J>(step, system, memory, live, stopping, outcome)
+        Some(in_lanes::take_at_run_time::<C, R, W, J>)
     }
 
     fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {

@@ -7,8 +7,8 @@ use super::{Kind, RunTimeTableau, Schedule, Splitting};
 use crate::error::Quantity;
 use crate::method::storage::{first_mismatch, first_non_finite, first_non_finite_of};
 use crate::method::{
-    EvaluationObserver, Failure, Inside, Interpolation, LaneMemory, LaneOutcome, Outcome, Plan,
-    Solver, StagePart, StageStorage, StageVisit, Step, StepStatistics, Stopping, WarmStart,
+    EvaluationObserver, Failure, Inside, Interpolation, LaneStep, Outcome, Plan, Solver, StagePart,
+    StageStorage, StageVisit, Step, StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{
     Coefficient, Lanes, Scalar, Summation, Vector, Visit, advance, copy, vector_words,
@@ -188,14 +188,7 @@ impl<C: Class> Plan for RunTimePlan<C> {
     }
 
     #[inline]
-    fn take_in_lanes<R, V, S, N, W, J>(
-        step: &Step<'_, W>,
-        system: &J,
-        memory: &mut LaneMemory<W>,
-        live: u32,
-        stopping: Stopping,
-        outcome: Outcome<'_, W>,
-    ) -> Option<LaneOutcome<W::Scalar>>
+    fn lane_step<R, V, S, N, W, J>() -> Option<LaneStep<W, J>>
     where
         R: Summation,
         V: Vector,
@@ -204,7 +197,7 @@ impl<C: Class> Plan for RunTimePlan<C> {
         W: Vector<Scalar: Lanes>,
         J: System<W, Class = C>,
     {
-        N::take_in_lanes_at_run_time::<C, R, W, J>(step, system, memory, live, stopping, outcome)
+        N::lane_step_at_run_time::<C, R, W, J>()
     }
 
     fn observe<R, V, S, N, W>(

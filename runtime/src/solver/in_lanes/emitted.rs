@@ -24,7 +24,7 @@ pub(crate) fn take<P, R, W, S>(
     live: u32,
     stopping: Stopping,
     outcome: Outcome<'_, W>,
-) -> LaneOutcome<W::Scalar>
+) -> Option<LaneOutcome<W::Scalar>>
 where
     P: StageTableau,
     R: Summation,
@@ -58,12 +58,12 @@ where
         (settled, by_halves::counts::<P>())
     };
     let is_sound = !memory.now.mismatch(step.q.dimension());
-    LaneOutcome {
+    Some(LaneOutcome {
         settled: if is_sound { settled.lanes } else { 0 },
         sweeps: settled.sweeps,
         scales: settled.scales,
         counts,
-    }
+    })
 }
 
 /// The stages of a method. With plain sums evaluations are scaled to increments after the iteration, as in a single run.
