@@ -35,19 +35,20 @@ impl<P: StagePlan> Plan for Explicit<P> {
         N: Solver<V, S>,
     {
         P::begin::<R, V, S>(step, system, memory, kept);
-        P::finish::<R, V, S, ()>(step, system, memory, kept, outcome, &mut ());
+        P::finish::<R, V, S>(step, system, memory, kept, outcome);
         Ok(StepStatistics {
             evaluations: P::EVALUATIONS.at_begin(kept) + P::EVALUATIONS.finish,
             ..StepStatistics::default()
         })
     }
 
+    /// Leaves the evaluations in the memory.
     fn observe<R, V, S, N, W>(
         step: &Step<'_, V>,
         system: &S,
         memory: &mut P::Stages<V>,
         outcome: Outcome<'_, V>,
-        witness: &mut W,
+        _witness: &mut W,
     ) where
         R: Summation,
         V: Vector,
@@ -57,6 +58,6 @@ impl<P: StagePlan> Plan for Explicit<P> {
     {
         *memory = P::Stages::like(step.q);
         P::begin::<R, V, S>(step, system, memory, WarmStart::default());
-        P::finish::<R, V, S, W>(step, system, memory, WarmStart::default(), outcome, witness);
+        P::finish::<R, V, S>(step, system, memory, WarmStart::default(), outcome);
     }
 }

@@ -475,12 +475,11 @@ pub trait StagePlan {
     fn increments<V: Vector>(_step: &Step<'_, V>, _stages: &mut Self::Stages<V>) {}
 
     /// Makes the evaluations after the coupled stages, and writes the result of the step.
-    fn finish<R: Summation, V: Vector, S: System<V, Class = Self::Class>, W: EvaluationObserver>(
+    fn finish<R: Summation, V: Vector, S: System<V, Class = Self::Class>>(
         step: &Step<'_, V>,
         system: &S,
         stages: &mut Self::Stages<V>,
         kept: WarmStart,
         outcome: Outcome<'_, V>,
-        witness: &mut W,
     );
 }

@@ -123,7 +123,7 @@ where
     if !R::COMPENSATED {
         P::increments(step, stages);
     }
-    P::finish::<R, V, S, ()>(step, system, stages, kept, outcome, &mut ());
+    P::finish::<R, V, S>(step, system, stages, kept, outcome);
     work.evaluations += P::EVALUATIONS.finish;
     Ok(work)
 }

@@ -9,8 +9,8 @@ use crate::error::{Error, Quantity};
 use crate::method::diagnosis::{Attempt, FirstFault};
 use crate::method::storage::{first_mismatch, first_non_finite, first_non_finite_of, is_finite};
 use crate::method::{
-    EvaluationCounts, EvaluationObserver, HalfChange, Method, Outcome, StageChange, StagePlan,
-    StageStorage, Step, Stopping, WarmStart,
+    EvaluationCounts, HalfChange, Method, Outcome, StageChange, StagePlan, StageStorage, Step,
+    Stopping, WarmStart,
 };
 use crate::number::{Coefficient, Coefficients, Plain, Scalar, Summation, Vector, Visit};
 use crate::solver::fixed_point::by_stages;
@@ -123,13 +123,12 @@ impl<const FORWARD: bool, M: Method, C: Class> StagePlan for Ends<FORWARD, M, C>
         change
     }
 
-    fn finish<R: Summation, V: Vector, S: System<V, Class = C>, W: EvaluationObserver>(
+    fn finish<R: Summation, V: Vector, S: System<V, Class = C>>(
         step: &Step<'_, V>,
         _system: &S,
         stages: &mut Unknowns<M, V>,
         _kept: WarmStart,
         outcome: Outcome<'_, V>,
-        _witness: &mut W,
     ) {
         let Unknowns {
             velocity,

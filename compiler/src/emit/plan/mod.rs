@@ -259,11 +259,10 @@ impl Bodies {
                 #increments
 
                 #[inline]
-                fn finish<R: emitted::Summation, V: emitted::Vector, #system, W: emitted::EvaluationObserver>(
+                fn finish<R: emitted::Summation, V: emitted::Vector, #system>(
                     #arguments,
                     kept: emitted::WarmStart,
                     outcome: emitted::Outcome<'_, V>,
-                    witness: &mut W,
                 ) {
                     let emitted::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
                     #finish

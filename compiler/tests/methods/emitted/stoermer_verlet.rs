@@ -239,14 +239,12 @@ const _: () = {
             R: emitted::Summation,
             V: emitted::Vector,
             S: emitted::System<V, Class = Self::Class>,
-            W: emitted::EvaluationObserver,
         >(
             step: &emitted::Step<'_, V>,
             system: &S,
             stages: &mut Self::Stages<V>,
             kept: emitted::WarmStart,
             outcome: emitted::Outcome<'_, V>,
-            witness: &mut W,
         ) {
             let emitted::Outcome { q: q1, q_low: q1_low, p: p1, p_low: p1_low } = outcome;
             let emitted::Stages { q, p, velocity, force } = &mut *stages;
