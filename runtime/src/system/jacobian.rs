@@ -140,10 +140,18 @@ impl<T: Scalar> Jacobian<T> {
 
     /// Sets all entries to zero.
     pub fn clear(&mut self) {
-        self.velocity_by_position.clear();
-        self.velocity_by_momentum.clear();
-        self.force_by_position.clear();
-        self.applied_force_by_momentum.clear();
+        for matrix in self.each_mut() {
+            matrix.clear();
+        }
+    }
+
+    pub(crate) fn each_mut(&mut self) -> [&mut BandMatrix<T>; 4] {
+        [
+            &mut self.velocity_by_position,
+            &mut self.velocity_by_momentum,
+            &mut self.force_by_position,
+            &mut self.applied_force_by_momentum,
+        ]
     }
 
     /// Whether all entries are finite.

@@ -284,21 +284,21 @@ impl Sizes {
 }
 
 /// The course of the examined relative changes.
-struct Progress {
-    smallest: f64,
+pub(crate) struct Progress {
+    pub(crate) smallest: f64,
     /// Whether the smallest change can be rounding errors in one half.
     was_rounding: bool,
     /// Number of sweeps since the smallest change.
-    idle: u32,
+    pub(crate) idle: u32,
     /// The largest change after the early sweeps.
-    largest: f64,
+    pub(crate) largest: f64,
     /// The last change, after the early sweeps, that was at most half of the previous such, and the number of sweeps since.
     mark: f64,
-    slow: u32,
+    pub(crate) slow: u32,
 }
 
 impl Progress {
-    const NONE: Self = Self {
+    pub(crate) const NONE: Self = Self {
         smallest: f64::INFINITY,
         was_rounding: false,
         idle: 0,
@@ -308,7 +308,7 @@ impl Progress {
     };
 
     /// Notes a change after the early sweeps.
-    fn note(&mut self, size: f64) {
+    pub(crate) fn note(&mut self, size: f64) {
         self.largest = larger(size, self.largest);
         (self.mark, self.slow) = match size <= 0.5 * self.mark {
             true => (size, 0),
@@ -324,7 +324,7 @@ impl Progress {
     }
 
     /// An iteration that has not settled in the allowed number of sweeps.
-    fn failure(&self, residual: f64, first: f64, iterations: u32) -> Failure {
+    pub(crate) fn failure(&self, residual: f64, first: f64, iterations: u32) -> Failure {
         // The change shrank and then stagnated at the level of its noise.
         let came_down = residual <= NOISIEST
             && self.smallest <= CONTRACTION * larger(first, self.largest)

@@ -7,9 +7,7 @@ use crate::method::{
 };
 use crate::number::dither::dither_last_sweep;
 use crate::number::{Scalar, Summation, Vector};
-use crate::solver::convergence::{
-    CONTRACTION, NOISIEST, PATIENCE, ROUNDING, STAGNATION, non_finite,
-};
+use crate::solver::convergence::{CONTRACTION, Progress, ROUNDING, STAGNATION, non_finite};
 use crate::system::{Class, Separable, System};
 
 /// The change stagnates if it has not halved in this many sweeps.
@@ -114,7 +112,7 @@ where
     L: LinearSolver<V, S>,
 {
     let max_iterations = stopping.max_iterations;
-    let mut course = Course::default();
+    let mut course = Course::NONE;
     let mut once_more = false;
     let mut measurements = 0;
     sweeps.begin(attempt)?;
@@ -167,7 +165,7 @@ where
                 once_more = true;
             }
         }
-        let is_late = iteration >= MOST_SWEEPS || course.slow >= SLOW;
+        let is_late = iteration >= MOST_SWEEPS || course.progress.slow >= SLOW;
         let is_far = settling::<P::Class>(&change) > ROUNDING * V::Scalar::EPSILON;
         if attempt.gives_up && (is_late && is_far || sweeps.is_slow()) {
             return Err(course.failure(iteration));
@@ -188,34 +186,29 @@ pub(super) fn size<C: Class>(change: &StageChange) -> f64 {
 }
 
 /// The history of the changes, measured by their [`size`].
-#[derive(Default)]
 struct Course {
     last: Option<StageChange>,
-    /// The smallest change, and the number of sweeps since.
-    smallest: Option<f64>,
-    idle: u32,
-    /// The last change that was at most half of the previous mark, and the number of sweeps since.
-    mark: Option<f64>,
-    slow: u32,
-    largest: f64,
+    progress: Progress,
     /// Number of consecutive sweeps in which one half stood still.
     resting: u32,
 }
 
 impl Course {
+    const NONE: Self = Self {
+        last: None,
+        progress: Progress::NONE,
+        resting: 0,
+    };
+
     /// Records a change; sizes below `floor` count as `floor`.
     fn note<C: Class>(&mut self, change: &StageChange, floor: f64) {
         let size = size::<C>(change).max(floor);
-        self.last = Some(*change);
-        self.largest = self.largest.max(size);
-        (self.smallest, self.idle) = match self.smallest {
-            Some(smallest) if size >= smallest => (Some(smallest), self.idle + 1),
-            _ => (Some(size), 0),
-        };
-        (self.mark, self.slow) = match self.mark {
-            Some(mark) if size > 0.5 * mark => (Some(mark), self.slow + 1),
-            _ => (Some(size), 0),
-        };
+        let progress = &mut self.progress;
+        progress.note(size);
+        match self.last.replace(*change) {
+            Some(_) if size >= progress.smallest => progress.idle += 1,
+            _ => (progress.smallest, progress.idle) = (size, 0),
+        }
         self.resting = match C::SEPARABLE && change.q.relative() <= floor
             || !C::SEPARABLE && settling::<Separable>(change) <= floor
         {
@@ -226,35 +219,22 @@ impl Course {
 
     /// Whether the changes have stopped shrinking; at the bound, one sweep without progress suffices.
     const fn stagnates(&self, iteration: u32, max_iterations: u32) -> bool {
-        let waited = iteration == max_iterations || self.idle > iteration / STAGNATION;
-        self.idle > 0 && waited || self.slow >= SLOW || self.resting > 1
+        let Progress { idle, slow, .. } = self.progress;
+        let waited = iteration == max_iterations || idle > iteration / STAGNATION;
+        idle > 0 && waited || slow >= SLOW || self.resting > 1
     }
 
     /// Whether it is worthwhile to measure the noise: not while the iteration may still be in its initial phase.
     fn may_be_noise(&self) -> bool {
-        self.slow >= SLOW || self.resting > 1 || self.has_come_down()
-    }
-
-    fn has_come_down(&self) -> bool {
-        self.smallest
-            .is_some_and(|smallest| smallest <= CONTRACTION * self.largest)
+        let progress = &self.progress;
+        let has_come_down = progress.smallest <= CONTRACTION * progress.largest;
+        progress.slow >= SLOW || self.resting > 1 || has_come_down
     }
 
     /// The reason why the iteration has not settled.
     fn failure(&self, iterations: u32) -> Failure {
         let residual = self.last.map_or(f64::INFINITY, |change| change.residual());
-        let is_low = |smallest: f64| residual <= NOISIEST.min(ROUNDING * smallest);
-        if self.slow >= PATIENCE && self.has_come_down() && self.smallest.is_some_and(is_low) {
-            Failure::Stagnation {
-                residual,
-                iterations,
-            }
-        } else {
-            Failure::NoConvergence {
-                residual,
-                iterations,
-            }
-        }
+        self.progress.failure(residual, 0.0, iterations)
     }
 }
 

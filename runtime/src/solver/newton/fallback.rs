@@ -43,6 +43,7 @@ const PATIENCE: u32 = 16;
 /// # Ok(())
 /// # }
 /// ```
+#[derive(Clone, Copy, Debug)]
 pub struct FixedPointThenNewton<L = BandOrDense<AnalyticOrDifferences>>(Newton<L>);
 
 impl<L> FixedPointThenNewton<L> {
@@ -52,23 +53,9 @@ impl<L> FixedPointThenNewton<L> {
     }
 }
 
-impl<L> Clone for FixedPointThenNewton<L> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<L> Copy for FixedPointThenNewton<L> {}
-
 impl<L> Default for FixedPointThenNewton<L> {
     fn default() -> Self {
         Self::new()
-    }
-}
-
-impl<L> fmt::Debug for FixedPointThenNewton<L> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("FixedPointThenNewton")
     }
 }
 

@@ -139,7 +139,6 @@ pub struct Banded<const HALF: usize, D>(PhantomData<D>);
 #[derive(Clone, Debug)]
 pub struct Matrices<T, D> {
     derivatives: D,
-    separable: bool,
     systems: Vec<Parts>,
     jacobian: Jacobian<T>,
     /// The matrix `J` of [`Coupling`].
@@ -166,23 +165,22 @@ impl<T: Scalar, D> Matrices<T, D> {
     ) -> Self {
         let mut matrices = Self {
             derivatives,
-            separable,
             systems: systems.to_vec(),
             jacobian: Jacobian::new(dimension, 0),
             matrix: BandMatrix::new(0, 0),
             factors: Vec::new(),
             all_stages: None,
         };
-        matrices.allocate(half_bandwidth);
+        matrices.allocate(half_bandwidth, separable);
         matrices
     }
 
     /// Allocates matrices for derivatives of this half bandwidth.
-    fn allocate(&mut self, half_bandwidth: usize) {
+    fn allocate(&mut self, half_bandwidth: usize, separable: bool) {
         let dimension = self.jacobian.force_by_position.size();
         self.jacobian = Jacobian::new(dimension, half_bandwidth);
         let half = self.jacobian.force_by_position.half_bandwidth();
-        self.matrix = if self.separable {
+        self.matrix = if separable {
             BandMatrix::new(dimension, 2 * half)
         } else {
             BandMatrix::new(2 * dimension, 2 * half + 1)
@@ -201,33 +199,22 @@ impl<T: Scalar, D> Matrices<T, D> {
     }
 
     /// Allocates anew for another half bandwidth; does nothing if it has not changed.
-    fn fit(&mut self, half_bandwidth: usize) {
+    fn fit(&mut self, half_bandwidth: usize, separable: bool) {
         let matrix = &self.jacobian.force_by_position;
         if matrix.half_bandwidth() != half_bandwidth.min(matrix.size().saturating_sub(1)) {
-            self.allocate(half_bandwidth);
+            self.allocate(half_bandwidth, separable);
         }
     }
 
     /// Visits the derivatives and the factors computed from them; those of all stages are recomputed in every sweep.
-    fn words(&mut self, visit: &mut Visit<'_>) {
+    fn words(&mut self, separable: bool, visit: &mut Visit<'_>) {
         let mut half_bandwidth = self.jacobian.force_by_position.half_bandwidth();
         words!(visit: half_bandwidth);
-        self.fit(half_bandwidth);
-        let Jacobian {
-            velocity_by_position,
-            velocity_by_momentum,
-            force_by_position,
-            applied_force_by_momentum,
-        } = &mut self.jacobian;
-        for matrix in [
-            velocity_by_position,
-            velocity_by_momentum,
-            force_by_position,
-            applied_force_by_momentum,
-            &mut self.matrix,
-        ] {
+        self.fit(half_bandwidth, separable);
+        for matrix in self.jacobian.each_mut() {
             scalar_words(matrix.entries_mut(), visit);
         }
+        scalar_words(self.matrix.entries_mut(), visit);
         for factors in &mut self.factors {
             match factors {
                 Factors::Real(factors) => factors.words(visit),
@@ -346,7 +333,7 @@ macro_rules! matrices {
             }
 
             fn words(memory: &mut Self::Memory, visit: &mut Visit<'_>) {
-                memory.words(visit);
+                memory.words(S::Class::SEPARABLE, visit);
             }
 
             fn linearize(
@@ -356,7 +343,7 @@ macro_rules! matrices {
                 q: &V,
                 p: &V,
             ) -> bool {
-                memory.fit($half_bandwidth(system));
+                memory.fit($half_bandwidth(system), S::Class::SEPARABLE);
                 memory.jacobian.clear();
                 let Matrices { derivatives, jacobian, .. } = memory;
                 D::evaluate(derivatives, system, time, q, p, jacobian);
@@ -409,7 +396,7 @@ macro_rules! matrices {
                 x: &mut [V::Scalar],
                 y: &mut [V::Scalar],
             ) -> Result<(), Failure> {
-                memory.fit($half_bandwidth(system));
+                memory.fit($half_bandwidth(system), S::Class::SEPARABLE);
                 let Matrices { derivatives, jacobian, all_stages, .. } = memory;
                 let (points, momenta) = (stages.count(), stages.p.len());
                 let all = all_stages.get_or_insert_with(|| {

@@ -44,10 +44,6 @@ pub struct NewtonMemory<V: Vector, P, S: System<V>, L: LinearSolver<V, S>> {
     pub(super) factored: Option<f64>,
     /// Whether the derivatives must be recomputed.
     pub(super) stale: bool,
-    /// The largest contraction rate of this step.
-    pub(super) contraction: f64,
-    /// Number of factorisations of the linear systems in this step.
-    pub(super) factorisations: u32,
     /// The times of all stages, and `h a_ij` and `h ã_ij` by rows: for derivatives at every stage.
     pub(super) times: Vec<f64>,
     pub(super) scaled: [Vec<f64>; 2],
@@ -55,8 +51,6 @@ pub struct NewtonMemory<V: Vector, P, S: System<V>, L: LinearSolver<V, S>> {
     pub(super) steps_in_full: u32,
     /// Copies of the residuals, for the measurement of their noise.
     pub(super) residuals: [Vec<V::Scalar>; 2],
-    /// The first change of this step, if it began with extrapolated starting values.
-    pub(super) first_change: Option<f64>,
     /// Number of steps before starting values are extrapolated again.
     pub(super) pause: u32,
     plan: PhantomData<(P, S)>,
@@ -137,8 +131,6 @@ impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStora
             linear: L::memory(prototype, &systems::<P>()),
             factored: None,
             stale: true,
-            contraction: 0.0,
-            factorisations: 0,
             times: vec![0.0; positions.max(momenta)],
             scaled: [
                 vec![0.0; positions * momenta],
@@ -146,13 +138,12 @@ impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStora
             ],
             steps_in_full: 0,
             residuals: [zeros(unknowns), zeros(positions * n)],
-            first_change: None,
             pause: 0,
             plan: PhantomData,
         }
     }
 
-    /// What the next step starts from: increments for the extrapolation, factors, and the contraction history.
+    /// What the next step starts from: increments for the extrapolation, factors, and what earlier steps have decided.
     fn words(&mut self, visit: &mut Visit<'_>) {
         for vectors in [
             &mut self.q,
@@ -165,10 +156,7 @@ impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStora
             vector_words(vectors, visit);
         }
         L::words(&mut self.linear, visit);
-        words!(
-            visit: self.factored, self.stale, self.contraction, self.factorisations, self.steps_in_full,
-            self.first_change, self.pause,
-        );
+        words!(visit: self.factored, self.stale, self.steps_in_full, self.pause);
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {

@@ -10,7 +10,6 @@ mod linear_solver;
 mod memory;
 mod sweep;
 
-use core::fmt;
 use core::marker::PhantomData;
 
 #[cfg(feature = "num-dual")]
@@ -99,6 +98,7 @@ use sweep::ByIncrements;
 /// # Ok(())
 /// # }
 /// ```
+#[derive(Clone, Copy, Debug)]
 pub struct Newton<L = BandOrDense<AnalyticOrDifferences>>(PhantomData<L>);
 
 impl<L> Newton<L> {
@@ -108,23 +108,9 @@ impl<L> Newton<L> {
     }
 }
 
-impl<L> Clone for Newton<L> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<L> Copy for Newton<L> {}
-
 impl<L> Default for Newton<L> {
     fn default() -> Self {
         Self::new()
-    }
-}
-
-impl<L> fmt::Debug for Newton<L> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("Newton")
     }
 }
 

@@ -46,6 +46,12 @@ pub(super) struct ByIncrements<'a, P, R, V: Vector, S: System<V>, L: LinearSolve
     renewed: bool,
     /// Whether the iteration contracts too slowly even with recomputed derivatives.
     slow: bool,
+    /// The largest contraction rate of this attempt.
+    contraction: f64,
+    /// The first change of this attempt, if it began with extrapolated starting values.
+    first_change: Option<f64>,
+    /// Number of factorisations of the linear systems in this step.
+    factorisations: u32,
     sums: PhantomData<R>,
 }
 
@@ -62,7 +68,6 @@ where
         system: &'a S,
         memory: &'a mut NewtonMemory<V, P, S, L>,
     ) -> Self {
-        memory.factorisations = 0;
         Self {
             step,
             system,
@@ -73,6 +78,9 @@ where
             in_full: false,
             renewed: false,
             slow: false,
+            contraction: 0.0,
+            first_change: None,
+            factorisations: 0,
             sums: PhantomData,
         }
     }
@@ -102,7 +110,7 @@ where
         let memory = &mut *self.memory;
         (self.last, self.sweeps, self.since) = (f64::NAN, 0, 0);
         (self.in_full, self.renewed, self.slow) = (attempt.in_full, false, false);
-        memory.contraction = 0.0;
+        self.contraction = 0.0;
         if !attempt.kept {
             memory.stale = true;
             let evaluations = memory.velocity.iter_mut().chain(&mut memory.force);
@@ -112,7 +120,7 @@ where
             && memory.pause == 0
             && !P::MOMENTA.extrapolation.is_empty()
             && !P::POSITIONS.extrapolation.is_empty();
-        memory.first_change = extrapolates.then_some(f64::NAN);
+        self.first_change = extrapolates.then_some(f64::NAN);
         if extrapolates {
             extrapolate(&P::MOMENTA, &mut memory.u, &mut memory.unknown);
             extrapolate(&P::POSITIONS, &mut memory.w, &mut memory.unknown);
@@ -193,11 +201,11 @@ where
         total::<R, P, V>(step.size, &P::MOMENTA, &memory.u, base, (q, q_low));
         let base = (step.p, step.p_low);
         total::<R, P, V>(step.size, &P::POSITIONS, &memory.w, base, (p, p_low));
-        if memory.contraction > GOOD {
+        if self.contraction > GOOD {
             memory.stale = true;
         }
         memory.pause = memory.pause.saturating_sub(1);
-        if let Some(first) = memory.first_change {
+        if let Some(first) = self.first_change {
             let change = StageChange {
                 q: moved(&memory.q, step.q),
                 p: moved(&memory.p, step.p),
@@ -206,7 +214,7 @@ where
                 memory.pause = PATIENCE;
             }
         }
-        memory.factorisations
+        self.factorisations
     }
 
     /// Evaluates velocities and forces at the stages.
@@ -310,7 +318,7 @@ where
             momenta: &scaled[1],
         };
         L::correct(linear, self.system, stages, x, y)?;
-        self.memory.factorisations += 1;
+        self.factorisations += 1;
         Ok(())
     }
 
@@ -468,8 +476,8 @@ where
 
     /// Decides from a change whether the derivatives at one point are still accurate enough.
     fn judge(&mut self, change: &StageChange) -> Result<(), Failure> {
-        if self.sweeps == 0 && self.memory.first_change.is_some() {
-            self.memory.first_change = Some(size::<P::Class>(change));
+        if self.sweeps == 0 && self.first_change.is_some() {
+            self.first_change = Some(size::<P::Class>(change));
         }
         self.sweeps += 1;
         self.since += 1;
@@ -483,7 +491,7 @@ where
         {
             return Ok(());
         }
-        self.memory.contraction = self.memory.contraction.max(contraction);
+        self.contraction = self.contraction.max(contraction);
         let forecast = num_traits::Float::ln(ROUNDING * V::Scalar::EPSILON / size)
             / num_traits::Float::ln(contraction);
         let is_bad =
@@ -565,7 +573,7 @@ where
         };
         if regular {
             memory.factored = Some(h);
-            memory.factorisations += 1;
+            self.factorisations += 1;
             Ok(())
         } else {
             Err(self.failure(Failure::SingularMatrix))
