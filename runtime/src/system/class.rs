@@ -22,7 +22,7 @@ mod sealed {
 /// friction [`Damped`], with holonomic constraints [`Constrained`], with non-holonomic ones [`Nonholonomic`].
 ///
 /// It selects the [`Plan`] of a [`Method`] at compile time. Sealed.
-pub trait Class: sealed::Sealed + Sized + 'static {
+pub trait Class: sealed::Sealed + Clone + 'static {
     /// The plan of the method `M` for systems of this class.
     type Plan<M: Method>: Plan<Class = Self>;
     /// Whether the velocity depends on the momentum only, and the force on the position only.

@@ -20,7 +20,7 @@ use crate::system::{Class, System};
 pub struct RunTimePlan<C>(PhantomData<C>);
 
 /// The memory of a [`RunTimePlan`]: the tableau, and one vector for each stage value and evaluation that its schedule stores.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct RunTimeStages<V, C> {
     pub(crate) tableau: Option<RunTimeTableau>,
     pub(crate) q: Vec<V>,
@@ -28,19 +28,6 @@ pub struct RunTimeStages<V, C> {
     pub(crate) velocity: Vec<V>,
     pub(crate) force: Vec<V>,
     class: PhantomData<C>,
-}
-
-impl<V: Clone, C> Clone for RunTimeStages<V, C> {
-    fn clone(&self) -> Self {
-        Self {
-            tableau: self.tableau.clone(),
-            q: self.q.clone(),
-            p: self.p.clone(),
-            velocity: self.velocity.clone(),
-            force: self.force.clone(),
-            class: PhantomData,
-        }
-    }
 }
 
 impl<V: Vector, C: Class> StageStorage<V> for RunTimeStages<V, C> {
