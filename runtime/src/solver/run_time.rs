@@ -45,13 +45,15 @@ where
     } = memory;
     let schedule = tableau.as_ref().map(|tableau| tableau.schedule::<C>());
     let Some(Schedule::Coupled(coupled)) = schedule else {
-        // A splitting has no coupled stages.
-        return Ok(StepStatistics::default());
+        unreachable!("a splitting has no coupled stages");
     };
-    let mut sweeps = ByRows::<R, V, S> {
+    let common = &CoupledStep {
         step,
         system,
         coupled,
+    };
+    let mut sweeps = ByRows::<R, V, S> {
+        common,
         q,
         p,
         velocity,
@@ -59,23 +61,85 @@ where
         sums: PhantomData,
     };
     let work = settle::<C, V::Scalar, _>(&mut sweeps, kept, stopping)?;
-    let Outcome {
-        q: q1,
-        q_low,
-        p: p1,
-        p_low,
-    } = outcome;
-    let (drifts, kicks) = (&coupled.momenta, &coupled.positions);
-    total::<R, V>((q1, q_low), (step.q, step.q_low), drifts, velocity);
-    total::<R, V>((p1, p_low), (step.p, step.p_low), kicks, force);
+    common.totals::<R>(velocity, force, outcome);
     Ok(work)
 }
 
-/// The stages of a step. Velocities and forces are stored as increments: multiplied by the step size and their weights.
+/// A step whose stages depend on each other. Velocities and forces are stored as increments: multiplied by the step size and their weights.
+pub(crate) struct CoupledStep<'a, V, S> {
+    pub(crate) step: &'a Step<'a, V>,
+    pub(crate) system: &'a S,
+    pub(crate) coupled: &'a Coupled,
+}
+
+impl<V: Vector, S: System<V>> CoupledStep<'_, V, S> {
+    /// The evaluations of a step.
+    pub(crate) fn counts(&self) -> EvaluationCounts {
+        let Coupled { positions, momenta } = self.coupled;
+        let always = momenta.extrapolation.is_empty();
+        EvaluationCounts {
+            begin: u32::from(always),
+            start: u32::from(!always),
+            sweep: (positions.evaluations.len() + momenta.evaluations.len()) as u32,
+            finish: 0,
+            carried: 0,
+        }
+    }
+
+    /// Sets all velocities to that at the start of the step.
+    #[inline]
+    pub(crate) fn start(&self, velocities: &mut [V]) {
+        let (step, half) = (self.step, &self.coupled.momenta);
+        if let [first, others @ ..] = velocities {
+            let time = step.at(Coefficient::exact(half.evaluations[0].time));
+            self.system.velocity(time, step.q, step.p, first);
+            others.iter_mut().for_each(|other| copy(other, first));
+            increments(half, step.size, velocities);
+        }
+    }
+
+    /// The forces at the stages. In a separable system the momentum is not read, so any vector will do.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn forces(&self, q: &[V], p: &[V], forces: &mut [V]) {
+        let (step, half) = (self.step, &self.coupled.positions);
+        let at = |i: usize| {
+            let time = step.at(Coefficient::exact(half.evaluations[i].time));
+            (time, &q[i], p.get(i).unwrap_or(step.p))
+        };
+        self.system.forces(at, forces);
+        increments(half, step.size, forces);
+    }
+
+    /// The velocities at the stages. In a separable system the position is not read.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn velocities(&self, q: &[V], p: &[V], velocities: &mut [V]) {
+        let (step, half) = (self.step, &self.coupled.momenta);
+        let at = |i: usize| {
+            let time = step.at(Coefficient::exact(half.evaluations[i].time));
+            (time, q.get(i).unwrap_or(step.q), &p[i])
+        };
+        self.system.velocities(at, velocities);
+        increments(half, step.size, velocities);
+    }
+
+    /// The result of the step.
+    #[inline]
+    pub(crate) fn totals<R: Summation>(
+        &self,
+        velocity: &[V],
+        force: &[V],
+        outcome: Outcome<'_, V>,
+    ) {
+        let (step, Coupled { positions, momenta }) = (self.step, self.coupled);
+        let Outcome { q, q_low, p, p_low } = outcome;
+        total::<R, V>((q, q_low), (step.q, step.q_low), momenta, velocity);
+        total::<R, V>((p, p_low), (step.p, step.p_low), positions, force);
+    }
+}
+
+/// The stages of a step.
 struct ByRows<'a, R, V, S> {
-    step: &'a Step<'a, V>,
-    system: &'a S,
-    coupled: &'a Coupled,
+    common: &'a CoupledStep<'a, V, S>,
     q: &'a mut [V],
     p: &'a mut [V],
     velocity: &'a mut [V],
@@ -86,26 +150,13 @@ struct ByRows<'a, R, V, S> {
 impl<R: Summation, V: Vector, S: System<V>> ByRows<'_, R, V, S> {
     fn sweep_by<T: Summation>(&mut self) -> StageChange {
         let mut change = StageChange::default();
-        let Coupled { positions, momenta } = self.coupled;
-        let step = self.step;
-        // In a separable system the other argument is not read, so any vector will do.
-        let (q, p) = (&*self.q, &*self.p);
-        let at = |i: usize| {
-            let time = step.at(Coefficient::exact(positions.evaluations[i].time));
-            (time, &q[i], p.get(i).unwrap_or(step.p))
-        };
-        self.system.forces(at, self.force);
-        increments(positions, step.size, self.force);
+        let CoupledStep { step, coupled, .. } = *self.common;
+        let Coupled { positions, momenta } = coupled;
+        self.common.forces(self.q, self.p, self.force);
         for (row, p) in momenta.rows.iter().zip(&mut *self.p) {
             relax::<T, V>(p, (step.p, step.p_low), row, self.force, &mut change.p);
         }
-        let (q, p) = (&*self.q, &*self.p);
-        let at = |i: usize| {
-            let time = step.at(Coefficient::exact(momenta.evaluations[i].time));
-            (time, q.get(i).unwrap_or(step.q), &p[i])
-        };
-        self.system.velocities(at, self.velocity);
-        increments(momenta, step.size, self.velocity);
+        self.common.velocities(self.q, self.p, self.velocity);
         for (row, q) in positions.rows.iter().zip(&mut *self.q) {
             relax::<T, V>(q, (step.q, step.q_low), row, self.velocity, &mut change.q);
         }
@@ -119,32 +170,20 @@ impl<R: Summation, V: Vector, S: System<V>> Sweeps for ByRows<'_, R, V, S> {
     const STOPS_AT_ROUNDING: bool = !R::COMPENSATED;
 
     fn evaluations(&self) -> EvaluationCounts {
-        let Coupled { positions, momenta } = self.coupled;
-        let always = momenta.extrapolation.is_empty();
-        EvaluationCounts {
-            begin: u32::from(always),
-            start: u32::from(!always),
-            sweep: (positions.evaluations.len() + momenta.evaluations.len()) as u32,
-            finish: 0,
-            carried: 0,
-        }
+        self.common.counts()
     }
 
     fn time(&self) -> f64 {
-        self.step.time
+        self.common.step.time
     }
 
     fn begin(&mut self, kept: WarmStart) {
-        let Coupled { positions, momenta } = self.coupled;
-        let step = self.step;
+        let CoupledStep { step, coupled, .. } = *self.common;
+        let Coupled { positions, momenta } = coupled;
         if kept.stages && !momenta.extrapolation.is_empty() {
             transform(self.velocity, &momenta.extrapolation);
-        } else if let [first, others @ ..] = &mut *self.velocity {
-            let time = momenta.evaluations[0].time;
-            let time = step.at(Coefficient::exact(time));
-            self.system.velocity(time, step.q, step.p, first);
-            others.iter_mut().for_each(|other| copy(other, first));
-            increments(momenta, step.size, self.velocity);
+        } else {
+            self.common.start(self.velocity);
         }
         let mut ignored = HalfChange::default();
         for (row, q) in positions.rows.iter().zip(&mut *self.q) {
@@ -182,7 +221,7 @@ impl<R: Summation, V: Vector, S: System<V>> Sweeps for ByRows<'_, R, V, S> {
 }
 
 /// Scales the evaluations of a half to increments.
-#[inline]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn increments<V: Vector>(half: &Half, size: f64, evaluations: &mut [V]) {
     for (vector, evaluation) in evaluations.iter_mut().zip(&half.evaluations) {
         scale(vector, size, Coefficient::exact(evaluation.factor));
@@ -278,7 +317,7 @@ fn value<R: Summation, T: Scalar>(base: T, low: T, row: &Row, term: impl Fn(usiz
 
 /// `out = base + low + Σ increments`, over the evaluations that enter the result, with the rounding error of the sum in `out_low`.
 #[inline]
-pub(crate) fn total<R: Summation, V: Vector>(
+fn total<R: Summation, V: Vector>(
     (out, out_low): (&mut V, &mut V),
     (base, low): (&V, &V),
     half: &Half,

@@ -5,18 +5,14 @@ use core::marker::PhantomData;
 
 use num_traits::Zero;
 
-use super::{
-    LaneSweeps, Sums, keep, largest, relax, scale, settle::settle, shortest, sum, transform,
-};
+use super::{LaneSweeps, Sums, keep, largest, relax, settle::settle, shortest, sum, transform};
 use crate::method::run_time::{Coupled, Half, Row, Schedule};
-use crate::method::{
-    EvaluationCounts, LaneMemory, LaneOutcome, LaneStages, Outcome, Step, Stopping,
-};
+use crate::method::{LaneMemory, LaneOutcome, LaneStages, Outcome, Step, Stopping};
 use crate::number::array::array;
 use crate::number::linear_combination::{sum_of_products, value};
 use crate::number::summation::{Overrelaxed, moved};
-use crate::number::{Coefficient, Lanes, Scalar, Summation, Vector, copy};
-use crate::solver::run_time::total;
+use crate::number::{Lanes, Scalar, Summation, Vector, copy};
+use crate::solver::run_time::CoupledStep;
 use crate::solver::simd::change::{LaneMovement, noted};
 use crate::system::{Class, System};
 
@@ -28,7 +24,7 @@ pub(crate) fn take_at_run_time<C, R, W, S>(
     memory: &mut LaneMemory<W>,
     live: u32,
     stopping: Stopping,
-    Outcome { q, q_low, p, p_low }: Outcome<'_, W>,
+    outcome: Outcome<'_, W>,
 ) -> Option<LaneOutcome<W::Scalar>>
 where
     C: Class,
@@ -47,41 +43,32 @@ where
     let Some(Schedule::Coupled(coupled)) = schedule else {
         return None;
     };
-    let mut sweeps = ByRows::<R, W, S> {
+    let common = &CoupledStep {
         step,
         system,
         coupled,
+    };
+    let mut sweeps = ByRows::<R, W, S> {
+        common,
         before,
         now,
         settled,
         sums: PhantomData,
     };
     let found = settle::<C, _, _>(&mut sweeps, step.time, live, *scales, stopping);
-    let Coupled { positions, momenta } = coupled;
-    let base = (step.q, step.q_low);
-    total::<R, W>((q, q_low), base, momenta, &settled.velocity);
-    let base = (step.p, step.p_low);
-    total::<R, W>((p, p_low), base, positions, &settled.force);
+    common.totals::<R>(&settled.velocity, &settled.force, outcome);
     let is_sound = !now.mismatch(step.q.dimension());
     Some(LaneOutcome {
         settled: if is_sound { found.lanes } else { 0 },
         sweeps: found.sweeps,
         scales: found.scales,
-        counts: EvaluationCounts {
-            begin: u32::from(momenta.extrapolation.is_empty()),
-            start: 0,
-            sweep: (positions.evaluations.len() + momenta.evaluations.len()) as u32,
-            finish: 0,
-            carried: 0,
-        },
+        counts: common.counts(),
     })
 }
 
-/// The stages of a step. Velocities and forces are stored as increments.
+/// The stages of a step.
 struct ByRows<'a, R, W, S> {
-    step: &'a Step<'a, W>,
-    system: &'a S,
-    coupled: &'a Coupled,
+    common: &'a CoupledStep<'a, W, S>,
     before: &'a LaneStages<W>,
     now: &'a mut LaneStages<W>,
     settled: &'a mut LaneStages<W>,
@@ -170,49 +157,29 @@ where
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn positions<T: Summation>(&mut self) -> W::Scalar {
-        let base = (self.step.q, self.step.q_low);
-        let rows = &self.coupled.positions.rows;
+        let CoupledStep { step, coupled, .. } = *self.common;
+        let (base, rows) = ((step.q, step.q_low), &coupled.positions.rows);
         relax_rows::<T, W>(rows, &mut self.now.q, base, &self.now.velocity)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn momenta<T: Summation>(&mut self) -> W::Scalar {
-        let base = (self.step.p, self.step.p_low);
-        let rows = &self.coupled.momenta.rows;
+        let CoupledStep { step, coupled, .. } = *self.common;
+        let (base, rows) = ((step.p, step.p_low), &coupled.momenta.rows);
         relax_rows::<T, W>(rows, &mut self.now.p, base, &self.now.force)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn sweep_by<T: Summation>(&mut self) -> LaneMovement<W::Scalar> {
-        let (step, system) = (self.step, self.system);
-        let Coupled { positions, momenta } = self.coupled;
         let LaneStages { q, p, force, .. } = &mut *self.now;
-        let at = |i: usize| {
-            let time = step.at(Coefficient::exact(positions.evaluations[i].time));
-            (time, &q[i], p.get(i).unwrap_or(step.p))
-        };
-        system.forces(at, force);
-        increments(positions, step.size, force);
+        self.common.forces(q, p, force);
         let change = self.momenta::<T>();
         let LaneStages { q, p, velocity, .. } = &mut *self.now;
-        let at = |i: usize| {
-            let time = step.at(Coefficient::exact(momenta.evaluations[i].time));
-            (time, q.get(i).unwrap_or(step.q), &p[i])
-        };
-        system.velocities(at, velocity);
-        increments(momenta, step.size, velocity);
+        self.common.velocities(q, p, velocity);
         LaneMovement {
             q: self.positions::<T>(),
             p: change,
         }
-    }
-}
-
-/// Scales the evaluations of a half to increments.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn increments<W: Vector>(half: &Half, size: f64, evaluations: &mut [W]) {
-    for (vector, evaluation) in evaluations.iter_mut().zip(&half.evaluations) {
-        scale(vector, size * evaluation.factor);
     }
 }
 
@@ -254,15 +221,12 @@ where
     const STOPS_AT_ROUNDING: bool = !R::COMPENSATED;
 
     fn begin(&mut self) {
-        let Coupled { positions, momenta } = self.coupled;
-        let step = self.step;
-        if !momenta.extrapolation.is_empty() {
+        let CoupledStep { step, coupled, .. } = *self.common;
+        let Coupled { positions, momenta } = coupled;
+        if momenta.extrapolation.is_empty() {
+            self.common.start(&mut self.now.velocity);
+        } else {
             extrapolate(momenta, &mut self.now.velocity, &self.before.velocity);
-        } else if let [first, others @ ..] = &mut *self.now.velocity {
-            let time = step.at(Coefficient::exact(momenta.evaluations[0].time));
-            self.system.velocity(time, step.q, step.p, first);
-            others.iter_mut().for_each(|other| copy(other, first));
-            increments(momenta, step.size, &mut self.now.velocity);
         }
         self.positions::<R>();
         if positions.extrapolation.is_empty() {
@@ -284,8 +248,8 @@ where
 
     fn scales(&self) -> [W::Scalar; 2] {
         [
-            largest(self.step.q, &self.now.q),
-            largest(self.step.p, &self.now.p),
+            largest(self.common.step.q, &self.now.q),
+            largest(self.common.step.p, &self.now.p),
         ]
     }
 
