@@ -107,7 +107,7 @@ pub fn total<R: Summation, V: Vector, const N: usize>(
 ) {
     let n = shortest([&*out, &*out_low, base, low]).min(shortest(increments));
     let terms = starts(increments, n);
-    totals::<R, V, N>((out, out_low), (base, low), n, |i, j| terms[j][i]);
+    totals_by::<R, V>((out, out_low), (base, low), (n, N), |i, j| terms[j][i]);
 }
 
 /// [`total`] of evaluations instead of increments: `base + low + Σ_j factors_j terms_j`.
@@ -122,7 +122,7 @@ pub fn weighted_total<R: Summation, V: Vector, const N: usize>(
 ) {
     let n = shortest([&*out, &*out_low, base, low]).min(shortest(terms));
     let terms = starts(terms, n);
-    totals::<R, V, N>((out, out_low), (base, low), n, |i, j| {
+    totals_by::<R, V>((out, out_low), (base, low), (n, N), |i, j| {
         factors[j] * terms[j][i]
     });
 }
@@ -227,7 +227,7 @@ pub fn copy_to<V: Vector, const N: usize>(vectors: &mut [V], from: usize, to: [u
 
 /// The shortest length, so that one comparison bounds every index of a loop.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn shortest<V: Vector, const N: usize>(vectors: [&V; N]) -> usize {
+pub(crate) fn shortest<'a, V: Vector>(vectors: impl IntoIterator<Item = &'a V>) -> usize {
     let mut shortest = usize::MAX;
     for vector in vectors {
         shortest = shortest.min(vector.as_slice().len());
@@ -283,12 +283,13 @@ pub(crate) fn sum_of_products<T: Scalar>(
     even + odd
 }
 
-/// The components of a result.
+/// The first `n` components of a result: `base + low + Σ_j term(i, j)` over `count` terms, rounded to `out`, with the round-off in
+/// `out_low`.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn totals<R: Summation, V: Vector, const N: usize>(
+pub(crate) fn totals_by<R: Summation, V: Vector>(
     (out, out_low): (&mut V, &mut V),
     (base, low): (&V, &V),
-    n: usize,
+    (n, count): (usize, usize),
     term: impl Fn(usize, usize) -> V::Scalar,
 ) {
     let (out, out_low) = (
@@ -297,7 +298,7 @@ fn totals<R: Summation, V: Vector, const N: usize>(
     );
     let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
     for i in 0..n {
-        let (high, rest) = add::<R, _>(base[i], low[i], N, |j| term(i, j));
+        let (high, rest) = add::<R, _>(base[i], low[i], count, |j| term(i, j));
         out[i] = high;
         if R::COMPENSATED {
             out_low[i] = rest;

@@ -11,9 +11,9 @@ use crate::method::{
     EvaluationCounts, Failure, HalfChange, Outcome, RunTimeStages, StageChange, Step,
     StepStatistics, Stopping, WarmStart,
 };
-use crate::number::linear_combination::sum_of_products;
+use crate::number::linear_combination::{shortest, sum_of_products, totals_by};
 use crate::number::rows::{Eight, Row as _};
-use crate::number::summation::{Overrelaxed, add, moved};
+use crate::number::summation::{Overrelaxed, moved};
 use crate::number::{Coefficient, F64x8, Lanes, Scalar, Summation, Vector, copy, scale};
 use crate::solver::convergence::{Sweeps, settle};
 use crate::system::{Class, System};
@@ -318,25 +318,16 @@ fn value<R: Summation, T: Scalar>(base: T, low: T, row: &Row, term: impl Fn(usiz
 /// `out = base + low + Σ increments`, over the evaluations that enter the result, with the rounding error of the sum in `out_low`.
 #[inline]
 fn total<R: Summation, V: Vector>(
-    (out, out_low): (&mut V, &mut V),
-    (base, low): (&V, &V),
+    out: (&mut V, &mut V),
+    base: (&V, &V),
     half: &Half,
     increments: &[V],
 ) {
-    let (out, out_low) = (out.as_mut_slice(), out_low.as_mut_slice());
-    let (base, low) = (base.as_slice(), low.as_slice());
+    let n = shortest([&*out.0, &*out.1, base.0, base.1]).min(shortest(increments));
     let terms = &half.counting;
-    let n = increments
-        .iter()
-        .fold(out.len(), |n, increment| n.min(increment.as_slice().len()));
-    for i in 0..n.min(out_low.len()).min(base.len()).min(low.len()) {
-        let term = |j: usize| increments[terms[j]].as_slice()[i];
-        let (high, rest) = add::<R, _>(base[i], low[i], terms.len(), term);
-        out[i] = high;
-        if R::COMPENSATED {
-            out_low[i] = rest;
-        }
-    }
+    totals_by::<R, V>(out, base, (n, terms.len()), |i, j| {
+        increments[terms[j]].as_slice()[i]
+    });
 }
 
 /// `vectors_i = Σ_j matrix_ij vectors_j`, for at most [`MOST`] vectors.

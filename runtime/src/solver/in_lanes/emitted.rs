@@ -5,13 +5,13 @@ use core::marker::PhantomData;
 use super::by_halves::{self, GaussSeidel, Jacobi};
 use super::second_order::{self, SecondOrder};
 use super::settle::settle;
-use super::{Sums, largest, relax, scalar, scale, shortest, sum, transform};
+use super::{Sums, largest, relax, scalar, sum, transform};
 use crate::method::tableau::Columns;
 use crate::method::{
     HalfTableau, LaneMemory, LaneOutcome, LaneStages, Outcome, StageTableau, Step, Stopping,
 };
-use crate::number::summation::add;
-use crate::number::{Lanes, Summation, Vector, copy};
+use crate::number::linear_combination::{scale, shortest, totals_by};
+use crate::number::{Coefficient, Lanes, Summation, Vector, copy};
 use crate::solver::nystrom::eliminates;
 use crate::solver::simd::sweeps::are_at_one_time;
 use crate::system::{Class, System};
@@ -114,7 +114,7 @@ pub(super) fn increments<P: StageTableau, W: Vector>(
 ) {
     if P::INCREMENTS {
         for (stage, evaluation) in evaluations.iter_mut().enumerate() {
-            scale(evaluation, half.weights[stage] * h);
+            scale(evaluation, h, Coefficient::exact(half.weights[stage]));
         }
     }
 }
@@ -249,26 +249,18 @@ where
 /// One half of the result of a step.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn total<R: Summation, P: StageTableau, W: Vector>(
-    (out, out_low): (&mut W, &mut W),
-    (base, low): (&W, &W),
+    out: (&mut W, &mut W),
+    base: (&W, &W),
     terms: &[W],
     half: &HalfTableau,
     h: f64,
 ) {
-    let n = shortest(terms).min(base.dimension());
-    for k in 0..n {
-        let term = |stage: usize| {
-            let entry = terms[stage].as_slice()[k];
-            match P::INCREMENTS {
-                true => entry,
-                false => scalar::<W>(h * half.weights[stage]) * entry,
-            }
-        };
-        let (base, low) = (base.as_slice()[k], low.as_slice()[k]);
-        let (high, rest) = add::<R, _>(base, low, half.count, term);
-        out.as_mut_slice()[k] = high;
-        if R::COMPENSATED {
-            out_low.as_mut_slice()[k] = rest;
+    let n = shortest(terms).min(base.0.dimension());
+    totals_by::<R, W>(out, base, (n, half.count), |k, stage| {
+        let entry = terms[stage].as_slice()[k];
+        match P::INCREMENTS {
+            true => entry,
+            false => scalar::<W>(h * half.weights[stage]) * entry,
         }
-    }
+    });
 }

@@ -16,7 +16,7 @@ pub(crate) use run_time::take_at_run_time;
 use num_traits::Zero;
 
 use crate::method::LaneStages;
-use crate::number::linear_combination::sum_of_products;
+use crate::number::linear_combination::{shortest, sum_of_products};
 use crate::number::summation::moved;
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::solver::simd::change::{LaneMovement, noted};
@@ -64,7 +64,7 @@ fn relax<R: Summation, W: Vector<Scalar: Lanes>>(
     terms: &[W],
     value: impl Fn((usize, usize), (W::Scalar, W::Scalar), W::Scalar) -> W::Scalar,
 ) -> W::Scalar {
-    let n = shortest(out).min(shortest(terms));
+    let n = shortest(&*out).min(shortest(terms));
     let n = n.min(base.dimension()).min(low.dimension());
     let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
     let mut largest = None;
@@ -103,19 +103,10 @@ fn scalar<W: Vector>(number: f64) -> W::Scalar {
     W::Scalar::from_f64(number)
 }
 
-/// `vector = factor vector`
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn scale<W: Vector>(vector: &mut W, factor: f64) {
-    let factor = scalar::<W>(factor);
-    for component in vector.as_mut_slice() {
-        *component *= factor;
-    }
-}
-
 /// `out_i = Σ_j matrix(i, j) vectors_j`
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn transform<W: Vector>(out: &mut [W], vectors: &[W], matrix: impl Fn(usize, usize) -> f64) {
-    let n = shortest(out).min(shortest(vectors));
+    let n = shortest(&*out).min(shortest(vectors));
     for (i, out) in out.iter_mut().enumerate() {
         for (k, out) in out.as_mut_slice()[..n].iter_mut().enumerate() {
             let product = |j: usize| (scalar::<W>(matrix(i, j)), vectors[j].as_slice()[k]);
@@ -152,11 +143,4 @@ fn keep<W: Vector<Scalar: Lanes>>(lanes: u32, from: &LaneStages<W>, to: &mut Lan
     copy_lanes(lanes, &from.p, &mut to.p);
     copy_lanes(lanes, &from.velocity, &mut to.velocity);
     copy_lanes(lanes, &from.force, &mut to.force);
-}
-
-/// The smallest dimension of these vectors.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn shortest<W: Vector>(vectors: &[W]) -> usize {
-    let dimensions = vectors.iter().map(Vector::dimension);
-    dimensions.min().unwrap_or(0)
 }

@@ -5,11 +5,11 @@ use core::marker::PhantomData;
 
 use num_traits::Zero;
 
-use super::{LaneSweeps, Sums, keep, largest, relax, settle::settle, shortest, sum, transform};
+use super::{LaneSweeps, Sums, keep, largest, relax, settle::settle, sum, transform};
 use crate::method::run_time::{Coupled, Half, Row, Schedule};
 use crate::method::{LaneMemory, LaneOutcome, LaneStages, Outcome, Step, Stopping};
 use crate::number::array::array;
-use crate::number::linear_combination::{sum_of_products, value};
+use crate::number::linear_combination::{shortest, sum_of_products, value};
 use crate::number::summation::{Overrelaxed, moved};
 use crate::number::{Lanes, Scalar, Summation, Vector, copy};
 use crate::solver::run_time::CoupledStep;
@@ -129,7 +129,7 @@ fn relax_all<R: Summation, W: Vector<Scalar: Lanes>, const N: usize>(
     (base, low): (&W, &W),
     terms: &[W],
 ) -> W::Scalar {
-    let n = shortest(out).min(shortest(terms));
+    let n = shortest(&*out).min(shortest(terms));
     let n = n.min(base.dimension()).min(low.dimension());
     let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
     let factors: [[f64; N]; N] = array([0.0; N], |i| array(0.0, |j| rows[i][j].1));
@@ -199,7 +199,7 @@ fn extrapolate_all<W: Vector<Scalar: Lanes>, const N: usize>(
     out: &mut [W],
     before: &[W],
 ) {
-    let n = shortest(out).min(shortest(before));
+    let n = shortest(&*out).min(shortest(before));
     let before: [&[W::Scalar]; N] = array(&[][..], |j| &before[j].as_slice()[..n]);
     let matrix: [[f64; N]; N] = array([0.0; N], |i| array(0.0, |j| matrix[i][j]));
     let terms = |k: usize| -> [W::Scalar; N] { array(W::Scalar::zero(), |j| before[j][k]) };

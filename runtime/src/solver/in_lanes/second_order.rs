@@ -1,10 +1,10 @@
 //! Sweeps over positions only, for second-order systems (Nyström).
 
 use super::emitted::{Emitted, increments, total};
-use super::{LaneSweeps, Sums, copy_lanes, largest, relax, scalar, shortest, transform};
+use super::{LaneSweeps, Sums, copy_lanes, largest, relax, scalar, transform};
 use crate::method::tableau::Columns;
 use crate::method::{EvaluationCounts, LaneStages, Outcome, StageTableau};
-use crate::number::linear_combination::sum_of_products;
+use crate::number::linear_combination::{shortest, sum_of_products};
 use crate::number::summation::add;
 use crate::number::{Lanes, Plain, Scalar, Summation, Vector, copy};
 use crate::solver::nystrom::{Start, position, tableau};

@@ -13,7 +13,7 @@ use crate::method::storage::first_non_finite_of;
 use crate::method::{
     Failure, HalfChange, HalfTableau, Outcome, StageChange, StageStorage, StageTableau, Step,
 };
-use crate::number::summation::add;
+use crate::number::linear_combination::totals_by;
 use crate::number::{Scalar, Summation, Vector};
 use crate::system::{Class, System};
 
@@ -752,23 +752,15 @@ fn total<R: Summation, P: StageTableau, V: Vector>(
     h: f64,
     half: &HalfTableau,
     increments: &[V],
-    (base, low): (&V, &V),
-    (out, out_low): (&mut V, &mut V),
+    base: (&V, &V),
+    out: (&mut V, &mut V),
 ) {
-    let out = out.as_mut_slice().iter_mut().zip(out_low.as_mut_slice());
-    let base = base.as_slice().iter().zip(low.as_slice());
-    for (k, ((out, out_low), (&base, &low))) in out.zip(base).enumerate() {
-        let (high, rest) = add::<R, _>(base, low, increments.len(), |j| {
-            let increment = increments[j].as_slice()[k];
-            if P::INCREMENTS {
-                increment
-            } else {
-                V::Scalar::from_f64(h * half.weights[j]) * increment
-            }
-        });
-        *out = high;
-        if R::COMPENSATED {
-            *out_low = rest;
+    let (n, count) = (base.0.dimension(), increments.len());
+    totals_by::<R, V>(out, base, (n, count), |k, j| {
+        let increment = increments[j].as_slice()[k];
+        match P::INCREMENTS {
+            true => increment,
+            false => V::Scalar::from_f64(h * half.weights[j]) * increment,
         }
-    }
+    });
 }

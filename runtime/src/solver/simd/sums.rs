@@ -6,8 +6,8 @@ use num_traits::Zero;
 
 use crate::method::{HalfTableau, Inside, Outcome, StageTableau, Step};
 use crate::number::lanes::{lane_of, lanes};
-use crate::number::linear_combination::sum_of_products;
-use crate::number::summation::{add, moved};
+use crate::number::linear_combination::{sum_of_products, totals_by};
+use crate::number::summation::moved;
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::solver::simd::change::noted;
 use crate::solver::simd::stages::{Laned, SimdStages};
@@ -202,29 +202,20 @@ pub(crate) fn extrapolate<P: StageTableau, V: Vector>(
 /// Computes one half of the result of a step from the evaluations `terms`.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn total<R: Summation, P: StageTableau, V: Vector<Scalar = f64>>(
-    (out, out_low): (&mut V, &mut V),
-    (base, low): (&V, &V),
+    out: (&mut V, &mut V),
+    base: (&V, &V),
     terms: &[Laned<V, P>],
     half: &HalfTableau,
     h: f64,
 ) {
-    let n = shortest(terms).min(base.dimension());
-    for k in 0..n {
-        let term = |stage: usize| {
-            let entry = entry::<P, V>(terms, stage, k);
-            if P::INCREMENTS {
-                entry
-            } else {
-                h * half.weights[stage] * entry
-            }
-        };
-        let (base, low) = (base.as_slice()[k], low.as_slice()[k]);
-        let (high, rest) = add::<R, f64>(base, low, half.count, term);
-        out.as_mut_slice()[k] = high;
-        if R::COMPENSATED {
-            out_low.as_mut_slice()[k] = rest;
+    let n = shortest(terms).min(base.0.dimension());
+    totals_by::<R, V>(out, base, (n, half.count), |k, stage| {
+        let entry = entry::<P, V>(terms, stage, k);
+        match P::INCREMENTS {
+            true => entry,
+            false => h * half.weights[stage] * entry,
         }
-    }
+    });
 }
 
 /// The smallest dimension of these vectors.
