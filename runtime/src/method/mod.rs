@@ -16,7 +16,7 @@ pub(crate) mod lane_stages;
 #[cfg(feature = "alloc")]
 pub(crate) mod nonholonomic;
 pub(crate) mod proved;
-mod relax;
+pub(crate) mod relax;
 #[cfg(feature = "alloc")]
 pub(crate) mod run_time;
 pub(crate) mod separable_only;

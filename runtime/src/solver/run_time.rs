@@ -5,6 +5,7 @@ use core::marker::PhantomData;
 use num_traits::Zero;
 
 use crate::error::Quantity;
+use crate::method::relax::{eight_by_eight, relax_by};
 use crate::method::run_time::{Coupled, Half, MOST, Row, Schedule};
 use crate::method::storage::{first_non_finite, first_non_finite_of};
 use crate::method::{
@@ -13,8 +14,8 @@ use crate::method::{
 };
 use crate::number::linear_combination::{shortest, sum_of_products, totals_by};
 use crate::number::rows::{Eight, Row as _};
-use crate::number::summation::{Overrelaxed, moved};
-use crate::number::{Coefficient, F64x8, Lanes, Scalar, Summation, Vector, copy, scale};
+use crate::number::summation::Overrelaxed;
+use crate::number::{Coefficient, Scalar, Summation, Vector, copy, scale};
 use crate::solver::convergence::{Sweeps, settle};
 use crate::system::{Class, System};
 
@@ -237,82 +238,20 @@ fn relax<R: Summation, V: Vector>(
     increments: &[V],
     change: &mut HalfChange,
 ) {
-    let (base, low) = (base.as_slice(), low.as_slice());
-    let out = out.as_mut_slice();
-    let lengths = row
-        .iter()
-        .map(|&(index, _)| increments[index].as_slice().len());
-    let n = lengths.fold(out.len().min(base.len()).min(low.len()), usize::min);
-    let (out, base, low) = (&mut out[..n], &base[..n], &low[..n]);
-    let mut local = *change;
-    let rest = relax_rows::<R, V>(out, (base, low), row, increments, &mut local);
-    for i in rest..n {
-        let new = value::<R, V::Scalar>(base[i], low[i], row, |index| {
-            increments[index].as_slice()[i]
-        });
-        let new = moved(R::BEYOND, out[i], new);
-        local.record(base[i], out[i], new);
-        out[i] = new;
-    }
-    *change = local;
-}
-
-/// [`relax`] with eight components side by side, for doubles; returns the index of the first remaining component.
-#[inline]
-fn relax_rows<R: Summation, V: Vector>(
-    out: &mut [V::Scalar],
-    (base, low): (&[V::Scalar], &[V::Scalar]),
-    row: &Row,
-    increments: &[V],
-    change: &mut HalfChange,
-) -> usize {
-    let (Some(out), Some(base), Some(low)) = (
-        V::Scalar::doubles_mut(out),
-        V::Scalar::doubles(base),
-        V::Scalar::doubles(low),
-    ) else {
-        return 0;
-    };
-    let n = out.len() / Eight::WIDTH;
-    if n == 0 {
-        return 0;
-    }
-    let out = Eight::rows_mut(out);
-    let (base, low) = (Eight::rows(base), Eight::rows(low));
-    let zero = F64x8::zero();
-    let (mut difference, mut scale) = (zero, zero);
-    for i in 0..n {
-        let start = Eight::load(&base[i]);
-        let new = value::<R, F64x8>(start, Eight::load(&low[i]), row, |index| {
-            let increment = V::Scalar::doubles(increments[index].as_slice());
-            Eight::load(&Eight::rows(increment.unwrap_or(&[]))[i])
-        });
-        let old = Eight::load(&out[i]);
-        let new = moved(R::BEYOND, old, new);
-        out[i] = Eight::store(new);
-        difference = difference.larger_or_nan((new - old).abs());
-        scale = scale.larger(start.abs()).larger(new.abs());
-    }
-    let difference = match difference.any_nan() {
-        true => f64::NAN,
-        false => difference.largest(),
-    };
-    change.join(difference, scale.largest());
-    n * Eight::WIDTH
-}
-
-/// One component of a stage, or eight components side by side.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn value<R: Summation, T: Scalar>(base: T, low: T, row: &Row, term: impl Fn(usize) -> T) -> T {
-    if row.is_empty() {
-        return base;
-    }
-    let start = R::COMPENSATED.then_some(low);
-    let product = |j: usize| {
-        let (index, factor) = row[j];
-        (T::from_f64(factor), term(index))
-    };
-    base + sum_of_products(start, row.len(), product)
+    let increment = |index: usize| increments[index].as_slice();
+    let lengths = row.iter().map(|&(index, _)| increment(index).len());
+    let n = lengths.fold(shortest([&*out, base, low]), usize::min);
+    relax_by::<R, V>(
+        out,
+        (base, low),
+        (n, row.len()),
+        |j, i| (V::Scalar::from_f64(row[j].1), increment(row[j].0)[i]),
+        |j, i| {
+            let rows = eight_by_eight(increment(row[j].0));
+            (Eight::splat(row[j].1), Eight::load(&rows[i]))
+        },
+        change,
+    );
 }
 
 /// `out = base + low + Σ increments`, over the evaluations that enter the result, with the rounding error of the sum in `out_low`.
