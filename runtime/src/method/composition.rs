@@ -40,7 +40,7 @@ pub trait Substeps {
     /// # Errors
     ///
     /// [`Failure`]
-    fn take<R, V, S, N>(
+    fn take<R: Summation, V: Vector, S: System<V, Class = Self::Class>, N: Solver<V, S>>(
         number: usize,
         step: &Step<'_, V>,
         system: &S,
@@ -48,13 +48,7 @@ pub trait Substeps {
         kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-        N: Solver<V, S>;
-
+    ) -> Result<StepStatistics, Failure>;
     /// [`Plan::observe`] of the substep with this number, from 0.
     fn observe<R, V, S, N, W>(
         number: usize,
@@ -117,20 +111,14 @@ impl<L: Substeps> Plan for Composition<L> {
         CompositionMemory<V, L::Memory<V, S, N>>;
 
     #[inline]
-    fn take<R, V, S, N>(
+    fn take<R: Summation, V: Vector, S: System<V, Class = Self::Class>, N: Solver<V, S>>(
         step: &Step<'_, V>,
         system: &S,
         memory: &mut Self::Memory<V, S, N>,
         kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-        N: Solver<V, S>,
-    {
+    ) -> Result<StepStatistics, Failure> {
         let CompositionMemory {
             plans,
             between: [q, q_low, p, p_low],

@@ -22,20 +22,14 @@ impl<P: StageTableau> Plan for Coupled<P> {
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = N::Memory<P>;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn take<R, V, S, N>(
+    fn take<R: Summation, V: Vector, S: System<V, Class = P::Class>, N: Solver<V, S>>(
         step: &Step<'_, V>,
         system: &S,
         memory: &mut N::Memory<P>,
         kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = P::Class>,
-        N: Solver<V, S>,
-    {
+    ) -> Result<StepStatistics, Failure> {
         N::take::<P, R>(step, system, memory, kept, stopping, outcome)
     }
 

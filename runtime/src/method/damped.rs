@@ -200,20 +200,14 @@ impl<M: Method> Plan for DampedPlan<M> {
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn take<R, V, S, N>(
+    fn take<R: Summation, V: Vector, S: System<V, Class = Damped>, N: Solver<V, S>>(
         step: &Step<'_, V>,
         system: &S,
         memory: &mut DampedMemory<V>,
         kept: WarmStart,
         _stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = Damped>,
-        N: Solver<V, S>,
-    {
+    ) -> Result<StepStatistics, Failure> {
         let DampedMemory {
             evaluations,
             change,

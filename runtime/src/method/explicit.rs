@@ -20,20 +20,14 @@ impl<P: StagePlan> Plan for Explicit<P> {
     const LANEWISE: bool = true;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn take<R, V, S, N>(
+    fn take<R: Summation, V: Vector, S: System<V, Class = P::Class>, N: Solver<V, S>>(
         step: &Step<'_, V>,
         system: &S,
         memory: &mut P::Stages<V>,
         kept: WarmStart,
         _stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = P::Class>,
-        N: Solver<V, S>,
-    {
+    ) -> Result<StepStatistics, Failure> {
         P::begin::<R, V, S>(step, system, memory, kept);
         P::finish::<R, V, S>(step, system, memory, kept, outcome);
         Ok(StepStatistics {

@@ -192,20 +192,14 @@ pub trait Plan {
     /// # Errors
     ///
     /// [`Failure`] if the stages cannot be found. The caller checks that the result is finite.
-    fn take<R, V, S, N>(
+    fn take<R: Summation, V: Vector, S: System<V, Class = Self::Class>, N: Solver<V, S>>(
         step: &Step<'_, V>,
         system: &S,
         memory: &mut Self::Memory<V, S, N>,
         kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-        N: Solver<V, S>;
-
+    ) -> Result<StepStatistics, Failure>;
     /// Whether steps are taken [in lanes](Self::lane_step).
     #[cfg(feature = "alloc")]
     #[doc(hidden)]

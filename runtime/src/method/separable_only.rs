@@ -63,20 +63,14 @@ impl Plan for SeparableOnly {
     type Class = General;
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = crate::method::Evaluations<V>;
 
-    fn take<R, V, S, N>(
+    fn take<R: Summation, V: Vector, S: System<V, Class = General>, N: Solver<V, S>>(
         _step: &Step<'_, V>,
         _system: &S,
         _memory: &mut crate::method::Evaluations<V>,
         _kept: WarmStart,
         _stopping: Stopping,
         _outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = General>,
-        N: Solver<V, S>,
-    {
+    ) -> Result<StepStatistics, Failure> {
         const { Self::refuse::<V>() };
         Ok(StepStatistics::default())
     }

@@ -129,20 +129,14 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
     const LANEWISE: bool = true;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn take<R, V, S, N>(
+    fn take<R: Summation, V: Vector, S: System<V, Class = P::Class>, N: Solver<V, S>>(
         step: &Step<'_, V>,
         system: &S,
         memory: &mut Evaluations<V>,
         kept: WarmStart,
         _stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = P::Class>,
-        N: Solver<V, S>,
-    {
+    ) -> Result<StepStatistics, Failure> {
         let (kick_drift, witness) = (&mut (), &mut ());
         Ok(Self::take_by::<R, V, S, _, _>(
             step, system, memory, kept, outcome, kick_drift, witness,

@@ -22,20 +22,14 @@ use crate::system::{Class, System};
 /// Takes a step whose stages depend on each other: the iteration of [`FixedPoint`](crate::solver::FixedPoint) over rows of
 /// coefficients instead of straight-line code. Nothing is allocated.
 #[inline]
-pub(crate) fn by_rows<C, R, V, S>(
+pub(crate) fn by_rows<C: Class, R: Summation, V: Vector, S: System<V, Class = C>>(
     step: &Step<'_, V>,
     system: &S,
     memory: &mut RunTimeStages<V, C>,
     kept: WarmStart,
     stopping: Stopping,
     outcome: Outcome<'_, V>,
-) -> Result<StepStatistics, Failure>
-where
-    C: Class,
-    R: Summation,
-    V: Vector,
-    S: System<V, Class = C>,
-{
+) -> Result<StepStatistics, Failure> {
     let RunTimeStages {
         tableau,
         q,

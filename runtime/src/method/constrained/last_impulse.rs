@@ -40,7 +40,7 @@ impl<T: Scalar> LastImpulse<T> {
     ///
     /// [`Failure::NonFinite`] if a velocity is not finite; [`Failure::NoConvergence`].
     #[allow(clippy::too_many_arguments)]
-    pub(in crate::method) fn find<R, V, S>(
+    pub(in crate::method) fn find<R: Summation, V: Vector<Scalar = T>, S: System<V>>(
         &mut self,
         step: &Step<'_, V>,
         system: &S,
@@ -50,12 +50,7 @@ impl<T: Scalar> LastImpulse<T> {
         stopping: Stopping,
         outcome: &mut Outcome<'_, V>,
         work: &mut StepStatistics,
-    ) -> Result<(), Failure>
-    where
-        R: Summation,
-        V: Vector<Scalar = T>,
-        S: System<V>,
-    {
+    ) -> Result<(), Failure> {
         let time = T::from_f64(step.time + step.size);
         self.multipliers.fill(T::zero());
         let (mut best, mut since) = (f64::INFINITY, 0);

@@ -321,12 +321,10 @@ fn check_gradients<V: Vector, S: System<V>>(
 /// # Ok(())
 /// # }
 /// ```
-pub fn consistent<V, S, C>(system: &S, state: State<V>) -> Result<State<V>, Error>
-where
-    V: Vector,
-    S: System<V, Class = Constrained<C>>,
-    C: Class + Unconstrained,
-{
+pub fn consistent<V: Vector, S: System<V, Class = Constrained<C>>, C: Class + Unconstrained>(
+    system: &S,
+    state: State<V>,
+) -> Result<State<V>, Error> {
     let State { time, q, p } = state;
     check_numbers(&q, &p)?;
     let system = &OfDimension::new(system, q.dimension());

@@ -71,20 +71,14 @@ impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
         start::check_start(&RowsAsGradients(system), time, q, p)
     }
 
-    fn take<R, V, S, N>(
+    fn take<R: Summation, V: Vector, S: System<V, Class = Self::Class>, N: Solver<V, S>>(
         step: &Step<'_, V>,
         system: &S,
         memory: &mut NonholonomicStages<V>,
         kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-        N: Solver<V, S>,
-    {
+    ) -> Result<StepStatistics, Failure> {
         memory.take::<M, R, S, C>(step, system, kept, stopping, outcome, |_| {})
     }
 

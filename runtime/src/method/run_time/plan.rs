@@ -127,20 +127,14 @@ impl<C: Class> Plan for RunTimePlan<C> {
     const LANEWISE: bool = C::SEPARABLE;
 
     #[inline]
-    fn take<R, V, S, N>(
+    fn take<R: Summation, V: Vector, S: System<V, Class = C>, N: Solver<V, S>>(
         step: &Step<'_, V>,
         system: &S,
         memory: &mut RunTimeStages<V, C>,
         kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = C>,
-        N: Solver<V, S>,
-    {
+    ) -> Result<StepStatistics, Failure> {
         let tableau = memory.tableau.as_ref().expect(TABLEAU);
         match tableau.schedule::<C>() {
             Schedule::Splitting(splitting) => {
