@@ -10,7 +10,6 @@ pub(crate) mod damped;
 pub(crate) mod diagnosis;
 pub(crate) mod explicit;
 pub(crate) mod interpolation;
-pub(crate) mod kick_drift;
 #[cfg(feature = "alloc")]
 pub(crate) mod lane_stages;
 #[cfg(feature = "alloc")]
@@ -43,7 +42,6 @@ pub use coupled::Coupled;
 pub use damped::{DampedMemory, DampedPlan, friction_growth};
 pub use explicit::Explicit;
 pub use interpolation::{Inside, Interpolation};
-pub use kick_drift::KickDrift;
 #[cfg(feature = "alloc")]
 pub use lane_stages::{LaneMemory, LaneOutcome, LaneStages, LaneStep, StagePart, StageVisit};
 #[cfg(feature = "alloc")]
@@ -55,7 +53,7 @@ pub use run_time::{
 };
 pub use separable_only::{SeparableOnly, rows, staircase};
 pub use solver::Solver;
-pub use splitting::{Splitting, SplittingPlan, SplittingStep};
+pub use splitting::{KickDrift, Splitting, SplittingPlan, SplittingStep};
 pub use splitting_macros::{composition, splitting};
 pub use stage_sums::{StageSums, StartingValues, Sweep};
 pub use step::{EvaluationCounts, EvaluationObserver, Outcome, Span, StageView, Step, WarmStart};
