@@ -10,7 +10,7 @@ use crate::method::{Method, Solver, WarmStart};
 use crate::number::{Summation, Vector};
 use crate::system::System;
 
-/// The reaction of an [`Integrator`](crate::Integrator) if the stages of a step do not converge or a result is NaN or infinite.
+/// The reaction of an [`Integrator`] if the stages of a step do not converge or a result is NaN or infinite.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Retry {
     /// The step fails, with the error.
