@@ -120,8 +120,8 @@ pub use number::{Compensated, Plain, Scalar, Summation, Vector};
 pub use output::{Event, Events, Invariant, Moment, Progress};
 pub use state::State;
 pub use system::{
-    Class, Damped, General, Hamiltonian, Lagrangian, Separable, SeparableHamiltonian, System,
-    acceleration, hamiltonian, lagrangian, separable,
+    Class, Damped, General, Hamiltonian, Lagrangian, Masses, Separable, SeparableHamiltonian,
+    System, acceleration, hamiltonian, lagrangian, separable,
 };
 #[cfg(feature = "alloc")]
 pub use system::{Constrained, Nonholonomic};

@@ -31,7 +31,7 @@ use crate::system::System;
 /// take [`Poincare`](super::Poincare) or [`Logarithmic`](super::Logarithmic) for them.
 ///
 /// The order in ε is that of the method: t is the sum of the step sizes. Steps are explicit if those of the method are. Each step costs one
-/// additional derivative of the [`Monitor`], and one velocity unless it [is the momentum](System::UNIT_MASSES).
+/// additional derivative of the [`Monitor`], and one velocity unless it [is the momentum](crate::Masses::Unit).
 ///
 /// # Back to the start
 ///
@@ -258,7 +258,7 @@ where
     /// `G = −∇σ·q'/σ` at the present state.
     fn rate(&mut self) -> Result<f64, Error> {
         let State { time, q, p } = self.integrator.state();
-        let velocity = if S::UNIT_MASSES {
+        let velocity = if S::MASSES.are_unit() {
             p
         } else {
             let system = self.integrator.system();

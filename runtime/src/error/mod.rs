@@ -218,7 +218,7 @@ pub enum Error {
 
     /// A system declares unit masses, but its velocity differs from the momentum.
     #[error(
-        "|velocity[{component}]| is {velocity}, but |p[{component}]| is {momentum}: leave out `UNIT_MASSES = true`, or let `velocity` copy \
+        "|velocity[{component}]| is {velocity}, but |p[{component}]| is {momentum}: leave out `Masses::Unit`, or let `velocity` copy \
          the momentum"
     )]
     NotUnitMasses {

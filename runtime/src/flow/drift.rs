@@ -40,7 +40,7 @@ impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> Drift<S, V> {
 
 impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> Flow<V> for Drift<S, V> {
     fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError> {
-        if S::UNIT_MASSES {
+        if S::MASSES.are_unit() {
             return add(Quantity::Velocity, span.size, p, q);
         }
         let velocity = work_vector(&mut self.velocity, q, p)?;

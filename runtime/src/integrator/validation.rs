@@ -23,7 +23,7 @@ pub(super) fn check_masses<V: Vector, S: System<V>>(
     system: &S,
     state: &State<V>,
 ) -> Result<(), Error> {
-    if !S::UNIT_MASSES {
+    if !S::MASSES.are_unit() {
         return Ok(());
     }
     let State { time, q, p } = state;
@@ -44,7 +44,7 @@ pub(crate) fn check_quadratic_kinetic<M: Method, V: Vector, S: System<V>>(
     system: &S,
     state: &State<V>,
 ) -> Result<(), Error> {
-    let Some(orders) = orders.filter(|_| !S::UNIT_MASSES) else {
+    let Some(orders) = orders.filter(|_| !S::MASSES.are_unit()) else {
         return Ok(());
     };
     let State { time, q, p } = state;
@@ -80,7 +80,7 @@ pub(super) fn has_linear_velocity<V: Vector, S: System<V>, N: Solver<V, S>>(
     let State { time, q, p } = state;
     N::TRIES_LINEARITY
         && S::Class::SEPARABLE
-        && (S::UNIT_MASSES || non_linear_velocity(system, *time, q, p).is_none())
+        && (S::MASSES.are_unit() || non_linear_velocity(system, *time, q, p).is_none())
 }
 
 /// The first component in which two vectors differ, and its size in both. Components that are NaN or infinite in both are skipped: the

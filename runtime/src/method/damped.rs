@@ -13,7 +13,7 @@ use crate::number::summation::add;
 use crate::number::vector::same_mut;
 use crate::number::{Coefficient, Coefficients, Scalar, Summation, Vector, Visit, larger_or_nan};
 use crate::solver::FixedPoint;
-use crate::system::{Damped, Separable, System};
+use crate::system::{Damped, Masses, Separable, System};
 
 /// The plan of the splitting `M` for systems with linear friction `−γp`. A kick is the exact flow at a fixed position,
 ///
@@ -73,7 +73,7 @@ impl<V: Vector, S: System<V, Class = Damped>> System<V> for AsSeparable<'_, S> {
     type Class = Separable;
     type Solver = FixedPoint;
 
-    const UNIT_MASSES: bool = S::UNIT_MASSES;
+    const MASSES: Masses = S::MASSES;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {

@@ -4,8 +4,8 @@ use core::marker::PhantomData;
 
 use crate::error::Quantity;
 use crate::method::{
-    EvaluationObserver, Evaluations, Failure, Outcome, Plan, Solver, Span, StageStorage,
-    Step, StepStatistics, Stopping, WarmStart,
+    EvaluationObserver, Evaluations, Failure, Outcome, Plan, Solver, Span, StageStorage, Step,
+    StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Coefficient, Summation, Vector, advance};
 use crate::system::{Class, System};
@@ -132,7 +132,7 @@ where
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn drift_by(&mut self, stage: usize, time: Coefficient, weight: Coefficient, known: bool) {
         let (state, place) = (&mut self.state, &mut self.evaluations.velocity);
-        let velocity = match S::UNIT_MASSES {
+        let velocity = match S::MASSES.are_unit() {
             true => &*state.p,
             false => {
                 if !known {

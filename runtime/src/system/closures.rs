@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use crate::number::{Vector, copy};
 use crate::solver::FixedPoint;
-use crate::system::{General, Separable, System};
+use crate::system::{General, Masses, Separable, System};
 
 /// A separable system given by two closures, `|time, p, velocity| …` and `|time, q, force| …`, which write their result
 /// into the last argument.
@@ -142,7 +142,7 @@ impl<V: Vector, F: Velocity<V>, G: Fn(V::Scalar, &V, &mut V), E: Energy<V>> Syst
     type Class = Separable;
     type Solver = FixedPoint;
 
-    const UNIT_MASSES: bool = F::UNIT_MASSES;
+    const MASSES: Masses = F::MASSES;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: V::Scalar, _q: &V, p: &V, velocity: &mut V) {
@@ -187,17 +187,17 @@ impl<V, F, G, E, C> fmt::Debug for Closures<V, F, G, E, C> {
 }
 
 mod parts {
-    use super::{Momentum, NoEnergy, Vector, copy};
+    use super::{Masses, Momentum, NoEnergy, Vector, copy};
 
     /// A closure for the velocity, or the momentum.
     pub trait Velocity<V: Vector> {
-        const UNIT_MASSES: bool;
+        const MASSES: Masses;
 
         fn write(&self, time: V::Scalar, p: &V, velocity: &mut V);
     }
 
     impl<V: Vector> Velocity<V> for Momentum {
-        const UNIT_MASSES: bool = true;
+        const MASSES: Masses = Masses::Unit;
 
         #[cfg_attr(not(debug_assertions), inline(always))]
         fn write(&self, _time: V::Scalar, p: &V, velocity: &mut V) {
@@ -206,7 +206,7 @@ mod parts {
     }
 
     impl<V: Vector, F: Fn(V::Scalar, &V, &mut V)> Velocity<V> for F {
-        const UNIT_MASSES: bool = false;
+        const MASSES: Masses = Masses::Any;
 
         #[cfg_attr(not(debug_assertions), inline(always))]
         fn write(&self, time: V::Scalar, p: &V, velocity: &mut V) {

@@ -2,7 +2,7 @@
 
 use crate::error::ConstraintName;
 use crate::number::{F64x2, F64x4, F64x8, Lanes, Scalar, Vector};
-use crate::system::{Class, LaneWork, Separable, System, first};
+use crate::system::{Class, LaneWork, Masses, Separable, System, first};
 #[cfg(feature = "alloc")]
 use crate::system::{Gradients, Jacobian};
 
@@ -70,12 +70,8 @@ pub trait Hamiltonian {
             With<F64x8> = Self::Vector<F64x8>,
         >;
 
-    /// Whether the velocity is the momentum, as with unit masses: see [`SeparableHamiltonian::UNIT_MASSES`].
-    const UNIT_MASSES: bool = false;
-
-    /// Whether the velocity depends on the momentum alone in a system of class [`General`](crate::General), whose force depends on momenta
-    /// too. If the velocity is `M⁻¹p` with constant M, constrained steps then compute M⁻¹ once.
-    const CONSTANT_MASSES: bool = false;
+    /// What is known of the masses; nothing has to be said. See [`SeparableHamiltonian::MASSES`].
+    const MASSES: Masses = Masses::Any;
 
     /// Whether the force has a part without a potential: [`applied_force`](Self::applied_force).
     const FORCED: bool = false;
@@ -398,7 +394,7 @@ pub trait Hamiltonian {
     /// ```
     /// use symplectic::nalgebra::SVector;
     /// use symplectic::system::Gradients;
-    /// use symplectic::{Constrained, Error, Hamiltonian, Integrator, Scalar, Separable, State};
+    /// use symplectic::{Constrained, Error, Hamiltonian, Integrator, Masses, Scalar, Separable, State};
     ///
     /// symplectic::tableau! {
     ///     /// Lobatto IIIA–IIIB with two stages: RATTLE.
@@ -412,7 +408,7 @@ pub trait Hamiltonian {
     ///     type Class = Constrained<Separable>;
     ///     type Vector<T: Scalar> = SVector<T, 2>;
     ///
-    ///     const UNIT_MASSES: bool = true;
+    ///     const MASSES: Masses = Masses::Unit;
     ///
     ///     fn velocity<T: Scalar>(&self, _: T, _: &SVector<T, 2>, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
     ///         *velocity = *p;
@@ -468,7 +464,7 @@ pub trait Hamiltonian {
     /// ```
     /// use symplectic::nalgebra::SVector;
     /// use symplectic::system::Gradients;
-    /// use symplectic::{Error, Hamiltonian, Integrator, Nonholonomic, Scalar, Separable, State};
+    /// use symplectic::{Error, Hamiltonian, Integrator, Masses, Nonholonomic, Scalar, Separable, State};
     ///
     /// symplectic::tableau! {
     ///     /// The implicit midpoint rule.
@@ -484,7 +480,7 @@ pub trait Hamiltonian {
     ///     type Class = Nonholonomic<Separable>;
     ///     type Vector<T: Scalar> = V3<T>;
     ///
-    ///     const UNIT_MASSES: bool = true;
+    ///     const MASSES: Masses = Masses::Unit;
     ///
     ///     fn velocity<T: Scalar>(&self, _: T, _: &V3<T>, p: &V3<T>, velocity: &mut V3<T>) {
     ///         *velocity = *p;
@@ -568,13 +564,11 @@ pub trait SeparableHamiltonian {
             With<F64x8> = Self::Vector<F64x8>,
         >;
 
-    /// Whether the velocity equals the momentum to the last bit, `H = |p|²/2 + U(t, q)`. Steps then use the momentum as the velocity,
-    /// without copies of long vectors. If it is `true` and the velocity differs from the momentum, creating an integrator returns
-    /// [`Error::NotUnitMasses`](crate::Error::NotUnitMasses).
+    /// What is known of the [masses](Masses). With `Masses::Unit` steps use the momentum as the velocity.
     ///
     /// ```
     /// use symplectic::nalgebra::DVector;
-    /// use symplectic::{Scalar, SeparableHamiltonian};
+    /// use symplectic::{Masses, Scalar, SeparableHamiltonian};
     ///
     /// /// Oscillators of frequency 1.
     /// struct Oscillators;
@@ -582,7 +576,7 @@ pub trait SeparableHamiltonian {
     /// impl SeparableHamiltonian for Oscillators {
     ///     type Vector<T: Scalar> = DVector<T>;
     ///
-    ///     const UNIT_MASSES: bool = true;
+    ///     const MASSES: Masses = Masses::Unit;
     ///
     ///     fn velocity<T: Scalar>(&self, _time: T, p: &DVector<T>, velocity: &mut DVector<T>) {
     ///         velocity.copy_from(p);
@@ -593,7 +587,7 @@ pub trait SeparableHamiltonian {
     ///     }
     /// }
     /// ```
-    const UNIT_MASSES: bool = false;
+    const MASSES: Masses = Masses::Any;
 
     /// Writes ∂H/∂p at `(time, p)` into `velocity`.
     fn velocity<T: Scalar>(&self, time: T, p: &Self::Vector<T>, velocity: &mut Self::Vector<T>);
@@ -686,7 +680,7 @@ impl<S: SeparableHamiltonian> Hamiltonian for S {
     type Class = Separable;
     type Vector<T: Scalar> = S::Vector<T>;
 
-    const UNIT_MASSES: bool = S::UNIT_MASSES;
+    const MASSES: Masses = S::MASSES;
     const JOINS: bool = S::JOINS;
 
     #[cfg_attr(not(debug_assertions), inline(always))]

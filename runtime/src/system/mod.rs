@@ -14,7 +14,8 @@ pub(crate) mod lagrangian;
 pub(crate) mod lagrangian_macro;
 pub(crate) mod lane_parameters;
 pub(crate) mod linearity;
-pub(crate) mod over_vectors;
+pub(crate) mod masses;
+mod over_vectors;
 
 pub use class::{
     Class, Conservative, Damped, FreePositions, General, Holonomic, Separable, Unconstrained,
@@ -41,4 +42,5 @@ pub use lagrangian::Lagrangian;
 pub use lagrangian_macro::lagrangian;
 #[doc(hidden)]
 pub use lane_parameters::LaneParameter;
+pub use masses::Masses;
 pub use over_vectors::{OverEveryScalar, System, SystemInLanes};

@@ -6,7 +6,7 @@ use crate::error::{ConstraintName, Error};
 use crate::method::Solver;
 use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector};
 use crate::solver::Automatic;
-use crate::system::{Class, Hamiltonian, LaneWork, first};
+use crate::system::{Class, Hamiltonian, LaneWork, Masses, first};
 #[cfg(feature = "alloc")]
 use crate::system::{Gradients, Jacobian};
 
@@ -53,11 +53,8 @@ pub trait System<V: Vector>: Sized {
     /// [`FixedPoint`](crate::solver::FixedPoint), or [`Automatic`] for a system that is known over every scalar.
     type Solver: Solver<V, Self>;
 
-    /// Whether the velocity is the momentum: see [`SeparableHamiltonian::UNIT_MASSES`](crate::SeparableHamiltonian::UNIT_MASSES).
-    const UNIT_MASSES: bool = false;
-
-    /// Whether the velocity depends on the momentum alone in a system of class General: see [`Hamiltonian::CONSTANT_MASSES`].
-    const CONSTANT_MASSES: bool = false;
+    /// What is known of the masses: see [`SeparableHamiltonian::MASSES`](crate::SeparableHamiltonian::MASSES).
+    const MASSES: Masses = Masses::Any;
 
     /// Whether the second half of the positions is a displacement of the first, as in [`Tangent`](crate::tangent::Tangent). Monitors of
     /// step sizes ignore the second half.
@@ -194,8 +191,7 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
     type Class = H::Class;
     type Solver = Automatic;
 
-    const UNIT_MASSES: bool = H::UNIT_MASSES;
-    const CONSTANT_MASSES: bool = H::CONSTANT_MASSES;
+    const MASSES: Masses = H::MASSES;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {

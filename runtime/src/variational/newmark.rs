@@ -18,7 +18,7 @@ use crate::number::{Scalar, Vector};
 use crate::solver::FixedPoint;
 use crate::state::State;
 use crate::system::linearity::non_linear_velocity;
-use crate::system::{Hamiltonian, Separable, System};
+use crate::system::{Hamiltonian, Masses, Separable, System};
 
 /// A system `H = pᵀM⁻¹p/2 + V(q)` in the shifted positions in which Newmark's method with `γ = 1/2` and any β is Störmer–Verlet
 /// (Newmark 1959; Marsden & West 2001, 2.6.3; Skeel, Zhang & Schlick 1997):
@@ -227,7 +227,7 @@ impl<S: Hamiltonian<Class = Separable>> System<S::Vector<f64>> for Newmark<S> {
     type Class = Separable;
     type Solver = FixedPoint;
 
-    const UNIT_MASSES: bool = S::UNIT_MASSES;
+    const MASSES: Masses = S::MASSES;
     const FORCED: bool = S::FORCED;
 
     fn velocity(

@@ -6,8 +6,8 @@ use symplectic::adaptive::{Adaptive, DistancePower, Monitor, Symmetry};
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
 use symplectic::system::Gradients;
 use symplectic::{
-    Constrained, Error, General, Hamiltonian, Integrator, Method, ProvedFor, Scalar, Separable,
-    State, acceleration,
+    Constrained, Error, General, Hamiltonian, Integrator, Masses, Method, ProvedFor, Scalar,
+    Separable, State, acceleration,
 };
 
 use super::kepler::{
@@ -279,7 +279,7 @@ impl Hamiltonian for Pendulum {
     type Class = Constrained<Separable>;
     type Vector<T: Scalar> = SVector<T, 2>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     fn velocity<T: Scalar>(
         &self,

@@ -6,8 +6,8 @@ use crate::common::methods::{
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::solver::FixedPoint;
 use symplectic::{
-    Error, Integrator, Method, Quantity, Retry, Separable, State, Summation, System, Vector,
-    acceleration, separable,
+    Error, Integrator, Masses, Method, Quantity, Retry, Separable, State, Summation, System,
+    Vector, acceleration, separable,
 };
 
 /// A driven oscillator in each component.
@@ -40,7 +40,7 @@ impl<V: Vector<Scalar = f64>, const VELOCITY: i32> System<V> for Unit<VELOCITY> 
     type Class = Separable;
     type Solver = FixedPoint;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     fn velocity(&self, _time: f64, _q: &V, p: &V, velocity: &mut V) {
         for (velocity, p) in velocity.as_mut_slice().iter_mut().zip(p.as_slice()) {

@@ -13,8 +13,8 @@ use symplectic::simd::{F64x2, F64x4, F64x8, F64x16, Lanes};
 use symplectic::solver::{FixedPoint, SimdFixedPoint, SimdJacobi, Solver};
 use symplectic::system::SystemInLanes;
 use symplectic::{
-    Compensated, Error, General, Hamiltonian, Integrator, Method, Plain, ProvedFor, Quantity,
-    Scalar, Separable, SeparableHamiltonian, State, Summation, System, Vector,
+    Compensated, Error, General, Hamiltonian, Integrator, Masses, Method, Plain, ProvedFor,
+    Quantity, Scalar, Separable, SeparableHamiltonian, State, Summation, System, Vector,
 };
 
 /// H = (q² + 1)(p² + 1)/2 + q sin t, in each component.
@@ -168,7 +168,7 @@ struct LightWall;
 impl SeparableHamiltonian for LightWall {
     type Vector<T: Scalar> = SVector<T, 1>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     fn velocity<T: Scalar>(&self, time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
         SeparableHamiltonian::velocity(&Wall, time, p, velocity);
@@ -508,7 +508,7 @@ struct UnitKepler;
 impl SeparableHamiltonian for UnitKepler {
     type Vector<T: Scalar> = SVector<T, 2>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     fn velocity<T: Scalar>(&self, time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         SeparableHamiltonian::velocity(&Kepler, time, p, velocity);
@@ -635,7 +635,10 @@ impl<const UNIT_MASSES: bool> Resizing<UNIT_MASSES> {
 impl<const UNIT_MASSES: bool> SeparableHamiltonian for Resizing<UNIT_MASSES> {
     type Vector<T: Scalar> = DVector<T>;
 
-    const UNIT_MASSES: bool = UNIT_MASSES;
+    const MASSES: Masses = match UNIT_MASSES {
+        true => Masses::Unit,
+        false => Masses::Any,
+    };
 
     fn velocity<T: Scalar>(&self, _time: T, p: &DVector<T>, velocity: &mut DVector<T>) {
         self.write(Quantity::Velocity, p.clone(), velocity);

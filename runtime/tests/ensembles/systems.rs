@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use symplectic::ensemble::Row;
 use symplectic::nalgebra::{DVector, SVector, Vector2};
 use symplectic::{
-    Error, Hamiltonian, Integrator, Scalar, SeparableHamiltonian, State, Statistics, Vector,
+    Error, Hamiltonian, Integrator, Masses, Scalar, SeparableHamiltonian, State, Statistics, Vector,
 };
 
 /// H = |p|²/2 + |q|²/2 + x²y − y³/3 + a x cos 3t: beyond the energy 1/6 trajectories escape to infinity, in a finite time.
@@ -19,7 +19,7 @@ pub struct HenonHeiles {
 impl SeparableHamiltonian for HenonHeiles {
     type Vector<T: Scalar> = SVector<T, 2>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
         *velocity = *p;
@@ -69,7 +69,7 @@ impl<S: Hamiltonian> Hamiltonian for Counted<'_, S> {
     type Class = S::Class;
     type Vector<T: Scalar> = S::Vector<T>;
 
-    const UNIT_MASSES: bool = S::UNIT_MASSES;
+    const MASSES: Masses = S::MASSES;
 
     fn velocity<T: Scalar>(
         &self,

@@ -4,7 +4,9 @@ use crate::methods::{Gauss6, Lobatto5};
 use symplectic::nalgebra::{DVector, SVector};
 use symplectic::system::Gradients;
 use symplectic::variational::{LagrangianIntegrator, momentum_of_velocity};
-use symplectic::{Constrained, Error, Hamiltonian, Integrator, Lagrangian, Scalar, Separable};
+use symplectic::{
+    Constrained, Error, Hamiltonian, Integrator, Lagrangian, Masses, Scalar, Separable,
+};
 
 use crate::systems::*;
 
@@ -16,7 +18,7 @@ impl Hamiltonian for Dense {
     type Class = Constrained<Separable>;
     type Vector<T: Scalar> = DVector<T>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     fn velocity<T: Scalar>(&self, _: T, _: &DVector<T>, p: &DVector<T>, velocity: &mut DVector<T>) {
         velocity.copy_from(p);

@@ -5,7 +5,9 @@ use std::cell::Cell;
 use symplectic::nalgebra::Vector2;
 use symplectic::solver::FixedPoint;
 use symplectic::system::Gradients;
-use symplectic::{Constrained, Error, Integrator, Method, ProvedFor, Separable, State, System};
+use symplectic::{
+    Constrained, Error, Integrator, Masses, Method, ProvedFor, Separable, State, System,
+};
 
 use crate::systems::{Lobatto3, Pendulum, Rattle};
 
@@ -25,7 +27,7 @@ impl<const UNIT: bool> System<Vector2<f64>> for Counted<UNIT> {
     type Class = Constrained<Separable>;
     type Solver = FixedPoint;
 
-    const UNIT_MASSES: bool = UNIT;
+    const MASSES: Masses = if UNIT { Masses::Unit } else { Masses::Any };
 
     fn velocity(&self, _: f64, _: &Vector2<f64>, p: &Vector2<f64>, velocity: &mut Vector2<f64>) {
         count(&self.velocities);

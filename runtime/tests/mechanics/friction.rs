@@ -3,7 +3,8 @@
 use crate::methods::{ForestRuth, Gauss4, StoermerVerlet, Yoshida6};
 use symplectic::nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 use symplectic::{
-    Damped, Error, Hamiltonian, Integrator, Method, ProvedFor, Scalar, State, friction_growth,
+    Damped, Error, Hamiltonian, Integrator, Masses, Method, ProvedFor, Scalar, State,
+    friction_growth,
 };
 
 symplectic::composition! {
@@ -21,7 +22,7 @@ impl Hamiltonian for Ring {
     type Class = Damped;
     type Vector<T: Scalar> = Plane<T>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     fn velocity<T: Scalar>(&self, _: T, _: &Plane<T>, p: &Plane<T>, velocity: &mut Plane<T>) {
         *velocity = *p;
@@ -288,7 +289,7 @@ impl Hamiltonian for Molasses {
     type Class = Damped;
     type Vector<T: Scalar> = Line<T>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
     const FORCED: bool = true;
 
     fn velocity<T: Scalar>(&self, _: T, _: &Line<T>, p: &Line<T>, velocity: &mut Line<T>) {

@@ -2,7 +2,7 @@
 
 use symplectic::nalgebra::{SVector, Vector3, Vector4};
 use symplectic::system::Gradients;
-use symplectic::{General, Hamiltonian, Nonholonomic, Scalar, Separable, State};
+use symplectic::{General, Hamiltonian, Masses, Nonholonomic, Scalar, Separable, State};
 
 pub use crate::methods::Midpoint;
 
@@ -82,7 +82,7 @@ impl Hamiltonian for Skate {
     type Class = Nonholonomic<Separable>;
     type Vector<T: Scalar> = V3<T>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     fn velocity<T: Scalar>(&self, _: T, _: &V3<T>, p: &V3<T>, velocity: &mut V3<T>) {
         *velocity = *p;
@@ -110,7 +110,7 @@ impl Hamiltonian for Oscillator {
     type Class = Nonholonomic<Separable>;
     type Vector<T: Scalar> = V3<T>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     fn velocity<T: Scalar>(&self, _: T, _: &V3<T>, p: &V3<T>, velocity: &mut V3<T>) {
         *velocity = *p;
@@ -230,7 +230,7 @@ impl Hamiltonian for PendulumByRows {
     type Class = Nonholonomic<Separable>;
     type Vector<T: Scalar> = SVector<T, 2>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     fn velocity<T: Scalar>(
         &self,

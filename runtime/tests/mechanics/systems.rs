@@ -2,7 +2,7 @@
 
 use symplectic::nalgebra::{DVector, SVector};
 use symplectic::system::Gradients;
-use symplectic::{Constrained, General, Hamiltonian, Scalar, Separable, State, consistent};
+use symplectic::{Constrained, General, Hamiltonian, Masses, Scalar, Separable, State, consistent};
 
 pub use crate::methods::{Lobatto3, Lobatto4, Lobatto5};
 
@@ -46,7 +46,7 @@ impl Hamiltonian for Pendulum {
     type Class = Constrained<Separable>;
     type Vector<T: Scalar> = V2<T>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     fn velocity<T: Scalar>(&self, _: T, _: &V2<T>, p: &V2<T>, velocity: &mut V2<T>) {
         *velocity = *p;
@@ -83,7 +83,7 @@ impl Hamiltonian for Turned {
     type Class = Constrained<Separable>;
     type Vector<T: Scalar> = V2<T>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     fn velocity<T: Scalar>(&self, time: T, q: &V2<T>, p: &V2<T>, velocity: &mut V2<T>) {
         Pendulum.velocity(time, q, p, velocity);
@@ -297,7 +297,7 @@ impl Hamiltonian for Links {
     type Class = Constrained<Separable>;
     type Vector<T: Scalar> = DVector<T>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     fn velocity<T: Scalar>(&self, _: T, _: &DVector<T>, p: &DVector<T>, velocity: &mut DVector<T>) {
         velocity.copy_from(p);

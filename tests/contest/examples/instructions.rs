@@ -15,7 +15,8 @@ use std::process::Command;
 use symplectic::nalgebra::{DVector, SVector};
 use symplectic::solver::FixedPoint;
 use symplectic::{
-    Compensated, Integrator, Method, Plain, Scalar, Separable, State, Summation, System, Vector,
+    Compensated, Integrator, Masses, Method, Plain, Scalar, Separable, State, Summation, System,
+    Vector,
 };
 use symplectic_contest::baseline::lanes::{fast_two_sum, two_sum};
 use symplectic_tests::methods::{ForestRuth, VelocityVerlet};
@@ -88,7 +89,7 @@ impl<V: Vector> System<V> for Oscillators {
     type Class = Separable;
     type Solver = FixedPoint;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     #[inline(always)]
     fn velocity(&self, _time: V::Scalar, _q: &V, p: &V, velocity: &mut V) {

@@ -9,7 +9,7 @@
 //! Martinoli & Vanzini, 1992. *Reference:* recorded for these frequencies, [`recorded`].
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Scalar, SeparableHamiltonian, State};
+use symplectic::{Masses, Scalar, SeparableHamiltonian, State};
 
 use super::Needs;
 use crate::references;
@@ -39,7 +39,7 @@ pub struct FputSprings {
 impl SeparableHamiltonian for FputSprings {
     type Vector<T: Scalar> = SVector<T, COORDINATES>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     #[inline(always)]
     fn velocity<T: Scalar>(

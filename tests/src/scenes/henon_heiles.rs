@@ -6,7 +6,7 @@
 //! *Reference:* recorded, [`recorded`].
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Scalar, SeparableHamiltonian, State};
+use symplectic::{Masses, Scalar, SeparableHamiltonian, State};
 
 use super::Needs;
 use crate::references;
@@ -21,7 +21,7 @@ pub struct HenonHeiles;
 impl SeparableHamiltonian for HenonHeiles {
     type Vector<T: Scalar> = SVector<T, 2>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     #[inline(always)]
     fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {

@@ -5,7 +5,7 @@
 //! in elliptic functions, [`exact`].
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Scalar, SeparableHamiltonian, State};
+use symplectic::{Masses, Scalar, SeparableHamiltonian, State};
 
 use super::Needs;
 
@@ -19,7 +19,7 @@ pub struct Pendulum;
 impl SeparableHamiltonian for Pendulum {
     type Vector<T: Scalar> = SVector<T, 1>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     #[inline]
     fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {

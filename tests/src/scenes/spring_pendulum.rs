@@ -4,7 +4,7 @@
 //! with frequencies of order one. *Source:* GNI §XV.1, the pendulum on a spring; the start is our choice.
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Scalar, SeparableHamiltonian, State};
+use symplectic::{Masses, Scalar, SeparableHamiltonian, State};
 
 use super::Needs;
 
@@ -24,7 +24,7 @@ pub struct SpringPendulum {
 impl SeparableHamiltonian for SpringPendulum {
     type Vector<T: Scalar> = SVector<T, 2>;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     #[inline]
     fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {

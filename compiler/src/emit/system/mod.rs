@@ -391,7 +391,7 @@ impl<'a> Emitter<'a> {
         let over = self.vector(&quote!(#scalar));
         let unit = (self.structure.kinetic == Kinetic::Unit).then(|| {
             quote!(
-                const UNIT_MASSES: bool = true;
+                const MASSES: ::symplectic::Masses = ::symplectic::Masses::Unit;
             )
         });
         let velocity = Derivative {
@@ -481,11 +481,11 @@ impl<'a> Emitter<'a> {
         };
         let masses = match (split.is_some(), self.structure.kinetic == Kinetic::Unit) {
             (true, true) => quote!(
-                const UNIT_MASSES: bool = true;
+                const MASSES: ::symplectic::Masses = ::symplectic::Masses::Unit;
             ),
             // A separable class says so itself.
             (true, false) if forced => quote!(
-                const CONSTANT_MASSES: bool = true;
+                const MASSES: ::symplectic::Masses = ::symplectic::Masses::Constant;
             ),
             _ => TokenStream::new(),
         };

@@ -44,7 +44,7 @@ const _: () = {
     impl ::symplectic::Hamiltonian for Drone {
         type Class = ::symplectic::General;
         type Vector<T: Scalar> = ::symplectic::nalgebra::SVector<T, 2>;
-        const UNIT_MASSES: bool = true;
+        const MASSES: ::symplectic::Masses = ::symplectic::Masses::Unit;
         #[inline(always)]
         fn velocity<T: Scalar>(
             &self,

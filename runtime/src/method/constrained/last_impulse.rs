@@ -57,7 +57,7 @@ impl<T: Scalar> LastImpulse<T> {
         for sweep in 1..=stopping.max_iterations {
             let (p, start) = ((&mut *outcome.p, &mut *outcome.p_low), (step.p, step.p_low));
             result::<R, V>(p, start, increments);
-            let velocity = if S::UNIT_MASSES {
+            let velocity = if S::MASSES.are_unit() {
                 &*outcome.p
             } else {
                 system.velocity(time, outcome.q, outcome.p, velocity);

@@ -10,7 +10,7 @@ use crate::method::Failure;
 use crate::method::storage::is_finite;
 use crate::number::{Scalar, Vector};
 use crate::system::linearity::non_linear_velocity;
-use crate::system::{Class, Gradients, System};
+use crate::system::{Class, Gradients, Masses, System};
 
 /// How the velocity depends on the momentum.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +54,7 @@ impl<T: Scalar> Metric<T> {
         let gradients = Gradients::learned(constraints, q.dimension(), |gradients| {
             system.constraint_gradients(q, gradients);
         });
-        let linear = S::UNIT_MASSES || non_linear_velocity(system, time, q, p).is_none();
+        let linear = S::MASSES.are_unit() || non_linear_velocity(system, time, q, p).is_none();
         let masses = inverse_masses(system, linear, time, q, p);
         let products = Products::new(&gradients, &masses);
         let point = Point {
@@ -251,10 +251,10 @@ fn inverse_masses<V: Vector, S: System<V>>(
     q: &V,
     p: &V,
 ) -> InverseMasses<V::Scalar> {
-    if S::UNIT_MASSES {
+    if S::MASSES.are_unit() {
         return InverseMasses::Unit;
     }
-    if !(S::Class::SEPARABLE || S::CONSTANT_MASSES) || !linear {
+    if !(S::Class::SEPARABLE || S::MASSES == Masses::Constant) || !linear {
         return InverseMasses::Full;
     }
     let velocity = |momentum: &dyn Fn(usize) -> f64| {

@@ -6,7 +6,7 @@ use crate::error::{ConstraintName, Error, Quantity};
 use crate::method::storage::first_non_finite_of;
 use crate::number::{Scalar, Vector};
 use crate::solver::FixedPoint;
-use crate::system::{Gradients, System};
+use crate::system::{Gradients, Masses, System};
 
 /// A system with NaN in place of an evaluation of a wrong dimension. So nothing is cut off, and no component is missing.
 pub(in crate::method) struct OfDimension<'a, S> {
@@ -63,8 +63,7 @@ impl<V: Vector, S: System<V>> System<V> for OfDimension<'_, S> {
     type Class = S::Class;
     type Solver = FixedPoint;
 
-    const UNIT_MASSES: bool = S::UNIT_MASSES;
-    const CONSTANT_MASSES: bool = S::CONSTANT_MASSES;
+    const MASSES: Masses = S::MASSES;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {

@@ -292,13 +292,13 @@ fn check_gradients<V: Vector, S: System<V>>(
 /// ```
 /// use symplectic::nalgebra::SVector;
 /// use symplectic::{Error, State, consistent};
-/// # use symplectic::{Constrained, Hamiltonian, Scalar, Separable};
+/// # use symplectic::{Constrained, Hamiltonian, Masses, Scalar, Separable};
 /// # use symplectic::system::Gradients;
 /// # struct Pendulum;
 /// # impl Hamiltonian for Pendulum {
 /// #     type Class = Constrained<Separable>;
 /// #     type Vector<T: Scalar> = SVector<T, 2>;
-/// #     const UNIT_MASSES: bool = true;
+/// #     const MASSES: Masses = Masses::Unit;
 /// #     fn velocity<T: Scalar>(&self, _: T, _: &SVector<T, 2>, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
 /// #         *velocity = *p;
 /// #     }

@@ -33,9 +33,8 @@ use crate::error::Error;
 use crate::method::composition::in_turn;
 use crate::method::constrained::{OfDimension, add_to_force, show_stages, taken_once_more};
 use crate::method::{
-    ConstrainedStep,
-    Failure, Method, Outcome, Plan, Solver, StageStorage, StageView, Step, StepStatistics,
-    Stopping, WarmStart, check_no_friction, check_no_holonomic_constraints,
+    ConstrainedStep, Failure, Method, Outcome, Plan, Solver, StageStorage, StageView, Step,
+    StepStatistics, Stopping, WarmStart, check_no_friction, check_no_holonomic_constraints,
 };
 use crate::number::{Scalar, Summation, Vector};
 use crate::system::{Class, Nonholonomic, System, Unconstrained};

@@ -3,7 +3,7 @@
 use crate::error::ConstraintName;
 use crate::number::Vector;
 use crate::solver::FixedPoint;
-use crate::system::{Class, Gradients, Nonholonomic, System, Unconstrained};
+use crate::system::{Class, Gradients, Masses, Nonholonomic, System, Unconstrained};
 
 /// A system with its rows w in place of the gradients of holonomic constraints: the linear algebra is the same for both.
 pub(super) struct RowsAsGradients<'a, S>(pub(super) &'a S);
@@ -17,8 +17,7 @@ where
     type Class = C;
     type Solver = FixedPoint;
 
-    const UNIT_MASSES: bool = S::UNIT_MASSES;
-    const CONSTANT_MASSES: bool = S::CONSTANT_MASSES;
+    const MASSES: Masses = S::MASSES;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {

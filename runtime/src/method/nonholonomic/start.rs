@@ -44,13 +44,13 @@ pub(super) fn check_start<V: Vector, S: System<V>>(
 /// ```
 /// use symplectic::nalgebra::SVector;
 /// use symplectic::{Error, State, consistent_momentum};
-/// # use symplectic::{Hamiltonian, Nonholonomic, Scalar, Separable};
+/// # use symplectic::{Hamiltonian, Masses, Nonholonomic, Scalar, Separable};
 /// # use symplectic::system::Gradients;
 /// # struct Skate;
 /// # impl Hamiltonian for Skate {
 /// #     type Class = Nonholonomic<Separable>;
 /// #     type Vector<T: Scalar> = SVector<T, 3>;
-/// #     const UNIT_MASSES: bool = true;
+/// #     const MASSES: Masses = Masses::Unit;
 /// #     fn velocity<T: Scalar>(&self, _: T, _: &SVector<T, 3>, p: &SVector<T, 3>, velocity: &mut SVector<T, 3>) {
 /// #         *velocity = *p;
 /// #     }

@@ -35,7 +35,7 @@ pub(super) struct SecondOrder<'a, P, R, W, S>(pub(super) Emitted<'a, P, R, W, S>
 /// `M⁻¹` times the increments of the momentum.
 #[cfg_attr(not(debug_assertions), inline(always))]
 const fn slopes<S: System<W>, W: Vector>(stages: &LaneStages<W>) -> &alloc::vec::Vec<W> {
-    match S::UNIT_MASSES {
+    match S::MASSES.are_unit() {
         true => &stages.force,
         false => &stages.velocity,
     }
@@ -51,7 +51,7 @@ where
     /// Computes `M⁻¹` times the increments of the momentum, except with unit masses.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocities(&mut self) {
-        if S::UNIT_MASSES {
+        if S::MASSES.are_unit() {
             return;
         }
         let Emitted {
@@ -86,7 +86,7 @@ where
             term: |stage: usize, j: usize| (j, factor(stage, j)),
             with_low: false,
         };
-        let start = match (S::UNIT_MASSES, settled.start.first()) {
+        let start = match (S::MASSES.are_unit(), settled.start.first()) {
             (false, Some(start)) => start,
             _ => step.p,
         };
@@ -101,7 +101,7 @@ where
         let LaneStages {
             q, velocity, force, ..
         } = &mut **now;
-        let slopes = match (of_previous_step, S::UNIT_MASSES) {
+        let slopes = match (of_previous_step, S::MASSES.are_unit()) {
             (true, _) => slopes::<S, W>(previous),
             (false, true) => force,
             (false, false) => velocity,
@@ -140,7 +140,7 @@ where
         } = &mut self.0;
         let (h, count, rest) = (step.size, P::POSITIONS.count, tableau::<P>().rest);
         let (forces, slopes) = (&settled.force, slopes::<S, W>(settled));
-        let start = match (S::UNIT_MASSES, settled.start.first()) {
+        let start = match (S::MASSES.are_unit(), settled.start.first()) {
             (false, Some(start)) => start.as_slice(),
             _ => step.p.as_slice(),
         };
@@ -246,7 +246,7 @@ where
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn keep(&mut self, lanes: u32) {
         copy_lanes(lanes, &self.0.now.force, &mut self.0.settled.force);
-        if !S::UNIT_MASSES {
+        if !S::MASSES.are_unit() {
             copy_lanes(lanes, &self.0.now.velocity, &mut self.0.settled.velocity);
         }
     }

@@ -55,7 +55,7 @@ where
     }
     *eliminated = true;
     *of_increments = R::COMPENSATED;
-    if !<S as System<V>>::UNIT_MASSES {
+    if !<S as System<V>>::MASSES.are_unit() {
         velocity::<P, V, S>(system, step, step.p, start, lanes);
     }
     let start = start_of::<V, S>(step.p, start);
@@ -186,7 +186,7 @@ where
     let Some(polynomial) = P::MOMENTA.polynomial else {
         return;
     };
-    let slope = |stage: usize, k: usize| match <S as System<V>>::UNIT_MASSES {
+    let slope = |stage: usize, k: usize| match <S as System<V>>::MASSES.are_unit() {
         true => force(stage, k),
         false => entry::<P, V>(stages.velocity.as_ref(), stage, k) * factor(stage),
     };
@@ -235,13 +235,21 @@ struct Positions<'a, P: StageTableau, R, V: Vector, S> {
 /// `M⁻¹` times the increments of the momentum; with unit masses, the increments themselves.
 #[cfg_attr(not(debug_assertions), inline(always))]
 const fn slopes<'a, V: Vector, S: System<V>, G>(velocity: &'a G, force: &'a G) -> &'a G {
-    if S::UNIT_MASSES { force } else { velocity }
+    if S::MASSES.are_unit() {
+        force
+    } else {
+        velocity
+    }
 }
 
 /// The velocity at the start of the step; with unit masses, the momentum.
 #[cfg_attr(not(debug_assertions), inline(always))]
 const fn start_of<'a, V: Vector, S: System<V>>(momentum: &'a V, velocity: &'a V) -> &'a V {
-    if S::UNIT_MASSES { momentum } else { velocity }
+    if S::MASSES.are_unit() {
+        momentum
+    } else {
+        velocity
+    }
 }
 
 /// The position of stages: `base + low + size node velocity + factor sum`. `low` is the low part of the base, `velocity` that at the
@@ -356,7 +364,7 @@ where
     /// Computes `M⁻¹` times the increments of the momentum, except with unit masses.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocities(&mut self) {
-        if <S as System<V>>::UNIT_MASSES {
+        if <S as System<V>>::MASSES.are_unit() {
             return;
         }
         let SimdStages {

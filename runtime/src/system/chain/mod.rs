@@ -10,7 +10,7 @@ use crate::number::rows::{Eight, Row, Single};
 use crate::number::{Scalar, Vector, copy};
 use crate::solver::Automatic;
 #[cfg(feature = "alloc")]
-use crate::system::Jacobian;
+use crate::system::{Jacobian, Masses};
 use crate::system::{OverEveryScalar, Separable, System};
 
 /// The forces on the particles of a [`Chain`].
@@ -252,7 +252,7 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
     type Class = Separable;
     type Solver = Automatic;
 
-    const UNIT_MASSES: bool = true;
+    const MASSES: Masses = Masses::Unit;
 
     #[inline]
     fn velocity(&self, _time: V::Scalar, _q: &V, p: &V, velocity: &mut V) {

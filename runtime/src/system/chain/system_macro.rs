@@ -10,7 +10,7 @@ macro_rules! chain_system {
             type Class = $crate::Separable;
             type Solver = $crate::solver::Automatic;
 
-            const UNIT_MASSES: bool = true;
+            const MASSES: $crate::Masses = $crate::Masses::Unit;
 
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {

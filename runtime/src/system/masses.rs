@@ -1,0 +1,26 @@
+//! What a system says of its masses.
+
+/// What a system says of its masses: [`Hamiltonian::MASSES`](crate::Hamiltonian::MASSES).
+///
+/// Nothing has to be said: it only saves work. A kinetic energy `pᵀM⁻¹p/2` with constant M is found by itself in separable systems.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Masses {
+    /// Nothing is said.
+    #[default]
+    Any,
+    /// The velocity depends on the momentum alone. It matters for constrained systems of class [`General`](crate::General), whose force
+    /// depends on momenta too: if the velocity is `M⁻¹p`, constrained steps then compute M⁻¹ once.
+    Constant,
+    /// The velocity equals the momentum to the last bit, `H = |p|²/2 + U(t, q)`. Steps then use the momentum as the velocity,
+    /// without copies of long vectors. If the velocity differs from the momentum, creating an integrator returns
+    /// [`Error::NotUnitMasses`](crate::Error::NotUnitMasses).
+    Unit,
+}
+
+impl Masses {
+    /// Whether they are [`Unit`](Self::Unit).
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub const fn are_unit(self) -> bool {
+        matches!(self, Self::Unit)
+    }
+}
