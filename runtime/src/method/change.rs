@@ -35,6 +35,7 @@ impl StageChange {
     }
 
     /// Whether the relative change of the positions or that of the momenta is NaN.
+    #[cfg(feature = "alloc")]
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) const fn is_undefined(&self) -> bool {
         self.q.is_undefined() || self.p.is_undefined()
@@ -56,6 +57,7 @@ pub struct HalfChange {
 
 impl HalfChange {
     /// Whether the [relative](Self::relative) change is NaN.
+    #[cfg(feature = "alloc")]
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) const fn is_undefined(&self) -> bool {
         self.difference.is_nan() || self.difference.is_infinite() && self.scale.is_infinite()
@@ -68,6 +70,7 @@ impl HalfChange {
     }
 
     /// The largest of all |base| and |new|.
+    #[cfg(feature = "alloc")]
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) const fn scale(&self) -> f64 {
         self.scale

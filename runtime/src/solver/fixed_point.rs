@@ -15,7 +15,9 @@ use crate::number::{Summation, Vector};
 use crate::solver::convergence::{Sweeps, settle};
 #[cfg(feature = "alloc")]
 use crate::solver::run_time::by_rows;
-use crate::system::{Class, System};
+#[cfg(feature = "alloc")]
+use crate::system::Class;
+use crate::system::System;
 
 /// Fixed-point iteration: each sweep computes new stages from the latest evaluations. It converges if the step size
 /// times the Lipschitz constant of the system is small.

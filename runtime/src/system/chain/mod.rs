@@ -10,8 +10,8 @@ use crate::number::rows::{Eight, Row, Single};
 use crate::number::{Scalar, Vector, copy};
 use crate::solver::Automatic;
 #[cfg(feature = "alloc")]
-use crate::system::{Jacobian, Masses};
-use crate::system::{OverEveryScalar, Separable, System};
+use crate::system::Jacobian;
+use crate::system::{Masses, OverEveryScalar, Separable, System};
 
 /// The forces on the particles of a [`Chain`].
 ///
