@@ -160,8 +160,8 @@ impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> Integrator<M, S, V, Pl
     /// `κ` per sweep, the remaining error is `κ/(1 − κ)` of the last change. Zero (the default) means: down to rounding. An iteration whose
     /// next change would be one rounding error ends in any case.
     ///
-    /// A tolerance saves sweeps, and the search for the largest position, which sets the level of rounding. It is for plain sums only:
-    /// compensated sums are for runs without drift, and iterations that end above rounding make the energy drift.
+    /// A tolerance saves sweeps. It is for plain sums only: compensated sums are for runs without drift, and iterations that end above
+    /// rounding make the energy drift.
     ///
     /// # Errors
     ///

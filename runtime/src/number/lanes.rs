@@ -60,7 +60,7 @@ pub trait Lanes: Scalar {
     /// The larger of two numbers in each lane, both results of [`abs`](Scalar::abs); NaN if one of them is NaN.
     fn larger_or_nan(self, other: Self) -> Self;
 
-    /// The number of one lane in all lanes.
+    /// The number of one lane, by its number from 0, in all lanes.
     fn broadcast(self, lane: usize) -> Self;
 
     /// The largest number; any lane if one of them is NaN.

@@ -23,11 +23,12 @@ use crate::system::System;
 /// times the Lipschitz constant of the system is small.
 ///
 /// The iteration runs until it stagnates, because with a tolerance above the rounding errors the energy would drift
-/// (Hairer, McLachlan & Razakarivony, 2008). It has settled when a sweep changes nothing, or when the change can be rounding errors and
-/// has stopped shrinking.
+/// (Hairer, McLachlan & Razakarivony, 2008). It has settled when a sweep changes nothing (in a separable system: no position), or when the
+/// change can be rounding errors and has stopped shrinking.
 ///
 /// - *Can be rounding errors:* at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON), relative to the largest position and the
 ///   largest momentum. In a separable system one half suffices, in a general one both must be.
+/// - *Shrinks:* the relative change of the stages becomes smaller; in a separable system, that of the positions.
 /// - *Has stopped shrinking:* at least one sweep, and more than a sixteenth of all sweeps, made no progress. A slow iteration with
 ///   oscillations has changes that grow now and then before that. In the last allowed sweep, one sweep without progress suffices.
 /// - The first nine sweeps count only from the first change on that can be rounding errors.
@@ -36,7 +37,7 @@ use crate::system::System;
 ///
 /// - no sweep of the last ten made progress;
 /// - the smallest change was 1024 times smaller than the first one, or than the largest one after nine sweeps;
-/// - the smallest change was at most 64 units in one half, and the present change is at most 256 units.
+/// - the smallest change was at most 64 units in one half, and the present change is at most 256 units in one half.
 ///
 /// If the iteration settles with a nonzero change, rounding makes the stages alternate between two values. The side
 /// from which the starting values come decides at which of them it ends. This would cause an energy drift, though only of a relative
@@ -49,9 +50,9 @@ use crate::system::System;
 /// come from the other side. Their second sweep moves the stages twice as far: if sweeps converge fast, to about the mirror image of
 /// the stages after the first sweep. Both sweeps are counted. If fewer than ten sweeps are allowed, this is omitted.
 ///
-/// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for stagnation. It
-/// ends with a change of at most 64 units if the next change would be at most one unit. The next change is predicted by the same
-/// contraction rate. With a [tolerance](crate::Integrator::set_tolerance) it also ends with the first change within it.
+/// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for stagnation. It also
+/// ends with a change of at most one unit, and with one of at most 64 units if the next change would be at most one unit. The next
+/// change is predicted by the same contraction rate. With a [tolerance](crate::Integrator::set_tolerance) it also ends with the first change within it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint;
 

@@ -617,13 +617,13 @@ fn the_types_choose_the_solver() -> Result<(), Error> {
 }
 
 /// Unit masses pulled to the origin; results of the wrong dimension while it is broken.
-struct Resizing<const UNIT_MASSES: bool> {
+struct Resizing<const UNIT: bool> {
     what: Quantity,
     to: usize,
     broken: Cell<bool>,
 }
 
-impl<const UNIT_MASSES: bool> Resizing<UNIT_MASSES> {
+impl<const UNIT: bool> Resizing<UNIT> {
     fn write<T: Scalar>(&self, what: Quantity, from: DVector<T>, into: &mut DVector<T>) {
         match self.broken.get() && self.what == what {
             true => *into = DVector::from_element(self.to, T::one()),
@@ -632,10 +632,10 @@ impl<const UNIT_MASSES: bool> Resizing<UNIT_MASSES> {
     }
 }
 
-impl<const UNIT_MASSES: bool> SeparableHamiltonian for Resizing<UNIT_MASSES> {
+impl<const UNIT: bool> SeparableHamiltonian for Resizing<UNIT> {
     type Vector<T: Scalar> = DVector<T>;
 
-    const MASSES: Masses = match UNIT_MASSES {
+    const MASSES: Masses = match UNIT {
         true => Masses::Unit,
         false => Masses::Any,
     };

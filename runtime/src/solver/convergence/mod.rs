@@ -141,8 +141,14 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
         let [q, p] = this.exceeds(near);
         if both { q | p } else { q & p }
     };
-    // Of relative changes: what shrinks from sweep to sweep, and whether it is at most so many units of EPSILON.
-    let size_of = |[q, p]: [f64; 2]| if both { larger(q, p) } else { q };
+    // The relative change; in a separable system, of the positions.
+    let relative = |[q, p]: [f64; 2]| if both { larger(q, p) } else { q };
+    // What shrinks from sweep to sweep: the relative change; for positions alone no size is needed.
+    let size_of = |this: &W::Movement, sizes: &Sizes| match both {
+        true => relative(sizes.change(this)),
+        false => this.differences()[0],
+    };
+    // Whether both halves of a relative change, or one of them, are at most so many units of EPSILON.
     let is_within = |count: f64, [q, p]: [f64; 2], both: bool| {
         let bound = count * T::EPSILON;
         match both {
@@ -152,7 +158,7 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
     };
     let mut progress = Progress::NONE;
     let (mut first, mut before) = (None, None);
-    let (mut has_settled, mut once_more) = (false, false);
+    let (mut is_measured, mut has_settled, mut once_more) = (false, false, false);
     let mut iteration = 0;
     let solved = loop {
         let this = sweeps.sweep();
@@ -182,7 +188,7 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
                     !q.is_finite(),
                 ),
                 _ => {
-                    let last = previous.map(|last| size_of(sizes.change(&last)));
+                    let last = previous.map(|last| relative(sizes.change(&last)));
                     Failure::NoConvergence {
                         residual: last.filter(|size| !size.is_nan()).unwrap_or(f64::INFINITY),
                         iterations: iteration,
@@ -190,12 +196,11 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
                 }
             });
         }
-        // Once a change can be rounding errors, the sizes no longer vary.
-        if !has_settled {
+        // Once the positions move by rounding errors, the sizes no longer vary.
+        if !is_measured {
             sizes = Sizes::new(sweeps.scales(&this));
         }
-        let change = sizes.change(&this);
-        let size = size_of(change);
+        let (change, size) = (sizes.change(&this), size_of(&this, &sizes));
         if !waits {
             let before = previous.map(|before| sizes.change(&before));
             if q <= tolerance && (!both || p <= tolerance)
@@ -209,6 +214,7 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
             break Ok(());
         }
         let is_rounding = is_within(ROUNDING, change, both);
+        is_measured |= is_rounding && change[0] <= ROUNDING * T::EPSILON;
         has_settled |= is_rounding;
         if iteration < late && !has_settled {
             near = sizes.rounding::<T>(tolerance);
@@ -222,13 +228,13 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
         } else {
             progress.idle += 1;
         }
-        let at_bound = iteration == max_iterations;
+        let at_bound = iteration >= max_iterations;
         if iteration >= late {
             progress.note(size);
         }
         // At the bound, one sweep without progress suffices.
         let has_stagnated = progress.idle > if at_bound { 0 } else { iteration / STAGNATION };
-        let first = || first.map_or(0.0, |first| size_of(sizes.change(&first)));
+        let first = || first.map_or(0.0, |first| size_of(&first, &sizes));
         let is_noise = || progress.is_noise(first()) && is_within(AMPLIFIED, change, false);
         if has_stagnated && (is_rounding || is_noise()) {
             // At the bound, no further sweep is allowed.
@@ -239,7 +245,7 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
             break Ok(());
         }
         if at_bound {
-            break Err(progress.failure(size, first(), iteration));
+            break Err(progress.failure(size, relative(change), first(), iteration));
         }
     };
     work.iterations += iteration;
@@ -283,16 +289,16 @@ impl Sizes {
     }
 }
 
-/// The course of the examined relative changes.
+/// The history of changes of these sizes.
 pub(crate) struct Progress {
     pub(crate) smallest: f64,
     /// Whether the smallest change can be rounding errors in one half.
     was_rounding: bool,
     /// Number of sweeps since the smallest change.
     pub(crate) idle: u32,
-    /// The largest change after the early sweeps.
+    /// The largest noted change.
     pub(crate) largest: f64,
-    /// The last change, after the early sweeps, that was at most half of the previous such, and the number of sweeps since.
+    /// The last noted change that was at most half of the previous such, and the number of sweeps since.
     mark: f64,
     pub(crate) slow: u32,
 }
@@ -307,7 +313,7 @@ impl Progress {
         slow: 0,
     };
 
-    /// Notes a change after the early sweeps.
+    /// Notes a change: the fixed-point iteration after its early sweeps, Newton's in each sweep.
     pub(crate) fn note(&mut self, size: f64) {
         self.largest = larger(size, self.largest);
         (self.mark, self.slow) = match size <= 0.5 * self.mark {
@@ -324,11 +330,11 @@ impl Progress {
     }
 
     /// An iteration that has not settled in the allowed number of sweeps.
-    pub(crate) fn failure(&self, residual: f64, first: f64, iterations: u32) -> Failure {
+    pub(crate) fn failure(&self, size: f64, residual: f64, first: f64, iterations: u32) -> Failure {
         // The change shrank and then stagnated at the level of its noise.
         let came_down = residual <= NOISIEST
             && self.smallest <= CONTRACTION * larger(first, self.largest)
-            && residual <= ROUNDING * self.smallest;
+            && size <= ROUNDING * self.smallest;
         match self.slow >= PATIENCE && came_down {
             true => Failure::Stagnation {
                 residual,

@@ -208,6 +208,11 @@ fn an_iteration_is_begun_once_whatever_its_bound_is() {
         check::<false>(bound);
         check::<true>(bound);
     }
+    // A bound of zero is one of one.
+    let changes = alike([1e3; 2]);
+    let mut script = Scripted::<false>::new(&changes, &[1.0], time(false));
+    assert!(made::<General, _>(&mut script, stages([1.0; 2]), at_most(0)).is_err());
+    assert_eq!(script.made, 1);
     // A failed iteration is repeated without the warm start, and its sweeps are counted.
     let changes = alike([1e3, 1.0]);
     let mut script = Scripted::<true>::new(&changes, &[1.0], 1.0);

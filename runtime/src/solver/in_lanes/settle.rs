@@ -58,8 +58,8 @@ pub(super) fn settle<C: Class, L: Lanes, W: LaneSweeps<L>>(
         sweeps.overrelaxed_sweep();
         made += 2;
     }
-    // Lanes with a change that could be rounding errors, and those with one more sweep to make.
-    let (mut reached, mut last) = (0, 0);
+    // Lanes whose sizes no longer vary, those with a change that could be rounding errors, and those with one more sweep to make.
+    let (mut measured, mut reached, mut last) = (0, 0, 0);
     let (mut smallest, mut idle) = (infinite, zero);
     let mut before: Option<[L; 2]> = None;
     loop {
@@ -84,7 +84,7 @@ pub(super) fn settle<C: Class, L: Lanes, W: LaneSweeps<L>>(
         let mut examined = if made < late { live & !far } else { live };
         if examined != 0 {
             let new = sweeps.scales();
-            scales = [0, 1].map(|half| L::select(examined & !reached, new[half], scales[half]));
+            scales = [0, 1].map(|half| L::select(examined & !measured, new[half], scales[half]));
             let inverse = inverses(scales);
             let change = [q * inverse[0], p * inverse[1]];
             // Where a change is infinite or NaN, a single run begins again.
@@ -102,17 +102,18 @@ pub(super) fn settle<C: Class, L: Lanes, W: LaneSweeps<L>>(
             }
             let size = match both {
                 true => change[0].larger(change[1]),
-                false => change[0],
+                false => q,
             };
             let zeros = examined & size.at_most(zero);
             ends |= zeros;
             examined &= !zeros;
-            let rounding = change.map(|change| change.at_most(L::from_f64(ROUNDING * L::EPSILON)));
-            let rounding = match (rounding, both) {
+            let near_by = change.map(|change| change.at_most(L::from_f64(ROUNDING * L::EPSILON)));
+            let rounding = match (near_by, both) {
                 ([q, p], true) => q & p,
                 ([q, p], false) => q | p,
             };
             reached |= examined & rounding;
+            measured |= examined & near_by[0] & rounding;
             let next = bounds(scales);
             near = [0, 1].map(|half| {
                 let next = L::select(reached, infinite, next[half]);

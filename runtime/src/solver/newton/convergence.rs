@@ -112,7 +112,7 @@ where
     L: LinearSolver<V, S>,
 {
     let max_iterations = stopping.max_iterations;
-    let mut course = Course::NONE;
+    let mut history = History::NONE;
     let mut once_more = false;
     let mut measurements = 0;
     sweeps.begin(attempt)?;
@@ -127,11 +127,11 @@ where
                     || sweeps.non_finite(),
                     change.q.is_undefined(),
                 ),
-                _ => course.failure(iteration),
+                _ => history.failure(iteration),
             });
         }
-        let before = course.last;
-        course.note::<P::Class>(&change, FLOOR * V::Scalar::EPSILON);
+        let before = history.last;
+        history.note::<P::Class>(&change, FLOOR * V::Scalar::EPSILON);
         work.scales = change.scales();
         work.residual = change.residual();
         let within = |tolerance: f64| {
@@ -144,12 +144,12 @@ where
         if once_more || is_hastily_settled || change.residual() == 0.0 {
             return Ok(());
         }
-        if course.stagnates(iteration, max_iterations) {
+        if history.stagnates(iteration, max_iterations) {
             let is_within = |size: f64| size <= ROUNDING * V::Scalar::EPSILON;
             // The noise with derivatives at one point may be larger than necessary.
             let may_be_noise = !attempt.gives_up || is_within(settling::<Separable>(&change));
             let is_noise = is_within(settling::<P::Class>(&change))
-                || may_be_noise && course.may_be_noise() && measurements < MOST_MEASUREMENTS && {
+                || may_be_noise && history.may_be_noise() && measurements < MOST_MEASUREMENTS && {
                     measurements += 1;
                     work.evaluations += 2 * sweeps.evaluations();
                     let [q, p] = sweeps.noise()?;
@@ -165,13 +165,13 @@ where
                 once_more = true;
             }
         }
-        let is_late = iteration >= MOST_SWEEPS || course.progress.slow >= SLOW;
+        let is_late = iteration >= MOST_SWEEPS || history.progress.slow >= SLOW;
         let is_far = settling::<P::Class>(&change) > ROUNDING * V::Scalar::EPSILON;
         if attempt.gives_up && (is_late && is_far || sweeps.is_slow()) {
-            return Err(course.failure(iteration));
+            return Err(history.failure(iteration));
         }
     }
-    Err(course.failure(max_iterations))
+    Err(history.failure(max_iterations))
 }
 
 /// Size of a change. For a separable system it is the relative change of the positions: if they stand still, so do the forces, and
@@ -186,14 +186,14 @@ pub(super) fn size<C: Class>(change: &StageChange) -> f64 {
 }
 
 /// The history of the changes, measured by their [`size`].
-struct Course {
+struct History {
     last: Option<StageChange>,
     progress: Progress,
     /// Number of consecutive sweeps in which one half stood still.
     resting: u32,
 }
 
-impl Course {
+impl History {
     const NONE: Self = Self {
         last: None,
         progress: Progress::NONE,
@@ -234,7 +234,7 @@ impl Course {
     /// The reason why the iteration has not settled.
     fn failure(&self, iterations: u32) -> Failure {
         let residual = self.last.map_or(f64::INFINITY, |change| change.residual());
-        self.progress.failure(residual, 0.0, iterations)
+        self.progress.failure(residual, residual, 0.0, iterations)
     }
 }
 
