@@ -109,8 +109,8 @@ pub(crate) fn lane_of<L: Lanes>(group: L, stage: usize) -> f64 {
     group.get(stage % L::WIDTH)
 }
 
-/// The number of one lane in all lanes. Of two lanes by an exchange between registers: the compiler would read the second lane from
-/// memory before it has been written there.
+/// The number of one lane in all lanes. Two lanes are exchanged between registers. Otherwise the compiler reads the second lane from memory
+/// that was just written in larger pieces, and the processor waits for these.
 trait Broadcast {
     fn broadcast(self, lane: usize) -> Self;
 }

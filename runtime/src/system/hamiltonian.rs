@@ -70,7 +70,7 @@ pub trait Hamiltonian {
             With<F64x8> = Self::Vector<F64x8>,
         >;
 
-    /// What is known of the masses; nothing has to be said. See [`SeparableHamiltonian::MASSES`].
+    /// What the system declares of its masses, which is optional: see [`Masses`].
     const MASSES: Masses = Masses::Any;
 
     /// Whether the force has a part without a potential: [`applied_force`](Self::applied_force).

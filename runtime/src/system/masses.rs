@@ -1,11 +1,12 @@
-//! What a system says of its masses.
+//! What a system declares of its masses.
 
-/// What a system says of its masses: [`Hamiltonian::MASSES`](crate::Hamiltonian::MASSES).
+/// What a system declares of its masses: [`Hamiltonian::MASSES`](crate::Hamiltonian::MASSES).
 ///
-/// Nothing has to be said: it only saves work. A kinetic energy `pᵀM⁻¹p/2` with constant M is found by itself in separable systems.
+/// The declaration is optional and only saves work. In a separable system the integrator itself finds whether the kinetic energy is
+/// `pᵀM⁻¹p/2` with constant M.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Masses {
-    /// Nothing is said.
+    /// No declaration.
     #[default]
     Any,
     /// The velocity depends on the momentum alone. It matters for constrained systems of class [`General`](crate::General), whose force

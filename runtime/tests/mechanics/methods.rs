@@ -1,4 +1,4 @@
-//! The methods of the tests, but for those that only steps with constraints have: [`systems`](super::systems), [`rolling`](super::rolling).
+//! The methods of these tests. Methods for constrained systems only are in [`systems`](super::systems) and [`rolling`](super::rolling).
 
 symplectic::tableau! {
     pub Midpoint { basis: polynomial(1), nodes: gauss(1), require: [nonholonomic, order == 2] }

@@ -23,7 +23,7 @@ pub(crate) const STAGNATION: u32 = 16;
 const AMPLIFIED: f64 = 4.0 * ROUNDING;
 
 /// Contraction of the change that distinguishes an iteration that reached its noise from one that made no progress.
-pub(crate) const CONTRACTION: f64 = 1.0 / 1024.0;
+const CONTRACTION: f64 = 1.0 / 1024.0;
 
 /// A relative change above this is not noise: evaluations that noisy would be useless.
 pub(crate) const NOISIEST: f64 = 1e-5;
@@ -144,11 +144,11 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
     // The relative change; in a separable system, of the positions.
     let relative = |[q, p]: [f64; 2]| if both { larger(q, p) } else { q };
     // What shrinks from sweep to sweep: the relative change; for positions alone no size is needed.
-    let size_of = |this: &W::Movement, sizes: &Sizes| match both {
-        true => relative(sizes.change(this)),
-        false => this.differences()[0],
+    let size_of = |differences: [f64; 2], sizes: &Sizes| match both {
+        true => relative(sizes.change(differences)),
+        false => differences[0],
     };
-    // Whether both halves of a relative change, or one of them, are at most so many units of EPSILON.
+    // Compares a relative change with a number of units of EPSILON: both halves, or one of them.
     let is_within = |count: f64, [q, p]: [f64; 2], both: bool| {
         let bound = count * T::EPSILON;
         match both {
@@ -179,7 +179,7 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
         if iteration < late && is_far(&this, near) {
             continue;
         }
-        let [q, p] = this.differences();
+        let differences @ [q, p] = this.differences();
         if !(q + p).is_finite() {
             break Err(match iteration {
                 1 => non_finite(
@@ -188,7 +188,7 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
                     !q.is_finite(),
                 ),
                 _ => {
-                    let last = previous.map(|last| relative(sizes.change(&last)));
+                    let last = previous.map(|last| relative(sizes.change(last.differences())));
                     Failure::NoConvergence {
                         residual: last.filter(|size| !size.is_nan()).unwrap_or(f64::INFINITY),
                         iterations: iteration,
@@ -200,9 +200,9 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
         if !is_measured {
             sizes = Sizes::new(sweeps.scales(&this));
         }
-        let (change, size) = (sizes.change(&this), size_of(&this, &sizes));
+        let (change, size) = (sizes.change(differences), size_of(differences, &sizes));
         if !waits {
-            let before = previous.map(|before| sizes.change(&before));
+            let before = previous.map(|before| sizes.change(before.differences()));
             if q <= tolerance && (!both || p <= tolerance)
                 || is_last::<T>(before.map(|before| before[0]), change[0])
                     && (!both || is_last::<T>(before.map(|before| before[1]), change[1]))
@@ -220,6 +220,7 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
             near = sizes.rounding::<T>(tolerance);
             continue;
         }
+        // From here on every change counts.
         near = [f64::INFINITY; 2];
         // Comparisons, because `size` is not NaN: `min` and `max` would test for it.
         if size < progress.smallest {
@@ -234,7 +235,7 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
         }
         // At the bound, one sweep without progress suffices.
         let has_stagnated = progress.idle > if at_bound { 0 } else { iteration / STAGNATION };
-        let first = || first.map_or(0.0, |first| size_of(&first, &sizes));
+        let first = || first.map_or(0.0, |first| size_of(first.differences(), &sizes));
         let is_noise = || progress.is_noise(first()) && is_within(AMPLIFIED, change, false);
         if has_stagnated && (is_rounding || is_noise()) {
             // At the bound, no further sweep is allowed.
@@ -283,8 +284,7 @@ impl Sizes {
 
     /// A change relative to these sizes.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn change(&self, movement: &impl Movement) -> [f64; 2] {
-        let [q, p] = movement.differences();
+    fn change(&self, [q, p]: [f64; 2]) -> [f64; 2] {
         [q * self.inverse[0], p * self.inverse[1]]
     }
 }
@@ -297,7 +297,7 @@ pub(crate) struct Progress {
     /// Number of sweeps since the smallest change.
     pub(crate) idle: u32,
     /// The largest noted change.
-    pub(crate) largest: f64,
+    largest: f64,
     /// The last noted change that was at most half of the previous such, and the number of sweeps since.
     mark: f64,
     pub(crate) slow: u32,
@@ -322,19 +322,21 @@ impl Progress {
         };
     }
 
+    /// Whether the change has shrunk by [`CONTRACTION`], from the largest noted one or the `first`.
+    pub(crate) fn has_contracted(&self, first: f64) -> bool {
+        self.smallest <= CONTRACTION * larger(first, self.largest)
+    }
+
     /// Whether changes up to [`AMPLIFIED`] are noise of the evaluations or amplified rounding errors: see [`PATIENCE`].
     fn is_noise(&self, first: f64) -> bool {
-        self.idle >= PATIENCE
-            && self.was_rounding
-            && self.smallest <= CONTRACTION * larger(first, self.largest)
+        self.idle >= PATIENCE && self.was_rounding && self.has_contracted(first)
     }
 
     /// An iteration that has not settled in the allowed number of sweeps.
     pub(crate) fn failure(&self, size: f64, residual: f64, first: f64, iterations: u32) -> Failure {
         // The change shrank and then stagnated at the level of its noise.
-        let came_down = residual <= NOISIEST
-            && self.smallest <= CONTRACTION * larger(first, self.largest)
-            && size <= ROUNDING * self.smallest;
+        let came_down =
+            residual <= NOISIEST && self.has_contracted(first) && size <= ROUNDING * self.smallest;
         match self.slow >= PATIENCE && came_down {
             true => Failure::Stagnation {
                 residual,

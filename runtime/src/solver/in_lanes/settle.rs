@@ -46,6 +46,7 @@ pub(super) fn settle<C: Class, L: Lanes, W: LaneSweeps<L>>(
     let inverses = |scales: [L; 2]| {
         scales.map(|size| L::select((size.recip()).below(most), size.recip(), most))
     };
+    let mut inverse = inverses(scales);
     let mut settled = Settled {
         lanes: 0,
         sweeps: zero,
@@ -83,9 +84,12 @@ pub(super) fn settle<C: Class, L: Lanes, W: LaneSweeps<L>>(
         };
         let mut examined = if made < late { live & !far } else { live };
         if examined != 0 {
-            let new = sweeps.scales();
-            scales = [0, 1].map(|half| L::select(examined & !measured, new[half], scales[half]));
-            let inverse = inverses(scales);
+            let fresh = examined & !measured;
+            if fresh != 0 {
+                let new = sweeps.scales();
+                scales = [0, 1].map(|half| L::select(fresh, new[half], scales[half]));
+                inverse = inverses(scales);
+            }
             let change = [q * inverse[0], p * inverse[1]];
             // Where a change is infinite or NaN, a single run begins again.
             live &= !examined | (q + p).at_most(most);

@@ -7,7 +7,7 @@ use crate::method::{
 };
 use crate::number::dither::dither_last_sweep;
 use crate::number::{Scalar, Summation, Vector};
-use crate::solver::convergence::{CONTRACTION, Progress, ROUNDING, STAGNATION, non_finite};
+use crate::solver::convergence::{Progress, ROUNDING, STAGNATION, non_finite};
 use crate::system::{Class, Separable, System};
 
 /// The change stagnates if it has not halved in this many sweeps.
@@ -227,7 +227,7 @@ impl History {
     /// Whether it is worthwhile to measure the noise: not while the iteration may still be in its initial phase.
     fn may_be_noise(&self) -> bool {
         let progress = &self.progress;
-        let has_come_down = progress.smallest <= CONTRACTION * progress.largest;
+        let has_come_down = progress.has_contracted(0.0);
         progress.slow >= SLOW || self.resting > 1 || has_come_down
     }
 
