@@ -218,8 +218,8 @@ pub enum Error {
 
     /// A system declares unit masses, but its velocity differs from the momentum.
     #[error(
-        "|velocity[{component}]| is {velocity}, but |p[{component}]| is {momentum}: leave out `Masses::Unit`, or let `velocity` copy \
-         the momentum"
+        "|velocity[{component}]| is {velocity} where |p[{component}]| is {momentum}: leave out `Masses::Unit`, or let `velocity` copy the \
+         momentum"
     )]
     NotUnitMasses {
         /// The component, from 0.

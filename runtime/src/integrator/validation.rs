@@ -18,7 +18,7 @@ pub(crate) fn check_step_size(value: f64) -> Result<(), Error> {
     }
 }
 
-/// Checks that the velocity equals the momentum if the system claims it.
+/// Checks that the velocity equals the momentum if the system claims it: at the momentum of the state, which may be zero, and at another.
 pub(super) fn check_masses<V: Vector, S: System<V>>(
     system: &S,
     state: &State<V>,
@@ -27,15 +27,21 @@ pub(super) fn check_masses<V: Vector, S: System<V>>(
         return Ok(());
     }
     let State { time, q, p } = state;
-    let mut velocity = p.zeros_like();
-    system.velocity(V::Scalar::from_f64(*time), q, p, &mut velocity);
-    first_difference(&velocity, p).map_or(Ok(()), |(component, velocity, momentum)| {
-        Err(Error::NotUnitMasses {
-            component,
-            velocity,
-            momentum,
-        })
-    })
+    let (mut other, mut velocity) = (p.clone(), p.zeros_like());
+    for (k, component) in other.as_mut_slice().iter_mut().enumerate() {
+        *component = V::Scalar::from_f64(0.75 * (k + 1) as f64);
+    }
+    for momentum in [p, &other] {
+        system.velocity(V::Scalar::from_f64(*time), q, momentum, &mut velocity);
+        if let Some((component, velocity, momentum)) = first_difference(&velocity, momentum) {
+            return Err(Error::NotUnitMasses {
+                component,
+                velocity,
+                momentum,
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Checks that the velocity is linear in the momentum, for a method that has the order of these `orders` only then.

@@ -270,13 +270,17 @@ fn unit_masses_are_no_other_system() -> Result<(), Error> {
         assert_eq!(known.take_steps(1000)?, asked.take_steps(1000)?);
         assert_eq!(known.statistics(), asked.statistics());
 
-        let wrong = Integrator::new(method, Unit::<2>, start, 0.01).map(|_| ());
-        let expected = Error::NotUnitMasses {
-            component: 0,
-            velocity: 0.2,
-            momentum: 0.1,
-        };
-        assert_eq!(wrong, Err(expected));
+        // Also at rest, where any linear velocity is right.
+        let at_rest = State::new(0.5, start.q, Vector2::zeros());
+        for (start, velocity, momentum) in [(start, 0.2, 0.1), (at_rest, 1.5, 0.75)] {
+            let wrong = Integrator::new(method, Unit::<2>, start, 0.01).map(|_| ());
+            let expected = Error::NotUnitMasses {
+                component: 0,
+                velocity,
+                momentum,
+            };
+            assert_eq!(wrong, Err(expected));
+        }
         Ok(())
     }
     check(StoermerVerlet)?;
