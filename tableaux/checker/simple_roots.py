@@ -1,8 +1,9 @@
 """Roots of polynomials whose coefficients are known between two rational numbers."""
 
+import math
 from fractions import Fraction
 
-from check_certificate import demand, over_one_denominator, value
+from check_certificate import demand, numerator, over_one_denominator, value
 
 NARROW = Fraction(1, 1 << 160)  # The distance between the ends of a root,
 MOST_CELLS = 1000  # and the number of intervals that are looked at for all of them.
@@ -12,16 +13,21 @@ class Undecided(Exception):
     """Roots that may be multiple ones, or numbers that are not known well enough."""
 
 
+def whole(f):
+    """The coefficients times a positive number that makes all ends whole."""
+    _, common = over_one_denominator([end for c in f for end in c])
+    return [tuple(int(end * common) for end in c) for c in f]
+
+
 def simple_roots(f):
-    """The ends of all positive roots in order. A coefficient is a pair of ends. Where f is not known to have no root, it is monotone."""
+    """The ends of all positive roots in order. A coefficient is a pair of whole ends. Where f is not known to have no root, it is monotone."""
     found, rest = [], [(Fraction(0), above_roots(f))]
     for _ in range(MOST_CELLS):
         if not rest:
             return found
         low, high = rest.pop()
-        # The terms of f(middle + t) and of its derivative there, for t up to half the width.
-        middle, half = (low + high) / 2, (high - low) / 2
-        terms = [(x * half**k, y * half**k) for k, (x, y) in enumerate(zip(*(shifted(g, middle) for g in zip(*f))))]
+        # The terms of f and of its derivative, for t up to 1.
+        terms = list(zip(*(shifted(g, (low + high) / 2, (high - low) / 2) for g in zip(*f))))
         if sign_of_sum(terms):
             continue
         if sign_of_sum([(k * x, k * y) for k, (x, y) in enumerate(terms)][1:]):
@@ -44,14 +50,15 @@ def above_roots(f):
     return bound
 
 
-def shifted(f, x):
-    """The coefficients of f(x + t), in whole numbers until the end."""
-    (f, divisor), step, degree = over_one_denominator(f), x.denominator, len(f) - 1
+def shifted(f, x, width):
+    """The coefficients of f(x + width t) times a positive number, in whole numbers."""
+    step, degree = math.lcm(x.denominator, width.denominator), len(f) - 1
+    x, width = int(x * step), int(width * step)
     f = [c * step ** (degree - k) for k, c in enumerate(f)]
     for start in range(degree):
         for k in range(degree - 1, start - 1, -1):
-            f[k] += x.numerator * f[k + 1]
-    return [Fraction(c * step**k, divisor * step**degree) for k, c in enumerate(f)]
+            f[k] += x * f[k + 1]
+    return [c * width**k for k, c in enumerate(f)]
 
 
 def sign_of_sum(terms):
@@ -63,7 +70,7 @@ def sign_of_sum(terms):
 
 def sign(f, x):
     """The sign at a number that is not negative."""
-    low, high = (value(g, x) for g in zip(*f))
+    low, high = (numerator(g, x) for g in zip(*f))
     if low <= 0 <= high:
         raise Undecided
     return 1 if low > 0 else -1
@@ -74,7 +81,7 @@ def narrowed(f, low, high):
     before = sign(f, low)
     while high - low > NARROW:
         middle = (low + high) / 2
-        if not any(value(g, middle) for g in zip(*f)):
+        if not any(numerator(g, middle) for g in zip(*f)):
             return middle, middle  # Coefficients that are known exactly have a root that is.
         try:
             low, high = (middle, high) if sign(f, middle) == before else (low, middle)
