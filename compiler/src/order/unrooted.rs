@@ -75,13 +75,8 @@ impl BicolouredTree {
         let mut found = BTreeSet::from([self.clone()]);
         let mut pending = vec![self.clone()];
         while let Some(tree) = pending.pop() {
-            for (index, child) in tree.children().iter().enumerate() {
-                let mut others = tree.children().to_vec();
-                others.remove(index);
-                let parent = BicolouredTree::new(child.colour().opposite(), others);
-                let mut children = child.children().to_vec();
-                children.push(parent);
-                let moved = BicolouredTree::new(child.colour(), children);
+            for index in 0..tree.children().len() {
+                let moved = tree.rooted_at(index);
                 if found.insert(moved.clone()) {
                     pending.push(moved);
                 }
@@ -89,36 +84,68 @@ impl BicolouredTree {
         }
         found
     }
+
+    /// The tree with its root at a child.
+    fn rooted_at(&self, index: usize) -> BicolouredTree {
+        let mut others = self.children().to_vec();
+        let child = others.remove(index);
+        let mut children = child.children().to_vec();
+        children.push(BicolouredTree::new(child.colour().opposite(), others));
+        BicolouredTree::new(child.colour(), children)
+    }
+
+    /// The tree with its root where no child has more than half of the vertices.
+    fn rooted_at_centroid(mut self) -> BicolouredTree {
+        let order = self.order();
+        let heavy = |child: &BicolouredTree| 2 * child.order() > order;
+        while let Some(index) = self.children().iter().position(heavy) {
+            self = self.rooted_at(index);
+        }
+        self
+    }
+
+    /// `Σ k²` over the vertices of a tree or subtree that can be roots in a class, one for each `k` that rotations exchange.
+    fn squares_of_places(&self, class: HamiltonianClass, is_root: bool) -> BigInt {
+        // In the class are trees whose vertices for q' have one neighbour as the root, two elsewhere.
+        let neighbours = self.children().len() + usize::from(!is_root);
+        let can_be_root =
+            class != HamiltonianClass::Nystrom || self.colour() == Colour::P || neighbours == 1;
+        let own = BigInt::from(u8::from(can_be_root));
+        let groups = self.children().chunk_by(|left, right| left == right);
+        groups.fold(own, |sum, group| {
+            let one = group
+                .first()
+                .map(|child| child.squares_of_places(class, false));
+            sum + one.unwrap_or_default() * (group.len() * group.len())
+        })
+    }
 }
 
 /// `Σ 1/σ(τ)²` over all trees `τ` with the same condition as `tree`: only that tree, or for a
 /// representative all trees that differ in the place of the root.
+///
+/// A rotation of the tree without a root keeps its centroid, because edges are directed. Hence with the root there, the number of
+/// rotations is `σ`. A tree whose root is another vertex has `σ/k` of them if rotations move that vertex to `k` places.
 pub(super) fn weight(
     class: HamiltonianClass,
     tree: &BicolouredTree,
     representative: bool,
 ) -> BigRational {
-    let one = |tree: &BicolouredTree| {
-        let symmetry = tree.symmetry();
-        BigRational::new(BigInt::one(), &symmetry * &symmetry)
-    };
     if !representative || tree.children().is_empty() {
-        return one(tree);
+        let symmetry = tree.symmetry();
+        return BigRational::new(BigInt::one(), &symmetry * &symmetry);
     }
-    match class {
-        // Each with a root of either colour.
-        HamiltonianClass::General => {
-            let recoloured =
-                |tree: BicolouredTree| BicolouredTree::new(Colour::Q, tree.children().to_vec());
-            let trees: BTreeSet<_> = tree.rerooted().into_iter().map(recoloured).collect();
-            let sum: BigRational = trees.iter().map(one).sum();
-            sum * BigRational::from_integer(2.into())
-        }
-        HamiltonianClass::Separable | HamiltonianClass::Nystrom => {
-            let trees = tree.rerooted();
-            trees.iter().filter(|t| class.contains(t)).map(one).sum()
-        }
-    }
+    let tree = tree.clone().rooted_at_centroid();
+    let colours = match class {
+        // A root of either colour.
+        HamiltonianClass::General => 2,
+        HamiltonianClass::Separable | HamiltonianClass::Nystrom => 1,
+    };
+    let symmetry = tree.symmetry();
+    BigRational::new(
+        tree.squares_of_places(class, true) * colours,
+        &symmetry * &symmetry,
+    )
 }
 
 #[cfg(test)]
@@ -184,19 +211,40 @@ mod tests {
 
     #[test]
     fn weights_are_those_of_all_trees() {
+        let square = |tree: &BicolouredTree| {
+            let symmetry = tree.symmetry();
+            BigRational::new(BigInt::one(), &symmetry * &symmetry)
+        };
         for class in HamiltonianClass::ALL {
-            let trees = Trees::up_to(TreeRule::Class(class), 6);
-            for order in 2..=6 {
-                let square = |tree: BicolouredTree| {
-                    let symmetry = tree.symmetry();
-                    BigRational::new(BigInt::one(), &symmetry * &symmetry)
-                };
-                let all: BigRational = trees.of_order(order).map(square).sum();
-                let chosen: BigRational = trees
-                    .representatives(order)
-                    .map(|(rest, last)| weight(class, &trees.product(rest, last), true))
-                    .sum();
-                assert_eq!(chosen, all, "{class} {order}");
+            let trees = Trees::up_to(TreeRule::Class(class), 8);
+            for order in 2..=8 {
+                let all: BigRational = trees.of_order(order).map(|tree| square(&tree)).sum();
+                let mut sum = BigRational::default();
+                for (rest, last) in trees.representatives(order) {
+                    let tree = trees.product(rest, last);
+                    let rerooted = tree.rerooted().into_iter().map(|tree| match class {
+                        HamiltonianClass::General => {
+                            BicolouredTree::new(Colour::Q, tree.children().to_vec())
+                        }
+                        _ => tree,
+                    });
+                    let different: BTreeSet<_> =
+                        rerooted.filter(|tree| class.contains(tree)).collect();
+                    let one_by_one: BigRational = different.iter().map(square).sum();
+                    let colours = if class == HamiltonianClass::General {
+                        2
+                    } else {
+                        1
+                    };
+                    let found = weight(class, &tree, true);
+                    assert_eq!(
+                        found,
+                        one_by_one * BigRational::from_integer(colours.into()),
+                        "{class}: {tree}"
+                    );
+                    sum += found;
+                }
+                assert_eq!(sum, all, "{class} {order}");
             }
         }
     }
