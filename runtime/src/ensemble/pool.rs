@@ -1,5 +1,7 @@
 //! Distribution of trajectories over threads.
 
+#[cfg(feature = "parallel")]
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 
 /// Number of threads that run trajectories.
@@ -41,9 +43,13 @@ impl Batch {
         items: Vec<T>,
         work: impl Fn(T) -> U + Sync,
     ) -> Vec<U> {
-        use rayon::iter::{IntoParallelIterator, ParallelIterator};
         let began = std::time::Instant::now();
-        let all = items.into_par_iter().map(&work).collect();
+        let mut all: Vec<Option<U>> = items.iter().map(|_| None).collect();
+        let work = &work;
+        let jobs = items.into_iter().zip(&mut all);
+        let jobs = jobs.map(|(item, done)| -> Job<'_> { Box::new(|| *done = Some(work(item))) });
+        do_all(jobs.collect());
+        let all = all.into_iter().flatten().collect();
         let threads = rayon::current_num_threads();
         self.groups = match began.elapsed().as_secs_f64() < Self::SECONDS {
             true => (2 * self.groups).min(Self::MOST * threads),
@@ -51,6 +57,17 @@ impl Batch {
         };
         all
     }
+}
+
+#[cfg(feature = "parallel")]
+type Job<'a> = Box<dyn FnOnce() + Send + 'a>;
+
+/// Does all jobs on the threads of `rayon`. As it does not depend on their types, it is compiled once and not for each ensemble.
+#[cfg(feature = "parallel")]
+#[inline(never)]
+fn do_all(jobs: Vec<Job<'_>>) {
+    use rayon::iter::{IntoParallelIterator, ParallelIterator};
+    jobs.into_par_iter().for_each(|job| job());
 }
 
 /// One group after another.
