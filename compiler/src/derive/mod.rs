@@ -26,7 +26,7 @@ mod tiers;
 pub(crate) use self::composition::check_depth;
 pub(crate) use self::named_compositions::Scheme;
 use self::problem::{Construction, Problem};
-pub(crate) use self::substeps::{Substep, substeps};
+pub(crate) use self::substeps::{Parts, Substep, parts};
 use crate::basis::Basis;
 use crate::definition::{Definition, Key, trimmed};
 use crate::error::{Error, ErrorKind, Place};
@@ -136,22 +136,6 @@ pub fn derive_from(basis: &Basis, rule: &QuadratureRule) -> Result<Tableau, Erro
 pub(crate) fn splitting(definition: &Definition) -> Result<Option<Exact>, ErrorKind> {
     let sequence = read_again(definition)?.sequence();
     sequence.map(|sequence| sequence.exact()).transpose()
-}
-
-/// The number of functions of the basis, if the quadrature formula has more nodes.
-///
-/// # Errors
-/// The errors of reading the definition.
-pub(crate) fn fewer_functions(definition: &Definition) -> Result<Option<usize>, ErrorKind> {
-    let problem = read_again(definition)?;
-    Ok(match problem.construction {
-        Construction::Galerkin { basis, nodes, .. }
-            if basis.len() < nodes.len() && !problem.exchange =>
-        {
-            Some(basis.len())
-        }
-        _ => None,
-    })
 }
 
 /// Reads again a definition that has been derived before.

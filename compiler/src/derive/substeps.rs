@@ -3,7 +3,7 @@
 use super::composition::Step;
 use super::problem::{Construction, Problem};
 use super::read_again;
-use crate::definition::{Definition, Key};
+use crate::definition::Definition;
 use crate::error::ErrorKind;
 use crate::symbolic::Constant;
 use crate::tableau::Tableau;
@@ -16,16 +16,31 @@ pub(crate) struct Substep {
     pub method: usize,
 }
 
-/// The distinct methods of a composition that is not a splitting, and its steps in order; both empty for
-/// other definitions. Nested compositions are expanded too.
+/// What a method is made of.
+pub(crate) struct Parts {
+    /// The distinct methods of a composition that is not a splitting.
+    pub methods: Vec<Tableau>,
+    /// Its steps in order; nested compositions are expanded too.
+    pub substeps: Vec<Substep>,
+    /// The number of functions of the basis, if the quadrature formula has more nodes.
+    pub functions: Option<usize>,
+}
+
+/// The parts of a method. For printed coefficients this takes as long as deriving it.
 ///
 /// # Errors
-/// [`ErrorKind::ExpressionSize`] if a fraction of a fraction would be too long.
-pub(crate) fn substeps(definition: &Definition) -> Result<(Vec<Tableau>, Vec<Substep>), ErrorKind> {
-    if definition.get(Key::Compose).is_none() && definition.get(Key::Base).is_none() {
-        return Ok((Vec::new(), Vec::new()));
-    }
-    let steps = read_again(definition)?.steps()?.unwrap_or_default();
+/// [`ErrorKind::ExpressionSize`] if a fraction of a fraction would be too long, and the errors of reading the definition.
+pub(crate) fn parts(definition: &Definition) -> Result<Parts, ErrorKind> {
+    let problem = read_again(definition)?;
+    let steps = problem.steps()?.unwrap_or_default();
+    let functions = match &problem.construction {
+        Construction::Galerkin { basis, nodes, .. }
+            if basis.len() < nodes.len() && !problem.exchange =>
+        {
+            Some(basis.len())
+        }
+        _ => None,
+    };
     let mut definitions: Vec<Definition> = Vec::new();
     let mut methods = Vec::new();
     let mut substeps = Vec::new();
@@ -45,7 +60,11 @@ pub(crate) fn substeps(definition: &Definition) -> Result<(Vec<Tableau>, Vec<Sub
             method: number,
         });
     }
-    Ok((methods, substeps))
+    Ok(Parts {
+        methods,
+        substeps,
+        functions,
+    })
 }
 
 impl Problem {

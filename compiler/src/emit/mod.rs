@@ -27,7 +27,7 @@ use quote::{format_ident, quote};
 
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
-use crate::derive::{fewer_functions, substeps};
+use crate::derive::{Parts, parts};
 use crate::error::ErrorKind;
 use crate::formula::FormulaError;
 use crate::pair::Staircase;
@@ -96,10 +96,14 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
     ];
     let orders = orders(tableau);
     let symmetry = symmetry(tableau);
-    let (methods, substeps) = substeps(&provenance.definition)?;
+    let Parts {
+        methods,
+        substeps,
+        functions,
+    } = parts(&provenance.definition)?;
     let parts = (&methods[..], &substeps[..]);
     let plans = plan::plans(tableau, &numbers, parts, names, &plan);
-    let functions = fewer_functions(&provenance.definition)?.map(|count| {
+    let functions = functions.map(|count| {
         let count = literal::count(count);
         quote!(const FUNCTIONS: usize = #count;)
     });

@@ -53,11 +53,11 @@ fn coefficient(degrees: &[usize], fractions: &[Interval]) -> Interval {
 mod tests {
     use super::*;
     use crate::definition::Definition;
-    use crate::derive::substeps;
+    use crate::derive::parts;
 
     fn orders(definition: &str) -> Vec<usize> {
         let definition = Definition::parse(definition).expect(definition);
-        let (_, substeps) = substeps(&definition).expect("steps");
+        let substeps = parts(&definition).expect("steps").substeps;
         let fractions: Vec<Constant> = substeps.into_iter().map(|step| step.fraction).collect();
         (1..=9)
             .filter(|&order| has_order(&fractions, order))
