@@ -23,7 +23,6 @@ from fractions import Fraction
 from functools import lru_cache
 from importlib import import_module
 from itertools import accumulate
-from operator import mul
 from pathlib import Path
 
 FURTHER = {  # Claims, and the files in the folder `checker` with a function of that name for them.
@@ -73,16 +72,11 @@ def rationals(texts):
     return [Fraction(text) for text in texts]
 
 # Polynomials: lists of the coefficients of 1, x, x^2, ..., whole or rational.
-def numerator(f, x):
-    """That of f(x) over the power of the denominator of x, for whole coefficients. It has the sign of f(x)."""
-    total, power, x, step = 0, 1, x.numerator, x.denominator
-    for c in reversed(f):
-        total, power = total * x + c * power, power * step
-    return total
-
 def value(f, x):
-    f, divisor = over_one_denominator(f)
-    return Fraction(numerator(f, x), divisor * x.denominator ** max(len(f) - 1, 0))
+    (f, divisor), total, power = over_one_denominator(f), 0, 1
+    for c in reversed(f):
+        total, power = total * x.numerator + c * power, power * x.denominator
+    return Fraction(total * x.denominator, divisor * power)
 
 def derivative(f): return [k * c for k, c in enumerate(f)][1:]
 
@@ -97,10 +91,6 @@ def over_one_denominator(f):
     """Whole coefficients, and what they are to be divided by."""
     common = math.lcm(*(c.denominator for c in f))
     return [c.numerator * (common // c.denominator) for c in f], common
-
-def sum_of_products(f, g):
-    """sum_k f_k g_k of two lists, each over one denominator."""
-    return Fraction(sum(map(mul, f[0], g[0])), f[1] * g[1])
 
 def primitive(f):
     """The multiple by a positive number that has coprime whole coefficients, without zeros at the end."""
@@ -269,7 +259,6 @@ class Nodes:
         self.weights = {colour: coordinates(f, self.m) for colour, f in weights.items()}
         self.matrices = {colour: [coordinates(f, self.m) for f in rows] for colour, rows in matrices.items()}
         demand(all(len(rows) <= self.s for rows in self.matrices.values()), "matrices of functions")
-        self.columns = {colour: [over_one_denominator(f) for f in zip(*rows)] for colour, rows in self.matrices.items()}
         names = [name for name, colour in (("c", "q"), ("c_tilde", "p")) if self.apply(colour, self.one) == powers[1]]
         demand(names and len(doubles[names[0]]) == self.s, f"{self.s} nodes that are c or, of an exchanged method, c~")
         self.nodes = [root_between(self.m, *nearest_to(text), f"a node that rounds to {text}") for text in doubles[names[0]]]
@@ -278,19 +267,19 @@ class Nodes:
         self.turns = not any(self.turned(self.m))
 
     times = lambda self, f, g: product_modulo(f, g, self.m)
-    dot = lambda self, f, g: sum_of_products(self.moments(f), over_one_denominator(g))
+    dot = lambda self, f, g: sum(x * y for x, y in zip(self.moments(f), g))
     ends = lambda self, f: [self.at(f, node) for node in self.nodes]
     entries = lambda self, colour: [[self.entry(self.matrices[colour], x, y) for y in self.nodes] for x in self.nodes]
 
     def moments(self, f):
-        """The sums over the nodes of f, x f, x^2 f, ... over one denominator."""
+        """The sums over the nodes of f, x f, x^2 f, ..."""
         f, divisor = over_one_denominator(f)
-        return [sum(map(mul, f, self.sums[k:])) for k in range(self.s)], divisor * self.divisor
+        return [Fraction(sum(c * x for c, x in zip(f, self.sums[k:])), divisor * self.divisor) for k in range(self.s)]
 
     def apply(self, colour, f):
         """sum_j a(x, c_j) f(c_j) for a(x, y) = sum_k row_k(x) y^k"""
-        moments = self.moments(f)
-        return [sum_of_products(column, moments) for column in self.columns[colour]] or [Fraction(0)] * self.s
+        terms = [(row, moment) for row, moment in zip(self.matrices[colour], self.moments(f)) if moment]
+        return [sum((row[i] * moment for row, moment in terms), Fraction(0)) for i in range(self.s)]
 
     def turned(self, f):
         """f(1 - x)"""

@@ -3,7 +3,7 @@
 import math
 from fractions import Fraction
 
-from check_certificate import demand, numerator, over_one_denominator, value
+from check_certificate import demand, over_one_denominator, value
 
 NARROW = Fraction(1, 1 << 160)  # The distance between the ends of a root,
 MOST_CELLS = 1000  # and the number of intervals that are looked at for all of them.
@@ -59,6 +59,14 @@ def shifted(f, x, width):
         for k in range(degree - 1, start - 1, -1):
             f[k] += x * f[k + 1]
     return [c * width**k for k, c in enumerate(f)]
+
+
+def numerator(f, x):
+    """That of f(x) over the power of the denominator of x, for whole coefficients. It has the sign of f(x)."""
+    total, power, x, step = 0, 1, x.numerator, x.denominator
+    for c in reversed(f):
+        total, power = total * x + c * power, power * step
+    return total
 
 
 def sign_of_sum(terms):
