@@ -68,11 +68,25 @@ impl<'de> Deserialize<'de> for Wanted {
 
 /// The summation of steps.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(try_from = "String")]
 pub(super) enum Sums {
     #[default]
     Compensated,
     Plain,
+}
+
+impl TryFrom<String> for Sums {
+    type Error = String;
+
+    fn try_from(name: String) -> Result<Self, String> {
+        match name.as_str() {
+            "compensated" => Ok(Sums::Compensated),
+            "plain" => Ok(Sums::Plain),
+            _ => Err(format!(
+                "unknown sums `{name}`, expected `compensated` or `plain`"
+            )),
+        }
+    }
 }
 
 /// The output times.

@@ -75,7 +75,9 @@ pub enum FormulaError {
         coordinate: String,
     },
     /// A function with a kink or a jump.
-    #[error("{function} has {defect}: H must be twice continuously differentiable; {instead}")]
+    #[error(
+        "{function} has {defect}: a formula must be twice continuously differentiable; {instead}"
+    )]
     NotSmooth {
         /// The function.
         function: String,

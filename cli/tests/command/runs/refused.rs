@@ -19,6 +19,16 @@ fn wrong_files_are_refused_at_their_place() {
     for (setup, place, message) in [
         (replaced("end =", "ende ="), "5:", "unknown field `ende`"),
         (
+            replaced("end =", "sums = 1\nend ="),
+            "5:",
+            "invalid type: integer `1`, expected a string",
+        ),
+        (
+            replaced("end =", "sums = 'exact'\nend ="),
+            "5:",
+            "unknown sums `exact`, expected `compensated` or `plain`",
+        ),
+        (
             replaced("pa = 0.5", "pb = 0.5"),
             "9:",
             "there is no coordinate `pb`; the coordinates are a, pa",
