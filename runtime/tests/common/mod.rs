@@ -4,7 +4,11 @@ pub mod dual;
 pub mod methods;
 pub mod systems;
 
-use symplectic::{Error, Integrator, Method, ProvedFor, State, System, Vector};
+use symplectic::solver::Coefficient;
+use symplectic::{
+    Error, Integrator, Method, ProvedFor, RunTimeCoefficients, RunTimeTableau, State, System,
+    Vector,
+};
 
 /// The state at `end` after `steps` equal steps.
 pub fn run<M, S, V>(
@@ -37,4 +41,23 @@ pub fn distance<V: Vector<Scalar = f64>>(a: &State<V>, b: &State<V>) -> f64 {
         differences.fold(0.0, f64::max)
     };
     pairs(&a.q, &b.q).max(pairs(&a.p, &b.p))
+}
+
+/// The coefficients of an emitted method as values.
+pub fn coefficients<M: Method>(_method: M) -> RunTimeCoefficients {
+    let list = |list: &[Coefficient]| list.iter().map(|x| x.double()).collect();
+    let matrix = |rows: &[&[Coefficient]]| rows.iter().map(|row| list(row)).collect();
+    RunTimeCoefficients {
+        a: matrix(M::COEFFICIENTS.a),
+        a_tilde: matrix(M::COEFFICIENTS.a_tilde),
+        b: list(M::COEFFICIENTS.b),
+        b_tilde: list(M::COEFFICIENTS.b_tilde),
+        c: list(M::COEFFICIENTS.c),
+        c_tilde: list(M::COEFFICIENTS.c_tilde),
+    }
+}
+
+/// An emitted method as a tableau at run time.
+pub fn tableau<M: Method>(method: M) -> RunTimeTableau {
+    RunTimeTableau::new(M::NAME, &coefficients(method), M::ORDERS).expect(M::NAME)
 }

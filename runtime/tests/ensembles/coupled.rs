@@ -15,7 +15,7 @@ use crate::common::methods::{
     Askew, Gauss4, Gauss5, Gauss18, Lobatto3, Lobatto4, Midpoint, Radau3, RadauIIA, Tang, Twins,
 };
 use crate::common::systems::{Kepler, Product};
-use crate::run_time::tableau;
+use crate::common::tableau;
 use crate::systems::{Bits, Counted, HenonHeiles, Pendulums, alone, keep, on_threads, starts};
 
 symplectic::tableau! {

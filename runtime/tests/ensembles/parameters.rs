@@ -12,7 +12,7 @@ use symplectic::{
 };
 
 use crate::common::methods::{ForestRuth, Gauss4};
-use crate::run_time::tableau;
+use crate::common::tableau;
 use crate::systems::{Bits, alone, keep, on_threads, words};
 
 /// H = |p|²/2 + |q|²/2 + a x³: for large a trajectories escape to infinity, in a finite time.

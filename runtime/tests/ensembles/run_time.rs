@@ -9,27 +9,12 @@ use symplectic::{
     Scalar, SeparableHamiltonian, State,
 };
 
-use crate::common::distance;
 use crate::common::methods::{ForestRuth, Gauss4, McLachlanAtela, StoermerVerlet, Yoshida6};
 use crate::common::systems::Product;
+use crate::common::{distance, tableau};
 use crate::systems::{Bits, HenonHeiles, alone, keep, starts, words};
 
 const SYSTEM: HenonHeiles = HenonHeiles { amplitude: 0.02 };
-
-/// The coefficients of an emitted method as a value.
-pub fn tableau<M: Method>(_method: M) -> RunTimeTableau {
-    let list = |list: &[Coefficient]| list.iter().map(|x| x.double()).collect();
-    let matrix = |rows: &[&[Coefficient]]| rows.iter().map(|row| list(row)).collect();
-    let coefficients = RunTimeCoefficients {
-        a: matrix(M::COEFFICIENTS.a),
-        a_tilde: matrix(M::COEFFICIENTS.a_tilde),
-        b: list(M::COEFFICIENTS.b),
-        b_tilde: list(M::COEFFICIENTS.b_tilde),
-        c: list(M::COEFFICIENTS.c),
-        c_tilde: list(M::COEFFICIENTS.c_tilde),
-    };
-    RunTimeTableau::new(M::NAME, &coefficients, M::ORDERS).expect(M::NAME)
-}
 
 /// Checks the bits of ends, and of states at times, in every width; `$make` is the ensemble, `$alone` the integrator.
 macro_rules! check {
