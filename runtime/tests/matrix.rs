@@ -15,7 +15,7 @@ use symplectic::solver::{
 use symplectic::system::{SystemInLanes, Unconstrained};
 use symplectic::{
     Checkpoint, Compensated, Error, General, Integrator, Method, Plain, ProvedFor, RunTimeTableau,
-    Separable, State, Statistics, Summation, System,
+    Separable, State, Statistics, Summation, System, TableauError,
 };
 
 type Point = State<Vector2<f64>>;
@@ -44,7 +44,7 @@ struct Cell<'a> {
     fuse: &'a Fuse,
     /// The state after [`DURATION`].
     exact: &'a Point,
-    /// Rounding errors of a step in units of those of a sum of terms smaller than its result.
+    /// How many times larger the rounding errors of a step may be than with weights of one sign: Σ|b|.
     rounding: f64,
 }
 
@@ -259,18 +259,21 @@ where
 {
     let coefficients = coefficients(method);
     let tableau = RunTimeTableau::new(M::NAME, &coefficients, M::ORDERS);
-    assert_eq!(tableau.is_ok(), cell.row.symplectic, "{tableau:?}");
-    let Ok(tableau) = &tableau else {
+    if !cell.row.symplectic {
+        assert!(
+            matches!(tableau, Err(TableauError::NotSymplectic { .. })),
+            "{tableau:?}"
+        );
         return Ok(());
-    };
+    }
+    let tableau = &tableau.expect(cell.name);
     // A composition is one sum here, of terms as large as its fractions.
     let cell = Cell {
         rounding: coefficients.b.iter().map(|b| b.abs()).sum(),
         ..cell
     };
-    let expected = check(cell, &|start, size| {
-        Ok(Box::new(Integrator::new(method, system, start, size)?))
-    })?;
+    let mut compiled = Integrator::new(method, system, start(), SIZE)?;
+    let expected = compiled.take_steps(20)?;
     let found = [
         check(cell, &|start, size| {
             Ok(Box::new(Integrator::at_run_time(
@@ -284,7 +287,7 @@ where
         })?,
     ];
     for found in found {
-        let apart = distance(&found, &expected);
+        let apart = distance(&found, expected);
         assert!(apart < 1e-13, "{}, at run time: {apart:e}", cell.name);
     }
     Ok(())

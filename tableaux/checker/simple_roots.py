@@ -13,7 +13,7 @@ class Undecided(Exception):
     """Roots that may be multiple ones, or numbers that are not known well enough."""
 
 
-def whole(f):
+def with_whole_ends(f):
     """The coefficients times a positive number that makes all ends whole."""
     _, common = over_one_denominator([end for c in f for end in c])
     return [tuple(int(end * common) for end in c) for c in f]
@@ -26,7 +26,7 @@ def simple_roots(f):
         if not rest:
             return found
         low, high = rest.pop()
-        # The terms of f and of its derivative, for t up to 1.
+        # The coefficients of f(middle + half t) times a positive number, for |t| up to 1.
         terms = list(zip(*(shifted(g, (low + high) / 2, (high - low) / 2) for g in zip(*f))))
         if sign_of_sum(terms):
             continue
@@ -62,7 +62,7 @@ def shifted(f, x, width):
 
 
 def numerator(f, x):
-    """That of f(x) over the power of the denominator of x, for whole coefficients. It has the sign of f(x)."""
+    """f(x) for whole coefficients, times the power of the denominator of x that makes it whole. It has the sign of f(x)."""
     total, power, x, step = 0, 1, x.numerator, x.denominator
     for c in reversed(f):
         total, power = total * x + c * power, power * step

@@ -9,7 +9,7 @@ from check_certificate import (
 )
 
 from .functions import Quotient, trimmed
-from .simple_roots import Undecided, sign, simple_roots, whole
+from .simple_roots import Undecided, sign, simple_roots, with_whole_ends
 
 MOST_STAGES = 40
 
@@ -159,7 +159,7 @@ def stable_intervals_of_reals(determinant, trace):
     """The same, if all roots are simple. Then none is stable: where the step is 1 or -1, |trace| - 2 touches zero."""
     factors = [combined(determinant, 2, trace, -1), combined(determinant, 2, trace, 1), determinant]
     demand(all(map(any, factors)), "a trace that is not 2 or -2 for all step sizes")
-    factors = [whole([near(c) for c in without_roots_at_zero(f)]) for f in factors]
+    factors = [with_whole_ends([near(c) for c in without_roots_at_zero(f)]) for f in factors]
     roots = sorted(root for f in factors for root in simple_roots(f))
     if any(x[1] >= y[0] for x, y in zip(roots, roots[1:])):
         raise Undecided

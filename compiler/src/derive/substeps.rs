@@ -18,9 +18,9 @@ pub(crate) struct Substep {
 
 /// What a method is made of.
 pub(crate) struct Parts {
-    /// The distinct methods of a composition that is not a splitting.
+    /// The distinct methods of a composition that is not a splitting; empty for other definitions.
     pub methods: Vec<Tableau>,
-    /// Its steps in order; nested compositions are expanded too.
+    /// Its steps in order, none for other definitions; nested compositions are expanded too.
     pub substeps: Vec<Substep>,
     /// The number of functions of the basis, if the quadrature formula has more nodes.
     pub functions: Option<usize>,

@@ -104,28 +104,29 @@ impl BicolouredTree {
         self
     }
 
-    /// `Σ k²` over the vertices of a tree or subtree that can be roots in a class, one for each `k` that rotations exchange.
-    fn squares_of_places(&self, class: HamiltonianClass, is_root: bool) -> BigInt {
-        // In the class are trees whose vertices for q' have one neighbour as the root, two elsewhere.
+    /// `Σ k²` over the orbits of `k` vertices, of a tree or of a subtree, that can be roots in a class.
+    fn squares_of_orbits(&self, class: HamiltonianClass, is_root: bool) -> BigInt {
+        // In the Nyström class a vertex for q' has at most one child: as the root one neighbour, elsewhere two.
         let neighbours = self.children().len() + usize::from(!is_root);
         let can_be_root =
-            class != HamiltonianClass::Nystrom || self.colour() == Colour::P || neighbours == 1;
+            class != HamiltonianClass::Nystrom || self.colour() == Colour::P || neighbours <= 1;
         let own = BigInt::from(u8::from(can_be_root));
         let groups = self.children().chunk_by(|left, right| left == right);
         groups.fold(own, |sum, group| {
             let one = group
                 .first()
-                .map(|child| child.squares_of_places(class, false));
+                .map(|child| child.squares_of_orbits(class, false));
             sum + one.unwrap_or_default() * (group.len() * group.len())
         })
     }
 }
 
 /// `Σ 1/σ(τ)²` over all trees `τ` with the same condition as `tree`: only that tree, or for a
-/// representative all trees that differ in the place of the root.
+/// representative all trees that differ in the place of the root and, for general `H`, in its colour.
 ///
-/// A rotation of the tree without a root keeps its centroid, because edges are directed. Hence with the root there, the number of
-/// rotations is `σ`. A tree whose root is another vertex has `σ/k` of them if rotations move that vertex to `k` places.
+/// An automorphism of the tree without a root keeps its centroid: to exchange two centroids it would have to reverse the edge between
+/// them, which has a direction. With the root there, all `σ` automorphisms keep the root. With the root at another vertex, whose
+/// orbit has `k` vertices, `σ/k` of them do. The sum is `Σ k²/σ²`, one term for each orbit of possible roots.
 pub(super) fn weight(
     class: HamiltonianClass,
     tree: &BicolouredTree,
@@ -143,7 +144,7 @@ pub(super) fn weight(
     };
     let symmetry = tree.symmetry();
     BigRational::new(
-        tree.squares_of_places(class, true) * colours,
+        tree.squares_of_orbits(class, true) * colours,
         &symmetry * &symmetry,
     )
 }

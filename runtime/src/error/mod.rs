@@ -226,7 +226,7 @@ pub enum Error {
         component: usize,
         /// The size of the velocity there.
         velocity: f64,
-        /// The size of the momentum there.
+        /// The size of the momentum there: that of the state, or another at which the velocity was tested.
         momentum: f64,
     },
 

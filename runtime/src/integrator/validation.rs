@@ -29,7 +29,7 @@ pub(super) fn check_masses<V: Vector, S: System<V>>(
     let State { time, q, p } = state;
     let (mut other, mut velocity) = (p.clone(), p.zeros_like());
     for (k, component) in other.as_mut_slice().iter_mut().enumerate() {
-        *component = V::Scalar::from_f64(0.75 * (k + 1) as f64);
+        *component = V::Scalar::from_f64(0.7 * (k + 1) as f64);
     }
     for momentum in [p, &other] {
         system.velocity(V::Scalar::from_f64(*time), q, momentum, &mut velocity);

@@ -3,10 +3,9 @@
 use symplectic::ensemble::{Ensemble, EnsembleError};
 use symplectic::nalgebra::{SVector, Vector2};
 use symplectic::simd::{F64x2, F64x4, F64x8};
-use symplectic::solver::Coefficient;
 use symplectic::{
-    AtRunTime, CheckpointError, Error, Integrator, Method, RunTimeCoefficients, RunTimeTableau,
-    Scalar, SeparableHamiltonian, State,
+    AtRunTime, CheckpointError, Error, Integrator, RunTimeTableau, Scalar, SeparableHamiltonian,
+    State,
 };
 
 use crate::common::methods::{ForestRuth, Gauss4, McLachlanAtela, StoermerVerlet, Yoshida6};
