@@ -43,7 +43,7 @@ pub fn distance<V: Vector<Scalar = f64>>(a: &State<V>, b: &State<V>) -> f64 {
     pairs(&a.q, &b.q).max(pairs(&a.p, &b.p))
 }
 
-/// The coefficients of an emitted method as values.
+/// The coefficients of an emitted method as doubles.
 pub fn coefficients<M: Method>(_method: M) -> RunTimeCoefficients {
     let list = |list: &[Coefficient]| list.iter().map(|x| x.double()).collect();
     let matrix = |rows: &[&[Coefficient]]| rows.iter().map(|row| list(row)).collect();

@@ -1,10 +1,10 @@
 //! Tableaux at run time beside the emitted methods of the same coefficients.
 
-use crate::common::distance;
 use crate::common::methods::{ForestRuth, Gauss2, Gauss4, Lobatto3, Midpoint, StoermerVerlet};
 use crate::common::systems::{Driven, Pendulum, Product};
+use crate::common::{coefficients, distance, tableau};
 use symplectic::nalgebra::{DVector, Vector1, Vector2};
-use symplectic::solver::{Coefficient, FixedPoint};
+use symplectic::solver::FixedPoint;
 use symplectic::{
     Error, Event, Integrator, Method, ProvedFor, Quantity, Retry, RunTimeCoefficients,
     RunTimeTableau, Separable, State, System, TableauError, acceleration, separable,
@@ -25,24 +25,6 @@ fn slopes(
         .windows(2)
         .map(|pair| (pair[0] / pair[1]).log2())
         .collect())
-}
-
-/// The coefficients of an emitted method as doubles.
-fn coefficients<M: Method>() -> RunTimeCoefficients {
-    let list = |list: &[Coefficient]| list.iter().map(|x| x.double()).collect();
-    let matrix = |rows: &[&[Coefficient]]| rows.iter().map(|row| list(row)).collect();
-    RunTimeCoefficients {
-        a: matrix(M::COEFFICIENTS.a),
-        a_tilde: matrix(M::COEFFICIENTS.a_tilde),
-        b: list(M::COEFFICIENTS.b),
-        b_tilde: list(M::COEFFICIENTS.b_tilde),
-        c: list(M::COEFFICIENTS.c),
-        c_tilde: list(M::COEFFICIENTS.c_tilde),
-    }
-}
-
-fn tableau<M: Method>(_method: M) -> RunTimeTableau {
-    RunTimeTableau::new(M::NAME, &coefficients::<M>(), M::ORDERS).expect(M::NAME)
 }
 
 fn kepler() -> impl System<Vector2<f64>, Class = Separable> + Copy {
@@ -185,7 +167,7 @@ fn a_step_back_comes_to_where_it_began() -> Result<(), Error> {
 #[test]
 fn coefficients_that_are_wrong_are_refused_with_the_row() {
     let refused = |change: fn(&mut RunTimeCoefficients)| {
-        let mut coefficients = coefficients::<Gauss2>();
+        let mut coefficients = coefficients(Gauss2);
         change(&mut coefficients);
         RunTimeTableau::new("wrong", &coefficients, Gauss2::ORDERS).expect_err("it is wrong")
     };
