@@ -81,7 +81,7 @@ extern crate self as symplectic;
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
-#[cfg(any(feature = "npz", feature = "parallel", feature = "parquet"))]
+#[cfg(feature = "std")]
 extern crate std;
 
 mod error;

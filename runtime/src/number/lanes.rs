@@ -3,6 +3,7 @@
 use core::fmt::Debug;
 
 use crate::number::array::array;
+use crate::number::registers;
 use crate::number::scalar::elementary;
 use crate::number::words::{Visit, words};
 use crate::number::{Scalar, larger_or_nan};
@@ -123,19 +124,22 @@ impl Broadcast for wide::f64x2 {
     }
 }
 
-impl Broadcast for wide::f64x4 {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn broadcast(self, lane: usize) -> Self {
-        Self::splat(self.to_array()[lane])
-    }
+macro_rules! broadcast {
+    ($($name:ty)*) => {
+        $(
+            impl Broadcast for $name {
+                #[cfg_attr(not(debug_assertions), inline(always))]
+                fn broadcast(self, lane: usize) -> Self {
+                    Self::splat(self.to_array()[lane])
+                }
+            }
+        )*
+    };
 }
 
-impl Broadcast for wide::f64x8 {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn broadcast(self, lane: usize) -> Self {
-        Self::splat(self.to_array()[lane])
-    }
-}
+broadcast! { wide::f64x4 wide::f64x8 }
+#[cfg(target_arch = "x86_64")]
+broadcast! { registers::f64x4 registers::f64x8 }
 
 /// The largest of several numbers, any of them if one is NaN: by halves, because narrower registers are enough for these.
 trait Largest {
@@ -440,10 +444,23 @@ lanes!(
     8,
     "Eight doubles side by side: [`Lanes`]."
 );
+lanes!(
+    WideF64x4,
+    registers::f64x4,
+    4,
+    "As [`F64x4`], in the registers that the processor has."
+);
+lanes!(
+    WideF64x8,
+    registers::f64x8,
+    8,
+    "As [`F64x8`], in the registers that the processor has."
+);
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::registers::{WideRegisters, Work};
 
     /// Checks all pairs of numbers, one per lane, starting from each pair.
     fn check<L: Lanes>(by_bits: fn(L, L) -> L, by_sums: fn(L, L) -> L) {
@@ -507,6 +524,22 @@ mod tests {
         compare::<F64x4>();
         compare::<F64x8>();
         compare::<crate::number::F64x16>();
+        if let Some(registers) = WideRegisters::detect() {
+            registers.run(Comparisons);
+        }
+    }
+
+    struct Comparisons;
+
+    impl Work for Comparisons {
+        type Output = ();
+
+        fn run(self) {
+            compare::<WideF64x4>();
+            compare::<WideF64x8>();
+            check(WideF64x4::larger_by_bits, WideF64x4::larger_by_sums);
+            check(WideF64x8::larger_by_bits, WideF64x8::larger_by_sums);
+        }
     }
 
     #[test]

@@ -255,32 +255,53 @@ pub(crate) fn value<R: Summation, T: Scalar, const N: usize>(
     base + sum_of_products(R::COMPENSATED.then_some(low), N, |j| (factors[j], term(j)))
 }
 
+/// The products of a sum, by their numbers from 0. A closure is enough, except for lanes: a closure with operations of lanes may not be
+/// inlined.
+pub(crate) trait Products<T> {
+    fn product(&self, number: usize) -> (T, T);
+}
+
+impl<T, F: Fn(usize) -> (T, T)> Products<T> for F {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn product(&self, number: usize) -> (T, T) {
+        self(number)
+    }
+}
+
 /// The sum of `count` products, at least one, and of an optional start. Products with even and with odd indices are summed separately, so
 /// that additions need not wait for one another.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn sum_of_products<T: Scalar>(
     start: Option<T>,
     count: usize,
-    factors: impl Fn(usize) -> (T, T),
+    product: impl Fn(usize) -> (T, T),
 ) -> T {
-    let add = |sum: Option<T>, j: usize| {
-        let (x, y) = factors(j);
-        match sum {
-            Some(sum) => x.fused(y, sum),
-            // Does not start from zero: the compiler has to keep the addition 0 + x.
-            None => x * y,
-        }
-    };
-    let mut even = add(start, 0);
+    sum_of(start, count, product)
+}
+
+/// [`sum_of_products`] of any kind.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn sum_of<T: Scalar>(start: Option<T>, count: usize, products: impl Products<T>) -> T {
+    let mut even = plus_product(start, products.product(0));
     if count == 1 {
         return even;
     }
-    let mut odd = add(None, 1);
+    let mut odd = plus_product(None, products.product(1));
     for j in 2..count {
         let sum = if j % 2 == 0 { &mut even } else { &mut odd };
-        *sum = add(Some(*sum), j);
+        *sum = plus_product(Some(*sum), products.product(j));
     }
     even + odd
+}
+
+/// `sum + x y`
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn plus_product<T: Scalar>(sum: Option<T>, (x, y): (T, T)) -> T {
+    match sum {
+        Some(sum) => x.fused(y, sum),
+        // Does not start from zero: the compiler has to keep the addition 0 + x.
+        None => x * y,
+    }
 }
 
 /// The first `n` components of a result: `base + low + Σ_j term(i, j)` over `count` terms, rounded to `out`, with the round-off in

@@ -11,6 +11,7 @@ pub(crate) mod lanes;
 pub(crate) mod linear_combination;
 #[cfg(feature = "alloc")]
 pub(crate) mod rank;
+pub(crate) mod registers;
 pub(crate) mod rows;
 pub(crate) mod scalar;
 mod sixteen;
@@ -20,6 +21,7 @@ pub(crate) mod words;
 
 pub use coefficient::{Coefficient, Coefficients, exact, rounded};
 pub use lanes::{F64x2, F64x4, F64x8, Lanes, MOST_LANES};
+pub(crate) use lanes::{WideF64x4, WideF64x8};
 pub use linear_combination::{
     advance, combine, copy, copy_to, factors, increment, reset, scale, scale_all, total, transform,
     weighted_total, weights,

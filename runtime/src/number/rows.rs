@@ -1,6 +1,6 @@
 //! Long vectors by rows: the lanes run along the components.
 
-use crate::number::{F64x8, Lanes, Scalar};
+use crate::number::{F64x8, Lanes, Scalar, WideF64x8};
 
 /// Several components side by side.
 pub(crate) trait Row<T: Scalar> {
@@ -82,54 +82,65 @@ impl<T: Scalar> Row<T> for Single {
     }
 }
 
+macro_rules! eight_doubles {
+    ($name:ident $numbers:ident) => {
+        impl Row<f64> for $name {
+            type Array = [f64; 8];
+            type Numbers = $numbers;
+
+            const WIDTH: usize = 8;
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn rows(vector: &[f64]) -> &[[f64; 8]] {
+                vector.as_chunks().0
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn rows_mut(vector: &mut [f64]) -> &mut [[f64; 8]] {
+                vector.as_chunks_mut().0
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn load(row: &[f64; 8]) -> $numbers {
+                $numbers::from_array(*row)
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn store(numbers: $numbers) -> [f64; 8] {
+                numbers.to_array()
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn splat(number: f64) -> $numbers {
+                $numbers::from_f64(number)
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn last(numbers: $numbers) -> f64 {
+                numbers.to_array()[7]
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn right(numbers: $numbers, next: $numbers) -> $numbers {
+                let (numbers, [after, ..]) = (numbers.to_array(), next.to_array());
+                $numbers::from_fn(|lane| if lane < 7 { numbers[lane + 1] } else { after })
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn left(previous: $numbers, numbers: $numbers) -> $numbers {
+                let ([.., before], numbers) = (previous.to_array(), numbers.to_array());
+                $numbers::from_fn(|lane| if lane > 0 { numbers[lane - 1] } else { before })
+            }
+        }
+    };
+}
+
 /// Rows of eight doubles.
 pub(crate) struct Eight;
 
-impl Row<f64> for Eight {
-    type Array = [f64; 8];
-    type Numbers = F64x8;
+eight_doubles! { Eight F64x8 }
 
-    const WIDTH: usize = 8;
+/// Rows of eight doubles in the registers that the processor has.
+pub(crate) struct WideEight;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn rows(vector: &[f64]) -> &[[f64; 8]] {
-        vector.as_chunks().0
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn rows_mut(vector: &mut [f64]) -> &mut [[f64; 8]] {
-        vector.as_chunks_mut().0
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn load(row: &[f64; 8]) -> F64x8 {
-        F64x8::from_array(*row)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn store(numbers: F64x8) -> [f64; 8] {
-        numbers.to_array()
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn splat(number: f64) -> F64x8 {
-        F64x8::from_f64(number)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn last(numbers: F64x8) -> f64 {
-        numbers.to_array()[7]
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn right(numbers: F64x8, next: F64x8) -> F64x8 {
-        let (numbers, [after, ..]) = (numbers.to_array(), next.to_array());
-        F64x8::from_fn(|lane| if lane < 7 { numbers[lane + 1] } else { after })
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn left(previous: F64x8, numbers: F64x8) -> F64x8 {
-        let ([.., before], numbers) = (previous.to_array(), numbers.to_array());
-        F64x8::from_fn(|lane| if lane > 0 { numbers[lane - 1] } else { before })
-    }
-}
+eight_doubles! { WideEight WideF64x8 }

@@ -1,6 +1,7 @@
 //! The default solver, for systems that are generic over the scalar.
 
 use core::fmt;
+use core::marker::PhantomData;
 
 use crate::error::Quantity;
 use crate::method::{
@@ -9,8 +10,8 @@ use crate::method::{
 };
 #[cfg(feature = "alloc")]
 use crate::method::{LaneStep, RunTimeStages, StageVisit};
-#[cfg(feature = "alloc")]
 use crate::number::Lanes;
+use crate::number::registers::{self, WideRegisters, Work};
 use crate::number::vector::{same, same_mut};
 use crate::number::{Scalar, Summation, Vector, Visit};
 use crate::solver::FixedPoint;
@@ -21,7 +22,8 @@ use crate::solver::nystrom::{self, NystromStages, nystrom};
 #[cfg(feature = "alloc")]
 use crate::solver::run_time::by_rows;
 use crate::solver::simd::sweeps;
-use crate::system::{Class, OverEveryScalar, System};
+use crate::solver::simd::wide::Wide;
+use crate::system::{Class, OverEveryScalar, System, SystemInLanes};
 
 /// The fastest fixed-point iteration for a method, a system and its scalar. It is the default of an
 /// [`Integrator`](crate::Integrator).
@@ -41,6 +43,8 @@ pub struct Automatic;
 pub enum AutomaticStages<V: Vector, S: OverEveryScalar<V>, P: StageTableau> {
     /// Stages of doubles, in lanes.
     InLanes(NystromStages<S::Doubles, P>),
+    /// The same in the registers that the processor has.
+    InWideLanes(WideRegisters, NystromStages<S::Doubles, Wide<P>>),
     /// Stages of other scalars, one by one.
     OneByOne(P::Stages<V>),
 }
@@ -49,6 +53,7 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> Clone for AutomaticStage
     fn clone(&self) -> Self {
         match self {
             Self::InLanes(stages) => Self::InLanes(stages.clone()),
+            Self::InWideLanes(registers, stages) => Self::InWideLanes(*registers, stages.clone()),
             Self::OneByOne(stages) => Self::OneByOne(stages.clone()),
         }
     }
@@ -58,6 +63,11 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> fmt::Debug for Automatic
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str("AutomaticStages")
     }
+}
+
+/// Whether lanes may be in the registers that the processor has.
+const fn may_be_wide<V: Vector, S: System<V>, P: StageTableau>() -> bool {
+    registers::UNKNOWN && S::INLINED && P::Lanes::WIDTH > 2
 }
 
 /// Message of a failure that is possible only if a scalar claims to be `f64` but is not.
@@ -70,6 +80,11 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> StageStorage<V>
         // A constant condition: doubles compile without the other branch, and other scalars without code for lanes.
         if V::Scalar::IS_DOUBLE {
             let prototype = same::<V, S::Doubles>(prototype).expect(NO_DOUBLES);
+            if may_be_wide::<V, S, P>()
+                && let Some(registers) = WideRegisters::detect()
+            {
+                return Self::InWideLanes(registers, NystromStages::like(prototype));
+            }
             Self::InLanes(NystromStages::like(prototype))
         } else {
             Self::OneByOne(StageStorage::like(prototype))
@@ -79,20 +94,24 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> StageStorage<V>
     fn words(&mut self, visit: &mut Visit<'_>) {
         match self {
             Self::InLanes(stages) => stages.words(visit),
+            Self::InWideLanes(_, stages) => stages.words(visit),
             Self::OneByOne(stages) => stages.words(visit),
         }
     }
 
     #[cfg(feature = "alloc")]
     fn stages(&mut self, visit: &mut StageVisit<'_>) {
-        if let Self::InLanes(stages) = self {
-            stages.stages(visit);
+        match self {
+            Self::InLanes(stages) => stages.stages(visit),
+            Self::InWideLanes(_, stages) => stages.stages(visit),
+            Self::OneByOne(_) => {}
         }
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         match self {
             Self::InLanes(stages) => stages.non_finite(),
+            Self::InWideLanes(_, stages) => stages.non_finite(),
             Self::OneByOne(stages) => stages.non_finite(),
         }
     }
@@ -100,6 +119,7 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> StageStorage<V>
     fn non_finite_force(&self) -> Option<usize> {
         match self {
             Self::InLanes(stages) => stages.non_finite_force(),
+            Self::InWideLanes(_, stages) => stages.non_finite_force(),
             Self::OneByOne(stages) => stages.non_finite_force(),
         }
     }
@@ -108,7 +128,51 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> StageStorage<V>
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
         match self {
             Self::InLanes(stages) => stages.mismatch(dimension),
+            Self::InWideLanes(_, stages) => stages.mismatch(dimension),
             Self::OneByOne(stages) => stages.mismatch(dimension),
+        }
+    }
+}
+
+/// A step with coupled stages in lanes.
+struct InLanes<'a, V: Vector, S, P: StageTableau, R> {
+    step: &'a Step<'a, V>,
+    system: &'a S,
+    stages: &'a mut NystromStages<V, P>,
+    kept: WarmStart,
+    stopping: Stopping,
+    outcome: Outcome<'a, V>,
+    sums: PhantomData<R>,
+}
+
+impl<V, S, P, R> Work for InLanes<'_, V, S, P, R>
+where
+    V: Vector<Scalar = f64>,
+    S: SystemInLanes<V>,
+    P: StageTableau,
+    R: Summation,
+{
+    type Output = Result<StepStatistics, Failure>;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) -> Self::Output {
+        let Self {
+            step,
+            system,
+            stages,
+            kept,
+            stopping,
+            outcome,
+            ..
+        } = self;
+        if !P::Class::SEPARABLE {
+            let stages = &mut stages.lanes;
+            sweeps::take::<P, R, _, _, true>(step, system, stages, kept, stopping, outcome)
+        } else if step.linear_velocity {
+            nystrom::<P, R, _, _>(step, system, stages, kept, stopping, outcome)
+        } else {
+            let stages = &mut stages.lanes;
+            sweeps::take::<P, R, _, _, false>(step, system, stages, kept, stopping, outcome)
         }
     }
 }
@@ -139,19 +203,32 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
             };
             return by_stages::<P, R, V, S>(step, system, stages, kept, stopping, outcome);
         }
-        let AutomaticStages::InLanes(stages) = memory else {
-            unreachable!("{NO_DOUBLES}");
-        };
         let step: &Step<'_, S::Doubles> = &step.same().expect(NO_DOUBLES);
         let outcome: Outcome<'_, S::Doubles> = outcome.same().expect(NO_DOUBLES);
-        if !P::Class::SEPARABLE {
-            let stages = &mut stages.lanes;
-            sweeps::take::<P, R, _, _, true>(step, system, stages, kept, stopping, outcome)
-        } else if step.linear_velocity {
-            nystrom::<P, R, _, _>(step, system, stages, kept, stopping, outcome)
-        } else {
-            let stages = &mut stages.lanes;
-            sweeps::take::<P, R, _, _, false>(step, system, stages, kept, stopping, outcome)
+        match memory {
+            AutomaticStages::InLanes(stages) => InLanes::<_, _, P, R> {
+                step,
+                system,
+                stages,
+                kept,
+                stopping,
+                outcome,
+                sums: PhantomData,
+            }
+            .run(),
+            // A constant condition: other systems compile without this code.
+            AutomaticStages::InWideLanes(registers, stages) if may_be_wide::<V, S, P>() => {
+                registers.run(InLanes::<_, _, Wide<P>, R> {
+                    step,
+                    system,
+                    stages,
+                    kept,
+                    stopping,
+                    outcome,
+                    sums: PhantomData,
+                })
+            }
+            _ => unreachable!("{NO_DOUBLES}"),
         }
     }
 
@@ -210,6 +287,14 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
                     same_mut(p).expect(NO_DOUBLES),
                 );
                 nystrom::extend::<P, S::Doubles, S>(stages, at, q, p);
+            }
+            AutomaticStages::InWideLanes(_, stages) => {
+                let at = at.same::<S::Doubles>().expect(NO_DOUBLES);
+                let (q, p) = (
+                    same_mut(q).expect(NO_DOUBLES),
+                    same_mut(p).expect(NO_DOUBLES),
+                );
+                nystrom::extend::<Wide<P>, S::Doubles, S>(stages, at, q, p);
             }
             AutomaticStages::OneByOne(stages) => {
                 <FixedPoint as Solver<V, S>>::extend::<P>(stages, at, q, p);

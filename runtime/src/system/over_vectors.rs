@@ -4,7 +4,7 @@ use num_traits::Zero;
 
 use crate::error::{ConstraintName, Error};
 use crate::method::Solver;
-use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector};
+use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector, WideF64x4, WideF64x8};
 use crate::solver::Automatic;
 use crate::system::{Class, Hamiltonian, LaneWork, Masses, first};
 #[cfg(feature = "alloc")]
@@ -55,6 +55,9 @@ pub trait System<V: Vector>: Sized {
 
     /// What is known of the masses: see [`SeparableHamiltonian::MASSES`](crate::SeparableHamiltonian::MASSES).
     const MASSES: Masses = Masses::Any;
+
+    /// Whether everything is inlined: see [`Hamiltonian::INLINED`].
+    const INLINED: bool = false;
 
     /// Whether the second half of the positions is a displacement of the first, as in [`Tangent`](crate::tangent::Tangent). Monitors of
     /// step sizes ignore the second half.
@@ -290,6 +293,8 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
 
     const JOINS: bool = H::JOINS;
 
+    const INLINED: bool = H::INLINED;
+
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn over_lanes<L: Lanes, W: LaneWork<V, Self, L>>(work: W) -> Option<W::Output>
     where
@@ -308,12 +313,22 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
     label = "this needs a system that is written for every `Scalar`: `SeparableHamiltonian` or `Hamiltonian`"
 )]
 pub trait SystemInLanes<V: Vector>:
-    System<V> + System<V::With<F64x2>> + System<V::With<F64x4>> + System<V::With<F64x8>>
+    System<V>
+    + System<V::With<F64x2>>
+    + System<V::With<F64x4>>
+    + System<V::With<F64x8>>
+    + System<V::With<WideF64x4>>
+    + System<V::With<WideF64x8>>
 {
 }
 
 impl<V: Vector, S> SystemInLanes<V> for S where
-    S: System<V> + System<V::With<F64x2>> + System<V::With<F64x4>> + System<V::With<F64x8>>
+    S: System<V>
+        + System<V::With<F64x2>>
+        + System<V::With<F64x4>>
+        + System<V::With<F64x8>>
+        + System<V::With<WideF64x4>>
+        + System<V::With<WideF64x8>>
 {
 }
 

@@ -32,6 +32,22 @@ impl Bonds for Driven {
     }
 }
 
+/// The same in registers that the program detects.
+#[derive(Clone, Copy)]
+struct Inlined;
+
+impl Bonds for Inlined {
+    const INLINED: bool = true;
+
+    fn tension<T: Scalar>(&self, time: T, stretch: T) -> T {
+        Driven.tension(time, stretch)
+    }
+
+    fn outer_force<T: Scalar>(&self, time: T, position: T) -> Option<T> {
+        Driven.outer_force(time, position)
+    }
+}
+
 /// Harmonic bonds, and nothing else; no energy is known.
 #[derive(Clone, Copy)]
 struct Springs;
@@ -100,14 +116,15 @@ fn ends_are_what_they_are_called() {
 #[test]
 fn rows_have_the_bits_of_single_particles() {
     for n in (1..40).chain([64, 127, 200]) {
-        for chain in chains(Driven) {
+        for (chain, wide) in chains(Driven).iter().zip(chains(Inlined)) {
             let q = waves(n, 0.4);
             let side_by_side = q.map(|q| F64x4::from_fn(|lane| q + 0.01 * lane as f64));
-            let expected = force(&chain, 0.7, &side_by_side);
+            let expected = force(chain, 0.7, &side_by_side);
             for lane in 0..4 {
                 let q = side_by_side.map(|q| q.to_array()[lane]);
-                let force = force(&chain, 0.7, &q);
-                assert_eq!(force, expected.map(|force| force.to_array()[lane]), "{n}");
+                let expected = expected.map(|force| force.to_array()[lane]);
+                assert_eq!(force(chain, 0.7, &q), expected, "{n}");
+                assert_eq!(force(&wide, 0.7, &q), expected, "{n}");
             }
         }
     }

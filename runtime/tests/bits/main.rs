@@ -9,4 +9,5 @@ mod elementary;
 mod lanes;
 mod not_a_number;
 mod plain_steps;
+mod registers;
 mod slopes;

@@ -26,6 +26,8 @@ impl Hamiltonian for DoublePendulum {
     type Class = General;
     type Vector<T: Scalar> = SVector<T, 2>;
 
+    const INLINED: bool = true;
+
     #[inline(always)]
     fn velocity<T: Scalar>(
         &self,

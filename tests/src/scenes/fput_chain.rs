@@ -32,6 +32,8 @@ pub const fn system() -> FputChain {
 pub struct Beta;
 
 impl Bonds for Beta {
+    const INLINED: bool = true;
+
     #[inline(always)]
     fn tension<T: Scalar>(&self, _time: T, d: T) -> T {
         (d * d).fused(d, d)

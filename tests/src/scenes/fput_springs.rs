@@ -40,6 +40,7 @@ impl SeparableHamiltonian for FputSprings {
     type Vector<T: Scalar> = SVector<T, COORDINATES>;
 
     const MASSES: Masses = Masses::Unit;
+    const INLINED: bool = true;
 
     #[inline(always)]
     fn velocity<T: Scalar>(

@@ -22,6 +22,7 @@ impl SeparableHamiltonian for HenonHeiles {
     type Vector<T: Scalar> = SVector<T, 2>;
 
     const MASSES: Masses = Masses::Unit;
+    const INLINED: bool = true;
 
     #[inline(always)]
     fn velocity<T: Scalar>(&self, _time: T, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {

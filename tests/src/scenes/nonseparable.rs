@@ -21,6 +21,8 @@ impl Hamiltonian for Nonseparable {
     type Class = General;
     type Vector<T: Scalar> = SVector<T, 1>;
 
+    const INLINED: bool = true;
+
     #[inline(always)]
     fn velocity<T: Scalar>(
         &self,

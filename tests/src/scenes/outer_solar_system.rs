@@ -88,6 +88,8 @@ pub struct OuterSolarSystem;
 impl SeparableHamiltonian for OuterSolarSystem {
     type Vector<T: Scalar> = SVector<T, COORDINATES>;
 
+    const INLINED: bool = true;
+
     #[inline(always)]
     fn velocity<T: Scalar>(
         &self,

@@ -38,6 +38,8 @@ pub const fn system() -> Chain<Pendulums> {
 pub struct Pendulums;
 
 impl Bonds for Pendulums {
+    const INLINED: bool = true;
+
     #[inline(always)]
     fn tension<T: Scalar>(&self, _time: T, stretch: T) -> T {
         T::from_f64(STIFFNESS) * stretch

@@ -93,9 +93,12 @@ impl Emitter<'_> {
                 }
             }
         });
+        let inlined = self.inlined();
         quote! {
             #[allow(unused_variables, non_snake_case, clippy::all)]
             impl #generics ::symplectic::emitted::Bonds for #name #arguments {
+                #inlined
+
                 #[inline(always)]
                 fn tension<#scalar: #bound>(&self, time: #scalar, stretch: #scalar) -> #scalar {
                     #tension

@@ -384,6 +384,16 @@ impl<'a> Emitter<'a> {
         quote!(#values ::core::option::Option::Some(result_1))
     }
 
+    /// That all of velocities and forces is inlined. The user's own functions may not be.
+    fn inlined(&self) -> TokenStream {
+        match self.system.functions.is_empty() {
+            true => quote!(
+                const INLINED: bool = true;
+            ),
+            false => TokenStream::new(),
+        }
+    }
+
     fn separable(&mut self, split: Split) -> TokenStream {
         let name = self.header.name.clone();
         let [generics, _, arguments] = self.generics();
@@ -412,12 +422,15 @@ impl<'a> Emitter<'a> {
         let Lanes { system, join } = self.separable_in_lanes(&unit, &velocities, &forces);
         let energy = self.energy(self.system.energy);
         let jacobian = self.jacobian(Some(split));
+        let inlined = self.inlined();
         quote! {
             #[allow(unused_variables, non_snake_case, clippy::all)]
             impl #generics ::symplectic::SeparableHamiltonian for #name #arguments {
                 type Vector<#scalar: #bound> = #over;
 
                 #unit
+
+                #inlined
 
                 #join
 
@@ -524,6 +537,7 @@ impl<'a> Emitter<'a> {
             }
         });
         let beside_energy = self.beside_energy();
+        let inlined = self.inlined();
         quote! {
             #[allow(unused_variables, non_snake_case, clippy::all)]
             impl #generics ::symplectic::Hamiltonian for #name #arguments {
@@ -531,6 +545,8 @@ impl<'a> Emitter<'a> {
                 type Vector<#scalar: #bound> = #over;
 
                 #masses
+
+                #inlined
 
                 #join
 

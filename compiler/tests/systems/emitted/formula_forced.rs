@@ -45,6 +45,7 @@ const _: () = {
         type Class = ::symplectic::General;
         type Vector<T: Scalar> = ::symplectic::nalgebra::SVector<T, 2>;
         const MASSES: ::symplectic::Masses = ::symplectic::Masses::Unit;
+        const INLINED: bool = true;
         #[inline(always)]
         fn velocity<T: Scalar>(
             &self,

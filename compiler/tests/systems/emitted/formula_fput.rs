@@ -44,6 +44,7 @@ const _: () = {
     use ::symplectic::emitted::{One as _, Scalar, Zero as _};
     #[allow(unused_variables, non_snake_case, clippy::all)]
     impl ::symplectic::emitted::Bonds for Fput {
+        const INLINED: bool = true;
         #[inline(always)]
         fn tension<T: Scalar>(&self, time: T, stretch: T) -> T {
             let value = stretch

@@ -50,6 +50,7 @@ const _: () = {
     #[allow(unused_variables, non_snake_case, clippy::all)]
     impl<const N: usize> ::symplectic::SeparableHamiltonian for Planets<N> {
         type Vector<T: Scalar> = ::symplectic::nalgebra::SMatrix<T, 3, N>;
+        const INLINED: bool = true;
         const JOINS: bool = true;
         #[inline(always)]
         fn in_lanes_of_separable<LaneVector, LaneScalar, LaneWork>(

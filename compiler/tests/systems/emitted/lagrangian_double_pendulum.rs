@@ -49,6 +49,7 @@ const _: () = {
     impl ::symplectic::Hamiltonian for DoublePendulum {
         type Class = ::symplectic::General;
         type Vector<T: Scalar> = ::symplectic::nalgebra::SVector<T, 2>;
+        const INLINED: bool = true;
         const JOINS: bool = true;
         #[inline(always)]
         fn in_lanes<LaneVector, LaneScalar, LaneWork>(work: LaneWork) -> LaneWork::Output

@@ -10,9 +10,9 @@
 //!
 //! The difference: all three parts of π/2 are always subtracted, so that there is no branch on `y`.
 
+use super::doubles::Branches;
 use super::{Doubles, TO_INTEGER, polynomial};
 use crate::number::Scalar;
-use crate::number::array::array;
 
 /// 2/π.
 const QUARTERS: f64 = core::f64::consts::FRAC_2_PI;
@@ -66,14 +66,18 @@ pub(crate) fn sin_cos_all<D: Doubles, const N: usize>(angles: [D; N]) -> [(D, D)
     for x in &angles {
         sum += x.abs();
     }
-    let none = (D::zero(), D::zero());
+    let mut all = [(D::zero(), D::zero()); N];
     if !sum.all_below(NEAR) {
-        return array(none, |k| sin_cos(angles[k]));
+        for (result, x) in all.iter_mut().zip(angles) {
+            *result = sin_cos(x);
+        }
+        return all;
     }
-    array(none, |k| {
-        let angle = Angle::new(angles[k]);
-        (angle.sine(), angle.cosine())
-    })
+    for (result, x) in all.iter_mut().zip(angles) {
+        let angle = Angle::new(x);
+        *result = (angle.sine(), angle.cosine());
+    }
+    all
 }
 
 /// Sine.
@@ -141,22 +145,13 @@ impl<D: Doubles> Angle<D> {
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn sine(self) -> D {
-        D::choose(
-            self.quarters.to_bits(),
-            || self.cosine_of_rest(),
-            || self.sine_of_rest(),
-        )
-        .with_sign_of_bit(1, self.quarters)
+        D::choose(self.quarters.to_bits(), Sine(self)).with_sign_of_bit(1, self.quarters)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn cosine(self) -> D {
-        D::choose(
-            self.quarters.to_bits(),
-            || self.sine_of_rest(),
-            || self.cosine_of_rest(),
-        )
-        .with_sign_of_bit(1, self.quarters + D::one())
+        D::choose(self.quarters.to_bits(), Cosine(self))
+            .with_sign_of_bit(1, self.quarters + D::one())
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -173,6 +168,38 @@ impl<D: Doubles> Angle<D> {
         let near = near(square);
         let rounded = (D::one() - near) - square * D::from_f64(0.5);
         near + (square * square).fused(polynomial(square, COSINE), y.fused(less, rounded))
+    }
+}
+
+/// The sine, up to its sign.
+#[derive(Clone, Copy)]
+struct Sine<D>(Angle<D>);
+
+impl<D: Doubles> Branches<D> for Sine<D> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn odd(self) -> D {
+        self.0.cosine_of_rest()
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn even(self) -> D {
+        self.0.sine_of_rest()
+    }
+}
+
+/// The cosine, up to its sign.
+#[derive(Clone, Copy)]
+struct Cosine<D>(Angle<D>);
+
+impl<D: Doubles> Branches<D> for Cosine<D> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn odd(self) -> D {
+        self.0.sine_of_rest()
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn even(self) -> D {
+        self.0.cosine_of_rest()
     }
 }
 

@@ -5,10 +5,17 @@ use core::ops::{BitAnd, BitOr, BitXor, Shl, Shr};
 
 use bytemuck::cast;
 
-use crate::number::{F64x2, F64x4, F64x8, Lanes, Scalar};
+use crate::number::registers;
+use crate::number::{F64x2, F64x4, F64x8, Lanes, Scalar, WideF64x4, WideF64x8};
 
 /// The sign of a double.
 const SIGN: u64 = 1 << 63;
+
+/// Two expressions for a function, for [`Doubles::choose`].
+pub(crate) trait Branches<D>: Copy {
+    fn odd(self) -> D;
+    fn even(self) -> D;
+}
 
 /// One double, or several side by side.
 pub(crate) trait Doubles: Scalar {
@@ -35,8 +42,8 @@ pub(crate) trait Doubles: Scalar {
     /// Whether all doubles are below `bound`; false for NaN.
     fn all_below(self, bound: f64) -> bool;
 
-    /// `odd` where the last bit is one, `even` elsewhere. A branch that is not chosen may not be computed.
-    fn choose(bits: Self::Bits, odd: impl FnOnce() -> Self, even: impl FnOnce() -> Self) -> Self;
+    /// The odd branch where the last bit is one, the even branch elsewhere. A branch that is not chosen may not be computed.
+    fn choose<B: Branches<Self>>(bits: Self::Bits, branches: B) -> Self;
 
     /// Applies `function` to one double after the other, in a function that is not inlined.
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -85,8 +92,12 @@ impl Doubles for f64 {
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn choose(bits: u64, odd: impl FnOnce() -> Self, even: impl FnOnce() -> Self) -> Self {
-        if bits & 1 == 1 { odd() } else { even() }
+    fn choose<B: Branches<Self>>(bits: u64, branches: B) -> Self {
+        if bits & 1 == 1 {
+            branches.odd()
+        } else {
+            branches.even()
+        }
     }
 
     #[cold]
@@ -97,10 +108,10 @@ impl Doubles for f64 {
 }
 
 macro_rules! doubles {
-    ($($name:ident $bits:ident),*) => {
+    ($($name:ident $bits:ty),*) => {
         $(
             impl Doubles for $name {
-                type Bits = wide::$bits;
+                type Bits = $bits;
 
                 #[cfg_attr(not(debug_assertions), inline(always))]
                 fn to_bits(self) -> Self::Bits {
@@ -114,7 +125,7 @@ macro_rules! doubles {
 
                 #[cfg_attr(not(debug_assertions), inline(always))]
                 fn bits(bits: u64) -> Self::Bits {
-                    wide::$bits::splat(bits)
+                    <$bits>::splat(bits)
                 }
 
                 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -128,9 +139,9 @@ macro_rules! doubles {
                 }
 
                 #[cfg_attr(not(debug_assertions), inline(always))]
-                fn choose(bits: Self::Bits, odd: impl FnOnce() -> Self, even: impl FnOnce() -> Self) -> Self {
-                    let one = wide::$bits::splat(1);
-                    Self((bits & one).simd_eq(one).select(odd().0, even().0))
+                fn choose<B: Branches<Self>>(bits: Self::Bits, branches: B) -> Self {
+                    let one = <$bits>::splat(1);
+                    Self((bits & one).simd_eq(one).select(branches.odd().0, branches.even().0))
                 }
 
                 #[cold]
@@ -144,4 +155,10 @@ macro_rules! doubles {
     };
 }
 
-doubles! { F64x2 u64x2, F64x4 u64x4, F64x8 u64x8 }
+doubles! {
+    F64x2 wide::u64x2,
+    F64x4 wide::u64x4,
+    F64x8 wide::u64x8,
+    WideF64x4 registers::u64x4,
+    WideF64x8 registers::u64x8
+}

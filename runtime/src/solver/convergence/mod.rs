@@ -137,10 +137,6 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
     let mut sizes = Sizes::new(if kept.stages { kept.scales } else { [0.0; 2] });
     // Early sweeps that change more than this are not examined.
     let mut near = sizes.rounding::<T>(tolerance);
-    let is_far = |this: &W::Movement, near: [f64; 2]| {
-        let [q, p] = this.exceeds(near);
-        if both { q | p } else { q & p }
-    };
     // The relative change; in a separable system, of the positions.
     let relative = |[q, p]: [f64; 2]| if both { larger(q, p) } else { q };
     // What shrinks from sweep to sweep: the relative change; for positions alone no size is needed.
@@ -176,7 +172,7 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
                 continue;
             }
         }
-        if iteration < late && is_far(&this, near) {
+        if iteration < late && is_far(this, near, both) {
             continue;
         }
         let differences @ [q, p] = this.differences();
@@ -188,7 +184,8 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
                     !q.is_finite(),
                 ),
                 _ => {
-                    let last = previous.map(|last| relative(sizes.change(last.differences())));
+                    let last = differences_of(previous);
+                    let last = last.map(|last| relative(sizes.change(last)));
                     Failure::NoConvergence {
                         residual: last.filter(|size| !size.is_nan()).unwrap_or(f64::INFINITY),
                         iterations: iteration,
@@ -202,7 +199,7 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
         }
         let (change, size) = (sizes.change(differences), size_of(differences, &sizes));
         if !waits {
-            let before = previous.map(|before| sizes.change(before.differences()));
+            let before = differences_of(previous).map(|before| sizes.change(before));
             if q <= tolerance && (!both || p <= tolerance)
                 || is_last::<T>(before.map(|before| before[0]), change[0])
                     && (!both || is_last::<T>(before.map(|before| before[1]), change[1]))
@@ -235,9 +232,10 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
         }
         // At the bound, one sweep without progress suffices.
         let has_stagnated = progress.idle > if at_bound { 0 } else { iteration / STAGNATION };
-        let first = || first.map_or(0.0, |first| size_of(first.differences(), &sizes));
-        let is_noise = || progress.is_noise(first()) && is_within(AMPLIFIED, change, false);
-        if has_stagnated && (is_rounding || is_noise()) {
+        let first_size =
+            |first: Option<[f64; 2]>| first.map_or(0.0, |first| size_of(first, &sizes));
+        let is_noise = |first: f64| progress.is_noise(first) && is_within(AMPLIFIED, change, false);
+        if has_stagnated && (is_rounding || is_noise(first_size(differences_of(first)))) {
             // At the bound, no further sweep is allowed.
             once_more = waits && !at_bound && dither_last_sweep(sweeps.time());
             if once_more {
@@ -246,13 +244,27 @@ fn attempt<C: Class, T: Scalar, W: Sweeps>(
             break Ok(());
         }
         if at_bound {
-            break Err(progress.failure(size, relative(change), first(), iteration));
+            let first = first_size(differences_of(first));
+            break Err(progress.failure(size, relative(change), first, iteration));
         }
     };
     work.iterations += iteration;
     work.evaluations += iteration * counts.sweep;
     work.scales = sizes.scales;
     solved
+}
+
+/// Whether a change is above these bounds: of one half, or of `both`.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn is_far<M: Movement>(change: M, near: [f64; 2], both: bool) -> bool {
+    let [q, p] = change.exceeds(near);
+    if both { q | p } else { q & p }
+}
+
+/// The differences of a change. No closure: operations of lanes in a closure may not be inlined.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn differences_of<M: Movement>(change: Option<M>) -> Option<[f64; 2]> {
+    Some(change?.differences())
 }
 
 /// The sizes of the stages.

@@ -21,7 +21,7 @@ use crate::solver::predictor::{StartingColumns, starting_columns, starts_at_once
 use crate::solver::simd::change::LaneMovement;
 use crate::solver::simd::stages::{Laned, SimdStages};
 use crate::solver::simd::sums::{
-    self, Sums, entry, extrapolate, scale_of, shortest, total, values,
+    self, StageValue, Sums, entry, extrapolate, scale_of, shortest, total, values,
 };
 use crate::solver::simd::sweeps::{ByLanes, take};
 use crate::system::{Class, System, SystemInLanes, SystemLanes};
@@ -142,26 +142,39 @@ fn plain_result<P, V, S>(
         .min(step.p.dimension())
         .min(start.dimension());
     let h = P::Lanes::from_f64(step.size);
-    let weights = P::groups(|group| lanes::<P::Lanes>(P::POSITIONS.weights, group) * h);
-    let weights = weights.as_ref();
-    let rest = P::groups(|group| lanes::<P::Lanes>(tableau::<P>().rest, group));
-    // `base + Σ_j factor_j term_j` in component k.
-    let total = |base: f64, terms: &[Laned<V, P>], factor: &[P::Lanes], k: usize| {
-        let terms = P::groups(|group| factor[group] * terms[group].as_slice()[k]);
-        let term = |stage: usize| lane_of(terms.as_ref()[stage / P::Lanes::WIDTH], stage);
-        add::<Plain, f64>(base, 0.0, P::POSITIONS.count, term).0
-    };
-    let factors = P::groups(|group| rest.as_ref()[group] * weights[group]);
+    let (mut weights, mut rests) = (P::groups(|_| h), P::groups(|_| h));
+    let (weights, rests) = (weights.as_mut(), rests.as_mut());
+    for group in 0..weights.len() {
+        weights[group] = lanes::<P::Lanes>(P::POSITIONS.weights, group) * h;
+        rests[group] = lanes::<P::Lanes>(tableau::<P>().rest, group) * weights[group];
+    }
     let (q, p) = (&mut q.as_mut_slice()[..n], &mut p.as_mut_slice()[..n]);
     let (q_base, p_base) = (&step.q.as_slice()[..n], &step.p.as_slice()[..n]);
     let start = &start.as_slice()[..n];
     for k in 0..n {
-        p[k] = total(p_base[k], forces, weights, k);
+        p[k] = weighted_sum::<P, V>(p_base[k], forces, weights, k);
     }
     for k in 0..n {
-        let mean = total(start[k], slopes, factors.as_ref(), k);
+        let mean = weighted_sum::<P, V>(start[k], slopes, rests, k);
         q[k] = step.size.fused(mean, q_base[k]);
     }
+}
+
+/// `base + Σ_j factor_j term_j` in component k.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn weighted_sum<P: StageTableau, V: Vector>(
+    base: f64,
+    terms: &[Laned<V, P>],
+    factors: &[P::Lanes],
+    k: usize,
+) -> f64 {
+    let mut products = P::groups(|group| factors[group]);
+    for (group, product) in products.as_mut().iter_mut().enumerate() {
+        *product *= terms[group].as_slice()[k];
+    }
+    let products = products.as_ref();
+    let term = |stage: usize| lane_of(products[stage / P::Lanes::WIDTH], stage);
+    add::<Plain, f64>(base, 0.0, P::POSITIONS.count, term).0
 }
 
 /// [`Solver::extend`] for the stages that [`nystrom`], or another solver in its place, has left.
@@ -270,6 +283,28 @@ pub(crate) fn position<R: Summation, L: Lanes>(
     factor.fused(sum, (h * node).fused(velocity, base))
 }
 
+/// [`position`] as a [`StageValue`].
+struct Position<'a, P, R> {
+    size: f64,
+    factor: f64,
+    velocity: &'a [f64],
+    method: PhantomData<(P, R)>,
+}
+
+impl<P: StageTableau, R: Summation> StageValue<P::Lanes> for Position<'_, P, R> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn of(
+        &self,
+        (group, k): (usize, usize),
+        base: (P::Lanes, P::Lanes),
+        sum: P::Lanes,
+    ) -> P::Lanes {
+        let velocity = P::Lanes::from_f64(self.velocity[k]);
+        let node = lanes(tableau::<P>().nodes, group);
+        position::<R, P::Lanes>(base, (self.size, node), velocity, (self.factor, sum))
+    }
+}
+
 /// Whether the momenta of the stages of this method are eliminated.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) const fn eliminates<P: StageTableau>() -> bool {
@@ -351,10 +386,11 @@ where
         };
         let (step, stages) = (self.lanes.step, &mut *self.lanes.stages);
         let start = self.start.as_slice();
-        let value = |(group, k): (usize, usize), base: (P::Lanes, P::Lanes), sum| {
-            let velocity = P::Lanes::from_f64(start[k]);
-            let node = lanes(tableau::<P>().nodes, group);
-            position::<R, P::Lanes>(base, (step.size, node), velocity, (before, sum))
+        let value = Position::<P, R> {
+            size: step.size,
+            factor: before,
+            velocity: start,
+            method: PhantomData,
         };
         let base = (step.q, step.q_low);
         let slopes = slopes::<V, S, _>(&stages.velocity, &stages.force);

@@ -14,7 +14,10 @@ pub(crate) struct LaneMovement<L> {
 /// The largest change so far and one more. `None` instead of zero at the start: otherwise the compiler would compare with zero.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn noted<L: Lanes>(largest: Option<L>, change: L) -> L {
-    largest.map_or(change, |largest| largest.larger_or_nan(change))
+    match largest {
+        Some(largest) => largest.larger_or_nan(change),
+        None => change,
+    }
 }
 
 /// The largest number of all lanes; NaN if one of them is NaN.

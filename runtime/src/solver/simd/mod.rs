@@ -4,6 +4,7 @@ pub(crate) mod change;
 pub(crate) mod stages;
 pub(crate) mod sums;
 pub(crate) mod sweeps;
+pub(crate) mod wide;
 
 use crate::method::{
     Failure, Inside, Outcome, Solver, StageTableau, Step, StepStatistics, Stopping, WarmStart,

@@ -6,7 +6,7 @@ use num_traits::Zero;
 
 use crate::method::{HalfTableau, Inside, Outcome, StageTableau, Step};
 use crate::number::lanes::{lane_of, lanes};
-use crate::number::linear_combination::{sum_of_products, totals_by};
+use crate::number::linear_combination::{Products, sum_of, totals_by};
 use crate::number::summation::moved;
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::solver::simd::change::noted;
@@ -101,15 +101,29 @@ pub(crate) fn sums<R: Summation, P: StageTableau>(
     }
 }
 
-/// Computes new stage values from evaluations; returns their change. `value` gets the indices of group and component, the base with
-/// its low part, and the sum.
+/// A stage value from the indices of group and component, the base with its low part, and the sum.
+pub(crate) trait StageValue<L> {
+    fn of(&self, place: (usize, usize), base: (L, L), sum: L) -> L;
+}
+
+/// `base + sum`, for a sum that includes the low part of the base.
+pub(crate) struct Sum;
+
+impl<L: Lanes> StageValue<L> for Sum {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn of(&self, _place: (usize, usize), (base, _low): (L, L), sum: L) -> L {
+        base + sum
+    }
+}
+
+/// Computes new stage values from evaluations; returns their change.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
     sums: &Sums<impl Fn(usize) -> &'static [f64], impl Fn(usize) -> Option<f64>>,
     out: &mut [Laned<V, P>],
     (base, low): (&V, &V),
     terms: &[Laned<V, P>],
-    value: impl Fn((usize, usize), (P::Lanes, P::Lanes), P::Lanes) -> P::Lanes,
+    value: impl StageValue<P::Lanes>,
 ) -> P::Lanes {
     let n = shortest(out)
         .min(shortest(terms))
@@ -133,7 +147,7 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
             let term =
                 |j: usize| terms.as_ref()[j / P::Lanes::WIDTH].broadcast(j % P::Lanes::WIDTH);
             let sum_of_terms = combination(sums, group, with, term);
-            let new = value((group, k), (start, low), sum_of_terms);
+            let new = value.of((group, k), (start, low), sum_of_terms);
             let new = moved(sums.beyond, out[k], new);
             let change = (new - out[k]).abs();
             out[k] = new;
@@ -141,16 +155,6 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
         }
     }
     largest.unwrap_or_else(P::Lanes::zero)
-}
-
-/// `base + sum`, for a sum that includes the low part of the base.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn sum<P: StageTableau>(
-    _place: (usize, usize),
-    (base, _low): (P::Lanes, P::Lanes),
-    sum: P::Lanes,
-) -> P::Lanes {
-    base + sum
 }
 
 /// `start + Σ_j factor_j columns_j terms_j` in one component, for the stages of one group; a factor is multiplied into the column.
@@ -161,14 +165,33 @@ fn combination<L: Lanes>(
     start: Option<L>,
     term: impl Fn(usize) -> L,
 ) -> L {
-    sum_of_products(start, sums.count, |j| {
-        let column: L = lanes((sums.column)(j), group);
-        let column = match (sums.factor)(j) {
+    let count = sums.count;
+    sum_of(start, count, Terms { sums, group, term })
+}
+
+/// The products of a [`combination`].
+struct Terms<'a, C, F, T> {
+    sums: &'a Sums<C, F>,
+    group: usize,
+    term: T,
+}
+
+impl<L, C, F, T> Products<L> for Terms<'_, C, F, T>
+where
+    L: Lanes,
+    C: Fn(usize) -> &'static [f64],
+    F: Fn(usize) -> Option<f64>,
+    T: Fn(usize) -> L,
+{
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn product(&self, j: usize) -> (L, L) {
+        let column: L = lanes((self.sums.column)(j), self.group);
+        let column = match (self.sums.factor)(j) {
             Some(factor) => column * L::from_f64(factor),
             None => column,
         };
-        (column, term(j))
-    })
+        (column, (self.term)(j))
+    }
 }
 
 /// Extrapolates the increments from those of the previous step.

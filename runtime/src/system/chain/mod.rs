@@ -6,7 +6,8 @@ mod system_macro;
 
 use num_traits::Zero;
 
-use crate::number::rows::{Eight, Row, Single};
+use crate::number::registers::{self, WideRegisters, Work};
+use crate::number::rows::{Eight, Row, Single, WideEight};
 use crate::number::{Scalar, Vector, copy};
 use crate::solver::Automatic;
 #[cfg(feature = "alloc")]
@@ -18,6 +19,9 @@ use crate::system::{Masses, OverEveryScalar, Separable, System};
 /// Doubles are evaluated eight at a time, as one [`Scalar`]. As in all code that is generic over scalars, no branch may depend on a value.
 /// The same holds for whether there is an outer force.
 pub trait Bonds {
+    /// Whether the tension and the outer force are inlined everywhere: see [`Hamiltonian::INLINED`](crate::Hamiltonian::INLINED).
+    const INLINED: bool = false;
+
     /// The derivative `V′` of the energy of a bond at `stretch = q_{i+1} − q_i`. A positive one pulls the left particle to the right and
     /// the right one to the left.
     fn tension<T: Scalar>(&self, time: T, stretch: T) -> T;
@@ -50,10 +54,14 @@ pub trait Bonds {
 }
 
 impl<B: Bonds> Bonds for &B {
+    const INLINED: bool = B::INLINED;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn tension<T: Scalar>(&self, time: T, stretch: T) -> T {
         (**self).tension(time, stretch)
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn outer_force<T: Scalar>(&self, time: T, position: T) -> Option<T> {
         (**self).outer_force(time, position)
     }
@@ -232,19 +240,70 @@ impl<B: Bonds> Chain<B> {
         };
         let (time, after) = (R::splat(time), R::splat(after));
         let (mut here, mut before) = (R::load(first), R::splat(*tension));
-        let mut row = |here: R::Numbers, next: R::Numbers| {
-            let right = self.bonds.tension(time, R::right(here, next) - here);
-            let left = R::left(before, right);
-            before = right;
-            R::store(self.between(time, left, here, right))
-        };
         for i in 0..last {
             let next = R::load(&q[i + 1]);
-            force[i] = row(here, next);
+            force[i] = self.row::<T, R>(time, here, next, &mut before);
             here = next;
         }
-        force[last] = row(here, after);
+        force[last] = self.row::<T, R>(time, here, after, &mut before);
         *tension = R::last(before);
+    }
+
+    /// The forces on a row of particles. `before` holds the tensions to the right of the row before, and afterwards those of this one.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn row<T: Scalar, R: Row<T>>(
+        &self,
+        time: R::Numbers,
+        here: R::Numbers,
+        next: R::Numbers,
+        before: &mut R::Numbers,
+    ) -> R::Array {
+        let right = self.bonds.tension(time, R::right(here, next) - here);
+        let left = R::left(*before, right);
+        *before = right;
+        R::store(self.between(time, left, here, right))
+    }
+
+    /// The forces on particles at positions in doubles.
+    #[inline]
+    fn forces_on_doubles(&self, time: f64, q: &[f64], force: &mut [f64]) {
+        // A constant condition: other bonds compile without this code.
+        if registers::UNKNOWN
+            && B::INLINED
+            && let Some(registers) = WideRegisters::detect()
+        {
+            let chain = self;
+            return registers.run(InWideRegisters {
+                chain,
+                time,
+                q,
+                force,
+            });
+        }
+        self.forces::<f64, Eight>(time, q, force);
+    }
+}
+
+/// The forces on a chain, eight particles at a time, in the registers that the processor has.
+struct InWideRegisters<'a, B> {
+    chain: &'a Chain<B>,
+    time: f64,
+    q: &'a [f64],
+    force: &'a mut [f64],
+}
+
+impl<B: Bonds> Work for InWideRegisters<'_, B> {
+    type Output = ();
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) {
+        let Self {
+            chain,
+            time,
+            q,
+            force,
+        } = self;
+        chain.forces::<f64, WideEight>(time, q, force);
     }
 }
 
@@ -253,13 +312,14 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
     type Solver = Automatic;
 
     const MASSES: Masses = Masses::Unit;
+    const INLINED: bool = B::INLINED;
 
     #[inline]
     fn velocity(&self, _time: V::Scalar, _q: &V, p: &V, velocity: &mut V) {
         copy(velocity, p);
     }
 
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn force(&self, time: V::Scalar, q: &V, _p: &V, force: &mut V) {
         let (q, force) = (q.as_slice(), force.as_mut_slice());
         let n = q.len().min(force.len());
@@ -269,7 +329,7 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
             V::Scalar::doubles(q),
             V::Scalar::doubles_mut(&mut *force),
         ) {
-            return self.forces::<f64, Eight>(time, q, force);
+            return self.forces_on_doubles(time, q, force);
         }
         self.forces::<V::Scalar, Single>(time, q, force);
     }

@@ -11,6 +11,7 @@ macro_rules! chain_system {
             type Solver = $crate::solver::Automatic;
 
             const MASSES: $crate::Masses = $crate::Masses::Unit;
+            const INLINED: bool = <Self as $crate::emitted::Bonds>::INLINED;
 
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
