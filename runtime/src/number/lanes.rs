@@ -139,7 +139,7 @@ macro_rules! broadcast {
 
 broadcast! { wide::f64x4 wide::f64x8 }
 #[cfg(target_arch = "x86_64")]
-broadcast! { registers::f64x4 registers::f64x8 }
+broadcast! { registers::f64x4 registers::f64x8 registers::eight_doubles }
 
 /// The largest of several numbers, any of them if one is NaN: by halves, because narrower registers are enough for these.
 trait Largest {
@@ -448,19 +448,27 @@ lanes!(
     WideF64x4,
     registers::f64x4,
     4,
-    "As [`F64x4`], in the registers that the processor has."
+    "As [`F64x4`], in a register of AVX2."
 );
 lanes!(
     WideF64x8,
     registers::f64x8,
     8,
-    "As [`F64x8`], in the registers that the processor has."
+    "As [`F64x8`], in two registers of AVX2."
+);
+lanes!(
+    WidestF64x8,
+    registers::eight_doubles,
+    8,
+    "As [`F64x8`], in a register of AVX-512."
 );
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::number::registers::{WideRegisters, Work};
+    use core::marker::PhantomData;
+
+    use crate::number::registers::{Avx2, Avx512, Work};
 
     /// Checks all pairs of numbers, one per lane, starting from each pair.
     fn check<L: Lanes>(by_bits: fn(L, L) -> L, by_sums: fn(L, L) -> L) {
@@ -524,21 +532,23 @@ mod tests {
         compare::<F64x4>();
         compare::<F64x8>();
         compare::<crate::number::F64x16>();
-        if let Some(registers) = WideRegisters::detect() {
-            registers.run(Comparisons);
+        if let Some(registers) = Avx2::detect() {
+            registers.run(Comparisons::<WideF64x4>(PhantomData));
+            registers.run(Comparisons::<WideF64x8>(PhantomData));
+        }
+        if let Some(registers) = Avx512::detect() {
+            registers.run(Comparisons::<WidestF64x8>(PhantomData));
         }
     }
 
-    struct Comparisons;
+    struct Comparisons<L>(PhantomData<L>);
 
-    impl Work for Comparisons {
+    impl<L: Lanes> Work for Comparisons<L> {
         type Output = ();
 
         fn run(self) {
-            compare::<WideF64x4>();
-            compare::<WideF64x8>();
-            check(WideF64x4::larger_by_bits, WideF64x4::larger_by_sums);
-            check(WideF64x8::larger_by_bits, WideF64x8::larger_by_sums);
+            compare::<L>();
+            check(L::larger_or_nan, L::larger_or_nan);
         }
     }
 

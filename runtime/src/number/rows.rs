@@ -1,6 +1,6 @@
 //! Long vectors by rows: the lanes run along the components.
 
-use crate::number::{F64x8, Lanes, Scalar, WideF64x8};
+use crate::number::{F64x8, Lanes, Scalar, WideF64x8, WidestF64x8};
 
 /// Several components side by side.
 pub(crate) trait Row<T: Scalar> {
@@ -140,7 +140,12 @@ pub(crate) struct Eight;
 
 eight_doubles! { Eight F64x8 }
 
-/// Rows of eight doubles in the registers that the processor has.
+/// Rows of eight doubles in registers of AVX2.
 pub(crate) struct WideEight;
 
 eight_doubles! { WideEight WideF64x8 }
+
+/// Rows of eight doubles in registers of AVX-512.
+pub(crate) struct WidestEight;
+
+eight_doubles! { WidestEight WidestF64x8 }

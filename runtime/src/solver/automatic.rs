@@ -11,7 +11,7 @@ use crate::method::{
 #[cfg(feature = "alloc")]
 use crate::method::{LaneStep, RunTimeStages, StageVisit};
 use crate::number::Lanes;
-use crate::number::registers::{self, WideRegisters, Work};
+use crate::number::registers::{self, Avx2, Avx512, Work};
 use crate::number::vector::{same, same_mut};
 use crate::number::{Scalar, Summation, Vector, Visit};
 use crate::solver::FixedPoint;
@@ -21,8 +21,8 @@ use crate::solver::in_lanes;
 use crate::solver::nystrom::{self, NystromStages, nystrom};
 #[cfg(feature = "alloc")]
 use crate::solver::run_time::by_rows;
+use crate::solver::simd::in_registers::{Wide, Widest};
 use crate::solver::simd::sweeps;
-use crate::solver::simd::wide::Wide;
 use crate::system::{Class, OverEveryScalar, System, SystemInLanes};
 
 /// The fastest fixed-point iteration for a method, a system and its scalar. It is the default of an
@@ -43,8 +43,10 @@ pub struct Automatic;
 pub enum AutomaticStages<V: Vector, S: OverEveryScalar<V>, P: StageTableau> {
     /// Stages of doubles, in lanes.
     InLanes(NystromStages<S::Doubles, P>),
-    /// The same in the registers that the processor has.
-    InWideLanes(WideRegisters, NystromStages<S::Doubles, Wide<P>>),
+    /// The same in registers of AVX2.
+    InAvx2(Avx2, NystromStages<S::Doubles, Wide<P>>),
+    /// The same in registers of AVX-512.
+    InAvx512(Avx512, NystromStages<S::Doubles, Widest<P>>),
     /// Stages of other scalars, one by one.
     OneByOne(P::Stages<V>),
 }
@@ -53,7 +55,8 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> Clone for AutomaticStage
     fn clone(&self) -> Self {
         match self {
             Self::InLanes(stages) => Self::InLanes(stages.clone()),
-            Self::InWideLanes(registers, stages) => Self::InWideLanes(*registers, stages.clone()),
+            Self::InAvx2(avx2, stages) => Self::InAvx2(*avx2, stages.clone()),
+            Self::InAvx512(avx512, stages) => Self::InAvx512(*avx512, stages.clone()),
             Self::OneByOne(stages) => Self::OneByOne(stages.clone()),
         }
     }
@@ -65,9 +68,26 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> fmt::Debug for Automatic
     }
 }
 
-/// Whether lanes may be in the registers that the processor has.
+/// Whether these lanes may be in registers that the program has to find: four doubles or more, of a system that is inlined there.
 const fn may_be_wide<V: Vector, S: System<V>, P: StageTableau>() -> bool {
-    registers::UNKNOWN && S::INLINED && P::Lanes::WIDTH > 2
+    registers::UNKNOWN && S::INLINED && P::Lanes::WIDTH >= 4
+}
+
+/// Whether these lanes fill a register of AVX-512.
+const fn may_be_widest<V: Vector, S: System<V>, P: StageTableau>() -> bool {
+    may_be_wide::<V, S, P>() && P::Lanes::WIDTH >= 8
+}
+
+/// The same expression for the stages of every kind.
+macro_rules! with_stages {
+    ($memory:expr, $stages:ident => $result:expr) => {
+        match $memory {
+            AutomaticStages::InLanes($stages) => $result,
+            AutomaticStages::InAvx2(_, $stages) => $result,
+            AutomaticStages::InAvx512(_, $stages) => $result,
+            AutomaticStages::OneByOne($stages) => $result,
+        }
+    };
 }
 
 /// Message of a failure that is possible only if a scalar claims to be `f64` but is not.
@@ -80,10 +100,15 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> StageStorage<V>
         // A constant condition: doubles compile without the other branch, and other scalars without code for lanes.
         if V::Scalar::IS_DOUBLE {
             let prototype = same::<V, S::Doubles>(prototype).expect(NO_DOUBLES);
-            if may_be_wide::<V, S, P>()
-                && let Some(registers) = WideRegisters::detect()
+            if may_be_widest::<V, S, P>()
+                && let Some(avx512) = Avx512::detect()
             {
-                return Self::InWideLanes(registers, NystromStages::like(prototype));
+                return Self::InAvx512(avx512, NystromStages::like(prototype));
+            }
+            if may_be_wide::<V, S, P>()
+                && let Some(avx2) = Avx2::detect()
+            {
+                return Self::InAvx2(avx2, NystromStages::like(prototype));
             }
             Self::InLanes(NystromStages::like(prototype))
         } else {
@@ -92,45 +117,25 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> StageStorage<V>
     }
 
     fn words(&mut self, visit: &mut Visit<'_>) {
-        match self {
-            Self::InLanes(stages) => stages.words(visit),
-            Self::InWideLanes(_, stages) => stages.words(visit),
-            Self::OneByOne(stages) => stages.words(visit),
-        }
+        with_stages!(self, stages => stages.words(visit))
     }
 
     #[cfg(feature = "alloc")]
     fn stages(&mut self, visit: &mut StageVisit<'_>) {
-        match self {
-            Self::InLanes(stages) => stages.stages(visit),
-            Self::InWideLanes(_, stages) => stages.stages(visit),
-            Self::OneByOne(_) => {}
-        }
+        with_stages!(self, stages => stages.stages(visit));
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
-        match self {
-            Self::InLanes(stages) => stages.non_finite(),
-            Self::InWideLanes(_, stages) => stages.non_finite(),
-            Self::OneByOne(stages) => stages.non_finite(),
-        }
+        with_stages!(self, stages => stages.non_finite())
     }
 
     fn non_finite_force(&self) -> Option<usize> {
-        match self {
-            Self::InLanes(stages) => stages.non_finite_force(),
-            Self::InWideLanes(_, stages) => stages.non_finite_force(),
-            Self::OneByOne(stages) => stages.non_finite_force(),
-        }
+        with_stages!(self, stages => stages.non_finite_force())
     }
 
     #[inline]
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
-        match self {
-            Self::InLanes(stages) => stages.mismatch(dimension),
-            Self::InWideLanes(_, stages) => stages.mismatch(dimension),
-            Self::OneByOne(stages) => stages.mismatch(dimension),
-        }
+        with_stages!(self, stages => stages.mismatch(dimension))
     }
 }
 
@@ -205,28 +210,27 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
         }
         let step: &Step<'_, S::Doubles> = &step.same().expect(NO_DOUBLES);
         let outcome: Outcome<'_, S::Doubles> = outcome.same().expect(NO_DOUBLES);
-        match memory {
-            AutomaticStages::InLanes(stages) => InLanes::<_, _, P, R> {
-                step,
-                system,
-                stages,
-                kept,
-                stopping,
-                outcome,
-                sums: PhantomData,
-            }
-            .run(),
-            // A constant condition: other systems compile without this code.
-            AutomaticStages::InWideLanes(registers, stages) if may_be_wide::<V, S, P>() => {
-                registers.run(InLanes::<_, _, Wide<P>, R> {
+        macro_rules! in_lanes {
+            ($plan:ty, $stages:ident) => {
+                InLanes::<S::Doubles, S, $plan, R> {
                     step,
                     system,
-                    stages,
+                    stages: $stages,
                     kept,
                     stopping,
                     outcome,
                     sums: PhantomData,
-                })
+                }
+            };
+        }
+        // Constant conditions: other systems and methods compile without this code.
+        match memory {
+            AutomaticStages::InLanes(stages) => in_lanes!(P, stages).run(),
+            AutomaticStages::InAvx2(avx2, stages) if may_be_wide::<V, S, P>() => {
+                avx2.run(in_lanes!(Wide<P>, stages))
+            }
+            AutomaticStages::InAvx512(avx512, stages) if may_be_widest::<V, S, P>() => {
+                avx512.run(in_lanes!(Widest<P>, stages))
             }
             _ => unreachable!("{NO_DOUBLES}"),
         }
@@ -279,23 +283,20 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
     }
 
     fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
+        macro_rules! in_lanes {
+            ($plan:ty, $stages:ident) => {{
+                let at = at.same::<S::Doubles>().expect(NO_DOUBLES);
+                let (q, p) = (
+                    same_mut(q).expect(NO_DOUBLES),
+                    same_mut(p).expect(NO_DOUBLES),
+                );
+                nystrom::extend::<$plan, S::Doubles, S>($stages, at, q, p);
+            }};
+        }
         match memory {
-            AutomaticStages::InLanes(stages) => {
-                let at = at.same::<S::Doubles>().expect(NO_DOUBLES);
-                let (q, p) = (
-                    same_mut(q).expect(NO_DOUBLES),
-                    same_mut(p).expect(NO_DOUBLES),
-                );
-                nystrom::extend::<P, S::Doubles, S>(stages, at, q, p);
-            }
-            AutomaticStages::InWideLanes(_, stages) => {
-                let at = at.same::<S::Doubles>().expect(NO_DOUBLES);
-                let (q, p) = (
-                    same_mut(q).expect(NO_DOUBLES),
-                    same_mut(p).expect(NO_DOUBLES),
-                );
-                nystrom::extend::<Wide<P>, S::Doubles, S>(stages, at, q, p);
-            }
+            AutomaticStages::InLanes(stages) => in_lanes!(P, stages),
+            AutomaticStages::InAvx2(_, stages) => in_lanes!(Wide<P>, stages),
+            AutomaticStages::InAvx512(_, stages) => in_lanes!(Widest<P>, stages),
             AutomaticStages::OneByOne(stages) => {
                 <FixedPoint as Solver<V, S>>::extend::<P>(stages, at, q, p);
             }

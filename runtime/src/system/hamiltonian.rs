@@ -1,7 +1,9 @@
 //! Hamiltonian systems, written once for every scalar.
 
 use crate::error::ConstraintName;
-use crate::number::{F64x2, F64x4, F64x8, Lanes, Scalar, Vector, WideF64x4, WideF64x8};
+use crate::number::{
+    F64x2, F64x4, F64x8, Lanes, Scalar, Vector, WideF64x4, WideF64x8, WidestF64x8,
+};
 use crate::system::{Class, LaneWork, Masses, Separable, System, first};
 #[cfg(feature = "alloc")]
 use crate::system::{Gradients, Jacobian};
@@ -70,6 +72,7 @@ pub trait Hamiltonian {
             With<F64x8> = Self::Vector<F64x8>,
             With<WideF64x4> = Self::Vector<WideF64x4>,
             With<WideF64x8> = Self::Vector<WideF64x8>,
+            With<WidestF64x8> = Self::Vector<WidestF64x8>,
         >;
 
     /// What the system declares of its masses, which is optional: see [`Masses`].
@@ -574,6 +577,7 @@ pub trait SeparableHamiltonian {
             With<F64x8> = Self::Vector<F64x8>,
             With<WideF64x4> = Self::Vector<WideF64x4>,
             With<WideF64x8> = Self::Vector<WideF64x8>,
+            With<WidestF64x8> = Self::Vector<WidestF64x8>,
         >;
 
     /// What is known of the [masses](Masses). With `Masses::Unit` steps use the momentum as the velocity.

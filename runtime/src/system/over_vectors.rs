@@ -4,7 +4,7 @@ use num_traits::Zero;
 
 use crate::error::{ConstraintName, Error};
 use crate::method::Solver;
-use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector, WideF64x4, WideF64x8};
+use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector, WideF64x4, WideF64x8, WidestF64x8};
 use crate::solver::Automatic;
 use crate::system::{Class, Hamiltonian, LaneWork, Masses, first};
 #[cfg(feature = "alloc")]
@@ -319,6 +319,7 @@ pub trait SystemInLanes<V: Vector>:
     + System<V::With<F64x8>>
     + System<V::With<WideF64x4>>
     + System<V::With<WideF64x8>>
+    + System<V::With<WidestF64x8>>
 {
 }
 
@@ -329,6 +330,7 @@ impl<V: Vector, S> SystemInLanes<V> for S where
         + System<V::With<F64x8>>
         + System<V::With<WideF64x4>>
         + System<V::With<WideF64x8>>
+        + System<V::With<WidestF64x8>>
 {
 }
 

@@ -6,7 +6,7 @@ use core::ops::{BitAnd, BitOr, BitXor, Shl, Shr};
 use bytemuck::cast;
 
 use crate::number::registers;
-use crate::number::{F64x2, F64x4, F64x8, Lanes, Scalar, WideF64x4, WideF64x8};
+use crate::number::{F64x2, F64x4, F64x8, Lanes, Scalar, WideF64x4, WideF64x8, WidestF64x8};
 
 /// The sign of a double.
 const SIGN: u64 = 1 << 63;
@@ -160,5 +160,6 @@ doubles! {
     F64x4 wide::u64x4,
     F64x8 wide::u64x8,
     WideF64x4 registers::u64x4,
-    WideF64x8 registers::u64x8
+    WideF64x8 registers::u64x8,
+    WidestF64x8 registers::eight_integers
 }

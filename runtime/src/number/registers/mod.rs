@@ -1,24 +1,47 @@
 //! Registers of the processor that are wider than those for which the program is compiled.
 //!
-//! A default build for x86-64 has registers of two doubles. Most processors have AVX2, with registers of four. A program finds that out
-//! when it runs, and takes the steps of methods with coupled stages there.
+//! A default build for x86-64 has registers of two doubles. Most processors have AVX2 with registers of four, some AVX-512 with registers
+//! of eight. A program finds that out when it runs.
+//!
+//! # Safety
+//!
+//! An instruction of AVX2 or AVX-512 is sound only on a processor that has it. Vectors exist only there: code outside this crate cannot name
+//! their types, and this crate computes with them only in [`Work`] that is run by a token, [`Avx2`] or [`Avx512`]. A token is made only after
+//! the processor was asked. To store vectors, copy them, and read single numbers needs no such instruction.
+//!
+//! # Speed
+//!
+//! An instruction is fast only where it is inlined into a function that is compiled for it, which is the one that runs the work. Elsewhere
+//! every operation is a call.
+
+#![allow(unsafe_code, non_camel_case_types)]
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
 #[cfg(not(target_arch = "x86_64"))]
 mod none;
+#[cfg(target_arch = "x86_64")]
+mod vectors;
 
 #[cfg(target_arch = "x86_64")]
-pub use self::avx2::WideRegisters;
+pub use self::avx2::Avx2;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use self::avx2::{f64x4, f64x8, u64x4, u64x8};
+#[cfg(target_arch = "x86_64")]
+pub use self::avx512::Avx512;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use self::avx512::{f64x8 as eight_doubles, u64x8 as eight_integers};
 #[cfg(not(target_arch = "x86_64"))]
-pub use self::none::WideRegisters;
+pub use self::none::{Avx2, Avx512};
 #[cfg(not(target_arch = "x86_64"))]
-pub(crate) use wide::{f64x4, f64x8, u64x4, u64x8};
+pub(crate) use wide::{
+    f64x4, f64x8, f64x8 as eight_doubles, u64x4, u64x8, u64x8 as eight_integers,
+};
 
 /// Work to be compiled for wide registers. Its function has to be inlined, and so has everything that it calls: closures too, so it calls
-/// none that computes with lanes.
+/// none that computes with vectors.
 pub(crate) trait Work {
     type Output;
 
@@ -31,6 +54,6 @@ pub(crate) const UNKNOWN: bool = cfg!(all(
     feature = "std",
     // In such a build the lanes are in these registers anyway.
     not(target_feature = "avx2"),
-    // Without the instruction, which comes with others, sums would be slower there.
+    // The instruction for it comes with others: without them all products and sums would be slower.
     not(feature = "fma"),
 ));

@@ -4,16 +4,24 @@ use core::convert::Infallible;
 
 use super::Work;
 
-/// Does not exist here.
-#[derive(Clone, Copy, Debug)]
-pub struct WideRegisters(Infallible);
+macro_rules! none {
+    ($($name:ident)*) => {
+        $(
+            /// Does not exist here.
+            #[derive(Clone, Copy, Debug)]
+            pub struct $name(Infallible);
 
-impl WideRegisters {
-    pub(crate) const fn detect() -> Option<Self> {
-        None
-    }
+            impl $name {
+                pub(crate) const fn detect() -> Option<Self> {
+                    None
+                }
 
-    pub(crate) fn run<W: Work>(self, _work: W) -> W::Output {
-        match self.0 {}
-    }
+                pub(crate) fn run<W: Work>(self, _work: W) -> W::Output {
+                    match self.0 {}
+                }
+            }
+        )*
+    };
 }
+
+none! { Avx2 Avx512 }

@@ -1,10 +1,10 @@
 //! Coupled stages side by side in SIMD lanes.
 
 pub(crate) mod change;
+pub(crate) mod in_registers;
 pub(crate) mod stages;
 pub(crate) mod sums;
 pub(crate) mod sweeps;
-pub(crate) mod wide;
 
 use crate::method::{
     Failure, Inside, Outcome, Solver, StageTableau, Step, StepStatistics, Stopping, WarmStart,

@@ -4,10 +4,12 @@
 mod derivatives;
 mod system_macro;
 
+use core::marker::PhantomData;
+
 use num_traits::Zero;
 
-use crate::number::registers::{self, WideRegisters, Work};
-use crate::number::rows::{Eight, Row, Single, WideEight};
+use crate::number::registers::{self, Avx2, Avx512, Work};
+use crate::number::rows::{Eight, Row, Single, WideEight, WidestEight};
 use crate::number::{Scalar, Vector, copy};
 use crate::solver::Automatic;
 #[cfg(feature = "alloc")]
@@ -268,42 +270,46 @@ impl<B: Bonds> Chain<B> {
     #[inline]
     fn forces_on_doubles(&self, time: f64, q: &[f64], force: &mut [f64]) {
         // A constant condition: other bonds compile without this code.
-        if registers::UNKNOWN
-            && B::INLINED
-            && let Some(registers) = WideRegisters::detect()
-        {
-            let chain = self;
-            return registers.run(InWideRegisters {
-                chain,
-                time,
-                q,
-                force,
-            });
+        if registers::UNKNOWN && B::INLINED {
+            if let Some(registers) = Avx512::detect() {
+                return registers.run(Forces::<B, WidestEight>::new(self, time, q, force));
+            }
+            if let Some(registers) = Avx2::detect() {
+                return registers.run(Forces::<B, WideEight>::new(self, time, q, force));
+            }
         }
         self.forces::<f64, Eight>(time, q, force);
     }
 }
 
-/// The forces on a chain, eight particles at a time, in the registers that the processor has.
-struct InWideRegisters<'a, B> {
+/// The forces on a chain in rows `R`.
+struct Forces<'a, B, R> {
     chain: &'a Chain<B>,
     time: f64,
     q: &'a [f64],
     force: &'a mut [f64],
+    rows: PhantomData<R>,
 }
 
-impl<B: Bonds> Work for InWideRegisters<'_, B> {
-    type Output = ();
-
+impl<'a, B, R> Forces<'a, B, R> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run(self) {
-        let Self {
+    const fn new(chain: &'a Chain<B>, time: f64, q: &'a [f64], force: &'a mut [f64]) -> Self {
+        Self {
             chain,
             time,
             q,
             force,
-        } = self;
-        chain.forces::<f64, WideEight>(time, q, force);
+            rows: PhantomData,
+        }
+    }
+}
+
+impl<B: Bonds, R: Row<f64>> Work for Forces<'_, B, R> {
+    type Output = ();
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) {
+        self.chain.forces::<f64, R>(self.time, self.q, self.force);
     }
 }
 

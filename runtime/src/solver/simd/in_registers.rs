@@ -1,4 +1,4 @@
-//! Coupled stages in registers of the processor that are wider than those for which the program is compiled.
+//! Coupled stages in lanes of other registers.
 
 use core::fmt::Debug;
 use core::marker::PhantomData;
@@ -10,10 +10,16 @@ use crate::method::{
 use crate::number::{Summation, Vector};
 use crate::system::{System, SystemLanes};
 
-/// The stages of a method `P` in wide lanes.
-pub struct Wide<P>(PhantomData<P>);
+/// The stages of a method `P` in lanes `L`, as many as the method has.
+pub struct InRegisters<P, L>(PhantomData<(P, L)>);
 
-impl<P: StagePlan> StagePlan for Wide<P> {
+/// In registers of AVX2.
+pub(crate) type Wide<P> = InRegisters<P, <<P as StageTableau>::Lanes as SystemLanes>::Wide>;
+
+/// In registers of AVX-512.
+pub(crate) type Widest<P> = InRegisters<P, <<P as StageTableau>::Lanes as SystemLanes>::Widest>;
+
+impl<P: StagePlan, L> StagePlan for InRegisters<P, L> {
     type Class = P::Class;
     type Stages<V: Vector> = P::Stages<V>;
 
@@ -39,8 +45,8 @@ impl<P: StagePlan> StagePlan for Wide<P> {
     }
 }
 
-impl<P: StageTableau> StageTableau for Wide<P> {
-    type Lanes = <P::Lanes as SystemLanes>::Wide;
+impl<P: StageTableau, L: SystemLanes> StageTableau for InRegisters<P, L> {
+    type Lanes = L;
     type Groups<T: Debug> = P::Groups<T>;
 
     const INCREMENTS: bool = P::INCREMENTS;
