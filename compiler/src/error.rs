@@ -6,12 +6,19 @@ use std::ops::Range;
 use crate::formula::FormulaError;
 
 /// An input that cannot be compiled: what is wrong, where it stands, and what to do instead.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct Error {
     /// What is wrong.
     pub kind: Box<ErrorKind>,
     /// Where it stands, if the input was text.
     pub place: Option<Place>,
+}
+
+/// The message: a test that returns the error, and `unwrap`, print this form.
+impl fmt::Debug for Error {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, formatter)
+    }
 }
 
 /// A part of an input text.

@@ -418,16 +418,44 @@ impl Run<'_> {
             },
         };
         let failed = rows.iter().filter(|row| row.outcome.is_err()).count();
-        let message = format!(
+        let mut message = format!(
             "{} trajectories, {failed} failed: {}\n",
             rows.len(),
             self.target.path().display()
         );
+        let first = rows
+            .iter()
+            .find_map(|row| row.outcome.as_ref().err().map(|error| (row, error)));
+        if let Some((row, error)) = first {
+            message.push_str(&format!("trajectory {}: {error}\n", row.trajectory));
+        }
+        message.extend(self.note_on_times());
         self.target.write(&results)?;
         let printed = print(&message)?;
         Ok(match failed > 0 && failed == rows.len() {
             true => ExitCode::from(1),
             false => printed,
+        })
+    }
+
+    /// What to know about output times inside steps, if the method has a higher order than their interpolation.
+    fn note_on_times(&self) -> Option<String> {
+        let size = *self.setup.step_size.get_ref();
+        let is_inside = |time: &f64| {
+            let steps = (time - self.setup.start()) / size;
+            (steps - steps.round()).abs() > 1e-9 * steps.abs().max(1.0)
+        };
+        let order = self.method.tableau.orders().separable;
+        let inside = self
+            .times
+            .as_ref()?
+            .iter()
+            .filter(|time| is_inside(time))
+            .count();
+        (inside > 0 && order > INTERPOLATION).then(|| {
+            format!(
+                "note: {inside} of the `times` are inside steps, where states are interpolated with order {INTERPOLATION}; the method has order {order} at multiples of `step_size`\n"
+            )
         })
     }
 
@@ -452,6 +480,9 @@ impl Run<'_> {
         }
     }
 }
+
+/// The order of states inside steps.
+const INTERPOLATION: u32 = 4;
 
 /// A progress bar, hidden unless standard error is a terminal.
 fn progress(count: usize) -> ProgressBar {

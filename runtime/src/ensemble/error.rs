@@ -2,8 +2,10 @@
 
 use crate::error::Error;
 
+crate::error::debug::debug_by_message!(EnsembleError);
+
 /// The error type of ensembles and their statistics.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EnsembleError {
     /// There are no starts.

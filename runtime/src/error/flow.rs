@@ -2,9 +2,11 @@
 
 use super::Quantity;
 
+crate::error::debug::debug_by_message!(FlowError);
+
 /// The reason why a [`Flow`](crate::flow::Flow) failed; an integrator adds the step, in
 /// [`Error::Flow`](crate::Error::Flow).
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FlowError {
     /// A result of a flow is NaN or infinite.

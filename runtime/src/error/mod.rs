@@ -1,6 +1,7 @@
 //! Errors.
 
 mod constraint_name;
+pub(crate) mod debug;
 mod flow;
 mod phrases;
 mod quantity;
@@ -9,16 +10,19 @@ pub use constraint_name::ConstraintName;
 pub use flow::FlowError;
 pub use quantity::Quantity;
 
+use debug::debug_by_message;
 use phrases::{AtStage, Divergence, Named, Undetermined};
 
+debug_by_message!(Error);
+
 /// The error type of integrators. After an error the state of the integrator is that of the last successful step.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// The iteration for the coupled stages diverged, or converged too slowly. Take a smaller step, or for a stiff
     /// system [`Newton`](crate::solver::Newton) instead of a fixed-point iteration.
     #[error(
-        "step {step} of size {step_size} at time {time}: the stages {}; take a smaller step, or `by_newton()` for a stiff system",
+        "step {step} of size {step_size} at time {time}: the stages {}; take a smaller step, or `by_newton()` for a stiff system without constraints",
         Divergence { residual: *.residual, iterations: *.iterations }
     )]
     NoConvergence {

@@ -69,8 +69,10 @@ pub struct Checkpoint {
     checksum: String,
 }
 
+crate::error::debug::debug_by_message!(CheckpointError);
+
 /// Why a run cannot be saved, or cannot continue from a checkpoint.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckpointError {
     /// The numbers of the run are neither f64 nor f32.

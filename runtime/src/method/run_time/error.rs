@@ -2,8 +2,10 @@
 
 use super::RunTimeCoefficients;
 
+crate::error::debug::debug_by_message!(TableauError);
+
 /// Why coefficients are not those of a symplectic method. Rows, columns and stages are counted from 1.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TableauError {
     /// There is no stage.
