@@ -26,6 +26,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use symplectic::ensemble::{Ensemble, EnsembleError};
 use symplectic::nalgebra::DVector;
+use symplectic::output::Interpolation;
 use symplectic::{
     AtRunTime, Class, Compensated, Error as RunError, General, Hamiltonian, Plain, Separable,
     State, Summation,
@@ -429,7 +430,7 @@ impl Run<'_> {
         if let Some((row, error)) = first {
             message.push_str(&format!("trajectory {}: {error}\n", row.trajectory));
         }
-        message.extend(self.note_on_times());
+        message.extend(self.note_on_times(C::SEPARABLE));
         self.target.write(&results)?;
         let printed = print(&message)?;
         Ok(match failed > 0 && failed == rows.len() {
@@ -439,13 +440,18 @@ impl Run<'_> {
     }
 
     /// What to know about output times inside steps, if the method has a higher order than their interpolation.
-    fn note_on_times(&self) -> Option<String> {
+    fn note_on_times(&self, is_separable: bool) -> Option<String> {
         let size = *self.setup.step_size.get_ref();
         let is_inside = |time: &f64| {
             let steps = (time - self.setup.start()) / size;
             (steps - steps.round()).abs() > 1e-9 * steps.abs().max(1.0)
         };
-        let order = self.method.tableau.orders().separable;
+        let orders = self.method.tableau.orders();
+        let order = if is_separable {
+            orders.separable
+        } else {
+            orders.general
+        };
         let inside = self
             .times
             .as_ref()?
@@ -482,7 +488,7 @@ impl Run<'_> {
 }
 
 /// The order of states inside steps.
-const INTERPOLATION: u32 = 4;
+const INTERPOLATION: u32 = Interpolation::Hermite.order();
 
 /// A progress bar, hidden unless standard error is a terminal.
 fn progress(count: usize) -> ProgressBar {

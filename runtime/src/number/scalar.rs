@@ -142,7 +142,7 @@ pub trait Scalar:
     /// 1/x.
     fn recip(self) -> Self;
     /// xⁿ by repeated squaring: the same products in the same order for every scalar.
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn powi(self, exponent: i32) -> Self {
         let (mut rest, mut square) = (exponent.unsigned_abs(), self);
         let mut power = Self::one();

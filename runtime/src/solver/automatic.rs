@@ -13,7 +13,7 @@ use crate::method::{LaneStep, RunTimeStages, StageVisit};
 use crate::number::Lanes;
 use crate::number::registers::{self, Avx2, Avx512, Work};
 use crate::number::vector::{same, same_mut};
-use crate::number::{Scalar, Summation, Vector, Visit};
+use crate::number::{Scalar, Summation, Vector, Visit, WideF64x4, WideF64x8, WidestF64x8};
 use crate::solver::FixedPoint;
 use crate::solver::fixed_point::by_stages;
 #[cfg(feature = "alloc")]
@@ -21,7 +21,7 @@ use crate::solver::in_lanes;
 use crate::solver::nystrom::{self, NystromStages, nystrom};
 #[cfg(feature = "alloc")]
 use crate::solver::run_time::by_rows;
-use crate::solver::simd::in_registers::{Wide, Widest};
+use crate::solver::simd::in_registers::InRegisters;
 use crate::solver::simd::sweeps;
 use crate::system::{Class, OverEveryScalar, System, SystemInLanes};
 
@@ -40,52 +40,63 @@ use crate::system::{Class, OverEveryScalar, System, SystemInLanes};
 pub struct Automatic;
 
 /// The memory of [`Automatic`].
-pub enum AutomaticStages<V: Vector, S: OverEveryScalar<V>, P: StageTableau> {
-    /// Stages of doubles, in lanes.
+pub struct AutomaticStages<V: Vector, S: OverEveryScalar<V>, P: StageTableau>(Kind<V, S, P>);
+
+/// The stages in the lanes for which the program is compiled, in wider ones, or one by one.
+enum Kind<V: Vector, S: OverEveryScalar<V>, P: StageTableau> {
+    /// Doubles, in lanes.
     InLanes(NystromStages<S::Doubles, P>),
-    /// The same in registers of AVX2.
-    InAvx2(Avx2, NystromStages<S::Doubles, Wide<P>>),
-    /// The same in registers of AVX-512.
-    InAvx512(Avx512, NystromStages<S::Doubles, Widest<P>>),
-    /// Stages of other scalars, one by one.
+    /// Four doubles in a register of AVX2.
+    Four(Avx2, Wide<V, S, P, WideF64x4>),
+    /// Eight doubles in two registers of AVX2.
+    TwiceFour(Avx2, Wide<V, S, P, WideF64x8>),
+    /// Eight doubles in a register of AVX-512.
+    Eight(Avx512, Wide<V, S, P, WidestF64x8>),
+    /// Other scalars.
     OneByOne(P::Stages<V>),
 }
 
+/// Stages in lanes `L`.
+type Wide<V, S, P, L> = NystromStages<<S as OverEveryScalar<V>>::Doubles, InRegisters<P, L>>;
+
 impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> Clone for AutomaticStages<V, S, P> {
     fn clone(&self) -> Self {
-        match self {
-            Self::InLanes(stages) => Self::InLanes(stages.clone()),
-            Self::InAvx2(avx2, stages) => Self::InAvx2(*avx2, stages.clone()),
-            Self::InAvx512(avx512, stages) => Self::InAvx512(*avx512, stages.clone()),
-            Self::OneByOne(stages) => Self::OneByOne(stages.clone()),
-        }
+        Self(match &self.0 {
+            Kind::InLanes(stages) => Kind::InLanes(stages.clone()),
+            Kind::Four(avx2, stages) => Kind::Four(*avx2, stages.clone()),
+            Kind::TwiceFour(avx2, stages) => Kind::TwiceFour(*avx2, stages.clone()),
+            Kind::Eight(avx512, stages) => Kind::Eight(*avx512, stages.clone()),
+            Kind::OneByOne(stages) => Kind::OneByOne(stages.clone()),
+        })
     }
 }
 
 impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> fmt::Debug for AutomaticStages<V, S, P> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("AutomaticStages")
+        formatter.write_str(match self.0 {
+            Kind::InLanes(_) => "InLanes",
+            Kind::Four(..) => "Four",
+            Kind::TwiceFour(..) => "TwiceFour",
+            Kind::Eight(..) => "Eight",
+            Kind::OneByOne(_) => "OneByOne",
+        })
     }
 }
 
-/// Whether these lanes may be in registers that the program has to find: four doubles or more, of a system that is inlined there.
-const fn may_be_wide<V: Vector, S: System<V>, P: StageTableau>() -> bool {
-    registers::UNKNOWN && S::INLINED && P::Lanes::WIDTH >= 4
-}
-
-/// Whether these lanes fill a register of AVX-512.
-const fn may_be_widest<V: Vector, S: System<V>, P: StageTableau>() -> bool {
-    may_be_wide::<V, S, P>() && P::Lanes::WIDTH >= 8
+/// Whether the stages are this many doubles in lanes, and may be in registers that the program has to find.
+const fn may_be_wide<V: Vector, S: System<V>, P: StageTableau>(width: usize) -> bool {
+    registers::UNKNOWN && S::INLINED && P::Lanes::WIDTH == width
 }
 
 /// The same expression for the stages of every kind.
 macro_rules! with_stages {
     ($memory:expr, $stages:ident => $result:expr) => {
         match $memory {
-            AutomaticStages::InLanes($stages) => $result,
-            AutomaticStages::InAvx2(_, $stages) => $result,
-            AutomaticStages::InAvx512(_, $stages) => $result,
-            AutomaticStages::OneByOne($stages) => $result,
+            Kind::InLanes($stages) => $result,
+            Kind::Four(_, $stages) => $result,
+            Kind::TwiceFour(_, $stages) => $result,
+            Kind::Eight(_, $stages) => $result,
+            Kind::OneByOne($stages) => $result,
         }
     };
 }
@@ -100,42 +111,47 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> StageStorage<V>
         // A constant condition: doubles compile without the other branch, and other scalars without code for lanes.
         if V::Scalar::IS_DOUBLE {
             let prototype = same::<V, S::Doubles>(prototype).expect(NO_DOUBLES);
-            if may_be_widest::<V, S, P>()
+            let kind = if const { may_be_wide::<V, S, P>(8) }
                 && let Some(avx512) = Avx512::detect()
             {
-                return Self::InAvx512(avx512, NystromStages::like(prototype));
-            }
-            if may_be_wide::<V, S, P>()
+                Kind::Eight(avx512, NystromStages::like(prototype))
+            } else if const { may_be_wide::<V, S, P>(8) }
                 && let Some(avx2) = Avx2::detect()
             {
-                return Self::InAvx2(avx2, NystromStages::like(prototype));
-            }
-            Self::InLanes(NystromStages::like(prototype))
+                Kind::TwiceFour(avx2, NystromStages::like(prototype))
+            } else if const { may_be_wide::<V, S, P>(4) }
+                && let Some(avx2) = Avx2::detect()
+            {
+                Kind::Four(avx2, NystromStages::like(prototype))
+            } else {
+                Kind::InLanes(NystromStages::like(prototype))
+            };
+            Self(kind)
         } else {
-            Self::OneByOne(StageStorage::like(prototype))
+            Self(Kind::OneByOne(StageStorage::like(prototype)))
         }
     }
 
     fn words(&mut self, visit: &mut Visit<'_>) {
-        with_stages!(self, stages => stages.words(visit))
+        with_stages!(&mut self.0, stages => stages.words(visit));
     }
 
     #[cfg(feature = "alloc")]
     fn stages(&mut self, visit: &mut StageVisit<'_>) {
-        with_stages!(self, stages => stages.stages(visit));
+        with_stages!(&mut self.0, stages => stages.stages(visit));
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
-        with_stages!(self, stages => stages.non_finite())
+        with_stages!(&self.0, stages => stages.non_finite())
     }
 
     fn non_finite_force(&self) -> Option<usize> {
-        with_stages!(self, stages => stages.non_finite_force())
+        with_stages!(&self.0, stages => stages.non_finite_force())
     }
 
     #[inline]
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
-        with_stages!(self, stages => stages.mismatch(dimension))
+        with_stages!(&self.0, stages => stages.mismatch(dimension))
     }
 }
 
@@ -203,7 +219,7 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
     {
         // A constant condition, as above.
         if !V::Scalar::IS_DOUBLE {
-            let AutomaticStages::OneByOne(stages) = memory else {
+            let Kind::OneByOne(stages) = &mut memory.0 else {
                 unreachable!("{NO_DOUBLES}");
             };
             return by_stages::<P, R, V, S>(step, system, stages, kept, stopping, outcome);
@@ -224,13 +240,16 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
             };
         }
         // Constant conditions: other systems and methods compile without this code.
-        match memory {
-            AutomaticStages::InLanes(stages) => in_lanes!(P, stages).run(),
-            AutomaticStages::InAvx2(avx2, stages) if may_be_wide::<V, S, P>() => {
-                avx2.run(in_lanes!(Wide<P>, stages))
+        match &mut memory.0 {
+            Kind::InLanes(stages) => in_lanes!(P, stages).run(),
+            Kind::Four(avx2, stages) if const { may_be_wide::<V, S, P>(4) } => {
+                avx2.run(in_lanes!(InRegisters<P, WideF64x4>, stages))
             }
-            AutomaticStages::InAvx512(avx512, stages) if may_be_widest::<V, S, P>() => {
-                avx512.run(in_lanes!(Widest<P>, stages))
+            Kind::TwiceFour(avx2, stages) if const { may_be_wide::<V, S, P>(8) } => {
+                avx2.run(in_lanes!(InRegisters<P, WideF64x8>, stages))
+            }
+            Kind::Eight(avx512, stages) if const { may_be_wide::<V, S, P>(8) } => {
+                avx512.run(in_lanes!(InRegisters<P, WidestF64x8>, stages))
             }
             _ => unreachable!("{NO_DOUBLES}"),
         }
@@ -293,13 +312,152 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
                 nystrom::extend::<$plan, S::Doubles, S>($stages, at, q, p);
             }};
         }
-        match memory {
-            AutomaticStages::InLanes(stages) => in_lanes!(P, stages),
-            AutomaticStages::InAvx2(_, stages) => in_lanes!(Wide<P>, stages),
-            AutomaticStages::InAvx512(_, stages) => in_lanes!(Widest<P>, stages),
-            AutomaticStages::OneByOne(stages) => {
+        match &memory.0 {
+            Kind::InLanes(stages) => in_lanes!(P, stages),
+            Kind::Four(_, stages) => in_lanes!(InRegisters<P, WideF64x4>, stages),
+            Kind::TwiceFour(_, stages) => in_lanes!(InRegisters<P, WideF64x8>, stages),
+            Kind::Eight(_, stages) => in_lanes!(InRegisters<P, WidestF64x8>, stages),
+            Kind::OneByOne(stages) => {
                 <FixedPoint as Solver<V, S>>::extend::<P>(stages, at, q, p);
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::string::{String, ToString};
+    use std::{format, vec, vec::Vec};
+
+    use nalgebra::Vector2;
+
+    use super::*;
+    use crate::method::{Coupled, Method};
+    use crate::number::{Compensated, Plain};
+    use crate::solver::nystrom::NystromStages;
+
+    crate::tableau! {
+        Gauss2 { basis: polynomial(2), nodes: gauss(2) }
+        Gauss4 { basis: polynomial(4), nodes: gauss(4) }
+        Gauss8 { basis: polynomial(8), nodes: gauss(8) }
+    }
+    crate::hamiltonian! { Kepler q: [2], p: [2]; H = |p|^2/2 - 1/|q| }
+    crate::hamiltonian! { Turning q: [2], p: [2]; H = |p|^2/2 - 1/|q| + q[0] p[1] - sin(q[1]) p[0] }
+
+    /// The stages of a plan.
+    trait StagesOf {
+        type Stages: StageTableau;
+    }
+
+    impl<P: StageTableau> StagesOf for Coupled<P> {
+        type Stages = P;
+    }
+
+    type Separable<M> = <<M as Method>::Separable as StagesOf>::Stages;
+    type General<M> = <<M as Method>::General as StagesOf>::Stages;
+
+    /// The end of twenty steps, as bits.
+    fn end<R, S, P>(system: &S, mut memory: AutomaticStages<Vector2<f64>, S, P>) -> Vec<u64>
+    where
+        R: Summation,
+        P: StageTableau,
+        S: OverEveryScalar<Vector2<f64>> + System<Vector2<f64>, Class = P::Class>,
+    {
+        let (mut q, mut p) = (Vector2::new(0.6, 0.1), Vector2::new(-0.2, 1.1));
+        let (mut q_low, mut p_low) = (Vector2::zeros(), Vector2::zeros());
+        let mut kept = WarmStart::default();
+        for number in 0..20 {
+            let step = Step {
+                time: 0.1 * f64::from(number),
+                size: 0.1,
+                q: &q.clone(),
+                q_low: &q_low.clone(),
+                p: &p.clone(),
+                p_low: &p_low.clone(),
+                linear_velocity: P::Class::SEPARABLE,
+            };
+            let outcome = Outcome {
+                q: &mut q,
+                q_low: &mut q_low,
+                p: &mut p,
+                p_low: &mut p_low,
+            };
+            let stopping = Stopping::DEFAULT;
+            let taken = <Automatic as Solver<_, S>>::take::<P, R>(
+                &step,
+                system,
+                &mut memory,
+                kept,
+                stopping,
+                outcome,
+            );
+            kept.scales = taken.expect("the stages converge").scales;
+            kept.stages = true;
+        }
+        let all = [q, q_low, p, p_low];
+        all.iter().flatten().map(|x| x.to_bits()).collect()
+    }
+
+    /// The kinds of stages that this processor can have; each ends with the bits of the lanes for which the program is compiled.
+    fn kinds<S, P>(system: &S) -> Vec<String>
+    where
+        P: StageTableau,
+        S: OverEveryScalar<Vector2<f64>, Doubles = Vector2<f64>>
+            + System<Vector2<f64>, Class = P::Class>,
+    {
+        let zero = Vector2::zeros();
+        let found: AutomaticStages<_, S, P> = StageStorage::like(&zero);
+        let mut kinds = vec![found];
+        if P::Lanes::WIDTH == 8
+            && let Some(avx2) = Avx2::detect()
+        {
+            kinds.push(AutomaticStages(Kind::TwiceFour(
+                avx2,
+                StageStorage::like(&zero),
+            )));
+        }
+        let narrow = || AutomaticStages(Kind::InLanes(NystromStages::like(&zero)));
+        let plain = end::<Plain, S, P>(system, narrow());
+        let compensated = end::<Compensated, S, P>(system, narrow());
+        let mut names = Vec::new();
+        for memory in kinds {
+            names.push(format!("{memory:?}"));
+            assert_eq!(
+                end::<Plain, S, P>(system, memory.clone()),
+                plain,
+                "{memory:?}"
+            );
+            let name = format!("{memory:?}");
+            assert_eq!(
+                end::<Compensated, S, P>(system, memory),
+                compensated,
+                "{name}"
+            );
+        }
+        names
+    }
+
+    #[test]
+    fn the_widest_registers_are_taken_and_all_have_the_same_bits() {
+        let (avx2, avx512) = match registers::UNKNOWN {
+            true => (Avx2::detect().is_some(), Avx512::detect().is_some()),
+            false => (false, false),
+        };
+        let four = if avx2 { "Four" } else { "InLanes" };
+        let eight = match (avx2, avx512) {
+            (_, true) => "Eight",
+            (true, false) => "TwiceFour",
+            (false, false) => "InLanes",
+        };
+        let first = |names: Vec<String>| names.first().map(ToString::to_string);
+        for (names, expected) in [
+            (kinds::<_, Separable<Gauss2>>(&Kepler), "InLanes"),
+            (kinds::<_, Separable<Gauss4>>(&Kepler), four),
+            (kinds::<_, Separable<Gauss8>>(&Kepler), eight),
+            (kinds::<_, General<Gauss4>>(&Turning), four),
+            (kinds::<_, General<Gauss8>>(&Turning), eight),
+        ] {
+            assert_eq!(first(names).as_deref(), Some(expected));
         }
     }
 }

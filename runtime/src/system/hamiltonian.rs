@@ -78,12 +78,12 @@ pub trait Hamiltonian {
     /// What the system declares of its masses, which is optional: see [`Masses`].
     const MASSES: Masses = Masses::Any;
 
-    /// Whether everything is inlined that velocity and force call: each of these functions is marked `#[inline(always)]`, and no closure
-    /// computes with numbers of type `T`. Coupled stages are then computed in registers of four doubles if the processor has AVX2, also in a
-    /// program that is compiled for every x86-64 processor. The results have the same bits. Systems from a formula declare it.
+    /// Whether everything is inlined that velocity and force call. Each function that computes with numbers `T` is marked
+    /// `#[inline(always)]`; there is no such closure, and no function of whole vectors of nalgebra such as `dot`. Coupled stages are then
+    /// computed in the widest registers that the processor has, AVX2 or AVX-512, also in a program that is compiled for every x86-64 processor.
+    /// The results have the same bits. Systems from a formula without functions of your own declare it.
     ///
-    /// A function that is not inlined after all makes steps up to 50 times slower. On Linux `nm -C program | grep _mm256_` then prints the
-    /// instructions that are called as functions.
+    /// A function that is not inlined after all makes steps up to 50 times slower: see the chapter "Faster steps" of the book.
     const INLINED: bool = false;
 
     /// Whether the force has a part without a potential: [`applied_force`](Self::applied_force).

@@ -31,12 +31,6 @@ pub(crate) fn first<S: Clone>(systems: &mut dyn Iterator<Item = &S>) -> Option<S
 
 /// Lanes in which systems are evaluated.
 pub trait SystemLanes: Lanes {
-    /// The same lanes in registers of AVX2.
-    type Wide: SystemLanes;
-
-    /// The same lanes in registers of AVX-512, if that makes a difference.
-    type Widest: SystemLanes;
-
     /// [`System::velocity`] in every lane at once.
     fn velocity<V: Vector, S: SystemInLanes<V>>(
         system: &S,
@@ -66,11 +60,8 @@ pub trait SystemLanes: Lanes {
 }
 
 macro_rules! system_lanes {
-    ($name:ident $wide:ident $widest:ident) => {
+    ($name:ident) => {
         impl SystemLanes for $name {
-            type Wide = $wide;
-            type Widest = $widest;
-
             forward! {
                 velocity: &mut V::With<Self>;
                 force: &mut V::With<Self>;
@@ -100,9 +91,9 @@ macro_rules! forward {
     };
 }
 
-system_lanes!(F64x2 F64x2 F64x2);
-system_lanes!(F64x4 WideF64x4 WideF64x4);
-system_lanes!(F64x8 WideF64x8 WidestF64x8);
-system_lanes!(WideF64x4 WideF64x4 WideF64x4);
-system_lanes!(WideF64x8 WideF64x8 WidestF64x8);
-system_lanes!(WidestF64x8 WideF64x8 WidestF64x8);
+system_lanes!(F64x2);
+system_lanes!(F64x4);
+system_lanes!(F64x8);
+system_lanes!(WideF64x4);
+system_lanes!(WideF64x8);
+system_lanes!(WidestF64x8);

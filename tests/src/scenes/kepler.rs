@@ -31,8 +31,9 @@ impl SeparableHamiltonian for Kepler {
 
     #[inline(always)]
     fn force<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, force: &mut SVector<T, 2>) {
-        let square = q.dot(q);
-        *force = -q * (square * square.sqrt()).recip();
+        let square = q[0] * q[0] + q[1] * q[1];
+        let factor = (square * square.sqrt()).recip();
+        *force = SVector::from([-q[0] * factor, -q[1] * factor]);
     }
 
     fn energy<T: Scalar>(&self, _time: T, q: &SVector<T, 2>, p: &SVector<T, 2>) -> Option<T> {

@@ -130,16 +130,14 @@ impl<D: Doubles> Angle<D> {
         let quarters = x.fused(D::from_f64(QUARTERS), to_integer);
         let n = quarters - to_integer;
         let [first, second, third, last] = QUARTER;
-        let less = |number: D, part: f64| n.fused(D::from_f64(-part), number);
-        let more = |number: D, part: f64| n.fused(D::from_f64(part), number);
-        let a = less(x, first);
-        let b = less(a, second);
-        let c = less(b, third);
+        let a = plus(x, n, -first);
+        let b = plus(a, n, -second);
+        let c = plus(b, n, -third);
         // The order of the sums keeps the chain of dependent additions short.
-        let of_second = more(more(b - a, second), last);
+        let of_second = plus(plus(b - a, n, second), n, last);
         Self {
             quarters,
-            rest: (c, of_second + more(c - b, third)),
+            rest: (c, of_second + plus(c - b, n, third)),
         }
     }
 
@@ -169,6 +167,12 @@ impl<D: Doubles> Angle<D> {
         let rounded = (D::one() - near) - square * D::from_f64(0.5);
         near + (square * square).fused(polynomial(square, COSINE), y.fused(less, rounded))
     }
+}
+
+/// `number + n part`
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn plus<D: Doubles>(number: D, n: D, part: f64) -> D {
+    n.fused(D::from_f64(part), number)
 }
 
 /// The sine, up to its sign.

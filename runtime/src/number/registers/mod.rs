@@ -5,9 +5,11 @@
 //!
 //! # Safety
 //!
-//! An instruction of AVX2 or AVX-512 is sound only on a processor that has it. Vectors exist only there: code outside this crate cannot name
-//! their types, and this crate computes with them only in [`Work`] that is run by a token, [`Avx2`] or [`Avx512`]. A token is made only after
-//! the processor was asked. To store vectors, copy them, and read single numbers needs no such instruction.
+//! An instruction of AVX2 or AVX-512 is sound only on a processor that has it. This crate computes with vectors only in [`Work`] that is run by
+//! a token, [`Avx2`] or [`Avx512`], and a token is made only after the processor was asked. To store vectors, copy them, and read single
+//! numbers needs no such instruction. Code outside this crate cannot get hold of their types: these occur in bounds of public traits, but no
+//! public item has one as an associated type, a field or an argument. It meets them only as the scalar `T` of a function that such work
+//! calls.
 //!
 //! # Speed
 //!
@@ -39,6 +41,9 @@ pub use self::none::{Avx2, Avx512};
 pub(crate) use wide::{
     f64x4, f64x8, f64x8 as eight_doubles, u64x4, u64x8, u64x8 as eight_integers,
 };
+
+#[cfg(test)]
+mod tests;
 
 /// Work to be compiled for wide registers. Its function has to be inlined, and so has everything that it calls: closures too, so it calls
 /// none that computes with vectors.

@@ -13,12 +13,6 @@ use crate::system::{System, SystemLanes};
 /// The stages of a method `P` in lanes `L`, as many as the method has.
 pub struct InRegisters<P, L>(PhantomData<(P, L)>);
 
-/// In registers of AVX2.
-pub(crate) type Wide<P> = InRegisters<P, <<P as StageTableau>::Lanes as SystemLanes>::Wide>;
-
-/// In registers of AVX-512.
-pub(crate) type Widest<P> = InRegisters<P, <<P as StageTableau>::Lanes as SystemLanes>::Widest>;
-
 impl<P: StagePlan, L> StagePlan for InRegisters<P, L> {
     type Class = P::Class;
     type Stages<V: Vector> = P::Stages<V>;

@@ -270,7 +270,7 @@ impl<B: Bonds> Chain<B> {
     #[inline]
     fn forces_on_doubles(&self, time: f64, q: &[f64], force: &mut [f64]) {
         // A constant condition: other bonds compile without this code.
-        if registers::UNKNOWN && B::INLINED {
+        if registers::UNKNOWN && B::INLINED && q.len() >= <Eight as Row<f64>>::WIDTH {
             if let Some(registers) = Avx512::detect() {
                 return registers.run(Forces::<B, WidestEight>::new(self, time, q, force));
             }
