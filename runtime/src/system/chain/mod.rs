@@ -6,6 +6,7 @@ mod system_macro;
 
 use num_traits::Zero;
 
+use crate::error::Error;
 use crate::number::registers::{self, WideRegisters, Work};
 use crate::number::rows::{Eight, Row, Single, WideEight};
 use crate::number::{Scalar, Vector, copy};
@@ -51,6 +52,12 @@ pub trait Bonds {
     fn outer_energy<T: Scalar>(&self, _time: T, _position: T) -> Option<T> {
         None
     }
+
+    /// See [`crate::Hamiltonian::check_dimension`].
+    #[doc(hidden)]
+    fn check_dimension(&self, _dimension: usize) -> Result<(), Error> {
+        Ok(())
+    }
 }
 
 impl<B: Bonds> Bonds for &B {
@@ -80,6 +87,10 @@ impl<B: Bonds> Bonds for &B {
 
     fn outer_energy<T: Scalar>(&self, time: T, position: T) -> Option<T> {
         (**self).outer_energy(time, position)
+    }
+
+    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+        (**self).check_dimension(dimension)
     }
 }
 
@@ -368,6 +379,10 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
     ) -> bool {
         self.add_second_derivatives(time, q.as_slice(), jacobian)
             .is_some()
+    }
+
+    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+        self.bonds.check_dimension(dimension)
     }
 
     /// The ends of a ring are neighbours, too.
