@@ -350,19 +350,33 @@ pub enum Error {
         time: f64,
     },
 
-    /// Events follow each other more closely than time or the state can resolve: impacts accumulate, or the state rests
-    /// on a wall. The present state is that at the last event.
+    /// Events follow each other more closely than time or the state can resolve, or a thousand of them in a row, each within 1/16384 of a
+    /// step after the one before: impacts accumulate, or the state rests on a wall. The present state is that at the last event.
     #[error(
-        "events accumulate at time {time}: after {count} events at this time the sign of function {index} cannot be resolved; \
-         stop there, or constrain the state to the wall"
+        "events accumulate at time {time}: after {count} events in a row, each within 1/16384 of a step, the search ends at function \
+         {index}; stop there, constrain the state to the wall, or take a smaller step if the events are real"
     )]
     EventsAccumulate {
         /// The time.
         time: f64,
         /// Index of the event in the list, from 0.
         index: usize,
-        /// Number of events of all functions at this time.
+        /// Number of events of all functions in the row.
         count: u32,
+    },
+
+    /// The state is behind a [`wall`](crate::Event::wall), and does not leave it.
+    #[error(
+        "at time {time} the state is behind a wall: event function {index} is {value:e}; start where it is at least 0, and let the handler \
+         keep the state there"
+    )]
+    BehindWall {
+        /// The time.
+        time: f64,
+        /// Index of the event in the list, from 0.
+        index: usize,
+        /// Value of the function.
+        value: f64,
     },
 
     /// The length of a slice differs from the dimension of the vector to create.
