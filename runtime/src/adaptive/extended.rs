@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use num_traits::Zero;
 
 use crate::error::Error;
-use crate::integrator::validation::check_state;
+use crate::integrator::validation::{check_start, check_state};
 use crate::method::{check_no_constraints, check_no_friction};
 use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
@@ -106,7 +106,7 @@ pub(super) fn energy_of<S: Hamiltonian>(
     state: &State<S::Vector<f64>>,
 ) -> Result<f64, Error> {
     let State { time, q, p } = state;
-    check_state(*time, q, p, q.dimension())?;
+    check_start(system, state)?;
     check_no_constraints::<S::Vector<f64>, S>(system)?;
     check_no_friction(system, q)?;
     Hamiltonian::energy(system, *time, q, p).ok_or(Error::NoEnergy)

@@ -259,6 +259,10 @@ where
         Some(found.flatten().unwrap_or(f64::NAN))
     }
 
+    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+        self.system.check_dimension(dimension.saturating_sub(1))
+    }
+
     fn explain(&self, error: Error, q: &W) -> Error {
         match (self.fault.take(), error) {
             (Some((what, value)), Error::NonFinite { step, .. }) => Error::LogarithmicDomain {

@@ -225,6 +225,10 @@ where
         Some(found.unwrap_or(f64::NAN))
     }
 
+    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+        self.system.check_dimension(dimension.saturating_sub(1))
+    }
+
     fn explain(&self, error: Error, q: &V) -> Error {
         match (self.fault.take(), error) {
             (Some(value), Error::NonFinite { .. } | Error::NoConvergence { .. }) => {

@@ -149,6 +149,58 @@ pub enum Error {
         momentum: usize,
     },
 
+    /// An array among the parameters of a system has another length than the state or a list of pairs requires.
+    #[error(
+        "the parameter `{parameter}` has length {found}, but {expected} is needed; give an entry for each body or pair, or start from \
+         a state with other dimensions"
+    )]
+    ParameterLength {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// Its length; of a matrix, the length of the first wrong dimension.
+        found: usize,
+        /// The length needed.
+        expected: usize,
+    },
+
+    /// A pair among the parameters of a system has the index of a body that does not exist.
+    #[error(
+        "pair {index} of the parameter `{parameter}` is {pair:?}, but there are {bodies} bodies; indices count from 0 and must be less \
+         than {bodies}"
+    )]
+    PairOutOfRange {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// Index of the pair in the list, from 0.
+        index: usize,
+        /// The pair.
+        pair: (usize, usize),
+        /// Number of bodies in the state.
+        bodies: usize,
+    },
+
+    /// Positions are vectors, and the dimension of the state is not a multiple of their number of components.
+    #[error(
+        "the state has dimension {dimension}, which is not a multiple of {factor}; give {factor} components for each body"
+    )]
+    DimensionFactor {
+        /// Dimension of the position.
+        dimension: usize,
+        /// Number of components for each body.
+        factor: usize,
+    },
+
+    /// The formula names a body that the state does not have.
+    #[error(
+        "the state has {bodies} bodies, but the formula needs at least {least}; start from a state with more"
+    )]
+    TooFewBodies {
+        /// Number of bodies in the state.
+        bodies: usize,
+        /// The smallest number that the formula allows.
+        least: usize,
+    },
+
     /// The step size is zero or not finite.
     #[error("the step size is {value}; it must be finite and not zero")]
     StepSize {
@@ -302,19 +354,33 @@ pub enum Error {
         time: f64,
     },
 
-    /// Events follow each other more closely than time or the state can resolve: impacts accumulate, or the state rests
-    /// on a wall. The present state is that at the last event.
+    /// Events follow each other more closely than time or the state can resolve, or a thousand of them in a row, each within 1/16384 of a
+    /// step after the one before: impacts accumulate, or the state rests on a wall. The present state is that at the last event.
     #[error(
-        "events accumulate at time {time}: after {count} events at this time the sign of function {index} cannot be resolved; \
-         stop there, or constrain the state to the wall"
+        "events accumulate at time {time}: after {count} events in a row, each within 1/16384 of a step, the search ends at function \
+         {index}; stop there, constrain the state to the wall, or take a smaller step if the events are real"
     )]
     EventsAccumulate {
         /// The time.
         time: f64,
         /// Index of the event in the list, from 0.
         index: usize,
-        /// Number of events of all functions at this time.
+        /// Number of events of all functions in the row.
         count: u32,
+    },
+
+    /// The state is behind a [`wall`](crate::Event::wall), and does not leave it.
+    #[error(
+        "at time {time} the state is behind a wall: event function {index} is {value:e}; start where it is at least 0, and let the handler \
+         keep the state there"
+    )]
+    BehindWall {
+        /// The time.
+        time: f64,
+        /// Index of the event in the list, from 0.
+        index: usize,
+        /// Value of the function.
+        value: f64,
     },
 
     /// The length of a slice differs from the dimension of the vector to create.

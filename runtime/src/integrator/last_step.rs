@@ -19,7 +19,7 @@ pub(crate) struct LastEvent {
     pub(crate) index: usize,
     /// The sign of the function before the event.
     pub(crate) side: f64,
-    /// Number of events found at this time.
+    /// Number of events in a row that ends here, each closely after the one before.
     pub(crate) count: u32,
 }
 

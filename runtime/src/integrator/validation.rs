@@ -102,6 +102,16 @@ fn first_difference<V: Vector>(left: &V, right: &V) -> Option<(usize, f64, f64)>
     Some((component, left.magnitude(), right.magnitude()))
 }
 
+/// [`check_state`], and that the parameters of the system fit the dimension.
+pub(crate) fn check_start<V: Vector, S: System<V>>(
+    system: &S,
+    state: &State<V>,
+) -> Result<(), Error> {
+    let dimension = state.q.dimension();
+    check_state(state.time, &state.q, &state.p, dimension)?;
+    system.check_dimension(dimension)
+}
+
 pub(crate) fn check_state<V: Vector>(
     time: f64,
     q: &V,

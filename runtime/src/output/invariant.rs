@@ -84,14 +84,32 @@ impl<F> Invariant<F> {
         self.largest
     }
 
-    /// [`deviation`](Self::deviation), relative to the first value.
+    /// [`deviation`](Self::deviation), relative to the first value; the deviation itself if the first value is 0.
+    ///
+    /// ```
+    /// use symplectic::Invariant;
+    ///
+    /// let mut momentum = Invariant::new(|p: &[f64; 2]| p[0] + p[1], &[1.0, -1.0]);
+    /// momentum.observe(&[1.5, -1.5]);
+    /// assert_eq!(momentum.relative_deviation(), 0.0);
+    /// momentum.observe(&[1.5, -1.25]);
+    /// assert_eq!(momentum.relative_deviation(), 0.25);
+    /// ```
     pub fn relative_deviation(&self) -> f64 {
-        self.largest / self.initial.abs()
+        self.largest / self.unit()
     }
 
-    /// The latest value minus the first one, relative to the first one.
+    /// The latest value minus the first one, relative to the first one; the difference itself if the first value is 0.
     pub fn relative_error(&self) -> f64 {
-        (self.last - self.initial) / self.initial.abs()
+        (self.last - self.initial) / self.unit()
+    }
+
+    /// The size of the first value, or 1 if it is 0.
+    fn unit(&self) -> f64 {
+        match self.initial == 0.0 {
+            true => 1.0,
+            false => self.initial.abs(),
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Hamiltonian systems, written once for every scalar.
 
-use crate::error::ConstraintName;
+use crate::error::{ConstraintName, Error};
 use crate::number::{
     F64x2, F64x4, F64x8, Lanes, Scalar, Vector, WideF64x4, WideF64x8, WidestF64x8,
 };
@@ -154,6 +154,12 @@ pub trait Hamiltonian {
     ) {
         self.velocity(time, q, p, velocity);
         self.force(time, q, p, force);
+    }
+
+    /// Checks the parameters for states of this dimension. Systems from a formula implement it.
+    #[doc(hidden)]
+    fn check_dimension(&self, _dimension: usize) -> Result<(), Error> {
+        Ok(())
     }
 
     /// Whether trajectories with different parameters run in lanes side by side: see [`in_lanes`](Self::in_lanes).
@@ -677,6 +683,12 @@ pub trait SeparableHamiltonian {
         usize::MAX
     }
 
+    /// See [`Hamiltonian::check_dimension`].
+    #[doc(hidden)]
+    fn check_dimension(&self, _dimension: usize) -> Result<(), Error> {
+        Ok(())
+    }
+
     /// See [`Hamiltonian::JOINS`].
     #[doc(hidden)]
     const JOINS: bool = false;
@@ -753,5 +765,9 @@ impl<S: SeparableHamiltonian> Hamiltonian for S {
 
     fn half_bandwidth(&self) -> usize {
         SeparableHamiltonian::half_bandwidth(self)
+    }
+
+    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+        SeparableHamiltonian::check_dimension(self, dimension)
     }
 }

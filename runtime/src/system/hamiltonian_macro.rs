@@ -57,7 +57,7 @@
 /// | `stiffness: [springs]` | an array with a number for each of these pairs |
 ///
 /// Parameters are public fields. `Name::new(…)` takes those without a default, in order. If every parameter has a default, the type
-/// implements `Default`.
+/// implements `Default`. When an integrator is created, it checks that the lengths and pairs fit the state.
 ///
 /// # Formulas
 ///

@@ -1,5 +1,6 @@
 //! Systems given by their Lagrangian.
 
+use crate::error::Error;
 use crate::number::{Scalar, Vector};
 
 /// A mechanical system given by its Lagrangian `L(t, q, v)`, written once for every scalar. Its derivatives are exact, by hyper-dual numbers:
@@ -54,6 +55,12 @@ pub trait Lagrangian {
         _force: &mut Self::Vector<T>,
     ) {
     }
+
+    /// See [`crate::Hamiltonian::check_dimension`].
+    #[doc(hidden)]
+    fn check_dimension(&self, _dimension: usize) -> Result<(), Error> {
+        Ok(())
+    }
 }
 
 impl<L: Lagrangian> Lagrangian for &L {
@@ -84,5 +91,9 @@ impl<L: Lagrangian> Lagrangian for &L {
         force: &mut L::Vector<T>,
     ) {
         (**self).force(time, q, v, force);
+    }
+
+    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+        (**self).check_dimension(dimension)
     }
 }

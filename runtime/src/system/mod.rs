@@ -13,6 +13,7 @@ pub(crate) mod jacobian;
 pub(crate) mod lagrangian;
 pub(crate) mod lagrangian_macro;
 pub(crate) mod lane_parameters;
+mod lengths;
 pub(crate) mod linearity;
 pub(crate) mod masses;
 mod over_vectors;
@@ -42,5 +43,7 @@ pub use lagrangian::Lagrangian;
 pub use lagrangian_macro::lagrangian;
 #[doc(hidden)]
 pub use lane_parameters::LaneParameter;
+#[doc(hidden)]
+pub use lengths::{bodies, check_bodies, check_length, check_pairs};
 pub use masses::Masses;
 pub use over_vectors::{OverEveryScalar, System, SystemInLanes};

@@ -169,6 +169,12 @@ pub trait System<V: Vector>: Sized {
     #[cfg(feature = "alloc")]
     fn nonholonomic_rows(&self, _q: &V, _rows: &mut Gradients<V::Scalar>) {}
 
+    /// See [`Hamiltonian::check_dimension`].
+    #[doc(hidden)]
+    fn check_dimension(&self, _dimension: usize) -> Result<(), Error> {
+        Ok(())
+    }
+
     /// The error of a step from the position `q`, supplemented with what the system knows about it.
     #[doc(hidden)]
     fn explain(&self, error: Error, _q: &V) -> Error {
@@ -250,6 +256,10 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
 
     fn half_bandwidth(&self) -> usize {
         Hamiltonian::half_bandwidth(self)
+    }
+
+    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+        Hamiltonian::check_dimension(self, dimension)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

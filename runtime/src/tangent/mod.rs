@@ -13,7 +13,7 @@ use alloc::vec;
 use dual_vector::{halves, halves_mut, joined, part, zeros};
 
 use crate::error::Error;
-use crate::integrator::validation::check_state;
+use crate::integrator::validation::{check_start, check_state};
 use crate::number::dual::Dual;
 use crate::number::{Lanes, Scalar, Vector};
 use crate::solver::Automatic;
@@ -108,7 +108,7 @@ impl<S: Hamiltonian> Tangent<S> {
         (dq, dp): (&S::Vector<f64>, &S::Vector<f64>),
     ) -> Result<State<W>, Error> {
         let dimension = state.q.dimension();
-        check_state(state.time, &state.q, &state.p, dimension)?;
+        check_start(&self.0, state)?;
         check_state(state.time, dq, dp, dimension)?;
         let mut parts = dq.as_slice().iter().chain(dp.as_slice());
         if parts.all(|&part| part == 0.0) {
@@ -208,6 +208,10 @@ impl<S: Hamiltonian<Class: Conservative>, W: Vector> System<W> for Tangent<S> {
 
     const FORCED: bool = S::FORCED;
     const DISPLACED: bool = true;
+
+    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+        self.0.check_dimension(dimension / 2)
+    }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: W::Scalar, q: &W, p: &W, velocity: &mut W) {

@@ -143,6 +143,7 @@ pub fn generating_function<
 ) -> Result<GeneratingFunction<V>, Error> {
     check_step_size(step_size)?;
     check_state(time, q0, p1, q0.dimension())?;
+    system.check_dimension(q0.dimension())?;
     let nothing = q0.zeros_like();
     let step = Step {
         time,

@@ -11,7 +11,7 @@ use num_traits::Zero;
 use super::regular::Factors;
 use super::two_ends::dot;
 use crate::error::{Error, Quantity};
-use crate::integrator::validation::{check_state, check_step_size};
+use crate::integrator::validation::{check_start, check_state, check_step_size};
 use crate::method::storage::is_finite;
 use crate::number::dual::HyperDual;
 use crate::number::{Scalar, Vector};
@@ -127,7 +127,7 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
     /// [`Error::NewmarkMasses`] if the velocity is not `M⁻¹p` with a constant M.
     pub fn shift(&self, state: &State<S::Vector<f64>>) -> Result<State<S::Vector<f64>>, Error> {
         let State { time, q, p } = state;
-        check_state(*time, q, p, q.dimension())?;
+        check_start(&self.system, state)?;
         if let Some(found) = non_linear_velocity(&self.system, *time, q, p) {
             return Err(Error::NewmarkMasses {
                 component: found.component,
@@ -238,6 +238,10 @@ impl<S: Hamiltonian<Class = Separable>> System<S::Vector<f64>> for Newmark<S> {
         velocity: &mut S::Vector<f64>,
     ) {
         Hamiltonian::velocity(&self.system, time, q, p, velocity);
+    }
+
+    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+        self.system.check_dimension(dimension)
     }
 
     fn force(

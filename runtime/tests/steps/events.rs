@@ -263,6 +263,21 @@ fn observers_keep_the_largest_deviation() -> Result<(), Error> {
     assert_eq!(energy.relative_deviation(), 2.0 * largest);
     assert_eq!(Some(energy.last()), integrator.energy());
     assert!(angular_momentum.relative_deviation() < 1e-14);
+    // From 0 the deviation itself.
+    let mut angle = Invariant::new(|state: &Point| state.q.y, &perihelion());
+    angle.observe(&perihelion());
+    assert_eq!(
+        (angle.relative_deviation(), angle.relative_error()),
+        (0.0, 0.0)
+    );
+    angle.observe(&State {
+        q: Vector2::new(0.0, -0.5),
+        ..perihelion()
+    });
+    assert_eq!(
+        (angle.relative_deviation(), angle.relative_error()),
+        (0.5, -0.5)
+    );
     // Not a number once is not a number.
     let mut broken = Invariant::new(|state: &Point| (0.5 - state.time).sqrt(), &perihelion());
     for time in [0.0, 1.0, 0.0] {

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::common::methods::{Gauss2, StoermerVerlet};
+use crate::common::methods::{Gauss2, Gauss5, StoermerVerlet};
 use symplectic::nalgebra::{Vector1, Vector2};
 use symplectic::{Error, Event, Integrator, Method, Moment, State, System, acceleration};
 
@@ -408,5 +408,102 @@ fn several_walls_at_once() -> Result<(), Error> {
     }
     let end = State::from_arrays(6.0, [-1.0 / 3.0, 1.0 / 3.0], [-1.0, 1.0]);
     assert!((integrator.state().q - end.q).norm() < 1e-13 && integrator.state().p == end.p);
+    Ok(())
+}
+
+/// A body that rests on the floor, whose handler reflects it: its flights are rounding errors, and the search ends soon.
+#[test]
+fn a_reflected_body_at_rest_ends_the_search() -> Result<(), Error> {
+    fn rest<M: Method>(method: M, step_size: f64, gravity: f64) -> Result<(), Error>
+    where
+        M: symplectic::ProvedFor<symplectic::Separable>,
+    {
+        let falling = || {
+            acceleration::<Vector1<f64>, _>(move |_, _, acceleration| acceleration[0] = -gravity)
+        };
+        for event in [
+            Event::wall(height as fn(&Ball) -> f64),
+            Event::wall(height as fn(&Ball) -> f64).by_steps(),
+        ] {
+            let mut integrator = Integrator::new(method, falling(), ball(0.0, 0.0), step_size)?;
+            let mut count = 0;
+            let ended = integrator.integrate_through(10.0, &[], &event, |moment| {
+                if let Moment::Event { state, .. } = moment {
+                    state.p[0] = -state.p[0];
+                    count += 1;
+                }
+                ControlFlow::<()>::Continue(())
+            });
+            assert!(
+                matches!(ended, Err(Error::EventsAccumulate { .. })) && count <= 1000,
+                "{step_size} {gravity} {count} {ended:?}"
+            );
+        }
+        Ok(())
+    }
+    for step_size in [1e-3, 5e-3, 0.1] {
+        for gravity in [1.0, 9.81] {
+            rest(StoermerVerlet, step_size, gravity)?;
+            rest(Gauss5, step_size, gravity)?;
+        }
+    }
+    Ok(())
+}
+
+/// A thousand impacts in every step, and crossings that are even closer, are no rest.
+#[test]
+fn many_events_in_a_step_are_found() -> Result<(), Error> {
+    let free = || acceleration::<Vector1<f64>, _>(|_, _, acceleration| acceleration[0] = 0.0);
+    let mut integrator = Integrator::new(StoermerVerlet, free(), ball(5e-4, 1.0), 1.0)?;
+    let walls: [Event<fn(&Ball) -> f64>; 2] = [
+        Event::wall(height),
+        Event::wall(|ball: &Ball| 1e-3 - ball.q[0]),
+    ];
+    let mut count = 0;
+    integrator.integrate_through(3.0, &[], &walls, |moment| {
+        if let Moment::Event { state, .. } = moment {
+            state.p[0] = -state.p[0];
+            count += 1;
+        }
+        ControlFlow::<()>::Continue(())
+    })?;
+    assert_eq!(count, 3000);
+    let often = Event::crossing(|ball: &Ball| (ball.time * 2e4 * std::f64::consts::PI + 0.5).sin());
+    let mut crossings = 0;
+    let mut integrator = Integrator::new(StoermerVerlet, free(), ball(0.0, 1.0), 1.0)?;
+    integrator.integrate_with_events(1.0, &often.samples(100_000), |_| {
+        crossings += 1;
+        ControlFlow::<()>::Continue(())
+    })?;
+    assert_eq!(crossings, 20_000);
+    Ok(())
+}
+
+/// A start behind a wall is named so if the handler does not move it out.
+#[test]
+fn a_start_behind_a_wall_is_named() -> Result<(), Error> {
+    for velocity in [-1.0, 0.0, 1.0] {
+        let start = ball(-0.5, velocity);
+        let mut integrator = Integrator::new(StoermerVerlet, falling_ball(), start.clone(), 0.1)?;
+        let ended = integrator.integrate_through(2.0, &[], &Event::wall(height), |moment| {
+            if let Moment::Event { state, .. } = moment {
+                state.p[0] = -state.p[0];
+            }
+            ControlFlow::<()>::Continue(())
+        });
+        let (time, index, value) = (0.0, 0, -0.5);
+        assert_eq!(ended, Err(Error::BehindWall { time, index, value }));
+        // A handler that moves the state out goes on.
+        let mut integrator = Integrator::new(StoermerVerlet, falling_ball(), start, 0.1)?;
+        let mut count = 0;
+        integrator.integrate_through(0.1, &[], &Event::wall(height), |moment| {
+            if let Moment::Event { state, .. } = moment {
+                state.q[0] = 0.5;
+                count += 1;
+            }
+            ControlFlow::<()>::Continue(())
+        })?;
+        assert_eq!(count, 1);
+    }
     Ok(())
 }

@@ -14,6 +14,7 @@ mod generating_function;
 mod impacts;
 mod newton;
 mod newton_of_chains;
+mod parameters;
 mod proved;
 mod restart;
 mod run_time;

@@ -94,6 +94,7 @@ impl Emitter<'_> {
             }
         });
         let inlined = self.inlined();
+        let check_dimension = self.check_dimension();
         quote! {
             #[allow(unused_variables, non_snake_case, clippy::all)]
             impl #generics ::symplectic::emitted::Bonds for #name #arguments {
@@ -113,6 +114,8 @@ impl Emitter<'_> {
                 }
 
                 #outer
+
+                #check_dimension
             }
 
             ::symplectic::emitted::chain_system!((#parameters) (#name #arguments), #bonds, #ends);

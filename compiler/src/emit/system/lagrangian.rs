@@ -41,6 +41,7 @@ impl Emitter<'_> {
                 }
             }
         });
+        let check_dimension = self.check_dimension();
         quote! {
             #[allow(unused_variables, non_snake_case, clippy::all)]
             impl #generics ::symplectic::Lagrangian for #name #arguments {
@@ -60,6 +61,8 @@ impl Emitter<'_> {
                 }
 
                 #force
+
+                #check_dimension
             }
         }
     }

@@ -14,6 +14,7 @@ mod in_lanes;
 mod invariants;
 mod jacobian;
 mod lagrangian;
+mod lengths;
 mod momentum;
 mod names;
 
@@ -423,6 +424,7 @@ impl<'a> Emitter<'a> {
         let energy = self.energy(self.system.energy);
         let jacobian = self.jacobian(Some(split));
         let inlined = self.inlined();
+        let check_dimension = self.check_dimension();
         quote! {
             #[allow(unused_variables, non_snake_case, clippy::all)]
             impl #generics ::symplectic::SeparableHamiltonian for #name #arguments {
@@ -449,6 +451,8 @@ impl<'a> Emitter<'a> {
                 }
 
                 #jacobian
+
+                #check_dimension
             }
 
             #system
@@ -538,6 +542,7 @@ impl<'a> Emitter<'a> {
         });
         let beside_energy = self.beside_energy();
         let inlined = self.inlined();
+        let check_dimension = self.check_dimension();
         quote! {
             #[allow(unused_variables, non_snake_case, clippy::all)]
             impl #generics ::symplectic::Hamiltonian for #name #arguments {
@@ -569,6 +574,8 @@ impl<'a> Emitter<'a> {
                 #applied
 
                 #jacobian
+
+                #check_dimension
 
                 #beside_energy
             }

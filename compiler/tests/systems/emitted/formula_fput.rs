@@ -74,6 +74,14 @@ const _: () = {
                 value
             })
         }
+        fn check_dimension(
+            &self,
+            dimension: usize,
+        ) -> ::core::result::Result<(), ::symplectic::Error> {
+            let n = ::symplectic::emitted::bodies(dimension, 1)?;
+            ::symplectic::emitted::check_bodies(n, 1)?;
+            ::core::result::Result::Ok(())
+        }
     }
     ::symplectic::emitted::chain_system!(
         () (Fput), | bonds : & Self | * bonds, between_walls

@@ -15,8 +15,11 @@ use crate::output::at_times::Output;
 use crate::state::State;
 use crate::system::System;
 
-/// Largest number of events at the same time.
-const MOST_AT_ONE_TIME: u32 = 1000;
+/// Largest number of events in a row that follow each other within [`SHORTEST`].
+const MOST_IN_A_ROW: u32 = 1000;
+
+/// A flight shorter than this, relative to the step, does not end a row of events.
+const SHORTEST: f64 = 1.0 / 16_384.0;
 
 /// A search for the events of a list.
 pub(super) struct Search<'e, E, M, S, V, N>
@@ -219,7 +222,10 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
             let by_steps = self.events.kind(index).by_steps;
             self.look_at(integrator, time, by_steps)?;
             self.shown.copy_from(&self.output.state);
-            let shown = self.show_events(time, handle);
+            let step = integrator
+                .last_step()
+                .map_or(0.0, |last| last.end - last.start);
+            let shown = self.show_events((time, step), handle);
             if shown.is_break() {
                 return Ok(shown);
             }
@@ -239,24 +245,25 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
         })
     }
 
-    /// Passes all events at a time to the handler; `self.shown` is the state at this time.
+    /// Passes all events at a time to the handler; `self.shown` is the state at this time, in a step of this size.
     fn show_events<B>(
         &mut self,
-        time: f64,
+        (time, step): (f64, f64),
         handle: &mut impl FnMut(Moment<'_, V>) -> ControlFlow<B>,
     ) -> Seen<B> {
         let mut reset = false;
         while let Some((index, next)) = self.next()
             && next.time == time
         {
-            let before = self.last.filter(|last| last.time == time);
-            let count = before.map_or(0, |last| last.count);
-            if next.unseen || count == MOST_AT_ONE_TIME {
-                return ControlFlow::Break(Stop::Failed(Error::EventsAccumulate {
-                    time,
-                    index,
-                    count,
-                }));
+            let near = |last: &LastEvent| (time - last.time).abs() <= SHORTEST * step.abs();
+            let count = self.last.filter(near).map_or(0, |last| last.count);
+            if next.unseen || count == MOST_IN_A_ROW {
+                let value = self.events.value(index, &self.shown);
+                let failed = match self.events.kind(index).wall && value < 0.0 {
+                    true => Error::BehindWall { time, index, value },
+                    false => Error::EventsAccumulate { time, index, count },
+                };
+                return ControlFlow::Break(Stop::Failed(failed));
             }
             let track = &mut self.tracks.as_mut()[index];
             track.pop();
@@ -278,7 +285,8 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
         if reset {
             return ControlFlow::Break(Stop::Reset);
         }
-        // The search continues through the events.
+        // The search continues through the events, which end a row.
+        self.last = self.last.map(|last| LastEvent { count: 0, ..last });
         for track in self.tracks.as_mut() {
             track.fired = 0.0;
         }

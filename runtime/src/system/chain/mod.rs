@@ -8,6 +8,7 @@ use core::marker::PhantomData;
 
 use num_traits::Zero;
 
+use crate::error::Error;
 use crate::number::registers::{self, Avx2, Avx512, Work};
 use crate::number::rows::{Eight, Row, Single, WideEight, WidestEight};
 use crate::number::{Scalar, Vector, copy};
@@ -53,6 +54,12 @@ pub trait Bonds {
     fn outer_energy<T: Scalar>(&self, _time: T, _position: T) -> Option<T> {
         None
     }
+
+    /// See [`crate::Hamiltonian::check_dimension`].
+    #[doc(hidden)]
+    fn check_dimension(&self, _dimension: usize) -> Result<(), Error> {
+        Ok(())
+    }
 }
 
 impl<B: Bonds> Bonds for &B {
@@ -82,6 +89,10 @@ impl<B: Bonds> Bonds for &B {
 
     fn outer_energy<T: Scalar>(&self, time: T, position: T) -> Option<T> {
         (**self).outer_energy(time, position)
+    }
+
+    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+        (**self).check_dimension(dimension)
     }
 }
 
@@ -374,6 +385,10 @@ impl<V: Vector, B: Bonds> System<V> for Chain<B> {
     ) -> bool {
         self.add_second_derivatives(time, q.as_slice(), jacobian)
             .is_some()
+    }
+
+    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+        self.bonds.check_dimension(dimension)
     }
 
     /// The ends of a ring are neighbours, too.

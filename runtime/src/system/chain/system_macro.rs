@@ -42,6 +42,10 @@ macro_rules! chain_system {
             fn half_bandwidth(&self) -> usize {
                 $crate::System::<V>::half_bandwidth(&$crate::emitted::Chain::$ends($bonds(self)))
             }
+
+            fn check_dimension(&self, dimension: usize) -> ::core::result::Result<(), $crate::Error> {
+                $crate::emitted::Bonds::check_dimension(self, dimension)
+            }
         }
 
         impl<V: $crate::Vector, $($parameters)*> $crate::system::OverEveryScalar<V> for $name {

@@ -164,6 +164,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     ) -> Result<Self, Error> {
         let n = state.q.dimension();
         check_state(state.time, &state.q, &state.p, n)?;
+        lagrangian.check_dimension(n)?;
         Ok(Self {
             step_clock: StepClock::new(state.time, step_size)?,
             stages: Stages::new(coefficients, n)?,

@@ -44,6 +44,7 @@ pub fn momentum_of_velocity<L: Lagrangian>(
     v: &L::Vector<f64>,
 ) -> Result<L::Vector<f64>, Error> {
     check_state(time, q, v, q.dimension())?;
+    lagrangian.check_dimension(q.dimension())?;
     let mut derivatives = Derivatives::new(q.dimension())?;
     derivatives.first(lagrangian, time, q.as_slice(), v.as_slice());
     derivatives.check(time)?;
@@ -93,6 +94,7 @@ pub fn velocity_of_momentum<L: Lagrangian>(
     p: &L::Vector<f64>,
 ) -> Result<L::Vector<f64>, Error> {
     check_state(time, q, p, q.dimension())?;
+    lagrangian.check_dimension(q.dimension())?;
     velocity_near(lagrangian, time, q, p, q.zeros_like())
 }
 

@@ -1,0 +1,72 @@
+//! Checks of the parameters of a system from a formula against the dimension of its states.
+
+use crate::error::Error;
+
+/// The number of bodies in vectors of this dimension, with `components` for each body.
+///
+/// # Errors
+///
+/// [`Error::DimensionFactor`].
+pub const fn bodies(dimension: usize, components: usize) -> Result<usize, Error> {
+    match dimension.checked_rem(components) {
+        Some(0) => Ok(dimension / components),
+        _ => Err(Error::DimensionFactor {
+            dimension,
+            factor: components,
+        }),
+    }
+}
+
+/// Checks that there are as many bodies as the formula names.
+///
+/// # Errors
+///
+/// [`Error::TooFewBodies`].
+pub const fn check_bodies(bodies: usize, least: usize) -> Result<(), Error> {
+    match bodies < least {
+        true => Err(Error::TooFewBodies { bodies, least }),
+        false => Ok(()),
+    }
+}
+
+/// Checks the length of a parameter.
+///
+/// # Errors
+///
+/// [`Error::ParameterLength`].
+pub const fn check_length(
+    parameter: &'static str,
+    found: usize,
+    expected: usize,
+) -> Result<(), Error> {
+    match found == expected {
+        true => Ok(()),
+        false => Err(Error::ParameterLength {
+            parameter,
+            found,
+            expected,
+        }),
+    }
+}
+
+/// Checks that all pairs are pairs of bodies.
+///
+/// # Errors
+///
+/// [`Error::PairOutOfRange`].
+pub fn check_pairs(
+    parameter: &'static str,
+    pairs: &[(usize, usize)],
+    bodies: usize,
+) -> Result<(), Error> {
+    let outside = |&(_, &(first, second)): &(usize, &(usize, usize))| first.max(second) >= bodies;
+    match pairs.iter().enumerate().find(outside) {
+        None => Ok(()),
+        Some((index, &pair)) => Err(Error::PairOutOfRange {
+            parameter,
+            index,
+            pair,
+            bodies,
+        }),
+    }
+}
