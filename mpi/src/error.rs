@@ -1,13 +1,21 @@
 //! What can go wrong with the blocks of an ensemble.
 
+use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
 use symplectic::CheckpointError;
 use symplectic::ensemble::EnsembleError;
 
+/// The message, as `main` and `unwrap` print it.
+impl fmt::Debug for Error {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, formatter)
+    }
+}
+
 /// Why blocks were not run, or not merged.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// No block, or an empty one.

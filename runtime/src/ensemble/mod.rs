@@ -22,8 +22,8 @@
 //! With coupled stages every sweep of the default solver computes the stages of all trajectories, and a trajectory whose
 //! stages have settled waits for the others. A trajectory takes a step alone, and returns to its lane, where its stages
 //! do not settle as after a usual warm start: in its first step, in slow and in failing iterations. A compiled method
-//! does so in builds for AVX-512, or if lanes [are chosen](Ensemble::in_lanes): in narrower registers a single run, with
-//! the stages of one trajectory in lanes, is as fast.
+//! does so in builds for AVX-512, or if lanes [are chosen](Ensemble::in_lanes). In other builds a single run, with the
+//! stages of one trajectory in lanes, is as fast or faster: it finds [wide registers](crate::Hamiltonian::INLINED).
 //!
 //! All other trajectories run one by one: those with another solver, with constraints or with a composition of implicit
 //! methods; those of closures and chains; those of [`each`](Ensemble::each) and [`each_as`](Ensemble::each_as); and those

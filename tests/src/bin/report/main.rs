@@ -144,15 +144,23 @@ fn settings(arguments: &Arguments) -> Settings {
     settings
 }
 
+/// The registers that integrators find.
+fn registers() -> &'static str {
+    #[cfg(target_arch = "x86_64")]
+    {
+        if std::arch::is_x86_feature_detected!("avx512f") {
+            return ", AVX-512";
+        }
+        if std::arch::is_x86_feature_detected!("avx2") {
+            return ", AVX2";
+        }
+    }
+    ""
+}
+
 /// The circumstances of the measurement.
 fn circumstances(quick: bool, seconds: u64) -> Vec<Fact> {
-    let vectors = if cfg!(target_feature = "avx512f") {
-        ", AVX-512"
-    } else if cfg!(target_feature = "avx2") {
-        ", AVX2"
-    } else {
-        ""
-    };
+    let vectors = registers();
     let kind = if quick { "quick" } else { "full" };
     vec![
         Fact::new("Machine", format!("{}{vectors}", processor())),
