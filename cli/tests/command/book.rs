@@ -1,4 +1,5 @@
-//! The book: its catalogue is the output of `symplectic list --facts`, and its links lead somewhere.
+//! The book: its catalogue is the output of `symplectic list --facts`, its language of formulas that of the macro, and its links lead
+//! somewhere.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,6 +20,61 @@ fn the_catalogue_of_the_book_is_what_the_tool_lists() {
     assert!(
         text[start..] == listed,
         "the table is stale: write it anew with `UPDATE_EXPECT=1`"
+    );
+}
+
+/// The sections of the documentation of `hamiltonian!` that describe its language, as a page of the book: without links into the library.
+fn language() -> String {
+    let source = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("../runtime/src/system/hamiltonian_macro.rs");
+    let text = fs::read_to_string(source).expect("the documentation of the macro");
+    let lines = text.lines().filter_map(|line| line.strip_prefix("///"));
+    let lines = lines.map(|line| line.strip_prefix(' ').unwrap_or(line));
+    let mut page = String::from(
+        "# The language of formulas\n\nFor `hamiltonian!`, `lagrangian!` and the files of [`symplectic run`](../guide/run.md). A first example is in \
+         [Formulas](../guide/formulas.md).\n\n",
+    );
+    let mut in_code = false;
+    for line in lines.skip_while(|line| *line != "# Coordinates") {
+        let fence = line.strip_prefix("```");
+        let line = match fence {
+            Some("") if !in_code => "```rust".to_owned(),
+            Some(kind) if !in_code => format!("```rust,{kind}"),
+            None if !in_code && line.starts_with('#') => format!("#{line}"),
+            _ => line.to_owned(),
+        };
+        in_code ^= fence.is_some();
+        page.push_str(&if in_code { line } else { without_links(&line) });
+        page.push('\n');
+    }
+    page
+}
+
+/// The text of a line whose links into the library are only their words.
+fn without_links(line: &str) -> String {
+    let mut parts = line.split("](crate::");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        if let Some(start) = text.rfind('[') {
+            text.remove(start);
+        }
+        text.push_str(part.split_once(')').map_or(part, |(_, rest)| rest));
+    }
+    text
+}
+
+#[test]
+fn the_language_of_the_book_is_that_of_the_macro() {
+    let page = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/src/reference/formulas.md");
+    let expected = language();
+    assert!(expected.contains("atan2") && !expected.contains("crate::"));
+    if std::env::var_os("UPDATE_EXPECT").is_some_and(|value| value == "1") {
+        fs::write(&page, expected).expect("a page that can be written");
+        return;
+    }
+    assert!(
+        fs::read_to_string(&page).expect("the page") == expected,
+        "the page is stale: write it anew with `UPDATE_EXPECT=1`"
     );
 }
 

@@ -41,7 +41,9 @@
 /// | `q: [a, b], p: [pa, pb];` | with names | `SVector<T, 2>` |
 /// | `q: [4], p: [4];` | `q[0]` … `q[3]` | `SVector<T, 4>` |
 /// | `Name<N>`, a capital letter, and `q: [N; 3], p: [N; 3];` | `N` bodies in space, `q[i]` is a vector | `SMatrix<T, 3, N>`, a column each |
-/// | `q: [..], p: [..];`, `q: [..; 3], p: [..; 3];` | numbers or vectors, whose count is known at run time only | `DVector<T>` |
+/// | `q: [..], p: [..];`, `q: [..; 3], p: [..; 3];` | numbers or vectors, whose count is known at run time only | `DVector<T>`, one body after the other: `x0, y0, z0, x1, …` |
+///
+/// Indices begin at 0.
 ///
 /// # Parameters
 ///
@@ -63,7 +65,7 @@
 ///
 /// Juxtaposition is multiplication: `2 a b`. A product after `/` needs parentheses. A formula may contain
 ///
-/// * `+ - * / ^` with whole and rational powers, `pi`, and the time `t`;
+/// * `+ - * / ^`, `pi`, and the time `t`;
 /// * `sqrt exp ln sin cos tan asin acos atan sinh cosh tanh atan2 hypot`;
 /// * vectors `[x, y, z]` with `|v|`, `dot(v, w)` and `cross(v, w)`, and a matrix times a vector.
 ///
