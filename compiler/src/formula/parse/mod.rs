@@ -26,12 +26,14 @@
 mod form;
 mod statements;
 mod tokens;
+mod unknown;
 
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero};
 
 pub use self::form::form;
 use self::tokens::{Token, tokenize};
+pub use self::unknown::{suggestion, unknown_function};
 use super::error::FormulaError;
 use super::function::Function;
 use super::syntax::{Definition, Expression, Form, Kind, Name, Over, Span};
@@ -184,9 +186,41 @@ impl<'a> Parser<'a> {
             Token::End => format!("the {} ends", self.whole),
             _ => format!("found `{}`", &self.input.text[span.clone()]),
         };
-        let expected = expected.to_owned();
+        let expected = self.instead().unwrap_or_else(|| expected.to_owned());
         self.input
             .error(&span, ErrorKind::Syntax { found, expected })
+    }
+
+    /// How to write what is written as in Rust or Python here.
+    fn instead(&self) -> Option<String> {
+        let power = "`^` for a power: `x^2`";
+        let before = self.next.checked_sub(1).map(|last| &self.tokens[last]);
+        match (self.peek(), self.ahead(1)) {
+            (Token::Symbol('.'), Token::Name(name)) if name == "powi" || name == "powf" => {
+                Some(power.to_owned())
+            }
+            (Token::Symbol('.'), Token::Name(name)) if is_function(name) => {
+                Some(format!("the function before its argument: `{name}(x)`"))
+            }
+            (Token::Symbol('*'), _) => {
+                let star = before.filter(|(token, _)| *token == Token::Symbol('*'));
+                let adjacent = star.is_some_and(|(_, span)| span.end == self.span().start);
+                adjacent.then(|| power.to_owned())
+            }
+            _ => None,
+        }
+    }
+
+    /// The name directly before the present token.
+    fn name_before(&self) -> Option<Name> {
+        let (token, span) = self.tokens.get(self.next.checked_sub(1)?)?;
+        match token {
+            Token::Name(text) if span.end == self.span().start => Some(Name {
+                text: text.clone(),
+                span: span.clone(),
+            }),
+            _ => None,
+        }
     }
 
     fn word(&self, word: &str) -> bool {
@@ -452,7 +486,15 @@ impl<'a> Parser<'a> {
                 Kind::Name(text)
             }
             Token::Symbol('(') => {
-                let inner = self.within(['(', ')'], Self::expression)?;
+                let called = self.name_before();
+                let inner = self.within(['(', ')'], |parser| {
+                    let inner = parser.expression()?;
+                    match called {
+                        // A product has no list.
+                        Some(name) if parser.is(',') => Err(unknown_function(parser.input, &name)),
+                        _ => Ok(inner),
+                    }
+                })?;
                 // A sum or product in parentheses stays separate.
                 return Ok(Expression {
                     span: start..self.end(),
