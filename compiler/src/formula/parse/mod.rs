@@ -191,38 +191,6 @@ impl<'a> Parser<'a> {
             .error(&span, ErrorKind::Syntax { found, expected })
     }
 
-    /// How to write what is written as in Rust or Python here.
-    fn instead(&self) -> Option<String> {
-        let power = "`^` for a power: `x^2`";
-        let before = self.next.checked_sub(1).map(|last| &self.tokens[last]);
-        match (self.peek(), self.ahead(1)) {
-            (Token::Symbol('.'), Token::Name(name)) if name == "powi" || name == "powf" => {
-                Some(power.to_owned())
-            }
-            (Token::Symbol('.'), Token::Name(name)) if is_function(name) => {
-                Some(format!("the function before its argument: `{name}(x)`"))
-            }
-            (Token::Symbol('*'), _) => {
-                let star = before.filter(|(token, _)| *token == Token::Symbol('*'));
-                let adjacent = star.is_some_and(|(_, span)| span.end == self.span().start);
-                adjacent.then(|| power.to_owned())
-            }
-            _ => None,
-        }
-    }
-
-    /// The name directly before the present token.
-    fn name_before(&self) -> Option<Name> {
-        let (token, span) = self.tokens.get(self.next.checked_sub(1)?)?;
-        match token {
-            Token::Name(text) if span.end == self.span().start => Some(Name {
-                text: text.clone(),
-                span: span.clone(),
-            }),
-            _ => None,
-        }
-    }
-
     fn word(&self, word: &str) -> bool {
         matches!(self.peek(), Token::Name(name) if name == word)
     }

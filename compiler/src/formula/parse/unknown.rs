@@ -1,10 +1,45 @@
-//! Names that are not known, and what was probably meant.
+//! What is not written so here, and what was probably meant.
 
-use super::VECTOR_FUNCTIONS;
+use super::tokens::Token;
+use super::{Parser, VECTOR_FUNCTIONS, is_function};
 use crate::error::{Error, ErrorKind};
 use crate::expression::Input;
 use crate::formula::function::ELEMENTARY;
 use crate::formula::syntax::Name;
+
+impl Parser<'_> {
+    /// How to write what is written as in Rust or Python here.
+    pub(super) fn instead(&self) -> Option<String> {
+        let power = "`^` for a power: `x^2`";
+        let before = self.next.checked_sub(1).map(|last| &self.tokens[last]);
+        match (self.peek(), self.ahead(1)) {
+            (Token::Symbol('.'), Token::Name(name)) if name == "powi" || name == "powf" => {
+                Some(power.to_owned())
+            }
+            (Token::Symbol('.'), Token::Name(name)) if is_function(name) => {
+                Some(format!("the function before its argument: `{name}(x)`"))
+            }
+            (Token::Symbol('*'), _) => {
+                let star = before.filter(|(token, _)| *token == Token::Symbol('*'));
+                let adjacent = star.is_some_and(|(_, span)| span.end == self.span().start);
+                adjacent.then(|| power.to_owned())
+            }
+            _ => None,
+        }
+    }
+
+    /// The name directly before the present token.
+    pub(super) fn name_before(&self) -> Option<Name> {
+        let (token, span) = self.tokens.get(self.next.checked_sub(1)?)?;
+        match token {
+            Token::Name(text) if span.end == self.span().start => Some(Name {
+                text: text.clone(),
+                span: span.clone(),
+            }),
+            _ => None,
+        }
+    }
+}
 
 /// The error for a function that is not known.
 pub fn unknown_function(input: Input<'_>, name: &Name) -> Error {
