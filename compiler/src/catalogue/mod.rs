@@ -306,6 +306,12 @@ pub fn unknown(name: &str) -> Error {
         .filter(|(distance, known)| *distance <= 2.max(known.len() / 3))
         .collect();
     near.sort_by_key(|(distance, _)| *distance);
+    if near.is_empty() {
+        // Names that begin with the same word.
+        let word = |name: &str| name.split(['-', '_', ' ']).next().map(plain);
+        let same = entries().filter(|entry| word(&entry.name) == word(name));
+        near.extend(same.map(|entry| (0, entry.name)));
+    }
     let near: Vec<String> = near.into_iter().take(3).map(|(_, name)| name).collect();
     let known = if near.is_empty() {
         "the names that `symplectic list` shows".to_owned()
@@ -371,6 +377,8 @@ mod tests {
             message.starts_with("unknown method `gaus-3`; known here: gauss-3, "),
             "{message}"
         );
+        let message = unknown("yoshida-4").to_string();
+        assert!(message.contains("known here: yoshida-1990-"), "{message}");
         assert!(
             unknown("runge-kutta-fehlberg")
                 .to_string()

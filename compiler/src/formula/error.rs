@@ -86,6 +86,12 @@ pub enum FormulaError {
         /// The remedy.
         instead: &'static str,
     },
+    /// A constant that is infinite or NaN in double precision.
+    #[error("`{value}` has no finite value in double precision; write a constant that has one")]
+    NotFinite {
+        /// The constant.
+        value: String,
+    },
     /// An ambiguous quotient followed by a product.
     #[error("is it `a / (b c)` or `(a / b) c`? Write the parentheses")]
     AmbiguousQuotient,

@@ -521,6 +521,12 @@ impl Graph {
                 _ => {}
             }
         }
+        if let Some(value) = self
+            .half_turns(x)
+            .and_then(|turns| quarter_turn(function, &turns))
+        {
+            return self.integer(value);
+        }
         let (scale, inner) = self.scaled(x);
         if scale.is_negative() {
             let positive = self.scale(-scale, inner);
@@ -534,6 +540,13 @@ impl Graph {
             }
         }
         self.add(Node::Elementary(function, x))
+    }
+
+    /// An angle as a multiple of π, if twice the multiple is whole.
+    pub fn half_turns(&self, x: Id) -> Option<Number> {
+        let (turns, inner) = self.scaled(x);
+        let known = *self.node(inner) == Node::Pi && (&turns * integer(2)).is_integer();
+        known.then_some(turns)
     }
 
     /// The angle of the point `(x, y)`.
@@ -762,5 +775,18 @@ fn children(node: &Node) -> Vec<Id> {
         Node::Constant(_) | Node::Pi | Node::Time | Node::Parameter(..) | Node::Coordinate(_) => {
             Vec::new()
         }
+    }
+}
+
+/// The function at a multiple of π, twice which is whole; `None` for other functions, and for the tangent where it is infinite.
+fn quarter_turn(function: Elementary, turns: &Number) -> Option<i64> {
+    // The remainder of division by a full turn, in quarters.
+    let full = turns / integer(2);
+    let quarters = ((&full - full.floor()) * integer(4)).to_i64()?;
+    match (function, quarters) {
+        (Elementary::Sin, quarters) => Some([0, 1, 0, -1][usize::try_from(quarters).ok()? % 4]),
+        (Elementary::Cos, quarters) => Some([1, 0, -1, 0][usize::try_from(quarters).ok()? % 4]),
+        (Elementary::Tan, 0 | 2) => Some(0),
+        _ => None,
     }
 }

@@ -257,8 +257,54 @@ fn wrong_formulas_are_refused_at_their_place() {
         refused(
             "P q: [x, y], p: [px, py], v: [vx, vy]; H = px^2 + py^2 nonholonomic: { edge = vx } invariants: { momentum = py }",
         ),
+        pendulum("pa^2/2 + asin(2) a"),
+        pendulum("pa^2/2 + acos(-3/2) a"),
+        pendulum("pa^2/2 + asin(sqrt(2)) a"),
+        pendulum("pa^2/2 + a^2/sin(pi)"),
+        pendulum("pa^2/2 + a^2/(sqrt(2) - sqrt(2))"),
+        pendulum("pa^2/2 + tan(-3 pi/2) a"),
+        pendulum("pa^2/2 + exp(1000) a"),
+        pendulum("pa^2/2 + (-2)^a"),
+        pendulum("pa^2/2 + ln(sqrt(2) - 2) a"),
+        pendulum("pa^2/2 + sqrt(a^2)"),
+        pendulum("pa^2/2 + (a^2)^(1/2)"),
+        pendulum("pa^2/2 + sqrt(4 a^2 (1 + pa^2))"),
+        pendulum("pa^2/2 + ((a - 1)^4)^(3/8)"),
+        pendulum("pa^2/2 + besselj(0, a)"),
+        pendulum("pa^2/2 + erf(a)"),
+        pendulum("pa^2/2 + log(a)"),
+        pendulum("pa^2/2 + a**2"),
+        pendulum("pa^2/2 + a.powi(2)"),
+        pendulum("pa^2/2 + a.cos()"),
+        pendulum("pa^2/2 + e^a"),
+        pendulum("pa^2/2 + foo"),
+        refused("P q: [3], p: [3]; let u(i, j) = q[i] q[j]; H = |p|^2/2 + u(1/2, 1)"),
+        refused("P q: [3], p: [3]; let u(i, j) = q[i] q[j]; H = |p|^2/2 + u(0, 3)"),
     ];
     expect_file!["data/formulas_refused.txt"].assert_eq(&(all.join("\n\n") + "\n"));
+}
+
+/// What resembles a refused formula, but is smooth and finite.
+#[test]
+fn smooth_and_finite_formulas_are_accepted() {
+    for h in [
+        "asin(1) a + acos(-1) a^2",
+        "a^2/sin(pi/2) + tan(pi/4) a + a cos(3 pi)",
+        "sqrt((1 + a^2)^2) + sqrt(exp(a)^2)",
+        "sqrt(a^4) + (a^2)^(3/2) + (a^2)^(-1/2)",
+        "sqrt(g^2) a + sqrt(t^2) a^2",
+        "2^a + exp(700) a",
+    ] {
+        let text = format!("P {{ g: 9.81 }} q: [a], p: [pa]; H = pa^2/2 + {h}");
+        let (mut read, structure) = read(&text);
+        read.check(&structure, &text).expect(&text);
+    }
+    // An exact zero, and whole numbers as arguments.
+    let zero = "P q: [a], p: [pa]; H = pa^2/2 + sin(2 pi) a^4 + cos(pi/2) a^3 + cos(pi) a";
+    assert_eq!(code(zero), code("P q: [a], p: [pa]; H = pa^2/2 - a"));
+    let called = "P q: [3], p: [3]; let u(i, j) = q[i] q[j]; H = |p|^2/2 + u(0, 2)";
+    let written = "P q: [3], p: [3]; H = |p|^2/2 + q[0] q[2]";
+    assert_eq!(code(called), code(written));
 }
 
 /// Dampers between pairs leave the total momentum alone, and a rotation does not see a central force.
@@ -372,7 +418,11 @@ fn degenerate_and_polynomial_hamiltonians_are_found() {
         ),
         ("|p|^2 + (x + 1)^2 - x^2", MomentumHessian::Regular, Some(2)),
         ("|p|^2 + x/(1 + y^2)", MomentumHessian::Regular, None),
-        ("|p|^2/(2 + g) + sqrt(x^2)", MomentumHessian::Regular, None),
+        (
+            "|p|^2/(2 + g) + (x^2)^(3/2)",
+            MomentumHessian::Regular,
+            None,
+        ),
     ] {
         assert_eq!(found(h), (hessian, degree), "{h}");
     }

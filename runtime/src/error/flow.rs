@@ -1,6 +1,7 @@
 //! The errors of flows.
 
 use super::Quantity;
+use super::phrases::Short;
 
 crate::error::debug::debug_by_message!(FlowError);
 
@@ -29,7 +30,8 @@ pub enum FlowError {
 
     /// A flow without an inverse cannot run backward: the step size or a coefficient of the method is negative.
     #[error(
-        "the flow cannot run backward (duration {size}); take a positive step size and a method whose coefficients are positive"
+        "the flow cannot run backward (duration {size}); take a positive step size and a method whose coefficients are positive",
+        size = Short(*.size)
     )]
     Backward {
         /// The requested duration.

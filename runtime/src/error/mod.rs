@@ -11,7 +11,7 @@ pub use flow::FlowError;
 pub use quantity::Quantity;
 
 use debug::debug_by_message;
-use phrases::{AtStage, Divergence, Named, Undetermined};
+use phrases::{AtStage, Divergence, Named, Short, Undetermined};
 
 debug_by_message!(Error);
 
@@ -23,7 +23,9 @@ pub enum Error {
     /// system [`Newton`](crate::solver::Newton) instead of a fixed-point iteration.
     #[error(
         "step {step} of size {step_size} at time {time}: the stages {}; take a smaller step, or `by_newton()` for a stiff system without constraints",
-        Divergence { residual: *.residual, iterations: *.iterations }
+        Divergence { residual: *.residual, iterations: *.iterations },
+        time = Short(*.time),
+        step_size = Short(*.step_size)
     )]
     NoConvergence {
         /// Time at the start of the step.
@@ -42,7 +44,9 @@ pub enum Error {
     #[error(
         "step {step} of size {step_size} at time {time}: after {iterations} iterations the change of the stages stagnates at {residual:e}; \
          the velocity or the force has larger errors than rounding, or jumps: evaluate it more precisely, or take `Plain` sums and set a \
-         tolerance above that change"
+         tolerance above that change",
+        time = Short(*.time),
+        step_size = Short(*.step_size)
     )]
     Stagnation {
         /// Time at the start of the step.
@@ -61,7 +65,9 @@ pub enum Error {
     #[error(
         "step {step} of size {step_size} at time {time}: the {what}{} is not finite; take a smaller step, or keep \
          the state where the system is defined",
-        AtStage(*.stage)
+        AtStage(*.stage),
+        time = Short(*.time),
+        step_size = Short(*.step_size)
     )]
     NonFinite {
         /// Time at the start of the step.
@@ -79,7 +85,9 @@ pub enum Error {
 
     /// A linear system of the Newton iteration for the coupled stages has a pivot that is zero or not finite.
     #[error(
-        "step {step} of size {step_size} at time {time}: a matrix of the Newton iteration is singular; take another step size"
+        "step {step} of size {step_size} at time {time}: a matrix of the Newton iteration is singular; take another step size",
+        time = Short(*.time),
+        step_size = Short(*.step_size)
     )]
     SingularMatrix {
         /// Time at the start of the step.
@@ -94,7 +102,9 @@ pub enum Error {
     #[error(
         "step {step} of size {step_size} at time {time}: the {what}{} has dimension {found} instead \
          of {expected}; the system must write into the given vector without resizing it",
-        AtStage(*.stage)
+        AtStage(*.stage),
+        time = Short(*.time),
+        step_size = Short(*.step_size)
     )]
     EvaluationDimension {
         /// Time at the start of the step.
@@ -116,7 +126,8 @@ pub enum Error {
     /// An evaluation of the system at a given state changed the dimension of its output vector.
     #[error(
         "the {what} of the state at time {time} has dimension {found} instead of {expected}; the system must write into the given \
-         vector without resizing it"
+         vector without resizing it",
+        time = Short(*.time)
     )]
     ResizedEvaluation {
         /// The time of the state.
@@ -202,14 +213,18 @@ pub enum Error {
     },
 
     /// The step size is zero or not finite.
-    #[error("the step size is {value}; it must be finite and not zero")]
+    #[error("the step size is {value}; it must be finite and not zero",
+        value = Short(*.value)
+    )]
     StepSize {
         /// The step size given.
         value: f64,
     },
 
     /// The tolerance of an iteration is negative or not finite.
-    #[error("the tolerance is {value}; it must be finite and not negative")]
+    #[error("the tolerance is {value}; it must be finite and not negative",
+        value = Short(*.value)
+    )]
     Tolerance {
         /// The tolerance given.
         value: f64,
@@ -217,7 +232,8 @@ pub enum Error {
 
     /// The end time is not finite, or its distance from the present time overflows.
     #[error(
-        "the end time is {value}; it must be finite, and so must its distance from the present time"
+        "the end time is {value}; it must be finite, and so must its distance from the present time",
+        value = Short(*.value)
     )]
     EndTime {
         /// The end time given.
@@ -226,7 +242,10 @@ pub enum Error {
 
     /// The integration needs more than 2⁵³ steps, the largest exact count.
     #[error(
-        "from time {time} to {end} in steps of size {step_size}: this takes more than 2^53 steps; take larger ones"
+        "from time {time} to {end} in steps of size {step_size}: this takes more than 2^53 steps; take larger ones",
+        time = Short(*.time),
+        step_size = Short(*.step_size),
+        end = Short(*.end)
     )]
     StepCount {
         /// Time of the state.
@@ -242,7 +261,9 @@ pub enum Error {
     #[error(
         "`{method}` has order {order} where the kinetic energy is pᵀM⁻¹p/2 with a constant M, and order {lower_order} for other separable systems; \
          |velocity[{component}]| is {velocity}; a velocity linear in p would give {linear}: take a method for separable systems, or write \
-         `.accept_lower_order()` after the method"
+         `.accept_lower_order()` after the method",
+        velocity = Short(*.velocity),
+        linear = Short(*.linear)
     )]
     NotQuadraticKinetic {
         /// Name of the method.
@@ -275,7 +296,9 @@ pub enum Error {
     /// A system declares unit masses, but its velocity differs from the momentum.
     #[error(
         "|velocity[{component}]| is {velocity} where |p[{component}]| is {momentum}: leave out `Masses::Unit`, or let `velocity` copy the \
-         momentum"
+         momentum",
+        velocity = Short(*.velocity),
+        momentum = Short(*.momentum)
     )]
     NotUnitMasses {
         /// The component, from 0.
@@ -300,7 +323,9 @@ pub enum Error {
     /// generating function.
     #[error(
         "the energy depends on time, and stage {stage} has the time {position_time} for the position and \
-         {momentum_time} for the momentum; take a method with c = c̃"
+         {momentum_time} for the momentum; take a method with c = c̃",
+        position_time = Short(*.position_time),
+        momentum_time = Short(*.momentum_time)
     )]
     TwoClocks {
         /// The stage, from 1.
@@ -316,7 +341,11 @@ pub enum Error {
     NoStep,
 
     /// The requested time is not in the last step.
-    #[error("the time {time} is not in the last step, from {start} to {end}")]
+    #[error("the time {time} is not in the last step, from {start} to {end}",
+        time = Short(*.time),
+        start = Short(*.start),
+        end = Short(*.end)
+    )]
     OutsideStep {
         /// The time given.
         time: f64,
@@ -329,7 +358,9 @@ pub enum Error {
     /// An output time is not finite, precedes the previous output time or precedes the last step.
     #[error(
         "the output time {time} is not finite or comes before {before}; give times in the direction of the steps, none \
-         before the last step"
+         before the last step",
+        time = Short(*.time),
+        before = Short(*.before)
     )]
     OutputTime {
         /// The time given.
@@ -339,7 +370,10 @@ pub enum Error {
     },
 
     /// An output time is after the end of the integration.
-    #[error("the output time {time} is after the end {end}; leave it out, or integrate to it")]
+    #[error("the output time {time} is after the end {end}; leave it out, or integrate to it",
+        time = Short(*.time),
+        end = Short(*.end)
+    )]
     OutputAfterEnd {
         /// The time given.
         time: f64,
@@ -348,7 +382,9 @@ pub enum Error {
     },
 
     /// The function of an [`Event`](crate::Event) is NaN.
-    #[error("the event function is NaN at time {time}")]
+    #[error("the event function is NaN at time {time}",
+        time = Short(*.time)
+    )]
     EventValue {
         /// The time.
         time: f64,
@@ -358,7 +394,8 @@ pub enum Error {
     /// step after the one before: impacts accumulate, or the state rests on a wall. The present state is that at the last event.
     #[error(
         "events accumulate at time {time}: after {count} events in a row, each within 1/16384 of a step, the search ends at function \
-         {index}; stop there, constrain the state to the wall, or take a smaller step if the events are real"
+         {index}; stop there, constrain the state to the wall, or take a smaller step if the events are real",
+        time = Short(*.time)
     )]
     EventsAccumulate {
         /// The time.
@@ -372,7 +409,8 @@ pub enum Error {
     /// The state is behind a [`wall`](crate::Event::wall), and does not leave it.
     #[error(
         "at time {time} the state is behind a wall: event function {index} is {value:e}; start where it is at least 0, and let the handler \
-         keep the state there"
+         keep the state there",
+        time = Short(*.time)
     )]
     BehindWall {
         /// The time.
@@ -449,7 +487,8 @@ pub enum Error {
     /// The entries of the gradients of the constraints were set at other indices, or in another order, than before.
     #[error(
         "at time {time} the gradients of the constraints were set at other indices than before; set the same entries in the same order, \
-         also where they are zero"
+         also where they are zero",
+        time = Short(*.time)
     )]
     MovingGradients {
         /// Time at the start of the step.
@@ -505,7 +544,8 @@ pub enum Error {
     #[error(
         "at time {time} constraint {constraint}{} depends on those before it, its gradient vanishes, or the velocity along it depends on no \
          momentum (pivot {pivot:e}); leave it out, or keep away from this configuration",
-        Named(*name)
+        Named(*name),
+        time = Short(*.time)
     )]
     DependentConstraints {
         /// Time at the start of the step.
@@ -521,7 +561,9 @@ pub enum Error {
     /// Newton's iteration for the end of a step of a discrete Lagrangian or a rigid body does not converge.
     #[error(
         "step {step} of size {step_size} at time {time}: no end of the step was found in {iterations} iterations (last relative change \
-         {residual:e}); take a smaller step"
+         {residual:e}); take a smaller step",
+        time = Short(*.time),
+        step_size = Short(*.step_size)
     )]
     NoEndOfStep {
         /// Time at the start of the step.
@@ -541,7 +583,9 @@ pub enum Error {
     #[error(
         "step {step} of size {step_size} at time {time}: the Lagrangian does not determine component {component} at the end of the step \
          (pivot {pivot:e}); take a Lagrangian that determines every velocity, or keep away from this position. If ∂²L/∂v∂v is singular, \
-         `primary_constraints` returns the constraints on the momenta, and `DiracIntegrator` steps such a Lagrangian"
+         `primary_constraints` returns the constraints on the momenta, and `DiracIntegrator` steps such a Lagrangian",
+        time = Short(*.time),
+        step_size = Short(*.step_size)
     )]
     IrregularLagrangian {
         /// Time at the start of the step.
@@ -594,7 +638,8 @@ pub enum Error {
     /// A Lagrangian has no velocity for the given momentum.
     #[error(
         "no velocity was found for this momentum at time {time}{}; take a Lagrangian whose ∂²L/∂v∂v is regular, and a momentum in the range of ∂L/∂v",
-        Undetermined(*component)
+        Undetermined(*component),
+        time = Short(*.time)
     )]
     NoVelocity {
         /// The time.
@@ -607,7 +652,8 @@ pub enum Error {
     #[error(
         "no {what} at the start of the step from time {time} was found for the given ends{} (relative residual {residual:e}); take another \
          step size, or a generating function of another type",
-        Undetermined(*component)
+        Undetermined(*component),
+        time = Short(*.time)
     )]
     NoStart {
         /// Time at the start of the step.
@@ -623,7 +669,9 @@ pub enum Error {
     /// The position at the end of a step of a degenerate Lagrangian is not determined.
     #[error(
         "step {step} of size {step_size} at time {time}: component {component} of the position at the end of the step is not determined; \
-         take the rule `Trapezoid` or `AtEnd`, or a Lagrangian that depends on that component"
+         take the rule `Trapezoid` or `AtEnd`, or a Lagrangian that depends on that component",
+        time = Short(*.time),
+        step_size = Short(*.step_size)
     )]
     UndeterminedPosition {
         /// Time at the start of the step.
@@ -640,7 +688,9 @@ pub enum Error {
     #[error(
         "step {step} of size {step_size} at time {time}: the conditions on the step contradict each other; the condition for {what} {index} \
          is violated by {value:e}; start where the conditions on positions hold, take the rule `AtEnd` for the first step, and for a \
-         Lagrangian that is linear in the velocities the rule `Midpoint`"
+         Lagrangian that is linear in the velocities the rule `Midpoint`",
+        time = Short(*.time),
+        step_size = Short(*.step_size)
     )]
     ContradictoryStep {
         /// Time at the start of the step.
@@ -671,7 +721,8 @@ pub enum Error {
 
     /// β of Newmark's method is not finite.
     #[error(
-        "β of Newmark's method is {value}; it must be finite, and 1/4 or more for steps of any size"
+        "β of Newmark's method is {value}; it must be finite, and 1/4 or more for steps of any size",
+        value = Short(*.value)
     )]
     NewmarkBeta {
         /// The β given.
@@ -681,7 +732,9 @@ pub enum Error {
     /// The velocity is not `M⁻¹p` with a constant M; the logarithmic Hamiltonian requires `T = p·M⁻¹p/2`.
     #[error(
         "|velocity[{component}]| is {velocity}; a velocity linear in p and independent of time would give {linear}: the logarithmic \
-         Hamiltonian is for H = pᵀM⁻¹p/2 + U(t, q) with a constant M; take `Poincare` or `Integrator::adaptive` for this system"
+         Hamiltonian is for H = pᵀM⁻¹p/2 + U(t, q) with a constant M; take `Poincare` or `Integrator::adaptive` for this system",
+        velocity = Short(*.velocity),
+        linear = Short(*.linear)
     )]
     LogarithmicMasses {
         /// The component of the velocity, from 0.
@@ -695,7 +748,9 @@ pub enum Error {
     /// The velocity is not `M⁻¹p` with a constant M; Newmark's method requires the acceleration `M⁻¹ force`.
     #[error(
         "|velocity[{component}]| is {velocity}; a velocity linear in p and independent of time would give {linear}: Newmark's method is for \
-         H = pᵀM⁻¹p/2 + V(t, q) with a constant M; take Störmer–Verlet or Gauss for this system"
+         H = pᵀM⁻¹p/2 + V(t, q) with a constant M; take Störmer–Verlet or Gauss for this system",
+        velocity = Short(*.velocity),
+        linear = Short(*.linear)
     )]
     NewmarkMasses {
         /// The component of the velocity, from 0.
@@ -708,7 +763,8 @@ pub enum Error {
 
     /// No position was found for a shifted position of Newmark's method.
     #[error(
-        "at time {time} no position q with q − βh² a(q) = x was found (last relative change {residual:e}); take a smaller step"
+        "at time {time} no position q with q − βh² a(q) = x was found (last relative change {residual:e}); take a smaller step",
+        time = Short(*.time)
     )]
     NewmarkPosition {
         /// The time.
@@ -720,7 +776,10 @@ pub enum Error {
     /// A rigid body turns by π or more in a step, so that the rotation of the step is not unique.
     #[error(
         "step {step} of size {step_size} at time {time}: the body turns by {angle} rad, but a step must turn by less than π; take a smaller \
-         step"
+         step",
+        time = Short(*.time),
+        step_size = Short(*.step_size),
+        angle = Short(*.angle)
     )]
     HalfTurn {
         /// Time at the start of the step.
@@ -734,7 +793,9 @@ pub enum Error {
     },
 
     /// A principal moment of inertia is not finite and positive.
-    #[error("moment of inertia {axis} is {value}; all three must be finite and positive")]
+    #[error("moment of inertia {axis} is {value}; all three must be finite and positive",
+        value = Short(*.value)
+    )]
     MomentOfInertia {
         /// The principal axis, from 0.
         axis: usize,
@@ -743,7 +804,10 @@ pub enum Error {
     },
 
     /// A flow of a splitting failed.
-    #[error("step {step} of size {step_size} at time {time}: {failure}")]
+    #[error("step {step} of size {step_size} at time {time}: {failure}",
+        time = Short(*.time),
+        step_size = Short(*.step_size)
+    )]
     Flow {
         /// Time at the start of the step.
         time: f64,
@@ -756,7 +820,9 @@ pub enum Error {
     },
 
     /// A parameter of a flow is not finite or out of range.
-    #[error("the {what} (index {index}) is {value}; it must be {range}")]
+    #[error("the {what} (index {index}) is {value}; it must be {range}",
+        value = Short(*.value)
+    )]
     FlowParameter {
         /// Name of the parameter.
         what: &'static str,
@@ -772,7 +838,9 @@ pub enum Error {
     /// change sign.
     #[error(
         "step {step} at time {time}: no step between half and twice the size {step_size} of the step before conserves the discrete energy \
-         here (curvature {curvature:e}); continue with `VariationalIntegrator` (constant steps)"
+         here (curvature {curvature:e}); continue with `VariationalIntegrator` (constant steps)",
+        time = Short(*.time),
+        step_size = Short(*.step_size)
     )]
     NoEnergyStep {
         /// Time at the start of the step.
@@ -787,7 +855,9 @@ pub enum Error {
 
     /// The monitor of variable steps is not positive and finite, or its derivative along the motion is not finite.
     #[error(
-        "the monitor of the step sizes is {value} at time {time}; it must be finite and positive along the orbit, with a finite derivative"
+        "the monitor of the step sizes is {value} at time {time}; it must be finite and positive along the orbit, with a finite derivative",
+        time = Short(*.time),
+        value = Short(*.value)
     )]
     Monitor {
         /// Time of the state.
@@ -800,7 +870,9 @@ pub enum Error {
     /// step.
     #[error(
         "step {step} at time {time}: the step density z is {density}, and there is no step of size ε/z; take a smaller ε, or a monitor \
-         that changes less within a step"
+         that changes less within a step",
+        time = Short(*.time),
+        density = Short(*.density)
     )]
     StepDensity {
         /// Time at the start of the step.
@@ -814,7 +886,9 @@ pub enum Error {
     /// An argument of a logarithm is not positive: the logarithmic Hamiltonian requires `U < 0` and `T + B > 0`.
     #[error(
         "step {step} from time {time}: {what} is {value}, but the logarithmic Hamiltonian requires {what} > 0; take a smaller step, or \
-         `Integrator::adaptive` where the potential is not negative everywhere"
+         `Integrator::adaptive` where the potential is not negative everywhere",
+        time = Short(*.time),
+        value = Short(*.value)
     )]
     LogarithmicDomain {
         /// Physical time at the start of the step.
@@ -830,7 +904,9 @@ pub enum Error {
     /// The step is so small that it does not change the time.
     #[error(
         "a step of size {step_size} does not change the time {time}, which has 53 bits; take a larger step, or \
-         choose a time origin closer to the present time"
+         choose a time origin closer to the present time",
+        time = Short(*.time),
+        step_size = Short(*.step_size)
     )]
     TimeResolution {
         /// Time of the state.

@@ -14,6 +14,20 @@ impl fmt::Display for Named {
     }
 }
 
+/// A number; one that is very small or very large with an exponent, and not with hundreds of zeros.
+pub(super) struct Short(pub(super) f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(number) = *self;
+        if number == 0.0 || !number.is_finite() || (1e-5..1e16).contains(&number.abs()) {
+            write!(formatter, "{number}")
+        } else {
+            write!(formatter, "{number:e}")
+        }
+    }
+}
+
 /// The undetermined component, or nothing.
 pub(super) struct Undetermined(pub(super) Option<usize>);
 

@@ -78,7 +78,8 @@
 ///
 /// `let d = a - b;` is an abbreviation; `let s(i, j) = sigma^2/|q[i] - q[j]|^2;` has arguments. `extern fn V with dV, d2V;` names functions in
 /// scope: `fn V<T: Scalar>(x: T) -> T` and its two derivatives. They must be generic, even if they depend on a parameter only. H must be
-/// twice continuously differentiable: `|x|^3` is allowed, `abs`, `min` and `max` are not.
+/// twice continuously differentiable: `|x|^3` is allowed, `abs`, `min`, `max` and `sqrt(x^2)` are not. Constants must be finite in double
+/// precision.
 ///
 /// # Constraints and friction
 ///

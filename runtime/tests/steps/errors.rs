@@ -436,3 +436,29 @@ fn a_panic_of_the_system_leaves_nothing_behind() -> Result<(), Error> {
     check(Lobatto3)?;
     check(Gauss2)
 }
+
+/// Very small and very large numbers have an exponent.
+#[test]
+fn numbers_in_messages_are_short() {
+    let message = |time, step_size| Error::TimeResolution { time, step_size }.to_string();
+    let text = message(1e300, 1e-300);
+    assert!(
+        text.contains("size 1e-300 ") && text.contains("time 1e300,"),
+        "{text}"
+    );
+    let text = message(-0.5, 0.001);
+    assert!(
+        text.contains("size 0.001 ") && text.contains("time -0.5,"),
+        "{text}"
+    );
+    let start = State::from_arrays(1.0, [1.0], [0.0]);
+    let system = acceleration(|_, q: &Point, acceleration| *acceleration = -q);
+    let mut run = Integrator::new(StoermerVerlet, system, start, 2e-200).expect("a valid start");
+    let text = run
+        .step()
+        .expect_err("the time does not change")
+        .to_string();
+    assert!(text.contains("2e-200") && text.len() < 200, "{text}");
+    let refused = Error::StepSize { value: f64::NAN }.to_string();
+    assert!(refused.contains("is NaN;"), "{refused}");
+}

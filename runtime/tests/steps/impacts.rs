@@ -4,7 +4,9 @@ use std::ops::ControlFlow;
 
 use crate::common::methods::{Gauss2, Gauss5, StoermerVerlet};
 use symplectic::nalgebra::{Vector1, Vector2};
-use symplectic::{Error, Event, Integrator, Method, Moment, State, System, acceleration};
+use symplectic::{
+    Error, Event, Integrator, Method, Moment, ProvedFor, Separable, State, System, acceleration,
+};
 
 type Ball = State<Vector1<f64>>;
 type Point = State<Vector2<f64>>;
@@ -12,7 +14,7 @@ type Floor = fn(&Point) -> f64;
 
 const GRAVITY: f64 = 9.8;
 
-fn falling_ball() -> impl System<Vector1<f64>, Class = symplectic::Separable> {
+fn falling_ball() -> impl System<Vector1<f64>, Class = Separable> {
     acceleration::<Vector1<f64>, _>(|_, _, acceleration| acceleration[0] = -GRAVITY)
 }
 
@@ -414,10 +416,11 @@ fn several_walls_at_once() -> Result<(), Error> {
 /// A body that rests on the floor, whose handler reflects it: its flights are rounding errors, and the search ends soon.
 #[test]
 fn a_reflected_body_at_rest_ends_the_search() -> Result<(), Error> {
-    fn rest<M: Method>(method: M, step_size: f64, gravity: f64) -> Result<(), Error>
-    where
-        M: symplectic::ProvedFor<symplectic::Separable>,
-    {
+    fn rest<M: Method + ProvedFor<Separable>>(
+        method: M,
+        step_size: f64,
+        gravity: f64,
+    ) -> Result<(), Error> {
         let falling = || {
             acceleration::<Vector1<f64>, _>(move |_, _, acceleration| acceleration[0] = -gravity)
         };
@@ -455,7 +458,8 @@ fn a_reflected_body_at_rest_ends_the_search() -> Result<(), Error> {
 fn many_events_in_a_step_are_found() -> Result<(), Error> {
     let free = || acceleration::<Vector1<f64>, _>(|_, _, acceleration| acceleration[0] = 0.0);
     let mut integrator = Integrator::new(StoermerVerlet, free(), ball(5e-4, 1.0), 1.0)?;
-    let walls: [Event<fn(&Ball) -> f64>; 2] = [
+    type Wall = Event<fn(&Ball) -> f64>;
+    let walls: [Wall; 2] = [
         Event::wall(height),
         Event::wall(|ball: &Ball| 1e-3 - ball.q[0]),
     ];

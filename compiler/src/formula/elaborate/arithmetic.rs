@@ -9,7 +9,7 @@ use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
 use crate::formula::function::{Elementary, Function};
 use crate::formula::graph::{Id, Node, Number, integer};
-use crate::formula::parse::{NOT_SMOOTH, constant};
+use crate::formula::parse::{NOT_SMOOTH, constant, unknown_function};
 use crate::formula::syntax::{Expression, Kind, Name};
 
 impl Elaborator<'_> {
@@ -67,7 +67,7 @@ impl Elaborator<'_> {
             let value = self.value(factor)?;
             match (self.whole(value), other.take()) {
                 (Value::Scalar(id), before) => {
-                    if *divide && self.graph.is_zero(id) {
+                    if *divide && self.divides_by_zero(id) {
                         return self.error(factor, ErrorKind::DivisionByZero);
                     }
                     scalars.push((id, integer(if *divide { -1 } else { 1 })));
@@ -185,12 +185,14 @@ impl Elaborator<'_> {
                     };
                     return self.error(exponent, kind);
                 }
+                self.no_kink(x, &number, &(base.span.start..exponent.span.end))?;
                 self.number_power(x, number, base)
             }
             None => {
                 // exp(e ln x)
                 let exponent = self.scalar(exponent)?;
-                let logarithm = self.graph.elementary(Elementary::Ln, x);
+                let logarithm = self.elementary(Elementary::Ln, x, base)?;
+                self.check_finite(logarithm, base)?;
                 let product = self.graph.multiply(exponent, logarithm);
                 Ok(self.graph.elementary(Elementary::Exp, product))
             }
@@ -268,21 +270,11 @@ impl Elaborator<'_> {
         if let Some(function) = Function::find(name) {
             let x = self.scalar(&arguments[0])?;
             return Ok(Value::Scalar(match function {
-                Function::Sqrt => self.root(x, &arguments[0])?,
-                Function::Elementary(Elementary::Ln)
-                    if self
-                        .graph
-                        .value(x)
-                        .is_some_and(|value| !value.is_positive()) =>
-                {
-                    let kind = ErrorKind::Domain {
-                        value: self.text(at),
-                        function: "ln",
-                        needs: "a positive number",
-                    };
-                    return self.error(at, kind);
+                Function::Sqrt => {
+                    self.no_kink(x, &Number::new(1.into(), 2.into()), &at.span)?;
+                    self.root(x, &arguments[0])?
                 }
-                Function::Elementary(function) => self.graph.elementary(function, x),
+                Function::Elementary(function) => self.elementary(function, x, at)?,
             }));
         }
         let both = |this: &mut Self| -> Result<[Vec<Id>; 2], Error> {
@@ -342,13 +334,7 @@ impl Elaborator<'_> {
                 })
             }
             _ => {
-                let known = "sqrt, exp, ln, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, hypot, atan2, norm, dot, cross";
-                let kind = ErrorKind::Unknown {
-                    what: "function",
-                    name: name.to_owned(),
-                    known: known.to_owned(),
-                };
-                return Err(self.input.error(&function.span, kind));
+                return Err(unknown_function(self.input, function));
             }
         })
     }

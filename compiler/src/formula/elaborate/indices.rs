@@ -5,7 +5,7 @@ use num_traits::ToPrimitive;
 use super::{Elaborator, MOST_COMPONENTS, Value};
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
-use crate::formula::graph::{Base, Coordinate, Index, LoopRange};
+use crate::formula::graph::{Base, Coordinate, Index, LoopRange, Number};
 use crate::formula::parse::constant;
 use crate::formula::syntax::{Expression, Kind, Length};
 use crate::formula::system::{Layout, Shape};
@@ -157,14 +157,19 @@ impl Elaborator<'_> {
             this.error(written, kind)
         };
         if let Some(number) = constant(written) {
-            return match number.is_integer().then(|| number.to_i64()).flatten() {
-                Some(number) if number.abs() <= 1_000_000 => Ok(Index::number(number)),
-                _ => refused(self),
+            return match whole_index(&number) {
+                Some(number) => Ok(Index::number(number)),
+                None => refused(self),
             };
         }
         match &written.kind {
             Kind::Name(name) => match self.name(name, written)? {
                 Value::Index(index) => Ok(index),
+                // An argument of an abbreviation, as in `u(0, 1)`.
+                Value::Scalar(id) => match self.graph.value(id).map(whole_index) {
+                    Some(Some(number)) => Ok(Index::number(number)),
+                    _ => refused(self),
+                },
                 _ => refused(self),
             },
             Kind::Sum(terms) => {
@@ -280,4 +285,10 @@ pub(super) fn normal(index: Index) -> Index {
         Base::End(Length::Fixed(n)) => Index::number(n as i64 + index.offset),
         _ => index,
     }
+}
+
+/// A number as an index, if it is whole and not huge.
+fn whole_index(number: &Number) -> Option<i64> {
+    let number = number.is_integer().then(|| number.to_i64()).flatten()?;
+    (number.abs() <= 1_000_000).then_some(number)
 }

@@ -1,6 +1,7 @@
 //! From a definition to a graph: the meanings of names, the shapes of values, the ranges of indices.
 
 mod arithmetic;
+mod constants;
 mod constraints;
 mod declarations;
 mod forces;

@@ -6,7 +6,7 @@ use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
 use crate::formula::function::ELEMENTARY;
 use crate::formula::graph::{Coordinate, Half, Id, Index, Node};
-use crate::formula::parse::VECTOR_FUNCTIONS;
+use crate::formula::parse::{VECTOR_FUNCTIONS, suggestion, unknown_function};
 use crate::formula::syntax::{Expression, Kind, Length, Name};
 use crate::formula::system::{Layout, Shape};
 
@@ -128,6 +128,7 @@ impl Elaborator<'_> {
         }
         let value = self.value_of(written)?;
         if let Value::Scalar(id) = value {
+            self.check_finite(id, written)?;
             self.places
                 .entry(id)
                 .or_insert_with(|| written.span.clone());
@@ -197,12 +198,25 @@ impl Elaborator<'_> {
             .chain(["pi", "t"])
             .collect();
         known.sort_unstable();
+        let after = &self.input.text[at.span.end..];
+        let arguments = after.starts_with('(');
         let functions = ELEMENTARY.iter().map(|(function, _)| *function);
         let functions = functions.chain(["sqrt"]).chain(VECTOR_FUNCTIONS);
         let candidates: Vec<&str> = known.iter().copied().chain(functions).collect();
-        let nearest = nearest(name, &candidates);
-        let known = match nearest {
-            Some(nearest) => format!("{}; did you mean `{nearest}`?", known.join(", ")),
+        let meant = suggestion(name, &candidates);
+        if arguments && meant.is_none_or(|meant| !known.contains(&meant)) {
+            let name = Name {
+                text: name.to_owned(),
+                span: at.span.clone(),
+            };
+            return Err(unknown_function(self.input, &name));
+        }
+        let meant = match after.trim_start().starts_with('^') && name == "e" {
+            true => Some("exp(x)"),
+            false => meant,
+        };
+        let known = match meant {
+            Some(meant) => format!("{}; did you mean `{meant}`?", known.join(", ")),
             None => known.join(", "),
         };
         self.error(
@@ -214,27 +228,6 @@ impl Elaborator<'_> {
             },
         )
     }
-}
-
-/// The known name with the smallest edit distance, if that is small.
-fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
-    let distance = |other: &str| {
-        let (a, b): (Vec<char>, Vec<char>) = (name.chars().collect(), other.chars().collect());
-        let mut row: Vec<usize> = (0..=b.len()).collect();
-        for (i, x) in a.iter().enumerate() {
-            let mut diagonal = row[0];
-            row[0] = i + 1;
-            for (j, y) in b.iter().enumerate() {
-                let change = diagonal + usize::from(x != y);
-                diagonal = row[j + 1];
-                row[j + 1] = change.min(row[j] + 1).min(diagonal + 1);
-            }
-        }
-        row[b.len()]
-    };
-    let close = known.iter().map(|other| (distance(other), *other)).min()?;
-    let length = name.chars().count();
-    (close.0 < length && close.0 <= 1 + length / 3).then_some(close.1)
 }
 
 /// `1 component`, `2 components`

@@ -26,12 +26,14 @@
 mod form;
 mod statements;
 mod tokens;
+mod unknown;
 
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero};
 
 pub use self::form::form;
 use self::tokens::{Token, tokenize};
+pub use self::unknown::{suggestion, unknown_function};
 use super::error::FormulaError;
 use super::function::Function;
 use super::syntax::{Definition, Expression, Form, Kind, Name, Over, Span};
@@ -184,7 +186,7 @@ impl<'a> Parser<'a> {
             Token::End => format!("the {} ends", self.whole),
             _ => format!("found `{}`", &self.input.text[span.clone()]),
         };
-        let expected = expected.to_owned();
+        let expected = self.instead().unwrap_or_else(|| expected.to_owned());
         self.input
             .error(&span, ErrorKind::Syntax { found, expected })
     }
@@ -452,7 +454,15 @@ impl<'a> Parser<'a> {
                 Kind::Name(text)
             }
             Token::Symbol('(') => {
-                let inner = self.within(['(', ')'], Self::expression)?;
+                let called = self.name_before();
+                let inner = self.within(['(', ')'], |parser| {
+                    let inner = parser.expression()?;
+                    match called {
+                        // A product has no list.
+                        Some(name) if parser.is(',') => Err(unknown_function(parser.input, &name)),
+                        _ => Ok(inner),
+                    }
+                })?;
                 // A sum or product in parentheses stays separate.
                 return Ok(Expression {
                     span: start..self.end(),
