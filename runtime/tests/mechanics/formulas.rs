@@ -197,15 +197,15 @@ fn a_pair_outside_is_refused() {
         DVector::from_vec(vec![0.0, 0.0, 1.0, 0.0]),
         DVector::zeros(4),
     );
-    let error = Integrator::new(Rattle, wrong, start, 0.1)
-        .map(|_| ())
-        .expect_err("outside");
-    assert!(
-        matches!(
-            error,
-            Error::NonFiniteState { .. } | Error::DependentConstraints { .. }
-        ),
-        "{error}"
+    let error = Integrator::new(Rattle, wrong, start, 0.1).map(|_| ());
+    assert_eq!(
+        error,
+        Err(Error::PairOutOfRange {
+            parameter: "rods",
+            index: 0,
+            pair: (0, 7),
+            bodies: 2,
+        })
     );
 }
 
