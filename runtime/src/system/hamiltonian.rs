@@ -65,15 +65,12 @@ pub trait Hamiltonian {
 
     /// Positions and momenta over a scalar: [`SVector<T, N>`](nalgebra::SVector), or `DVector<T>` if the dimension is known only at
     /// run time.
-    type Vector<T: Scalar>: Vector<
-            Scalar = T,
-            With<F64x2> = Self::Vector<F64x2>,
-            With<F64x4> = Self::Vector<F64x4>,
-            With<F64x8> = Self::Vector<F64x8>,
-            With<WideF64x4> = Self::Vector<WideF64x4>,
-            With<WideF64x8> = Self::Vector<WideF64x8>,
-            With<WidestF64x8> = Self::Vector<WidestF64x8>,
-        >;
+    type Vector<T: Scalar>: Vector<Scalar = T, With<F64x2> = Self::Vector<F64x2>>
+        + Vector<With<F64x4> = Self::Vector<F64x4>>
+        + Vector<With<F64x8> = Self::Vector<F64x8>>
+        + Vector<With<WideF64x4> = Self::Vector<WideF64x4>>
+        + Vector<With<WideF64x8> = Self::Vector<WideF64x8>>
+        + Vector<With<WidestF64x8> = Self::Vector<WidestF64x8>>;
 
     /// What the system declares of its masses, which is optional: see [`Masses`].
     const MASSES: Masses = Masses::Any;
@@ -576,15 +573,12 @@ pub trait Hamiltonian {
 pub trait SeparableHamiltonian {
     /// Positions and momenta over a scalar: [`SVector<T, N>`](nalgebra::SVector), or `DVector<T>` if the dimension is known only at
     /// run time.
-    type Vector<T: Scalar>: Vector<
-            Scalar = T,
-            With<F64x2> = Self::Vector<F64x2>,
-            With<F64x4> = Self::Vector<F64x4>,
-            With<F64x8> = Self::Vector<F64x8>,
-            With<WideF64x4> = Self::Vector<WideF64x4>,
-            With<WideF64x8> = Self::Vector<WideF64x8>,
-            With<WidestF64x8> = Self::Vector<WidestF64x8>,
-        >;
+    type Vector<T: Scalar>: Vector<Scalar = T, With<F64x2> = Self::Vector<F64x2>>
+        + Vector<With<F64x4> = Self::Vector<F64x4>>
+        + Vector<With<F64x8> = Self::Vector<F64x8>>
+        + Vector<With<WideF64x4> = Self::Vector<WideF64x4>>
+        + Vector<With<WideF64x8> = Self::Vector<WideF64x8>>
+        + Vector<With<WidestF64x8> = Self::Vector<WidestF64x8>>;
 
     /// What is known of the [masses](Masses). With `Masses::Unit` steps use the momentum as the velocity.
     ///
