@@ -336,13 +336,13 @@ mod tests {
     use crate::number::{Compensated, Plain};
     use crate::solver::nystrom::NystromStages;
 
-    crate::tableau! {
+    symplectic::tableau! {
         Gauss2 { basis: polynomial(2), nodes: gauss(2) }
         Gauss4 { basis: polynomial(4), nodes: gauss(4) }
         Gauss8 { basis: polynomial(8), nodes: gauss(8) }
     }
-    crate::hamiltonian! { Kepler q: [2], p: [2]; H = |p|^2/2 - 1/|q| }
-    crate::hamiltonian! { Turning q: [2], p: [2]; H = |p|^2/2 - 1/|q| + q[0] p[1] - sin(q[1]) p[0] }
+    symplectic::hamiltonian! { Kepler q: [2], p: [2]; H = |p|^2/2 - 1/|q| }
+    symplectic::hamiltonian! { Turning q: [2], p: [2]; H = |p|^2/2 - 1/|q| + q[0] p[1] - sin(q[1]) p[0] }
 
     /// The stages of a plan.
     trait StagesOf {
