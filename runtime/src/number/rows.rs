@@ -82,7 +82,7 @@ impl<T: Scalar> Row<T> for Single {
     }
 }
 
-macro_rules! eight_doubles {
+macro_rules! rows_of_eight {
     ($name:ident $numbers:ident) => {
         impl Row<f64> for $name {
             type Array = [f64; 8];
@@ -138,14 +138,14 @@ macro_rules! eight_doubles {
 /// Rows of eight doubles.
 pub(crate) struct Eight;
 
-eight_doubles! { Eight F64x8 }
+rows_of_eight! { Eight F64x8 }
 
 /// Rows of eight doubles in registers of AVX2.
 pub(crate) struct WideEight;
 
-eight_doubles! { WideEight WideF64x8 }
+rows_of_eight! { WideEight WideF64x8 }
 
 /// Rows of eight doubles in registers of AVX-512.
 pub(crate) struct WidestEight;
 
-eight_doubles! { WidestEight WidestF64x8 }
+rows_of_eight! { WidestEight WidestF64x8 }

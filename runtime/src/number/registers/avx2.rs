@@ -7,6 +7,8 @@ use bytemuck::{Pod, Zeroable, cast};
 
 use super::Work;
 use super::vectors::{instructions, operators, plain_data, vectors};
+use crate::number::Scalar;
+use crate::number::array::array;
 
 /// Four doubles. The result of a comparison has all bits set where it holds.
 #[derive(Clone, Copy, Debug)]

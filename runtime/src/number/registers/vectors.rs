@@ -85,10 +85,11 @@ macro_rules! vectors {
                 cast(cast::<_, $bits>(self) & $bits::splat(!(1 << 63)))
             }
 
-            /// Never used: lanes are not fused in a program for any x86-64 processor.
+            /// One by one: steps with fused products are taken in the registers of the build.
             #[cfg_attr(not(debug_assertions), inline(always))]
             pub(crate) fn mul_add(self, factor: Self, term: Self) -> Self {
-                self * factor + term
+                let (x, y, z) = (self.to_array(), factor.to_array(), term.to_array());
+                Self::new(array(0.0, |lane| x[lane].fused(y[lane], z[lane])))
             }
 
             /// `yes` where this comparison holds, `no` elsewhere.
