@@ -4,9 +4,12 @@
 //! result can bring them here; the integrator then returns
 //! [`Error::EvaluationDimension`](crate::Error::EvaluationDimension).
 
+use core::marker::PhantomData;
+
 use num_traits::Zero;
 
 use crate::number::array::array;
+use crate::number::registers::{self, Work};
 use crate::number::summation::{add, add_sum};
 use crate::number::{Coefficient, Scalar, Summation, Vector};
 
@@ -146,14 +149,54 @@ pub fn advance<R: Summation, V: Vector>(
 }
 
 /// `out + low + factor terms`, component by component.
-// The compiler knows that slices passed as arguments do not overlap. For the memory that vectors point to it has to check before every
-// loop.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn add_products<R: Summation, V: Vector>(
     out: &mut [V::Scalar],
     low: &mut [V::Scalar],
     factor: V::Scalar,
     terms: &[V::Scalar],
+) {
+    let n = out.len().min(low.len()).min(terms.len());
+    let (out, low, terms) = (&mut out[..n], &mut low[..n], &terms[..n]);
+    registers::widest::<V::Scalar, _>(
+        n,
+        AddProducts::<R, _> {
+            out,
+            low,
+            factor,
+            terms,
+            sums: PhantomData,
+        },
+    );
+}
+
+/// [`add_products`] of slices of the same length.
+struct AddProducts<'a, R, T> {
+    out: &'a mut [T],
+    low: &'a mut [T],
+    factor: T,
+    terms: &'a [T],
+    sums: PhantomData<R>,
+}
+
+impl<R: Summation, T: Scalar> Work for AddProducts<'_, R, T> {
+    type Output = ();
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) {
+        add_products_here::<R, T>(self.out, self.low, self.factor, self.terms);
+    }
+}
+
+/// The loop.
+// The compiler knows that slices passed as arguments do not overlap. For the memory that vectors point to it has to check before every
+// loop.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn add_products_here<R: Summation, T: Scalar>(
+    out: &mut [T],
+    low: &mut [T],
+    factor: T,
+    terms: &[T],
 ) {
     let n = out.len().min(low.len()).min(terms.len());
     let (out, low, terms) = (&mut out[..n], &mut low[..n], &terms[..n]);
@@ -323,6 +366,64 @@ pub(crate) fn totals_by<R: Summation, V: Vector>(
         out[i] = high;
         if R::COMPENSATED {
             out_low[i] = rest;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::registers::{Avx2, Avx512};
+    use crate::number::{Compensated, Plain};
+
+    /// Numbers of many sizes; a few are not finite.
+    fn numbers(seed: u64, count: usize) -> [f64; MOST] {
+        let mut state = seed;
+        array(0.0, |index| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            let size = [1e-300, 1e-16, 1.0, 3e5, 1e300][(state >> 40) as usize % 5];
+            match (index + 1 == count, seed % 5) {
+                (true, 0) => f64::NAN,
+                (true, 1) => f64::INFINITY,
+                _ => size * ((state >> 11) as f64 / 2_f64.powi(53) - 0.5),
+            }
+        })
+    }
+
+    /// More numbers than a row of the widest registers has, several times.
+    const MOST: usize = 75;
+
+    fn compare<R: Summation>(count: usize, run: impl Fn(AddProducts<'_, R, f64>)) {
+        for seed in 0..10 {
+            let [out, low, terms] = [seed, seed + 7, seed + 14].map(|seed| numbers(seed, count));
+            let with = |run: &dyn Fn(AddProducts<'_, R, f64>)| {
+                let (mut out, mut low) = (out, low);
+                run(AddProducts {
+                    out: &mut out[..count],
+                    low: &mut low[..count],
+                    factor: 0.3,
+                    terms: &terms[..count],
+                    sums: PhantomData,
+                });
+                [out, low].map(|numbers| numbers.map(f64::to_bits))
+            };
+            assert_eq!(with(&run), with(&|work| work.run()), "{count} numbers");
+        }
+    }
+
+    #[test]
+    fn kicks_have_the_same_bits_in_all_registers() {
+        for count in 0..MOST {
+            if let Some(avx2) = Avx2::detect() {
+                compare::<Plain>(count, |work| avx2.run(work));
+                compare::<Compensated>(count, |work| avx2.run(work));
+            }
+            if let Some(avx512) = Avx512::detect() {
+                compare::<Plain>(count, |work| avx512.run(work));
+                compare::<Compensated>(count, |work| avx512.run(work));
+            }
         }
     }
 }

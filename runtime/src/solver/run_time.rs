@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use num_traits::Zero;
 
 use crate::error::Quantity;
-use crate::method::relax::{eight_by_eight, relax_by};
+use crate::method::relax::{LinearCombination, relax_by};
 use crate::method::run_time::{Coupled, Half, MOST, Row, Schedule};
 use crate::method::storage::{first_non_finite, first_non_finite_of};
 use crate::method::{
@@ -13,7 +13,6 @@ use crate::method::{
     StepStatistics, Stopping, WarmStart,
 };
 use crate::number::linear_combination::{shortest, sum_of_products, totals_by};
-use crate::number::rows::{Eight, Row as _};
 use crate::number::summation::Overrelaxed;
 use crate::number::{Coefficient, Scalar, Summation, Vector, copy, scale};
 use crate::solver::convergence::{Sweeps, settle};
@@ -235,17 +234,12 @@ fn relax<R: Summation, V: Vector>(
     let increment = |index: usize| increments[index].as_slice();
     let lengths = row.iter().map(|&(index, _)| increment(index).len());
     let n = lengths.fold(shortest([&*out, base, low]), usize::min);
-    relax_by::<R, V>(
-        out,
-        (base, low),
-        (n, row.len()),
-        |j, i| (V::Scalar::from_f64(row[j].1), increment(row[j].0)[i]),
-        |j, i| {
-            let rows = eight_by_eight(increment(row[j].0));
-            (Eight::splat(row[j].1), Eight::load(&rows[i]))
-        },
-        change,
-    );
+    let sum = LinearCombination {
+        count: || row.len(),
+        factor: |j: usize| V::Scalar::from_f64(row[j].1),
+        vector: |j: usize| increment(row[j].0),
+    };
+    relax_by::<R, V>(out, (base, low), n, sum, change);
 }
 
 /// `out = base + low + Σ increments`, over the evaluations that enter the result, with the rounding error of the sum in `out_low`.

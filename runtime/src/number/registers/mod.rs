@@ -45,6 +45,8 @@ pub(crate) use wide::{
 #[cfg(test)]
 mod tests;
 
+use crate::number::Scalar;
+
 /// Work to be compiled for wide registers. Its function has to be inlined, and so has everything that it calls: closures too, so it calls
 /// none that computes with vectors.
 pub(crate) trait Work {
@@ -62,3 +64,22 @@ pub(crate) const UNKNOWN: bool = cfg!(all(
     // The instruction for it comes with others: without them all products and sums would be slower.
     not(feature = "fma"),
 ));
+
+/// From this number of doubles on, wide registers save more than it takes to ask for them.
+pub(crate) const LONG: usize = 32;
+
+/// Runs work on `count` numbers of type `T` in the widest registers of the processor, if these are many doubles. Its loops are plain: the
+/// compiler translates them for each kind of registers.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn widest<T: Scalar, W: Work>(count: usize, work: W) -> W::Output {
+    // Constant conditions first: other numbers compile without this code.
+    if UNKNOWN && T::IS_DOUBLE && count >= LONG {
+        if let Some(registers) = Avx512::detect() {
+            return registers.run(work);
+        }
+        if let Some(registers) = Avx2::detect() {
+            return registers.run(work);
+        }
+    }
+    work.run()
+}
