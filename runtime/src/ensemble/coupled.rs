@@ -51,7 +51,7 @@ where
     L: Lanes,
     A: Send,
     F: Fn(&mut A, &State<V>),
-    W: Vector<Scalar = L>,
+    W: Vector<Scalar: Lanes>,
     J: System<W, Class = <S as System<V>>::Class>,
 {
     /// Puts the trajectories into lanes; `None` if the system or its lanes do not allow it.
@@ -63,13 +63,13 @@ where
     ) -> Option<Self> {
         let count = group.members.len();
         // Lanes without a trajectory have copies: zeros might be a singular point.
-        let system = group.system(join, (0..L::WIDTH).map(|lane| lane % count))?;
+        let system = group.system(join, (0..W::Scalar::WIDTH).map(|lane| lane % count))?;
         let first = group.members.first_mut()?;
         let mut lanes = CoupledLanes::like(&mut first.run, system, zeros);
         if !group.members.iter().all(|member| lanes.takes(&member.run)) {
             return None;
         }
-        for lane in 0..L::WIDTH {
+        for lane in 0..W::Scalar::WIDTH {
             let run = &mut group.members[lane % count].run;
             let size = run.step_size();
             lanes.load(lane, run, size);
@@ -77,7 +77,7 @@ where
         let in_lanes = evaluations(lanes.system(), &lanes.state());
         let alike = |(lane, member): (usize, &Member<M, S, V, R, N, A>)| {
             let alone = evaluations(member.run.system(), member.run.state());
-            let in_lane = in_lanes.iter().skip(lane).step_by(L::WIDTH);
+            let in_lane = in_lanes.iter().skip(lane).step_by(W::Scalar::WIDTH);
             in_lane.eq(&alone)
         };
         if !group.members.iter().enumerate().all(alike) {

@@ -4,14 +4,15 @@ use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
 use super::coupled::Coupled;
-use super::run::Way;
+use super::run::{Registers, Way};
 use super::{Ensemble, Row};
 use crate::error::Error;
 use crate::integrator::Integrator;
 use crate::method::{Method, Solver};
+use crate::number::registers;
 use crate::number::vector::same;
-use crate::number::{Lanes, Scalar, Summation, Vector};
-use crate::output::at_times;
+use crate::number::{Lanes, Scalar, Summation, Vector, WideF64x8, WidestF64x16};
+use crate::output::at_times::{self, Output};
 use crate::output::steps::is_after;
 use crate::state::State;
 use crate::system::{Join, LaneWork, System};
@@ -97,14 +98,10 @@ where
         let enough = match self.ensemble.way() {
             Way::Alone => false,
             Way::Explicit => count > 1,
-            Way::Coupled => 2 * count >= L::WIDTH,
+            Way::Coupled => 2 * count >= self.ensemble.width(),
         };
         let tried = match enough {
-            true => S::over_lanes::<L, _>(SideBySide {
-                group: self,
-                task,
-                see,
-            }),
+            true => self.run_in_lanes(task, see),
             false => None,
         };
         match tried {
@@ -119,6 +116,33 @@ where
                 }
                 ControlFlow::Continue(())
             }
+        }
+    }
+
+    /// Runs all trajectories in lanes; `None` if the system is not known over lanes.
+    fn run_in_lanes(
+        &mut self,
+        task: &Task<'_>,
+        see: &impl Fn(&mut A, &State<V>),
+    ) -> Option<Attempt> {
+        macro_rules! lanes {
+            ($lanes:ty) => {
+                S::over_lanes::<$lanes, _>(SideBySide {
+                    group: self,
+                    task,
+                    see,
+                })
+            };
+        }
+        // Constant conditions: other ensembles compile without this code.
+        if const { registers::UNKNOWN && S::INLINED } {
+            match self.ensemble.registers() {
+                Registers::Build => lanes!(L),
+                Registers::Avx2 => lanes!(WideF64x8),
+                Registers::Avx512 => lanes!(WidestF64x16),
+            }
+        } else {
+            lanes!(L)
         }
     }
 
@@ -180,7 +204,7 @@ struct SideBySide<
 /// The integrator whose lanes hold the trajectories.
 type InLanes<M, J, W, R> = Integrator<M, J, W, R, <J as System<W>>::Solver>;
 
-impl<M, S, V, R, N, L, A, F> LaneWork<V, S, L> for SideBySide<'_, '_, '_, M, S, V, R, N, L, A, F>
+impl<M, S, V, R, N, L, K, A, F> LaneWork<V, S, K> for SideBySide<'_, '_, '_, M, S, V, R, N, L, A, F>
 where
     M: Method,
     S: System<V> + Clone + Send + Sync,
@@ -188,6 +212,7 @@ where
     R: Summation,
     N: Solver<V, S>,
     L: Lanes,
+    K: Lanes,
     A: Send,
     F: Fn(&mut A, &State<V>),
 {
@@ -199,11 +224,11 @@ where
 
     fn run<W, J>(mut self, join: Join<S, J>) -> Attempt
     where
-        W: Vector<Scalar = L>,
+        W: Vector<Scalar = K>,
         J: System<W, Class = <S as System<V>>::Class>,
     {
         let first = &self.group.members[0].run;
-        let like = first.state().q.zeros_with::<L>();
+        let like = first.state().q.zeros_with::<K>();
         let Some(zeros) = same::<_, W>(&like) else {
             return Attempt::Refused;
         };
@@ -211,8 +236,12 @@ where
             let coupled = Coupled::new(self.group, self.see, join, zeros);
             return coupled.map_or(Attempt::Refused, |coupled| coupled.run(self.task));
         }
+        // A constant condition: other methods compile without what follows.
+        if !Integrator::<M, S, V, R, N>::LANEWISE {
+            return Attempt::Refused;
+        }
         let mut live: Vec<usize> = (0..self.group.members.len()).collect();
-        let Some(system) = self.group.system(join, cycle::<L>(&live)) else {
+        let Some(system) = self.group.system(join, cycle::<K>(&live)) else {
             return Attempt::Refused;
         };
         let mut lanes: InLanes<M, J, W, R> = first.over_lanes(system, zeros);
@@ -242,10 +271,10 @@ where
     /// Copies the live trajectories into the lanes.
     fn put_in_lanes<W, J>(&self, lanes: &mut InLanes<M, J, W, R>, live: &[usize])
     where
-        W: Vector<Scalar = L>,
+        W: Vector<Scalar: Lanes>,
         J: System<W>,
     {
-        for (lane, place) in cycle::<L>(live).enumerate() {
+        for (lane, place) in cycle::<W::Scalar>(live).enumerate() {
             lanes.set_lane(lane, &self.group.members[place].run);
         }
     }
@@ -253,7 +282,7 @@ where
     /// Copies the lanes back to the live trajectories.
     fn take_from_lanes<W, J>(&mut self, lanes: &InLanes<M, J, W, R>, live: &[usize])
     where
-        W: Vector<Scalar = L>,
+        W: Vector<Scalar: Lanes>,
         J: System<W>,
     {
         for (lane, &place) in live.iter().enumerate() {
@@ -270,7 +299,7 @@ where
         live: &mut Vec<usize>,
     ) -> Attempt
     where
-        W: Vector<Scalar = L>,
+        W: Vector<Scalar: Lanes>,
         J: System<W>,
     {
         let remaining = match *self.task {
@@ -308,7 +337,7 @@ where
                 }
                 member.outcome.is_ok()
             });
-            let Some(system) = self.group.system(join, cycle::<L>(live)) else {
+            let Some(system) = self.group.system(join, cycle::<W::Scalar>(live)) else {
                 for &place in live.iter() {
                     if self.group.ensemble.is_stopped() {
                         return Attempt::Stopped;
@@ -334,7 +363,7 @@ where
         live: &[usize],
     ) -> Attempt
     where
-        W: Vector<Scalar = L>,
+        W: Vector<Scalar: Lanes>,
         J: System<W>,
     {
         if at_times::check(lanes, times).is_err() {
@@ -351,13 +380,14 @@ where
                 (self.see)(&mut member.output, member.run.state());
             }
         }
+        let mut output = Output::new(lanes, direction);
         let mut shown = self.group.members[0].run.state().clone();
         while !rest.is_empty() {
             if self.group.ensemble.is_stopped() {
                 return Attempt::Stopped;
             }
             let saved = lanes.saved();
-            let Ok(seen) = self.see_next(rest, lanes, live, &mut shown) else {
+            let Some(seen) = self.see_next(rest, lanes, live, (&mut output, &mut shown)) else {
                 lanes.return_to(saved);
                 self.take_from_lanes(lanes, live);
                 for &place in live {
@@ -381,45 +411,39 @@ where
         times: &[f64],
         lanes: &mut InLanes<M, J, W, R>,
         live: &[usize],
-        shown: &mut State<V>,
-    ) -> Result<usize, Error>
+        (output, shown): (&mut Output<W>, &mut State<V>),
+    ) -> Option<usize>
     where
-        W: Vector<Scalar = L>,
+        W: Vector<Scalar: Lanes>,
         J: System<W>,
     {
         let direction = lanes.step_size();
         let mut steps = 0_u64;
         while is_after(direction, times[0], lanes.state().time) {
-            lanes.step()?;
+            if !lanes.step_together() {
+                return None;
+            }
+            output.evaluated = false;
             steps += 1;
             if steps.is_multiple_of(BLOCK) && self.group.ensemble.is_stopped() {
-                return Ok(0);
+                return Some(0);
             }
         }
         let present = lanes.state();
-        let dense = match times[0] == present.time {
-            true => None,
-            false => Some(lanes.dense()?),
-        };
-        let mut inside = present.clone();
         let mut count = 0;
         for &time in times {
             if is_after(direction, time, present.time) {
                 break;
             }
-            let state = match &dense {
-                Some(dense) if time != present.time => {
-                    dense.write(time, &mut inside.q, &mut inside.p)?;
-                    &inside
+            let state = match time == present.time {
+                // A time 0 has the same sign as in a run of one trajectory.
+                true => present,
+                false => {
+                    output.look_together(lanes, time).ok()?;
+                    &output.state
                 }
-                _ => present,
             };
-            // A time 0 has the same sign as in a run of one trajectory.
-            shown.time = if time == present.time {
-                present.time
-            } else {
-                time
-            };
+            shown.time = state.time;
             for (lane, &place) in live.iter().enumerate() {
                 copy_lane(lane, &state.q, &mut shown.q);
                 copy_lane(lane, &state.p, &mut shown.p);
@@ -427,7 +451,7 @@ where
             }
             count += 1;
         }
-        Ok(count)
+        Some(count)
     }
 }
 

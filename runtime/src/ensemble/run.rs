@@ -10,9 +10,21 @@ use super::{Ensemble, Row, Run, Wanted};
 use crate::error::Error;
 use crate::integrator::{Integrator, Statistics};
 use crate::method::{Method, RunTimeTableau, Solver};
-use crate::number::{Lanes, Scalar, Summation, Vector};
+use crate::number::registers::{self, Avx2, Avx512};
+use crate::number::{Lanes, Scalar, Summation, Vector, WideF64x8, WidestF64x16};
 use crate::state::State;
 use crate::system::{Join, LaneWork, System};
+
+/// Registers of lanes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Registers {
+    /// Those for which the program is compiled.
+    Build,
+    /// Four doubles.
+    Avx2,
+    /// Eight doubles.
+    Avx512,
+}
 
 /// How trajectories run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -265,11 +277,11 @@ where
     ) -> usize {
         let width = match self.way() {
             Way::Alone => 1,
-            Way::Explicit => L::WIDTH,
+            Way::Explicit => self.width(),
             // Rather all threads than all lanes.
             Way::Coupled => {
                 let count = self.starts.len() - self.first;
-                count.div_ceil(threads()).clamp(1, L::WIDTH)
+                count.div_ceil(threads()).clamp(1, self.width())
             }
         };
         let rows = |place: Range<usize>| {
@@ -280,6 +292,28 @@ where
             }
         };
         self.show_all(width, rows, show)
+    }
+
+    /// The registers of the lanes: those of the build, if the lanes are chosen or the system is not inlined.
+    pub(super) fn registers(&self) -> Registers {
+        if !(registers::UNKNOWN && S::INLINED) || self.lanes == Wanted::Yes {
+            Registers::Build
+        } else if Avx512::detect().is_some() {
+            Registers::Avx512
+        } else if Avx2::detect().is_some() {
+            Registers::Avx2
+        } else {
+            Registers::Build
+        }
+    }
+
+    /// The number of lanes.
+    pub(super) fn width(&self) -> usize {
+        match self.registers() {
+            Registers::Build => L::WIDTH,
+            Registers::Avx2 => WideF64x8::WIDTH,
+            Registers::Avx512 => WidestF64x16::WIDTH,
+        }
     }
 
     /// How trajectories run.

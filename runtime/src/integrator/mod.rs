@@ -533,6 +533,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 
     /// Writes p' at a state: see [`Plan::momentum_rate`].
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn momentum_rate(&self, time: f64, q: &V, p: &V, rate: &mut V) {
         <PlanOf<M, S, V> as Plan>::momentum_rate(&self.system, time, q, p, rate);
     }

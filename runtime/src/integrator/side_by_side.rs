@@ -10,6 +10,7 @@ use super::{Integrator, MemoryOf, PlanOf, StepMemory};
 use crate::integrator::Retry;
 use crate::integrator::clock::{Clock, RemainingSteps};
 use crate::method::{Method, Plan, Solver, StageStorage};
+use crate::number::registers::Work;
 use crate::number::{Lanes, Scalar, Summation, Vector, vector_words};
 use crate::state::State;
 use crate::system::System;
@@ -35,21 +36,6 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// The times of the steps.
     pub(crate) const fn clock(&self) -> Clock {
         self.clock
-    }
-
-    /// [`take_block`](Self::take_block) for runs side by side; returns `false` if one of them fails or is not finite. The warm starts of the
-    /// other runs are then lost, and all have to [return](Self::return_to) to the start of the block.
-    pub(crate) fn take_block_together(
-        &mut self,
-        block: u64,
-        remaining: &mut RemainingSteps,
-    ) -> bool {
-        let ready = self.step_memory.kept.evaluation && remaining.left > 1;
-        if ready && self.advance_in_place(block, remaining) {
-            return true;
-        }
-        let is_lost = ready && !self.step_memory.kept.evaluation;
-        !is_lost && self.take_block(block, remaining).is_ok()
     }
 
     /// A copy of the run to [return](Self::return_to) to.
@@ -94,6 +80,53 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<W, J>>
     Integrator<M, J, W, R, N>
 {
+    /// [`take_block`](Self::take_block) for runs side by side; returns `false` if one of them fails or is not finite. The warm starts of the
+    /// other runs are then lost, and all have to [return](Self::return_to) to the start of the block.
+    pub(crate) fn take_block_together(
+        &mut self,
+        block: u64,
+        remaining: &mut RemainingSteps,
+    ) -> bool {
+        let ready = self.step_memory.kept.evaluation && remaining.left > 1;
+        if ready {
+            let (run, remaining) = (&mut *self, &mut *remaining);
+            if W::Scalar::in_registers(InPlace {
+                run,
+                block,
+                remaining,
+            }) {
+                return true;
+            }
+        }
+        if ready && !self.step_memory.kept.evaluation {
+            return false;
+        }
+        for _ in 0..block {
+            if !self.advance_together(remaining.size, remaining.next_time()) {
+                return false;
+            }
+            remaining.tick();
+        }
+        true
+    }
+
+    /// [`advance`](Self::advance) for runs side by side.
+    fn advance_together(&mut self, size: f64, time: f64) -> bool {
+        time != self.step_memory.state.time
+            && W::Scalar::in_registers(OneStep {
+                run: self,
+                size,
+                time,
+            })
+    }
+
+    /// [`step`](Self::step) for runs side by side; returns `false` if one of them fails or is not finite.
+    pub(crate) fn step_together(&mut self) -> bool {
+        let succeeds = self.advance_together(self.step_size, self.clock.next());
+        self.clock.tick();
+        succeeds
+    }
+
     /// Sets the system, with the parameters of the run in each lane.
     pub(crate) fn set_system(&mut self, system: J) {
         self.system = system;
@@ -146,6 +179,63 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
     }
 }
 
+/// Steps in place.
+struct InPlace<'a, T> {
+    run: &'a mut T,
+    block: u64,
+    remaining: &'a mut RemainingSteps,
+}
+
+impl<M, S, V, R, N> Work for InPlace<'_, Integrator<M, S, V, R, N>>
+where
+    M: Method,
+    S: System<V>,
+    V: Vector,
+    R: Summation,
+    N: Solver<V, S>,
+{
+    type Output = bool;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) -> bool {
+        self.run.advance_in_place(self.block, self.remaining)
+    }
+}
+
+/// A step.
+struct OneStep<'a, T> {
+    run: &'a mut T,
+    size: f64,
+    time: f64,
+}
+
+impl<M, S, V, R, N> Work for OneStep<'_, Integrator<M, S, V, R, N>>
+where
+    M: Method,
+    S: System<V>,
+    V: Vector,
+    R: Summation,
+    N: Solver<V, S>,
+{
+    type Output = bool;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) -> bool {
+        let Integrator {
+            system,
+            step_memory,
+            stopping,
+            ..
+        } = self.run;
+        let attempt = step_memory.attempt::<PlanOf<M, S, V>, R, S, N>(system, self.size, *stopping);
+        match attempt {
+            Ok(work) => step_memory.accept::<R>(self.size, self.time, work),
+            Err(_) => step_memory.forget(),
+        }
+        attempt.is_ok()
+    }
+}
+
 /// The words of all scalars of a run.
 fn words_of<V: Vector, T: StageStorage<V>>(step_memory: &mut StepMemory<V, T>) -> Vec<u64> {
     let mut words = Vec::new();
@@ -154,16 +244,30 @@ fn words_of<V: Vector, T: StageStorage<V>>(step_memory: &mut StepMemory<V, T>) -
 }
 
 /// The words of velocity and force at a state.
-pub(crate) fn evaluations<V: Vector, S: System<V>>(
-    system: &S,
-    State { time, q, p }: &State<V>,
-) -> Vec<u64> {
-    let time = V::Scalar::from_f64(*time);
-    let mut found = [q.zeros_like(), q.zeros_like()];
-    let [velocity, force] = &mut found;
-    system.velocity(time, q, p, velocity);
-    system.force(time, q, p, force);
+pub(crate) fn evaluations<V: Vector, S: System<V>>(system: &S, state: &State<V>) -> Vec<u64> {
+    let mut found = V::Scalar::in_registers(Evaluate { system, state });
     let mut words = Vec::new();
     vector_words(&mut found, &mut |word| words.push(*word));
     words
+}
+
+/// Velocity and force at a state.
+struct Evaluate<'a, S, V> {
+    system: &'a S,
+    state: &'a State<V>,
+}
+
+impl<V: Vector, S: System<V>> Work for Evaluate<'_, S, V> {
+    type Output = [V; 2];
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) -> [V; 2] {
+        let State { time, q, p } = self.state;
+        let time = V::Scalar::from_f64(*time);
+        let mut found = [q.zeros_like(), q.zeros_like()];
+        let [velocity, force] = &mut found;
+        self.system.velocity(time, q, p, velocity);
+        self.system.force(time, q, p, force);
+        found
+    }
 }

@@ -144,13 +144,15 @@ impl<V: Vector> Inside<'_, V> {
                 factor *= self.size * half.weights[stage];
             }
             let factor = V::Scalar::from_f64(factor);
-            let components = out.as_mut_slice().iter_mut().zip(value.as_slice());
-            components.for_each(|(out, &value)| *out += factor * value);
+            for (out, &value) in out.as_mut_slice().iter_mut().zip(value.as_slice()) {
+                *out += factor * value;
+            }
         }
     }
 
     /// Adds to `out` the part that vanishes at both ends, `θ(1 − θ)((1 − θ)(h f0 − Δ) − θ(h f1 − Δ))`. The derivatives at the ends are `f0`
     /// and `f1`; Δ is the difference of the ends.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn add_cubic(self, [start, end]: [&V; 2], line: &Line<'_, V>, out: &mut V) {
         let Self { fraction, size, .. } = self;
         let bubble = fraction * (1.0 - fraction);
@@ -173,6 +175,7 @@ pub(crate) struct Line<'a, V> {
 
 impl<V: Vector> Line<'_, V> {
     /// The difference of the ends in one component.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn difference(&self, k: usize) -> V::Scalar {
         let ((start, start_low), (end, end_low)) = (self.start, self.end);
         (end.as_slice()[k] - start.as_slice()[k])
@@ -180,6 +183,7 @@ impl<V: Vector> Line<'_, V> {
     }
 
     /// Adds the straight line to `out`, computed from the nearer end.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn add(&self, fraction: f64, out: &mut V) {
         let ((near, low), way) = if fraction <= 0.5 {
             (self.start, fraction)

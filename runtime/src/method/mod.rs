@@ -307,7 +307,7 @@ pub trait Plan {
     }
 
     /// Writes p' at a state into `rate`: the force, including that of constraints.
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
     where
         V: Vector,

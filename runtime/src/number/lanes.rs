@@ -3,7 +3,7 @@
 use core::fmt::Debug;
 
 use crate::number::array::array;
-use crate::number::registers;
+use crate::number::registers::{self, Avx2, Avx512, Work};
 use crate::number::scalar::elementary;
 use crate::number::words::{Visit, words};
 use crate::number::{Scalar, larger_or_nan};
@@ -227,6 +227,9 @@ macro_rules! operators {
 }
 pub(super) use operators;
 
+/// Message of a failure that is possible only if this crate computes in registers that it has not found.
+const NOT_FOUND: &str = "registers are found before they are used";
+
 macro_rules! lane_by_lane {
     ($($function:ident)*) => {
         $(
@@ -240,7 +243,7 @@ macro_rules! lane_by_lane {
 }
 
 macro_rules! lanes {
-    ($name:ident, $inner:ty, $width:literal, $text:literal) => {
+    ($name:ident, $inner:ty, $width:literal, $text:literal $(, $registers:ident)?) => {
         #[doc = $text]
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $name(pub(crate) $inner);
@@ -284,6 +287,16 @@ macro_rules! lanes {
                     Self::from_fn(|lane| x[lane].fused(y[lane], z[lane]))
                 }
             }
+
+            $(
+                #[cfg_attr(not(debug_assertions), inline(always))]
+                fn in_registers<W: Work>(work: W) -> W::Output {
+                    match $registers::detect() {
+                        Some(registers) => registers.run(work),
+                        None => unreachable!("{}", NOT_FOUND),
+                    }
+                }
+            )?
 
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn sqrt(self) -> Self {
@@ -448,27 +461,28 @@ lanes!(
     WideF64x4,
     registers::f64x4,
     4,
-    "As [`F64x4`], in a register of AVX2."
+    "As [`F64x4`], in a register of AVX2.",
+    Avx2
 );
 lanes!(
     WideF64x8,
     registers::f64x8,
     8,
-    "As [`F64x8`], in two registers of AVX2."
+    "As [`F64x8`], in two registers of AVX2.",
+    Avx2
 );
 lanes!(
     WidestF64x8,
     registers::eight_doubles,
     8,
-    "As [`F64x8`], in a register of AVX-512."
+    "As [`F64x8`], in a register of AVX-512.",
+    Avx512
 );
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use core::marker::PhantomData;
-
-    use crate::number::registers::{Avx2, Avx512, Work};
 
     /// Checks all pairs of numbers, one per lane, starting from each pair.
     fn check<L: Lanes>(by_bits: fn(L, L) -> L, by_sums: fn(L, L) -> L) {

@@ -28,6 +28,8 @@ pub use linear_combination::{
 };
 pub use scalar::Scalar;
 pub(crate) use scalar::larger_or_nan;
+#[cfg(feature = "alloc")]
+pub(crate) use sixteen::WidestF64x16;
 pub use sixteen::{DefaultLanes, F64x16};
 pub use summation::{Compensated, Plain, Summation};
 pub use vector::Vector;

@@ -6,6 +6,7 @@ use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssig
 use num_traits::{Float, One, Zero};
 
 use crate::number::array::array;
+use crate::number::registers::Work;
 use crate::number::words::{Visit, words};
 use crate::number::{Coefficient, MOST_LANES};
 
@@ -135,6 +136,13 @@ pub trait Scalar:
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn doubles_mut(_numbers: &mut [Self]) -> Option<&mut [f64]> {
         None
+    }
+
+    /// Runs work in a function that is compiled for the registers of these numbers.
+    #[doc(hidden)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn in_registers<W: Work>(work: W) -> W::Output {
+        work.run()
     }
 
     /// Square root.

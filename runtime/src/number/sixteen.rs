@@ -2,31 +2,9 @@
 
 use crate::number::array::array;
 use crate::number::lanes::operators;
+use crate::number::registers::Work;
 use crate::number::words::{Visit, words};
-use crate::number::{F64x8, Lanes, MOST_LANES, Scalar, larger_or_nan};
-
-/// Sixteen doubles side by side, [`Lanes`], as two groups of eight.
-///
-/// An operation takes several cycles until its result can be used. With two groups in wide registers the processor works on one of
-/// them while it waits for the other.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct F64x16([F64x8; 2]);
-
-impl F64x16 {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn map(self, function: impl Fn(F64x8) -> F64x8) -> Self {
-        let Self([a, b]) = self;
-        Self([function(a), function(b)])
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn zip(self, other: Self, function: impl Fn(F64x8, F64x8) -> F64x8) -> Self {
-        let (Self([a, b]), Self([c, d])) = (self, other);
-        Self([function(a, c), function(b, d)])
-    }
-}
-
-operators!(F64x16);
+use crate::number::{F64x8, Lanes, MOST_LANES, Scalar, WidestF64x8, larger_or_nan};
 
 macro_rules! by_halves {
     ($($function:ident)*) => {
@@ -39,132 +17,175 @@ macro_rules! by_halves {
     };
 }
 
-impl Scalar for F64x16 {
-    const EPSILON: f64 = f64::EPSILON;
+macro_rules! sixteen {
+    ($name:ident, $half:ident, $text:literal) => {
+        #[doc = $text]
+        ///
+        /// An operation takes several cycles until its result can be used. With two groups in wide registers the processor works on one of
+        /// them while it waits for the other.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $name([$half; 2]);
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn from_lanes(numbers: &[f64; MOST_LANES]) -> Self {
-        Self::from_fn(|lane| numbers[lane])
-    }
+        impl $name {
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn map(self, function: impl Fn($half) -> $half) -> Self {
+                let Self([a, b]) = self;
+                Self([function(a), function(b)])
+            }
 
-    fn as_words(&mut self, visit: &mut Visit<'_>) {
-        let mut lanes = self.to_array();
-        words!(visit: lanes);
-        *self = Self::from_array(lanes);
-    }
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn zip(self, other: Self, function: impl Fn($half, $half) -> $half) -> Self {
+                let (Self([a, b]), Self([c, d])) = (self, other);
+                Self([function(a, c), function(b, d)])
+            }
+        }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn from_f64(value: f64) -> Self {
-        Self([F64x8::from_f64(value); 2])
-    }
+        operators!($name);
 
-    #[inline]
-    fn magnitude(self) -> f64 {
-        let [a, b] = self.0.map(Scalar::magnitude);
-        larger_or_nan(a, b)
-    }
+        impl Scalar for $name {
+            const EPSILON: f64 = f64::EPSILON;
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn fused(self, factor: Self, term: Self) -> Self {
-        let (Self([a, b]), Self([c, d]), Self([e, f])) = (self, factor, term);
-        Self([a.fused(c, e), b.fused(d, f)])
-    }
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn from_lanes(numbers: &[f64; MOST_LANES]) -> Self {
+                Self::from_fn(|lane| numbers[lane])
+            }
 
-    by_halves! { sqrt recip abs sign exp ln sin cos tan asin acos atan sinh cosh tanh }
+            fn as_words(&mut self, visit: &mut Visit<'_>) {
+                let mut lanes = self.to_array();
+                words!(visit: lanes);
+                *self = Self::from_array(lanes);
+            }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn atan2(self, x: Self) -> Self {
-        self.zip(x, Scalar::atan2)
-    }
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn from_f64(value: f64) -> Self {
+                Self([$half::from_f64(value); 2])
+            }
 
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn sin_cos(self) -> (Self, Self) {
-        let [(a, b), (c, d)] = self.0.map(Scalar::sin_cos);
-        (Self([a, c]), Self([b, d]))
-    }
+            #[inline]
+            fn magnitude(self) -> f64 {
+                let [a, b] = self.0.map(Scalar::magnitude);
+                larger_or_nan(a, b)
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn in_registers<W: Work>(work: W) -> W::Output {
+                $half::in_registers(work)
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn fused(self, factor: Self, term: Self) -> Self {
+                let (Self([a, b]), Self([c, d]), Self([e, f])) = (self, factor, term);
+                Self([a.fused(c, e), b.fused(d, f)])
+            }
+
+            by_halves! { sqrt recip abs sign exp ln sin cos tan asin acos atan sinh cosh tanh }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn atan2(self, x: Self) -> Self {
+                self.zip(x, Scalar::atan2)
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn sin_cos(self) -> (Self, Self) {
+                let [(a, b), (c, d)] = self.0.map(Scalar::sin_cos);
+                (Self([a, c]), Self([b, d]))
+            }
+        }
+
+        impl Lanes for $name {
+            type Array = [f64; 16];
+
+            const WIDTH: usize = 16;
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn from_fn(mut lane: impl FnMut(usize) -> f64) -> Self {
+                let first = $half::from_fn(&mut lane);
+                Self([first, $half::from_fn(|k| lane(8 + k))])
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn from_array(doubles: [f64; 16]) -> Self {
+                Self::from_fn(|lane| doubles[lane])
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn to_array(self) -> [f64; 16] {
+                let halves = self.0.map($half::to_array);
+                array(0.0, |lane| halves[lane / 8][lane % 8])
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn larger(self, other: Self) -> Self {
+                self.zip(other, Lanes::larger)
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn larger_or_nan(self, other: Self) -> Self {
+                self.zip(other, Lanes::larger_or_nan)
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn broadcast(self, lane: usize) -> Self {
+                let half = self.0[lane / 8].broadcast(lane % 8);
+                Self([half; 2])
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn largest(self) -> f64 {
+                let [a, b] = self.0.map(Lanes::largest);
+                if a > b { a } else { b }
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn any_above(self, bound: f64) -> bool {
+                let [a, b] = self.0.map(|half| half.any_above(bound));
+                a | b
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn all_below(self, bound: f64) -> bool {
+                let [a, b] = self.0.map(|half| Lanes::all_below(half, bound));
+                a & b
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn any_nan(self) -> bool {
+                let [a, b] = self.0.map(Lanes::any_nan);
+                a | b
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn if_below(self, bound: Self, yes: Self, no: Self) -> Self {
+                let (Self([a, b]), Self([c, d])) = (self, bound);
+                let (Self([e, f]), Self([g, h])) = (yes, no);
+                Self([a.if_below(c, e, g), b.if_below(d, f, h)])
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn at_most(self, other: Self) -> u32 {
+                let (Self([a, b]), Self([c, d])) = (self, other);
+                a.at_most(c) | b.at_most(d) << $half::WIDTH
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn below(self, other: Self) -> u32 {
+                let (Self([a, b]), Self([c, d])) = (self, other);
+                a.below(c) | b.below(d) << $half::WIDTH
+            }
+        }
+    };
 }
 
-impl Lanes for F64x16 {
-    type Array = [f64; 16];
-
-    const WIDTH: usize = 16;
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn from_fn(mut lane: impl FnMut(usize) -> f64) -> Self {
-        let first = F64x8::from_fn(&mut lane);
-        Self([first, F64x8::from_fn(|k| lane(8 + k))])
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn from_array(doubles: [f64; 16]) -> Self {
-        Self::from_fn(|lane| doubles[lane])
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn to_array(self) -> [f64; 16] {
-        let halves = self.0.map(F64x8::to_array);
-        array(0.0, |lane| halves[lane / 8][lane % 8])
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn larger(self, other: Self) -> Self {
-        self.zip(other, Lanes::larger)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn larger_or_nan(self, other: Self) -> Self {
-        self.zip(other, Lanes::larger_or_nan)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn broadcast(self, lane: usize) -> Self {
-        let half = self.0[lane / 8].broadcast(lane % 8);
-        Self([half; 2])
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn largest(self) -> f64 {
-        let [a, b] = self.0.map(Lanes::largest);
-        if a > b { a } else { b }
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn any_above(self, bound: f64) -> bool {
-        let [a, b] = self.0.map(|half| half.any_above(bound));
-        a | b
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn all_below(self, bound: f64) -> bool {
-        let [a, b] = self.0.map(|half| Lanes::all_below(half, bound));
-        a & b
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn any_nan(self) -> bool {
-        let [a, b] = self.0.map(Lanes::any_nan);
-        a | b
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn if_below(self, bound: Self, yes: Self, no: Self) -> Self {
-        let (Self([a, b]), Self([c, d])) = (self, bound);
-        let (Self([e, f]), Self([g, h])) = (yes, no);
-        Self([a.if_below(c, e, g), b.if_below(d, f, h)])
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn at_most(self, other: Self) -> u32 {
-        let (Self([a, b]), Self([c, d])) = (self, other);
-        a.at_most(c) | b.at_most(d) << F64x8::WIDTH
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn below(self, other: Self) -> u32 {
-        let (Self([a, b]), Self([c, d])) = (self, other);
-        a.below(c) | b.below(d) << F64x8::WIDTH
-    }
-}
+sixteen!(
+    F64x16,
+    F64x8,
+    "Sixteen doubles side by side, [`Lanes`], as two groups of eight."
+);
+sixteen!(
+    WidestF64x16,
+    WidestF64x8,
+    "As [`F64x16`], in two registers of AVX-512."
+);
 
 #[cfg(not(target_feature = "avx512f"))]
 use F64x8 as Fastest;

@@ -3,6 +3,10 @@
 use crate::error::Error;
 use crate::integrator::Integrator;
 use crate::method::{Method, Solver};
+#[cfg(feature = "alloc")]
+use crate::number::Scalar;
+#[cfg(feature = "alloc")]
+use crate::number::registers::Work;
 use crate::number::{Summation, Vector};
 use crate::output::dense::Ends;
 use crate::output::steps::{Steps, is_after};
@@ -125,6 +129,7 @@ impl<V: Vector> Output<V> {
     }
 
     /// Sets `state` to the state at a time inside the last step.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn look_at<M: Method, S: System<V>, R: Summation, N: Solver<V, S>>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -138,6 +143,20 @@ impl<V: Vector> Output<V> {
         self.ends.write(integrator, time, q, p)?;
         self.state.time = time;
         Ok(())
+    }
+
+    /// [`look_at`](Self::look_at) for runs side by side, in the registers of their lanes.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn look_together<M: Method, S: System<V>, R: Summation, N: Solver<V, S>>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        time: f64,
+    ) -> Result<(), Error> {
+        V::Scalar::in_registers(Look {
+            output: self,
+            integrator,
+            time,
+        })
     }
 
     /// Removes the output times up to the time `present` from the list.
@@ -169,5 +188,30 @@ impl<V: Vector> Output<V> {
             *times = rest;
         }
         Ok(())
+    }
+}
+
+/// A look at a time inside a step.
+#[cfg(feature = "alloc")]
+struct Look<'a, V, T> {
+    output: &'a mut Output<V>,
+    integrator: &'a T,
+    time: f64,
+}
+
+#[cfg(feature = "alloc")]
+impl<M, S, V, R, N> Work for Look<'_, V, Integrator<M, S, V, R, N>>
+where
+    M: Method,
+    S: System<V>,
+    V: Vector,
+    R: Summation,
+    N: Solver<V, S>,
+{
+    type Output = Result<(), Error>;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) -> Self::Output {
+        self.output.look_at(self.integrator, self.time)
     }
 }

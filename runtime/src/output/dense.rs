@@ -63,6 +63,7 @@ impl<V: Vector> Ends<V> {
     }
 
     /// Evaluates the derivatives for the last step of an integrator.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn evaluate<M: Method, S: System<V>, R: Summation, N: Solver<V, S>>(
         &mut self,
         integrator: &Integrator<M, S, V, R, N>,
@@ -109,6 +110,7 @@ impl<V: Vector> Ends<V> {
     }
 
     /// Writes the state at a time inside the last step, for which `evaluate` was called.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn write<M: Method, S: System<V>, R: Summation, N: Solver<V, S>>(
         &self,
         integrator: &Integrator<M, S, V, R, N>,

@@ -49,7 +49,7 @@ use crate::number::Scalar;
 
 /// Work to be compiled for wide registers. Its function has to be inlined, and so has everything that it calls: closures too, so it calls
 /// none that computes with vectors.
-pub(crate) trait Work {
+pub trait Work {
     type Output;
 
     fn run(self) -> Self::Output;
