@@ -322,7 +322,9 @@ where
             && V::Scalar::IS_DOUBLE
             && S::over_lanes::<L, _>(Known).is_some();
         // A compiled method has its coupled stages in lanes already.
-        let faster = self.tableau.is_some() || cfg!(target_feature = "avx512f");
+        let faster = self.tableau.is_some()
+            || cfg!(target_feature = "avx512f")
+            || self.registers() == Registers::Avx512;
         let coupled = faster || self.lanes == Wanted::Yes;
         let explicit = self
             .tableau

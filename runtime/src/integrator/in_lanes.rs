@@ -14,6 +14,7 @@ use super::{Integrator, PlanOf};
 use crate::method::{
     LaneMemory, LaneOutcome, Method, Outcome, Plan, Solver, Step, Stopping, WarmStart,
 };
+use crate::number::registers::Work;
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::state::State;
 use crate::system::System;
@@ -170,6 +171,12 @@ where
 
     /// Computes a step of the runs in the lanes `live`; returns the lanes in which it succeeds. The others are as before.
     pub(crate) fn attempt(&mut self, size: f64, live: u32) -> u32 {
+        self.taken = self.take(size, live);
+        let finite = W::Scalar::in_registers(Finite(&self.states.other));
+        self.taken.map_or(0, |taken| taken.settled & live & finite)
+    }
+
+    fn take(&mut self, size: f64, live: u32) -> Option<LaneOutcome<W::Scalar>> {
         let [q, p, q_low, p_low] = &*self.states.now;
         let step = Step {
             time: self.time,
@@ -182,27 +189,9 @@ where
         };
         let [q, p, q_low, p_low] = &mut *self.states.other;
         let outcome = Outcome { q, q_low, p, p_low };
-        let Some(take) = PlanOf::<M, S, V>::lane_step::<R, V, S, N, W, J>() else {
-            return 0;
-        };
+        let take = PlanOf::<M, S, V>::lane_step::<R, V, S, N, W, J>()?;
         let (system, memory) = (&self.system, &mut self.memory);
-        let Some(taken) = take(&step, system, memory, live, self.stopping, outcome) else {
-            return 0;
-        };
-        self.taken = Some(taken);
-        taken.settled & live & self.finite()
-    }
-
-    /// The lanes in which the computed state is finite.
-    #[inline]
-    fn finite(&self) -> u32 {
-        let [q, p, ..] = &*self.states.other;
-        let components = q.as_slice().iter().chain(p.as_slice());
-        let zero = W::Scalar::zero();
-        let largest = components.fold(zero, |largest, component| {
-            largest.larger_or_nan(component.abs())
-        });
-        largest.at_most(W::Scalar::from_f64(f64::MAX))
+        take(&step, system, memory, live, self.stopping, outcome)
     }
 
     /// Makes a computed step, to the time `time`, the present state. Lanes in which it failed have to be [loaded](Self::load) again.
@@ -212,8 +201,12 @@ where
         mem::swap(&mut self.memory.before, &mut self.memory.settled);
         if let Some(taken) = &self.taken {
             self.memory.scales = taken.scales;
-            self.sweeps += taken.sweeps;
-            self.most = self.most.larger(taken.sweeps);
+            let counts = SweepCounts {
+                sweeps: &mut self.sweeps,
+                most: &mut self.most,
+                taken: taken.sweeps,
+            };
+            W::Scalar::in_registers(counts);
         }
         self.steps += 1;
         self.go_to(size, time);
@@ -230,5 +223,41 @@ where
         self.since[lane] = self.steps;
         self.sweeps.set(lane, 0.0);
         self.most.set(lane, 0.0);
+    }
+}
+
+/// The lanes in which a computed state is finite.
+struct Finite<'a, W>(&'a [W; 4]);
+
+impl<W: Vector<Scalar: Lanes>> Work for Finite<'_, W> {
+    type Output = u32;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) -> u32 {
+        let [q, p, ..] = self.0;
+        let mut largest = W::Scalar::zero();
+        for vector in [q, p] {
+            for component in vector.as_slice() {
+                largest = largest.larger_or_nan(component.abs());
+            }
+        }
+        largest.at_most(W::Scalar::from_f64(f64::MAX))
+    }
+}
+
+/// Counts the sweeps of a step.
+struct SweepCounts<'a, L> {
+    sweeps: &'a mut L,
+    most: &'a mut L,
+    taken: L,
+}
+
+impl<L: Lanes> Work for SweepCounts<'_, L> {
+    type Output = ();
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) {
+        *self.sweeps += self.taken;
+        *self.most = self.most.larger(self.taken);
     }
 }

@@ -252,6 +252,7 @@ macro_rules! lanes {
 
         impl Scalar for $name {
             const EPSILON: f64 = f64::EPSILON;
+            const ARE_LANES: bool = true;
 
             fn as_words(&mut self, visit: &mut Visit<'_>) {
                 let mut lanes = self.to_array();

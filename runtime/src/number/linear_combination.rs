@@ -10,7 +10,7 @@ use num_traits::Zero;
 
 use crate::number::array::array;
 use crate::number::registers::{self, Work};
-use crate::number::summation::{add, add_sum};
+use crate::number::summation::{Terms, add, add_sum};
 use crate::number::{Coefficient, Scalar, Summation, Vector};
 
 /// Coefficients times the step size: the factors of evaluations.
@@ -110,7 +110,9 @@ pub fn total<R: Summation, V: Vector, const N: usize>(
 ) {
     let n = shortest([&*out, &*out_low, base, low]).min(shortest(increments));
     let terms = starts(increments, n);
-    totals_by::<R, V>((out, out_low), (base, low), (n, N), |i, j| terms[j][i]);
+    totals_by::<R, V>((out, out_low), (base, low), (n, N), |i: usize, j: usize| {
+        terms[j][i]
+    });
 }
 
 /// [`total`] of evaluations instead of increments: `base + low + Σ_j factors_j terms_j`.
@@ -125,7 +127,7 @@ pub fn weighted_total<R: Summation, V: Vector, const N: usize>(
 ) {
     let n = shortest([&*out, &*out_low, base, low]).min(shortest(terms));
     let terms = starts(terms, n);
-    totals_by::<R, V>((out, out_low), (base, low), (n, N), |i, j| {
+    totals_by::<R, V>((out, out_low), (base, low), (n, N), |i: usize, j: usize| {
         factors[j] * terms[j][i]
     });
 }
@@ -347,14 +349,36 @@ fn plus_product<T: Scalar>(sum: Option<T>, (x, y): (T, T)) -> T {
     }
 }
 
-/// The first `n` components of a result: `base + low + Σ_j term(i, j)` over `count` terms, rounded to `out`, with the round-off in
-/// `out_low`.
+/// The terms of the sums of a vector, by the numbers of the component and of the term. A closure is enough, except for lanes: see
+/// [`Products`].
+pub(crate) trait TermsOfComponents<T> {
+    fn term(&self, component: usize, number: usize) -> T;
+}
+
+impl<T, F: Fn(usize, usize) -> T> TermsOfComponents<T> for F {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn term(&self, component: usize, number: usize) -> T {
+        self(component, number)
+    }
+}
+
+/// The terms of one component.
+struct OfComponent<'a, X>(usize, &'a X);
+
+impl<T, X: TermsOfComponents<T>> Terms<T> for OfComponent<'_, X> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn term(&self, number: usize) -> T {
+        self.1.term(self.0, number)
+    }
+}
+
+/// The first `n` components of a result: `base + low + Σ_j term_ij` over `count` terms, rounded to `out`, with the round-off in `out_low`.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn totals_by<R: Summation, V: Vector>(
     (out, out_low): (&mut V, &mut V),
     (base, low): (&V, &V),
     (n, count): (usize, usize),
-    term: impl Fn(usize, usize) -> V::Scalar,
+    terms: impl TermsOfComponents<V::Scalar>,
 ) {
     let (out, out_low) = (
         &mut out.as_mut_slice()[..n],
@@ -362,7 +386,7 @@ pub(crate) fn totals_by<R: Summation, V: Vector>(
     );
     let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
     for i in 0..n {
-        let (high, rest) = add::<R, _>(base[i], low[i], count, |j| term(i, j));
+        let (high, rest) = add::<R, _>(base[i], low[i], count, OfComponent(i, &terms));
         out[i] = high;
         if R::COMPENSATED {
             out_low[i] = rest;

@@ -5,7 +5,6 @@ use core::ops::Neg;
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
 use num_traits::{Float, One, Zero};
 
-use crate::number::array::array;
 use crate::number::registers::Work;
 use crate::number::words::{Visit, words};
 use crate::number::{Coefficient, MOST_LANES};
@@ -50,6 +49,10 @@ pub trait Scalar:
     /// Whether the scalar is f64, so that coupled stages can be computed side by side in lanes.
     #[doc(hidden)]
     const IS_DOUBLE: bool = false;
+
+    /// Whether these are [`Lanes`](crate::simd::Lanes).
+    #[doc(hidden)]
+    const ARE_LANES: bool = false;
 
     /// The scalar nearest to `value`, as a constant: all derivatives are zero and all lanes equal.
     fn from_f64(value: f64) -> Self;
@@ -219,9 +222,13 @@ pub trait Scalar:
     /// let [(sine, cosine), (other, _)] = Scalar::sin_cos_all([0.5, 2.0_f64]);
     /// assert_eq!((sine, cosine, other), (Scalar::sin(0.5), Scalar::cos(0.5), Scalar::sin(2.0)));
     /// ```
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
-        array((Self::zero(), Self::zero()), |k| angles[k].sin_cos())
+        let mut all = [(Self::zero(), Self::zero()); N];
+        for (both, angle) in all.iter_mut().zip(angles) {
+            *both = angle.sin_cos();
+        }
+        all
     }
 }
 

@@ -6,12 +6,14 @@ use crate::number::registers::Work;
 use crate::number::words::{Visit, words};
 use crate::number::{F64x8, Lanes, MOST_LANES, Scalar, WidestF64x8, larger_or_nan};
 
+// Functions of halves are called by name: closures and function items may not be inlined.
 macro_rules! by_halves {
     ($($function:ident)*) => {
         $(
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn $function(self) -> Self {
-                self.map(Scalar::$function)
+                let Self([a, b]) = self;
+                Self([a.$function(), b.$function()])
             }
         )*
     };
@@ -44,6 +46,7 @@ macro_rules! sixteen {
 
         impl Scalar for $name {
             const EPSILON: f64 = f64::EPSILON;
+            const ARE_LANES: bool = true;
 
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn from_lanes(numbers: &[f64; MOST_LANES]) -> Self {
@@ -63,8 +66,8 @@ macro_rules! sixteen {
 
             #[inline]
             fn magnitude(self) -> f64 {
-                let [a, b] = self.0.map(Scalar::magnitude);
-                larger_or_nan(a, b)
+                let Self([a, b]) = self;
+                larger_or_nan(a.magnitude(), b.magnitude())
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
@@ -82,13 +85,15 @@ macro_rules! sixteen {
 
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn atan2(self, x: Self) -> Self {
-                self.zip(x, Scalar::atan2)
+                let (Self([a, b]), Self([c, d])) = (self, x);
+                Self([a.atan2(c), b.atan2(d)])
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn sin_cos(self) -> (Self, Self) {
-                let [(a, b), (c, d)] = self.0.map(Scalar::sin_cos);
-                (Self([a, c]), Self([b, d]))
+                let Self([a, b]) = self;
+                let ((a, c), (b, d)) = (a.sin_cos(), b.sin_cos());
+                (Self([a, b]), Self([c, d]))
             }
         }
 
@@ -110,18 +115,26 @@ macro_rules! sixteen {
 
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn to_array(self) -> [f64; 16] {
-                let halves = self.0.map($half::to_array);
+                let Self([a, b]) = self;
+                let halves = [a.to_array(), b.to_array()];
                 array(0.0, |lane| halves[lane / 8][lane % 8])
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
+            fn get(self, lane: usize) -> f64 {
+                self.0[lane / 8].get(lane % 8)
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn larger(self, other: Self) -> Self {
-                self.zip(other, Lanes::larger)
+                let (Self([a, b]), Self([c, d])) = (self, other);
+                Self([a.larger(c), b.larger(d)])
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn larger_or_nan(self, other: Self) -> Self {
-                self.zip(other, Lanes::larger_or_nan)
+                let (Self([a, b]), Self([c, d])) = (self, other);
+                Self([a.larger_or_nan(c), b.larger_or_nan(d)])
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
@@ -132,26 +145,27 @@ macro_rules! sixteen {
 
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn largest(self) -> f64 {
-                let [a, b] = self.0.map(Lanes::largest);
+                let Self([a, b]) = self;
+                let (a, b) = (a.largest(), b.largest());
                 if a > b { a } else { b }
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn any_above(self, bound: f64) -> bool {
-                let [a, b] = self.0.map(|half| half.any_above(bound));
-                a | b
+                let Self([a, b]) = self;
+                a.any_above(bound) | b.any_above(bound)
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn all_below(self, bound: f64) -> bool {
-                let [a, b] = self.0.map(|half| Lanes::all_below(half, bound));
-                a & b
+                let Self([a, b]) = self;
+                a.all_below(bound) & b.all_below(bound)
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn any_nan(self) -> bool {
-                let [a, b] = self.0.map(Lanes::any_nan);
-                a | b
+                let Self([a, b]) = self;
+                a.any_nan() | b.any_nan()
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]

@@ -78,20 +78,43 @@ pub(crate) fn fast_two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
     (sum, b - (sum - a))
 }
 
-/// `base + low + Σ_j term(j)` over `count` terms, as the nearest number and the rest.
+/// The terms of a sum, by their numbers from 0. A closure is enough, except for lanes: see
+/// [`Products`](crate::number::linear_combination::Products).
+pub(crate) trait Terms<T> {
+    fn term(&self, number: usize) -> T;
+}
+
+impl<T, F: Fn(usize) -> T> Terms<T> for F {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn term(&self, number: usize) -> T {
+        self(number)
+    }
+}
+
+/// The terms from a number on.
+struct From<'a, X>(usize, &'a X);
+
+impl<T, X: Terms<T>> Terms<T> for From<'_, X> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn term(&self, number: usize) -> T {
+        self.1.term(self.0 + number)
+    }
+}
+
+/// `base + low + Σ_j term_j` over `count` terms, as the nearest number and the rest.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn add<R: Summation, T: Scalar>(
     base: T,
     low: T,
     count: usize,
-    term: impl Fn(usize) -> T,
+    terms: impl Terms<T>,
 ) -> (T, T) {
     if count == 0 {
         return (base, low);
     }
-    let mut sum = eight::<R, T>(count, &term);
+    let mut sum = eight::<R, T>(count, &terms);
     for block in 1..count.div_ceil(8) {
-        let terms = |j| term(8 * block + j);
+        let terms = From(8 * block, &terms);
         sum = pair::<R, T>(sum, eight::<R, T>(count - 8 * block, &terms));
     }
     if !R::COMPENSATED {
@@ -113,35 +136,35 @@ pub(crate) type Sum<T> = (T, Option<T>);
 
 /// The sum of the first eight terms, at least one: by pairs, and pairs of pairs, so that additions need not wait for one another.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn eight<R: Summation, T: Scalar>(count: usize, term: &impl Fn(usize) -> T) -> Sum<T> {
+fn eight<R: Summation, T: Scalar>(count: usize, terms: &impl Terms<T>) -> Sum<T> {
     let second = if 1 < count {
-        Some(four::<R, T>(1, count, term))
+        Some(four::<R, T>(1, count, terms))
     } else {
         None
     };
-    joined::<R, T>(four::<R, T>(0, count, term), second)
+    joined::<R, T>(four::<R, T>(0, count, terms), second)
 }
 
 /// The sum of every other term of eight.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn four<R: Summation, T: Scalar>(first: usize, count: usize, term: &impl Fn(usize) -> T) -> Sum<T> {
+fn four<R: Summation, T: Scalar>(first: usize, count: usize, terms: &impl Terms<T>) -> Sum<T> {
     let second = if first + 2 < count {
-        Some(two::<R, T>(first + 2, count, term))
+        Some(two::<R, T>(first + 2, count, terms))
     } else {
         None
     };
-    joined::<R, T>(two::<R, T>(first, count, term), second)
+    joined::<R, T>(two::<R, T>(first, count, terms), second)
 }
 
 /// The sum of every fourth term of eight.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn two<R: Summation, T: Scalar>(first: usize, count: usize, term: &impl Fn(usize) -> T) -> Sum<T> {
+fn two<R: Summation, T: Scalar>(first: usize, count: usize, terms: &impl Terms<T>) -> Sum<T> {
     let second = if first + 4 < count {
-        Some((term(first + 4), None))
+        Some((terms.term(first + 4), None))
     } else {
         None
     };
-    joined::<R, T>((term(first), None), second)
+    joined::<R, T>((terms.term(first), None), second)
 }
 
 /// The sum of `first` and, if present, `second`.

@@ -81,7 +81,7 @@ impl<V: Vector, S: System<V>> CoupledStep<'_, V, S> {
     }
 
     /// Sets all velocities to that at the start of the step.
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn start(&self, velocities: &mut [V]) {
         let (step, half) = (self.step, &self.coupled.momenta);
         if let [first, others @ ..] = velocities {
@@ -117,7 +117,7 @@ impl<V: Vector, S: System<V>> CoupledStep<'_, V, S> {
     }
 
     /// The result of the step.
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn totals<R: Summation>(
         &self,
         velocity: &[V],
@@ -243,7 +243,7 @@ fn relax<R: Summation, V: Vector>(
 }
 
 /// `out = base + low + Σ increments`, over the evaluations that enter the result, with the rounding error of the sum in `out_low`.
-#[inline]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn total<R: Summation, V: Vector>(
     out: (&mut V, &mut V),
     base: (&V, &V),
@@ -252,7 +252,7 @@ fn total<R: Summation, V: Vector>(
 ) {
     let n = shortest([&*out.0, &*out.1, base.0, base.1]).min(shortest(increments));
     let terms = &half.counting;
-    totals_by::<R, V>(out, base, (n, terms.len()), |i, j| {
+    totals_by::<R, V>(out, base, (n, terms.len()), |i: usize, j: usize| {
         increments[terms[j]].as_slice()[i]
     });
 }

@@ -126,7 +126,7 @@ impl<C: Class> Plan for RunTimePlan<C> {
     /// Valid only if the tableau [is explicit](RunTimeTableau::is_explicit).
     const LANEWISE: bool = C::SEPARABLE;
 
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<R: Summation, V: Vector, S: System<V, Class = C>, N: Solver<V, S>>(
         step: &Step<'_, V>,
         system: &S,
@@ -152,6 +152,10 @@ impl<C: Class> Plan for RunTimePlan<C> {
                     evaluations: count,
                     ..StepStatistics::default()
                 })
+            }
+            // A constant condition: lanes compile without the other branch.
+            Schedule::Coupled(_) if V::Scalar::ARE_LANES => {
+                unreachable!("coupled stages of several trajectories are in `LaneStages`")
             }
             Schedule::Coupled(_) => {
                 N::take_at_run_time::<C, R>(step, system, memory, kept, stopping, outcome)
@@ -217,7 +221,7 @@ impl<C: Class> Plan for RunTimePlan<C> {
 }
 
 /// Applies drifts and kicks to the state at the start of a step; returns the number of evaluations.
-#[inline]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn apply<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
     splitting: &Splitting,
     step: &Step<'_, V>,

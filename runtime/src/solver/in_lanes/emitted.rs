@@ -5,13 +5,14 @@ use core::marker::PhantomData;
 use super::by_halves::{self, GaussSeidel, Jacobi};
 use super::second_order::{self, SecondOrder};
 use super::settle::settle;
-use super::{Sums, largest, relax, scalar, sum, transform};
+use super::{Sum, Sums, largest, relax, scalar, transform};
 use crate::method::tableau::Columns;
 use crate::method::{
     HalfTableau, LaneMemory, LaneOutcome, LaneStages, Outcome, StageTableau, Step, Stopping,
 };
-use crate::number::linear_combination::{scale, shortest, totals_by};
-use crate::number::{Coefficient, Lanes, Summation, Vector, copy};
+use crate::number::linear_combination::{TermsOfComponents, scale, shortest, totals_by};
+use crate::number::registers::Work;
+use crate::number::{Coefficient, Lanes, Scalar, Summation, Vector, copy};
 use crate::solver::nystrom::eliminates;
 use crate::solver::simd::sweeps::are_at_one_time;
 use crate::system::{Class, System};
@@ -31,39 +32,83 @@ where
     W: Vector<Scalar: Lanes>,
     S: System<W, Class = P::Class>,
 {
-    let scales = memory.scales;
-    let mut stages = Emitted::<P, R, W, S> {
+    W::Scalar::in_registers(LaneStep::<P, R, W, S> {
         step,
         system,
-        before: &memory.before,
-        now: &mut memory.now,
-        settled: &mut memory.settled,
+        memory,
+        live,
+        stopping,
+        outcome,
         kind: PhantomData,
-    };
-    let (settled, counts) = if P::Class::SEPARABLE && step.linear_velocity && eliminates::<P>() {
-        stages.start();
-        let mut sweeps = SecondOrder(stages);
-        let settled = settle::<P::Class, _, _>(&mut sweeps, step.time, live, scales, stopping);
-        sweeps.update(outcome);
-        (settled, second_order::counts::<P, R>())
-    } else if P::Class::SEPARABLE {
-        let mut sweeps = GaussSeidel(stages);
-        let settled = settle::<P::Class, _, _>(&mut sweeps, step.time, live, scales, stopping);
-        sweeps.0.totals(outcome);
-        (settled, by_halves::counts::<P>())
-    } else {
-        let mut sweeps = Jacobi(stages);
-        let settled = settle::<P::Class, _, _>(&mut sweeps, step.time, live, scales, stopping);
-        sweeps.0.totals(outcome);
-        (settled, by_halves::counts::<P>())
-    };
-    let is_sound = !memory.now.mismatch(step.q.dimension());
-    Some(LaneOutcome {
-        settled: if is_sound { settled.lanes } else { 0 },
-        sweeps: settled.sweeps,
-        scales: settled.scales,
-        counts,
     })
+}
+
+/// A step of trajectories in lanes.
+struct LaneStep<'a, P, R, W: Vector, S> {
+    step: &'a Step<'a, W>,
+    system: &'a S,
+    memory: &'a mut LaneMemory<W>,
+    live: u32,
+    stopping: Stopping,
+    outcome: Outcome<'a, W>,
+    kind: PhantomData<(P, R)>,
+}
+
+impl<P, R, W, S> Work for LaneStep<'_, P, R, W, S>
+where
+    P: StageTableau,
+    R: Summation,
+    W: Vector<Scalar: Lanes>,
+    S: System<W, Class = P::Class>,
+{
+    type Output = Option<LaneOutcome<W::Scalar>>;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) -> Self::Output {
+        let Self {
+            step,
+            system,
+            memory,
+            live,
+            stopping,
+            outcome,
+            ..
+        } = self;
+        let scales = memory.scales;
+        let mut stages = Emitted::<P, R, W, S> {
+            step,
+            system,
+            before: &memory.before,
+            now: &mut memory.now,
+            settled: &mut memory.settled,
+            kind: PhantomData,
+        };
+        let (settled, counts) = if P::Class::SEPARABLE && step.linear_velocity && eliminates::<P>()
+        {
+            stages.start();
+            let mut sweeps = SecondOrder(stages);
+            let settled = settle::<P::Class, _, _>(&mut sweeps, step.time, live, scales, stopping);
+            sweeps.update(outcome);
+            (settled, second_order::counts::<P, R>())
+        } else if P::Class::SEPARABLE {
+            let mut sweeps = GaussSeidel(stages);
+            let settled = settle::<P::Class, _, _>(&mut sweeps, step.time, live, scales, stopping);
+            sweeps.0.totals(outcome);
+            (settled, by_halves::counts::<P>())
+        } else {
+            let mut sweeps = Jacobi(stages);
+            let settled = settle::<P::Class, _, _>(&mut sweeps, step.time, live, scales, stopping);
+            sweeps.0.totals(outcome);
+            (settled, by_halves::counts::<P>())
+        };
+        let is_sound = !memory.now.mismatch(step.q.dimension());
+        Some(LaneOutcome {
+            settled: if is_sound { settled.lanes } else { 0 },
+            sweeps: settled.sweeps,
+            scales: settled.scales,
+            counts,
+        })
+    }
 }
 
 /// The stages of a method. With plain sums evaluations are scaled to increments after the iteration, as in a single run.
@@ -180,7 +225,7 @@ where
         let (columns, weights) = (Columns::<P>::POSITIONS, P::MOMENTA.weights);
         let sums = sums::<T, P>(columns, weights, self.step.size, of_increments);
         let base = (self.step.q, self.step.q_low);
-        relax::<T, W>(&sums, &mut self.now.q, base, &self.now.velocity, sum)
+        relax::<T, W>(&sums, &mut self.now.q, base, &self.now.velocity, Sum)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -188,7 +233,7 @@ where
         let (columns, weights) = (Columns::<P>::MOMENTA, P::POSITIONS.weights);
         let sums = sums::<T, P>(columns, weights, self.step.size, of_increments);
         let base = (self.step.p, self.step.p_low);
-        relax::<T, W>(&sums, &mut self.now.p, base, &self.now.force, sum)
+        relax::<T, W>(&sums, &mut self.now.p, base, &self.now.force, Sum)
     }
 
     /// Sets all stages to the start of the step.
@@ -256,11 +301,30 @@ pub(super) fn total<R: Summation, P: StageTableau, W: Vector>(
     h: f64,
 ) {
     let n = shortest(terms).min(base.0.dimension());
-    totals_by::<R, W>(out, base, (n, half.count), |k, stage| {
-        let entry = terms[stage].as_slice()[k];
+    let increments = Increments::<P, W> {
+        terms,
+        weights: half.weights,
+        h,
+        method: PhantomData,
+    };
+    totals_by::<R, W>(out, base, (n, half.count), increments);
+}
+
+/// The increments of evaluations, which may be increments already.
+struct Increments<'a, P, W> {
+    terms: &'a [W],
+    weights: &'static [f64],
+    h: f64,
+    method: PhantomData<P>,
+}
+
+impl<P: StageTableau, W: Vector> TermsOfComponents<W::Scalar> for Increments<'_, P, W> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn term(&self, component: usize, stage: usize) -> W::Scalar {
+        let entry = self.terms[stage].as_slice()[component];
         match P::INCREMENTS {
             true => entry,
-            false => scalar::<W>(h * half.weights[stage]) * entry,
+            false => scalar::<W>(self.h * self.weights[stage]) * entry,
         }
-    });
+    }
 }

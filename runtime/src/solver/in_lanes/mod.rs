@@ -20,6 +20,7 @@ use crate::number::linear_combination::{shortest, sum_of_products};
 use crate::number::summation::moved;
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::solver::simd::change::{LaneMovement, noted};
+use crate::solver::simd::sums::{StageValue, Sum};
 
 /// Sweeps over the coupled stages of several trajectories.
 trait LaneSweeps<L: Lanes> {
@@ -54,15 +55,14 @@ struct Sums<N, F> {
     with_low: bool,
 }
 
-/// Computes new stage values; returns the largest change of each trajectory. `value` gets the index of the stage and of the component, the
-/// base with its low part, and the sum.
+/// Computes new stage values; returns the largest change of each trajectory. `value` gets the indices of the stage and of the component.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn relax<R: Summation, W: Vector<Scalar: Lanes>>(
     sums: &Sums<impl Fn(usize) -> usize, impl Fn(usize, usize) -> (usize, f64)>,
     out: &mut [W],
     (base, low): (&W, &W),
     terms: &[W],
-    value: impl Fn((usize, usize), (W::Scalar, W::Scalar), W::Scalar) -> W::Scalar,
+    value: impl StageValue<W::Scalar>,
 ) -> W::Scalar {
     let n = shortest(&*out).min(shortest(terms));
     let n = n.min(base.dimension()).min(low.dimension());
@@ -79,7 +79,7 @@ fn relax<R: Summation, W: Vector<Scalar: Lanes>>(
                         (scalar::<W>(factor), terms[index].as_slice()[k])
                     };
                     let sum = sum_of_products(sums.with_low.then_some(low), count, product);
-                    value((stage, k), (start, low), sum)
+                    value.of((stage, k), (start, low), sum)
                 }
             };
             let component = &mut out.as_mut_slice()[k];
@@ -89,12 +89,6 @@ fn relax<R: Summation, W: Vector<Scalar: Lanes>>(
         }
     }
     largest.unwrap_or_else(W::Scalar::zero)
-}
-
-/// `base + sum`
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn sum<L: Lanes>(_place: (usize, usize), (base, _low): (L, L), sum: L) -> L {
-    base + sum
 }
 
 /// The same number in all lanes.
@@ -118,13 +112,16 @@ fn transform<W: Vector>(out: &mut [W], vectors: &[W], matrix: impl Fn(usize, usi
 /// The largest component of the base and of the stages.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn largest<W: Vector<Scalar: Lanes>>(base: &W, stages: &[W]) -> W::Scalar {
-    let vectors = core::iter::once(base).chain(stages);
-    vectors.fold(W::Scalar::zero(), |largest, vector| {
-        let components = vector.as_slice().iter();
-        components.fold(largest, |largest, component| {
-            largest.larger(component.abs())
-        })
-    })
+    let mut largest = W::Scalar::zero();
+    for component in base.as_slice() {
+        largest = largest.larger(component.abs());
+    }
+    for stage in stages {
+        for component in stage.as_slice() {
+            largest = largest.larger(component.abs());
+        }
+    }
+    largest
 }
 
 /// Copies the lanes of vectors.

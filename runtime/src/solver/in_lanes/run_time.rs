@@ -5,11 +5,12 @@ use core::marker::PhantomData;
 
 use num_traits::Zero;
 
-use super::{LaneSweeps, Sums, keep, largest, relax, settle::settle, sum, transform};
+use super::{LaneSweeps, Sum, Sums, keep, largest, relax, settle::settle, transform};
 use crate::method::run_time::{Coupled, Half, Row, Schedule};
 use crate::method::{LaneMemory, LaneOutcome, LaneStages, Outcome, Step, Stopping};
 use crate::number::array::array;
 use crate::number::linear_combination::{shortest, sum_of_products, value};
+use crate::number::registers::Work;
 use crate::number::summation::{Overrelaxed, moved};
 use crate::number::{Lanes, Scalar, Summation, Vector, copy};
 use crate::solver::run_time::CoupledStep;
@@ -32,38 +33,81 @@ where
     W: Vector<Scalar: Lanes>,
     S: System<W, Class = C>,
 {
-    let LaneMemory {
-        before,
-        now,
-        settled,
-        scales,
-        tableau,
-    } = memory;
-    let schedule = tableau.as_ref().map(|tableau| tableau.schedule::<C>());
-    let Some(Schedule::Coupled(coupled)) = schedule else {
-        return None;
-    };
-    let common = &CoupledStep {
+    W::Scalar::in_registers(LaneStep::<C, R, W, S> {
         step,
         system,
-        coupled,
-    };
-    let mut sweeps = ByRows::<R, W, S> {
-        common,
-        before,
-        now,
-        settled,
-        sums: PhantomData,
-    };
-    let found = settle::<C, _, _>(&mut sweeps, step.time, live, *scales, stopping);
-    common.totals::<R>(&settled.velocity, &settled.force, outcome);
-    let is_sound = !now.mismatch(step.q.dimension());
-    Some(LaneOutcome {
-        settled: if is_sound { found.lanes } else { 0 },
-        sweeps: found.sweeps,
-        scales: found.scales,
-        counts: common.counts(),
+        memory,
+        live,
+        stopping,
+        outcome,
+        kind: PhantomData,
     })
+}
+
+/// A step of trajectories in lanes.
+struct LaneStep<'a, C, R, W: Vector, S> {
+    step: &'a Step<'a, W>,
+    system: &'a S,
+    memory: &'a mut LaneMemory<W>,
+    live: u32,
+    stopping: Stopping,
+    outcome: Outcome<'a, W>,
+    kind: PhantomData<(C, R)>,
+}
+
+impl<C, R, W, S> Work for LaneStep<'_, C, R, W, S>
+where
+    C: Class,
+    R: Summation,
+    W: Vector<Scalar: Lanes>,
+    S: System<W, Class = C>,
+{
+    type Output = Option<LaneOutcome<W::Scalar>>;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) -> Self::Output {
+        let Self {
+            step,
+            system,
+            memory,
+            live,
+            stopping,
+            outcome,
+            ..
+        } = self;
+        let LaneMemory {
+            before,
+            now,
+            settled,
+            scales,
+            tableau,
+        } = memory;
+        let schedule = tableau.as_ref().map(|tableau| tableau.schedule::<C>());
+        let Some(Schedule::Coupled(coupled)) = schedule else {
+            return None;
+        };
+        let common = &CoupledStep {
+            step,
+            system,
+            coupled,
+        };
+        let mut sweeps = ByRows::<R, W, S> {
+            common,
+            before,
+            now,
+            settled,
+            sums: PhantomData,
+        };
+        let found = settle::<C, _, _>(&mut sweeps, step.time, live, *scales, stopping);
+        common.totals::<R>(&settled.velocity, &settled.force, outcome);
+        let is_sound = !now.mismatch(step.q.dimension());
+        Some(LaneOutcome {
+            settled: if is_sound { found.lanes } else { 0 },
+            sweeps: found.sweeps,
+            scales: found.scales,
+            counts: common.counts(),
+        })
+    }
 }
 
 /// The stages of a step.
@@ -105,7 +149,7 @@ fn relax_rows<R: Summation, W: Vector<Scalar: Lanes>>(
     by_count!(
         if is_full { count } else { 0 },
         |N| relax_all::<R, W, N>(rows, out, base, terms),
-        relax::<R, W>(&sums::<R>(rows), out, base, terms, sum)
+        relax::<R, W>(&sums::<R>(rows), out, base, terms, Sum)
     )
 }
 
@@ -126,27 +170,57 @@ fn sums<R: Summation>(
 fn relax_all<R: Summation, W: Vector<Scalar: Lanes>, const N: usize>(
     rows: &[Row],
     out: &mut [W],
-    (base, low): (&W, &W),
+    base: (&W, &W),
     terms: &[W],
 ) -> W::Scalar {
-    let n = shortest(&*out).min(shortest(terms));
-    let n = n.min(base.dimension()).min(low.dimension());
-    let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
-    let factors: [[f64; N]; N] = array([0.0; N], |i| array(0.0, |j| rows[i][j].1));
-    let terms: [&[W::Scalar]; N] = array(&[][..], |j| &terms[j].as_slice()[..n]);
-    let mut largest = None;
-    for k in 0..n {
-        let terms: [W::Scalar; N] = array(W::Scalar::zero(), |j| terms[j][k]);
-        for (out, factors) in out.iter_mut().zip(&factors) {
-            let factors = array(W::Scalar::zero(), |j| W::Scalar::from_f64(factors[j]));
-            let new = value::<R, _, N>(base[k], low[k], &factors, |j| terms[j]);
-            let component = &mut out.as_mut_slice()[k];
-            let new = moved(R::BEYOND, *component, new);
-            largest = Some(noted(largest, (new - *component).abs()));
-            *component = new;
+    W::Scalar::in_registers(RelaxAll::<R, W, N> {
+        rows,
+        out,
+        base,
+        terms,
+        sums: PhantomData,
+    })
+}
+
+struct RelaxAll<'a, R, W, const N: usize> {
+    rows: &'a [Row],
+    out: &'a mut [W],
+    base: (&'a W, &'a W),
+    terms: &'a [W],
+    sums: PhantomData<R>,
+}
+
+impl<R: Summation, W: Vector<Scalar: Lanes>, const N: usize> Work for RelaxAll<'_, R, W, N> {
+    type Output = W::Scalar;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) -> W::Scalar {
+        let Self {
+            rows,
+            out,
+            base: (base, low),
+            terms,
+            ..
+        } = self;
+        let n = shortest(&*out).min(shortest(terms));
+        let n = n.min(base.dimension()).min(low.dimension());
+        let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
+        let factors: [[f64; N]; N] = array([0.0; N], |i| array(0.0, |j| rows[i][j].1));
+        let terms: [&[W::Scalar]; N] = array(&[][..], |j| &terms[j].as_slice()[..n]);
+        let mut largest = None;
+        for k in 0..n {
+            let terms: [W::Scalar; N] = array(W::Scalar::zero(), |j| terms[j][k]);
+            for (out, factors) in out.iter_mut().zip(&factors) {
+                let factors = array(W::Scalar::zero(), |j| W::Scalar::from_f64(factors[j]));
+                let new = value::<R, _, N>(base[k], low[k], &factors, |j| terms[j]);
+                let component = &mut out.as_mut_slice()[k];
+                let new = moved(R::BEYOND, *component, new);
+                largest = Some(noted(largest, (new - *component).abs()));
+                *component = new;
+            }
         }
+        largest.unwrap_or_else(W::Scalar::zero)
     }
-    largest.unwrap_or_else(W::Scalar::zero)
 }
 
 impl<R, W, S> ByRows<'_, R, W, S>
@@ -184,6 +258,7 @@ where
 }
 
 /// Extrapolates the increments of a half from those of the previous step.
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn extrapolate<W: Vector<Scalar: Lanes>>(half: &Half, out: &mut [W], before: &[W]) {
     by_count!(
         before.len(),
@@ -199,15 +274,38 @@ fn extrapolate_all<W: Vector<Scalar: Lanes>, const N: usize>(
     out: &mut [W],
     before: &[W],
 ) {
-    let n = shortest(&*out).min(shortest(before));
-    let before: [&[W::Scalar]; N] = array(&[][..], |j| &before[j].as_slice()[..n]);
-    let matrix: [[f64; N]; N] = array([0.0; N], |i| array(0.0, |j| matrix[i][j]));
-    let terms = |k: usize| -> [W::Scalar; N] { array(W::Scalar::zero(), |j| before[j][k]) };
-    for k in 0..n {
-        let terms = terms(k);
-        for (out, row) in out.iter_mut().zip(&matrix) {
-            let product = |j: usize| (W::Scalar::from_f64(row[j]), terms[j]);
-            out.as_mut_slice()[k] = sum_of_products(None, N, product);
+    W::Scalar::in_registers(ExtrapolateAll::<W, N> {
+        matrix,
+        out,
+        before,
+    });
+}
+
+struct ExtrapolateAll<'a, W, const N: usize> {
+    matrix: &'a [Vec<f64>],
+    out: &'a mut [W],
+    before: &'a [W],
+}
+
+impl<W: Vector<Scalar: Lanes>, const N: usize> Work for ExtrapolateAll<'_, W, N> {
+    type Output = ();
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) {
+        let Self {
+            matrix,
+            out,
+            before,
+        } = self;
+        let n = shortest(&*out).min(shortest(before));
+        let before: [&[W::Scalar]; N] = array(&[][..], |j| &before[j].as_slice()[..n]);
+        let matrix: [[f64; N]; N] = array([0.0; N], |i| array(0.0, |j| matrix[i][j]));
+        for k in 0..n {
+            let terms: [W::Scalar; N] = array(W::Scalar::zero(), |j| before[j][k]);
+            for (out, row) in out.iter_mut().zip(&matrix) {
+                let product = |j: usize| (W::Scalar::from_f64(row[j]), terms[j]);
+                out.as_mut_slice()[k] = sum_of_products(None, N, product);
+            }
         }
     }
 }
@@ -220,6 +318,7 @@ where
 {
     const STOPS_AT_ROUNDING: bool = !R::COMPENSATED;
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn begin(&mut self) {
         let CoupledStep { step, coupled, .. } = *self.common;
         let Coupled { positions, momenta } = coupled;
@@ -242,10 +341,12 @@ where
         self.sweep_by::<R>()
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn overrelaxed_sweep(&mut self) -> LaneMovement<W::Scalar> {
         self.sweep_by::<Overrelaxed<R>>()
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn scales(&self) -> [W::Scalar; 2] {
         [
             largest(self.common.step.q, &self.now.q),
@@ -253,6 +354,7 @@ where
         ]
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn keep(&mut self, lanes: u32) {
         keep(lanes, self.now, self.settled);
     }

@@ -1,15 +1,18 @@
 //! Sweeps over positions only, for second-order systems (Nyström).
 
+use core::marker::PhantomData;
+
 use super::emitted::{Emitted, increments, total};
 use super::{LaneSweeps, Sums, copy_lanes, largest, relax, scalar, transform};
 use crate::method::tableau::Columns;
 use crate::method::{EvaluationCounts, LaneStages, Outcome, StageTableau};
 use crate::number::linear_combination::{shortest, sum_of_products};
-use crate::number::summation::add;
+use crate::number::summation::{Terms, add};
 use crate::number::{Lanes, Plain, Scalar, Summation, Vector, copy};
 use crate::solver::nystrom::{Start, position, tableau};
 use crate::solver::predictor::starts_at_once;
 use crate::solver::simd::change::LaneMovement;
+use crate::solver::simd::sums::StageValue;
 use crate::system::System;
 
 /// The evaluations of a step.
@@ -31,6 +34,41 @@ pub(super) const fn counts<P: StageTableau, R: Summation>() -> EvaluationCounts 
 
 /// The sweeps over positions only, for second-order systems. The places of the velocities hold `M⁻¹` times the increments of the momentum.
 pub(super) struct SecondOrder<'a, P, R, W, S>(pub(super) Emitted<'a, P, R, W, S>);
+
+/// [`position`] as a [`StageValue`].
+struct Position<'a, P, R, L> {
+    size: f64,
+    factor: f64,
+    velocity: &'a [L],
+    method: PhantomData<(P, R)>,
+}
+
+impl<P: StageTableau, R: Summation, L: Lanes> StageValue<L> for Position<'_, P, R, L> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn of(&self, (stage, k): (usize, usize), base: (L, L), sum: L) -> L {
+        let node = L::from_f64(tableau::<P>().nodes[stage]);
+        // A velocity of another dimension: the trajectory takes the step alone, which reports it.
+        let velocity = match self.velocity.get(k) {
+            Some(velocity) => *velocity,
+            None => L::from_f64(f64::NAN),
+        };
+        position::<R, _>(base, (self.size, node), velocity, (self.factor, sum))
+    }
+}
+
+/// Component `k` of evaluations, each multiplied by its weight.
+struct Weighted<'a, F, W> {
+    weight: F,
+    terms: &'a [W],
+    k: usize,
+}
+
+impl<F: Fn(usize) -> f64, W: Vector> Terms<W::Scalar> for Weighted<'_, F, W> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn term(&self, stage: usize) -> W::Scalar {
+        scalar::<W>((self.weight)(stage)) * self.terms[stage].as_slice()[self.k]
+    }
+}
 
 /// `M⁻¹` times the increments of the momentum.
 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -91,12 +129,11 @@ where
             _ => step.p,
         };
         let start = start.as_slice();
-        let value = |(stage, k): (usize, usize), base, sum| {
-            let node = scalar::<W>(tableau::<P>().nodes[stage]);
-            // A velocity of another dimension: the trajectory takes the step alone, which reports it.
-            let velocity = start.get(k).copied();
-            let velocity = velocity.unwrap_or_else(|| scalar::<W>(f64::NAN));
-            position::<R, _>(base, (step.size, node), velocity, (before, sum))
+        let value = Position::<P, R, W::Scalar> {
+            size: step.size,
+            factor: before,
+            velocity: start,
+            method: PhantomData,
         };
         let LaneStages {
             q, velocity, force, ..
@@ -158,22 +195,25 @@ where
                 let sum = sum_of_products(None, count, |stage| {
                     (scalar::<W>(rest[stage]), slopes[stage].as_slice()[k])
                 });
-                let parts = [sum, start[k]];
+                let parts = [size * sum, size * start[k]];
                 let low = low[k] + size * q[k];
-                (q[k], q_low[k]) = add::<R, _>(base[k], low, 2, |part| size * parts[part]);
+                (q[k], q_low[k]) = add::<R, _>(base[k], low, 2, |part: usize| parts[part]);
             }
             return;
         }
-        let weight = |stage: usize| P::POSITIONS.weights[stage] * h;
         let zero = scalar::<W>(0.0);
         let (q, p) = (q.as_mut_slice(), p.as_mut_slice());
+        let weight = |stage: usize| P::POSITIONS.weights[stage] * h;
         for k in 0..n {
-            let term = |stage: usize| scalar::<W>(weight(stage)) * forces[stage].as_slice()[k];
-            p[k] = add::<Plain, _>(step.p.as_slice()[k], zero, count, term).0;
-            let term = |stage: usize| {
-                scalar::<W>(rest[stage] * weight(stage)) * slopes[stage].as_slice()[k]
+            let kicks = Weighted {
+                weight,
+                terms: forces,
+                k,
             };
-            let mean = add::<Plain, _>(start[k], zero, count, term).0;
+            p[k] = add::<Plain, _>(step.p.as_slice()[k], zero, count, kicks).0;
+            let weight = |stage: usize| rest[stage] * weight(stage);
+            let terms = slopes;
+            let mean = add::<Plain, _>(start[k], zero, count, Weighted { weight, terms, k }).0;
             q[k] = size.fused(mean, step.q.as_slice()[k]);
         }
     }

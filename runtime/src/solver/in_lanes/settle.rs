@@ -31,21 +31,8 @@ pub(super) fn settle<C: Class, L: Lanes, W: LaneSweeps<L>>(
     // After this many sweeps one without progress no longer suffices, or no further sweep is allowed.
     let bound = stopping.max_iterations.min(STAGNATION);
     let (zero, infinite) = (L::from_f64(0.0), L::from_f64(f64::INFINITY));
-    let bounds = |scales: [L; 2]| {
-        scales.map(|size| {
-            let rounding = L::from_f64(2.0 * ROUNDING * L::EPSILON) * size;
-            L::select(
-                size.at_most(zero),
-                infinite,
-                rounding.larger(L::from_f64(tolerance)),
-            )
-        })
-    };
-    let mut near = bounds(scales);
+    let mut near = bounds(scales, tolerance);
     let most = L::from_f64(f64::MAX);
-    let inverses = |scales: [L; 2]| {
-        scales.map(|size| L::select((size.recip()).below(most), size.recip(), most))
-    };
     let mut inverse = inverses(scales);
     let mut settled = Settled {
         lanes: 0,
@@ -77,7 +64,7 @@ pub(super) fn settle<C: Class, L: Lanes, W: LaneSweeps<L>>(
         let mut ends = last;
         live &= !last;
         last = 0;
-        let exceeds = [0, 1].map(|half| near[half].below(this[half]));
+        let exceeds = [near[0].below(q), near[1].below(p)];
         let far = match (exceeds, both) {
             ([q, p], true) => q | p,
             ([q, p], false) => q & p,
@@ -87,7 +74,7 @@ pub(super) fn settle<C: Class, L: Lanes, W: LaneSweeps<L>>(
             let fresh = examined & !measured;
             if fresh != 0 {
                 let new = sweeps.scales();
-                scales = [0, 1].map(|half| L::select(fresh, new[half], scales[half]));
+                scales = select(fresh, new, scales);
                 inverse = inverses(scales);
             }
             let change = [q * inverse[0], p * inverse[1]];
@@ -95,11 +82,14 @@ pub(super) fn settle<C: Class, L: Lanes, W: LaneSweeps<L>>(
             live &= !examined | (q + p).at_most(most);
             examined &= live;
             if !waits {
-                let tolerated = this.map(|this| this.at_most(L::from_f64(tolerance)));
-                let is_last = [0, 1].map(|half| {
-                    let before = previous.map(|before| before[half] * inverse[half]);
-                    is_last(before, change[half])
-                });
+                let tolerated = at_most(this, tolerance);
+                let is_last = match previous {
+                    Some([q, p]) => [
+                        is_last(Some(q * inverse[0]), change[0]),
+                        is_last(Some(p * inverse[1]), change[1]),
+                    ],
+                    None => [is_last(None, change[0]), is_last(None, change[1])],
+                };
                 let of_both = |[q, p]: [u32; 2]| if both { q & p } else { q };
                 ends |= examined & (of_both(tolerated) | of_both(is_last));
                 examined &= !ends;
@@ -111,18 +101,15 @@ pub(super) fn settle<C: Class, L: Lanes, W: LaneSweeps<L>>(
             let zeros = examined & size.at_most(zero);
             ends |= zeros;
             examined &= !zeros;
-            let near_by = change.map(|change| change.at_most(L::from_f64(ROUNDING * L::EPSILON)));
+            let near_by = at_most(change, ROUNDING * L::EPSILON);
             let rounding = match (near_by, both) {
                 ([q, p], true) => q & p,
                 ([q, p], false) => q | p,
             };
             reached |= examined & rounding;
             measured |= examined & near_by[0] & rounding;
-            let next = bounds(scales);
-            near = [0, 1].map(|half| {
-                let next = L::select(reached, infinite, next[half]);
-                L::select(examined, next, near[half])
-            });
+            let next = select(reached, [infinite; 2], bounds(scales, tolerance));
+            near = select(examined, next, near);
             if made < late {
                 examined &= reached;
             }
@@ -142,17 +129,60 @@ pub(super) fn settle<C: Class, L: Lanes, W: LaneSweeps<L>>(
             sweeps.keep(ends);
             settled.lanes |= ends;
             settled.sweeps = L::select(ends, L::from_f64(f64::from(made)), settled.sweeps);
-            settled.scales = [0, 1].map(|half| L::select(ends, scales[half], settled.scales[half]));
+            settled.scales = select(ends, scales, settled.scales);
             live &= !ends;
         }
     }
     settled
 }
 
+// Two halves each. Closures that compute with lanes may not be inlined: no `map` here.
+
+/// The largest changes that could be rounding errors, or are tolerated; infinite where a size is zero.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn bounds<L: Lanes>([q, p]: [L; 2], tolerance: f64) -> [L; 2] {
+    let (zero, infinite) = (L::from_f64(0.0), L::from_f64(f64::INFINITY));
+    let (unit, tolerance) = (
+        L::from_f64(2.0 * ROUNDING * L::EPSILON),
+        L::from_f64(tolerance),
+    );
+    [
+        L::select(q.at_most(zero), infinite, (unit * q).larger(tolerance)),
+        L::select(p.at_most(zero), infinite, (unit * p).larger(tolerance)),
+    ]
+}
+
+/// The inverses of sizes, but no infinite ones.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn inverses<L: Lanes>([q, p]: [L; 2]) -> [L; 2] {
+    let (most, [q, p]) = (L::from_f64(f64::MAX), [q.recip(), p.recip()]);
+    [
+        L::select(q.below(most), q, most),
+        L::select(p.below(most), p, most),
+    ]
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn select<L: Lanes>(lanes: u32, yes: [L; 2], no: [L; 2]) -> [L; 2] {
+    [
+        L::select(lanes, yes[0], no[0]),
+        L::select(lanes, yes[1], no[1]),
+    ]
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn at_most<L: Lanes>([q, p]: [L; 2], bound: f64) -> [u32; 2] {
+    let bound = L::from_f64(bound);
+    [q.at_most(bound), p.at_most(bound)]
+}
+
 /// Where a relative change ends an iteration that does not wait for stagnation.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn is_last<L: Lanes>(before: Option<L>, this: L) -> u32 {
-    let bound = |count: f64| L::from_f64(count * L::EPSILON);
-    let next = |before: L| (this * this).at_most(before * bound(1.0));
-    this.at_most(bound(1.0)) | this.at_most(bound(ROUNDING)) & before.map_or(0, next)
+    let (one, more) = (L::from_f64(L::EPSILON), L::from_f64(ROUNDING * L::EPSILON));
+    let next = match before {
+        Some(before) => (this * this).at_most(before * one),
+        None => 0,
+    };
+    this.at_most(one) | this.at_most(more) & next
 }

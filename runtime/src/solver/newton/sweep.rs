@@ -756,7 +756,7 @@ fn total<R: Summation, P: StageTableau, V: Vector>(
     out: (&mut V, &mut V),
 ) {
     let (n, count) = (base.0.dimension(), increments.len());
-    totals_by::<R, V>(out, base, (n, count), |k, j| {
+    totals_by::<R, V>(out, base, (n, count), |k: usize, j: usize| {
         let increment = increments[j].as_slice()[k];
         match P::INCREMENTS {
             true => increment,
