@@ -4,12 +4,12 @@ use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
 use super::coupled::Coupled;
-use super::run::{Registers, Way};
+use super::registers::Registers;
+use super::run::Way;
 use super::{Ensemble, Row};
 use crate::error::Error;
 use crate::integrator::Integrator;
 use crate::method::{Method, Solver};
-use crate::number::registers;
 use crate::number::vector::same;
 use crate::number::{Lanes, Scalar, Summation, Vector, WideF64x8, WidestF64x16};
 use crate::output::at_times::{self, Output};
@@ -98,7 +98,7 @@ where
         let enough = match self.ensemble.way() {
             Way::Alone => false,
             Way::Explicit => count > 1,
-            Way::Coupled => 2 * count >= self.ensemble.width(),
+            Way::Coupled => 2 * count >= self.ensemble.registers.width::<L>(),
         };
         let tried = match enough {
             true => self.run_in_lanes(task, see),
@@ -135,11 +135,11 @@ where
             };
         }
         // Constant conditions: other ensembles compile without this code.
-        if const { registers::UNKNOWN && S::INLINED } {
-            match self.ensemble.registers() {
+        if const { Registers::may_be_found::<V, S>() } {
+            match self.ensemble.registers {
                 Registers::Build => lanes!(L),
-                Registers::Avx2 => lanes!(WideF64x8),
-                Registers::Avx512 => lanes!(WidestF64x16),
+                Registers::Avx2(_) => lanes!(WideF64x8),
+                Registers::Avx512(_) => lanes!(WidestF64x16),
             }
         } else {
             lanes!(L)

@@ -57,6 +57,7 @@ mod npz;
 mod parquet;
 mod parts;
 mod pool;
+mod registers;
 mod row;
 mod run;
 mod run_time;
@@ -132,6 +133,7 @@ where
     stopping: Stopping,
     retry: Retry,
     lanes: Wanted,
+    registers: registers::Registers,
     stop: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
     /// The method, if its tableau is given at run time.
     tableau: Option<RunTimeTableau>,
@@ -191,6 +193,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
     pub fn in_lanes<K: Lanes>(self) -> Ensemble<M, S, V, R, N, K> {
         Ensemble {
             lanes: Wanted::Yes,
+            registers: registers::Registers::Build,
             ..self.of_kind()
         }
     }
@@ -214,6 +217,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
             stopping: self.stopping,
             retry: self.retry,
             lanes: self.lanes,
+            registers: self.registers,
             stop: self.stop,
             tableau: self.tableau,
             kind: PhantomData,

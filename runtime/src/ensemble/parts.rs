@@ -95,6 +95,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
             stopping: self.stopping,
             retry: self.retry,
             lanes: self.lanes,
+            registers: self.registers,
             stop: self.stop.clone(),
             tableau: self.tableau.clone(),
             kind: PhantomData,

@@ -6,25 +6,14 @@ use core::ops::{ControlFlow, Range};
 
 use super::group::{Group, Task};
 use super::pool::{self, threads};
+use super::registers::Registers;
 use super::{Ensemble, Row, Run, Wanted};
 use crate::error::Error;
 use crate::integrator::{Integrator, Statistics};
 use crate::method::{Method, RunTimeTableau, Solver};
-use crate::number::registers::{self, Avx2, Avx512};
-use crate::number::{Lanes, Scalar, Summation, Vector, WideF64x8, WidestF64x16};
+use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::state::State;
 use crate::system::{Join, LaneWork, System};
-
-/// Registers of lanes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Registers {
-    /// Those for which the program is compiled.
-    Build,
-    /// Four doubles.
-    Avx2,
-    /// Eight doubles.
-    Avx512,
-}
 
 /// How trajectories run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -277,11 +266,13 @@ where
     ) -> usize {
         let width = match self.way() {
             Way::Alone => 1,
-            Way::Explicit => self.width(),
+            Way::Explicit => self.registers.width::<L>(),
             // Rather all threads than all lanes.
             Way::Coupled => {
                 let count = self.starts.len() - self.first;
-                count.div_ceil(threads()).clamp(1, self.width())
+                count
+                    .div_ceil(threads())
+                    .clamp(1, self.registers.width::<L>())
             }
         };
         let rows = |place: Range<usize>| {
@@ -294,28 +285,6 @@ where
         self.show_all(width, rows, show)
     }
 
-    /// The registers of the lanes: those of the build, if the lanes are chosen or the system is not inlined.
-    pub(super) fn registers(&self) -> Registers {
-        if !(registers::UNKNOWN && S::INLINED) || self.lanes == Wanted::Yes {
-            Registers::Build
-        } else if Avx512::detect().is_some() {
-            Registers::Avx512
-        } else if Avx2::detect().is_some() {
-            Registers::Avx2
-        } else {
-            Registers::Build
-        }
-    }
-
-    /// The number of lanes.
-    pub(super) fn width(&self) -> usize {
-        match self.registers() {
-            Registers::Build => L::WIDTH,
-            Registers::Avx2 => WideF64x8::WIDTH,
-            Registers::Avx512 => WidestF64x16::WIDTH,
-        }
-    }
-
     /// How trajectories run.
     pub(super) fn way(&self) -> Way {
         let possible = self.lanes != Wanted::No
@@ -324,7 +293,7 @@ where
         // A compiled method has its coupled stages in lanes already.
         let faster = self.tableau.is_some()
             || cfg!(target_feature = "avx512f")
-            || self.registers() == Registers::Avx512;
+            || matches!(self.registers, Registers::Avx512(_));
         let coupled = faster || self.lanes == Wanted::Yes;
         let explicit = self
             .tableau

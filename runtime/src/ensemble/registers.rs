@@ -1,0 +1,259 @@
+//! The registers in whose lanes trajectories run.
+
+use crate::number::registers::{self, Avx2, Avx512};
+use crate::number::{Lanes, Vector, WideF64x8, WidestF64x16};
+use crate::system::System;
+
+/// Registers of lanes.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Registers {
+    /// Those for which the program is compiled.
+    Build,
+    /// Four doubles, and eight lanes.
+    Avx2(Avx2),
+    /// Eight doubles, and sixteen lanes.
+    Avx512(Avx512),
+}
+
+impl Registers {
+    /// Whether this program may have to find registers for a system.
+    pub(super) const fn may_be_found<V: Vector, S: System<V>>() -> bool {
+        registers::UNKNOWN && S::INLINED
+    }
+
+    /// The widest registers of this processor for a system.
+    pub(super) fn widest<V: Vector, S: System<V>>() -> Self {
+        if !Self::may_be_found::<V, S>() {
+            Self::Build
+        } else if let Some(avx512) = Avx512::detect() {
+            Self::Avx512(avx512)
+        } else if let Some(avx2) = Avx2::detect() {
+            Self::Avx2(avx2)
+        } else {
+            Self::Build
+        }
+    }
+
+    /// The number of lanes; `L` are those of the build.
+    pub(super) const fn width<L: Lanes>(self) -> usize {
+        match self {
+            Self::Build => L::WIDTH,
+            Self::Avx2(_) => WideF64x8::WIDTH,
+            Self::Avx512(_) => WidestF64x16::WIDTH,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use core::ops::ControlFlow;
+    use core::sync::atomic::{AtomicUsize, Ordering};
+    use std::{format, vec::Vec};
+
+    use super::*;
+    use crate::ensemble::Ensemble;
+    use crate::method::{AtRunTime, Method, ProvedFor, RunTimeCoefficients, RunTimeTableau};
+    use crate::number::{Coefficient, Compensated, Plain, Scalar, Summation};
+    use crate::state::State;
+    use crate::system::{Masses, Separable, SeparableHamiltonian};
+
+    symplectic::tableau! {
+        Verlet { base: velocity-verlet }
+        Gauss4 { basis: polynomial(4), nodes: gauss(4) }
+        Lobatto3 { basis: polynomial(3), nodes: lobatto(3) }
+    }
+    // Beyond the energy 1/6 trajectories escape to infinity, in a finite time.
+    symplectic::hamiltonian! {
+        Escaping
+        q: [x, y], p: [px, py];
+        H = (px^2 + py^2)/2 + (x^2 + y^2)/2 + x^2 y - y^3/3 + 0.02 x cos(3 t)
+    }
+    symplectic::hamiltonian! {
+        Pendulum { length, mass }
+        q: [x, y], p: [px, py];
+        H = (px^2/mass + py^2/(2 mass))/2 - mass cos(x/length) + exp(x y - y^2)
+    }
+    symplectic::hamiltonian! {
+        Turning
+        q: [x, y], p: [px, py];
+        H = (px^2 + py^2)/(2 + x^2) + y^2 - cos(x) + 0.1 px sin(y)
+    }
+
+    type Point = nalgebra::Vector2<f64>;
+
+    fn starts(count: usize) -> Vec<State<Point>> {
+        let start = |k: usize| {
+            let speed = if k % 11 == 10 {
+                1.1
+            } else {
+                0.2 + 0.01 * k as f64
+            };
+            State::from_arrays(0.5, [0.1, 0.02 * k as f64 % 0.2], [0.1, speed])
+        };
+        (0..count).map(start).collect()
+    }
+
+    fn words(state: &State<Point>) -> [u64; 5] {
+        let [[a, b], [c, d]] = [state.q, state.p].map(<[f64; 2]>::from);
+        [state.time, a, b, c, d].map(f64::to_bits)
+    }
+
+    /// Ends and outputs of all trajectories, with their errors.
+    fn rows<M, S, R>(ensemble: &Ensemble<M, S, Point, R>) -> Vec<alloc::string::String>
+    where
+        M: Method,
+        S: System<Point> + Clone + Send + Sync,
+        R: Summation,
+    {
+        let mut rows = Vec::new();
+        ensemble.integrate_to(9.3, |row| {
+            rows.push(format!(
+                "{:?}",
+                (row.outcome, row.statistics, words(&row.state))
+            ));
+            ControlFlow::Continue(())
+        });
+        let see = |seen: &mut Vec<_>, state: &State<Point>| seen.push(words(state));
+        ensemble.integrate_at(
+            &[0.5, 0.55, 2.31, 2.32, 7.0],
+            |_| Vec::new(),
+            see,
+            |row| {
+                rows.push(format!("{:?}", (row.outcome, row.output)));
+                ControlFlow::Continue(())
+            },
+        );
+        rows
+    }
+
+    /// Compares the rows in all registers of this processor with those of trajectories alone.
+    fn compare<M, S, R>(make: impl Fn() -> Ensemble<M, S, Point, R>)
+    where
+        M: Method,
+        S: System<Point> + Clone + Send + Sync,
+        R: Summation,
+    {
+        let alone = rows(&make().one_by_one());
+        let found = make();
+        if Registers::may_be_found::<Point, S>() && Avx512::detect().is_some() {
+            assert!(matches!(found.registers, Registers::Avx512(_)));
+        }
+        assert_eq!(rows(&found), alone, "{}", M::NAME);
+        let mut narrower = make();
+        if let Some(avx2) = Avx2::detect() {
+            narrower.registers = Registers::Avx2(avx2);
+            // Coupled stages, too.
+            narrower.lanes = crate::ensemble::Wanted::Yes;
+            assert_eq!(rows(&narrower), alone, "{}, AVX2", M::NAME);
+        }
+    }
+
+    fn check<M, S, R>(method: M, families: &[(S, Vec<State<Point>>)])
+    where
+        M: Method + ProvedFor<S::Class>,
+        S: System<Point> + Clone + Send + Sync,
+        R: Summation,
+    {
+        compare(|| {
+            Ensemble::<M, S, Point, R>::with_summation(method, families.iter().cloned(), 0.1)
+                .expect("starts")
+        });
+    }
+
+    #[test]
+    fn trajectories_have_the_same_bits_in_all_registers() {
+        let one = [(Escaping, starts(37))];
+        check::<_, _, Plain>(Verlet, &one);
+        check::<_, _, Compensated>(Verlet, &one);
+        check::<_, _, Plain>(Gauss4, &one);
+        check::<_, _, Compensated>(Lobatto3, &one);
+        let pendulum = |k: usize| {
+            let (length, mass) = (1.0 + 0.1 * k as f64, 2.0 - 0.05 * k as f64);
+            (Pendulum { length, mass }, starts(1))
+        };
+        let many: Vec<_> = (0..21).map(pendulum).collect();
+        check::<_, _, Compensated>(Verlet, &many);
+        check::<_, _, Compensated>(Gauss4, &many);
+        let turning = [(Turning, starts(19))];
+        check::<_, _, Plain>(Gauss4, &turning);
+        check::<_, _, Compensated>(Gauss4, &turning);
+    }
+
+    #[test]
+    fn so_have_those_of_a_tableau_at_run_time() {
+        fn tableau<M: Method>(_method: M) -> RunTimeTableau {
+            let list = |list: &[Coefficient]| list.iter().map(|x| x.double()).collect();
+            let matrix = |rows: &[&[Coefficient]]| rows.iter().map(|row| list(row)).collect();
+            let coefficients = RunTimeCoefficients {
+                a: matrix(M::COEFFICIENTS.a),
+                a_tilde: matrix(M::COEFFICIENTS.a_tilde),
+                b: list(M::COEFFICIENTS.b),
+                b_tilde: list(M::COEFFICIENTS.b_tilde),
+                c: list(M::COEFFICIENTS.c),
+                c_tilde: list(M::COEFFICIENTS.c_tilde),
+            };
+            RunTimeTableau::new(M::NAME, &coefficients, M::ORDERS).expect(M::NAME)
+        }
+        for tableau in [tableau(Verlet), tableau(Gauss4), tableau(Lobatto3)] {
+            compare::<AtRunTime, _, Compensated>(|| {
+                Ensemble::at_run_time(&tableau, Escaping, starts(37), 0.1).expect("starts")
+            });
+        }
+    }
+
+    /// H = p²/2 + q²/2, with the number of forces evaluated by size of the number type.
+    #[derive(Clone, Copy)]
+    struct Counting<'a>(&'a [AtomicUsize; 129]);
+
+    impl SeparableHamiltonian for Counting<'_> {
+        type Vector<T: Scalar> = nalgebra::SVector<T, 2>;
+
+        const MASSES: Masses = Masses::Unit;
+        const INLINED: bool = true;
+
+        #[inline(always)]
+        fn velocity<T: Scalar>(
+            &self,
+            _time: T,
+            p: &Self::Vector<T>,
+            velocity: &mut Self::Vector<T>,
+        ) {
+            *velocity = *p;
+        }
+
+        #[inline(always)]
+        fn force<T: Scalar>(&self, _time: T, q: &Self::Vector<T>, force: &mut Self::Vector<T>) {
+            self.0[size_of::<T>()].fetch_add(1, Ordering::Relaxed);
+            (force[0], force[1]) = (-q[0], -q[1]);
+        }
+    }
+
+    /// The number of forces in eight and in sixteen lanes, of 32 trajectories with 50 steps.
+    fn forces<M: Method + ProvedFor<Separable>>(method: M, avx2: bool) -> [usize; 2] {
+        let counts = core::array::from_fn(|_| AtomicUsize::new(0));
+        let ensemble = Ensemble::plain(method, Counting(&counts), starts(32), 0.1);
+        let mut ensemble = ensemble.expect("starts");
+        if avx2 {
+            ensemble.registers = Avx2::detect().map_or(Registers::Build, Registers::Avx2);
+        }
+        ensemble.take_steps(50, |_| ControlFlow::Continue(()));
+        [64, 128].map(|size| counts[size].load(Ordering::Relaxed))
+    }
+
+    #[test]
+    fn trajectories_run_in_the_registers_that_are_found() {
+        if !Registers::may_be_found::<Point, Escaping>() {
+            return;
+        }
+        if Avx512::detect().is_some() {
+            // Two groups of sixteen.
+            assert!(matches!(forces(Verlet, false), [0, 100..150]));
+            assert!(matches!(forces(Gauss4, false), [0, 200..5000]));
+        }
+        if Avx2::detect().is_some() {
+            // Four groups of eight. A compiled method with coupled stages has these in lanes.
+            assert!(matches!(forces(Verlet, true), [200..250, 0]));
+            assert!(matches!(forces(Gauss4, true), [0, 0]));
+        }
+    }
+}
