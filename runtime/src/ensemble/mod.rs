@@ -22,8 +22,11 @@
 //! With coupled stages every sweep of the default solver computes the stages of all trajectories, and a trajectory whose
 //! stages have settled waits for the others. A trajectory takes a step alone, and returns to its lane, where its stages
 //! do not settle as after a usual warm start: in its first step, in slow and in failing iterations. A compiled method
-//! does so in builds for AVX-512, or if lanes [are chosen](Ensemble::in_lanes). In other builds a single run, with the
-//! stages of one trajectory in lanes, is as fast or faster: it finds [wide registers](crate::Hamiltonian::INLINED).
+//! does so with AVX-512, or if lanes [are chosen](Ensemble::in_lanes). With narrower registers a single run, with the
+//! stages of one trajectory in lanes, is as fast or faster.
+//!
+//! For [inlined](crate::Hamiltonian::INLINED) systems an ensemble finds the registers of the processor when it is made:
+//! sixteen lanes with AVX-512, eight with AVX2. Other systems have the lanes of the build.
 //!
 //! All other trajectories run one by one: those with another solver, with constraints or with a composition of implicit
 //! methods; those of closures and chains; those of [`each`](Ensemble::each) and [`each_as`](Ensemble::each_as); and those
@@ -176,8 +179,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         self.of_kind()
     }
 
-    /// The same ensemble with another lane width than [`DefaultLanes`], for example [`F64x4`](crate::simd::F64x4). Implicit methods then run
-    /// in lanes too where this is no faster: in builds with registers of less than eight doubles. The results do not depend on it.
+    /// The same ensemble with lanes of your choice, for example [`F64x4`](crate::simd::F64x4), in the registers of the build. Implicit
+    /// methods then run in lanes too where this is no faster: in registers of less than eight doubles. The results do not depend on it.
     ///
     /// ```
     /// # use symplectic::State;

@@ -15,8 +15,8 @@ pub const MOST_LANES: usize = 16;
 /// Several doubles side by side, in one register of the processor if its registers are wide enough.
 ///
 /// Every lane has the bits of the same computation with a single double, and all lanes are computed at once. Only `tan`, inverse and
-/// hyperbolic functions are computed lane by lane. The target sets the width of the registers; an integrator finds wider ones when it is
-/// created, if the system is [inlined](crate::Hamiltonian::INLINED).
+/// hyperbolic functions are computed lane by lane. The target sets the width of the registers; integrators and ensembles find wider ones
+/// when they are made, if the system is [inlined](crate::Hamiltonian::INLINED).
 ///
 /// ```
 /// use symplectic::Scalar;

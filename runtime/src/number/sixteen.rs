@@ -206,6 +206,6 @@ use F64x8 as Fastest;
 #[cfg(target_feature = "avx512f")]
 use F64x16 as Fastest;
 
-/// The lanes of the trajectories of an ensemble: sixteen if the target has AVX-512, otherwise eight. These are several registers, so that
-/// their chains of dependent operations overlap.
+/// The lanes of the trajectories of an ensemble in the registers of the build: sixteen if the target has AVX-512, otherwise eight. These
+/// are several registers, so that their chains of dependent operations overlap.
 pub type DefaultLanes = Fastest;

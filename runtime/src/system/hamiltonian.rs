@@ -76,8 +76,9 @@ pub trait Hamiltonian {
     const MASSES: Masses = Masses::Any;
 
     /// Whether everything is inlined that velocity and force call. Each function that computes with numbers `T` is marked
-    /// `#[inline(always)]`; there is no such closure, and no function of whole vectors of nalgebra such as `dot`. Coupled stages are then
-    /// computed in the widest registers that the processor has, AVX2 or AVX-512, also in a program that is compiled for every x86-64 processor.
+    /// `#[inline(always)]`; there is no such closure, and no function of whole vectors of nalgebra such as `dot`. Coupled stages and
+    /// the trajectories of ensembles are then computed in the widest registers that the processor has, AVX2 or AVX-512, also in a program that
+    /// is compiled for every x86-64 processor.
     /// The results have the same bits. Systems from a formula without functions of your own declare it.
     ///
     /// A function that is not inlined after all makes steps up to 50 times slower: see the chapter "Faster steps" of the book.
