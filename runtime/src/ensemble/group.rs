@@ -4,12 +4,13 @@ use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
 use super::coupled::Coupled;
-use super::registers::Registers;
+use super::registers::{may_be_found, width};
 use super::run::Way;
 use super::{Ensemble, Row};
 use crate::error::Error;
 use crate::integrator::Integrator;
 use crate::method::{Method, Solver};
+use crate::number::registers::Widest;
 use crate::number::vector::same;
 use crate::number::{Lanes, Scalar, Summation, Vector, WideF64x8, WidestF64x16};
 use crate::output::at_times::{self, Output};
@@ -98,7 +99,7 @@ where
         let enough = match self.ensemble.way() {
             Way::Alone => false,
             Way::Explicit => count > 1,
-            Way::Coupled => 2 * count >= self.ensemble.registers.width::<L>(),
+            Way::Coupled => 2 * count >= width::<L>(self.ensemble.registers),
         };
         let tried = match enough {
             true => self.run_in_lanes(task, see),
@@ -135,11 +136,11 @@ where
             };
         }
         // Constant conditions: other ensembles compile without this code.
-        if const { Registers::may_be_found::<V, S>() } {
+        if const { may_be_found::<V, S>() } {
             match self.ensemble.registers {
-                Registers::Build => lanes!(L),
-                Registers::Avx2(_) => lanes!(WideF64x8),
-                Registers::Avx512(_) => lanes!(WidestF64x16),
+                Widest::Build => lanes!(L),
+                Widest::Avx2(_) => lanes!(WideF64x8),
+                Widest::Avx512(_) => lanes!(WidestF64x16),
             }
         } else {
             lanes!(L)

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
-use super::registers::Registers;
+use super::registers::widest;
 use super::{Ensemble, EnsembleError, Wanted};
 use crate::integrator::validation::{check_quadratic_kinetic, check_step_size};
 use crate::integrator::{Integrator, Retry};
@@ -145,7 +145,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation> Ensemble<M, S, V, R> {
             stopping: Stopping::DEFAULT,
             retry: Retry::Never,
             lanes: Wanted::IfFaster,
-            registers: Registers::widest::<V, S>(),
+            registers: widest::<V, S>(),
             stop: None,
             tableau: tableau.cloned(),
             kind: PhantomData,

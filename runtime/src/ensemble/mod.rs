@@ -86,6 +86,7 @@ use core::ops::Range;
 use crate::error::Error;
 use crate::integrator::Retry;
 use crate::method::{Method, RunTimeTableau, Solver, Stopping};
+use crate::number::registers::Widest;
 use crate::number::{Compensated, DefaultLanes, Lanes, Plain, Summation, Vector};
 use crate::state::State;
 use crate::system::System;
@@ -136,7 +137,7 @@ where
     stopping: Stopping,
     retry: Retry,
     lanes: Wanted,
-    registers: registers::Registers,
+    registers: Widest,
     stop: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
     /// The method, if its tableau is given at run time.
     tableau: Option<RunTimeTableau>,
@@ -180,7 +181,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
     }
 
     /// The same ensemble with lanes of your choice, for example [`F64x4`](crate::simd::F64x4), in the registers of the build. Implicit
-    /// methods then run in lanes too where this is no faster: in registers of less than eight doubles. The results do not depend on it.
+    /// methods then run in lanes too where this is no faster: in registers of fewer than eight doubles. The results do not depend on it.
     ///
     /// ```
     /// # use symplectic::State;
@@ -196,7 +197,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
     pub fn in_lanes<K: Lanes>(self) -> Ensemble<M, S, V, R, N, K> {
         Ensemble {
             lanes: Wanted::Yes,
-            registers: registers::Registers::Build,
+            registers: Widest::Build,
             ..self.of_kind()
         }
     }

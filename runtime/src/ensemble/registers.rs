@@ -1,58 +1,43 @@
 //! The registers in whose lanes trajectories run.
 
-use crate::number::registers::{self, Avx2, Avx512};
+use crate::number::registers::{self, Widest};
 use crate::number::{Lanes, Vector, WideF64x8, WidestF64x16};
 use crate::system::System;
 
-/// Registers of lanes.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Registers {
-    /// Those for which the program is compiled.
-    Build,
-    /// Four doubles, and eight lanes.
-    Avx2(Avx2),
-    /// Eight doubles, and sixteen lanes.
-    Avx512(Avx512),
+/// Whether this program may have to find registers for a system.
+pub(super) const fn may_be_found<V: Vector, S: System<V>>() -> bool {
+    registers::UNKNOWN && S::INLINED
 }
 
-impl Registers {
-    /// Whether this program may have to find registers for a system.
-    pub(super) const fn may_be_found<V: Vector, S: System<V>>() -> bool {
-        registers::UNKNOWN && S::INLINED
+/// The widest registers of this processor for a system.
+pub(super) fn widest<V: Vector, S: System<V>>() -> Widest {
+    match may_be_found::<V, S>() {
+        true => Widest::find(),
+        false => Widest::Build,
     }
+}
 
-    /// The widest registers of this processor for a system.
-    pub(super) fn widest<V: Vector, S: System<V>>() -> Self {
-        if !Self::may_be_found::<V, S>() {
-            Self::Build
-        } else if let Some(avx512) = Avx512::detect() {
-            Self::Avx512(avx512)
-        } else if let Some(avx2) = Avx2::detect() {
-            Self::Avx2(avx2)
-        } else {
-            Self::Build
-        }
-    }
-
-    /// The number of lanes; `L` are those of the build.
-    pub(super) const fn width<L: Lanes>(self) -> usize {
-        match self {
-            Self::Build => L::WIDTH,
-            Self::Avx2(_) => WideF64x8::WIDTH,
-            Self::Avx512(_) => WidestF64x16::WIDTH,
-        }
+/// The number of lanes; `L` are those of the build.
+pub(super) const fn width<L: Lanes>(registers: Widest) -> usize {
+    match registers {
+        Widest::Build => L::WIDTH,
+        Widest::Avx2(_) => WideF64x8::WIDTH,
+        Widest::Avx512(_) => WidestF64x16::WIDTH,
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use alloc::format;
+    use alloc::string::String;
+    use alloc::vec::Vec;
     use core::ops::ControlFlow;
     use core::sync::atomic::{AtomicUsize, Ordering};
-    use std::{format, vec::Vec};
 
     use super::*;
     use crate::ensemble::Ensemble;
     use crate::method::{AtRunTime, Method, ProvedFor, RunTimeCoefficients, RunTimeTableau};
+    use crate::number::registers::{Avx2, Avx512};
     use crate::number::{Coefficient, Compensated, Plain, Scalar, Summation};
     use crate::state::State;
     use crate::system::{Masses, Separable, SeparableHamiltonian};
@@ -99,7 +84,7 @@ mod tests {
     }
 
     /// Ends and outputs of all trajectories, with their errors.
-    fn rows<M, S, R>(ensemble: &Ensemble<M, S, Point, R>) -> Vec<alloc::string::String>
+    fn rows<M, S, R>(ensemble: &Ensemble<M, S, Point, R>) -> Vec<String>
     where
         M: Method,
         S: System<Point> + Clone + Send + Sync,
@@ -135,13 +120,13 @@ mod tests {
     {
         let alone = rows(&make().one_by_one());
         let found = make();
-        if Registers::may_be_found::<Point, S>() && Avx512::detect().is_some() {
-            assert!(matches!(found.registers, Registers::Avx512(_)));
+        if may_be_found::<Point, S>() && Avx512::detect().is_some() {
+            assert!(matches!(found.registers, Widest::Avx512(_)));
         }
         assert_eq!(rows(&found), alone, "{}", M::NAME);
         let mut narrower = make();
         if let Some(avx2) = Avx2::detect() {
-            narrower.registers = Registers::Avx2(avx2);
+            narrower.registers = Widest::Avx2(avx2);
             // Coupled stages, too.
             narrower.lanes = crate::ensemble::Wanted::Yes;
             assert_eq!(rows(&narrower), alone, "{}, AVX2", M::NAME);
@@ -180,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn so_have_those_of_a_tableau_at_run_time() {
+    fn run_time_tableaux_have_the_same_bits_in_all_registers() {
         fn tableau<M: Method>(_method: M) -> RunTimeTableau {
             let list = |list: &[Coefficient]| list.iter().map(|x| x.double()).collect();
             let matrix = |rows: &[&[Coefficient]]| rows.iter().map(|row| list(row)).collect();
@@ -234,7 +219,7 @@ mod tests {
         let ensemble = Ensemble::plain(method, Counting(&counts), starts(32), 0.1);
         let mut ensemble = ensemble.expect("starts");
         if avx2 {
-            ensemble.registers = Avx2::detect().map_or(Registers::Build, Registers::Avx2);
+            ensemble.registers = Avx2::detect().map_or(Widest::Build, Widest::Avx2);
         }
         ensemble.take_steps(50, |_| ControlFlow::Continue(()));
         [64, 128].map(|size| counts[size].load(Ordering::Relaxed))
@@ -242,7 +227,7 @@ mod tests {
 
     #[test]
     fn trajectories_run_in_the_registers_that_are_found() {
-        if !Registers::may_be_found::<Point, Escaping>() {
+        if !may_be_found::<Point, Escaping>() {
             return;
         }
         if Avx512::detect().is_some() {

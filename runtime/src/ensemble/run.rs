@@ -6,11 +6,12 @@ use core::ops::{ControlFlow, Range};
 
 use super::group::{Group, Task};
 use super::pool::{self, threads};
-use super::registers::Registers;
+use super::registers::width;
 use super::{Ensemble, Row, Run, Wanted};
 use crate::error::Error;
 use crate::integrator::{Integrator, Statistics};
 use crate::method::{Method, RunTimeTableau, Solver};
+use crate::number::registers::Widest;
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::state::State;
 use crate::system::{Join, LaneWork, System};
@@ -266,13 +267,13 @@ where
     ) -> usize {
         let width = match self.way() {
             Way::Alone => 1,
-            Way::Explicit => self.registers.width::<L>(),
+            Way::Explicit => width::<L>(self.registers),
             // Rather all threads than all lanes.
             Way::Coupled => {
                 let count = self.starts.len() - self.first;
                 count
                     .div_ceil(threads())
-                    .clamp(1, self.registers.width::<L>())
+                    .clamp(1, width::<L>(self.registers))
             }
         };
         let rows = |place: Range<usize>| {
@@ -293,7 +294,7 @@ where
         // A compiled method has its coupled stages in lanes already.
         let faster = self.tableau.is_some()
             || cfg!(target_feature = "avx512f")
-            || matches!(self.registers, Registers::Avx512(_));
+            || matches!(self.registers, Widest::Avx512(_));
         let coupled = faster || self.lanes == Wanted::Yes;
         let explicit = self
             .tableau

@@ -171,9 +171,11 @@ where
 
     /// Computes a step of the runs in the lanes `live`; returns the lanes in which it succeeds. The others are as before.
     pub(crate) fn attempt(&mut self, size: f64, live: u32) -> u32 {
-        self.taken = self.take(size, live);
-        let finite = W::Scalar::in_registers(Finite(&self.states.other));
-        self.taken.map_or(0, |taken| taken.settled & live & finite)
+        let Some(taken) = self.take(size, live) else {
+            return 0;
+        };
+        self.taken = Some(taken);
+        taken.settled & live & W::Scalar::in_registers(Finite(&self.states.other))
     }
 
     fn take(&mut self, size: f64, live: u32) -> Option<LaneOutcome<W::Scalar>> {

@@ -123,7 +123,9 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
     /// [`step`](Self::step) for runs side by side; returns `false` if one of them fails or is not finite.
     pub(crate) fn step_together(&mut self) -> bool {
         let succeeds = self.advance_together(self.step_size, self.clock.next());
-        self.clock.tick();
+        if succeeds {
+            self.clock.tick();
+        }
         succeeds
     }
 

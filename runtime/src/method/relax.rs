@@ -7,7 +7,7 @@ use num_traits::Zero;
 
 use crate::method::HalfChange;
 use crate::number::linear_combination::{Products, shortest, starts, sum_of};
-use crate::number::registers::{self, Avx2, Avx512, Work};
+use crate::number::registers::{self, Widest, Work};
 use crate::number::rows::{Eight, Row, WideEight, WidestEight};
 use crate::number::summation::moved;
 use crate::number::{Lanes, Scalar, Summation, Vector};
@@ -90,7 +90,7 @@ fn relax_rows<'a, R: Summation, T: Scalar>(
     if n == 0 {
         return 0;
     }
-    let long = out.len() >= registers::LONG;
+    let count = out.len();
     let sum = LinearCombination {
         count: sum.count,
         factor: move |j: usize| double((sum.factor)(j)),
@@ -109,18 +109,12 @@ fn relax_rows<'a, R: Summation, T: Scalar>(
         };
     }
     // Constant conditions first: other numbers compile without this code.
-    let (difference, scale) = if registers::UNKNOWN
-        && T::IS_DOUBLE
-        && long
-        && let Some(registers) = Avx512::detect()
-    {
-        registers.run(rows!(WidestEight))
-    } else if registers::UNKNOWN
-        && T::IS_DOUBLE
-        && long
-        && let Some(registers) = Avx2::detect()
-    {
-        registers.run(rows!(WideEight))
+    let (difference, scale) = if registers::UNKNOWN && T::IS_DOUBLE && count >= registers::LONG {
+        match Widest::find() {
+            Widest::Build => rows!(Eight).run(),
+            Widest::Avx2(avx2) => avx2.run(rows!(WideEight)),
+            Widest::Avx512(avx512) => avx512.run(rows!(WidestEight)),
+        }
     } else {
         rows!(Eight).run()
     };
@@ -215,6 +209,7 @@ fn value<R: Summation, T: Scalar>(base: T, low: T, count: usize, products: impl 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::registers::{Avx2, Avx512};
     use crate::number::summation::Overrelaxed;
     use crate::number::{Compensated, Plain};
 
@@ -250,7 +245,7 @@ mod tests {
             };
             let (difference, scale): (f64, f64) = $run;
             let stage = out.map(|row| row.map(f64::to_bits));
-            // Not a number is one of many.
+            // NaN has many bit patterns.
             (stage, difference.max(-1.0).to_bits(), scale.to_bits())
         }};
     }

@@ -227,7 +227,7 @@ macro_rules! operators {
 }
 pub(super) use operators;
 
-/// Message of a failure that is possible only if this crate computes in registers that it has not found.
+/// Panic message: lanes of registers that were not found.
 const NOT_FOUND: &str = "registers are found before they are used";
 
 macro_rules! lane_by_lane {
@@ -252,7 +252,6 @@ macro_rules! lanes {
 
         impl Scalar for $name {
             const EPSILON: f64 = f64::EPSILON;
-            const ARE_LANES: bool = true;
 
             fn as_words(&mut self, visit: &mut Visit<'_>) {
                 let mut lanes = self.to_array();
@@ -290,6 +289,8 @@ macro_rules! lanes {
             }
 
             $(
+                const FOUND: bool = true;
+
                 #[cfg_attr(not(debug_assertions), inline(always))]
                 fn in_registers<W: Work>(work: W) -> W::Output {
                     match $registers::detect() {
@@ -390,7 +391,7 @@ macro_rules! lanes {
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn larger_or_nan(self, other: Self) -> Self {
                 // These targets compare integers in one instruction.
-                if cfg!(any(target_feature = "sse4.2", target_arch = "aarch64")) {
+                if cfg!(any(target_feature = "sse4.2", target_arch = "aarch64")) && !Self::FOUND {
                     self.larger_by_bits(other)
                 } else {
                     self.larger_by_sums(other)

@@ -158,21 +158,17 @@ pub(crate) fn add_products<R: Summation, V: Vector>(
     factor: V::Scalar,
     terms: &[V::Scalar],
 ) {
-    let n = out.len().min(low.len()).min(terms.len());
-    let (out, low, terms) = (&mut out[..n], &mut low[..n], &terms[..n]);
-    registers::widest::<V::Scalar, _>(
-        n,
-        AddProducts::<R, _> {
-            out,
-            low,
-            factor,
-            terms,
-            sums: PhantomData,
-        },
-    );
+    let work = AddProducts::<R, _> {
+        out,
+        low,
+        factor,
+        terms,
+        sums: PhantomData,
+    };
+    registers::in_widest::<V::Scalar, _>(work.out.len(), work);
 }
 
-/// [`add_products`] of slices of the same length.
+/// The work of [`add_products`].
 struct AddProducts<'a, R, T> {
     out: &'a mut [T],
     low: &'a mut [T],

@@ -50,9 +50,9 @@ pub trait Scalar:
     #[doc(hidden)]
     const IS_DOUBLE: bool = false;
 
-    /// Whether these are [`Lanes`](crate::simd::Lanes).
+    /// Whether these are lanes of registers that the program has found: see [`in_registers`](Self::in_registers).
     #[doc(hidden)]
-    const ARE_LANES: bool = false;
+    const FOUND: bool = false;
 
     /// The scalar nearest to `value`, as a constant: all derivatives are zero and all lanes equal.
     fn from_f64(value: f64) -> Self;

@@ -1,12 +1,14 @@
 //! Sixteen doubles side by side.
 
+#[cfg(feature = "alloc")]
+use crate::number::WidestF64x8;
 use crate::number::array::array;
 use crate::number::lanes::operators;
 use crate::number::registers::Work;
 use crate::number::words::{Visit, words};
-use crate::number::{F64x8, Lanes, MOST_LANES, Scalar, WidestF64x8, larger_or_nan};
+use crate::number::{F64x8, Lanes, MOST_LANES, Scalar, larger_or_nan};
 
-// Functions of halves are called by name: closures and function items may not be inlined.
+// Functions of halves are called by name: a closure or a function item of more than one instruction may not be inlined.
 macro_rules! by_halves {
     ($($function:ident)*) => {
         $(
@@ -46,7 +48,7 @@ macro_rules! sixteen {
 
         impl Scalar for $name {
             const EPSILON: f64 = f64::EPSILON;
-            const ARE_LANES: bool = true;
+            const FOUND: bool = $half::FOUND;
 
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn from_lanes(numbers: &[f64; MOST_LANES]) -> Self {
@@ -195,6 +197,7 @@ sixteen!(
     F64x8,
     "Sixteen doubles side by side, [`Lanes`], as two groups of eight."
 );
+#[cfg(feature = "alloc")]
 sixteen!(
     WidestF64x16,
     WidestF64x8,

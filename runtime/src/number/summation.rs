@@ -92,9 +92,9 @@ impl<T, F: Fn(usize) -> T> Terms<T> for F {
 }
 
 /// The terms from a number on.
-struct From<'a, X>(usize, &'a X);
+struct TermsFrom<'a, X>(usize, &'a X);
 
-impl<T, X: Terms<T>> Terms<T> for From<'_, X> {
+impl<T, X: Terms<T>> Terms<T> for TermsFrom<'_, X> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn term(&self, number: usize) -> T {
         self.1.term(self.0 + number)
@@ -114,7 +114,7 @@ pub(crate) fn add<R: Summation, T: Scalar>(
     }
     let mut sum = eight::<R, T>(count, &terms);
     for block in 1..count.div_ceil(8) {
-        let terms = From(8 * block, &terms);
+        let terms = TermsFrom(8 * block, &terms);
         sum = pair::<R, T>(sum, eight::<R, T>(count - 8 * block, &terms));
     }
     if !R::COMPENSATED {

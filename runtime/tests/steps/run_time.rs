@@ -4,10 +4,11 @@ use crate::common::methods::{ForestRuth, Gauss2, Gauss4, Lobatto3, Midpoint, Sto
 use crate::common::systems::{Driven, Pendulum, Product};
 use crate::common::{coefficients, distance, tableau};
 use symplectic::nalgebra::{DVector, Vector1, Vector2};
+use symplectic::simd::{F64x4, Lanes};
 use symplectic::solver::FixedPoint;
 use symplectic::{
     Error, Event, Integrator, Method, ProvedFor, Quantity, Retry, RunTimeCoefficients,
-    RunTimeTableau, Separable, State, System, TableauError, acceleration, separable,
+    RunTimeTableau, Scalar, Separable, State, System, TableauError, acceleration, separable,
 };
 
 symplectic::tableau! { BlanesMoanSrkn11b { base: blanes-moan-2002-srkn11b } }
@@ -127,6 +128,27 @@ impl<M: Method, S: System<Vector2<f64>>> Run for Integrator<M, S, Vector2<f64>> 
         self.take_steps(50)?;
         Ok(self.statistics().evaluations)
     }
+}
+
+symplectic::hamiltonian! { Swing q: [a], p: [pa]; H = pa^2/2 - cos(a) }
+
+/// Lanes are a scalar like others: all of them converge before a step ends.
+#[test]
+fn lanes_are_stepped_as_doubles() -> Result<(), Error> {
+    let momenta = [0.3, 0.5, 0.7, 1.1];
+    for tableau in [tableau(StoermerVerlet), tableau(Gauss4)] {
+        let q = Vector1::new(F64x4::from_f64(0.2));
+        let p = Vector1::new(F64x4::from_array(momenta));
+        let mut lanes = Integrator::at_run_time(&tableau, Swing, State::new(0.0, q, p), 0.1)?;
+        lanes.take_steps(30)?;
+        for (lane, momentum) in momenta.into_iter().enumerate() {
+            let start = State::from_arrays(0.0, [0.2], [momentum]);
+            let mut alone = Integrator::at_run_time(&tableau, Swing, start, 0.1)?;
+            let apart = alone.take_steps(30)?.q[0] - lanes.state().q[0].get(lane);
+            assert!(apart.abs() < 1e-14, "{}: {apart:e}", tableau.name());
+        }
+    }
+    Ok(())
 }
 
 #[test]

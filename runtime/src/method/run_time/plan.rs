@@ -153,8 +153,8 @@ impl<C: Class> Plan for RunTimePlan<C> {
                     ..StepStatistics::default()
                 })
             }
-            // A constant condition: lanes compile without the other branch.
-            Schedule::Coupled(_) if V::Scalar::ARE_LANES => {
+            // A constant condition: found registers compile without the other branch.
+            Schedule::Coupled(_) if V::Scalar::FOUND => {
                 unreachable!("coupled stages of several trajectories are in `LaneStages`")
             }
             Schedule::Coupled(_) => {

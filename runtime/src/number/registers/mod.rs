@@ -5,16 +5,15 @@
 //!
 //! # Safety
 //!
-//! An instruction of AVX2 or AVX-512 is sound only on a processor that has it. This crate computes with vectors only in [`Work`] that is run by
-//! a token, [`Avx2`] or [`Avx512`], and a token is made only after the processor was asked. To store vectors, copy them, and read single
-//! numbers needs no such instruction. Code outside this crate cannot get hold of their types: these occur in bounds of public traits, but no
-//! public item has one as an associated type, a field or an argument. It meets them only as the scalar `T` of a function that such work
-//! calls.
+//! An instruction of AVX2 or AVX-512 is sound only on a processor that has it. Code for vectors is entered only after the processor was
+//! asked: in [`Work`] that is run by a token, [`Avx2`] or [`Avx512`], or where a token is at hand. A token is made only after the processor was
+//! asked. Code outside this crate cannot get hold of the types: these occur in bounds of public traits, but no public item has one as an
+//! associated type, a field or an argument. It meets them only as the scalar `T` of a function that is called there.
 //!
 //! # Speed
 //!
 //! An instruction is fast only where it is inlined into a function that is compiled for it, which is the one that runs the work. Elsewhere
-//! every operation is a call.
+//! every operation is a call. To store vectors, copy them, and read single numbers needs no such instruction.
 
 #![allow(unsafe_code, non_camel_case_types)]
 
@@ -65,21 +64,48 @@ pub(crate) const UNKNOWN: bool = cfg!(all(
     not(feature = "fma"),
 ));
 
-/// From this number of doubles on, wide registers save more than it takes to ask for them.
+/// The widest registers of a processor.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Widest {
+    /// Those for which the program is compiled.
+    Build,
+    /// Four doubles.
+    Avx2(Avx2),
+    /// Eight doubles.
+    Avx512(Avx512),
+}
+
+impl Widest {
+    /// Those of this processor.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn find() -> Self {
+        if !UNKNOWN {
+            Self::Build
+        } else if let Some(avx512) = Avx512::detect() {
+            Self::Avx512(avx512)
+        } else if let Some(avx2) = Avx2::detect() {
+            Self::Avx2(avx2)
+        } else {
+            Self::Build
+        }
+    }
+}
+
+/// Number of components of the shortest vector of doubles for which wide registers save more than it takes to ask for them.
 pub(crate) const LONG: usize = 32;
 
 /// Runs work on `count` numbers of type `T` in the widest registers of the processor, if these are many doubles. Its loops are plain: the
 /// compiler translates them for each kind of registers.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn widest<T: Scalar, W: Work>(count: usize, work: W) -> W::Output {
+pub(crate) fn in_widest<T: Scalar, W: Work>(count: usize, work: W) -> W::Output {
     // Constant conditions first: other numbers compile without this code.
     if UNKNOWN && T::IS_DOUBLE && count >= LONG {
-        if let Some(registers) = Avx512::detect() {
-            return registers.run(work);
+        match Widest::find() {
+            Widest::Build => work.run(),
+            Widest::Avx2(avx2) => avx2.run(work),
+            Widest::Avx512(avx512) => avx512.run(work),
         }
-        if let Some(registers) = Avx2::detect() {
-            return registers.run(work);
-        }
+    } else {
+        work.run()
     }
-    work.run()
 }

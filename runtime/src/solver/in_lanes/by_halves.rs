@@ -1,7 +1,7 @@
 //! Sweeps over positions and momenta.
 
 use super::emitted::Emitted;
-use super::{LaneSweeps, Sum, Sums, keep, relax};
+use super::{BasePlusSum, LaneSweeps, Sums, keep, relax};
 use crate::method::{EvaluationCounts, StageTableau};
 use crate::number::summation::Overrelaxed;
 use crate::number::{Lanes, Summation, Vector, copy};
@@ -122,14 +122,20 @@ where
             term: |stage: usize, j: usize| (j, factor(Starting::<P>::MOMENTA[j][stage])),
             with_low: R::COMPENSATED,
         };
-        relax::<R, W>(&sums, &mut now.p, (step.p, step.p_low), &before.force, Sum);
+        relax::<R, W>(
+            &sums,
+            &mut now.p,
+            (step.p, step.p_low),
+            &before.force,
+            BasePlusSum,
+        );
         let sums = Sums {
             count: |_| P::POSITIONS.columns.len(),
             term: |stage: usize, j: usize| (j, factor(Starting::<P>::POSITIONS[j][stage])),
             with_low: R::COMPENSATED,
         };
         let base = (step.q, step.q_low);
-        relax::<R, W>(&sums, &mut now.q, base, &before.velocity, Sum);
+        relax::<R, W>(&sums, &mut now.q, base, &before.velocity, BasePlusSum);
     }
 }
 

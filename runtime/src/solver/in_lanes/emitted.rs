@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use super::by_halves::{self, GaussSeidel, Jacobi};
 use super::second_order::{self, SecondOrder};
 use super::settle::settle;
-use super::{Sum, Sums, largest, relax, scalar, transform};
+use super::{BasePlusSum, Sums, largest, relax, scalar, transform};
 use crate::method::tableau::Columns;
 use crate::method::{
     HalfTableau, LaneMemory, LaneOutcome, LaneStages, Outcome, StageTableau, Step, Stopping,
@@ -32,7 +32,7 @@ where
     W: Vector<Scalar: Lanes>,
     S: System<W, Class = P::Class>,
 {
-    W::Scalar::in_registers(LaneStep::<P, R, W, S> {
+    W::Scalar::in_registers(StepInLanes::<P, R, W, S> {
         step,
         system,
         memory,
@@ -44,7 +44,7 @@ where
 }
 
 /// A step of trajectories in lanes.
-struct LaneStep<'a, P, R, W: Vector, S> {
+struct StepInLanes<'a, P, R, W: Vector, S> {
     step: &'a Step<'a, W>,
     system: &'a S,
     memory: &'a mut LaneMemory<W>,
@@ -54,7 +54,7 @@ struct LaneStep<'a, P, R, W: Vector, S> {
     kind: PhantomData<(P, R)>,
 }
 
-impl<P, R, W, S> Work for LaneStep<'_, P, R, W, S>
+impl<P, R, W, S> Work for StepInLanes<'_, P, R, W, S>
 where
     P: StageTableau,
     R: Summation,
@@ -225,7 +225,13 @@ where
         let (columns, weights) = (Columns::<P>::POSITIONS, P::MOMENTA.weights);
         let sums = sums::<T, P>(columns, weights, self.step.size, of_increments);
         let base = (self.step.q, self.step.q_low);
-        relax::<T, W>(&sums, &mut self.now.q, base, &self.now.velocity, Sum)
+        relax::<T, W>(
+            &sums,
+            &mut self.now.q,
+            base,
+            &self.now.velocity,
+            BasePlusSum,
+        )
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -233,7 +239,7 @@ where
         let (columns, weights) = (Columns::<P>::MOMENTA, P::POSITIONS.weights);
         let sums = sums::<T, P>(columns, weights, self.step.size, of_increments);
         let base = (self.step.p, self.step.p_low);
-        relax::<T, W>(&sums, &mut self.now.p, base, &self.now.force, Sum)
+        relax::<T, W>(&sums, &mut self.now.p, base, &self.now.force, BasePlusSum)
     }
 
     /// Sets all stages to the start of the step.

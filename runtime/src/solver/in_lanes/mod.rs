@@ -20,7 +20,7 @@ use crate::number::linear_combination::{shortest, sum_of_products};
 use crate::number::summation::moved;
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::solver::simd::change::{LaneMovement, noted};
-use crate::solver::simd::sums::{StageValue, Sum};
+use crate::solver::simd::sums::{BasePlusSum, StageValue};
 
 /// Sweeps over the coupled stages of several trajectories.
 trait LaneSweeps<L: Lanes> {

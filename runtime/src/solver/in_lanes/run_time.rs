@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use num_traits::Zero;
 
-use super::{LaneSweeps, Sum, Sums, keep, largest, relax, settle::settle, transform};
+use super::{BasePlusSum, LaneSweeps, Sums, keep, largest, relax, settle::settle, transform};
 use crate::method::run_time::{Coupled, Half, Row, Schedule};
 use crate::method::{LaneMemory, LaneOutcome, LaneStages, Outcome, Step, Stopping};
 use crate::number::array::array;
@@ -33,7 +33,7 @@ where
     W: Vector<Scalar: Lanes>,
     S: System<W, Class = C>,
 {
-    W::Scalar::in_registers(LaneStep::<C, R, W, S> {
+    W::Scalar::in_registers(StepInLanes::<C, R, W, S> {
         step,
         system,
         memory,
@@ -45,7 +45,7 @@ where
 }
 
 /// A step of trajectories in lanes.
-struct LaneStep<'a, C, R, W: Vector, S> {
+struct StepInLanes<'a, C, R, W: Vector, S> {
     step: &'a Step<'a, W>,
     system: &'a S,
     memory: &'a mut LaneMemory<W>,
@@ -55,7 +55,7 @@ struct LaneStep<'a, C, R, W: Vector, S> {
     kind: PhantomData<(C, R)>,
 }
 
-impl<C, R, W, S> Work for LaneStep<'_, C, R, W, S>
+impl<C, R, W, S> Work for StepInLanes<'_, C, R, W, S>
 where
     C: Class,
     R: Summation,
@@ -149,7 +149,7 @@ fn relax_rows<R: Summation, W: Vector<Scalar: Lanes>>(
     by_count!(
         if is_full { count } else { 0 },
         |N| relax_all::<R, W, N>(rows, out, base, terms),
-        relax::<R, W>(&sums::<R>(rows), out, base, terms, Sum)
+        relax::<R, W>(&sums::<R>(rows), out, base, terms, BasePlusSum)
     )
 }
 
@@ -165,7 +165,8 @@ fn sums<R: Summation>(
     }
 }
 
-/// [`relax`] where each of the `N` stages has all `N` terms.
+/// [`relax`] where each of the `N` stages has all `N` terms. Not inlined, because there are eight of them: so it has to enter the registers
+/// again.
 #[inline(never)]
 fn relax_all<R: Summation, W: Vector<Scalar: Lanes>, const N: usize>(
     rows: &[Row],
@@ -182,6 +183,7 @@ fn relax_all<R: Summation, W: Vector<Scalar: Lanes>, const N: usize>(
     })
 }
 
+/// The work of [`relax_all`].
 struct RelaxAll<'a, R, W, const N: usize> {
     rows: &'a [Row],
     out: &'a mut [W],
@@ -267,7 +269,7 @@ fn extrapolate<W: Vector<Scalar: Lanes>>(half: &Half, out: &mut [W], before: &[W
     );
 }
 
-/// [`transform`] of `N` vectors.
+/// [`transform`] of `N` vectors. Not inlined, as above.
 #[inline(never)]
 fn extrapolate_all<W: Vector<Scalar: Lanes>, const N: usize>(
     matrix: &[Vec<f64>],
@@ -281,6 +283,7 @@ fn extrapolate_all<W: Vector<Scalar: Lanes>, const N: usize>(
     });
 }
 
+/// The work of [`extrapolate_all`].
 struct ExtrapolateAll<'a, W, const N: usize> {
     matrix: &'a [Vec<f64>],
     out: &'a mut [W],

@@ -107,9 +107,9 @@ pub(crate) trait StageValue<L> {
 }
 
 /// `base + sum`, for a sum that includes the low part of the base.
-pub(crate) struct Sum;
+pub(crate) struct BasePlusSum;
 
-impl<L: Lanes> StageValue<L> for Sum {
+impl<L: Lanes> StageValue<L> for BasePlusSum {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn of(&self, _place: (usize, usize), (base, _low): (L, L), sum: L) -> L {
         base + sum

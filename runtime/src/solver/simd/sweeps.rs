@@ -16,7 +16,7 @@ use crate::solver::predictor::{Starting, StartingColumns, starts_at_once};
 use crate::solver::simd::change::LaneMovement;
 use crate::solver::simd::stages::SimdStages;
 use crate::solver::simd::sums::{
-    Sum, Sums, extrapolate, fill, scale, scale_of, sums, times, totals, values,
+    BasePlusSum, Sums, extrapolate, fill, scale, scale_of, sums, times, totals, values,
 };
 use crate::system::{Class, SystemInLanes, SystemLanes};
 
@@ -202,10 +202,10 @@ where
         };
         let momenta = sums(&P::MOMENTA, Starting::<P>::MOMENTA);
         let (base, forces) = ((step.p, step.p_low), stages.force.as_ref());
-        values::<P, V>(&momenta, stages.p.as_mut(), base, forces, Sum);
+        values::<P, V>(&momenta, stages.p.as_mut(), base, forces, BasePlusSum);
         let positions = sums(&P::POSITIONS, Starting::<P>::POSITIONS);
         let (base, velocities) = ((step.q, step.q_low), stages.velocity.as_ref());
-        values::<P, V>(&positions, stages.q.as_mut(), base, velocities, Sum);
+        values::<P, V>(&positions, stages.q.as_mut(), base, velocities, BasePlusSum);
     }
 
     /// The same stages with over-relaxed sweeps, which move them twice as far.
@@ -227,7 +227,7 @@ where
         let (columns, weights) = (Columns::<P>::POSITIONS, P::MOMENTA.weights);
         let sums = sums::<R, P>(columns, weights, step.size, of_increments);
         let terms = stages.velocity.as_ref();
-        values::<P, V>(&sums, stages.q.as_mut(), base, terms, Sum)
+        values::<P, V>(&sums, stages.q.as_mut(), base, terms, BasePlusSum)
     }
 
     /// Computes new momenta from forces, which may be `of_increments`; returns their change.
@@ -238,7 +238,7 @@ where
         let (columns, weights) = (Columns::<P>::MOMENTA, P::POSITIONS.weights);
         let sums = sums::<R, P>(columns, weights, step.size, of_increments);
         let terms = stages.force.as_ref();
-        values::<P, V>(&sums, stages.p.as_mut(), base, terms, Sum)
+        values::<P, V>(&sums, stages.p.as_mut(), base, terms, BasePlusSum)
     }
 
     /// Evaluates all forces, not yet scaled to increments.

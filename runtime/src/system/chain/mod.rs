@@ -9,7 +9,7 @@ use core::marker::PhantomData;
 use num_traits::Zero;
 
 use crate::error::Error;
-use crate::number::registers::{self, Avx2, Avx512, Work};
+use crate::number::registers::{self, Widest, Work};
 use crate::number::rows::{Eight, Row, Single, WideEight, WidestEight};
 use crate::number::{Scalar, Vector, copy};
 use crate::solver::Automatic;
@@ -282,14 +282,18 @@ impl<B: Bonds> Chain<B> {
     fn forces_on_doubles(&self, time: f64, q: &[f64], force: &mut [f64]) {
         // A constant condition: other bonds compile without this code.
         if registers::UNKNOWN && B::INLINED && q.len() >= <Eight as Row<f64>>::WIDTH {
-            if let Some(registers) = Avx512::detect() {
-                return registers.run(Forces::<B, WidestEight>::new(self, time, q, force));
+            match Widest::find() {
+                Widest::Build => self.forces::<f64, Eight>(time, q, force),
+                Widest::Avx2(avx2) => {
+                    avx2.run(Forces::<B, WideEight>::new(self, time, q, force));
+                }
+                Widest::Avx512(avx512) => {
+                    avx512.run(Forces::<B, WidestEight>::new(self, time, q, force));
+                }
             }
-            if let Some(registers) = Avx2::detect() {
-                return registers.run(Forces::<B, WideEight>::new(self, time, q, force));
-            }
+        } else {
+            self.forces::<f64, Eight>(time, q, force);
         }
-        self.forces::<f64, Eight>(time, q, force);
     }
 }
 
