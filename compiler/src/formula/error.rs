@@ -48,6 +48,16 @@ pub enum FormulaError {
         /// The name.
         name: String,
     },
+    /// A momentum in a force of a Lagrangian.
+    #[error(
+        "`{name}` is a momentum: a Lagrangian has velocities and no momenta; write this force with `{velocity}`, where {name} = ∂L/∂{velocity}"
+    )]
+    MomentumInForce {
+        /// The name.
+        name: String,
+        /// The name of its velocity.
+        velocity: String,
+    },
     /// A Lagrangian that is not quadratic in the velocities.
     #[error(
         "this term is not quadratic in the velocities, so there is no formula of H for `{what}`: take L = v·M v/2 + A·v − U, with functions M, A \

@@ -32,4 +32,10 @@ symplectic::lagrangian! {
     require: [separable]
 }
 
+symplectic::lagrangian! {
+    Drag { m, c } q: [x, y], v: [vx, vy];
+    L = -m c^2 sqrt(1 - (vx^2 + vy^2)/c^2)
+    force: { x = -px, y = -vy }
+}
+
 fn main() {}

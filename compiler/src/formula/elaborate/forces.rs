@@ -1,7 +1,7 @@
 //! Applied forces and friction.
 
 use super::values::counted;
-use super::{Elaborator, Value};
+use super::{Elaborator, Momenta, Value};
 use crate::error::{Error, ErrorKind};
 use crate::formula::derivative::Scatter;
 use crate::formula::error::FormulaError;
@@ -63,11 +63,17 @@ impl Elaborator<'_> {
             };
             return self.error(target, kind);
         };
-        let parts = match self.value(value)? {
+        let is_lagrangian = self.definition.form == Form::Lagrangian;
+        if is_lagrangian {
+            self.momenta = Momenta::NotInForce;
+        }
+        let found = self.value(value)?;
+        self.momenta = Momenta::Known;
+        let parts = match found {
             Value::Scalar(id) => vec![id],
-            value => self.components(value, &written.value)?,
+            found => self.components(found, value)?,
         };
-        if self.definition.form == Form::Hamiltonian {
+        if !is_lagrangian {
             for &part in &parts {
                 self.no_velocity(part, value)?;
             }
