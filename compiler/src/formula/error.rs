@@ -141,6 +141,14 @@ pub enum FormulaError {
         /// The Poisson bracket.
         bracket: String,
     },
+    /// Friction that must be a force.
+    #[error("friction {with} is not supported here: write it as a force: `{force}`")]
+    FrictionAsForce {
+        /// What excludes friction.
+        with: &'static str,
+        /// The force, in the names of the system.
+        force: String,
+    },
     /// A feature that this kind of system does not support.
     #[error("{what} is not supported here: {instead}")]
     Unsupported {

@@ -212,6 +212,8 @@ fn wrong_lagrangians_are_refused_at_their_place() {
         "P<N> q: [N; 2], v: [N; 2]; L = sum(i: |v[i]|^2/2) force: { q[i] = -p[i] }",
         "P q: [x], v: [vx]; L = vx^2/2 force: { px = 1 }",
         "P q: [x], v: [vx]; L = vx^2/2 force: -vx",
+        "P q: [x, y], v: [vx, vy]; L = vx^2 + vy^2 friction: 1 constraints: { rod = x }",
+        "P<N> { g: [N] } q: [N], v: [N]; L = sum(i: v[i]^2) friction: g",
         "P q: [x], v: [vx]; H = vx^2/2",
         "P q: [x], p: [px]; L = px^2/2",
         "P q: [x]; L = x^2/2",

@@ -38,4 +38,11 @@ symplectic::lagrangian! {
     force: { x = -px, y = -vy }
 }
 
+symplectic::hamiltonian! {
+    Rod q: [x, y], p: [px, py];
+    H = (px^2 + py^2)/2 + y
+    constraints: { rod = x^2 + y^2 - 1 }
+    friction: 1/10
+}
+
 fn main() {}
