@@ -505,3 +505,9 @@ fn progress(count: usize) -> ProgressBar {
 fn document(message: String) -> Error {
     ErrorKind::Document { message }.into()
 }
+
+/// `1 entry`, `2 entries`
+fn counted(count: usize, one: &str, many: &str) -> String {
+    let what = if count == 1 { one } else { many };
+    format!("{count} {what}")
+}

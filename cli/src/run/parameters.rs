@@ -8,6 +8,7 @@ use symplectic_compiler::formula::syntax::Length;
 use symplectic_compiler::formula::{Parameter, Shape, System};
 use toml::Value;
 
+use super::counted;
 use super::setup::{self, File, Setup};
 use super::values::{Entry, Values};
 
@@ -127,8 +128,8 @@ pub(super) fn read(
                         }
                         Some(expected) if expected == found => Ok(()),
                         Some(expected) => {
-                            let message =
-                                format!("`{name}` has {found} entries, but {expected} are needed");
+                            let found = counted(found, "entry", "entries");
+                            let message = format!("`{name}` has {found}; it needs {expected}");
                             Err(file.error(span.clone(), message))
                         }
                     }

@@ -11,6 +11,7 @@ use symplectic_compiler::formula::syntax::Length;
 use symplectic_compiler::formula::{Layout, System};
 use toml::{Spanned, Value};
 
+use super::counted;
 use super::memory;
 use super::parameters::{self, Varied};
 use super::random;
@@ -258,8 +259,8 @@ impl Reader<'_> {
         }
         if found.len() != half {
             return Err(format!(
-                "`{key}` has {} numbers, but {half} are needed; the coordinates are {}",
-                found.len(),
+                "`{key}` has {}; it needs {half}: the coordinates are {}",
+                counted(found.len(), "number", "numbers"),
                 coordinates.listed()
             ));
         }

@@ -100,6 +100,24 @@ fn wrong_files_are_refused_at_their_place() {
             "the count is 0, so there are no starts",
         ),
         (
+            replaced("{ g: 9.81 }", "{ g: 9.81, m: [2] }")
+                .replace("cos(a)", "cos(a) (m[0] + m[1])")
+                .replace("parameters.g = 4", "parameters.m = [4]"),
+            "6:",
+            "`m` has 1 entry; it needs 2",
+        ),
+        (
+            "system = 'Chain q: [2], p: [2]; H = |p|^2/2 + |q|^2/2'
+             method = 'forest-ruth-1990'
+             step_size = 0.1
+             end = 1.0
+             starts = { q = [0, 1], p = [0, 1, 2] }
+             output.file = 'out.csv'"
+                .to_owned(),
+            "5:",
+            "`p` has 3 numbers; it needs 2: the coordinates are q[0], q[1], p[0], p[1]",
+        ),
+        (
             quartic,
             "3:",
             "has order 4 if the kinetic energy is quadratic",
