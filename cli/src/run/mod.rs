@@ -1,5 +1,6 @@
 //! `symplectic run`
 
+mod keys;
 mod memory;
 mod method;
 mod output;

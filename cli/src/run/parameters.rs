@@ -78,7 +78,7 @@ pub(super) fn read(
             names => format!("the parameters are {}", names.join(", ")),
         };
         let message = format!("there is no parameter `{name}`; {there}");
-        return Err(file.error(value.span(), message));
+        return Err(file.error_at_key(value.span(), message));
     }
     // Lists of pairs first, because they may determine the lengths of arrays.
     for (place, Parameter { name, shape }) in system.parameters.iter().enumerate() {
