@@ -81,7 +81,7 @@ fn derive(file: &File<'_>, method: &Wanted, max_stages: Option<u16>) -> Result<T
                         "a method has no key `{name}`; its keys are {}",
                         known.join(", ")
                     );
-                    file.error(value.span(), message)
+                    file.error_at_key(value.span(), message)
                 })?;
                 let text = match value.get_ref() {
                     Value::String(text) => text.clone(),

@@ -1,9 +1,11 @@
 //! `symplectic run`
 
+mod keys;
 mod memory;
 mod method;
 mod output;
 mod parameters;
+mod progress;
 mod random;
 mod section;
 mod setup;
@@ -16,20 +18,18 @@ mod target;
 mod unroll;
 mod values;
 
-use std::io::IsTerminal;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
-use symplectic::ensemble::{Ensemble, EnsembleError};
+use symplectic::ensemble::{Ensemble, EnsembleError, Row};
 use symplectic::nalgebra::DVector;
 use symplectic::output::Interpolation;
 use symplectic::{
-    AtRunTime, Class, Compensated, Error as RunError, General, Hamiltonian, Plain, Separable,
-    State, Summation,
+    AtRunTime, Class, Compensated, Error as RunError, General, Hamiltonian, Integrator, Plain,
+    Separable, State, Summation,
 };
 use symplectic_compiler::export::read_text;
 use symplectic_compiler::formula::{Form, Structure, System};
@@ -38,6 +38,7 @@ use toml::Spanned;
 
 use self::method::Method;
 use self::output::{Facts, Results, Seen, Trajectory, append};
+use self::progress::Progress;
 use self::section::Section;
 use self::setup::{File, Setup, Starts, Sums};
 use self::starts::{Coordinates, Reader, Start};
@@ -354,21 +355,23 @@ impl Run<'_> {
                 .shard(part, count)
                 .map_err(|error| self.refused(&error))?;
         }
-        let progress = progress(ensemble.trajectories().len());
+        let progress = Progress::new(ensemble.trajectories().len());
         let mut rows: Vec<Trajectory> = Vec::with_capacity(ensemble.trajectories().len());
         let keep = |row| {
             rows.push(row);
-            progress.inc(1);
+            progress.trajectory();
             ControlFlow::Continue(())
         };
-        let end = (self.setup.end.as_ref()).map_or(self.setup.start(), |end| *end.get_ref());
+        let start = self.setup.start();
+        let end = (self.setup.end.as_ref()).map_or(start, |end| *end.get_ref());
         match (&self.times, &self.section) {
             (None, Some(section)) => {
                 ensemble.stop_if(section.is_full());
-                let see = |seen: &mut Vec<f64>, run: &mut _| section.see(seen, run, end);
+                let at = |time: f64| progress.within((time - start) / (end - start));
+                let see = |seen: &mut Vec<f64>, run: &mut _| section.see(seen, run, end, at);
                 ensemble.each(|_| Vec::new(), see, keep);
                 if section.is_full()() {
-                    progress.finish_and_clear();
+                    progress.finish();
                     let fault =
                         memory::fault_of_section(section.most(), ensemble.trajectories().len());
                     let given = self.setup.section.as_ref().map_or(0..0, Spanned::span);
@@ -377,11 +380,16 @@ impl Run<'_> {
             }
             (Some(times), _) => {
                 let numbers = times.len() * (1 + 2 * self.coordinates.dimension());
-                ensemble.integrate_at(times, |_| Vec::with_capacity(numbers), append, keep);
+                let last = times.last().map_or(start, |last| *last);
+                let see = |seen: &mut Vec<f64>, state: &State<Vector>| {
+                    append(seen, state);
+                    progress.within((state.time - start) / (last - start));
+                };
+                ensemble.integrate_at(times, |_| Vec::with_capacity(numbers), see, keep);
             }
             (None, None) => {
                 let mut keep = keep;
-                ensemble.integrate_to(end, |row| {
+                let keep = |row: Row<Vector>| {
                     keep(Trajectory {
                         trajectory: row.trajectory,
                         outcome: row.outcome,
@@ -389,10 +397,23 @@ impl Run<'_> {
                         statistics: row.statistics,
                         output: Vec::new(),
                     })
-                });
+                };
+                match progress.is_single() {
+                    false => ensemble.integrate_to(end, keep),
+                    true => {
+                        let to_end = |(): &mut (), run: &mut Integrator<_, _, _, R>| {
+                            let shown = run.integrate_while(end, |done| {
+                                progress.within(done.fraction());
+                                ControlFlow::<()>::Continue(())
+                            });
+                            shown.map(|_| ())
+                        };
+                        ensemble.each(|_| (), to_end, keep)
+                    }
+                };
             }
         }
-        progress.finish_and_clear();
+        progress.finish();
         let orders = self.method.tableau.orders();
         let results = Results {
             coordinates: self.coordinates,
@@ -490,18 +511,12 @@ impl Run<'_> {
 /// The order of states inside steps.
 const INTERPOLATION: u32 = Interpolation::Hermite.order();
 
-/// A progress bar, hidden unless standard error is a terminal.
-fn progress(count: usize) -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(count as u64);
-    match ProgressStyle::with_template("{wide_bar} {pos}/{len} trajectories, {eta} left") {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
-    }
-}
-
 fn document(message: String) -> Error {
     ErrorKind::Document { message }.into()
+}
+
+/// `1 entry`, `2 entries`
+fn counted(count: usize, one: &str, many: &str) -> String {
+    let what = if count == 1 { one } else { many };
+    format!("{count} {what}")
 }

@@ -8,6 +8,7 @@ use symplectic_compiler::formula::syntax::Length;
 use symplectic_compiler::formula::{Parameter, Shape, System};
 use toml::Value;
 
+use super::counted;
 use super::setup::{self, File, Setup};
 use super::values::{Entry, Values};
 
@@ -77,7 +78,7 @@ pub(super) fn read(
             names => format!("the parameters are {}", names.join(", ")),
         };
         let message = format!("there is no parameter `{name}`; {there}");
-        return Err(file.error(value.span(), message));
+        return Err(file.error_at_key(value.span(), message));
     }
     // Lists of pairs first, because they may determine the lengths of arrays.
     for (place, Parameter { name, shape }) in system.parameters.iter().enumerate() {
@@ -127,8 +128,8 @@ pub(super) fn read(
                         }
                         Some(expected) if expected == found => Ok(()),
                         Some(expected) => {
-                            let message =
-                                format!("`{name}` has {found} entries, but {expected} are needed");
+                            let found = counted(found, "entry", "entries");
+                            let message = format!("`{name}` has {found}; it needs {expected}");
                             Err(file.error(span.clone(), message))
                         }
                     }

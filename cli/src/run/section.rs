@@ -89,12 +89,14 @@ impl Section {
         }))
     }
 
-    /// Integrates to `end` and appends the states of the section; ends early if all trajectories have too many.
+    /// Integrates to `end` and appends the states of the section; ends early if all trajectories have too many. `at` receives the
+    /// time of each.
     pub(super) fn see<M, C, R, N>(
         &self,
         seen: &mut Vec<f64>,
         run: &mut Integrator<M, Formula<C>, DVector<f64>, R, N>,
         end: f64,
+        at: impl Fn(f64),
     ) -> Result<(), RunError>
     where
         M: Method,
@@ -123,6 +125,7 @@ impl Section {
                 return ControlFlow::Break(());
             }
             append(seen, state);
+            at(state.time);
             ControlFlow::Continue(())
         };
         run.integrate_with_events(end, &event.by_steps(), keep)
@@ -183,7 +186,9 @@ mod tests {
             let system = Formula::<Separable>::new(Arc::clone(&tapes), Parameters::Own([].into()));
             let start = State::new(0.0, vec![1.0].into(), vec![0.0].into());
             let mut run = Integrator::new(Verlet, system, start, 0.1).expect("a start");
-            section.see(&mut seen, &mut run, 10.0).expect("steps");
+            section
+                .see(&mut seen, &mut run, 10.0, |_| ())
+                .expect("steps");
             assert_eq!((seen.len() / 3, section.is_full()()), (states, is_full));
         }
     }

@@ -9,6 +9,8 @@ use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor, value::MapAccessDes
 use symplectic_compiler::{Error, ErrorKind, Place};
 use toml::{Spanned, Value};
 
+use super::keys;
+
 /// Largest number of starts of a run, of its times, and of the values of a coordinate.
 pub(super) const MOST: usize = 1 << 22;
 
@@ -280,10 +282,13 @@ impl File<'_> {
     /// Reads the setup.
     pub(super) fn read(&self) -> Result<Setup, Error> {
         toml::from_str(self.text).map_err(|error| {
-            let message = error.message().to_owned();
+            let message = error.message();
             match error.span() {
-                Some(span) => self.error(span, message),
-                None => ErrorKind::Document { message }.into(),
+                Some(span) => self.error(span.clone(), keys::explained(self.text, &span, message)),
+                None => ErrorKind::Document {
+                    message: message.to_owned(),
+                }
+                .into(),
             }
         })
     }
@@ -294,6 +299,12 @@ impl File<'_> {
             message: message.into(),
         };
         self.at(span, kind)
+    }
+
+    /// An error at the key of a value.
+    pub(super) fn error_at_key(&self, value: Range<usize>, message: impl Into<String>) -> Error {
+        let span = keys::key_of(self.text, &value).unwrap_or(value);
+        self.error(span, message)
     }
 
     /// An error of any kind at a position.

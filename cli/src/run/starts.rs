@@ -11,6 +11,7 @@ use symplectic_compiler::formula::syntax::Length;
 use symplectic_compiler::formula::{Layout, System};
 use toml::{Spanned, Value};
 
+use super::counted;
 use super::memory;
 use super::parameters::{self, Varied};
 use super::random;
@@ -196,8 +197,19 @@ impl Reader<'_> {
         let mut is_given = vec![false; named.len()];
         let mut axes = Vec::new();
         for (name, value) in entries {
-            let places = self.leaves(name, value.get_ref(), coordinates, &named);
-            let leaves = places.map_err(|message| self.file.error(value.span(), message))?;
+            let own = |&place| Ok(vec![(place, name.clone(), value.get_ref())]);
+            let leaves = match (named.get(name.as_str()), self.half(name)) {
+                (Some(place), _) => own(place),
+                (None, Some(half)) => self.leaves(name, half, value.get_ref(), coordinates),
+                (None, None) => {
+                    let message = format!(
+                        "there is no coordinate `{name}`; the coordinates are {}",
+                        coordinates.listed()
+                    );
+                    return Err(self.file.error_at_key(value.span(), message));
+                }
+            };
+            let leaves = leaves.map_err(|message| self.file.error(value.span(), message))?;
             for (place, name, leaf) in leaves {
                 let spec = Spec::read(leaf, &name)
                     .map_err(|message| self.file.error(value.span(), message))?;
@@ -219,27 +231,27 @@ impl Reader<'_> {
         Ok(axes)
     }
 
-    /// The coordinates of a key: a single coordinate, or the entries of the lists `q` and `p`.
+    /// The half of which a key is the whole list.
+    fn half(&self, key: &str) -> Option<Half> {
+        match (key, &self.system.layout) {
+            ("q", Layout::Numbered(..)) => Some(Half::Q),
+            ("p", Layout::Numbered(..)) => Some(Half::P),
+            _ => None,
+        }
+    }
+
+    /// The coordinates in the lists `q` and `p`, with their values.
     fn leaves<'v>(
         &self,
         key: &str,
+        list_of: Half,
         value: &'v Value,
         coordinates: &Coordinates,
-        named: &HashMap<&str, usize>,
     ) -> Result<Vec<(usize, String, &'v Value)>, String> {
         let half = coordinates.dimension();
-        let offset = match (key, &self.system.layout) {
-            ("q", Layout::Numbered(..)) => 0,
-            ("p", Layout::Numbered(..)) => half,
-            _ => {
-                let place = *named.get(key).ok_or_else(|| {
-                    format!(
-                        "there is no coordinate `{key}`; the coordinates are {}",
-                        coordinates.listed()
-                    )
-                })?;
-                return Ok(vec![(place, key.to_owned(), value)]);
-            }
+        let offset = match list_of {
+            Half::P => half,
+            _ => 0,
         };
         let mut found = Vec::new();
         let nested = matches!(self.system.layout, Layout::Numbered(_, Some(_)));
@@ -258,8 +270,8 @@ impl Reader<'_> {
         }
         if found.len() != half {
             return Err(format!(
-                "`{key}` has {} numbers, but {half} are needed; the coordinates are {}",
-                found.len(),
+                "`{key}` has {}; it needs {half}: the coordinates are {}",
+                counted(found.len(), "number", "numbers"),
                 coordinates.listed()
             ));
         }

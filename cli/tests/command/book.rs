@@ -159,3 +159,21 @@ fn every_link_of_the_book_leads_somewhere() {
     assert!(seen > 100, "{seen} links only");
     assert_eq!(wrong, Vec::<String>::new());
 }
+
+#[test]
+fn the_book_shows_every_feature_of_the_runtime() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let read = |name: &str| fs::read_to_string(root.join(name)).expect("a file");
+    let manifest: toml::Table = read("runtime/Cargo.toml").parse().expect("a manifest");
+    let features = manifest["features"].as_table().expect("features").keys();
+    let mut features: Vec<&String> = features.filter(|name| *name != "default").collect();
+    let page = read("docs/src/index.md");
+    let start = page.find("## Features\n").expect("a heading");
+    let section = page[start..].split("\n## ").next().expect("a section");
+    assert!(section.contains("\nsymplectic = { path = \"symplectic/runtime\", features = ["));
+    let rows = section.lines().filter_map(|line| line.strip_prefix("| `"));
+    let mut rows: Vec<&str> = rows.filter_map(|row| row.split('`').next()).collect();
+    features.sort_unstable();
+    rows.sort_unstable();
+    assert_eq!(rows, features);
+}

@@ -71,14 +71,18 @@ impl System {
     fn check_friction(&self, structure: &Structure, input: Input<'_>) -> Result<(), Error> {
         if let Err(term) = structure.split {
             let place = self.place_of(term);
-            let kind = FormulaError::Unsupported {
-                what: "friction where H is not separable".to_owned(),
-                instead: match place {
-                    Some(_) => "H = T(p) + U(q); this term depends on positions and momenta",
-                    // H of a Lagrangian is written nowhere.
-                    None => {
-                        "H = T(p) + U(q); write the friction as a force: `force: { x = -gamma px }`"
-                    }
+            let kind = match place {
+                Some(_) => FormulaError::Unsupported {
+                    what: "friction where H is not separable".to_owned(),
+                    instead: "H = T(p) + U(q); this term depends on positions and momenta",
+                },
+                // H of a Lagrangian is written nowhere.
+                None => FormulaError::FrictionAsForce {
+                    with: "where H is not T(p) + U(q)",
+                    force: {
+                        let velocities = self.lagrangian.as_ref().map(|_| &self.velocities[..]);
+                        self.layout.drag(velocities)
+                    },
                 },
             };
             return Err(input.error(place.unwrap_or(&(0..0)), kind.into()));

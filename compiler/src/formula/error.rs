@@ -48,6 +48,16 @@ pub enum FormulaError {
         /// The name.
         name: String,
     },
+    /// A momentum in a force of a Lagrangian.
+    #[error(
+        "`{name}` is a momentum: a Lagrangian has velocities and no momenta; write this force with `{velocity}`, where {name} = ∂L/∂{velocity}"
+    )]
+    MomentumInForce {
+        /// The name.
+        name: String,
+        /// The name of its velocity.
+        velocity: String,
+    },
     /// A Lagrangian that is not quadratic in the velocities.
     #[error(
         "this term is not quadratic in the velocities, so there is no formula of H for `{what}`: take L = v·M v/2 + A·v − U, with functions M, A \
@@ -130,6 +140,14 @@ pub enum FormulaError {
         of: &'static str,
         /// The Poisson bracket.
         bracket: String,
+    },
+    /// Friction that must be a force.
+    #[error("friction {with} is not supported here: write it as a force: `{force}`")]
+    FrictionAsForce {
+        /// What excludes friction.
+        with: &'static str,
+        /// The force, in the names of the system.
+        force: String,
     },
     /// A feature that this kind of system does not support.
     #[error("{what} is not supported here: {instead}")]

@@ -112,6 +112,31 @@ impl Layout {
         names.iter().flatten()
     }
 
+    /// The statement of a drag on every coordinate, with the velocities if they are given, otherwise with the momenta; truncated if there
+    /// are many coordinates.
+    pub(super) fn drag(&self, velocities: Option<&[String]>) -> String {
+        let drags = match (self, velocities) {
+            (Layout::Named([positions, momenta]), velocities) => {
+                let (letter, factors) = match velocities {
+                    None => ("gamma", &momenta[..]),
+                    Some(velocities) => ("c", velocities),
+                };
+                let pairs = positions.iter().zip(factors);
+                let mut drags: Vec<String> = pairs
+                    .map(|(position, factor)| format!("{position} = -{letter} {factor}"))
+                    .collect();
+                if drags.len() > 3 {
+                    drags.truncate(2);
+                    drags.push("…".to_owned());
+                }
+                drags.join(", ")
+            }
+            (Layout::Numbered(..), None) => "q[i] = -gamma p[i]".to_owned(),
+            (Layout::Numbered(..), Some(_)) => "q[i] = -c v[i]".to_owned(),
+        };
+        format!("force: {{ {drags} }}")
+    }
+
     /// The number of coordinates.
     pub fn length(&self) -> Length {
         match self {

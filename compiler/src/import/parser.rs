@@ -278,7 +278,7 @@ impl Parser<'_, '_> {
                 match <[Item; 1]>::try_from(items) {
                     Ok([item]) => Ok(item),
                     Err(_) if self.source.notation == Notation::C && !self.source.fortran => {
-                        let message = "one number is needed in these brackets".to_owned();
+                        let message = "expected one number in these brackets".to_owned();
                         Err(self.wrong(span, ErrorKind::Document { message }))
                     }
                     Err(items) => Ok(joined(items)),

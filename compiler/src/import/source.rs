@@ -461,7 +461,7 @@ impl<'a> Source<'a> {
             match self.evaluate(value, depth)? {
                 Item::One(value) => values.push(value),
                 Item::Many(_) => {
-                    let message = format!("`{name}` {index} is a list, and a number is needed");
+                    let message = format!("`{name}` {index} is a list, expected a number");
                     return Err(self.wrong(&span, message));
                 }
             }

@@ -736,7 +736,7 @@ fn what_may_mean_something_else_is_refused() {
         (
             Sundials,
             "a[0] = (1, 2); ahat[0] = 1;",
-            "column 8: one number is needed",
+            "column 8: expected one number in these brackets",
         ),
         (
             Sciml,

@@ -207,6 +207,10 @@ fn wrong_formulas_are_refused_at_their_place() {
         refused("P q: [x], p: [px]; H = px^2 + x px friction: 1"),
         refused("P q: [x], p: [px]; H = px^2 friction: 1 invariants: { momentum = px }"),
         refused("P q: [x, y], p: [px, py]; H = px^2 + py^2 friction: 1 constraints: { rod = x }"),
+        refused(
+            "P q: [a, b, c, d], p: [pa, pb, pc, pd]; H = pa^2 + pb^2 + pc^2 + pd^2 friction: 1 constraints: { rod = a }",
+        ),
+        refused("P q: [4], p: [4]; H = |p|^2 friction: 1 constraints: { rod = q[0] }"),
         refused("P q: [x], p: [px]; H = px^2 force: { px = 1 }"),
         refused("P q: [x], p: [px]; H = px^2 force: { z = 1 }"),
         refused("P q: [x], p: [px]; H = px^2 force: -px"),

@@ -11,7 +11,7 @@ pub use flow::FlowError;
 pub use quantity::Quantity;
 
 use debug::debug_by_message;
-use phrases::{AtStage, Divergence, Named, Short, Undetermined};
+use phrases::{AtStage, Divergence, Entries, Named, Short, Undetermined};
 
 debug_by_message!(Error);
 
@@ -162,8 +162,9 @@ pub enum Error {
 
     /// An array among the parameters of a system has another length than the state or a list of pairs requires.
     #[error(
-        "the parameter `{parameter}` has length {found}, but {expected} is needed; give an entry for each body or pair, or start from \
-         a state with other dimensions"
+        "the parameter `{parameter}` has {}; it needs {expected}: give an entry for each body or pair, or start from a state with \
+         other dimensions",
+        Entries(*.found)
     )]
     ParameterLength {
         /// Name of the parameter.
@@ -422,7 +423,7 @@ pub enum Error {
     },
 
     /// The length of a slice differs from the dimension of the vector to create.
-    #[error("the slice has {found} entries; a vector with {expected} components is needed")]
+    #[error("the slice has {}; it needs {expected}: give an entry for each component of the vector", Entries(*.found))]
     Length {
         /// The dimension of the vector.
         expected: usize,

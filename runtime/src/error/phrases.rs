@@ -14,6 +14,16 @@ impl fmt::Display for Named {
     }
 }
 
+/// A number of entries.
+pub(super) struct Entries(pub(super) usize);
+
+impl fmt::Display for Entries {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ending = if self.0 == 1 { "y" } else { "ies" };
+        write!(formatter, "{} entr{ending}", self.0)
+    }
+}
+
 /// A number; one that is very small or very large with an exponent, and not with hundreds of zeros.
 pub(super) struct Short(pub(super) f64);
 

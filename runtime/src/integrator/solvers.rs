@@ -40,6 +40,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 
     /// The same integrator with [`Newton`]'s iteration, for stiff and strongly coupled systems. An explicit method does not change.
+    /// With constraints nothing changes either: their steps have an iteration of their own.
     ///
     /// The second derivatives are exact if the system [implements them](System::second_derivatives), as a system from a
     /// [formula](crate::hamiltonian!) does. Otherwise they are difference quotients. The matrices are banded if the system knows its

@@ -274,6 +274,6 @@ mod tests {
         compare!(Compensated, [rows(4), rows(5), rows(6)]);
         compare!(Compensated, [rows(4)]);
         compare!(Overrelaxed<Compensated>, [rows(4), with_nan()]);
-        compare!(Plain, [rows(4); 0]);
+        compare!(Plain, [[[0.0; 8]; 5]; 0]);
     }
 }

@@ -68,7 +68,12 @@ fn masses_are_as_many_as_bodies() {
     }
     let text = length("m", 7, 2).to_string();
     assert!(
-        text.starts_with("the parameter `m` has length 7, but 2 is needed"),
+        text.starts_with("the parameter `m` has 7 entries; it needs 2: give an entry"),
+        "{text}"
+    );
+    let text = length("m", 1, 2).to_string();
+    assert!(
+        text.starts_with("the parameter `m` has 1 entry; it needs 2: "),
         "{text}"
     );
     let mut run = Integrator::new(StoermerVerlet, masses(2), start(6), 0.01).expect("fits");

@@ -32,4 +32,17 @@ symplectic::lagrangian! {
     require: [separable]
 }
 
+symplectic::lagrangian! {
+    Drag { m, c } q: [x, y], v: [vx, vy];
+    L = -m c^2 sqrt(1 - (vx^2 + vy^2)/c^2)
+    force: { x = -px, y = -vy }
+}
+
+symplectic::hamiltonian! {
+    Rod q: [x, y], p: [px, py];
+    H = (px^2 + py^2)/2 + y
+    constraints: { rod = x^2 + y^2 - 1 }
+    friction: 1/10
+}
+
 fn main() {}

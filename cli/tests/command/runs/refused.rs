@@ -17,11 +17,81 @@ fn wrong_files_are_refused_at_their_place() {
     );
     let two = PENDULUM.replace("H = pa^2/2 - g cos(a)", "H = pa^2/2 - g cos(a) + a pa");
     for (setup, place, message) in [
-        (replaced("end =", "ende ="), "5:", "unknown field `ende`"),
+        (
+            replaced("end =", "ende ="),
+            "5:5",
+            "there is no key `ende`; known here: `system`, `method`,",
+        ),
         (
             replaced("end =", "sums = 1\nend ="),
             "5:",
-            "invalid type: integer `1`, expected a string",
+            "`sums`: found the integer `1`, expected a string",
+        ),
+        (
+            replaced("end = 10.0", "sums.kind = 'plain'"),
+            "5:",
+            "`sums`: found a table, expected a string",
+        ),
+        (
+            replaced("end = 10.0", "end = '10'"),
+            "5:11",
+            "`end`: found a string, expected a number",
+        ),
+        (
+            replaced("end = 10.0", "end = 10.0\n    accept_lower_order = 1"),
+            "6:26",
+            "`accept_lower_order`: found the integer `1`, expected `true` or `false`",
+        ),
+        (
+            replaced("end = 10.0", "times = [0, true]"),
+            "5:13",
+            "`times`: expected a list of times, or { from, to, count }",
+        ),
+        (
+            replaced(
+                "end = 10.0",
+                "end = 10.0\n    random = { seed = -1, count = 2 }",
+            ),
+            "6:23",
+            "`random.seed`: found the integer `-1`, expected a whole number, 0 or larger",
+        ),
+        (
+            replaced(
+                "end = 10.0",
+                "end = 10.0\n    random = { seed = 1, number = 2 }",
+            ),
+            "6:26",
+            "there is no key `number`; known here: `seed`, `count`",
+        ),
+        (
+            replaced("end = 10.0", "end = 10.0\n    random = 3"),
+            "6:14",
+            "`random`: found the integer `3`, expected a table such as `{ seed = 1, count = 1000 }`",
+        ),
+        (
+            replaced("end = 10.0", "section = { off = 'a' }"),
+            "5:17",
+            "there is no key `off`; known here: `of`, `direction`",
+        ),
+        (
+            replaced("\"out.csv\"", "[\"out.csv\"]"),
+            "11:12",
+            "`output.file`: found a list, expected a string with the name of a file",
+        ),
+        (
+            replaced("file = \"out.csv\"", ""),
+            "10:5",
+            "the key `output.file` is missing",
+        ),
+        (
+            replaced("[starts]", "[[starts]]\n    x = 1\n    [rest]"),
+            "9:6",
+            "there is no key `rest`",
+        ),
+        (
+            replaced("step_size = 0.05", ""),
+            "1:1",
+            "the key `step_size` is missing",
         ),
         (
             replaced("end =", "sums = 'exact'\nend ="),
@@ -30,7 +100,7 @@ fn wrong_files_are_refused_at_their_place() {
         ),
         (
             replaced("pa = 0.5", "pb = 0.5"),
-            "9:",
+            "9:5",
             "there is no coordinate `pb`; the coordinates are a, pa",
         ),
         (replaced("pa = 0.5", ""), "7:", "give no value for `pa`"),
@@ -52,7 +122,7 @@ fn wrong_files_are_refused_at_their_place() {
                 "\"blanes-moan-2002-s10\"",
                 "{ basis = \"polynomial(2)\", nods = \"gauss(2)\" }",
             ),
-            "3:48",
+            "3:41",
             "a method has no key `nods`",
         ),
         (
@@ -74,7 +144,7 @@ fn wrong_files_are_refused_at_their_place() {
         ),
         (
             replaced("parameters.g", "parameters.h"),
-            "6:",
+            "6:16",
             "there is no parameter `h`; the parameters are g",
         ),
         (
@@ -98,6 +168,24 @@ fn wrong_files_are_refused_at_their_place() {
             .replace("parameters.g = 4", "random = { seed = 1, count = 0 }"),
             "6:",
             "the count is 0, so there are no starts",
+        ),
+        (
+            replaced("{ g: 9.81 }", "{ g: 9.81, m: [2] }")
+                .replace("cos(a)", "cos(a) (m[0] + m[1])")
+                .replace("parameters.g = 4", "parameters.m = [4]"),
+            "6:",
+            "`m` has 1 entry; it needs 2",
+        ),
+        (
+            "system = 'Chain q: [2], p: [2]; H = |p|^2/2 + |q|^2/2'
+             method = 'forest-ruth-1990'
+             step_size = 0.1
+             end = 1.0
+             starts = { q = [0, 1], p = [0, 1, 2] }
+             output.file = 'out.csv'"
+                .to_owned(),
+            "5:",
+            "`p` has 3 numbers; it needs 2: the coordinates are q[0], q[1], p[0], p[1]",
         ),
         (
             quartic,

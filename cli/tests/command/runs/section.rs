@@ -279,8 +279,16 @@ fn wrong_sections_are_refused_at_their_place() {
         ),
         (r#"'x'"#, "8:15", "expected one table, such as"),
         (r#"['x']"#, "8:15", "expected one table, such as"),
-        (r#"{ direction = "both" }"#, "8:15", "missing field `of`"),
-        (r#"{ off = "x" }"#, "8:17", "unknown field `off`"),
+        (
+            r#"{ direction = "both" }"#,
+            "8:15",
+            "the key `section.of` is missing",
+        ),
+        (
+            r#"{ off = "x" }"#,
+            "8:17",
+            "there is no key `off`; known here: `of`, `direction`",
+        ),
     ] {
         let output = call(&folder, &OSCILLATORS.replace(section, wrong), &[]);
         let errors = String::from_utf8_lossy(&output.stderr).into_owned();

@@ -128,3 +128,19 @@ fn starts_are_read_from_parquet() {
     });
     assert!(damaged.count() > 0);
 }
+
+/// A run of one trajectory, whose steps are shown, has the row of an ensemble.
+#[test]
+fn a_single_trajectory_is_that_of_an_ensemble() {
+    let folder = folder("single");
+    let range = "{ from = -1, to = 1, count = 11 }";
+    for end in ["end = 10.0", "times = [1.01, 10]"] {
+        let setup = PENDULUM.replace("end = 10.0", end);
+        let first = |starts: &str, rows: usize| -> Vec<String> {
+            let text = csv(&folder, &setup.replace(range, starts));
+            text.lines().take(1 + rows).map(str::to_owned).collect()
+        };
+        let rows = end.matches(',').count() + 1;
+        assert_eq!(first("{ values = [0.3, 1] }", rows), first("0.3", rows));
+    }
+}

@@ -1,7 +1,7 @@
 //! Applied forces and friction.
 
 use super::values::counted;
-use super::{Elaborator, Value};
+use super::{Elaborator, Momenta, Value};
 use crate::error::{Error, ErrorKind};
 use crate::formula::derivative::Scatter;
 use crate::formula::error::FormulaError;
@@ -63,11 +63,17 @@ impl Elaborator<'_> {
             };
             return self.error(target, kind);
         };
-        let parts = match self.value(value)? {
+        let is_lagrangian = self.definition.form == Form::Lagrangian;
+        if is_lagrangian {
+            self.momenta = Momenta::NotInForce;
+        }
+        let found = self.value(value)?;
+        self.momenta = Momenta::Known;
+        let parts = match found {
             Value::Scalar(id) => vec![id],
-            value => self.components(value, &written.value)?,
+            found => self.components(found, value)?,
         };
-        if self.definition.form == Form::Hamiltonian {
+        if !is_lagrangian {
             for &part in &parts {
                 self.no_velocity(part, value)?;
             }
@@ -125,13 +131,19 @@ impl Elaborator<'_> {
             return self.error(written, kind);
         }
         if !self.definition.constraints.is_empty() {
-            let kind = FormulaError::Unsupported {
-                what: "friction with constraints".to_owned(),
-                instead: "write it as a force: `force: { q[i] = -gamma p[i] }`",
+            let velocities = self.velocities_of_forces();
+            let kind = FormulaError::FrictionAsForce {
+                with: "with constraints",
+                force: self.layout.drag(velocities),
             };
             return self.error(written, kind);
         }
         Ok(rates)
+    }
+
+    /// The names of the velocities, if forces are functions of them and not of momenta.
+    fn velocities_of_forces(&self) -> Option<&[String]> {
+        (self.definition.form == Form::Lagrangian).then_some(&self.velocities)
     }
 
     /// The force that replaces a friction with a rate for each body.
@@ -141,8 +153,13 @@ impl Elaborator<'_> {
         };
         let Parameter { name, shape } = &self.parameters[*k];
         let is_list = matches!(shape, Shape::Array(lengths) if lengths[..] == [bodies.clone()]);
-        is_list.then(|| {
-            format!("; for a rate for each body write `force: {{ q[i] = -{name}[i] p[i] }}`")
+        is_list.then(|| match self.velocities_of_forces() {
+            None => {
+                format!("; for a rate for each body write `force: {{ q[i] = -{name}[i] p[i] }}`")
+            }
+            Some(_) => {
+                format!("; for a drag on each body write `force: {{ q[i] = -{name}[i] v[i] }}`")
+            }
         })
     }
 }

@@ -46,6 +46,14 @@ enum Value {
     Abbreviation(usize),
 }
 
+/// Whether momenta are available here.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Momenta {
+    Known,
+    NotInLagrangian,
+    NotInForce,
+}
+
 /// Elaborates a definition. The energy of a Lagrangian system is not known yet; its field holds L.
 ///
 /// # Errors
@@ -58,7 +66,10 @@ pub fn elaborate(input: Input<'_>, definition: &Definition) -> Result<System, Er
         definition,
         layout,
         velocities,
-        momenta_hidden: definition.form == Form::Lagrangian,
+        momenta: match definition.form {
+            Form::Hamiltonian => Momenta::Known,
+            Form::Lagrangian => Momenta::NotInLagrangian,
+        },
         parameters,
         graph: Graph::default(),
         names: HashMap::new(),
@@ -79,8 +90,7 @@ struct Elaborator<'a> {
     layout: Layout,
     /// The names of velocities.
     velocities: Vec<String>,
-    /// Whether the momenta are not available here.
-    momenta_hidden: bool,
+    momenta: Momenta,
     parameters: Vec<Parameter>,
     graph: Graph,
     /// The meanings of names.
@@ -157,7 +167,7 @@ impl Elaborator<'_> {
         if definition.form == Form::Hamiltonian {
             self.no_velocity(energy, written)?;
         }
-        self.momenta_hidden = false;
+        self.momenta = Momenta::Known;
         let constraints = self.constraints()?;
         let applied = self.forces()?;
         let nonholonomic = self.nonholonomic(&constraints)?;

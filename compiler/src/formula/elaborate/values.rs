@@ -1,7 +1,7 @@
 //! Values with their shapes, names, and errors about them.
 
 use super::arithmetic::kink;
-use super::{Elaborator, MOST_COMPONENTS, MOST_NODES, Value};
+use super::{Elaborator, MOST_COMPONENTS, MOST_NODES, Momenta, Value};
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
 use crate::formula::function::ELEMENTARY;
@@ -176,11 +176,30 @@ impl Elaborator<'_> {
         }
     }
 
+    /// The error for a momentum, if there are none here.
+    fn no_momentum(&self, name: &str) -> Option<FormulaError> {
+        let name = name.to_owned();
+        match self.momenta {
+            Momenta::Known => None,
+            Momenta::NotInLagrangian => Some(FormulaError::MomentumInLagrangian { name }),
+            Momenta::NotInForce => {
+                let position = match &self.layout {
+                    Layout::Named([_, momenta]) => momenta.iter().position(|known| *known == name),
+                    Layout::Numbered(..) => None,
+                };
+                let velocity = position.and_then(|k| self.velocities.get(k));
+                let velocity = velocity.map_or("v", String::as_str).to_owned();
+                Some(FormulaError::MomentumInForce { name, velocity })
+            }
+        }
+    }
+
     pub(super) fn name(&mut self, name: &str, at: &Expression) -> Result<Value, Error> {
         if let Some(value) = self.names.get(name) {
-            if self.momenta_hidden && self.is_momentum(value) {
-                let name = name.to_owned();
-                return self.error(at, FormulaError::MomentumInLagrangian { name });
+            if self.is_momentum(value)
+                && let Some(kind) = self.no_momentum(name)
+            {
+                return self.error(at, kind);
             }
             return Ok(value.clone());
         }
@@ -192,7 +211,7 @@ impl Elaborator<'_> {
         let visible = self
             .names
             .iter()
-            .filter(|(_, value)| !(self.momenta_hidden && self.is_momentum(value)));
+            .filter(|(_, value)| !(self.momenta != Momenta::Known && self.is_momentum(value)));
         let mut known: Vec<&str> = visible
             .map(|(name, _)| name.as_str())
             .chain(["pi", "t"])

@@ -191,7 +191,7 @@ fn forces_of_momenta(
         (system.graph, part.value) = found.ok_or_else(|| {
             let kind = FormulaError::Unsupported {
                 what: "a velocity in this force".to_owned(),
-                instead: "write the force with the momenta",
+                instead: "write the system with `hamiltonian!`, whose forces are functions of momenta",
             };
             let whole = definition.forces.first().map(|force| &force.value.span);
             let place = system.place_of(part.value).or(whole);

@@ -378,10 +378,13 @@ impl Parser<'_> {
     }
 
     fn forces(&mut self, definition: &mut Definition) -> Result<(), Error> {
-        const FORM: &str = "`force: { x = -c px, y = 0 }` or `force: { q[i] = -c p[i] }`";
-        self.expect(':', FORM)?;
+        let form = match self.form {
+            Form::Hamiltonian => "`force: { x = -c px, y = 0 }` or `force: { q[i] = -c p[i] }`",
+            Form::Lagrangian => "`force: { x = -c vx, y = 0 }` or `force: { q[i] = -c v[i] }`",
+        };
+        self.expect(':', form)?;
         let open = self.span();
-        self.expect('{', FORM)?;
+        self.expect('{', form)?;
         while !self.is('}') {
             let name = self.name("a coordinate, or `}`")?;
             let mut target = Expression {

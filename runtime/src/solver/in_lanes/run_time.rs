@@ -303,6 +303,8 @@ impl<W: Vector<Scalar: Lanes>, const N: usize> Work for ExtrapolateAll<'_, W, N>
         let n = shortest(&*out).min(shortest(before));
         let before: [&[W::Scalar]; N] = array(&[][..], |j| &before[j].as_slice()[..n]);
         let matrix: [[f64; N]; N] = array([0.0; N], |i| array(0.0, |j| matrix[i][j]));
+        // `k` counts entries of all `N` vectors, not the vectors.
+        #[allow(clippy::needless_range_loop)]
         for k in 0..n {
             let terms: [W::Scalar; N] = array(W::Scalar::zero(), |j| before[j][k]);
             for (out, row) in out.iter_mut().zip(&matrix) {
