@@ -12,7 +12,7 @@ use num_traits::Zero;
 
 use super::{Integrator, PlanOf};
 use crate::method::{
-    LaneMemory, LaneOutcome, Method, Outcome, Plan, Solver, Step, Stopping, WarmStart,
+    LaneMemory, LaneOutcome, Method, Outcome, Plan, Solver, Step, StepInLanes, Stopping, WarmStart,
 };
 use crate::number::registers::Work;
 use crate::number::{Lanes, Scalar, Summation, Vector};
@@ -192,8 +192,14 @@ where
         let [q, p, q_low, p_low] = &mut *self.states.other;
         let outcome = Outcome { q, q_low, p, p_low };
         let take = PlanOf::<M, S, V>::lane_step::<R, V, S, N, W, J>()?;
-        let (system, memory) = (&self.system, &mut self.memory);
-        take(&step, system, memory, live, self.stopping, outcome)
+        take(StepInLanes {
+            step: &step,
+            system: &self.system,
+            memory: &mut self.memory,
+            live,
+            stopping: self.stopping,
+            outcome,
+        })
     }
 
     /// Makes a computed step, to the time `time`, the present state. Lanes in which it failed have to be [loaded](Self::load) again.

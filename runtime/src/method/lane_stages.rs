@@ -133,14 +133,19 @@ pub struct LaneOutcome<L> {
     pub(crate) counts: EvaluationCounts,
 }
 
-/// Takes a step of the trajectories in some lanes, given as bits, after a step that has left its stages in the memory. Writes the results
-/// of those whose stages converge into the outcome. They have the bits of [`Plan::take`](crate::emitted::Plan::take) with the solver of the
-/// run. `None` if that is impossible.
-pub type LaneStep<W, J> = fn(
-    &Step<'_, W>,
-    &J,
-    &mut LaneMemory<W>,
-    u32,
-    Stopping,
-    Outcome<'_, W>,
-) -> Option<LaneOutcome<<W as Vector>::Scalar>>;
+/// A step of several trajectories, after a step that has left its stages in the memory.
+#[derive(Debug)]
+pub struct StepInLanes<'a, W: Vector, J> {
+    pub(crate) step: &'a Step<'a, W>,
+    pub(crate) system: &'a J,
+    pub(crate) memory: &'a mut LaneMemory<W>,
+    /// The lanes with a trajectory that takes the step, as bits.
+    pub(crate) live: u32,
+    pub(crate) stopping: Stopping,
+    pub(crate) outcome: Outcome<'a, W>,
+}
+
+/// Takes a step of several trajectories. Writes the results of those whose stages converge into the outcome. They have the bits of
+/// [`Plan::take`](crate::emitted::Plan::take) with the solver of the run. `None` if that is impossible.
+pub type LaneStep<W, J> =
+    for<'a> fn(StepInLanes<'a, W, J>) -> Option<LaneOutcome<<W as Vector>::Scalar>>;

@@ -43,7 +43,9 @@ pub use damped::{DampedMemory, DampedPlan, friction_growth};
 pub use explicit::Explicit;
 pub use interpolation::{Inside, Interpolation};
 #[cfg(feature = "alloc")]
-pub use lane_stages::{LaneMemory, LaneOutcome, LaneStages, LaneStep, StagePart, StageVisit};
+pub use lane_stages::{
+    LaneMemory, LaneOutcome, LaneStages, LaneStep, StagePart, StageVisit, StepInLanes,
+};
 #[cfg(feature = "alloc")]
 pub use nonholonomic::{NonholonomicPlan, NonholonomicStages, consistent_momentum};
 pub use proved::{LowerOrder, Orders, ProvedFor, Symmetry};

@@ -128,7 +128,7 @@ fn double<T: Scalar>(number: T) -> f64 {
     T::doubles(slice::from_ref(&number)).map_or(0.0, |number| number[0])
 }
 
-/// Rows of a stage, of the same number, in registers `K`. Returns the largest change and the largest number.
+/// The rows of a stage, in registers `K`: as many of each vector. The work returns the largest change and the largest number.
 struct Rows<'a, R, K, L> {
     out: &'a mut [[f64; 8]],
     base: &'a [[f64; 8]],
@@ -213,7 +213,7 @@ mod tests {
     use crate::number::summation::Overrelaxed;
     use crate::number::{Compensated, Plain};
 
-    /// Five rows of numbers of many sizes, in the order of a random walk.
+    /// Five rows of pseudo-random numbers of many sizes.
     fn rows(seed: u64) -> [[f64; 8]; 5] {
         let mut state = seed;
         [[(); 8]; 5].map(|row| {

@@ -186,7 +186,7 @@ impl<R: Summation, T: Scalar> Work for AddProducts<'_, R, T> {
     }
 }
 
-/// The loop.
+/// [`add_products`] in the registers of the caller.
 // The compiler knows that slices passed as arguments do not overlap. For the memory that vectors point to it has to check before every
 // loop.
 #[cfg_attr(not(debug_assertions), inline(always))]

@@ -5,9 +5,8 @@
 //!
 //! # Safety
 //!
-//! An instruction of AVX2 or AVX-512 is sound only on a processor that has it. Code for vectors is entered only after the processor was
-//! asked: in [`Work`] that is run by a token, [`Avx2`] or [`Avx512`], or where a token is at hand. A token is made only after the processor was
-//! asked. Code outside this crate cannot get hold of the types: these occur in bounds of public traits, but no public item has one as an
+//! An instruction of AVX2 or AVX-512 is sound only on a processor that has it. Code for vectors is entered only in [`Work`] that
+//! is run by a token, [`Avx2`] or [`Avx512`], or where a token is at hand. A token is made only after the processor was asked. Code outside this crate cannot get hold of the types: these occur in bounds of public traits, but no public item has one as an
 //! associated type, a field or an argument. It meets them only as the scalar `T` of a function that is called there.
 //!
 //! # Speed

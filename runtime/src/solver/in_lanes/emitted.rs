@@ -8,7 +8,7 @@ use super::settle::settle;
 use super::{BasePlusSum, Sums, largest, relax, scalar, transform};
 use crate::method::tableau::Columns;
 use crate::method::{
-    HalfTableau, LaneMemory, LaneOutcome, LaneStages, Outcome, StageTableau, Step, Stopping,
+    HalfTableau, LaneOutcome, LaneStages, Outcome, StageTableau, Step, StepInLanes,
 };
 use crate::number::linear_combination::{TermsOfComponents, scale, shortest, totals_by};
 use crate::number::registers::Work;
@@ -17,44 +17,21 @@ use crate::solver::nystrom::eliminates;
 use crate::solver::simd::sweeps::are_at_one_time;
 use crate::system::{Class, System};
 
-/// Takes a step of the trajectories in the lanes `live`, after a step that has left its stages in `memory`.
-pub(crate) fn take<P, R, W, S>(
-    step: &Step<'_, W>,
-    system: &S,
-    memory: &mut LaneMemory<W>,
-    live: u32,
-    stopping: Stopping,
-    outcome: Outcome<'_, W>,
-) -> Option<LaneOutcome<W::Scalar>>
+/// The [`LaneStep`](crate::method::LaneStep) of an emitted method.
+pub(crate) fn take<P, R, W, S>(step: StepInLanes<'_, W, S>) -> Option<LaneOutcome<W::Scalar>>
 where
     P: StageTableau,
     R: Summation,
     W: Vector<Scalar: Lanes>,
     S: System<W, Class = P::Class>,
 {
-    W::Scalar::in_registers(StepInLanes::<P, R, W, S> {
-        step,
-        system,
-        memory,
-        live,
-        stopping,
-        outcome,
-        kind: PhantomData,
-    })
+    W::Scalar::in_registers(ByMethod::<P, R, _>(step, PhantomData))
 }
 
-/// A step of trajectories in lanes.
-struct StepInLanes<'a, P, R, W: Vector, S> {
-    step: &'a Step<'a, W>,
-    system: &'a S,
-    memory: &'a mut LaneMemory<W>,
-    live: u32,
-    stopping: Stopping,
-    outcome: Outcome<'a, W>,
-    kind: PhantomData<(P, R)>,
-}
+/// The work of [`take`].
+struct ByMethod<P, R, T>(T, PhantomData<(P, R)>);
 
-impl<P, R, W, S> Work for StepInLanes<'_, P, R, W, S>
+impl<P, R, W, S> Work for ByMethod<P, R, StepInLanes<'_, W, S>>
 where
     P: StageTableau,
     R: Summation,
@@ -65,15 +42,14 @@ where
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> Self::Output {
-        let Self {
+        let StepInLanes {
             step,
             system,
             memory,
             live,
             stopping,
             outcome,
-            ..
-        } = self;
+        } = self.0;
         let scales = memory.scales;
         let mut stages = Emitted::<P, R, W, S> {
             step,

@@ -7,7 +7,7 @@ use num_traits::Zero;
 
 use super::{BasePlusSum, LaneSweeps, Sums, keep, largest, relax, settle::settle, transform};
 use crate::method::run_time::{Coupled, Half, Row, Schedule};
-use crate::method::{LaneMemory, LaneOutcome, LaneStages, Outcome, Step, Stopping};
+use crate::method::{LaneMemory, LaneOutcome, LaneStages, StepInLanes};
 use crate::number::array::array;
 use crate::number::linear_combination::{shortest, sum_of_products, value};
 use crate::number::registers::Work;
@@ -17,15 +17,9 @@ use crate::solver::run_time::CoupledStep;
 use crate::solver::simd::change::{LaneMovement, noted};
 use crate::system::{Class, System};
 
-/// Takes a step of the trajectories in the lanes `live`, after a step that has left its stages in `memory`. `None` if stages are not
-/// coupled.
+/// The [`LaneStep`](crate::method::LaneStep) of a tableau at run time; `None` if stages are not coupled.
 pub(crate) fn take_at_run_time<C, R, W, S>(
-    step: &Step<'_, W>,
-    system: &S,
-    memory: &mut LaneMemory<W>,
-    live: u32,
-    stopping: Stopping,
-    outcome: Outcome<'_, W>,
+    step: StepInLanes<'_, W, S>,
 ) -> Option<LaneOutcome<W::Scalar>>
 where
     C: Class,
@@ -33,29 +27,13 @@ where
     W: Vector<Scalar: Lanes>,
     S: System<W, Class = C>,
 {
-    W::Scalar::in_registers(StepInLanes::<C, R, W, S> {
-        step,
-        system,
-        memory,
-        live,
-        stopping,
-        outcome,
-        kind: PhantomData,
-    })
+    W::Scalar::in_registers(ByTableau::<C, R, _>(step, PhantomData))
 }
 
-/// A step of trajectories in lanes.
-struct StepInLanes<'a, C, R, W: Vector, S> {
-    step: &'a Step<'a, W>,
-    system: &'a S,
-    memory: &'a mut LaneMemory<W>,
-    live: u32,
-    stopping: Stopping,
-    outcome: Outcome<'a, W>,
-    kind: PhantomData<(C, R)>,
-}
+/// The work of [`take_at_run_time`].
+struct ByTableau<C, R, T>(T, PhantomData<(C, R)>);
 
-impl<C, R, W, S> Work for StepInLanes<'_, C, R, W, S>
+impl<C, R, W, S> Work for ByTableau<C, R, StepInLanes<'_, W, S>>
 where
     C: Class,
     R: Summation,
@@ -66,15 +44,14 @@ where
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> Self::Output {
-        let Self {
+        let StepInLanes {
             step,
             system,
             memory,
             live,
             stopping,
             outcome,
-            ..
-        } = self;
+        } = self.0;
         let LaneMemory {
             before,
             now,
