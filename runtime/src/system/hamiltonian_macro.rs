@@ -81,7 +81,7 @@
 /// twice continuously differentiable: `|x|^3` is allowed, `abs`, `min`, `max` and `sqrt(x^2)` are not. Constants must be finite in double
 /// precision.
 ///
-/// # Constraints and friction
+/// # Constraints, friction and forces
 ///
 /// `constraints: { rod = |q[0]|^2 - 1, link(i in 1..N) = |q[i] - q[i-1]|^2 - 1 }` lists the functions φ(q) that vanish. They are numbers or
 /// vectors. `link(i in 1..N)` is one for each index; `rod(s = (i, j) in rods) = …` is one for each pair of a parameter. The class of the
@@ -93,6 +93,9 @@
 ///
 /// `friction: gamma` adds the force `−γp` to a separable system. `friction: [a, b]` has a rate for each coordinate or, if positions are
 /// vectors, for each component of a vector. The class of the system is [`Damped`](crate::Damped), for splittings.
+///
+/// `force: { x = -c px + cos(t) }` adds forces without a potential, `force: { q[i] = -c p[i] }` one for each index. If a force depends on
+/// momenta, the class of the system is [`General`](crate::General), with constraints `Constrained<General>`.
 ///
 /// ```
 /// use symplectic::{Error, Integrator, State};
