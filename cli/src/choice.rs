@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 
 use clap::{Args, ValueEnum};
+use rayon::prelude::*;
 use symplectic_compiler::order::HamiltonianClass;
 use symplectic_compiler::{Error, ErrorKind, Evidence, Tableau, catalogue};
 
@@ -237,18 +238,21 @@ pub(crate) fn table(choice: &Choice) -> Result<String, Error> {
     choice.check()?;
     let class = choice.class.unwrap_or(Class::Separable).hamiltonians();
     let tolerance = choice.tolerance.unwrap_or(1e-8);
-    let mut methods = Vec::new();
-    for entry in catalogue::entries() {
+    let chosen = |entry: catalogue::Entry| -> Result<Option<Method>, Error> {
         let tableau = entry.derive()?;
         let forces = tableau.evaluations().map(|evaluations| evaluations.forces);
-        if choice.takes_evaluations(forces) {
-            let method = match class {
-                Some(class) => Some(Method::new(entry, &tableau, class, tolerance)),
-                None => Method::perturbed(entry, &tableau),
-            };
-            methods.extend(method.filter(|method| choice.takes_order(&method.order)));
+        if !choice.takes_evaluations(forces) {
+            return Ok(None);
         }
-    }
+        let method = match class {
+            Some(class) => Some(Method::new(entry, &tableau, class, tolerance)),
+            None => Method::perturbed(entry, &tableau),
+        };
+        Ok(method.filter(|method| choice.takes_order(&method.order)))
+    };
+    let entries: Vec<_> = catalogue::entries().collect();
+    let methods: Result<Vec<_>, Error> = entries.into_par_iter().map(chosen).collect();
+    let mut methods: Vec<Method> = methods?.into_iter().flatten().collect();
     // Unknown values come last.
     let smaller = |x: Option<f64>, y: Option<f64>| {
         let [x, y] = [x, y].map(|value| value.unwrap_or(f64::INFINITY));
