@@ -377,7 +377,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         end: f64,
         mut observe: F,
     ) -> Result<&State<V>, Error> {
-        self.steps_to(end, |integrator, size, time| {
+        let ControlFlow::Continue(()) = self.steps_to(end, |integrator, size, time| {
             integrator.advance(size, time)?;
             observe(integrator.state());
             Ok(ControlFlow::<Infallible>::Continue(()))
