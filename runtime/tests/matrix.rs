@@ -12,7 +12,7 @@ use symplectic::nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
 use symplectic::solver::{
     Dense, Differences, FixedPoint, FixedPointThenNewton, SimdFixedPoint, SimdJacobi, Solver,
 };
-use symplectic::system::{SystemInLanes, Unconstrained};
+use symplectic::system::{Conservative, SystemInLanes, Unconstrained};
 use symplectic::{
     Checkpoint, Compensated, Error, General, Integrator, Method, Plain, ProvedFor, RunTimeTableau,
     Separable, State, Statistics, Summation, System, TableauError,
@@ -255,7 +255,7 @@ where
 fn at_run_time<'a, M, S>(cell: Cell<'_>, method: M, system: S) -> Result<(), Error>
 where
     M: Method + ProvedFor<<S as System<Vector2<f64>>>::Class>,
-    S: System<Vector2<f64>> + Copy + 'a,
+    S: System<Vector2<f64>, Class: Conservative> + Copy + 'a,
 {
     let coefficients = coefficients(method);
     let tableau = RunTimeTableau::new(M::NAME, &coefficients, M::ORDERS);

@@ -9,6 +9,7 @@ use std::time::Instant;
 
 use nalgebra::DVector;
 use symplectic::solver::{FixedPoint, Solver};
+use symplectic::system::Conservative;
 use symplectic::{
     Integrator, Method, ProvedFor, RunTimeTableau, State, Summation, System, Vector, separable,
 };
@@ -68,7 +69,7 @@ fn row<M, S, V, R>(
 ) -> Result<f64, Box<dyn Error>>
 where
     M: Method + ProvedFor<S::Class>,
-    S: System<V> + Clone,
+    S: System<V, Class: Conservative> + Clone,
     V: Vector,
     R: Summation,
     Integrator<symplectic::AtRunTime, S, V, R>: Made<S, V>,
@@ -119,7 +120,7 @@ trait Made<S, V: Vector>: Sized {
 
 macro_rules! made {
     ($($sums:ident $constructor:ident),+) => {$(
-        impl<S: System<V>, V: Vector> Made<S, V> for Integrator<symplectic::AtRunTime, S, V, symplectic::$sums> {
+        impl<S: System<V, Class: Conservative>, V: Vector> Made<S, V> for Integrator<symplectic::AtRunTime, S, V, symplectic::$sums> {
             fn made(
                 tableau: &RunTimeTableau,
                 system: S,

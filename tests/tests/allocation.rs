@@ -13,7 +13,7 @@ use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use symplectic::solver::{
     Banded, Dense, Differences, FixedPoint, FixedPointThenNewton, Newton, Solver,
 };
-use symplectic::system::Gradients;
+use symplectic::system::{Conservative, Gradients};
 use symplectic::variational::{DiracIntegrator, DiracRule, DiracSystem, LagrangianIntegrator};
 use symplectic::{
     Compensated, Error, Integrator, Lagrangian, Method, ProvedFor, Scalar, State, hamiltonian,
@@ -60,7 +60,7 @@ fn allocations<
 }
 
 /// [`allocations`] of a method that is derived here.
-fn at_run_time<S: symplectic::System<DVector<f64>>>(
+fn at_run_time<S: symplectic::System<DVector<f64>, Class: Conservative>>(
     [basis, nodes]: [&str; 2],
     system: S,
 ) -> Result<usize, Box<dyn std::error::Error>> {

@@ -27,6 +27,7 @@ use clap::Args;
 use symplectic::ensemble::{Ensemble, EnsembleError, Row};
 use symplectic::nalgebra::DVector;
 use symplectic::output::Interpolation;
+use symplectic::system::Conservative;
 use symplectic::{
     AtRunTime, Class, Compensated, Error as RunError, General, Hamiltonian, Integrator, Plain,
     Separable, State, Summation,
@@ -311,9 +312,9 @@ fn times(file: &File<'_>, setup: &Setup) -> Result<Option<Vec<f64>>, Error> {
 }
 
 impl Run<'_> {
-    fn with_class<C: Class>(self, starts: Vec<Start>) -> Result<ExitCode, Error>
+    fn with_class<C: Class + Conservative>(self, starts: Vec<Start>) -> Result<ExitCode, Error>
     where
-        Formula<C>: Hamiltonian<Vector<f64> = Vector>,
+        Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>,
     {
         match self.setup.sums {
             Sums::Compensated => self.integrate::<C, Compensated>(starts),
@@ -321,9 +322,12 @@ impl Run<'_> {
         }
     }
 
-    fn integrate<C: Class, R: Summation>(self, starts: Vec<Start>) -> Result<ExitCode, Error>
+    fn integrate<C: Class + Conservative, R: Summation>(
+        self,
+        starts: Vec<Start>,
+    ) -> Result<ExitCode, Error>
     where
-        Formula<C>: Hamiltonian<Vector<f64> = Vector>,
+        Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>,
     {
         let mut parameters: Vec<Vec<f64>> = Vec::new();
         let mut families: Vec<(Formula<C>, States)> = Vec::new();

@@ -268,6 +268,7 @@ fn wrong_formulas_are_refused_at_their_place() {
         pendulum("pa^2/2 + a^2/(sqrt(2) - sqrt(2))"),
         pendulum("pa^2/2 + tan(-3 pi/2) a"),
         pendulum("pa^2/2 + exp(1000) a"),
+        pendulum("pa^2/2 + 1e400 a"),
         pendulum("pa^2/2 + (-2)^a"),
         pendulum("pa^2/2 + ln(sqrt(2) - 2) a"),
         pendulum("pa^2/2 + sqrt(a^2)"),

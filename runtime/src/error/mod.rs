@@ -440,6 +440,13 @@ pub enum Error {
         class: &'static str,
     },
 
+    /// A step of a system of class [`Damped`](crate::Damped) has no stages.
+    #[error(
+        "steps with friction have no stages, because their kicks are exact flows; write the friction as a force, in a formula \
+         `force: {{ x = -gamma px }}`"
+    )]
+    NoStages,
+
     /// A system of class `Constrained` or `Nonholonomic` without a constraint, or with more constraints than positions.
     #[error(
         "the system has {constraints} constraints on {dimension} components of the position; it needs at least one and at most one for \

@@ -76,7 +76,8 @@ impl Linear {
     ///
     /// # Errors
     ///
-    /// Those of [`new`](Self::new); [`Error::FlowParameter`] for a mass that is not finite and positive.
+    /// Those of [`new`](Self::new); [`Error::FlowParameter`] for a mass that is not finite and positive, and a stiffness that is not
+    /// symmetric.
     pub fn oscillators(masses: &[f64], stiffness: &DMatrix<f64>) -> Result<Self, Error> {
         let n = masses.len();
         check_count(
@@ -87,6 +88,23 @@ impl Linear {
         )?;
         for (index, &mass) in masses.iter().enumerate() {
             check_parameter("mass", index, mass, false)?;
+        }
+        for i in 0..n {
+            for j in 0..i {
+                let (value, mirrored) = (stiffness[(i, j)], stiffness[(j, i)]);
+                // Entries that are not finite have their own error.
+                if (value - mirrored).abs() > 1e-12 * value.abs().max(mirrored.abs()) {
+                    let (what, index) = ("stiffness", i * n + j);
+                    let range =
+                        "equal to the entry with exchanged indices: the matrix is symmetric";
+                    return Err(Error::FlowParameter {
+                        what,
+                        index,
+                        value,
+                        range,
+                    });
+                }
+            }
         }
         Self::new(&DMatrix::from_fn(2 * n, 2 * n, |i, j| {
             if i < n && j == i + n {

@@ -21,7 +21,7 @@ use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
 use crate::error::Error;
-use crate::integrator::clock::Clock;
+use crate::integrator::clock::{Clock, check_count};
 use crate::integrator::last_step::{LastEvent, LastStep};
 use crate::method::interpolation::Line;
 use crate::method::{Inside, Interpolation, Method, Plan, ProvedFor, Solver, Stopping};
@@ -292,7 +292,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     ///
     /// # Errors
     ///
-    /// Those of [`step`](Self::step); the state is then that after the last successful step.
+    /// Those of [`step`](Self::step); the state is then that after the last successful step. [`Error::StepCount`] for 2⁵³ steps or more.
     ///
     /// ```
     /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
@@ -311,6 +311,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// # }
     /// ```
     pub fn take_steps(&mut self, count: u64) -> Result<&State<V>, Error> {
+        let (time, size) = (self.step_memory.state.time, self.step_size);
+        check_count(time, time + size * count as f64, size)?;
         let mut remaining = self.steps_left(count);
         let outcome = self.take_remaining(&mut remaining);
         self.clock = remaining.clock;

@@ -7,9 +7,9 @@ use crate::integrator::Integrator;
 use crate::method::{AtRunTime, Method, RunTimeTableau, Solver, StageStorage};
 use crate::number::{Plain, Summation, Vector};
 use crate::state::State;
-use crate::system::System;
+use crate::system::{Conservative, System};
 
-impl<S: System<V>, V: Vector> Integrator<AtRunTime, S, V> {
+impl<S: System<V, Class: Conservative>, V: Vector> Integrator<AtRunTime, S, V> {
     /// [`new`](Integrator::new) with a method that is known only at run time, and with
     /// [`Compensated`](crate::Compensated) sums.
     ///
@@ -48,6 +48,21 @@ impl<S: System<V>, V: Vector> Integrator<AtRunTime, S, V> {
     /// # }
     /// ```
     ///
+    /// The class of the system is [`General`](crate::General) or [`Separable`](crate::Separable): with friction or constraints take an
+    /// emitted method.
+    ///
+    /// ```compile_fail,E0277
+    /// # use symplectic::{Integrator, RunTimeTableau, State};
+    /// symplectic::hamiltonian! { Rod q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + y constraints: { rod = x^2 + y^2 - 1 } }
+    ///
+    /// fn step(tableau: &RunTimeTableau) -> Result<(), symplectic::Error> {
+    ///     let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.0]);
+    ///     Integrator::at_run_time(tableau, Rod, start, 0.1)?.step()?;
+    ///     Ok(())
+    /// }
+    /// # let _used: fn(&RunTimeTableau) -> Result<(), symplectic::Error> = step;
+    /// ```
+    ///
     /// Newton's iteration needs an emitted method:
     ///
     /// ```compile_fail
@@ -71,7 +86,7 @@ impl<S: System<V>, V: Vector> Integrator<AtRunTime, S, V> {
     }
 }
 
-impl<S: System<V>, V: Vector> Integrator<AtRunTime, S, V, Plain> {
+impl<S: System<V, Class: Conservative>, V: Vector> Integrator<AtRunTime, S, V, Plain> {
     /// [`at_run_time`](Integrator::at_run_time) with [`Plain`] sums.
     ///
     /// # Errors
@@ -87,7 +102,7 @@ impl<S: System<V>, V: Vector> Integrator<AtRunTime, S, V, Plain> {
     }
 }
 
-impl<S: System<V>, V: Vector, R: Summation> Integrator<AtRunTime, S, V, R> {
+impl<S: System<V, Class: Conservative>, V: Vector, R: Summation> Integrator<AtRunTime, S, V, R> {
     fn of_tableau(
         tableau: &RunTimeTableau,
         system: S,

@@ -81,12 +81,15 @@ impl<C> Holonomic for Constrained<C> {}
 #[cfg(feature = "alloc")]
 impl<C> FreePositions for Nonholonomic<C> {}
 
-/// A class whose steps have a generating function: [`General`] or [`Separable`].
+/// A class without friction and constraints: [`General`] or [`Separable`]. Generating functions, tangent systems and tableaux at run time
+/// are for these classes.
 ///
 /// With friction a step is not symplectic; with constraints it is symplectic on the constrained phase space only.
 #[diagnostic::on_unimplemented(
-    message = "steps of systems of class `{Self}` have no generating function",
-    label = "with friction or constraints there is none",
+    message = "systems of class `{Self}` have friction or constraints, and this is for systems without",
+    label = "not with friction or constraints",
+    note = "a step with friction or constraints has no generating function, and a tableau at run time has no such step: take a method of `tableau!` or `splitting!`",
+    note = "friction as part of a force makes the class `General`: in a formula `force: {{ x = -gamma px }}`",
     note = "generic code needs the bound `S::Class: Conservative`"
 )]
 pub trait Conservative {}

@@ -126,8 +126,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     ///
     /// # Errors
     ///
-    /// Those of [`step`](Self::step), [`Error::EvaluationDimension`] for the applied force too; [`Error::OtherClass`] for a system of
-    /// class [`Damped`](crate::Damped), whose kicks are exact flows without stages. The state is then unchanged.
+    /// Those of [`step`](Self::step), [`Error::EvaluationDimension`] for the applied force too; [`Error::NoStages`] for a system of
+    /// class [`Damped`](crate::Damped), whose kicks are exact flows. The state is then unchanged.
     ///
     /// ```
     /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
@@ -172,10 +172,7 @@ fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
     stopping: Stopping,
 ) -> Result<StagesOfStep<V>, Error> {
     if S::Class::FRICTION {
-        return Err(Error::OtherClass {
-            what: "friction whose kicks are exact flows, so that there are no stages",
-            class: "General",
-        });
+        return Err(Error::NoStages);
     }
     let (mut stages, mut mismatch) = (Vec::new(), None);
     let mut add = |view: StageView<'_, V>| {

@@ -52,6 +52,18 @@ fn a_linear_system_may_grow_and_be_stiff() {
     let (x, rate) = (6.0_f64, 1.5);
     let expected = x.cosh() + 2.0 / (4.0 * rate) * x.sinh();
     assert!((q[0] / expected - 1.0).abs() < 1e-14);
+    let lopsided = DMatrix::from_row_slice(2, 2, &[1.0, 0.5, 0.0, 1.0]);
+    let refused = Linear::oscillators(&[1.0; 2], &lopsided).err();
+    let named = |error| {
+        matches!(
+            error,
+            Error::FlowParameter {
+                what: "stiffness",
+                ..
+            }
+        )
+    };
+    assert!(refused.is_some_and(named));
     let stiffness = DMatrix::from_row_slice(2, 2, &[1.0, 0.0, 0.0, 1e8]);
     let mut stiff = Linear::oscillators(&[1.0; 2], &stiffness).expect("a system");
     let (mut q, mut p) = (Vector2::new(1.0, 1.0), Vector2::zeros());

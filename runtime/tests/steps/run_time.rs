@@ -6,6 +6,7 @@ use crate::common::{coefficients, distance, tableau};
 use symplectic::nalgebra::{DVector, Vector1, Vector2};
 use symplectic::simd::{F64x4, Lanes};
 use symplectic::solver::FixedPoint;
+use symplectic::system::Conservative;
 use symplectic::{
     Error, Event, Integrator, Method, ProvedFor, Quantity, Retry, RunTimeCoefficients,
     RunTimeTableau, Scalar, Separable, State, System, TableauError, acceleration, separable,
@@ -43,7 +44,7 @@ fn ellipse() -> State<Vector2<f64>> {
 fn same<M, S, V>(method: M, system: impl Fn() -> S, start: &State<V>) -> Result<(), Error>
 where
     M: Method + ProvedFor<S::Class>,
-    S: System<V>,
+    S: System<V, Class: Conservative>,
     V: symplectic::Vector<Scalar = f64>,
 {
     let tableau = tableau(method);

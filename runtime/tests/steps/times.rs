@@ -111,6 +111,9 @@ fn ends_that_cannot_be_reached() -> Result<(), Error> {
         let error = integrator.integrate_to(end).expect_err("no such time");
         assert!(matches!(error, Error::EndTime { value } if value.to_bits() == end.to_bits()));
     }
+    let uncounted = integrator.take_steps(u64::MAX);
+    assert!(matches!(uncounted, Err(Error::StepCount { .. })));
+    assert_eq!(integrator.steps(), 0);
     let mut far = verlet(-f64::MAX, 1e300)?;
     let end = f64::MAX;
     assert_eq!(far.integrate_to(end), Err(Error::EndTime { value: end }));

@@ -150,6 +150,13 @@ fn wrong_parameters_are_refused_at_their_place() {
             "6:",
             "write its values into a column of that file",
         ),
+        (
+            of_file("parameters.g = [4, { from = 1, to = 2, count = 2 }]")
+                .replace("{ g: 9.81 }", "{ g: [2] }")
+                .replace("g cos", "g[1] cos"),
+            "6:",
+            "`g[1]` varies, but the starts are in a file, whose columns are coordinates and parameters that are numbers",
+        ),
     ];
     for (setup, place, message) in cases {
         let output = call(&folder, &setup, &[]);

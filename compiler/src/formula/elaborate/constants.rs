@@ -4,6 +4,7 @@ use num_traits::{One, Signed, Zero};
 
 use super::Elaborator;
 use super::arithmetic::kink;
+use crate::arithmetic::rounding::to_f64;
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
 use crate::formula::evaluate::{Evaluator, Point};
@@ -14,7 +15,8 @@ use crate::formula::syntax::{Expression, Span};
 impl Elaborator<'_> {
     /// Refuses a constant that is infinite or NaN in double precision, as the generated code computes it.
     pub(super) fn check_finite(&self, id: Id, at: &Expression) -> Result<(), Error> {
-        match constant_value(&self.graph, id) {
+        let exact = self.graph.value(id).map(to_f64);
+        match exact.or_else(|| constant_value(&self.graph, id)) {
             Some(value) if !value.is_finite() => {
                 let value = self.text(at);
                 self.error(at, FormulaError::NotFinite { value })

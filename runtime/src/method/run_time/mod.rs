@@ -15,7 +15,7 @@ pub(crate) use schedule::{Coupled, Half, Kind, MOST, Row, Schedule, Splitting};
 
 use crate::method::{Method, Orders, ProvedFor};
 use crate::number::Coefficients;
-use crate::system::{Class, General, Separable, Unconstrained};
+use crate::system::{Class, Conservative, General, Separable};
 
 /// The coefficients of a method with s stages, each the double nearest to the exact number.
 ///
@@ -231,4 +231,6 @@ impl Method for AtRunTime {
 }
 
 // Checked when the integrator is made.
-impl<C: Unconstrained> ProvedFor<C> for AtRunTime {}
+impl<C: Conservative> ProvedFor<C> for AtRunTime {}
+
+impl ProvedFor<()> for AtRunTime {}

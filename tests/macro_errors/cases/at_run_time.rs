@@ -1,0 +1,41 @@
+//! A tableau at run time has no steps with constraints or friction.
+
+use symplectic::ensemble::Ensemble;
+use symplectic::{Integrator, RunTimeTableau, State};
+
+symplectic::hamiltonian! {
+    Rod
+    q: [x, y], p: [px, py];
+    H = (px^2 + py^2)/2 + y
+    constraints: { rod = x^2 + y^2 - 1 }
+}
+
+symplectic::hamiltonian! {
+    Skate
+    q: [x, y, a], p: [px, py, pa];
+    v: [vx, vy, va];
+    H = (px^2 + py^2 + pa^2)/2
+    nonholonomic: { edge = vx sin(a) - vy cos(a) }
+}
+
+symplectic::hamiltonian! {
+    Damped { gamma }
+    q: [x], p: [px];
+    H = px^2/2 + x^2/2
+    friction: gamma
+}
+
+fn steps(tableau: &RunTimeTableau) -> Result<(), Box<dyn std::error::Error>> {
+    let rod = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.0]);
+    let skate = State::from_arrays(0.0, [0.0; 3], [1.0, 0.0, 0.0]);
+    let damped = State::from_arrays(0.0, [1.0], [0.0]);
+    let _rod = Integrator::at_run_time(tableau, Rod, rod.clone(), 0.1)?;
+    let _rods = Ensemble::at_run_time(tableau, Rod, vec![rod], 0.1)?;
+    let _skate = Integrator::plain_at_run_time(tableau, Skate, skate, 0.1)?;
+    let _damped = Integrator::at_run_time(tableau, Damped::new(0.1), damped, 0.1)?;
+    Ok(())
+}
+
+fn main() {
+    let _used = steps;
+}
