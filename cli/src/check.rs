@@ -127,13 +127,8 @@ fn facts(tableau: &Tableau) -> String {
     };
     let report = tableau.orders();
     let orders = HamiltonianClass::ALL.map(|class| {
-        let found = report.class(class);
-        let at_least = if found.refuted_by.is_none() {
-            "≥ "
-        } else {
-            ""
-        };
-        format!("{class} {at_least}{}", found.order)
+        let order = output::order(report.class(class));
+        format!("{class} {order}")
     });
     let perturbed = match tableau.perturbed_order() {
         Some(found) => format!(", perturbed {}", found.numbers()),

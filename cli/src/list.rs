@@ -72,15 +72,7 @@ fn facts() -> Result<String, Error> {
 fn row_of_facts(entry: catalogue::Entry) -> Result<String, Error> {
     let tableau = entry.derive()?;
     let report = tableau.orders();
-    let orders = HamiltonianClass::ALL.map(|class| {
-        let found = report.class(class);
-        let at_least = if found.refuted_by.is_none() {
-            "≥ "
-        } else {
-            ""
-        };
-        format!("{at_least}{}", found.order)
-    });
+    let orders = HamiltonianClass::ALL.map(|class| output::order(report.class(class)));
     let perturbed = tableau.perturbed_order();
     let properties = tableau.properties();
     let separable = tableau.separable_properties();

@@ -9,9 +9,20 @@ use symplectic_compiler::catalogue::Entry;
 use symplectic_compiler::export::{
     self, DEFAULT_DIGITS, Language, MAX_DIGITS, TEXT_DIGITS, columns,
 };
+use symplectic_compiler::order::ClassOrder;
 use symplectic_compiler::{Error, ErrorKind, Limits, Tableau};
 
 use crate::report;
+
+/// An order, with "≥" if only a lower bound is known.
+pub(crate) fn order(found: &ClassOrder) -> String {
+    let at_least = if found.refuted_by.is_none() {
+        "≥ "
+    } else {
+        ""
+    };
+    format!("{at_least}{}", found.order)
+}
 
 /// Formats of a tableau.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -92,17 +92,17 @@ impl Reader<'_> {
             Starts::File(name) => {
                 self.refuse_needless_random(false)?;
                 if let Some(varied) = parameters::varied(self.setup).first() {
-                    let message = match varied.name.contains('[') {
-                        true => format!(
-                            "`{}` varies, but the starts are in a file, whose columns are coordinates and parameters that are numbers, \
-                             not entries of arrays: give it one value, or give the starts in this file",
-                            varied.name
-                        ),
-                        false => format!(
-                            "`{}` varies, but the starts are in a file: write its values into a column of that file",
-                            varied.name
-                        ),
+                    let rest = match varied.name.contains('[') {
+                        true => {
+                            ", whose columns are coordinates and parameters that are numbers, not entries of arrays: give it one value, or \
+                             give the starts in this file"
+                        }
+                        false => ": write its values into a column of that file",
                     };
+                    let message = format!(
+                        "`{}` varies, but the starts are in a file{rest}",
+                        varied.name
+                    );
                     return Err(self.file.error(varied.span.clone(), message));
                 }
                 self.of_table(&self.file.beside(name))?

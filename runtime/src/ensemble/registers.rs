@@ -36,9 +36,9 @@ mod tests {
 
     use super::*;
     use crate::ensemble::Ensemble;
-    use crate::method::{AtRunTime, Method, ProvedFor, RunTimeCoefficients, RunTimeTableau};
+    use crate::method::{AtRunTime, Method, ProvedFor, RunTimeTableau};
     use crate::number::registers::{Avx2, Avx512};
-    use crate::number::{Coefficient, Compensated, Plain, Scalar, Summation};
+    use crate::number::{Compensated, Plain, Scalar, Summation};
     use crate::state::State;
     use crate::system::{Masses, Separable, SeparableHamiltonian};
 
@@ -167,16 +167,7 @@ mod tests {
     #[test]
     fn run_time_tableaux_have_the_same_bits_in_all_registers() {
         fn tableau<M: Method>(_method: M) -> RunTimeTableau {
-            let list = |list: &[Coefficient]| list.iter().map(|x| x.double()).collect();
-            let matrix = |rows: &[&[Coefficient]]| rows.iter().map(|row| list(row)).collect();
-            let coefficients = RunTimeCoefficients {
-                a: matrix(M::COEFFICIENTS.a),
-                a_tilde: matrix(M::COEFFICIENTS.a_tilde),
-                b: list(M::COEFFICIENTS.b),
-                b_tilde: list(M::COEFFICIENTS.b_tilde),
-                c: list(M::COEFFICIENTS.c),
-                c_tilde: list(M::COEFFICIENTS.c_tilde),
-            };
+            let coefficients = M::COEFFICIENTS.into();
             RunTimeTableau::new(M::NAME, &coefficients, M::ORDERS).expect(M::NAME)
         }
         for tableau in [tableau(Verlet), tableau(Gauss4), tableau(Lobatto3)] {

@@ -4,7 +4,6 @@ pub mod dual;
 pub mod methods;
 pub mod systems;
 
-use symplectic::solver::Coefficient;
 use symplectic::{
     Error, Integrator, Method, ProvedFor, RunTimeCoefficients, RunTimeTableau, State, System,
     Vector,
@@ -45,16 +44,7 @@ pub fn distance<V: Vector<Scalar = f64>>(a: &State<V>, b: &State<V>) -> f64 {
 
 /// The coefficients of an emitted method as doubles.
 pub fn coefficients<M: Method>(_method: M) -> RunTimeCoefficients {
-    let list = |list: &[Coefficient]| list.iter().map(|x| x.double()).collect();
-    let matrix = |rows: &[&[Coefficient]]| rows.iter().map(|row| list(row)).collect();
-    RunTimeCoefficients {
-        a: matrix(M::COEFFICIENTS.a),
-        a_tilde: matrix(M::COEFFICIENTS.a_tilde),
-        b: list(M::COEFFICIENTS.b),
-        b_tilde: list(M::COEFFICIENTS.b_tilde),
-        c: list(M::COEFFICIENTS.c),
-        c_tilde: list(M::COEFFICIENTS.c_tilde),
-    }
+    M::COEFFICIENTS.into()
 }
 
 /// An emitted method as a tableau at run time.

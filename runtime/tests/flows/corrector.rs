@@ -123,6 +123,8 @@ fn planets_keep_their_energy() -> Result<(), Error> {
         let error = worst(pairs)?;
         assert!((error / expected - 1.0).abs() < 0.1, "{pairs:?}: {error:e}");
     }
+    let corrected = worst(Some(6))?;
+    assert!(corrected < 9e-9, "{corrected:e}");
     Ok(())
 }
 

@@ -14,7 +14,7 @@ pub use plan::{RunTimePlan, RunTimeStages};
 pub(crate) use schedule::{Coupled, Half, Kind, MOST, Row, Schedule, Splitting};
 
 use crate::method::{Method, Orders, ProvedFor};
-use crate::number::Coefficients;
+use crate::number::{Coefficient, Coefficients};
 use crate::system::{Class, Conservative, General, Separable};
 
 /// The coefficients of a method with s stages, each the double nearest to the exact number.
@@ -39,6 +39,22 @@ pub struct RunTimeCoefficients {
     pub c: Vec<f64>,
     /// `c̃_i = Σ_j ã_ij`
     pub c_tilde: Vec<f64>,
+}
+
+/// Those of an emitted method: `Midpoint::COEFFICIENTS.into()`.
+impl From<Coefficients> for RunTimeCoefficients {
+    fn from(exact: Coefficients) -> Self {
+        let doubles = |list: &[Coefficient]| list.iter().map(|x| x.double()).collect();
+        let matrix = |rows: &[&[Coefficient]]| rows.iter().map(|row| doubles(row)).collect();
+        Self {
+            a: matrix(exact.a),
+            a_tilde: matrix(exact.a_tilde),
+            b: doubles(exact.b),
+            b_tilde: doubles(exact.b_tilde),
+            c: doubles(exact.c),
+            c_tilde: doubles(exact.c_tilde),
+        }
+    }
 }
 
 /// A symplectic partitioned Runge–Kutta method that is known only at run time: derived by the program, or read from a file.
@@ -233,4 +249,5 @@ impl Method for AtRunTime {
 // Checked when the integrator is made.
 impl<C: Conservative> ProvedFor<C> for AtRunTime {}
 
+// Required of every method.
 impl ProvedFor<()> for AtRunTime {}

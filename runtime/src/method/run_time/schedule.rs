@@ -317,7 +317,6 @@ fn extrapolation(evaluations: &[Evaluation]) -> Vec<Vec<f64>> {
 mod tests {
     use super::*;
     use crate::method::Method;
-    use crate::number::Coefficient;
 
     symplectic::tableau! {
         Verlet { basis: polynomial(2), nodes: lobatto(2) }
@@ -326,17 +325,7 @@ mod tests {
     }
 
     fn coefficients<M: Method>(_method: M) -> RunTimeCoefficients {
-        let list = |list: &[Coefficient]| list.iter().map(|x| x.double()).collect();
-        let matrix = |rows: &[&[Coefficient]]| rows.iter().map(|r| list(r)).collect();
-        let from = M::COEFFICIENTS;
-        RunTimeCoefficients {
-            a: matrix(from.a),
-            a_tilde: matrix(from.a_tilde),
-            b: list(from.b),
-            b_tilde: list(from.b_tilde),
-            c: list(from.c),
-            c_tilde: list(from.c_tilde),
-        }
+        M::COEFFICIENTS.into()
     }
 
     fn splitting<M: Method>(method: M) -> Splitting {

@@ -49,18 +49,7 @@ symplectic::hamiltonian! {
 
 /// A method as one that is known only when the program runs.
 fn at_run_time<M: Method>() -> Result<RunTimeTableau, TableauError> {
-    let numbers = |list: &[symplectic::solver::Coefficient]| -> Vec<f64> {
-        list.iter().map(|number| number.double()).collect()
-    };
-    let k = M::COEFFICIENTS;
-    let coefficients = RunTimeCoefficients {
-        a: k.a.iter().map(|row| numbers(row)).collect(),
-        a_tilde: k.a_tilde.iter().map(|row| numbers(row)).collect(),
-        b: numbers(k.b),
-        b_tilde: numbers(k.b_tilde),
-        c: numbers(k.c),
-        c_tilde: numbers(k.c_tilde),
-    };
+    let coefficients: RunTimeCoefficients = M::COEFFICIENTS.into();
     RunTimeTableau::new(M::NAME, &coefficients, M::ORDERS)
 }
 
