@@ -264,7 +264,9 @@ impl<W: Write + Send> Parquet<W> {
     pub fn finish(self) -> io::Result<W> {
         match self.file {
             Stage::Broken => Err(broken()),
-            Stage::Empty(_) => Err(invalid("a table without columns".to_string())),
+            Stage::Empty(_) => Err(invalid(
+                "no group of rows was written: a file needs the columns of one".to_string(),
+            )),
             Stage::Open { mut writer, .. } => {
                 for note in self.notes {
                     writer.append_key_value_metadata(note);

@@ -43,8 +43,8 @@ pub enum Error {
     /// The iteration for the coupled stages stagnates far above rounding errors, because evaluations are noisy.
     #[error(
         "step {step} of size {step_size} at time {time}: after {iterations} iterations the change of the stages stagnates at {residual:e}; \
-         the velocity or the force has larger errors than rounding, or jumps: evaluate it more precisely, or take `Plain` sums and set a \
-         tolerance above that change",
+         the velocity or the force has larger errors than rounding, or jumps: evaluate it more precisely, take a smaller step, or take \
+         `Plain` sums and set a tolerance above that change",
         time = Short(*.time),
         step_size = Short(*.step_size)
     )]

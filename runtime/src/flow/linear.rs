@@ -76,8 +76,8 @@ impl Linear {
     ///
     /// # Errors
     ///
-    /// Those of [`new`](Self::new); [`Error::FlowParameter`] for a mass that is not finite and positive, and a stiffness that is not
-    /// symmetric.
+    /// Those of [`new`](Self::new); [`Error::FlowParameter`] for a mass that is not finite and positive, and for a stiffness in which two
+    /// mirrored entries differ by more than 10⁻¹² of the largest entry.
     pub fn oscillators(masses: &[f64], stiffness: &DMatrix<f64>) -> Result<Self, Error> {
         let n = masses.len();
         check_count(
@@ -89,11 +89,12 @@ impl Linear {
         for (index, &mass) in masses.iter().enumerate() {
             check_parameter("mass", index, mass, false)?;
         }
+        // Rounding errors are relative to the largest entry; entries that are not finite have their own error.
+        let rounding = 1e-12 * stiffness.amax();
         for i in 0..n {
             for j in 0..i {
                 let (value, mirrored) = (stiffness[(i, j)], stiffness[(j, i)]);
-                // Entries that are not finite have their own error.
-                if (value - mirrored).abs() > 1e-12 * value.abs().max(mirrored.abs()) {
+                if (value - mirrored).abs() > rounding {
                     let (what, index) = ("stiffness", i * n + j);
                     let range =
                         "equal to the entry with exchanged indices: the matrix is symmetric";

@@ -56,6 +56,9 @@ fn a_stiffness_that_is_not_symmetric_is_refused() {
         )
     };
     assert!(refused.is_some_and(named));
+    // What rounding leaves beside zeros is none of the matrix.
+    let rounded = DMatrix::from_row_slice(2, 2, &[1.0, 1e-17, -3e-17, 1.0]);
+    assert!(Linear::oscillators(&[1.0; 2], &rounded).is_ok());
 }
 
 /// A saddle with masses, the product of its two directions, and frequencies far apart.
