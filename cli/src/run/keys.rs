@@ -21,6 +21,28 @@ pub(super) fn key_of(text: &str, span: &Range<usize>) -> Option<Range<usize>> {
     found.next().map(|entry| entry.key.clone())
 }
 
+/// The keys of a file that are not tables.
+const OF_FILE: [&str; 10] = [
+    "system",
+    "method",
+    "step_size",
+    "start_time",
+    "end",
+    "times",
+    "section",
+    "sums",
+    "accept_lower_order",
+    "random",
+];
+
+/// What to do with an unknown key in a table if it is one of the file: in TOML every key below `[name]` is in that table.
+pub(super) fn misplaced(name: &str) -> &'static str {
+    match OF_FILE.contains(&name) {
+        true => "; this key is one of the file: write it above the first `[…]`",
+        false => "",
+    }
+}
+
 /// A message of the deserializer about the value, or the key, at `span` in plain words.
 pub(super) fn explained(text: &str, span: &Range<usize>, message: &str) -> String {
     if let Some(name) = quoted(message, "unknown field `") {
@@ -29,7 +51,8 @@ pub(super) fn explained(text: &str, span: &Range<usize>, message: &str) -> Strin
         return match known {
             Some(known) => {
                 let known = known.replace("` or `", "`, `");
-                format!("there is no key `{name}`; known here: {known}")
+                let misplaced = misplaced(name);
+                format!("there is no key `{name}`; known here: {known}{misplaced}")
             }
             None => format!("there is no key `{name}`"),
         };
@@ -41,7 +64,14 @@ pub(super) fn explained(text: &str, span: &Range<usize>, message: &str) -> Strin
     if let Some(key) = quoted(message, "missing field `") {
         let table = entries.iter().find(|entry| entry.value.span() == *span);
         let table = table.map_or(String::new(), |table| format!("{}.", table.name));
-        return format!("the key `{table}{key}` is missing");
+        let in_a_table = |entry: &&Entry<'_>| entry.name.ends_with(&format!(".{key}"));
+        let misplaced = match entries.iter().find(in_a_table) {
+            Some(Entry { name, .. }) => {
+                format!(" (here it is `{name}`){}", misplaced(key))
+            }
+            None => String::new(),
+        };
+        return format!("the key `{table}{key}` is missing{misplaced}");
     }
     let around = |value: Range<usize>| value.start <= span.start && span.end <= value.end;
     let entry = entries

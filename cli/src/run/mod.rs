@@ -111,6 +111,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let (mut system, structure) = read_system(&file, &setup)?;
     let method = Method::read(&file, &setup, arguments.max_stages)?;
     let times = times(&file, &setup)?;
+    parameters::check_names(&file, &setup, &system)?;
     let reader = Reader {
         file: &file,
         system: &system,

@@ -9,6 +9,7 @@ use symplectic_compiler::formula::{Parameter, Shape, System};
 use toml::Value;
 
 use super::counted;
+use super::keys::misplaced;
 use super::setup::{self, File, Setup};
 use super::values::{Entry, Values};
 
@@ -47,6 +48,22 @@ pub(super) fn varied(setup: &Setup) -> Vec<Varied<'_>> {
     all
 }
 
+/// Checks that all names in `[parameters]` are those of the formula.
+pub(super) fn check_names(file: &File<'_>, setup: &Setup, system: &System) -> Result<(), Error> {
+    let names: Vec<&str> = system.parameters.iter().map(|p| p.name.as_str()).collect();
+    let mut unknown = setup.parameters.iter();
+    let Some((name, value)) = unknown.find(|(name, _)| !names.contains(&name.as_str())) else {
+        return Ok(());
+    };
+    let there = match names.as_slice() {
+        [] => "the formula has none".to_owned(),
+        names => format!("the parameters are {}", names.join(", ")),
+    };
+    let misplaced = misplaced(name);
+    let message = format!("there is no parameter `{name}`; {there}{misplaced}");
+    Err(file.error_at_key(value.span(), message))
+}
+
 /// Reads all parameters; their lengths determine the lengths that the formula leaves open. `varied` are the names of those that vary
 /// between trajectories.
 pub(super) fn read(
@@ -65,21 +82,6 @@ pub(super) fn read(
         pairs: vec![Vec::new(); system.parameters.len()],
         ..Values::default()
     };
-    let known = |name: &String| {
-        system
-            .parameters
-            .iter()
-            .any(|parameter| parameter.name == *name)
-    };
-    if let Some((name, value)) = setup.parameters.iter().find(|(name, _)| !known(name)) {
-        let names: Vec<&str> = system.parameters.iter().map(|p| p.name.as_str()).collect();
-        let there = match names.as_slice() {
-            [] => "the formula has none".to_owned(),
-            names => format!("the parameters are {}", names.join(", ")),
-        };
-        let message = format!("there is no parameter `{name}`; {there}");
-        return Err(file.error_at_key(value.span(), message));
-    }
     // Lists of pairs first, because they may determine the lengths of arrays.
     for (place, Parameter { name, shape }) in system.parameters.iter().enumerate() {
         if let Shape::Pairs = shape {

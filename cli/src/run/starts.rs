@@ -12,6 +12,7 @@ use symplectic_compiler::formula::{Layout, System};
 use toml::{Spanned, Value};
 
 use super::counted;
+use super::keys::misplaced;
 use super::memory;
 use super::parameters::{self, Varied};
 use super::random;
@@ -210,8 +211,9 @@ impl Reader<'_> {
                 (None, Some(half)) => self.leaves(name, half, value.get_ref(), coordinates),
                 (None, None) => {
                     let message = format!(
-                        "there is no coordinate `{name}`; the coordinates are {}",
-                        coordinates.listed()
+                        "there is no coordinate `{name}`; the coordinates are {}{}",
+                        coordinates.listed(),
+                        misplaced(name)
                     );
                     return Err(self.file.error_at_key(value.span(), message));
                 }

@@ -283,6 +283,8 @@ fn wrong_formulas_are_refused_at_their_place() {
         pendulum("pa^2/2 + a.cos()"),
         pendulum("pa^2/2 + e^a"),
         pendulum("pa^2/2 + foo"),
+        refused("P q: [x], p: [px]; let b = c/2; let c = 3; H = px^2 + b x^2"),
+        refused("P q: [x], p: [px]; let b = c(2); let c(y) = y^2; H = px^2 + b x^2"),
         refused("P q: [3], p: [3]; let u(i, j) = q[i] q[j]; H = |p|^2/2 + u(1/2, 1)"),
         refused("P q: [3], p: [3]; let u(i, j) = q[i] q[j]; H = |p|^2/2 + u(0, 3)"),
     ];

@@ -94,6 +94,29 @@ fn wrong_files_are_refused_at_their_place() {
             "the key `step_size` is missing",
         ),
         (
+            replaced("step_size = 0.05", "").replace("[starts]", "[starts]\n    step_size = 0.05"),
+            "1:1",
+            "the key `step_size` is missing (here it is `starts.step_size`); this key is one of the file: write it above the first `[…]`",
+        ),
+        (
+            replaced("pa = 0.5", "pa = 0.5\n    random = { seed = 1, count = 2 }"),
+            "10:5",
+            "the coordinates are a, pa; this key is one of the file: write it above",
+        ),
+        (
+            PENDULUM.to_owned() + "\n    end = 2.0",
+            "13:5",
+            "there is no key `end`; known here: `file`; this key is one of the file: write it above",
+        ),
+        (
+            replaced(
+                "parameters.g = 4",
+                "parameters.g = 4\nparameters.random = { seed = 1, count = 2 }",
+            ),
+            "7:",
+            "there is no parameter `random`; the parameters are g; this key is one of the file",
+        ),
+        (
             replaced("end =", "sums = 'exact'\nend ="),
             "5:",
             "unknown sums `exact`, expected `compensated` or `plain`",

@@ -223,7 +223,9 @@ impl Elaborator<'_> {
         let functions = functions.chain(["sqrt"]).chain(VECTOR_FUNCTIONS);
         let candidates: Vec<&str> = known.iter().copied().chain(functions).collect();
         let meant = suggestion(name, &candidates);
-        if arguments && meant.is_none_or(|meant| !known.contains(&meant)) {
+        let mut abbreviations = self.definition.abbreviations.iter();
+        let is_abbreviation = abbreviations.any(|abbreviation| abbreviation.name.text == name);
+        if !is_abbreviation && arguments && meant.is_none_or(|meant| !known.contains(&meant)) {
             let name = Name {
                 text: name.to_owned(),
                 span: at.span.clone(),
@@ -234,9 +236,13 @@ impl Elaborator<'_> {
             true => Some("exp(x)"),
             false => meant,
         };
+        let known = known.join(", ");
         let known = match meant {
-            Some(meant) => format!("{}; did you mean `{meant}`?", known.join(", ")),
-            None => known.join(", "),
+            _ if is_abbreviation => {
+                format!("{known}; its definition, `let {name}`, has to come first")
+            }
+            Some(meant) => format!("{known}; did you mean `{meant}`?"),
+            None => known,
         };
         self.error(
             at,
