@@ -37,6 +37,8 @@ fn the_ends_of_a_step_are_not_solved_for() {
 fn one_matrix_is_written_once() {
     let code = emitted(&derived("polynomial(2)", "gauss(2)"), "Gauss2");
     expect_file!["emitted/gauss_2.rs"].assert_eq(&code);
+    // Short enough to read.
+    assert!(code.lines().count() <= 300);
 }
 
 /// Three kicks and drifts a step after the merging, and a force that is carried to the next.

@@ -4,6 +4,9 @@ use core::marker::PhantomData;
 
 #[cfg(feature = "alloc")]
 use crate::method::LaneStep;
+#[cfg(feature = "alloc")]
+#[cfg(feature = "alloc")]
+use crate::method::tableau::eliminates;
 use crate::method::{
     Failure, Inside, Interpolation, Outcome, Plan, Solver, StageTableau, Step, StepStatistics,
     Stopping, WarmStart,
@@ -42,7 +45,7 @@ impl<P: StageTableau> Plan for Coupled<P> {
         N: Solver<V, S>,
     {
         // If momenta are eliminated, the velocities' memory holds the slopes of the positions, one for each force.
-        let slopes_fit = P::SECOND_ORDER.is_none() || P::POSITIONS.count == P::MOMENTA.count;
+        let slopes_fit = !eliminates::<P>() || P::POSITIONS.count == P::MOMENTA.count;
         slopes_fit && N::goes_in_lanes()
     }
 

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use crate::method::StagePlan;
 use crate::number::Vector;
-use crate::system::SystemLanes;
+use crate::system::{Class, SystemLanes};
 
 /// The coupled stages of a plan as matrices, for solvers that treat all stages at once.
 ///
@@ -32,7 +32,7 @@ pub trait StageTableau: StagePlan {
     const POSITIONS: HalfTableau;
     /// Momenta, and the velocities there.
     const MOMENTA: HalfTableau;
-    /// For systems with the velocity `M⁻¹p`, M constant; `None` if the method is not symplectic for separable systems.
+    /// For separable systems with the velocity `M⁻¹p`, M constant; `None` if the method is not symplectic for separable systems.
     const SECOND_ORDER: Option<SecondOrderTableau>;
 
     /// How the linear systems of a Newton iteration decouple; `None` if they do not, or if this is not known.
@@ -101,8 +101,12 @@ pub struct SecondOrderTableau {
     pub columns: &'static [&'static [f64]],
     /// `ν_ik b̃_k` by its columns: the factors of the forces themselves, with `h²` in front of the sum.
     pub of_forces: &'static [&'static [f64]],
-    /// `1 − c_k`
-    pub rest: &'static [f64],
+}
+
+/// Whether the momenta of the stages of this method are eliminated on systems with a [`SecondOrderTableau`].
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) const fn eliminates<P: StageTableau>() -> bool {
+    P::SECOND_ORDER.is_some() && P::Class::SEPARABLE
 }
 
 /// The columns up to the last nonzero one: those after it add nothing. If the evaluation of such a column is not finite, this shows in the

@@ -209,13 +209,15 @@ fn add_products_here<R: Summation, T: Scalar>(
     }
 }
 
-/// `vectors_i = Σ_j matrix_ij vectors_j` for the vectors with these `indices`: starting values from the previous step.
+/// `vectors_i = Σ_j matrix_ij vectors_j` for the vectors with these `indices`: starting values from the previous step. The matrix is given
+/// by its columns.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub fn transform<V: Vector, const N: usize>(
     vectors: &mut [V],
     indices: [usize; N],
-    matrix: [[f64; N]; N],
+    columns: &[&[f64]],
 ) {
+    let matrix: [[f64; N]; N] = array([0.0; N], |i| array(0.0, |j| columns[j][i]));
     let Ok(vectors) = vectors.get_disjoint_mut(indices) else {
         return;
     };

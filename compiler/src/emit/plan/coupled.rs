@@ -100,13 +100,9 @@ impl Stored<'_, '_> {
             for (kind, used) in [(Node::Velocity(0), true), (Node::Force(0), general)] {
                 let used = used && !self.coupled_of_kind(kind).is_empty();
                 if let Some(matrix) = used.then(|| self.extrapolation(kind)).flatten() {
-                    let rows: Vec<_> = matrix.iter().map(|row| literal::array(row)).collect();
-                    let count = literal::count(rows.len());
-                    constants.push(constant(
-                        extrapolation_name(kind),
-                        quote!([f64; #count]),
-                        &rows,
-                    ));
+                    let name = extrapolation_name(kind);
+                    let columns = self.extrapolation_columns(kind, &matrix);
+                    constants.push(quote!(const #name: &'static [&'static [f64]] = #columns;));
                 }
             }
         }
@@ -299,6 +295,23 @@ impl Stored<'_, '_> {
         let numbers = nodes.iter().map(|&node| literal::count(index(node)));
         let (array, name) = (evaluation_name(kind), extrapolation_name(kind));
         Some(quote!(emitted::transform(&mut stages.#array, [#(#numbers),*], Self::#name);))
+    }
+
+    /// The columns of the matrix that extrapolates the increments of one kind to the next step. If all evaluations are coupled, they are also
+    /// in the matrices for the stages in lanes.
+    fn extrapolation_columns(&self, kind: Node, rows: &[Vec<f64>]) -> TokenStream {
+        if rows.len() == self.evaluations_of_kind(kind).len() {
+            let half = literal::identifier(match kind {
+                Node::Force(_) => "POSITIONS",
+                _ => "MOMENTA",
+            });
+            return quote!(<Self as emitted::StageTableau>::#half.extrapolation);
+        }
+        let columns = (0..rows.len()).map(|j| {
+            let column: Vec<f64> = rows.iter().map(|row| row[j]).collect();
+            literal::array(&column)
+        });
+        quote!(&[#(&#columns),*])
     }
 
     /// The matrix that extrapolates the increments of one kind to the next step, if there is one.

@@ -256,18 +256,13 @@ impl Matrices<'_, '_, '_, '_> {
             let weight = graph.forces[k].weight.to_f64();
             fill(&|i| matrix[i][k] * weight)
         });
-        let (times, rest) = (fill(&|i| nodes[i]), fill(&|i| 1.0 - nodes[i]));
-        let some = quote! {
+        let nodes = fill(&|i| nodes[i]);
+        quote! {
             ::core::option::Option::Some(emitted::SecondOrderTableau {
-                nodes: &#times,
+                nodes: &#nodes,
                 columns: &[#(&#columns),*],
                 of_forces: &[#(&#of_forces),*],
-                rest: &#rest,
             })
-        };
-        match self.separable {
-            Some(_) => quote!(if K::SEPARABLE { #some } else { #none }),
-            None => some,
         }
     }
 }

@@ -120,11 +120,10 @@ const _: () = {
         ];
         const P_0: [emitted::Coefficient; 2] = Self::Q_0;
         const P_1: [emitted::Coefficient; 2] = Self::Q_1;
-        const E: [[f64; 2]; 2] = [
-            [(-0.7320508075688773), 1.7320508075688772],
-            [(-1.7320508075688772), 2.732050807568877],
-        ];
-        const E_TILDE: [[f64; 2]; 2] = Self::E;
+        const E: &'static [&'static [f64]] = <Self as emitted::StageTableau>::MOMENTA
+            .extrapolation;
+        const E_TILDE: &'static [&'static [f64]] = <Self as emitted::StageTableau>::POSITIONS
+            .extrapolation;
     }
     #[allow(unused_variables)]
     impl<K: emitted::Class> emitted::StagePlan for Gauss2Plan<K> {
@@ -260,22 +259,17 @@ const _: () = {
             }),
         };
         const MOMENTA: emitted::HalfTableau = Self::POSITIONS;
-        const SECOND_ORDER: ::core::option::Option<emitted::SecondOrderTableau> = if K::SEPARABLE {
-            ::core::option::Option::Some(emitted::SecondOrderTableau {
-                nodes: &[0.21132486540518713, 0.7886751345948129],
-                columns: &[
-                    &[0.08333333333333326, 0.5386751345948129],
-                    &[(-0.038675134594812866), 0.08333333333333326],
-                ],
-                of_forces: &[
-                    &[0.04166666666666663, 0.26933756729740643],
-                    &[(-0.019337567297406433), 0.04166666666666663],
-                ],
-                rest: &[0.7886751345948129, 0.21132486540518713],
-            })
-        } else {
-            ::core::option::Option::None
-        };
+        const SECOND_ORDER: ::core::option::Option<emitted::SecondOrderTableau> = ::core::option::Option::Some(emitted::SecondOrderTableau {
+            nodes: &[0.21132486540518713, 0.7886751345948129],
+            columns: &[
+                &[0.08333333333333326, 0.5386751345948129],
+                &[(-0.038675134594812866), 0.08333333333333326],
+            ],
+            of_forces: &[
+                &[0.04166666666666663, 0.26933756729740643],
+                &[(-0.019337567297406433), 0.04166666666666663],
+            ],
+        });
         const DECOUPLING: ::core::option::Option<emitted::Decoupling> = if K::SEPARABLE {
             ::core::option::Option::Some(emitted::Decoupling {
                 blocks: &[(0.041666666666666664, 0.07216878364870322)],

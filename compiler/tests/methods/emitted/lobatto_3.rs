@@ -202,12 +202,9 @@ const _: () = {
             emitted::exact(1.0),
             emitted::exact(1.25),
         ];
-        const E: [[f64; 3]; 3] = [
-            [0.0, 0.0, 1.0],
-            [4.0, (-3.0), 12.0],
-            [3.0, (-2.0), 6.0],
-        ];
-        const E_TILDE: [[f64; 2]; 2] = [[(-1.0), 0.5], [(-8.0), 3.0]];
+        const E: &'static [&'static [f64]] = <Self as emitted::StageTableau>::MOMENTA
+            .extrapolation;
+        const E_TILDE: &'static [&'static [f64]] = &[&[(-1.0), (-8.0)], &[0.5, 3.0]];
     }
     #[allow(unused_variables)]
     impl emitted::StagePlan for Lobatto3General {
@@ -457,11 +454,8 @@ const _: () = {
             emitted::exact(1.0),
             emitted::exact(1.25),
         ];
-        const E: [[f64; 3]; 3] = [
-            [0.0, 0.0, 1.0],
-            [4.0, (-3.0), 12.0],
-            [3.0, (-2.0), 6.0],
-        ];
+        const E: &'static [&'static [f64]] = <Self as emitted::StageTableau>::MOMENTA
+            .extrapolation;
     }
     #[allow(unused_variables)]
     impl emitted::StagePlan for Lobatto3Separable {
@@ -662,7 +656,6 @@ const _: () = {
                 &[0.0, 0.041666666666666664, 0.3333333333333333, 0.3333333333333333],
                 &[0.0, 0.0, 0.0, 0.0],
             ],
-            rest: &[1.0, 0.5, 0.0, 0.0],
         });
         const DECOUPLING: ::core::option::Option<emitted::Decoupling> = ::core::option::Option::Some(emitted::Decoupling {
             blocks: &[(0.0, 0.0), (0.0, 0.0), (0.041666666666666664, 0.0)],

@@ -6,14 +6,13 @@ use super::by_halves::{self, GaussSeidel, Jacobi};
 use super::second_order::{self, SecondOrder};
 use super::settle::settle;
 use super::{BasePlusSum, Sums, largest, relax, scalar, transform};
-use crate::method::tableau::Columns;
+use crate::method::tableau::{Columns, eliminates};
 use crate::method::{
     HalfTableau, LaneOutcome, LaneStages, Outcome, StageTableau, Step, StepInLanes,
 };
 use crate::number::linear_combination::{TermsOfComponents, scale, shortest, totals_by};
 use crate::number::registers::Work;
 use crate::number::{Coefficient, Lanes, Scalar, Summation, Vector, copy};
-use crate::solver::nystrom::eliminates;
 use crate::solver::simd::sweeps::are_at_one_time;
 use crate::system::{Class, System};
 

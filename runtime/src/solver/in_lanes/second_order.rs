@@ -175,7 +175,8 @@ where
             settled,
             ..
         } = &mut self.0;
-        let (h, count, rest) = (step.size, P::POSITIONS.count, tableau::<P>().rest);
+        let (h, count) = (step.size, P::POSITIONS.count);
+        let rest = |stage: usize| 1.0 - tableau::<P>().nodes[stage];
         let (forces, slopes) = (&settled.force, slopes::<S, W>(settled));
         let start = match (S::MASSES.are_unit(), settled.start.first()) {
             (false, Some(start)) => start.as_slice(),
@@ -193,7 +194,7 @@ where
             let (q, q_low) = (q.as_mut_slice(), q_low.as_mut_slice());
             for k in 0..n.min(q.len()) {
                 let sum = sum_of_products(None, count, |stage| {
-                    (scalar::<W>(rest[stage]), slopes[stage].as_slice()[k])
+                    (scalar::<W>(rest(stage)), slopes[stage].as_slice()[k])
                 });
                 let parts = [size * sum, size * start[k]];
                 let low = low[k] + size * q[k];
@@ -211,7 +212,7 @@ where
                 k,
             };
             p[k] = add::<Plain, _>(step.p.as_slice()[k], zero, count, kicks).0;
-            let weight = |stage: usize| rest[stage] * weight(stage);
+            let weight = |stage: usize| rest(stage) * weight(stage);
             let terms = slopes;
             let mean = add::<Plain, _>(start[k], zero, count, Weighted { weight, terms, k }).0;
             q[k] = size.fused(mean, step.q.as_slice()[k]);

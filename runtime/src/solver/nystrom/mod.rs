@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 
 pub use self::stages::NystromStages;
 use crate::error::Quantity;
-use crate::method::tableau::Columns;
+use crate::method::tableau::{Columns, eliminates};
 use crate::method::{
     EvaluationCounts, Failure, Inside, Outcome, SecondOrderTableau, Solver, StageTableau, Step,
     StepStatistics, Stopping, WarmStart,
@@ -24,7 +24,7 @@ use crate::solver::simd::sums::{
     self, StageValue, Sums, entry, extrapolate, scale_of, shortest, total, values,
 };
 use crate::solver::simd::sweeps::{ByLanes, take};
-use crate::system::{Class, System, SystemInLanes, SystemLanes};
+use crate::system::{System, SystemInLanes, SystemLanes};
 
 /// Takes a step of a second-order system `q'' = M⁻¹ f(t, q)`, whose velocity `M⁻¹ p` is linear in the momentum. Only the positions are
 /// iterated, with the coefficients of a [`SecondOrderTableau`]. Methods without such coefficients, and systems that are not
@@ -115,7 +115,7 @@ fn compensated_result<P, R, V, S>(
         // Usually smaller than the velocity by a factor of the step size, so its rounding errors are like those of the increments.
         let sum = sum_of_products(None, P::POSITIONS.count, |stage| {
             let slope = slopes.as_ref()[stage / P::Lanes::WIDTH][k];
-            (tableau::<P>().rest[stage], lane_of(slope, stage))
+            (1.0 - tableau::<P>().nodes[stage], lane_of(slope, stage))
         });
         let parts = [sum, start[k]];
         (q[k], q_low[k]) = add::<R, f64>(base[k], low[k] + h * q[k], 2, |part| h * parts[part]);
@@ -146,7 +146,8 @@ fn plain_result<P, V, S>(
     let (weights, rests) = (weights.as_mut(), rests.as_mut());
     for group in 0..weights.len() {
         weights[group] = lanes::<P::Lanes>(P::POSITIONS.weights, group) * h;
-        rests[group] = lanes::<P::Lanes>(tableau::<P>().rest, group) * weights[group];
+        let rest = P::Lanes::from_f64(1.0) - lanes(tableau::<P>().nodes, group);
+        rests[group] = rest * weights[group];
     }
     let (q, p) = (&mut q.as_mut_slice()[..n], &mut p.as_mut_slice()[..n]);
     let (q_base, p_base) = (&step.q.as_slice()[..n], &step.p.as_slice()[..n]);
@@ -305,12 +306,6 @@ impl<P: StageTableau, R: Summation> StageValue<P::Lanes> for Position<'_, P, R> 
     }
 }
 
-/// Whether the momenta of the stages of this method are eliminated.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) const fn eliminates<P: StageTableau>() -> bool {
-    P::SECOND_ORDER.is_some() && P::Class::SEPARABLE
-}
-
 /// The coefficients of a method that [`eliminates`] the momenta. They are constants, so that the compiler unrolls sums over stages.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) const fn tableau<P: StageTableau>() -> SecondOrderTableau {
@@ -320,7 +315,6 @@ pub(crate) const fn tableau<P: StageTableau>() -> SecondOrderTableau {
             nodes: &[],
             columns: &[],
             of_forces: &[],
-            rest: &[],
         },
     }
 }
