@@ -15,7 +15,7 @@ pub(super) struct Facts<'a> {
     pub(super) step_size: f64,
     /// `compensated` or `plain`.
     pub(super) sums: &'static str,
-    pub(super) solver: &'static str,
+    pub(super) solver: String,
     /// Tolerance of the iteration; 0 is rounding.
     pub(super) tolerance: f64,
 }

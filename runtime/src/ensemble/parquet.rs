@@ -152,7 +152,7 @@ impl<W: Write + Send> Parquet<W> {
         self.note("orders", &format!("{:?}", facts.orders));
         self.note("step_size", &format!("{:?}", facts.step_size));
         self.note("sums", facts.sums);
-        self.note("solver", facts.solver);
+        self.note("solver", &facts.solver);
         self.note("tolerance", &format!("{:?}", facts.tolerance));
         self.note("version", env!("CARGO_PKG_VERSION"));
     }

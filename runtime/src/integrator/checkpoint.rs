@@ -288,7 +288,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
                 .ok_or(CheckpointError::Scalar)?
                 .to_string(),
             sums: sums.to_string(),
-            solver: N::name().to_string(),
+            solver: N::name(),
             dimension: self.step_memory.state.q.dimension(),
             words: String::new(),
             checksum: String::new(),

@@ -1,5 +1,7 @@
 //! How coupled stages are found.
 
+#[cfg(feature = "alloc")]
+use alloc::string::String;
 use core::fmt::Debug;
 
 use crate::method::{
@@ -21,9 +23,11 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     /// Whether a new integrator tests if the velocity is [linear](Step::linear_velocity) in the momentum.
     const TRIES_LINEARITY: bool = false;
 
-    /// Its name in [checkpoints](crate::Checkpoint).
-    fn name() -> &'static str {
-        core::any::type_name::<Self>()
+    /// Its name in [checkpoints](crate::Checkpoint): by default that of the type without paths, such as `Newton<Dense<Differences>>`.
+    #[cfg(feature = "alloc")]
+    #[must_use]
+    fn name() -> String {
+        without_paths(core::any::type_name::<Self>())
     }
 
     /// Its memory for one plan, allocated once and used for every step.
@@ -115,4 +119,27 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     /// Adds to `q` and `p` their deviations from the straight line between the ends of the last step. These come from the
     /// [polynomials](crate::solver::HalfTableau::polynomial) through the evaluations in `memory`.
     fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V);
+}
+
+/// A type without the modules before its names: a checkpoint does not depend on where a type is defined.
+#[cfg(feature = "alloc")]
+fn without_paths(name: &str) -> String {
+    let words = name.split_inclusive([' ', ',', '<', '>', '(', ')', '[', ']', ';', '&']);
+    words
+        .map(|word| word.rsplit("::").next().unwrap_or(word))
+        .collect()
+}
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests {
+    use super::without_paths;
+
+    #[test]
+    fn names_of_solvers_have_no_paths() {
+        let name = "a::b::Newton<a::c::Banded<3, a::d::Differences>, (u8, x::Y)>";
+        assert_eq!(
+            without_paths(name),
+            "Newton<Banded<3, Differences>, (u8, Y)>"
+        );
+    }
 }

@@ -3,6 +3,7 @@
 
 use crate::common::methods::{Gauss3, Gauss8, Lobatto3, StoermerVerlet};
 use crate::common::systems::Kepler;
+use proptest::prelude::*;
 use symplectic::emitted::{Bonds, Chain};
 use symplectic::nalgebra::{DVector, SVector};
 use symplectic::solver::{Banded, Differences, Newton, Solver};
@@ -42,14 +43,21 @@ impl Bonds for Beta {
 /// Steps before runs are saved, from one to the next: any.
 const BREAKS: [u64; 6] = [1, 3, 2, 17, 1, 40];
 
-/// A run that is saved and restored, and one that is cloned, at every break, beside the one that goes on.
 fn check<M: Method, S: System<V> + Copy, V: Vector, R: Summation, N: Solver<V, S>>(
+    made: impl Fn() -> Result<Integrator<M, S, V, R, N>, Error>,
+) -> Result<(), Error> {
+    check_at(&BREAKS, made)
+}
+
+/// A run that is saved and restored, and one that is cloned, after each of these numbers of steps, beside the one that goes on.
+fn check_at<M: Method, S: System<V> + Copy, V: Vector, R: Summation, N: Solver<V, S>>(
+    breaks: &[u64],
     made: impl Fn() -> Result<Integrator<M, S, V, R, N>, Error>,
 ) -> Result<(), Error> {
     let mut whole = made()?;
     let mut cloned = made()?;
     let mut saved = made()?.checkpoint().expect("doubles or singles");
-    for steps in BREAKS {
+    for &steps in breaks {
         let mut resumed = made()?;
         resumed.restore(&saved).expect("the same run");
         let mut copy = cloned.clone();
@@ -79,6 +87,28 @@ fn kepler() -> State<SVector<f64, 2>> {
 fn waves(n: usize) -> State<DVector<f64>> {
     let wave = |phase: f64| DVector::from_fn(n, |i, _| 0.3 * (phase + 1.7 * i as f64).sin());
     State::new(0.0, wave(0.1), wave(1.3))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn runs_restart_at_random_steps(
+        breaks in proptest::collection::vec(0_u64..60, 1..6),
+        size in 0.01..0.3,
+    ) {
+        let kepler = || (HeavyKepler { mass: 1.3 }, kepler());
+        let result = (|| {
+            let made = |(system, start)| Integrator::new(StoermerVerlet, system, start, size);
+            check_at(&breaks, || made(kepler()))?;
+            let made = |(system, start)| Integrator::new(Gauss8, system, start, size);
+            check_at(&breaks, || made(kepler()))?;
+            check_at(&breaks, || Ok(made(kepler())?.by_newton()))?;
+            let made = |(system, start)| Integrator::plain(Lobatto3, system, start, size);
+            check_at(&breaks, || made(kepler()))
+        })();
+        prop_assert_eq!(result, Ok(()));
+    }
 }
 
 /// Long vectors: a ring of particles.
@@ -180,7 +210,75 @@ fn other_numbers_are_refused() -> Result<(), Error> {
 
 #[cfg(feature = "serde")]
 mod files {
+    use std::path::Path;
+    use std::process::Command;
+    use std::time::Duration;
+    use std::{env, fs, thread};
+
     use super::*;
+
+    /// The variable that names the checkpoint of the process that is killed.
+    const FILE: &str = "SYMPLECTIC_TEST_CHECKPOINT";
+
+    /// A process that saves its run after every hundred steps is killed, three times, at any of them. The last one goes on to the bits of a
+    /// run that was never interrupted.
+    #[test]
+    fn a_killed_process_is_continued() -> Result<(), Error> {
+        const NAME: &str = "restart::files::a_killed_process_is_continued";
+        let made = || Integrator::new(Gauss8, HeavyKepler { mass: 1.3 }, kepler(), 0.1);
+        let read = |path: &Path| -> Option<Checkpoint> {
+            serde_json::from_str(&fs::read_to_string(path).ok()?).ok()
+        };
+        if let Some(path) = env::var_os(FILE) {
+            let (path, mut run) = (Path::new(&path), made()?);
+            if let Some(checkpoint) = read(path) {
+                run.restore(&checkpoint).expect("the same run");
+            }
+            // It is killed much earlier.
+            for _ in 0..100_000 {
+                run.take_steps(100)?;
+                let text = serde_json::to_string(&run.checkpoint().expect("doubles"));
+                let new = path.with_extension("new");
+                fs::write(&new, text.expect("a checkpoint")).expect("written");
+                fs::rename(&new, path).expect("the old one is replaced as a whole");
+            }
+            return Ok(());
+        }
+        let path = env::temp_dir().join(format!("symplectic-killed-{}.json", std::process::id()));
+        let _ = fs::remove_file(&path);
+        let mut steps = 0;
+        for _ in 0..3 {
+            let mut process = Command::new(env::current_exe().expect("this test"))
+                .args(["--exact", NAME])
+                .env(FILE, &path)
+                .spawn()
+                .expect("a process");
+            let last = loop {
+                thread::sleep(Duration::from_millis(20));
+                assert_eq!(process.try_wait().expect("its status"), None, "it ended");
+                let mut run = made()?;
+                if let Some(checkpoint) = read(&path) {
+                    run.restore(&checkpoint).expect("the same run");
+                }
+                if run.statistics().steps > steps {
+                    break run.statistics().steps;
+                }
+            };
+            process.kill().expect("killed");
+            process.wait().expect("ended");
+            steps = last;
+        }
+        let mut resumed = made()?;
+        let checkpoint = read(&path).expect("a whole file");
+        resumed.restore(&checkpoint).expect("the same run");
+        let mut whole = made()?;
+        whole.take_steps(resumed.statistics().steps)?;
+        assert_eq!(resumed.take_steps(50)?, whole.take_steps(50)?);
+        assert_eq!(resumed.statistics(), whole.statistics());
+        assert_eq!(resumed.checkpoint(), whole.checkpoint());
+        fs::remove_file(&path).expect("removed");
+        Ok(())
+    }
 
     /// The same after a file, which is refused where one character is another one, or where it ends too early.
     #[test]

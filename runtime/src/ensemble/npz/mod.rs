@@ -139,7 +139,7 @@ impl<W: Write> Npz<W> {
         self.integers("orders", &[3], &facts.orders)?;
         self.doubles("step_size", &[], &[facts.step_size])?;
         self.text("sums", facts.sums)?;
-        self.text("solver", facts.solver)?;
+        self.text("solver", &facts.solver)?;
         self.doubles("tolerance", &[], &[facts.tolerance])?;
         self.text("version", env!("CARGO_PKG_VERSION"))
     }
