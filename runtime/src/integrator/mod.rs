@@ -272,18 +272,6 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         }
     }
 
-    /// Takes one step and returns the state after it.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::NoConvergence`], [`Error::NonFinite`], [`Error::EvaluationDimension`], [`Error::TimeResolution`]; with
-    /// a Newton iteration also [`Error::SingularMatrix`]. The state is then unchanged.
-    pub fn step(&mut self) -> Result<&State<V>, Error> {
-        self.advance(self.step_size, self.clock.next())?;
-        self.clock.tick();
-        Ok(&self.step_memory.state)
-    }
-
     /// Takes `count` steps and returns the state after them. The result equals that of `count` calls of [`step`](Self::step) to the last
     /// bit, but it is faster for splittings and for short vectors.
     ///

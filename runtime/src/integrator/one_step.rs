@@ -7,9 +7,22 @@ use crate::error::Error;
 use crate::method::diagnosis::{Attempt, FirstFault};
 use crate::method::{Failure, Method, Plan, Solver, StepStatistics};
 use crate::number::{Summation, Vector};
+use crate::state::State;
 use crate::system::System;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
+    /// Takes one step and returns the state after it.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoConvergence`], [`Error::NonFinite`], [`Error::EvaluationDimension`], [`Error::TimeResolution`]; with
+    /// a Newton iteration also [`Error::SingularMatrix`]. The state is then unchanged.
+    pub fn step(&mut self) -> Result<&State<V>, Error> {
+        self.advance(self.step_size, self.clock.next())?;
+        self.clock.tick();
+        Ok(&self.step_memory.state)
+    }
+
     /// Takes one step of size `size` to the time `time`. The caller advances the clock.
     #[inline]
     pub(crate) fn advance(&mut self, size: f64, time: f64) -> Result<(), Error> {
