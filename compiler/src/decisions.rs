@@ -6,7 +6,7 @@ use crate::coefficients::Coefficients;
 use crate::evidence::Evidence;
 use crate::exact::over_algebra;
 use crate::order::{HamiltonianClass, OrderOptions, OrderReport, order};
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::properties::Properties;
 use crate::schedule::{Class, StepGraph};
 use crate::stability::Stability;
@@ -140,7 +140,7 @@ fn stability_text(found: &Stability) -> String {
     )
 }
 
-fn graphs<A: StageAlgebra>(pair: &Pair<A>, numbers: &Coefficients<Number<'_>>) -> String {
+fn graphs<A: StageAlgebra>(pair: &Partitioned<A>, numbers: &Coefficients<Number<'_>>) -> String {
     let text = |class| {
         let graph = StepGraph::of_pair(class, pair, numbers);
         let values = graph.positions.iter().chain(&graph.momenta);

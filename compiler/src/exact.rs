@@ -1,17 +1,17 @@
 //! Exact coefficients, in the strongest algebra that holds them.
 
 use crate::algebra::{Constants, Dense, NodeAlgebra, Reals};
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 
 /// The coefficients in the algebra that holds them.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Exact {
     /// Functions of the nodes.
-    Nodes(Pair<NodeAlgebra>),
+    Nodes(Partitioned<NodeAlgebra>),
     /// Numbers in a constant field.
-    Field(Pair<Dense<Constants>>),
+    Field(Partitioned<Dense<Constants>>),
     /// Expressions.
-    Reals(Pair<Dense<Reals>>),
+    Reals(Partitioned<Dense<Reals>>),
 }
 
 /// How the coefficients of a tableau are known.
@@ -40,7 +40,7 @@ impl Tier {
 }
 
 impl Exact {
-    /// The pair with positions and momenta exchanged.
+    /// The coefficients with positions and momenta exchanged.
     pub fn exchanged(self) -> Self {
         match self {
             Exact::Nodes(pair) => Exact::Nodes(pair.exchanged()),

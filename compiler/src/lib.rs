@@ -58,7 +58,7 @@ mod library;
 mod limits;
 mod operations;
 pub mod order;
-mod pair;
+mod partitioned;
 mod properties;
 mod quadrature;
 mod refine;

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::evidence::Evidence;
 use crate::exact::{Exact, Tier, over_algebra};
 use crate::order::{GivenOrder, OrderOptions, OrderReport, PerturbedOrder};
-use crate::pair::Staircase;
+use crate::partitioned::LowerTriangular;
 use crate::properties::{Properties, SeparableProperties};
 use crate::stability::{Stability, StabilityInterval};
 
@@ -303,7 +303,7 @@ impl Tableau {
 }
 
 /// How the weights make the matrices of a splitting that are left out; `None` where they are not.
-pub(crate) fn left_out(tableau: &Tableau) -> Option<Staircase> {
+pub(crate) fn left_out(tableau: &Tableau) -> Option<LowerTriangular> {
     let long = tableau.stages() > LARGEST_MATRICES;
-    long.then(|| over_algebra!(tableau, pair => pair.staircase()))?
+    long.then(|| over_algebra!(tableau, pair => pair.lower_triangular()))?
 }

@@ -115,3 +115,18 @@ fn an_import_that_runs_up_is_found() {
         0
     );
 }
+
+/// One style of module files: a module with parts is `folder/mod.rs`, not `folder.rs` beside `folder/`.
+#[test]
+fn a_module_with_parts_is_a_folder() {
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut all = Vec::new();
+    for package in ["cli", "compiler", "macros", "mpi", "runtime", "tests"] {
+        files(&workspace.join(package), &mut all);
+    }
+    assert!(all.len() > 500, "{}", all.len());
+    let built = |path: &PathBuf| path.components().any(|part| part.as_os_str() == "target");
+    let beside = |path: &PathBuf| !built(path) && path.with_extension("").is_dir();
+    let found: Vec<_> = all.into_iter().filter(beside).collect();
+    assert_eq!(found, Vec::<PathBuf>::new());
+}

@@ -252,7 +252,7 @@ impl<F: Field> StageAlgebra for Dense<F> {
         self.field.verified_bits()
     }
 
-    fn is_staircase(&self, m: &Matrix<F>, b: &Vector<F>, filled: bool) -> bool {
+    fn is_lower_triangular(&self, m: &Matrix<F>, b: &Vector<F>, filled: bool) -> bool {
         let zero = self.field.rational(&BigRational::default());
         m.iter().enumerate().all(|(i, row)| {
             let steps = i + usize::from(filled);

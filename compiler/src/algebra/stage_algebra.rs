@@ -83,11 +83,11 @@ pub trait StageAlgebra: Debug + PartialEq + Sized {
 
     /// Whether `m_ij` is `b_j` below the diagonal, zero above it, and on it `b_j` if it is `filled` and zero otherwise:
     /// all of that as elements, so that it is so for certain. An algebra may not look.
-    fn is_staircase(&self, _m: &Self::Matrix, _b: &Self::Vector, _filled: bool) -> bool {
+    fn is_lower_triangular(&self, _m: &Self::Matrix, _b: &Self::Vector, _filled: bool) -> bool {
         false
     }
 
-    /// `Σ_{j<i} f_j`, with `f_i` itself where it is `own`: what a matrix for which [`Self::is_staircase`] holds makes of the
+    /// `Σ_{j<i} f_j`, with `f_i` itself where it is `own`: what a matrix for which [`Self::is_lower_triangular`] holds makes of the
     /// products with its weights. `None` for an algebra that does not look for such matrices.
     fn partial_sums(&self, _f: &Self::Vector, _own: bool) -> Option<Self::Vector> {
         None

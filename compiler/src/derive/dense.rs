@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use super::linear::{Singular, solve};
 use crate::algebra::{Dense, Field, StageAlgebra, Zero};
 use crate::error::ErrorKind;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::symbolic::{Constant, Function};
 
 /// The data of a basis `ψ_1, …, ψ_s` and nodes `c_1, …, c_r` for the constructions.
@@ -91,7 +91,7 @@ impl<T> From<(usize, Zero)> for Failure<T> {
 pub fn collocation<F: Field>(
     field: F,
     samples: &Samples<F::Element>,
-) -> Result<Pair<Dense<F>>, Failure<F::Element>> {
+) -> Result<Partitioned<Dense<F>>, Failure<F::Element>> {
     // The row of a at c_i solves Σ_j ψ_k(c_j) a_ij = ∫_0^{c_i} ψ_k, and so do the weights with c_i = 1.
     let mut right = samples.integrals.clone();
     right.push(samples.totals.clone());
@@ -105,7 +105,7 @@ pub fn collocation<F: Field>(
         }
     }
     let algebra = Arc::new(Dense::new(field, b.len()));
-    Pair::symplectic(algebra, rows, b).map_err(Failure::from)
+    Partitioned::symplectic(algebra, rows, b).map_err(Failure::from)
 }
 
 /// The rectangular construction with a quadrature formula `b_i, c_i`:
@@ -117,7 +117,7 @@ pub fn galerkin<F: Field>(
     field: F,
     samples: &Samples<F::Element>,
     b: Vec<F::Element>,
-) -> Result<Pair<Dense<F>>, Failure<F::Element>> {
+) -> Result<Partitioned<Dense<F>>, Failure<F::Element>> {
     let algebra = Arc::new(Dense::new(field, b.len()));
     let field = algebra.field();
     let dot = |x: &[F::Element], y: &[F::Element]| {
@@ -144,7 +144,7 @@ pub fn galerkin<F: Field>(
     let columns = algebra_columns(&weighted, b.len());
     let row = |y: &Vec<F::Element>| columns.iter().map(|column| dot(y, column)).collect();
     let a = coordinates.iter().map(row).collect();
-    Pair::symplectic(algebra, a, b).map_err(Failure::from)
+    Partitioned::symplectic(algebra, a, b).map_err(Failure::from)
 }
 
 /// The columns of rows of this length.

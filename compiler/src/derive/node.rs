@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use crate::algebra::{NodeAlgebra, Tensor};
 use crate::arithmetic::matrix;
 use crate::arithmetic::polynomial::Polynomial;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::quadrature::QuadratureRule;
 
 /// The reason why a construction fails.
@@ -28,7 +28,7 @@ pub enum Failure {
 pub fn collocation(
     basis: &[Polynomial],
     algebra: &Arc<NodeAlgebra>,
-) -> Result<Pair<NodeAlgebra>, Failure> {
+) -> Result<Partitioned<NodeAlgebra>, Failure> {
     let dual = dual_basis(basis, algebra).map_err(Failure::Singular)?;
     let integrals: Vec<Polynomial> = basis.iter().map(Polynomial::antiderivative).collect();
     let one = BigRational::from_integer(1.into());
@@ -44,7 +44,8 @@ pub fn collocation(
         .zip(dual)
         .collect();
     let a = Tensor::from_products(algebra, &products);
-    Pair::symplectic(Arc::clone(algebra), a, b).map_err(|(index, _)| Failure::ZeroWeight(index))
+    Partitioned::symplectic(Arc::clone(algebra), a, b)
+        .map_err(|(index, _)| Failure::ZeroWeight(index))
 }
 
 /// Elements `d_i` of `K` with `Σ_i ψ_i(x) d_i(y) = δ(x, y)`: the columns of `M⁻¹`.
@@ -79,7 +80,10 @@ fn dual_basis(
 ///
 /// # Errors
 /// [`Failure`]
-pub fn galerkin(basis: &[Polynomial], rule: &QuadratureRule) -> Result<Pair<NodeAlgebra>, Failure> {
+pub fn galerkin(
+    basis: &[Polynomial],
+    rule: &QuadratureRule,
+) -> Result<Partitioned<NodeAlgebra>, Failure> {
     let algebra = rule.algebra();
     let b = rule.weights();
     let functions: Vec<Polynomial> = basis.iter().map(|f| algebra.reduce(f)).collect();
@@ -102,6 +106,6 @@ pub fn galerkin(basis: &[Polynomial], rule: &QuadratureRule) -> Result<Pair<Node
         })
         .collect();
     let a = Tensor::from_products(algebra, &products);
-    Pair::symplectic(Arc::clone(algebra), a, b.clone())
+    Partitioned::symplectic(Arc::clone(algebra), a, b.clone())
         .map_err(|(index, _)| Failure::ZeroWeight(index))
 }

@@ -9,7 +9,7 @@ use super::splitting::Flow;
 use crate::algebra::{Constants, Dense, Field, Real, Reals, Zero};
 use crate::error::ErrorKind;
 use crate::exact::Exact;
-use crate::pair::{Pair, Staircase};
+use crate::partitioned::{LowerTriangular, Partitioned};
 use crate::symbolic::Constant;
 
 /// A fraction of one of the two flows.
@@ -142,7 +142,7 @@ impl Sequence {
     /// ```
     ///
     /// and the same with the roles exchanged if each drift comes before its kick.
-    fn pair<F: Field + Clone>(&self, field: &F) -> Option<Pair<Dense<F>>> {
+    fn pair<F: Field + Clone>(&self, field: &F) -> Option<Partitioned<Dense<F>>> {
         let flows = self.merged(field)?;
         let zero = field.rational(&BigRational::default());
         let start = flows.first().map_or(self.first, |(flow, _)| *flow);
@@ -165,8 +165,12 @@ impl Sequence {
         let (first, second) = (half(0), half(1));
         let field = field.clone();
         Some(match layout {
-            Flow::Kick => Pair::of_splitting(field, Staircase::KicksFirst, second, first),
-            Flow::Drift => Pair::of_splitting(field, Staircase::DriftsFirst, first, second),
+            Flow::Kick => {
+                Partitioned::of_splitting(field, LowerTriangular::KicksFirst, second, first)
+            }
+            Flow::Drift => {
+                Partitioned::of_splitting(field, LowerTriangular::DriftsFirst, first, second)
+            }
         })
     }
 

@@ -9,7 +9,7 @@ use crate::arithmetic::matrix;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::ratio;
 use crate::exact::Exact;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::symbolic::Function;
 
 fn basis_of(polynomials: &[Polynomial]) -> Result<Basis, ErrorKind> {
@@ -54,7 +54,7 @@ fn what_cannot_be_derived_is_refused_at_its_place() {
     }
 }
 
-fn nodes_of(tableau: &Tableau) -> &Pair<NodeAlgebra> {
+fn nodes_of(tableau: &Tableau) -> &Partitioned<NodeAlgebra> {
     match &tableau.exact {
         Exact::Nodes(pair) => pair,
         _ => panic!("not in the node algebra"),

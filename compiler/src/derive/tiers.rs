@@ -17,7 +17,7 @@ use crate::error::ErrorKind;
 use crate::exact::{Exact, over_algebra};
 use crate::operations::concatenate;
 use crate::order::GivenOrder;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::quadrature::{Nodes, node_text};
 use crate::symbolic::{Constant, Function};
 use crate::tableau::Tableau;
@@ -163,7 +163,7 @@ fn dense_galerkin<F: Field + Clone>(
     samples: &Samples<Constant>,
     moments: &Samples<Constant>,
     weights: Option<&[Constant]>,
-) -> Result<Pair<Dense<F>>, dense::Failure<F::Element>> {
+) -> Result<Partitioned<Dense<F>>, dense::Failure<F::Element>> {
     let b = match weights {
         Some(weights) => weights.iter().map(|w| field.constant(w)).collect(),
         None => Some(dense::interpolatory_weights(
@@ -211,7 +211,7 @@ fn given_in<F: Field + Clone>(
     a: &[Vec<Constant>],
     b: &[Constant],
     momenta: &Momenta,
-) -> Result<Pair<Dense<F>>, dense::Failure<F::Element>> {
+) -> Result<Partitioned<Dense<F>>, dense::Failure<F::Element>> {
     let vector = |v: &[Constant]| -> Result<Vec<F::Element>, _> {
         let elements = v.iter().map(|c| field.constant(c));
         let elements: Option<Vec<_>> = elements.collect();
@@ -223,9 +223,11 @@ fn given_in<F: Field + Clone>(
     let algebra = Arc::new(Dense::new(field.clone(), b.len()));
     let (a, b) = (matrix(a)?, vector(b)?);
     match momenta {
-        Momenta::Equal => Ok(Pair::equal(algebra, a, b)),
-        Momenta::SymplecticPartner => Pair::symplectic(algebra, a, b).map_err(dense::Failure::from),
-        Momenta::Given { a_tilde, b_tilde } => Ok(Pair {
+        Momenta::Equal => Ok(Partitioned::equal(algebra, a, b)),
+        Momenta::SymplecticPartner => {
+            Partitioned::symplectic(algebra, a, b).map_err(dense::Failure::from)
+        }
+        Momenta::Given { a_tilde, b_tilde } => Ok(Partitioned {
             algebra,
             a_tilde: matrix(a_tilde)?,
             b_tilde: vector(b_tilde)?,

@@ -30,7 +30,7 @@ use crate::coefficients::Coefficients;
 use crate::derive::{Parts, parts};
 use crate::error::ErrorKind;
 use crate::formula::FormulaError;
-use crate::pair::Staircase;
+use crate::partitioned::LowerTriangular;
 use crate::schedule::Class;
 use crate::tableau::Tableau;
 use crate::tableau::left_out;
@@ -157,7 +157,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
 fn constants(
     tableau: &Tableau,
     values: &Coefficients<f64>,
-    left_out: Option<Staircase>,
+    left_out: Option<LowerTriangular>,
 ) -> TokenStream {
     let stages = literal::count(tableau.stages());
     // If both halves are equal, the second is written as a reference to the first.
@@ -180,10 +180,10 @@ fn constants(
         let name = literal::identifier(name);
         if same { quote!(Self::#name) } else { values }
     };
-    let rows = |rows: &[Vec<f64>], weights: &str, own: fn(Staircase) -> bool| {
+    let rows = |rows: &[Vec<f64>], weights: &str, own: fn(LowerTriangular) -> bool| {
         if let Some(own) = left_out.map(own) {
             let weights = literal::identifier(weights);
-            return quote!(::symplectic::emitted::staircase(Self::#weights, 0.0, #own));
+            return quote!(::symplectic::emitted::lower_triangular(Self::#weights, 0.0, #own));
         }
         let rows = rows.iter().map(|row| literal::array(row));
         quote!([#(#rows),*])
@@ -192,7 +192,7 @@ fn constants(
         matrix(
             "A",
             " a_ij: the position stages from the velocities. Correctly rounded.",
-            rows(&values.a, "B", Staircase::has_own_drift),
+            rows(&values.a, "B", LowerTriangular::has_own_drift),
         ),
         matrix(
             "A_TILDE",
@@ -200,7 +200,7 @@ fn constants(
             or_same(
                 same.0,
                 "A",
-                rows(&values.a_tilde, "B_TILDE", Staircase::has_own_kick),
+                rows(&values.a_tilde, "B_TILDE", LowerTriangular::has_own_kick),
             ),
         ),
         vector(
@@ -231,7 +231,7 @@ fn constants(
 fn coefficients(
     tableau: &Tableau,
     numbers: &Coefficients<Number<'_>>,
-    left_out: Option<Staircase>,
+    left_out: Option<LowerTriangular>,
 ) -> TokenStream {
     let stages = literal::count(tableau.stages());
     let length = left_out.map(|_| quote!(; #stages));
@@ -239,26 +239,28 @@ fn coefficients(
         let values = literal::coefficients(numbers);
         quote!(const #name: &[emitted::Coefficient #length] = &#values;)
     };
-    let matrix =
-        |name: &Ident, rows: &[Vec<Number<'_>>], weights: &str, own: fn(Staircase) -> bool| {
-            if let Some(own) = left_out.map(own) {
-                let weights = literal::identifier(weights);
-                return quote! {
-                    const #name: &[&[emitted::Coefficient]] = {
-                        const ENTRIES: &[[emitted::Coefficient; #stages]; #stages] =
-                            &emitted::staircase(*#weights, emitted::exact(0.0), #own);
-                        &emitted::rows(ENTRIES)
-                    };
+    let matrix = |name: &Ident,
+                  rows: &[Vec<Number<'_>>],
+                  weights: &str,
+                  own: fn(LowerTriangular) -> bool| {
+        if let Some(own) = left_out.map(own) {
+            let weights = literal::identifier(weights);
+            return quote! {
+                const #name: &[&[emitted::Coefficient]] = {
+                    const ENTRIES: &[[emitted::Coefficient; #stages]; #stages] =
+                        &emitted::lower_triangular(*#weights, emitted::exact(0.0), #own);
+                    &emitted::rows(ENTRIES)
                 };
-            }
-            let rows = rows.iter().map(|row| literal::coefficients(row));
-            quote!(const #name: &[&[emitted::Coefficient]] = &[#(&#rows),*];)
-        };
+            };
+        }
+        let rows = rows.iter().map(|row| literal::coefficients(row));
+        quote!(const #name: &[&[emitted::Coefficient]] = &[#(&#rows),*];)
+    };
     let [a, b, c] = ["A", "B", "C"].map(literal::identifier);
     let [mut a_tilde, mut b_tilde, mut c_tilde] =
         ["A_TILDE", "B_TILDE", "C_TILDE"].map(literal::identifier);
     let mut constants = vec![
-        matrix(&a, &numbers.a, "B", Staircase::has_own_drift),
+        matrix(&a, &numbers.a, "B", LowerTriangular::has_own_drift),
         vector(&b, &numbers.b),
         vector(&c, &numbers.c),
     ];
@@ -272,7 +274,7 @@ fn coefficients(
             &a_tilde,
             &numbers.a_tilde,
             weights,
-            Staircase::has_own_kick,
+            LowerTriangular::has_own_kick,
         ));
         constants.push(vector(&c_tilde, &numbers.c_tilde));
     }

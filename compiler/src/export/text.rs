@@ -5,7 +5,7 @@ use super::facts::separable_only;
 use super::written;
 use crate::coefficients::Coefficients;
 use crate::evidence::Evidence;
-use crate::pair::Staircase;
+use crate::partitioned::LowerTriangular;
 use crate::stability::evidence_text;
 use crate::tableau::Tableau;
 use crate::tableau::left_out;
@@ -49,8 +49,8 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
     text.push('\n');
 
     let (cells, rounded) = cells(tableau, digits);
-    if let Some(staircase) = left_out(tableau) {
-        push_lines(&mut text, &flows(&cells, staircase));
+    if let Some(lower_triangular) = left_out(tableau) {
+        push_lines(&mut text, &flows(&cells, lower_triangular));
         return finished(text, tableau, rounded.then_some(digits));
     }
     let positions = table(["c", "a", "b"], &cells.c, &cells.a, &cells.b);
@@ -136,11 +136,11 @@ fn cells(tableau: &Tableau, digits: usize) -> (Coefficients<String>, bool) {
 }
 
 /// The flows of a splitting, one line per stage, in place of the matrices that the weights determine.
-fn flows(cells: &Coefficients<String>, staircase: Staircase) -> Vec<String> {
+fn flows(cells: &Coefficients<String>, lower_triangular: LowerTriangular) -> Vec<String> {
     let (kick, drift) = (("kick b̃", &cells.b_tilde), ("drift b", &cells.b));
-    let both = match staircase {
-        Staircase::KicksFirst => [kick, drift],
-        Staircase::DriftsFirst => [drift, kick],
+    let both = match lower_triangular {
+        LowerTriangular::KicksFirst => [kick, drift],
+        LowerTriangular::DriftsFirst => [drift, kick],
     };
     let mut rows = vec![vec!["i".to_owned()]];
     rows[0].extend(both.map(|(name, _)| name.to_owned()));

@@ -15,7 +15,7 @@ use crate::exact::over_algebra;
 use crate::library::Stepping;
 use crate::limits::Limits;
 use crate::order::{HamiltonianClass, OrderOptions, ViolatedCondition, order_within};
-use crate::pair::{Pair, Staircase};
+use crate::partitioned::{LowerTriangular, Partitioned};
 use crate::quadrature::check_stages;
 use crate::refine::refine_table;
 use crate::tableau::Tableau;
@@ -213,7 +213,7 @@ impl Numbers {
         [general, separable, nystrom]
     }
 
-    fn rational_pair(&self) -> Pair<Dense<Rationals>> {
+    fn rational_pair(&self) -> Partitioned<Dense<Rationals>> {
         let list =
             |values: &[Value]| -> Vec<BigRational> { values.iter().map(Value::rational).collect() };
         match self {
@@ -222,18 +222,18 @@ impl Numbers {
                 kicks,
                 drifts_first,
             } => {
-                let staircase = match drifts_first {
-                    true => Staircase::DriftsFirst,
-                    false => Staircase::KicksFirst,
+                let lower_triangular = match drifts_first {
+                    true => LowerTriangular::DriftsFirst,
+                    false => LowerTriangular::KicksFirst,
                 };
-                Pair::of_splitting(Rationals, staircase, list(drifts), list(kicks))
+                Partitioned::of_splitting(Rationals, lower_triangular, list(drifts), list(kicks))
             }
             Numbers::RungeKutta { positions, momenta } => {
                 let matrix =
                     |rows: &[Vec<Value>]| rows.iter().map(|row| list(row)).collect::<Vec<_>>();
                 let algebra = Dense::new(Rationals, positions.1.len());
                 let mut pair =
-                    Pair::equal(algebra.into(), matrix(&positions.0), list(&positions.1));
+                    Partitioned::equal(algebra.into(), matrix(&positions.0), list(&positions.1));
                 if let Some((rows, weights)) = momenta {
                     (pair.a_tilde, pair.b_tilde) = (matrix(rows), list(weights));
                 }
@@ -524,8 +524,8 @@ fn alone(tableau: Tableau, (rows, weights): &Half, limits: &Limits) -> Option<Ta
 
 /// Whether a stage of a splitting drifts before it kicks.
 fn tableau_starts_with_drift(tableau: &Tableau) -> bool {
-    let staircase = over_algebra!(tableau, pair => pair.staircase());
-    staircase == Some(Staircase::DriftsFirst)
+    let lower_triangular = over_algebra!(tableau, pair => pair.lower_triangular());
+    lower_triangular == Some(LowerTriangular::DriftsFirst)
 }
 
 /// The definition of a splitting.

@@ -10,7 +10,7 @@ use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::length;
 use crate::error::ErrorKind;
 use crate::exact::Exact;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::symbolic::Constant;
 
 /// The coefficients of `Φ^m_{γ_m h} ∘ … ∘ Φ^1_{γ_1 h}`, the first step first.
@@ -80,16 +80,19 @@ fn longest<'a>(constants: impl Iterator<Item = &'a Constant>) -> u64 {
     lengths.max().unwrap_or(0) / 64
 }
 
-fn rational_multiple<A: StageAlgebra>(pair: &Pair<A>, fraction: &BigRational) -> Pair<A> {
+fn rational_multiple<A: StageAlgebra>(
+    pair: &Partitioned<A>,
+    fraction: &BigRational,
+) -> Partitioned<A> {
     pair.scaled(&pair.algebra.constant(fraction))
 }
 
 /// A method as far as it does not depend on the field in which it is composed.
 enum Method<'a> {
     /// Functions of the nodes, with the nodes.
-    Nodes(&'a Pair<NodeAlgebra>, Vec<Constant>),
+    Nodes(&'a Partitioned<NodeAlgebra>, Vec<Constant>),
     Constants(Coefficients<Constant>),
-    Reals(&'a Pair<Dense<Reals>>),
+    Reals(&'a Partitioned<Dense<Reals>>),
 }
 
 /// The entries of `a`, `ã`, `b` and `b̃`. What is equal for positions and momenta is there once, so that
@@ -122,11 +125,11 @@ impl<T> Coefficients<T> {
         })
     }
 
-    fn pair<F: Field<Element = T> + Clone>(self, field: &F) -> Pair<Dense<F>>
+    fn pair<F: Field<Element = T> + Clone>(self, field: &F) -> Partitioned<Dense<F>>
     where
         T: Clone,
     {
-        Pair {
+        Partitioned {
             algebra: Arc::new(Dense::new(field.clone(), self.b.len())),
             a_tilde: self.a_tilde.unwrap_or_else(|| self.a.clone()),
             b_tilde: self.b_tilde.unwrap_or_else(|| self.b.clone()),
@@ -138,7 +141,7 @@ impl<T> Coefficients<T> {
 
 /// Something for each coefficient of a pair, if there is one for all.
 fn coefficients<A: StageAlgebra, T>(
-    pair: &Pair<A>,
+    pair: &Partitioned<A>,
     matrix: impl Fn(&A::Matrix) -> Option<Vec<Vec<T>>>,
     vector: impl Fn(&A::Vector) -> Option<Vec<T>>,
 ) -> Option<Coefficients<T>> {
@@ -161,7 +164,7 @@ fn coefficients<A: StageAlgebra, T>(
 
 /// The same for a pair of lists.
 fn entries<F: Field, T>(
-    pair: &Pair<Dense<F>>,
+    pair: &Partitioned<Dense<F>>,
     each: impl Fn(&F::Element) -> Option<T>,
 ) -> Option<Coefficients<T>> {
     let vector = |row: &Vec<F::Element>| row.iter().map(&each).collect::<Option<Vec<T>>>();
@@ -197,7 +200,7 @@ impl<'a> Method<'a> {
         &self,
         field: &F,
         real: impl Fn(&Real) -> Option<F::Element>,
-    ) -> Option<Pair<Dense<F>>> {
+    ) -> Option<Partitioned<Dense<F>>> {
         let coefficients = match self {
             Method::Nodes(pair, nodes) => {
                 let nodes = nodes.iter().map(|node| field.constant(node));
@@ -240,13 +243,13 @@ fn join<F: Field + Clone>(
     methods: &[Method<'_>],
     real: impl Fn(&Real) -> Option<F::Element>,
     same: impl Fn(usize, usize) -> bool,
-) -> Option<Pair<Dense<F>>> {
+) -> Option<Partitioned<Dense<F>>> {
     let scaled = |(fraction, method): (&&Constant, &Method<'_>)| {
         let pair = method.over(field, &real)?;
         let fraction = field.constant(fraction)?;
         Some(pair.scaled(&vec![fraction; pair.b.len()]))
     };
-    let mut steps: Vec<Pair<Dense<F>>> = Vec::new();
+    let mut steps: Vec<Partitioned<Dense<F>>> = Vec::new();
     for (index, step) in fractions.iter().zip(methods).enumerate() {
         // Where numbers are expressions, equal steps share theirs.
         let known = (0..index).find(|&before| same(before, index));
@@ -270,7 +273,7 @@ fn join<F: Field + Clone>(
         }
         rows
     };
-    Some(Pair {
+    Some(Partitioned {
         a: rows(steps.iter().map(|step| &step.a).collect(), &b),
         a_tilde: rows(steps.iter().map(|step| &step.a_tilde).collect(), &b_tilde),
         algebra: Arc::new(Dense::new(field.clone(), b.len())),

@@ -69,7 +69,7 @@ use self::weights::{MAX_ORDER, Weights};
 use crate::algebra::{Balls, Dense, Field, Number, StageAlgebra, Zero};
 use crate::evidence::Evidence;
 use crate::exact::over_algebra;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::properties::shown;
 use crate::tableau::Tableau;
 
@@ -167,7 +167,7 @@ impl Tableau {
 
 /// The order of a pair for each class of Hamiltonians.
 pub(crate) fn order<A: StageAlgebra>(
-    pair: &Pair<A>,
+    pair: &Partitioned<A>,
     options: &OrderOptions,
     given: Option<&GivenOrder>,
 ) -> OrderReport {
@@ -203,7 +203,7 @@ struct Known {
 }
 
 impl Known {
-    fn of<A: StageAlgebra>(pair: &Pair<A>, options: &OrderOptions) -> Self {
+    fn of<A: StageAlgebra>(pair: &Partitioned<A>, options: &OrderOptions) -> Self {
         let limit = options.limit.min(MAX_ORDER);
         if options.all_conditions {
             return Known {
@@ -248,7 +248,7 @@ const BITS: u32 = 256;
 
 /// The known order, if conditions of the next order are refuted and their error constant is found.
 fn refuted(
-    pair: &Pair<Dense<Balls>>,
+    pair: &Partitioned<Dense<Balls>>,
     class: HamiltonianClass,
     known: &Known,
 ) -> Option<ClassOrder> {
@@ -263,7 +263,7 @@ fn refuted(
 
 /// The order of a pair for one class.
 fn class_order<A: StageAlgebra>(
-    pair: &Pair<A>,
+    pair: &Partitioned<A>,
     class: HamiltonianClass,
     known: &Known,
 ) -> ClassOrder {
@@ -328,7 +328,7 @@ fn class_order<A: StageAlgebra>(
 /// The order for a class up to a tolerance of the conditions, for rounded numbers, and the first condition that is violated
 /// by more than that; the order is at most `limit`.
 pub(crate) fn order_within<A: StageAlgebra>(
-    pair: &Pair<A>,
+    pair: &Partitioned<A>,
     class: HamiltonianClass,
     tolerance: &BigRational,
     limit: usize,
@@ -360,7 +360,7 @@ pub(crate) fn order_within<A: StageAlgebra>(
 
 /// A tree of an order whose children are leaves, if its condition is refuted.
 fn refuted_by_quadrature<A: StageAlgebra>(
-    pair: &Pair<A>,
+    pair: &Partitioned<A>,
     class: HamiltonianClass,
     order: usize,
 ) -> Option<ViolatedCondition> {

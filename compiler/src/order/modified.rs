@@ -15,7 +15,7 @@ use super::tree::{BicolouredTree, Colour};
 use super::weights::MAX_ORDER;
 use crate::algebra::{Number, StageAlgebra};
 use crate::arithmetic::rounding::Decimal;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 
 /// One term `h^(|τ|−1)/σ(τ) β(τ) F(τ)` of the modified equation, whose exact flow is the method.
 ///
@@ -52,7 +52,7 @@ pub struct ModifiedTerm {
 
 /// The coefficients of the modified equation for the trees of a class up to an order.
 pub(super) fn modified_equation<A: StageAlgebra>(
-    pair: &Pair<A>,
+    pair: &Partitioned<A>,
     class: HamiltonianClass,
     order: usize,
 ) -> Vec<ModifiedTerm> {
@@ -88,7 +88,7 @@ pub(super) fn modified_equation<A: StageAlgebra>(
 
 /// The coefficients so far. Numbers are vectors with the same value at every stage, which every algebra has.
 struct Series<'a, A: StageAlgebra> {
-    pair: &'a Pair<A>,
+    pair: &'a Partitioned<A>,
     /// The matrix of ones, which sums a vector.
     ones: A::Matrix,
     /// `Φ_i` of the trees so far.

@@ -31,7 +31,7 @@ use crate::algebra::{Dense, Field, Rationals, Zero};
 use crate::certify::{DRIFT, KICK, MAX_ORDER, MAX_PERTURBED_ORDER, Word, split_lyndon};
 use crate::evidence::Evidence;
 use crate::exact::Exact;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::schedule::{Class, Node, StepGraph};
 use crate::stability::evidence_text;
 use crate::stability::superscript;
@@ -206,7 +206,7 @@ fn letter(node: Node) -> u8 {
 
 /// Kicks and drifts with their fractions of the step: the sums of the weights of coinciding stages.
 fn letters<F: Field>(
-    pair: &Pair<Dense<F>>,
+    pair: &Partitioned<Dense<F>>,
     graph: &StepGraph<'_>,
     chain: &[Node],
 ) -> Vec<(u8, F::Element)> {

@@ -39,7 +39,7 @@ use num_traits::One;
 
 use crate::algebra::{StageAlgebra, Zero};
 use crate::evidence::Evidence;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::properties::vanishing_vector;
 
 /// The largest numbers for which the simplifying assumptions hold, each at most that of `B`.
@@ -95,7 +95,7 @@ impl SimplifyingAssumptions {
 /// Each equation is decided in the algebra; the work is a few products of a matrix and a vector for each
 /// number up to `2s`.
 pub(super) fn simplifying_assumptions<A: StageAlgebra>(
-    pair: &Pair<A>,
+    pair: &Partitioned<A>,
 ) -> Option<SimplifyingAssumptions> {
     let algebra = &*pair.algebra;
     let weights = vanishing_vector(algebra, &algebra.subtract(&pair.b, &pair.b_tilde)).ok()?;
@@ -110,7 +110,7 @@ pub(super) fn simplifying_assumptions<A: StageAlgebra>(
 }
 
 fn assumptions<A: StageAlgebra>(
-    pair: &Pair<A>,
+    pair: &Partitioned<A>,
     c: &A::Vector,
     mut evidence: Evidence,
 ) -> SimplifyingAssumptions {

@@ -8,7 +8,7 @@ use super::tree::{BicolouredTree, Colour};
 use super::weights::{MAX_ORDER, Weights};
 use crate::algebra::{StageAlgebra, Zero};
 use crate::evidence::Evidence;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::properties::{vanishing_matrix, vanishing_vector};
 
 /// The order of symplecticity of a method that is not symplectic (pseudo-symplecticity, Aubry & Chartier
@@ -76,10 +76,10 @@ pub(super) struct Symplecticity {
 }
 
 impl Symplecticity {
-    pub(super) fn of<A: StageAlgebra>(pair: &Pair<A>) -> Self {
+    pub(super) fn of<A: StageAlgebra>(pair: &Partitioned<A>) -> Self {
         let algebra = &*pair.algebra;
         let weights = algebra.subtract(&pair.b, &pair.b_tilde);
-        let matrices = match pair.staircase() {
+        let matrices = match pair.lower_triangular() {
             // A splitting is symplectic for all coefficients.
             Some(_) => Some(Evidence::Proved),
             None => vanishing_matrix(algebra, &defect(pair)).ok(),
@@ -100,7 +100,7 @@ impl Symplecticity {
 }
 
 /// `b_i ã_ij + b̃_j a_ji − b_i b̃_j` (MW 2.6.7).
-fn defect<A: StageAlgebra>(pair: &Pair<A>) -> A::Matrix {
+fn defect<A: StageAlgebra>(pair: &Partitioned<A>) -> A::Matrix {
     let algebra = &*pair.algebra;
     let momenta = algebra.scale_rows(&pair.a_tilde, &pair.b);
     let positions = algebra.transpose(&algebra.scale_rows(&pair.a, &pair.b_tilde));
@@ -113,7 +113,7 @@ fn defect<A: StageAlgebra>(pair: &Pair<A>) -> A::Matrix {
 /// Trees are examined up to order `limit`; a method that is symplectic to that order has no violated
 /// condition.
 pub(super) fn symplecticity_order<A: StageAlgebra>(
-    pair: &Pair<A>,
+    pair: &Partitioned<A>,
     class: HamiltonianClass,
     limit: usize,
 ) -> Option<SymplecticityOrder> {
@@ -208,7 +208,7 @@ mod tests {
 
     #[test]
     fn known_methods_have_their_orders_of_symplecticity() {
-        let order = |pair: &Pair<_>| {
+        let order = |pair: &Partitioned<_>| {
             let found =
                 symplecticity_order(pair, HamiltonianClass::General, 8).expect("not symplectic");
             assert_eq!(found.evidence, Evidence::Proved);

@@ -15,7 +15,7 @@ use super::class::HamiltonianClass;
 use super::enumeration::{TreeRule, Trees};
 use super::tree::{BicolouredTree, Colour};
 use crate::algebra::{Dense, Field, Number, Rationals, StageAlgebra};
-use crate::pair::{Pair, Staircase};
+use crate::partitioned::{LowerTriangular, Partitioned};
 
 /// The highest order of enumerated trees: densities, at most `order!`, are stored in 64 bits.
 pub(super) const MAX_ORDER: usize = 20;
@@ -36,7 +36,7 @@ pub(super) fn most_products<F: Field>(field: &F) -> usize {
 
 /// The conditions for quadratic `T` of these orders that remain for a symplectic method, as trees, with the elementary weights.
 pub(crate) fn one_of_each_rooting(
-    pair: &Pair<Dense<Rationals>>,
+    pair: &Partitioned<Dense<Rationals>>,
     orders: impl Iterator<Item = usize>,
 ) -> Vec<(BicolouredTree, BigRational)> {
     let mut weights = Weights::new(pair, TreeRule::Class(HamiltonianClass::Nystrom));
@@ -72,8 +72,8 @@ struct Kept<V> {
 
 /// The elementary weights of a method.
 pub(super) struct Weights<'a, A: StageAlgebra> {
-    pair: &'a Pair<A>,
-    staircase: Option<Staircase>,
+    pair: &'a Partitioned<A>,
+    lower_triangular: Option<LowerTriangular>,
     trees: Trees,
     kept: Vec<Kept<A::Vector>>,
     /// The number of products of a coefficient and a stage per tree.
@@ -81,16 +81,16 @@ pub(super) struct Weights<'a, A: StageAlgebra> {
 }
 
 impl<'a, A: StageAlgebra> Weights<'a, A> {
-    pub(super) fn new(pair: &'a Pair<A>, rule: TreeRule) -> Self {
+    pub(super) fn new(pair: &'a Partitioned<A>, rule: TreeRule) -> Self {
         let stages = pair.algebra.stages();
         // A splitting takes one product per stage for each of the stored vectors.
         let for_all = stages * stages;
-        let staircase = pair.staircase();
-        let products = staircase.map_or(for_all, |_| for_all.min(3 * stages));
+        let lower_triangular = pair.lower_triangular();
+        let products = lower_triangular.map_or(for_all, |_| for_all.min(3 * stages));
         Weights {
             products,
             pair,
-            staircase,
+            lower_triangular,
             trees: Trees::up_to(rule, 0),
             kept: Vec::new(),
         }
@@ -223,10 +223,10 @@ impl<'a, A: StageAlgebra> Weights<'a, A> {
         self.kept[index as usize].applied.get_or_init(|| {
             let (algebra, colour) = (&*self.pair.algebra, self.trees.colour(index));
             // The entries of the matrices are the weights.
-            let sums = self.staircase.and_then(|staircase| {
+            let sums = self.lower_triangular.and_then(|lower_triangular| {
                 let own = match colour {
-                    Colour::Q => staircase.has_own_drift(),
-                    Colour::P => staircase.has_own_kick(),
+                    Colour::Q => lower_triangular.has_own_drift(),
+                    Colour::P => lower_triangular.has_own_kick(),
                 };
                 algebra.partial_sums(self.weighted(index), own)
             });

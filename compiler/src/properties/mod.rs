@@ -23,7 +23,7 @@ pub(crate) use self::symmetric::{Symmetry, images};
 use crate::algebra::{Number, StageAlgebra, Zero};
 use crate::coefficients::{Coefficients, subscript};
 use crate::evidence::Evidence;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::stability::evidence_text;
 
 /// Whether a property holds, how that is known, and an example.
@@ -139,7 +139,7 @@ properties! {
 
 impl Properties {
     /// Decides all properties of a pair.
-    pub(crate) fn of_pair<A: Symmetry>(pair: &Pair<A>) -> Self {
+    pub(crate) fn of_pair<A: Symmetry>(pair: &Partitioned<A>) -> Self {
         let numbers = &pair.numbers();
         Properties::decide(&Examined { pair, numbers })
     }
@@ -147,7 +147,7 @@ impl Properties {
 
 /// A pair with its coefficients as numbers, which several properties look at.
 struct Examined<'a, A: StageAlgebra> {
-    pair: &'a Pair<A>,
+    pair: &'a Partitioned<A>,
     numbers: &'a Coefficients<Number<'a>>,
 }
 

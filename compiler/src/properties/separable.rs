@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use super::symplectic::decide_matrices;
 use super::{Evidence, Examined, Property, Symmetry};
 use crate::algebra::{Dense, Field, NodeAlgebra, Zero};
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::schedule::{Class, Groups};
 
 /// Properties of a method for `H = T(p) + U(q)`, which has them for every `H` or for these only.
@@ -35,10 +35,13 @@ impl SeparableProperties {
 
     /// Decides both. `symmetric` is what is known of symmetry for every Hamiltonian.
     ///
-    /// A splitting is symplectic whatever its coefficients are: with the matrices of a [staircase](Pair::staircase) one of
+    /// A splitting is symplectic whatever its coefficients are: with the matrices of a [lower_triangular](Partitioned::lower_triangular) one of
     /// `b_i ã_ij` and `b̃_j a_ji` is `b_i b̃_j`, and the other is zero.
-    pub(crate) fn of_pair<A: SeparableSymmetry>(pair: &Pair<A>, symmetric: Property) -> Self {
-        let symplectic = match pair.staircase() {
+    pub(crate) fn of_pair<A: SeparableSymmetry>(
+        pair: &Partitioned<A>,
+        symmetric: Property,
+    ) -> Self {
+        let symplectic = match pair.lower_triangular() {
             Some(_) => Property::holding(Evidence::Proved, None),
             None => decide_matrices(&Examined {
                 pair,
@@ -59,12 +62,12 @@ impl SeparableProperties {
 /// An algebra over which symmetry for separable Hamiltonians can be decided.
 pub(crate) trait SeparableSymmetry: Symmetry {
     /// Symmetry for separable Hamiltonians of a pair that is not known to be symmetric for all.
-    fn separably_symmetric(pair: &Pair<Self>, for_all: Property) -> Property;
+    fn separably_symmetric(pair: &Partitioned<Self>, for_all: Property) -> Property;
 }
 
 impl SeparableSymmetry for NodeAlgebra {
     /// Not looked for: the tableaux of this algebra have equal weights, and no splitting is among them.
-    fn separably_symmetric(_pair: &Pair<Self>, for_all: Property) -> Property {
+    fn separably_symmetric(_pair: &Partitioned<Self>, for_all: Property) -> Property {
         for_all
     }
 }
@@ -72,7 +75,7 @@ impl SeparableSymmetry for NodeAlgebra {
 impl<F: Field + Clone> SeparableSymmetry for Dense<F> {
     /// A method with a stage for each distinct position and one for each distinct momentum is equal to this one for
     /// separable Hamiltonians, and an order of its stages is an order of each kind.
-    fn separably_symmetric(pair: &Pair<Self>, _for_all: Property) -> Property {
+    fn separably_symmetric(pair: &Partitioned<Self>, _for_all: Property) -> Property {
         // Flows are their own adjoints.
         if pair.flows().is_some_and(|flows| flows.is_palindrome()) {
             return Property::holding(Evidence::Proved, None);
@@ -91,7 +94,7 @@ impl<F: Field + Clone> SeparableSymmetry for Dense<F> {
 ///
 /// What the force does not see of a momentum stage, and the velocity of a position stage, has no weight; the
 /// coefficients that it never meets are half the weights, which are their own in the adjoint.
-fn apart<F: Field + Clone>(pair: &Pair<Dense<F>>) -> Pair<Dense<F>> {
+fn apart<F: Field + Clone>(pair: &Partitioned<Dense<F>>) -> Partitioned<Dense<F>> {
     let field = pair.algebra.field();
     let groups = Groups::new(Class::Separable, pair);
     let zero = field.rational(&BigRational::default());
@@ -164,7 +167,7 @@ fn apart<F: Field + Clone>(pair: &Pair<Dense<F>>) -> Pair<Dense<F>> {
     );
     let a = forces.iter().map(|&i| position(i));
     let a_tilde = velocities.iter().map(|&i| momentum(i));
-    Pair {
+    Partitioned {
         algebra: Arc::new(Dense::new(field.clone(), n + m)),
         a: a.chain(std::iter::repeat_n(half_b, m)).collect(),
         a_tilde: std::iter::repeat_n(half_b_tilde, n)

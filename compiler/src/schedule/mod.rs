@@ -13,7 +13,7 @@ use crate::algebra::{Number, StageAlgebra, group_by};
 use crate::arithmetic::roots::compare;
 use crate::coefficients::Coefficients;
 use crate::exact::over_algebra;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::tableau::Tableau;
 
 /// What the derivatives of a Hamiltonian depend on.
@@ -109,7 +109,7 @@ impl<'a> StepGraph<'a> {
 
     pub(crate) fn of_pair<A: StageAlgebra>(
         class: Class,
-        pair: &'a Pair<A>,
+        pair: &'a Partitioned<A>,
         numbers: &Coefficients<Number<'a>>,
     ) -> Self {
         let algebra = &*pair.algebra;
@@ -379,7 +379,7 @@ pub(crate) struct Groups {
 impl Groups {
     /// Joins stages with equal rows, then evaluations at equal stages, then the stages whose rows have
     /// become equal thereby, until nothing more coincides.
-    pub fn new<A: StageAlgebra>(class: Class, pair: &Pair<A>) -> Self {
+    pub fn new<A: StageAlgebra>(class: Class, pair: &Partitioned<A>) -> Self {
         let algebra = &*pair.algebra;
         let single: Vec<Vec<usize>> = (0..algebra.stages()).map(|stage| vec![stage]).collect();
         let mut groups = Groups {

@@ -17,10 +17,10 @@ use num_traits::{One, Zero};
 
 use super::oscillator::Parts;
 use crate::algebra::{Field, StageAlgebra};
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 
 /// The stages of each of the steps; the whole range if there is only one.
-pub(super) fn steps<A: StageAlgebra>(pair: &Pair<A>) -> Vec<Range<usize>> {
+pub(super) fn steps<A: StageAlgebra>(pair: &Partitioned<A>) -> Vec<Range<usize>> {
     let algebra = &*pair.algebra;
     let ends = algebra.ends_of_steps(&pair.a, &pair.b);
     let others = match pair.equal_halves() {
@@ -170,7 +170,7 @@ mod tests {
 
     /// Two steps of two stages and a step of one stage: `[[1/3, 1/5], [2/7, −1]]`, `[[2, 1], [0, 1/2]]` and `[[3/2]]`, with other
     /// matrices for momenta.
-    fn composition() -> Pair<Dense<Rationals>> {
+    fn composition() -> Partitioned<Dense<Rationals>> {
         let b = [(1, 2), (1, 3), (-1, 4), (2, 1), (1, 7)].map(|(n, d)| ratio(n, d));
         let b_tilde = [(1, 5), (-2, 3), (1, 1), (1, 6), (3, 2)].map(|(n, d)| ratio(n, d));
         let rows = |b: &[BigRational], seed: i64| -> Vec<Vec<BigRational>> {
@@ -183,7 +183,7 @@ mod tests {
             let row = |i: usize| (0..b.len()).map(|j| entry(i, j)).collect();
             (0..b.len()).map(row).collect()
         };
-        Pair {
+        Partitioned {
             algebra: Arc::new(Dense::new(Rationals, 5)),
             a: rows(&b, 1),
             a_tilde: rows(&b_tilde, 5),

@@ -29,7 +29,7 @@ use crate::algebra::{Ball, Balls, Field, Scalar, StageAlgebra, Zero};
 use crate::arithmetic::enclosure_cache::EnclosureCache;
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
-use crate::pair::{Flows, Pair};
+use crate::partitioned::{Flows, Partitioned};
 
 /// Bits of enclosures.
 const PRECISIONS: [u32; 7] = [
@@ -54,7 +54,7 @@ const TRIED: usize = 3;
 /// They do not decide it if two of the polynomials share their first root, where the step is `±1`, or if
 /// that root is a double root.
 pub(super) fn first_interval<A: StageAlgebra + 'static>(
-    pair: &Pair<A>,
+    pair: &Partitioned<A>,
 ) -> Option<StabilityInterval> {
     let half = Half::of(pair)?;
     let (entry, interval) = (0..TRIED).find_map(|precision| half.first_root(precision))?;
@@ -81,7 +81,7 @@ struct Half<A: StageAlgebra> {
 }
 
 impl<A: StageAlgebra> Half<A> {
-    fn of(pair: &Pair<A>) -> Option<Self> {
+    fn of(pair: &Partitioned<A>) -> Option<Self> {
         let flows = pair.flows().filter(Flows::is_palindrome)?;
         let field = pair.algebra.constants();
         let half = field.rational(&ratio(1, 2));

@@ -40,7 +40,7 @@ use self::polynomial::RealPolynomial;
 use crate::algebra::{Field, Number, Scalar, StageAlgebra, ZERO_BITS};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::evidence::Evidence;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 
 pub use dispersion::Dispersion;
 pub use end_point::EndPoint;
@@ -84,11 +84,11 @@ impl Stability {
     ///
     /// If exact arithmetic is not available or takes more than a fixed number of operations, enclosures
     /// of the coefficients decide; numbers taken to be zero are then only verified.
-    pub(crate) fn of_pair<A: StageAlgebra + 'static>(pair: &Pair<A>) -> Self {
+    pub(crate) fn of_pair<A: StageAlgebra + 'static>(pair: &Partitioned<A>) -> Self {
         Stability::within(pair, PRODUCTS)
     }
 
-    fn within<A: StageAlgebra + 'static>(pair: &Pair<A>, products: u64) -> Self {
+    fn within<A: StageAlgebra + 'static>(pair: &Partitioned<A>, products: u64) -> Self {
         let field = pair.algebra.constants();
         let exact = field.verified_bits().is_none();
         let equal = pair.equal_halves() == (true, true);
@@ -139,7 +139,7 @@ impl Stability {
 
     /// Stability from enclosures of the coefficients. The bits grow until every number taken to be zero is very small compared
     /// with the terms of its sum, and with the smallest of the given numbers.
-    fn enclosed<A: StageAlgebra>(pair: &Pair<A>, precision: &Precision) -> Self {
+    fn enclosed<A: StageAlgebra>(pair: &Partitioned<A>, precision: &Precision) -> Self {
         let numbers = pair.numbers();
         let equal = pair.equal_halves() == (true, true);
         let fineness = numbers.iter().map(Number::fineness).max().unwrap_or(0);
@@ -195,7 +195,7 @@ impl Stability {
 
     /// Stability from enclosures with several times as many bits.
     #[cfg(test)]
-    pub(crate) fn with_more_bits<A: StageAlgebra>(pair: &Pair<A>, times: u32) -> Self {
+    pub(crate) fn with_more_bits<A: StageAlgebra>(pair: &Partitioned<A>, times: u32) -> Self {
         let Precision { zero, most } = Precision::USUAL;
         let precision = Precision {
             zero: times * zero,
@@ -240,7 +240,7 @@ impl Stability {
     /// The interval that begins at zero, for a palindromic splitting of any length. [`Stability::of_pair`] decides everything
     /// else.
     pub(crate) fn first_interval<A: StageAlgebra + 'static>(
-        pair: &Pair<A>,
+        pair: &Partitioned<A>,
     ) -> Option<StabilityInterval> {
         halves::first_interval(pair)
     }

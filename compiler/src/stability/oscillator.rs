@@ -10,7 +10,7 @@ use super::fraction::Fraction;
 use super::polynomial::RealPolynomial;
 use super::resolvent::{Resolvent, apply, apply_left, dot};
 use crate::algebra::{Field, Number, Scalar, StageAlgebra};
-use crate::pair::{Flows, Pair};
+use crate::partitioned::{Flows, Partitioned};
 
 /// The polynomials in `x`, the constant first, that determine the matrix of one step.
 ///
@@ -54,7 +54,7 @@ impl<T> Parts<T> {
 
 /// Approximate cost of [`parts`] in products of machine words: `s⁴` products of matrix entries, for a splitting `s²`,
 /// each reduced to lowest terms.
-pub(super) fn cost<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
+pub(super) fn cost<A: StageAlgebra>(pair: &Partitioned<A>) -> u64 {
     let algebra = &*pair.algebra;
     if !algebra.constants().is_costly() {
         return cost_of_length(pair);
@@ -68,13 +68,17 @@ pub(super) fn cost<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
     // The mean length of a product of entries.
     let entry = (sum(&pair.a) + sum(&pair.a_tilde)) / (stages * stages);
     let reduced = entry.saturating_mul(entry).saturating_mul(8);
-    let products = stages.pow(if pair.staircase().is_some() { 2 } else { 4 });
+    let products = stages.pow(if pair.lower_triangular().is_some() {
+        2
+    } else {
+        4
+    });
     products.saturating_mul(reduced)
 }
 
 /// Approximate cost, in products of machine words, of everything that follows, for fields with cheap products. The coefficients
 /// of the matrix are products of one entry from each row, and elimination squares their length.
-fn cost_of_length<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
+fn cost_of_length<A: StageAlgebra>(pair: &Partitioned<A>) -> u64 {
     let longest = |row: &Vec<Number<'_>>| row.iter().map(Number::words).max().unwrap_or(0);
     let total = |matrix: &A::Matrix| -> u64 {
         let rows = pair.algebra.entries(matrix);
@@ -87,10 +91,10 @@ fn cost_of_length<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
 
 /// Approximate cost of the matrix if its entries have no short common denominator: then its coefficients have the product of all denominators,
 /// and each of `s⁴` products is reduced to lowest terms.
-fn cost_of_denominators<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
+fn cost_of_denominators<A: StageAlgebra>(pair: &Partitioned<A>) -> u64 {
     let algebra = &*pair.algebra;
     let field = algebra.constants();
-    if pair.staircase().is_some() || cascade::steps(pair).len() > 1 {
+    if pair.lower_triangular().is_some() || cascade::steps(pair).len() > 1 {
         return 0;
     }
     let matrices = [&pair.a, &pair.a_tilde].map(|m| algebra.operator(m));
@@ -105,7 +109,7 @@ fn cost_of_denominators<A: StageAlgebra>(pair: &Pair<A>) -> u64 {
 }
 
 /// The parts over the field of constants.
-pub(super) fn parts<A: StageAlgebra>(pair: &Pair<A>) -> Parts<Vec<Scalar<A>>> {
+pub(super) fn parts<A: StageAlgebra>(pair: &Partitioned<A>) -> Parts<Vec<Scalar<A>>> {
     if let Some(flows) = pair.flows() {
         return parts_of_splitting(&*pair.algebra, &flows);
     }
@@ -117,7 +121,7 @@ pub(super) fn parts<A: StageAlgebra>(pair: &Pair<A>) -> Parts<Vec<Scalar<A>>> {
 
 /// The parts of a composition, from those of its steps.
 pub(super) fn parts_by_steps<A: StageAlgebra>(
-    pair: &Pair<A>,
+    pair: &Partitioned<A>,
     steps: &[Range<usize>],
 ) -> Parts<Vec<Scalar<A>>> {
     let coefficients = Operators::of(pair);
@@ -128,7 +132,7 @@ pub(super) fn parts_by_steps<A: StageAlgebra>(
 }
 
 /// The parts for any method, from the inverse of `1 + xÃA`.
-pub(super) fn parts_of_stages<A: StageAlgebra>(pair: &Pair<A>) -> Parts<Vec<Scalar<A>>> {
+pub(super) fn parts_of_stages<A: StageAlgebra>(pair: &Partitioned<A>) -> Parts<Vec<Scalar<A>>> {
     Operators::of(pair).parts(pair.algebra.constants())
 }
 
@@ -142,7 +146,7 @@ struct Operators<T> {
 }
 
 impl<T: Clone> Operators<T> {
-    fn of<A: StageAlgebra>(pair: &Pair<A>) -> Self
+    fn of<A: StageAlgebra>(pair: &Partitioned<A>) -> Self
     where
         A::Constants: Field<Element = T>,
     {
@@ -370,7 +374,7 @@ mod tests {
     use crate::arithmetic::rational::ratio;
 
     /// Kicks 2/3, −1/5, 3/7 and drifts 1/2, 5, −1/3.
-    fn splitting() -> Pair<Dense<Rationals>> {
+    fn splitting() -> Partitioned<Dense<Rationals>> {
         let b = vec![ratio(1, 2), ratio(5, 1), ratio(-1, 3)];
         let b_tilde = vec![ratio(2, 3), ratio(-1, 5), ratio(3, 7)];
         let rows = |b: &[BigRational], filled: usize| -> Vec<Vec<BigRational>> {
@@ -381,7 +385,7 @@ mod tests {
             let row = |i| (0..b.len()).map(|j| entry(i, j)).collect();
             (0..b.len()).map(row).collect()
         };
-        Pair {
+        Partitioned {
             algebra: Arc::new(Dense::new(Rationals, 3)),
             a: rows(&b, 0),
             a_tilde: rows(&b_tilde, 1),

@@ -14,7 +14,7 @@ use super::polynomial::RealPolynomial;
 use super::resolvent::Resolvent;
 use crate::algebra::{Field, Scalar, StageAlgebra};
 use crate::arithmetic::rational::ratio;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 
 /// Linear stability of a method with `ã = a` and `b̃ = b` on `y' = λy`, where one step is `y1 = R(hλ) y0`.
 #[derive(Debug, Clone)]
@@ -32,7 +32,7 @@ pub struct RungeKuttaStability {
 }
 
 /// The coefficients of `det(1 − zA)` and of `bᵀ adj(1 − zA) 1`.
-pub(super) fn parts<A: StageAlgebra>(pair: &Pair<A>) -> [Vec<Scalar<A>>; 2] {
+pub(super) fn parts<A: StageAlgebra>(pair: &Partitioned<A>) -> [Vec<Scalar<A>>; 2] {
     let algebra = &*pair.algebra;
     let field = algebra.constants();
     let (a, b) = (algebra.operator(&pair.a), algebra.functional(&pair.b));

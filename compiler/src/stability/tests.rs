@@ -21,9 +21,9 @@ fn matrix(rows: &[&[&str]]) -> Vec<Vec<BigRational>> {
     rows.iter().map(row).collect()
 }
 
-fn pair(a: &[&[&str]], b: &[&str]) -> Pair<Dense<Rationals>> {
+fn pair(a: &[&[&str]], b: &[&str]) -> Partitioned<Dense<Rationals>> {
     let algebra = Arc::new(Dense::new(Rationals, b.len()));
-    Pair::equal(algebra, matrix(a), matrix(&[b]).remove(0))
+    Partitioned::equal(algebra, matrix(a), matrix(&[b]).remove(0))
 }
 
 fn runge_kutta(a: &[&[&str]], b: &[&str]) -> (Stability, RungeKuttaStability) {
@@ -221,7 +221,7 @@ fn diagonally_implicit(gamma: &Polynomial) -> RungeKuttaStability {
         vec![gamma.clone(), Polynomial::zero()],
         vec![rest.clone(), gamma.clone()],
     ];
-    let stability = Stability::of_pair(&Pair::equal(algebra, a, vec![rest, gamma.clone()]));
+    let stability = Stability::of_pair(&Partitioned::equal(algebra, a, vec![rest, gamma.clone()]));
     stability.runge_kutta.expect("one tableau")
 }
 
@@ -238,7 +238,7 @@ fn methods_over_a_field() {
     assert!(!diagonally_implicit(&gamma).a_stable);
     // A kick and a drift, with weights whose product is √2: tr M = 2 − √2ν².
     let algebra = Arc::new(Dense::new(Surds::new(), 1));
-    let pair = Pair {
+    let pair = Partitioned {
         a: vec![vec![Polynomial::variable()]],
         a_tilde: vec![vec![Polynomial::zero()]],
         b: vec![Polynomial::variable()],
@@ -253,7 +253,7 @@ fn methods_over_a_field() {
 }
 
 /// Stability by the arithmetic for any field, whether the polynomials are rational or not.
-fn over_field<A: StageAlgebra + 'static>(pair: &Pair<A>) -> Stability {
+fn over_field<A: StageAlgebra + 'static>(pair: &Partitioned<A>) -> Stability {
     let make = |list: &Vec<Scalar<A>>| {
         FieldPolynomial::new(&pair.algebra, &Arc::new(Budget::unlimited()), list.clone())
     };
@@ -350,12 +350,12 @@ proptest::proptest! {
         let rational = |x: &BigRational| x * &near;
         let half = ratio(1, 2);
         let zero = BigRational::default();
-        let reals = Pair::equal(
+        let reals = Partitioned::equal(
             Arc::new(Dense::new(Reals, 2)),
             vec![vec![real(&first), Real::rational(zero.clone())], vec![real(&other), Real::rational(zero.clone())]],
             vec![Real::rational(half.clone()); 2],
         );
-        let rationals = Pair::equal(
+        let rationals = Partitioned::equal(
             Arc::new(Dense::new(Rationals, 2)),
             vec![vec![rational(&first), zero.clone()], vec![rational(&other), zero]],
             vec![half; 2],
@@ -385,7 +385,7 @@ fn a_number_whose_double_is_zero_is_not_zero() {
     let tiny = field.multiply(&pi, &field.rational(&ratio(10, 1).pow(400).recip()));
     let [zero, one, half] = [ratio(0, 1), ratio(1, 1), ratio(1, 2)].map(|x| field.rational(&x));
     let a = vec![vec![tiny, zero.clone()], vec![one, zero]];
-    let stability = Stability::of_pair(&Pair::equal(
+    let stability = Stability::of_pair(&Partitioned::equal(
         Arc::new(Dense::new(field, 2)),
         a,
         vec![half; 2],
@@ -409,7 +409,7 @@ fn pairs_that_are_not_symplectic() {
     assert!(heun.intervals.is_empty());
     // Implicit, with too small a weight of the force: damped.
     let algebra = Arc::new(Dense::new(Rationals, 1));
-    let damped = Pair {
+    let damped = Partitioned {
         a: matrix(&[&["1"]]),
         a_tilde: matrix(&[&["1"]]),
         b: matrix(&[&["1"]]).remove(0),
@@ -420,7 +420,7 @@ fn pairs_that_are_not_symplectic() {
     assert!(!damped.preserves_area && damped.p_stable, "{damped}");
     // A second stage without weight that has no solution at ν = 1.
     let algebra = Arc::new(Dense::new(Rationals, 2));
-    let unseen = Pair {
+    let unseen = Partitioned {
         a: matrix(&[&["1/2", "0"], &["0", "1"]]),
         a_tilde: matrix(&[&["1/2", "0"], &["0", "-1"]]),
         b: matrix(&[&["1", "0"]]).remove(0),
@@ -437,7 +437,7 @@ fn pairs_that_are_not_symplectic() {
 #[test]
 fn a_touching_trace_does_not_split_an_interval_if_the_matrix_is_scalar() {
     let algebra = Arc::new(Dense::new(Rationals, 4));
-    let verlet = Pair {
+    let verlet = Partitioned {
         a: matrix(&[
             &["0", "0", "0", "0"],
             &["1/4", "1/4", "0", "0"],
@@ -464,7 +464,7 @@ fn a_touching_trace_does_not_split_an_interval_if_the_matrix_is_scalar() {
 /// `M = ((1, 0), (−ν(1 − ν²/2), 1))`: the trace is 2 everywhere, and the powers are bounded only where `M = 1`.
 #[test]
 fn a_constant_trace_leaves_the_points_where_the_matrix_is_scalar() {
-    let kick = Pair {
+    let kick = Partitioned {
         algebra: Arc::new(Dense::new(Rationals, 2)),
         a: matrix(&[&["0", "0"], &["1", "-1"]]),
         a_tilde: matrix(&[&["1", "0"], &["0", "0"]]),

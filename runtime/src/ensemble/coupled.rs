@@ -7,7 +7,7 @@ use core::ops::ControlFlow;
 use super::group::{Attempt, Group, Member, Task};
 use crate::error::Error;
 use crate::integrator::CoupledLanes;
-use crate::integrator::side_by_side::evaluations;
+use crate::integrator::explicit_in_lanes::evaluations;
 use crate::method::{Method, Solver};
 use crate::number::{Lanes, Summation, Vector};
 use crate::output::at_times::{self, Output};

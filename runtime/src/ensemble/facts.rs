@@ -1,5 +1,7 @@
 //! What a file of results says of its method.
 
+use alloc::string::String;
+
 use super::Ensemble;
 use crate::method::{Method, RunTimeTableau, Solver};
 use crate::number::{Summation, Vector};

@@ -58,13 +58,13 @@ mod moments;
 mod npz;
 #[cfg(feature = "parquet")]
 mod parquet;
-mod parts;
 mod pool;
 mod registers;
 mod row;
 mod run;
 mod run_time;
-mod runs;
+mod shards;
+mod trajectory;
 
 pub use checkpoint::EnsembleCheckpoint;
 pub use error::EnsembleError;
@@ -75,7 +75,7 @@ pub use npz::{Npz, NpzArray, NpzValues};
 #[cfg(feature = "parquet")]
 pub use parquet::{Parquet, ParquetColumn};
 pub use row::Row;
-pub use runs::Run;
+pub use trajectory::Run;
 
 use alloc::sync::Arc;
 use alloc::vec::Vec;

@@ -328,7 +328,7 @@ pub enum Error {
         position_time = Short(*.position_time),
         momentum_time = Short(*.momentum_time)
     )]
-    TwoClocks {
+    DifferentNodes {
         /// The stage, from 1.
         stage: usize,
         /// `t0 + c_i h`.

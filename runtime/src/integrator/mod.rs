@@ -10,7 +10,7 @@ pub(crate) mod step_clock;
 #[cfg(feature = "alloc")]
 pub use checkpoint::{Checkpoint, CheckpointError};
 #[cfg(feature = "alloc")]
-pub(crate) use in_lanes::CoupledLanes;
+pub(crate) use coupled_in_lanes::CoupledLanes;
 pub use retry::Retry;
 pub use statistics::Statistics;
 pub use step_map::{PhasePoint, StepMap};
@@ -34,16 +34,16 @@ use crate::system::{Class, System};
 #[cfg(feature = "alloc")]
 pub(crate) mod checkpoint;
 #[cfg(feature = "alloc")]
-pub(crate) mod fingerprint;
+mod coupled_in_lanes;
 #[cfg(feature = "alloc")]
-mod in_lanes;
+pub(crate) mod explicit_in_lanes;
+#[cfg(feature = "alloc")]
+pub(crate) mod fingerprint;
 mod many_steps;
 mod memory;
 mod one_step;
 #[cfg(feature = "alloc")]
 mod run_time;
-#[cfg(feature = "alloc")]
-pub(crate) mod side_by_side;
 mod solvers;
 mod step_map;
 pub(crate) mod validation;

@@ -56,7 +56,7 @@ pub trait Substeps {
         system: &S,
         memory: &mut Self::Memory<V, S, N>,
         outcome: Outcome<'_, V>,
-        witness: &mut W,
+        observer: &mut W,
     ) where
         R: Summation,
         V: Vector,

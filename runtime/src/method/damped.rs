@@ -232,7 +232,7 @@ impl<M: Method> Plan for DampedPlan<M> {
         system: &S,
         memory: &mut DampedMemory<V>,
         outcome: Outcome<'_, V>,
-        witness: &mut W,
+        observer: &mut W,
     ) where
         R: Summation,
         V: Vector,
@@ -256,7 +256,7 @@ impl<M: Method> Plan for DampedPlan<M> {
             kept,
             outcome,
             &mut kick_drift,
-            witness,
+            observer,
         );
     }
 

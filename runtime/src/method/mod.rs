@@ -53,7 +53,7 @@ pub use proved::{LowerOrder, Orders, ProvedFor, Symmetry};
 pub use run_time::{
     AtRunTime, RunTimeCoefficients, RunTimePlan, RunTimeStages, RunTimeTableau, TableauError,
 };
-pub use separable_only::{SeparableOnly, rows, staircase};
+pub use separable_only::{SeparableOnly, lower_triangular, rows};
 pub use solver::Solver;
 pub use splitting::{KickDrift, Splitting, SplittingPlan, SplittingStep};
 pub use splitting_macros::{composition, splitting};
@@ -247,7 +247,7 @@ pub trait Plan {
     {
     }
 
-    /// Takes `step` of a splitting with the kicks and drifts of `kick_drift`, and shows its evaluations to `witness`. Does not compile
+    /// Takes `step` of a splitting with the kicks and drifts of `kick_drift`, and shows its evaluations to `observer`. Does not compile
     /// for any other plan.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take_by<R, V, S, K, W>(
@@ -275,7 +275,7 @@ pub trait Plan {
         StepStatistics::default()
     }
 
-    /// Repeats a step that failed, and shows its evaluations to `witness`; does nothing if they are in `memory` or have been shown.
+    /// Repeats a step that failed, and shows its evaluations to `observer`; does nothing if they are in `memory` or have been shown.
     fn observe<R, V, S, N, W>(
         _step: &Step<'_, V>,
         _system: &S,

@@ -61,7 +61,7 @@ pub(crate) fn relax_by<'a, R: Summation, V: Vector>(
     for i in rest..n {
         let product = |j: usize| ((sum.factor)(j), (sum.vector)(j)[i]);
         let new = value::<R, _>(base[i], low[i], (sum.count)(), product);
-        let new = moved(R::BEYOND, out[i], new);
+        let new = moved(R::OVERRELAXED, out[i], new);
         local.record(base[i], out[i], new);
         out[i] = new;
     }
@@ -164,7 +164,7 @@ where
             };
             let new = value::<R, _>(start, K::load(&low[row]), (sum.count)(), products);
             let old = K::load(&out[row]);
-            let new = moved(R::BEYOND, old, new);
+            let new = moved(R::OVERRELAXED, old, new);
             out[row] = K::store(new);
             difference = difference.larger_or_nan((new - old).abs());
             scale = scale.larger(start.abs()).larger(new.abs());

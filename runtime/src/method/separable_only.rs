@@ -8,10 +8,10 @@ use crate::system::{General, System};
 /// These are `a` and `ã` of a splitting.
 ///
 /// ```
-/// const A: [[f64; 3]; 3] = symplectic::emitted::staircase([0.25, 0.5, 0.25], 0.0, false);
+/// const A: [[f64; 3]; 3] = symplectic::emitted::lower_triangular([0.25, 0.5, 0.25], 0.0, false);
 /// assert_eq!(A, [[0.0, 0.0, 0.0], [0.25, 0.0, 0.0], [0.25, 0.5, 0.0]]);
 /// ```
-pub const fn staircase<T: Copy, const N: usize>(
+pub const fn lower_triangular<T: Copy, const N: usize>(
     weights: [T; N],
     zero: T,
     own: bool,

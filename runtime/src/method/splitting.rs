@@ -74,7 +74,7 @@ pub struct SplittingStep<'a, R, V, S, K, W> {
     /// How kicks and drifts are applied.
     kick_drift: &'a mut K,
     /// Receives every evaluation.
-    witness: &'a mut W,
+    observer: &'a mut W,
     sums: PhantomData<R>,
 }
 
@@ -91,7 +91,7 @@ where
     pub fn force(&mut self, stage: usize, time: Coefficient) {
         let (state, force) = (&mut self.state, &mut self.evaluations.force);
         (self.system).force(self.span.at(time), state.q, state.p, force);
-        (self.witness).evaluation(Quantity::Force, stage, &*state.q, force);
+        (self.observer).evaluation(Quantity::Force, stage, &*state.q, force);
     }
 
     /// [`force`](Self::force), unless the previous step has kept it.
@@ -141,7 +141,7 @@ where
                 &*place
             }
         };
-        (self.witness).evaluation(Quantity::Velocity, stage, &*state.p, velocity);
+        (self.observer).evaluation(Quantity::Velocity, stage, &*state.p, velocity);
         let position = (&mut *state.q, &mut *state.q_low);
         (self.kick_drift).drift::<R, V>(self.span.size, weight, velocity, position);
     }
@@ -168,9 +168,9 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         _stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure> {
-        let (kick_drift, witness) = (&mut (), &mut ());
+        let (kick_drift, observer) = (&mut (), &mut ());
         Ok(Self::take_by::<R, V, S, _, _>(
-            step, system, memory, kept, outcome, kick_drift, witness,
+            step, system, memory, kept, outcome, kick_drift, observer,
         ))
     }
 
@@ -182,7 +182,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         kept: WarmStart,
         mut outcome: Outcome<'_, V>,
         kick_drift: &mut K,
-        witness: &mut W,
+        observer: &mut W,
     ) -> StepStatistics
     where
         R: Summation,
@@ -199,7 +199,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
             kept: kept.evaluation,
             state: outcome,
             kick_drift,
-            witness,
+            observer,
             sums: PhantomData,
         });
         let carried = if kept.evaluation { P::CARRIED } else { 0 };
@@ -214,7 +214,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
         system: &S,
         memory: &mut Evaluations<V>,
         outcome: Outcome<'_, V>,
-        witness: &mut W,
+        observer: &mut W,
     ) where
         R: Summation,
         V: Vector,
@@ -224,7 +224,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
     {
         *memory = Evaluations::like(step.q);
         let kept = WarmStart::default();
-        Self::take_by::<R, V, S, _, _>(step, system, memory, kept, outcome, &mut (), witness);
+        Self::take_by::<R, V, S, _, _>(step, system, memory, kept, outcome, &mut (), observer);
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -248,7 +248,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
             kept: true,
             state,
             kick_drift,
-            witness: &mut (),
+            observer: &mut (),
             sums: PhantomData,
         });
     }

@@ -14,7 +14,7 @@ pub(crate) mod rank;
 pub(crate) mod registers;
 pub(crate) mod rows;
 pub(crate) mod scalar;
-mod sixteen;
+mod sixteen_lanes;
 pub(crate) mod summation;
 pub(crate) mod vector;
 pub(crate) mod words;
@@ -29,8 +29,8 @@ pub use linear_combination::{
 pub use scalar::Scalar;
 pub(crate) use scalar::larger_or_nan;
 #[cfg(feature = "alloc")]
-pub(crate) use sixteen::WidestF64x16;
-pub use sixteen::{DefaultLanes, F64x16};
+pub(crate) use sixteen_lanes::WidestF64x16;
+pub use sixteen_lanes::{DefaultLanes, F64x16};
 pub use summation::{Compensated, Plain, Summation};
 pub use vector::Vector;
 pub use words::{Visit, Words, scalar_words, vector_words};

@@ -18,7 +18,7 @@ pub trait Summation: sealed::Sealed + Copy + Default + 'static {
 
     /// Whether stages of an iteration are moved twice as far as by these sums.
     #[doc(hidden)]
-    const BEYOND: bool = false;
+    const OVERRELAXED: bool = false;
 }
 
 /// Compensated sums: the state is an unevaluated sum of two numbers, and increments are added in this precision.
@@ -51,13 +51,13 @@ pub(crate) struct Overrelaxed<R>(PhantomData<R>);
 impl<R: Summation> Summation for Overrelaxed<R> {
     const COMPENSATED: bool = R::COMPENSATED;
 
-    const BEYOND: bool = true;
+    const OVERRELAXED: bool = true;
 }
 
-/// The updated value of a stage, over-relaxed if `beyond`.
+/// The updated value of a stage, over-relaxed if `overrelaxed`.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn moved<T: Scalar>(beyond: bool, old: T, new: T) -> T {
-    match beyond {
+pub(crate) fn moved<T: Scalar>(overrelaxed: bool, old: T, new: T) -> T {
+    match overrelaxed {
         true => new + (new - old),
         false => new,
     }

@@ -16,13 +16,13 @@ use crate::number::vector::{same, same_mut};
 use crate::number::{Scalar, Summation, Vector, Visit, WideF64x4, WideF64x8, WidestF64x8};
 use crate::solver::FixedPoint;
 use crate::solver::fixed_point::by_stages;
-#[cfg(feature = "alloc")]
-use crate::solver::in_lanes;
 use crate::solver::nystrom::{self, NystromStages, nystrom};
 #[cfg(feature = "alloc")]
 use crate::solver::run_time::by_rows;
-use crate::solver::simd::in_registers::InRegisters;
-use crate::solver::simd::sweeps;
+use crate::solver::stages_in_lanes::in_registers::InRegisters;
+use crate::solver::stages_in_lanes::sweeps;
+#[cfg(feature = "alloc")]
+use crate::solver::trajectories_in_lanes;
 use crate::system::{Class, OverEveryScalar, System, SystemInLanes};
 
 /// The fastest fixed-point iteration for a method, a system and its scalar. It is the default of an
@@ -286,7 +286,7 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
         W: Vector<Scalar: Lanes>,
         J: System<W, Class = P::Class>,
     {
-        Some(in_lanes::take::<P, R, W, J>)
+        Some(trajectories_in_lanes::take::<P, R, W, J>)
     }
 
     #[cfg(feature = "alloc")]
@@ -298,7 +298,7 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
         W: Vector<Scalar: Lanes>,
         J: System<W, Class = C>,
     {
-        Some(in_lanes::take_at_run_time::<C, R, W, J>)
+        Some(trajectories_in_lanes::take_at_run_time::<C, R, W, J>)
     }
 
     fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {

@@ -4,14 +4,14 @@ pub(crate) mod automatic;
 pub(crate) mod convergence;
 pub(crate) mod fixed_point;
 #[cfg(feature = "alloc")]
-pub(crate) mod in_lanes;
-#[cfg(feature = "alloc")]
 pub(crate) mod newton;
 pub(crate) mod nystrom;
 pub(crate) mod predictor;
 #[cfg(feature = "alloc")]
 pub(crate) mod run_time;
-pub(crate) mod simd;
+pub(crate) mod stages_in_lanes;
+#[cfg(feature = "alloc")]
+pub(crate) mod trajectories_in_lanes;
 
 pub use crate::method::{
     Decoupling, EvaluationCounts, Failure, HalfChange, HalfTableau, Outcome, SecondOrderTableau,
@@ -29,5 +29,5 @@ pub use newton::{
 };
 #[cfg(feature = "num-dual")]
 pub use newton::{DualNumbers, SystemInDuals};
-pub use simd::stages::SimdStages;
-pub use simd::{SimdFixedPoint, SimdJacobi};
+pub use stages_in_lanes::stages::SimdStages;
+pub use stages_in_lanes::{SimdFixedPoint, SimdJacobi};

@@ -37,7 +37,7 @@ pub(super) fn weighted_energy<'a, S: System<V>, V: Vector>(
         check(energy, number)?;
         // A system that does not depend on time gives the same number, bit for bit.
         if position_time != momentum_time && at(momentum_time, stage.q, stage.p)? != energy {
-            return Err(Error::TwoClocks {
+            return Err(Error::DifferentNodes {
                 stage: number,
                 position_time,
                 momentum_time,

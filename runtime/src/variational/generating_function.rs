@@ -106,7 +106,7 @@ impl<V: Vector> GeneratingFunction<V> {
 ///
 /// # Errors
 ///
-/// [`Error::NoEnergy`] if the system has no energy; [`Error::TwoClocks`] if it depends on time and the method has `c ≠ c̃`;
+/// [`Error::NoEnergy`] if the system has no energy; [`Error::DifferentNodes`] if it depends on time and the method has `c ≠ c̃`;
 /// [`Error::StepSize`], [`Error::Dimension`] and [`Error::NonFiniteState`] for the arguments; [`Error::NoConvergence`],
 /// [`Error::NonFinite`] and [`Error::EvaluationDimension`] as in a step.
 ///
@@ -167,7 +167,7 @@ impl<M: Method, S: System<V, Class: Conservative>, V: Vector, R: Summation, N: S
     ///
     /// # Errors
     ///
-    /// Those of [`step`](Self::step), [`Error::NoEnergy`], [`Error::TwoClocks`]; the state is then unchanged.
+    /// Those of [`step`](Self::step), [`Error::NoEnergy`], [`Error::DifferentNodes`]; the state is then unchanged.
     ///
     /// ```
     /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }

@@ -157,7 +157,7 @@ where
 {
     type Vector = V;
 
-    /// The errors of the action are [`Error::NoEnergy`] and [`Error::TwoClocks`]. Does not compile with an applied force.
+    /// The errors of the action are [`Error::NoEnergy`] and [`Error::DifferentNodes`]. Does not compile with an applied force.
     fn step_with_action(&self, start: State<V>) -> Result<(State<V>, f64), Error> {
         const {
             assert!(

@@ -82,7 +82,7 @@ impl<V: Vector> StagesOfStep<V> {
     ///
     /// # Errors
     ///
-    /// [`Error::NoEnergy`] if the system has no energy; [`Error::TwoClocks`] if it depends on time and the method has `c ≠ c̃`.
+    /// [`Error::NoEnergy`] if the system has no energy; [`Error::DifferentNodes`] if it depends on time and the method has `c ≠ c̃`.
     pub fn action<S: System<V>>(&self, system: &S) -> Result<V::Scalar, Error> {
         let Some(first) = self.stages.first() else {
             return Ok(V::Scalar::from_f64(0.0));

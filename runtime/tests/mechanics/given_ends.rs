@@ -149,7 +149,7 @@ fn splittings() -> Result<(), Error> {
     )?;
     let outcome = run.type_one(&Vector1::new(0.5), &Vector1::new(0.52));
     assert!(
-        matches!(outcome, Err(Error::TwoClocks { .. })),
+        matches!(outcome, Err(Error::DifferentNodes { .. })),
         "{outcome:?}"
     );
     Ok(())

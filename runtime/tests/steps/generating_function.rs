@@ -448,7 +448,7 @@ fn one_clock_will_do_and_two_will_not() -> Result<(), Box<dyn StdError>> {
     };
     assert_eq!(
         error,
-        Error::TwoClocks {
+        Error::DifferentNodes {
             stage: 1,
             position_time: 0.75,
             momentum_time: 0.875

@@ -92,7 +92,7 @@ impl Composed<'_> {
         });
         let observe = arms(&|plan, place| {
             let place = borrowed(place);
-            quote!(<#plan as emitted::Plan>::observe::<R, V, S, N, W>(step, system, #place, outcome, witness))
+            quote!(<#plan as emitted::Plan>::observe::<R, V, S, N, W>(step, system, #place, outcome, observer))
         });
         let substeps = self.list();
         let vector = quote!(V: emitted::Vector);
@@ -128,7 +128,7 @@ impl Composed<'_> {
                     system: &S,
                     memory: &mut Self::Memory<V, S, N>,
                     outcome: emitted::Outcome<'_, V>,
-                    witness: &mut W,
+                    observer: &mut W,
                 ) {
                     #observe
                 }

@@ -9,7 +9,7 @@ use crate::evidence::Evidence;
 use crate::exact::Exact;
 use crate::export::facts::Fact;
 use crate::order::{ClassOrder, HamiltonianClass};
-use crate::pair::Staircase;
+use crate::partitioned::LowerTriangular;
 use crate::properties::images;
 use crate::stability::{Stability, StabilityInterval, StableSteps};
 use crate::tableau::Tableau;
@@ -20,11 +20,14 @@ use Fact::{List, Literal, Table, Text};
 const DIGITS: usize = 40;
 
 /// The claims, and `not_covered` with the names of the missing ones.
-pub(super) fn of(tableau: &Tableau, staircase: Option<Staircase>) -> Vec<(&'static str, Fact)> {
+pub(super) fn of(
+    tableau: &Tableau,
+    lower_triangular: Option<LowerTriangular>,
+) -> Vec<(&'static str, Fact)> {
     let mut claims = Vec::new();
     let mut missing: Vec<String> = Vec::new();
     let properties = tableau.properties();
-    if staircase.is_some() {
+    if lower_triangular.is_some() {
         // Symplectic by the form of its matrices.
         let palindrome = tableau.separable_properties().symmetric;
         note(
@@ -83,7 +86,7 @@ pub(super) fn of(tableau: &Tableau, staircase: Option<Staircase>) -> Vec<(&'stat
             false => missing.push("order (perturbed)".to_owned()),
         }
     }
-    match stability(tableau, staircase) {
+    match stability(tableau, lower_triangular) {
         Some(found) => claims.push(("stability", found)),
         None => missing.push("stability".to_owned()),
     }
@@ -163,7 +166,7 @@ fn chain(stages: &Polynomial, numerator: &Polynomial, denominator: &Polynomial) 
 
 /// All stable steps of an area-preserving method, and the trace if it is rational; `None` if an irrational one touches 2 or −2. Those of a
 /// solution of order conditions, which are verified here, the checker proves: it needs no zeros for a splitting.
-fn stability(tableau: &Tableau, staircase: Option<Staircase>) -> Option<Fact> {
+fn stability(tableau: &Tableau, lower_triangular: Option<LowerTriangular>) -> Option<Fact> {
     let StableSteps::All(found) = tableau.stable_steps() else {
         return None;
     };
@@ -172,7 +175,7 @@ fn stability(tableau: &Tableau, staircase: Option<Staircase>) -> Option<Fact> {
     } = &*found;
     let is_known = match found.evidence {
         Evidence::Proved => true,
-        Evidence::Verified { .. } => staircase.is_some(),
+        Evidence::Verified { .. } => lower_triangular.is_some(),
         _ => false,
     };
     if !found.preserves_area || !is_known {

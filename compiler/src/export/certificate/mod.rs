@@ -13,7 +13,7 @@ use super::facts::Fact;
 use super::language::hexadecimal;
 use crate::algebra::field::MAX_DEGREE;
 use crate::error::{Error, ErrorKind};
-use crate::pair::Staircase;
+use crate::partitioned::LowerTriangular;
 use crate::tableau::Tableau;
 
 use Fact::{List, Literal, Text};
@@ -50,7 +50,7 @@ pub fn write(tableau: &Tableau) -> Result<String, Error> {
         ("version", Literal(VERSION.to_string())),
         ("name", Text(tableau.name().unwrap_or_default().to_owned())),
         ("stages", Literal(tableau.stages().to_string())),
-        ("layout", Text(layout(numbers.staircase).to_owned())),
+        ("layout", Text(layout(numbers.lower_triangular).to_owned())),
         ("numbers", numbers.kind),
         ("b", numbers.b),
         ("b_tilde", numbers.b_tilde),
@@ -58,8 +58,8 @@ pub fn write(tableau: &Tableau) -> Result<String, Error> {
     if let Some((a, a_tilde)) = numbers.matrices {
         members.extend([("a", a), ("a_tilde", a_tilde)]);
     }
-    members.push(("doubles", doubles(tableau, numbers.staircase)));
-    members.extend(claims::of(tableau, numbers.staircase));
+    members.push(("doubles", doubles(tableau, numbers.lower_triangular)));
+    members.extend(claims::of(tableau, numbers.lower_triangular));
     let members: Vec<String> = members
         .iter()
         .map(|(key, value)| format!("  \"{key}\": {}", lines(value)))
@@ -67,16 +67,16 @@ pub fn write(tableau: &Tableau) -> Result<String, Error> {
     Ok(format!("{{\n{}\n}}\n", members.join(",\n")))
 }
 
-fn layout(staircase: Option<Staircase>) -> &'static str {
-    match staircase {
+fn layout(lower_triangular: Option<LowerTriangular>) -> &'static str {
+    match lower_triangular {
         None => "matrices",
-        Some(Staircase::KicksFirst) => "kicks first",
-        Some(Staircase::DriftsFirst) => "drifts first",
+        Some(LowerTriangular::KicksFirst) => "kicks first",
+        Some(LowerTriangular::DriftsFirst) => "drifts first",
     }
 }
 
 /// The nearest doubles in hexadecimal; matrices only if the weights do not determine them.
-fn doubles(tableau: &Tableau, staircase: Option<Staircase>) -> Fact {
+fn doubles(tableau: &Tableau, lower_triangular: Option<LowerTriangular>) -> Fact {
     let doubles = tableau.to_f64();
     let vector = |list: &Vec<f64>| List(list.iter().map(|x| Text(hexadecimal(*x))).collect());
     let mut members = vec![
@@ -85,7 +85,7 @@ fn doubles(tableau: &Tableau, staircase: Option<Staircase>) -> Fact {
         ("b", vector(&doubles.b)),
         ("b_tilde", vector(&doubles.b_tilde)),
     ];
-    if staircase.is_none() {
+    if lower_triangular.is_none() {
         let matrix = |rows: &Vec<Vec<f64>>| List(rows.iter().map(vector).collect());
         members.push(("a", matrix(&doubles.a)));
         members.push(("a_tilde", matrix(&doubles.a_tilde)));

@@ -12,7 +12,7 @@ use crate::arithmetic::rounding::Decimal;
 use crate::certify::{Affine, Certificate, Claim};
 use crate::exact::Exact;
 use crate::export::facts::Fact;
-use crate::pair::{Pair, Staircase};
+use crate::partitioned::{LowerTriangular, Partitioned};
 use crate::tableau::Tableau;
 
 use Fact::{List, Literal, Table, Text};
@@ -25,7 +25,7 @@ pub(super) struct Numbers {
     /// The basis of the coordinates in the lists below.
     pub kind: Fact,
     /// The form of the matrices, if the weights determine them.
-    pub staircase: Option<Staircase>,
+    pub lower_triangular: Option<LowerTriangular>,
     pub b: Fact,
     pub b_tilde: Fact,
     pub matrices: Option<(Fact, Fact)>,
@@ -44,14 +44,14 @@ impl Numbers {
     }
 
     /// Functions of the nodes: polynomials.
-    fn of_nodes(pair: &Pair<NodeAlgebra>) -> Self {
+    fn of_nodes(pair: &Partitioned<NodeAlgebra>) -> Self {
         let matrix = |tensor: &Tensor| List(tensor.columns().iter().map(coefficients).collect());
         Numbers {
             kind: Table(vec![
                 ("kind", text("nodes")),
                 ("polynomial", coefficients(pair.algebra.modulus())),
             ]),
-            staircase: None,
+            lower_triangular: None,
             b: coefficients(&pair.b),
             b_tilde: coefficients(&pair.b_tilde),
             matrices: Some((matrix(&pair.a), matrix(&pair.a_tilde))),
@@ -59,7 +59,7 @@ impl Numbers {
     }
 
     /// Elements of `Q(θ)`: polynomials in `θ`. Those of `Q(θ)(X)` are pairs of lists with such a polynomial for each power of `X`.
-    fn of_field(pair: &Pair<Dense<Constants>>) -> Self {
+    fn of_field(pair: &Partitioned<Dense<Constants>>) -> Self {
         let constants = pair.algebra.field();
         let field = constants.field();
         let number_field = field.algebraic();
@@ -83,13 +83,13 @@ impl Numbers {
         kind.extend(variable.as_ref().map(|x| ("variable", text(x))));
         let vector = |list: &Vec<FieldElement>| List(list.iter().map(element).collect());
         let matrix = |rows: &Vec<Vec<FieldElement>>| List(rows.iter().map(vector).collect());
-        let staircase = pair.staircase();
+        let lower_triangular = pair.lower_triangular();
         Numbers {
             kind: Table(kind),
-            staircase,
+            lower_triangular,
             b: vector(&pair.b),
             b_tilde: vector(&pair.b_tilde),
-            matrices: match staircase {
+            matrices: match lower_triangular {
                 Some(_) => None,
                 None => Some((matrix(&pair.a), matrix(&pair.a_tilde))),
             },
@@ -97,10 +97,10 @@ impl Numbers {
     }
 
     /// A composition of compositions: its levels give the weights.
-    fn of_levels(tableau: &Tableau, pair: &Pair<Dense<Reals>>) -> Option<Self> {
+    fn of_levels(tableau: &Tableau, pair: &Partitioned<Dense<Reals>>) -> Option<Self> {
         Some(Numbers {
             kind: levels::of(&tableau.provenance().definition)?,
-            staircase: Some(pair.staircase()?),
+            lower_triangular: Some(pair.lower_triangular()?),
             b: List(Vec::new()),
             b_tilde: List(Vec::new()),
             matrices: None,
@@ -108,7 +108,7 @@ impl Numbers {
     }
 
     /// The solution of order conditions: affine functions of its irrational coordinates.
-    fn of_solution(pair: &Pair<Dense<Reals>>) -> Option<Self> {
+    fn of_solution(pair: &Partitioned<Dense<Reals>>) -> Option<Self> {
         let mut certificate: Option<Certificate> = None;
         let mut affine = |list: &[Real]| -> Option<Vec<Affine>> {
             list.iter().map(|x| x.affine(&mut certificate)).collect()
@@ -122,12 +122,12 @@ impl Numbers {
             .chain(solved.weights.iter().flatten());
         let unknowns: BTreeSet<usize> = all.flat_map(|x| x.factors.keys().copied()).collect();
         let list = |list: &[Affine]| List(list.iter().map(|x| coordinates(x, &unknowns)).collect());
-        let staircase = pair.staircase()?;
+        let lower_triangular = pair.lower_triangular()?;
         let enclosed = certificate.enclosed_unknowns(solution::BITS);
         let enclosed = |index: &usize| Some((*index, enclosed.get(*index)?.clone()));
         let proof = Solution {
             claim: &solved.claim,
-            staircase,
+            lower_triangular,
             b: &b,
             b_tilde: &b_tilde,
             weights: solved.weights.as_deref(),
@@ -145,7 +145,7 @@ impl Numbers {
         kind.extend(solved.weights.as_deref().map(|x| ("weights", list(x))));
         Some(Numbers {
             kind: Table(kind),
-            staircase: Some(staircase),
+            lower_triangular: Some(lower_triangular),
             b: list(&b),
             b_tilde: list(&b_tilde),
             matrices: None,

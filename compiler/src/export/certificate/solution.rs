@@ -12,7 +12,7 @@ use crate::arithmetic::interval::Interval;
 use crate::certify::{Affine, Claim, Conditions, DRIFT, KICK, Kind, Step, System, Word, inverse};
 use crate::export::facts::Fact;
 use crate::order::one_of_each_rooting;
-use crate::pair::{Pair, Staircase};
+use crate::partitioned::{LowerTriangular, Partitioned};
 
 use Fact::{List, Text};
 
@@ -28,7 +28,7 @@ const INVERSE_PLACES: u32 = 10;
 /// The coefficients as functions of the unknowns, and the conditions for these.
 pub(super) struct Solution<'a> {
     pub claim: &'a Claim,
-    pub staircase: Staircase,
+    pub lower_triangular: LowerTriangular,
     pub b: &'a [Affine],
     pub b_tilde: &'a [Affine],
     /// The fractions of a composition of Störmer–Verlet.
@@ -132,7 +132,7 @@ impl Solution<'_> {
                 })
             };
             let [b, b_tilde] = [self.b, self.b_tilde].map(|list| list.iter().map(at).collect());
-            let pair = Pair::of_splitting(Rationals, self.staircase, b, b_tilde);
+            let pair = Partitioned::of_splitting(Rationals, self.lower_triangular, b, b_tilde);
             one_of_each_rooting(&pair, (1..=order).step_by(if symmetric { 2 } else { 1 }))
         };
         let here = residuals(&point);
@@ -159,14 +159,14 @@ impl Solution<'_> {
     /// The flows one after another, without those of no length.
     fn flows(&self) -> Vec<(Kind, &Affine)> {
         let [drift, kick] = [Kind::Letter(DRIFT), Kind::Letter(KICK)];
-        let each = self
-            .b
-            .iter()
-            .zip(self.b_tilde)
-            .flat_map(|(b, b_tilde)| match self.staircase {
-                Staircase::KicksFirst => [(kick, b_tilde), (drift, b)],
-                Staircase::DriftsFirst => [(drift, b), (kick, b_tilde)],
-            });
+        let each =
+            self.b
+                .iter()
+                .zip(self.b_tilde)
+                .flat_map(|(b, b_tilde)| match self.lower_triangular {
+                    LowerTriangular::KicksFirst => [(kick, b_tilde), (drift, b)],
+                    LowerTriangular::DriftsFirst => [(drift, b), (kick, b_tilde)],
+                });
         let zero = Affine::rational(BigRational::default());
         each.filter(|(_, x)| **x != zero).collect()
     }

@@ -12,7 +12,7 @@ use crate::error::{Error, ErrorKind};
 use crate::evidence::Evidence;
 use crate::exact::over_algebra;
 use crate::order::{HamiltonianClass, TreeRule, Trees};
-use crate::pair::{Pair, Staircase};
+use crate::partitioned::{LowerTriangular, Partitioned};
 use crate::properties::{Property, images};
 use crate::tableau::{Tableau, left_out};
 
@@ -157,7 +157,8 @@ fn used_stages(
     tableau: &Tableau,
     [drifts, kicks]: &[Vec<Polynomial>; 2],
 ) -> Option<[Range<usize>; 2]> {
-    let drift_first = over_algebra!(tableau, pair => pair.staircase())? == Staircase::DriftsFirst;
+    let drift_first =
+        over_algebra!(tableau, pair => pair.lower_triangular())? == LowerTriangular::DriftsFirst;
     // Twice the stage, and one more for its second flow.
     let place = |stage: usize, is_drift: bool| 2 * stage + usize::from(is_drift != drift_first);
     let places = |weights: &[Polynomial], is_drift: bool| -> Vec<usize> {
@@ -180,7 +181,7 @@ fn used_stages(
     is_palindrome.then_some(used)
 }
 
-fn in_nodes(table: &Table<'_>, pair: &Pair<NodeAlgebra>) -> Theorem {
+fn in_nodes(table: &Table<'_>, pair: &Partitioned<NodeAlgebra>) -> Theorem {
     let (name, modulus) = (&table.name, pair.algebra.modulus());
     let degree = pair.algebra.dimension();
     let function = |f: &Polynomial| polynomial(f, degree);
@@ -211,7 +212,7 @@ fn in_nodes(table: &Table<'_>, pair: &Pair<NodeAlgebra>) -> Theorem {
 }
 
 /// Whether the method equals its adjoint with the stages in reverse order: `c` goes to `1 − c`.
-fn is_mirrored(table: &Table<'_>, pair: &Pair<NodeAlgebra>) -> bool {
+fn is_mirrored(table: &Table<'_>, pair: &Partitioned<NodeAlgebra>) -> bool {
     let properties = table.tableau.properties();
     let (modulus, node) = (pair.algebra.modulus(), pair.algebra.variable());
     let reflection = Polynomial::from_integers(&[1, -1]);

@@ -7,7 +7,7 @@ use num_traits::One;
 use crate::algebra::{ClosedForm, Constants, Dense, FieldElement, NodeAlgebra};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::exact::Exact;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::tableau::Tableau;
 
 /// The coefficients of a method, for positions and for momenta.
@@ -29,7 +29,7 @@ pub(super) enum Polynomials<'a> {
         coefficients: Halves<Polynomial>,
     },
     /// In the nodes.
-    InNodes(&'a Pair<NodeAlgebra>),
+    InNodes(&'a Partitioned<NodeAlgebra>),
 }
 
 impl<'a> Polynomials<'a> {
@@ -48,7 +48,7 @@ impl<'a> Polynomials<'a> {
 }
 
 /// All coefficients in one quadratic field, or rational.
-fn quadratic<'a>(pair: &Pair<NodeAlgebra>) -> Option<Polynomials<'a>> {
+fn quadratic<'a>(pair: &Partitioned<NodeAlgebra>) -> Option<Polynomials<'a>> {
     let algebra = &pair.algebra;
     let matrix = |m| {
         let rows = algebra.closed_entries(m).into_iter();
@@ -79,7 +79,7 @@ fn quadratic<'a>(pair: &Pair<NodeAlgebra>) -> Option<Polynomials<'a>> {
 }
 
 /// Elements of a field of algebraic numbers.
-fn in_field<'a>(pair: &Pair<Dense<Constants>>) -> Option<Polynomials<'a>> {
+fn in_field<'a>(pair: &Partitioned<Dense<Constants>>) -> Option<Polynomials<'a>> {
     let field = pair.algebra.field().number_field()?;
     let elements = Halves {
         a: [pair.a.clone(), pair.a_tilde.clone()],

@@ -6,7 +6,7 @@ use crate::export::facts::separable_only;
 use crate::export::written;
 use crate::library::{Library, Stepping};
 use crate::order::HamiltonianClass;
-use crate::pair::Staircase;
+use crate::partitioned::LowerTriangular;
 use crate::schedule::{Class, Node, StepGraph};
 use crate::stability::evidence_text;
 use crate::tableau::{Tableau, left_out};
@@ -181,10 +181,10 @@ impl<'a> Table<'a> {
     /// How the weights determine the matrices that are left out.
     fn left_out(&self) -> Option<&'static str> {
         Some(match left_out(self.tableau)? {
-            Staircase::KicksFirst => {
+            LowerTriangular::KicksFirst => {
                 "a_ij = b_j for j < i, a_tilde_ij = b_tilde_j for j <= i, else 0"
             }
-            Staircase::DriftsFirst => {
+            LowerTriangular::DriftsFirst => {
                 "a_ij = b_j for j <= i, a_tilde_ij = b_tilde_j for j < i, else 0"
             }
         })

@@ -14,7 +14,7 @@ use crate::error::{Error, ErrorKind};
 use crate::exact::Exact;
 use crate::expression::{Input, MAX_BITS};
 use crate::limits::Limits;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::quadrature::{first_outside, node_text};
 use crate::tableau::Tableau;
 
@@ -56,7 +56,7 @@ pub fn read(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Err
         file.error(&super::super::entries::first_line(text, span), kind)
     })?;
     let origin = document.origin();
-    let pair = Pair {
+    let pair = Partitioned {
         algebra: Arc::new(algebra),
         a: tensor(file, &exact.a)?,
         a_tilde: tensor(file, &exact.a_tilde)?,

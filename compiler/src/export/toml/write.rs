@@ -7,7 +7,7 @@ use crate::export::columns::{right, widths};
 use crate::export::facts::{self, Fact};
 use crate::export::json::evidence;
 use crate::export::written;
-use crate::pair::{Pair, Staircase};
+use crate::partitioned::{LowerTriangular, Partitioned};
 use crate::properties::Property;
 use crate::tableau::Tableau;
 use crate::tableau::left_out;
@@ -106,7 +106,7 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
     text
 }
 
-fn write_functions_of_nodes(text: &mut String, pair: &Pair<NodeAlgebra>) {
+fn write_functions_of_nodes(text: &mut String, pair: &Partitioned<NodeAlgebra>) {
     let stages = pair.algebra.dimension();
     text.push_str("\n[exact]\n");
     text.push_str(EXACT);
@@ -155,8 +155,8 @@ fn write_decimals(text: &mut String, tableau: &Tableau, digits: usize) {
     write_vector(text, "b", &decimals.b);
     write_vector(text, "b_tilde", &decimals.b_tilde);
     match left_out(tableau) {
-        Some(Staircase::KicksFirst) => text.push_str(KICKS_FIRST),
-        Some(Staircase::DriftsFirst) => text.push_str(DRIFTS_FIRST),
+        Some(LowerTriangular::KicksFirst) => text.push_str(KICKS_FIRST),
+        Some(LowerTriangular::DriftsFirst) => text.push_str(DRIFTS_FIRST),
         None => {
             write_matrix(text, "a", &decimals.a, stage);
             write_matrix(text, "a_tilde", &decimals.a_tilde, stage);

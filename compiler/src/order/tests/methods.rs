@@ -9,10 +9,10 @@ use num_traits::{One, Zero as _};
 use crate::algebra::{Dense, Rationals, StageAlgebra};
 use crate::arithmetic::rational::parse;
 use crate::order::tree::{BicolouredTree, Colour};
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 
 /// A method with rational coefficients.
-pub(crate) type RationalPair = Pair<Dense<Rationals>>;
+pub(crate) type RationalPair = Partitioned<Dense<Rationals>>;
 
 /// Reads `-3/4`.
 pub(crate) fn rational(text: &str) -> BigRational {
@@ -34,7 +34,7 @@ fn rows(rows: &[&str]) -> Vec<Vec<BigRational>> {
 /// A Runge–Kutta method from the rows of `a` and `b`.
 pub(crate) fn runge_kutta(a: &[&str], b: &str) -> RationalPair {
     let (a, b) = (rows(a), rows(&[b]).remove(0));
-    Pair::equal(Arc::new(Dense::new(Rationals, b.len())), a, b)
+    Partitioned::equal(Arc::new(Dense::new(Rationals, b.len())), a, b)
 }
 
 /// A well-known explicit Runge–Kutta method.
@@ -68,7 +68,7 @@ pub(crate) fn splitting(drift: &[BigRational], kick: &[BigRational]) -> Rational
             .map(|i| (0..stages).map(|j| entry(i, j)).collect())
             .collect()
     };
-    Pair {
+    Partitioned {
         algebra: Arc::new(Dense::new(Rationals, stages)),
         a: matrix(drift, |i, j| j < i),
         a_tilde: matrix(kick, |i, j| j <= i),
@@ -83,8 +83,8 @@ pub(crate) fn drift_first(drift: &[BigRational], kick: &[BigRational]) -> Ration
 }
 
 /// An elementary weight by the recursion over the tree itself, without an enumeration.
-pub(crate) fn weight<A: StageAlgebra>(pair: &Pair<A>, tree: &BicolouredTree) -> BigRational {
-    fn stages<A: StageAlgebra>(pair: &Pair<A>, tree: &BicolouredTree) -> A::Vector {
+pub(crate) fn weight<A: StageAlgebra>(pair: &Partitioned<A>, tree: &BicolouredTree) -> BigRational {
+    fn stages<A: StageAlgebra>(pair: &Partitioned<A>, tree: &BicolouredTree) -> A::Vector {
         let one = pair.algebra.constant(&BigRational::one());
         tree.children().iter().fold(one, |product, child| {
             let matrix = match child.colour() {

@@ -15,7 +15,7 @@ use methods::{
     weight,
 };
 
-fn order<A: StageAlgebra>(pair: &Pair<A>, options: &OrderOptions) -> OrderReport {
+fn order<A: StageAlgebra>(pair: &Partitioned<A>, options: &OrderOptions) -> OrderReport {
     super::order(pair, options, None)
 }
 
@@ -290,9 +290,9 @@ fn simplifying_assumptions_say_nothing_wrong_about_other_methods() {
         let Exact::Nodes(pair) = &tableau.exact else {
             continue;
         };
-        let Pair { algebra, b, .. } = pair.clone();
+        let Partitioned { algebra, b, .. } = pair.clone();
         for matrix in [&pair.a, &pair.a_tilde] {
-            let pair = Pair::equal(Arc::clone(&algebra), matrix.clone(), b.clone());
+            let pair = Partitioned::equal(Arc::clone(&algebra), matrix.clone(), b.clone());
             let proved = simplifying_assumptions(&pair).expect("b = b̃").order();
             let found = order(&pair, &options).general.order;
             assert!(

@@ -4,12 +4,12 @@ use super::{SEARCH_BITS, Symmetry, search};
 use crate::algebra::{Dense, Field, Number, StageAlgebra, Zero};
 use crate::coefficients::Coefficients;
 use crate::evidence::Evidence;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::properties::Property;
 
 impl<F: Field> Symmetry for Dense<F> {
     /// Enclosures find the permutation, the field decides the equations for it.
-    fn symmetric(pair: &Pair<Self>, numbers: &Coefficients<Number<'_>>) -> Property {
+    fn symmetric(pair: &Partitioned<Self>, numbers: &Coefficients<Number<'_>>) -> Property {
         let order = match search(numbers) {
             Ok(order) => order,
             Err(property) => return property,

@@ -9,7 +9,7 @@ use super::{Examined, Property};
 use crate::algebra::{Number, StageAlgebra};
 use crate::arithmetic::interval::Interval;
 use crate::coefficients::Coefficients;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 
 /// Decides whether some permutation `σ` of the stages gives `a_σ(i)σ(j) = b_j − a_ij` and
 /// `b_σ(i) = b_i`, and the same for `ã` and `b̃`.
@@ -20,7 +20,7 @@ pub(super) fn decide<A: Symmetry>(examined: &Examined<'_, A>) -> Property {
 /// An algebra over which symmetry can be decided.
 pub(crate) trait Symmetry: StageAlgebra {
     /// Decides whether a pair is its own adjoint for some order of the stages.
-    fn symmetric(pair: &Pair<Self>, numbers: &Coefficients<Number<'_>>) -> Property;
+    fn symmetric(pair: &Partitioned<Self>, numbers: &Coefficients<Number<'_>>) -> Property;
 }
 
 const NO_ORDER: &str = "no order of the stages makes the tableau equal to its adjoint";

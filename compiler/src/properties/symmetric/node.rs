@@ -9,10 +9,10 @@ use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::ratio;
 use crate::coefficients::Coefficients;
 use crate::evidence::Evidence;
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 use crate::properties::{Entry, Property, vanishing_matrix, vanishing_vector};
 
-type NodePair = Pair<NodeAlgebra>;
+type NodePair = Partitioned<NodeAlgebra>;
 
 impl Symmetry for NodeAlgebra {
     /// A symmetry `σ` maps every quantity that is built from the tableau in a known way: `c_σ(i) = Σ b − c_i`,

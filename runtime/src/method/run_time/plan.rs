@@ -190,7 +190,7 @@ impl<C: Class> Plan for RunTimePlan<C> {
         system: &S,
         memory: &mut RunTimeStages<V, C>,
         outcome: Outcome<'_, V>,
-        witness: &mut W,
+        observer: &mut W,
     ) where
         R: Summation,
         V: Vector,
@@ -204,7 +204,15 @@ impl<C: Class> Plan for RunTimePlan<C> {
             memory.set_tableau(&tableau, step.q);
             let evaluations = (&mut *memory.velocity, &mut *memory.force);
             let kept = WarmStart::default();
-            apply::<R, V, S, W>(splitting, step, system, evaluations, kept, outcome, witness);
+            apply::<R, V, S, W>(
+                splitting,
+                step,
+                system,
+                evaluations,
+                kept,
+                outcome,
+                observer,
+            );
         }
     }
 
@@ -229,7 +237,7 @@ fn apply<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
     (velocity, force): (&mut [V], &mut [V]),
     kept: WarmStart,
     state: Outcome<'_, V>,
-    witness: &mut W,
+    observer: &mut W,
 ) -> u32 {
     let Outcome { q, q_low, p, p_low } = state;
     copy(q, step.q);
@@ -254,14 +262,14 @@ fn apply<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
             Kind::Velocity => {
                 if !is_carried {
                     system.velocity(time, q, p, velocity);
-                    witness.evaluation(Quantity::Velocity, stage, &*p, velocity);
+                    observer.evaluation(Quantity::Velocity, stage, &*p, velocity);
                 }
                 advance::<R, V>(q, q_low, step.size, factor, velocity);
             }
             Kind::Force => {
                 if !is_carried {
                     system.force(time, q, p, force);
-                    witness.evaluation(Quantity::Force, stage, &*q, force);
+                    observer.evaluation(Quantity::Force, stage, &*q, force);
                 }
                 advance::<R, V>(p, p_low, step.size, factor, force);
             }

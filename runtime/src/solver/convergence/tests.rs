@@ -16,7 +16,7 @@ struct Scripted<'a, const STOPS_AT_ROUNDING: bool> {
     /// Number of calls of `begin`.
     begun: usize,
     /// Number of sweeps before the over-relaxed sweep.
-    beyond: Option<usize>,
+    overrelaxed: Option<usize>,
     time: f64,
 }
 
@@ -27,7 +27,7 @@ impl<'a, const STOPS_AT_ROUNDING: bool> Scripted<'a, STOPS_AT_ROUNDING> {
             scales,
             made: 0,
             begun: 0,
-            beyond: None,
+            overrelaxed: None,
             time,
         }
     }
@@ -76,7 +76,7 @@ impl<const STOPS_AT_ROUNDING: bool> Sweeps for Scripted<'_, STOPS_AT_ROUNDING> {
     }
 
     fn overrelaxed_sweep(&mut self) -> StageChange {
-        self.beyond = Some(self.made);
+        self.overrelaxed = Some(self.made);
         self.sweep()
     }
 
@@ -570,7 +570,7 @@ fn values_that_were_large_once_leave_no_bound_that_is_too_wide() {
 /// allows enough sweeps.
 #[test]
 fn half_of_the_steps_come_from_the_other_side() {
-    fn beyond<C: Class, const STOPS_AT_ROUNDING: bool>(
+    fn overrelaxed<C: Class, const STOPS_AT_ROUNDING: bool>(
         time: f64,
         kept: WarmStart,
         sweeps: usize,
@@ -580,7 +580,7 @@ fn half_of_the_steps_come_from_the_other_side() {
         let (made, _) = made::<C, _>(&mut script, kept, at_most(sweeps)).expect("settled");
         // The over-relaxed sweep is counted.
         assert_eq!(made as usize, script.made);
-        script.beyond
+        script.overrelaxed
     }
     let kept = || stages([1.0; 2]);
     let [mut heads, steps] = [0, 1000];
@@ -588,14 +588,14 @@ fn half_of_the_steps_come_from_the_other_side() {
         let time = 0.1 * f64::from(step);
         let expected = dither_side(time).then_some(1);
         heads += u32::from(dither_side(time));
-        assert_eq!(beyond::<General, false>(time, kept(), 100), expected);
-        assert_eq!(beyond::<Separable, false>(time, kept(), 100), None);
-        assert_eq!(beyond::<General, true>(time, kept(), 100), None);
+        assert_eq!(overrelaxed::<General, false>(time, kept(), 100), expected);
+        assert_eq!(overrelaxed::<Separable, false>(time, kept(), 100), None);
+        assert_eq!(overrelaxed::<General, true>(time, kept(), 100), None);
         assert_eq!(
-            beyond::<General, false>(time, WarmStart::default(), 100),
+            overrelaxed::<General, false>(time, WarmStart::default(), 100),
             None
         );
-        assert_eq!(beyond::<General, false>(time, kept(), 5), None);
+        assert_eq!(overrelaxed::<General, false>(time, kept(), 5), None);
     }
     assert!((450..550).contains(&heads), "{heads}");
 }

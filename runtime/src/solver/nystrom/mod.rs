@@ -18,12 +18,12 @@ use crate::number::{Lanes, Plain, Scalar, Summation, Vector};
 use crate::solver::SimdFixedPoint;
 use crate::solver::convergence::{Sweeps, settle};
 use crate::solver::predictor::{StartingColumns, starting_columns, starts_at_once, weighted};
-use crate::solver::simd::change::LaneMovement;
-use crate::solver::simd::stages::{Laned, SimdStages};
-use crate::solver::simd::sums::{
+use crate::solver::stages_in_lanes::change::LaneMovement;
+use crate::solver::stages_in_lanes::stages::{Laned, SimdStages};
+use crate::solver::stages_in_lanes::sums::{
     self, StageValue, Sums, entry, extrapolate, scale_of, shortest, total, values,
 };
-use crate::solver::simd::sweeps::{ByLanes, take};
+use crate::solver::stages_in_lanes::sweeps::{ByLanes, take};
 use crate::system::{System, SystemInLanes, SystemLanes};
 
 /// Takes a step of a second-order system `q'' = M⁻¹ f(t, q)`, whose velocity `M⁻¹ p` is linear in the momentum. Only the positions are
@@ -376,7 +376,7 @@ where
             column: |j: usize| columns[j].as_ref(),
             factor: |_| in_columns,
             with_low: false,
-            beyond: false,
+            overrelaxed: false,
         };
         let (step, stages) = (self.lanes.step, &mut *self.lanes.stages);
         let start = self.start.as_slice();

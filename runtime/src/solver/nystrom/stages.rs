@@ -6,7 +6,7 @@ use crate::method::{StagePart, StageVisit};
 use crate::method::{StageStorage, StageTableau};
 use crate::number::words::words;
 use crate::number::{Vector, Visit, vector_words};
-use crate::solver::simd::stages::SimdStages;
+use crate::solver::stages_in_lanes::stages::SimdStages;
 
 /// Stages in lanes, and the velocity at the start of the step.
 #[derive(Debug)]

@@ -5,7 +5,7 @@ use crate::algebra::NodeAlgebra;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::exact::Exact;
 use crate::export::language::table::{Entry, Table};
-use crate::pair::Pair;
+use crate::partitioned::Partitioned;
 
 /// Longer exact forms do not stand in cells,
 const LONGEST_EXACT: usize = 28;
@@ -15,7 +15,7 @@ const NARROW: f64 = 6.0;
 /// The legend below a table.
 pub(super) struct Legend<'a> {
     /// The coefficients as polynomials in the nodes; then a cell with a long form has the decimal.
-    nodes: Option<&'a Pair<NodeAlgebra>>,
+    nodes: Option<&'a Partitioned<NodeAlgebra>>,
     is_runge_kutta: bool,
     /// The long forms in cells, with their decimals; cell `x_k` has number `k − 1`.
     long: Vec<(String, String)>,
@@ -89,7 +89,7 @@ impl<'a> Legend<'a> {
     }
 
     /// The polynomials whose values at the nodes are the coefficients.
-    fn nodes_in_words(&self, pair: &Pair<NodeAlgebra>) -> Vec<String> {
+    fn nodes_in_words(&self, pair: &Partitioned<NodeAlgebra>) -> Vec<String> {
         let matrix = |columns: &[Polynomial]| {
             let powers = columns.iter().enumerate();
             let powers = powers.filter(|(_, f)| f.degree().is_some());

@@ -1,0 +1,370 @@
+//! The two matrices and the weights of a partitioned Runge–Kutta method over an algebra.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use num_rational::BigRational;
+use num_traits::One;
+
+use crate::algebra::{Ball, Balls, Dense, Field, Number, Scalar, StageAlgebra, Zero};
+use crate::coefficients::Coefficients;
+
+/// The exact coefficients `a, b` for positions and `ã, b̃` for momenta of
+///
+/// ```text
+/// Q_i = q0 + h Σ_j a_ij ∂H/∂p(Q_j, P_j)      q1 = q0 + h Σ_i b_i ∂H/∂p(Q_i, P_i)
+/// P_i = p0 − h Σ_j ã_ij ∂H/∂q(Q_j, P_j)      p1 = p0 − h Σ_i b̃_i ∂H/∂q(Q_i, P_i)
+/// ```
+#[derive(Debug, PartialEq)]
+pub struct Partitioned<A: StageAlgebra> {
+    /// The algebra that the coefficients are elements of.
+    pub algebra: Arc<A>,
+    /// `a_ij`
+    pub a: A::Matrix,
+    /// `ã_ij`
+    pub a_tilde: A::Matrix,
+    /// `b_i`
+    pub b: A::Vector,
+    /// `b̃_i`
+    pub b_tilde: A::Vector,
+}
+
+/// What the matrices of a splitting look like, each stage of which makes one drift and one kick.
+///
+/// ```text
+/// kicks first    a_ij = b_j for j < i    ã_ij = b̃_j for j ≤ i
+/// drifts first   a_ij = b_j for j ≤ i    ã_ij = b̃_j for j < i
+/// ```
+///
+/// and zero elsewhere, so that the weights say all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum LowerTriangular {
+    /// `P_i` has the kick that is made at `Q_i`.
+    KicksFirst,
+    /// `Q_i` has the drift that is made at `P_i`.
+    DriftsFirst,
+}
+
+impl LowerTriangular {
+    /// Whether a stage position has the drift of its own stage in it.
+    pub fn has_own_drift(self) -> bool {
+        self == LowerTriangular::DriftsFirst
+    }
+
+    /// Whether a stage momentum has the kick of its own stage in it.
+    pub fn has_own_kick(self) -> bool {
+        self == LowerTriangular::KicksFirst
+    }
+}
+
+/// The flows of a splitting in the order in which they are made: kicks and drifts in turn, none of no time at either end.
+#[derive(Debug, Clone)]
+pub(crate) struct Flows<T> {
+    /// Whether the first one is a kick.
+    kick_first: bool,
+    /// The fractions of the step.
+    fractions: Vec<T>,
+}
+
+impl<T: PartialEq> Flows<T> {
+    fn new(mut kick_first: bool, mut fractions: Vec<T>, zero: &T) -> Self {
+        while fractions.last() == Some(zero) {
+            fractions.pop();
+        }
+        let start = fractions.iter().take_while(|x| *x == zero).count();
+        fractions.drain(..start);
+        kick_first ^= start % 2 == 1;
+        Flows {
+            kick_first,
+            fractions,
+        }
+    }
+
+    /// Whether they are the same from both ends.
+    pub fn is_palindrome(&self) -> bool {
+        // Both ends are of one kind.
+        self.fractions.len() % 2 == 1 && self.fractions.iter().eq(self.fractions.iter().rev())
+    }
+}
+
+impl<T> Flows<T> {
+    /// The fractions of the step, each with whether it is that of a kick.
+    pub fn iter(&self) -> impl Iterator<Item = (bool, &T)> {
+        let kicks = [self.kick_first, !self.kick_first].into_iter().cycle();
+        kicks.zip(&self.fractions)
+    }
+
+    /// Other numbers in the places of the fractions.
+    pub fn map<U>(&self, each: impl FnMut(&T) -> U) -> Flows<U> {
+        Flows {
+            kick_first: self.kick_first,
+            fractions: self.fractions.iter().map(each).collect(),
+        }
+    }
+
+    /// The first half of an odd number of flows, with half of the one in the middle at its end.
+    pub fn first_half(mut self, halved: impl FnOnce(&T) -> T) -> Self {
+        self.fractions.truncate(self.fractions.len() / 2 + 1);
+        if let Some(middle) = self.fractions.last_mut() {
+            *middle = halved(middle);
+        }
+        self
+    }
+}
+
+impl<F: Field> Partitioned<Dense<F>> {
+    /// The coefficients of a splitting with the drifts `b` and the kicks `b̃`.
+    pub(crate) fn of_splitting(
+        field: F,
+        lower_triangular: LowerTriangular,
+        b: Vec<F::Element>,
+        b_tilde: Vec<F::Element>,
+    ) -> Self {
+        let zero = field.rational(&BigRational::default());
+        let rows = |weights: &[F::Element], own: bool| -> Vec<Vec<F::Element>> {
+            let entry = |i: usize, j: usize| match j < i + usize::from(own) {
+                true => weights[j].clone(),
+                false => zero.clone(),
+            };
+            let row = |i: usize| (0..weights.len()).map(|j| entry(i, j)).collect();
+            (0..weights.len()).map(row).collect()
+        };
+        Partitioned {
+            a: rows(&b, lower_triangular.has_own_drift()),
+            a_tilde: rows(&b_tilde, lower_triangular.has_own_kick()),
+            algebra: Arc::new(Dense::new(field, b.len())),
+            b,
+            b_tilde,
+        }
+    }
+}
+
+impl<A: StageAlgebra> Clone for Partitioned<A> {
+    fn clone(&self) -> Self {
+        Partitioned {
+            algebra: Arc::clone(&self.algebra),
+            a: self.a.clone(),
+            a_tilde: self.a_tilde.clone(),
+            b: self.b.clone(),
+            b_tilde: self.b_tilde.clone(),
+        }
+    }
+}
+
+impl<A: StageAlgebra> Partitioned<A> {
+    /// The coefficients with `b̃ = b` and the `ã` that makes it symplectic (MW 2.6.7),
+    /// `ã_ij = (b_i b_j − b_j a_ji)/b_i`.
+    ///
+    /// # Errors
+    /// The first stage whose weight vanishes, or cannot be told from zero, and which of the two.
+    pub fn symplectic(algebra: Arc<A>, a: A::Matrix, b: A::Vector) -> Result<Self, (usize, Zero)> {
+        let inverse = algebra.reciprocal(&b)?;
+        let one = algebra.constant(&BigRational::one());
+        // b_i − a_ji at (j, i), so that ã_ij = b_j (b_i − a_ji)/b_i is exactly zero where a_ji is b_i.
+        let complement = algebra.subtract_matrices(&algebra.outer(&one, &b), &a);
+        let scaled = algebra.transpose(&algebra.scale_rows(&complement, &b));
+        Ok(Partitioned {
+            a_tilde: algebra.scale_rows(&scaled, &inverse),
+            b_tilde: b.clone(),
+            algebra,
+            a,
+            b,
+        })
+    }
+
+    /// A Runge–Kutta method: the same coefficients for positions and momenta.
+    pub fn equal(algebra: Arc<A>, a: A::Matrix, b: A::Vector) -> Self {
+        Partitioned {
+            algebra,
+            a_tilde: a.clone(),
+            b_tilde: b.clone(),
+            a,
+            b,
+        }
+    }
+
+    /// The Runge–Kutta method with the coefficients for momenta.
+    pub fn partner_alone(&self) -> Self {
+        let algebra = Arc::clone(&self.algebra);
+        Partitioned::equal(algebra, self.a_tilde.clone(), self.b_tilde.clone())
+    }
+
+    /// The coefficients with positions and momenta exchanged: `a ↔ ã`, `b ↔ b̃` (T Remark 2.3).
+    #[must_use]
+    pub fn exchanged(self) -> Self {
+        Partitioned {
+            a: self.a_tilde,
+            a_tilde: self.a,
+            b: self.b_tilde,
+            b_tilde: self.b,
+            ..self
+        }
+    }
+
+    /// The adjoint method, the inverse of the step with `−h`: `a*_ij = b_j − a_ij` and
+    /// `ã*_ij = b̃_j − ã_ij`, `b* = b`, `b̃* = b̃` up to the order of the stages (GNI II.3).
+    ///
+    /// The stages keep their labels, so that the adjoint of the adjoint is the method itself; in the
+    /// order of ascending `c*` they stand in reverse.
+    #[must_use]
+    pub fn adjoint(&self) -> Self {
+        let algebra = &self.algebra;
+        let one = algebra.constant(&BigRational::one());
+        let complement =
+            |b: &A::Vector, a: &A::Matrix| algebra.subtract_matrices(&algebra.outer(&one, b), a);
+        Partitioned {
+            a: complement(&self.b, &self.a),
+            a_tilde: complement(&self.b_tilde, &self.a_tilde),
+            ..self.clone()
+        }
+    }
+
+    /// The method with the step `γh`: `γa_ij`, `γb_i`, `γã_ij`, `γb̃_i`, for the same `γ` at every stage.
+    #[must_use]
+    pub fn scaled(&self, fraction: &A::Vector) -> Self {
+        let algebra = &self.algebra;
+        let (same_a, same_b) = self.equal_halves();
+        let matrix = |a: &A::Matrix| algebra.scale_rows(a, fraction);
+        let vector = |b: &A::Vector| algebra.multiply(b, fraction);
+        let (a, b) = (matrix(&self.a), vector(&self.b));
+        // What is the same expression for both halves stays the same.
+        Partitioned {
+            a_tilde: if same_a {
+                a.clone()
+            } else {
+                matrix(&self.a_tilde)
+            },
+            b_tilde: if same_b {
+                b.clone()
+            } else {
+                vector(&self.b_tilde)
+            },
+            algebra: Arc::clone(algebra),
+            a,
+            b,
+        }
+    }
+
+    /// `c_i = Σ_j a_ij`. These are the nodes iff the basis spans the constants.
+    pub fn c(&self) -> A::Vector {
+        self.row_sums(&self.a)
+    }
+
+    /// `c̃_i = Σ_j ã_ij`, which need not be the nodes.
+    pub fn c_tilde(&self) -> A::Vector {
+        self.row_sums(&self.a_tilde)
+    }
+
+    /// Whether the coefficients are those of a splitting as they stand; there may be splittings with other ones.
+    pub(crate) fn lower_triangular(&self) -> Option<LowerTriangular> {
+        let algebra = &*self.algebra;
+        let steps = |positions, momenta| {
+            algebra.is_lower_triangular(&self.a, &self.b, positions)
+                && algebra.is_lower_triangular(&self.a_tilde, &self.b_tilde, momenta)
+        };
+        if steps(false, true) {
+            Some(LowerTriangular::KicksFirst)
+        } else if steps(true, false) {
+            Some(LowerTriangular::DriftsFirst)
+        } else {
+            None
+        }
+    }
+
+    /// The coefficients with enclosures of the coefficients, of this many bits.
+    pub(crate) fn enclosed(&self, bits: u32) -> Partitioned<Dense<Balls>> {
+        let algebra = &*self.algebra;
+        let vector = |f: &A::Vector| -> Vec<Ball> {
+            let values = algebra.values(Cow::Borrowed(f));
+            values.iter().map(|x| Ball::of(x, bits)).collect()
+        };
+        let (b, b_tilde) = (vector(&self.b), vector(&self.b_tilde));
+        if let Some(lower_triangular) = self.lower_triangular() {
+            return Partitioned::of_splitting(Balls::new(bits), lower_triangular, b, b_tilde);
+        }
+        let matrix = |m: &A::Matrix| -> Vec<Vec<Ball>> {
+            let row = |row: &Vec<Number<'_>>| row.iter().map(|x| Ball::of(x, bits)).collect();
+            algebra.entries(m).iter().map(row).collect()
+        };
+        Partitioned {
+            algebra: Arc::new(Dense::new(Balls::new(bits), algebra.stages())),
+            a: matrix(&self.a),
+            a_tilde: matrix(&self.a_tilde),
+            b,
+            b_tilde,
+        }
+    }
+
+    /// The flows of a splitting, by its [`Partitioned::lower_triangular`].
+    pub(crate) fn flows(&self) -> Option<Flows<Scalar<A>>> {
+        let (kick_first, first, second) = match self.lower_triangular()? {
+            LowerTriangular::KicksFirst => (true, &self.b_tilde, &self.b),
+            LowerTriangular::DriftsFirst => (false, &self.b, &self.b_tilde),
+        };
+        let [first, second] = [first, second].map(|f| self.algebra.functional(f));
+        let fractions = first.into_iter().zip(second).flat_map(<[_; 2]>::from);
+        let zero = self.algebra.constants().rational(&BigRational::default());
+        Some(Flows::new(kick_first, fractions.collect(), &zero))
+    }
+
+    fn row_sums(&self, matrix: &A::Matrix) -> A::Vector {
+        let one = self.algebra.constant(&BigRational::one());
+        self.algebra.apply(matrix, &one)
+    }
+
+    /// Whether `a = ã` and whether `b = b̃`, as elements.
+    pub fn equal_halves(&self) -> (bool, bool) {
+        (self.a == self.a_tilde, self.b == self.b_tilde)
+    }
+
+    /// All coefficients as numbers that can be enclosed and correctly rounded.
+    pub fn numbers(&self) -> Coefficients<Number<'_>> {
+        let algebra = &*self.algebra;
+        self.coefficients(
+            |sums| algebra.values(Cow::Owned(sums)),
+            |weights| algebra.values(Cow::Borrowed(weights)),
+            |matrix| algebra.entries(matrix),
+        )
+    }
+
+    /// Readable exact forms of all coefficients that have one.
+    pub fn exact_forms(&self) -> Coefficients<Option<String>> {
+        let algebra = &*self.algebra;
+        self.coefficients(
+            |sums| algebra.exact_values(&sums),
+            |weights| algebra.exact_values(weights),
+            |matrix| algebra.exact_entries(matrix),
+        )
+    }
+
+    /// Something for each coefficient, without a second look where both halves are the same.
+    fn coefficients<'a, T: Clone>(
+        &'a self,
+        sums: impl Fn(A::Vector) -> Vec<T>,
+        weights: impl Fn(&'a A::Vector) -> Vec<T>,
+        matrix: impl Fn(&'a A::Matrix) -> Vec<Vec<T>>,
+    ) -> Coefficients<T> {
+        let (same_a, same_b) = self.equal_halves();
+        let (c, b, a) = (sums(self.c()), weights(&self.b), matrix(&self.a));
+        Coefficients {
+            c_tilde: if same_a {
+                c.clone()
+            } else {
+                sums(self.c_tilde())
+            },
+            b_tilde: if same_b {
+                b.clone()
+            } else {
+                weights(&self.b_tilde)
+            },
+            a_tilde: if same_a {
+                a.clone()
+            } else {
+                matrix(&self.a_tilde)
+            },
+            c,
+            b,
+            a,
+        }
+    }
+}

@@ -1,9 +1,0 @@
-//! The library against hand-written integrators and other crates: the same problems, methods, steps and sums.
-//!
-//! Not published. `cargo run --release --example ratios` prints the ratios, `--example instructions` counts
-//! instructions, `cargo bench -p symplectic-contest` adds the other crates.
-
-pub mod baseline;
-mod pairs;
-
-pub use pairs::{Pair, Run, pairs};
