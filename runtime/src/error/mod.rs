@@ -617,12 +617,11 @@ pub enum Error {
         method: &'static str,
     },
 
-    /// A Galerkin method with more nodes than functions, and a Lagrangian whose `∂²L/∂v∂v` is singular: the steps would leave the primary
-    /// constraints on the momenta.
+    /// A Lagrangian whose `∂²L/∂v∂v` is singular, and a method whose steps leave its primary constraints on the momenta.
     #[error(
-        "{method} has more nodes than functions, and the Lagrangian is degenerate: ∂L/∂v does not determine component {component} of the \
-         velocity, and momenta would leave the primary constraint on this component of p, which `primary_constraints` returns; take a \
-         method with as many functions as nodes"
+        "the Lagrangian is degenerate: ∂L/∂v does not determine component {component} of the velocity, and steps of {method} leave the \
+         primary constraint on this component of p, which `primary_constraints` returns; take `DiracIntegrator`, or, if L is a(q)·v − H(q) \
+         with a linear in q, a Gauss method with as many functions as nodes"
     )]
     DegenerateLagrangian {
         /// Name of the method.

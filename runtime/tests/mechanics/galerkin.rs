@@ -228,7 +228,7 @@ fn degenerate_lagrangians_need_as_many_functions_as_nodes() -> Result<(), Error>
     assert_eq!(error, Error::DegenerateLagrangian { method, component });
     let text = error.to_string();
     assert!(
-        text.contains("more nodes than functions") && text.contains("component 1"),
+        text.contains("take `DiracIntegrator`") && text.contains("component 1"),
         "{text}"
     );
     let constraints = primary_constraints(
@@ -321,7 +321,7 @@ fn the_first_step_begins_with_the_velocity_of_the_start() -> Result<(), Error> {
     Ok(())
 }
 
-/// Where the mass vanishes, the momentum of x is zero: the start is refused for r > s, and the first step fails for r = s.
+/// Where the mass vanishes, the momentum of x is zero.
 #[test]
 fn a_lagrangian_that_is_degenerate_at_the_start_is_refused() -> Result<(), Error> {
     let start = State::from_arrays(0.0, [0.0, 1.0], [0.0, 0.5]);
@@ -331,24 +331,12 @@ fn a_lagrangian_that_is_degenerate_at_the_start_is_refused() -> Result<(), Error
         refused,
         Some(Error::DegenerateLagrangian { method, component })
     );
-    let mut run = Run::galerkin(Gauss2, Massless, start.clone(), 0.1)?;
-    let error = run.step().map(|_| ()).expect_err("singular");
-    assert!(
-        matches!(
-            error,
-            Error::IrregularLagrangian {
-                component: 0,
-                step: 1,
-                ..
-            }
-        ),
-        "{error}"
+    let method = "Gauss2";
+    let refused = Run::galerkin(Gauss2, Massless, start.clone(), 0.1).err();
+    assert_eq!(
+        refused,
+        Some(Error::DegenerateLagrangian { method, component })
     );
-    assert!(
-        error.to_string().contains("`primary_constraints`"),
-        "{error}"
-    );
-    assert_eq!(*run.state(), start);
     let found = primary_constraints(&Massless, 0.0, &start.q, &[3.0, 0.5].into())?;
     let found: Vec<_> = found
         .into_iter()

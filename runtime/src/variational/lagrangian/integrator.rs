@@ -2,6 +2,7 @@
 
 use super::coefficients::StageCoefficients;
 use super::legendre::{momentum_of_velocity, velocity_near, velocity_of_momentum};
+use super::linear::LinearConstraint;
 use super::stages::{Stages, Start};
 use crate::error::{Error, Quantity};
 use crate::integrator::StepMap;
@@ -26,8 +27,10 @@ use crate::variational::two_ends::dot;
 /// P_i = \frac{\partial L}{\partial v}(t_0 + c_i h, Q_i, V_i) $$
 ///
 /// They are the steps of the same method for the Hamiltonian of L, but do not need it: the unknowns are the stage velocities. If L depends
-/// on time and `c̃ ≠ c`, as for Störmer–Verlet, the steps differ but have the same order. L need not be quadratic in v. It may be
-/// degenerate if the method determines every velocity (Gauss methods do if L is linear in v).
+/// on time and `c̃ ≠ c`, as for Störmer–Verlet, the steps differ but have the same order. L need not be quadratic in v.
+///
+/// A degenerate L is refused, because steps leave its primary constraints. The exception is `L = a(q)·v − H(q)` with a linear, for which
+/// Gauss methods stay on `p = a(q)`; every step is checked. [`DiracIntegrator`](super::super::DiracIntegrator) takes other degenerate ones.
 ///
 /// Without a force the step has the discrete Lagrangian `Ld = h Σ_i b_i L(Q_i, V_i)`, whose value is [`action`](Self::action). It is
 /// symplectic, and conserves the momentum maps of linear symmetries of L.
@@ -76,6 +79,10 @@ pub struct LagrangianIntegrator<L: Lagrangian> {
     next: State<L::Vector<f64>>,
     stages: Stages<L>,
     action: Option<f64>,
+    /// The name of the method.
+    method: &'static str,
+    /// Checks that momenta stay on `p = a(q)`, if `L = a(q)·v − H(q)`.
+    constraint: Option<LinearConstraint<L>>,
 }
 
 impl<L: Lagrangian> LagrangianIntegrator<L> {
@@ -83,14 +90,18 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`], [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`].
+    /// [`Error::StepSize`], [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`]. [`Error::DegenerateLagrangian`] if
+    /// `∂²L/∂v∂v` is singular where Newton's iteration for the velocity at the start needs it, from v = 0 and from v = p, and L is not linear
+    /// in v. [`Error::PrimaryConstraint`] if L is linear in v and `p ≠ ∂L/∂v`.
     pub fn new<M: Method + ProvedFor<General>>(
         _method: M,
         lagrangian: L,
         state: State<L::Vector<f64>>,
         step_size: f64,
     ) -> Result<Self, Error> {
-        Self::by(StageCoefficients::of::<M>(), lagrangian, state, step_size)
+        let mut run = Self::by::<M>(StageCoefficients::of::<M>(), lagrangian, state, step_size)?;
+        run.find_velocity::<M>(true)?;
+        Ok(run)
     }
 
     /// An integrator by the Galerkin method of the basis and the quadrature formula of `M` (Leok & Zhang 2011, 38), at `state`. The
@@ -104,8 +115,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     ///
     /// # Errors
     ///
-    /// As for [`new`](Self::new); [`Error::NoConstants`]; for r > s [`Error::DegenerateLagrangian`] if `∂²L/∂v∂v` is singular where
-    /// Newton's iteration for the velocity at the start needs it, from v = 0 and from v = p.
+    /// As for [`new`](Self::new), and [`Error::NoConstants`]. For r > s an L that is linear in v is refused too.
     ///
     /// ```
     /// symplectic::tableau! { Rectangular { basis: polynomial(2), quadrature: gauss(3) } }
@@ -134,29 +144,12 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         step_size: f64,
     ) -> Result<Self, Error> {
         let coefficients = StageCoefficients::galerkin::<M>()?;
-        let mut run = Self::by(coefficients, lagrangian, state, step_size)?;
-        let State { time, q, p } = &run.state;
-        let near = |velocity| velocity_near(&run.lagrangian, *time, q, p, velocity);
-        if let Err(error) = near(q.zeros_like()) {
-            // L may be degenerate at rest only, as v⁴ is.
-            if let Ok(velocity) = near(p.clone()) {
-                run.stages.begin_with(velocity.as_slice());
-            } else if let Error::NoVelocity {
-                component: Some(component),
-                ..
-            } = error
-                && M::FUNCTIONS < M::STAGES
-            {
-                return Err(Error::DegenerateLagrangian {
-                    method: M::NAME,
-                    component,
-                });
-            }
-        }
+        let mut run = Self::by::<M>(coefficients, lagrangian, state, step_size)?;
+        run.find_velocity::<M>(M::FUNCTIONS == M::STAGES)?;
         Ok(run)
     }
 
-    fn by(
+    fn by<M: Method>(
         coefficients: StageCoefficients,
         lagrangian: L,
         state: State<L::Vector<f64>>,
@@ -172,7 +165,47 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
             lagrangian,
             state,
             action: None,
+            method: M::NAME,
+            constraint: None,
         })
+    }
+
+    /// Finds the velocity of the start: from rest, or, because L may be degenerate at rest only, as v⁴ is, from v = p. A degenerate L is
+    /// refused, unless it `may_be_linear` in the velocities and is.
+    fn find_velocity<M: Method>(&mut self, may_be_linear: bool) -> Result<(), Error> {
+        let State { time, q, p } = &self.state;
+        let near = |velocity| velocity_near(&self.lagrangian, *time, q, p, velocity);
+        let Err(error) = near(q.zeros_like()) else {
+            return Ok(());
+        };
+        if let Ok(velocity) = near(p.clone()) {
+            self.stages.begin_with(velocity.as_slice());
+            return Ok(());
+        }
+        let Error::NoVelocity {
+            component: Some(component),
+            ..
+        } = error
+        else {
+            // The first step says what is wrong.
+            return Ok(());
+        };
+        self.allow_linear::<M>(may_be_linear, component)
+    }
+
+    /// Keeps an L that is linear in the velocities if it `may_be`; refuses others, which do not determine this component.
+    fn allow_linear<M: Method>(&mut self, may_be: bool, component: usize) -> Result<(), Error> {
+        let State { time, q, p } = &self.state;
+        let mut constraint = LinearConstraint::new(q)?;
+        if !may_be || !constraint.is_linear(&self.lagrangian, *time, q) {
+            let method = M::NAME;
+            return Err(Error::DegenerateLagrangian { method, component });
+        }
+        if let Some((component, value)) = constraint.violation(&self.lagrangian, *time, q, p) {
+            return Err(Error::PrimaryConstraint { component, value });
+        }
+        self.constraint = Some(constraint);
+        Ok(())
     }
 
     /// [`new`](Self::new) with the momentum `∂L/∂v` of the velocity `v`, where Newton's iteration begins; that of [`new`](Self::new) begins
@@ -182,7 +215,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     ///
     /// As for [`new`](Self::new), and [`Error::NonFiniteState`] if the momentum is not finite.
     pub fn from_velocity<M: Method + ProvedFor<General>>(
-        method: M,
+        _method: M,
         lagrangian: L,
         time: f64,
         q: L::Vector<f64>,
@@ -190,7 +223,17 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         step_size: f64,
     ) -> Result<Self, Error> {
         let p = momentum_of_velocity(&lagrangian, time, &q, &v)?;
-        let mut run = Self::new(method, lagrangian, State::new(time, q, p), step_size)?;
+        let state = State::new(time, q, p);
+        let coefficients = StageCoefficients::of::<M>();
+        let mut run = Self::by::<M>(coefficients, lagrangian, state, step_size)?;
+        let State { q, p, .. } = &run.state;
+        if let Err(Error::NoVelocity {
+            component: Some(component),
+            ..
+        }) = velocity_near(&run.lagrangian, time, q, p, v.clone())
+        {
+            run.allow_linear::<M>(true, component)?;
+        }
         run.stages.begin_with(v.as_slice());
         Ok(run)
     }
@@ -200,7 +243,8 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     /// # Errors
     ///
     /// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::EvaluationDimension`],
-    /// [`Error::TimeResolution`]; the state is then unchanged.
+    /// [`Error::TimeResolution`]; [`Error::DegenerateLagrangian`] if L is linear in v and the step leaves `p = ∂L/∂v`. The state is then
+    /// unchanged.
     pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
         self.one_step()?;
         Ok(&self.state)
@@ -339,6 +383,13 @@ impl<L: Lagrangian> Stepper for LagrangianIntegrator<L> {
         self.stages
             .take(&self.lagrangian, start, q1, p1)
             .map_err(|failure| failure.error(Quantity::Lagrangian, start.time, size, number))?;
+        if let Some(constraint) = &mut self.constraint
+            && let State { q, p, .. } = &self.next
+            && let Some((component, _)) = constraint.violation(&self.lagrangian, end, q, p)
+        {
+            let method = self.method;
+            return Err(Error::DegenerateLagrangian { method, component });
+        }
         self.next.time = end;
         self.action = Some(self.stages.action(size));
         core::mem::swap(&mut self.state, &mut self.next);

@@ -4,6 +4,7 @@ mod coefficients;
 pub(crate) mod derivatives;
 mod integrator;
 mod legendre;
+mod linear;
 mod stages;
 
 pub use integrator::LagrangianIntegrator;
