@@ -211,6 +211,8 @@ where
     type Class = Separable;
     type Solver = FixedPoint;
 
+    const WELL_DECLARED: bool = true;
+
     fn velocity(&self, _time: f64, _q: &W, p: &W, velocity: &mut W) {
         let (p, b) = parted(p);
         let found = self.with_workspace(p.len(), |workspace| {

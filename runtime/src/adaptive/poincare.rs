@@ -174,6 +174,8 @@ where
     type Class = General;
     type Solver = FixedPoint;
 
+    const WELL_DECLARED: bool = true;
+
     fn velocity(&self, _time: f64, q: &V, p: &V, velocity: &mut V) {
         let ((q, time), (p, _)) = (parted(q), parted(p));
         let found = self.at_state((q, p), |monitor, workspace| {

@@ -310,6 +310,27 @@ pub enum Error {
         momentum: f64,
     },
 
+    /// A system of the class [`Separable`](crate::Separable) whose velocity depends on the position, or whose force on the momentum.
+    #[error(
+        "component {component} of the {what} depends on the {argument}, but the system has `type Class = Separable`: write `General`",
+        argument = match what { Quantity::Velocity => "position", _ => "momentum" }
+    )]
+    NotSeparable {
+        /// Velocity or force.
+        what: Quantity,
+        /// The component, from 0.
+        component: usize,
+    },
+
+    /// A system writes an applied force, but does not say so by `FORCED`.
+    #[error(
+        "component {component} of the applied force is not zero, but would be ignored: add `const FORCED: bool = true`"
+    )]
+    NotForced {
+        /// The component, from 0.
+        component: usize,
+    },
+
     /// The system has no energy; the generating function needs it.
     #[error("the system gives no energy; implement `energy`, or add a closure by `with_energy`")]
     NoEnergy,

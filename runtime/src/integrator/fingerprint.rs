@@ -2,6 +2,7 @@
 
 use alloc::vec;
 
+use crate::number::vector::beside;
 use crate::number::words::vector_words;
 use crate::number::{Scalar, Vector};
 use crate::system::{Gradients, System};
@@ -56,19 +57,4 @@ pub(crate) fn system_fingerprint<V: Vector, S: System<V>>(
         number.as_words(&mut |word| others = joined(others, *word));
     }
     [hash(&mut found), others]
-}
-
-/// The vector plus 1/16 to 1/8 of its largest component, or of 1 if it is zero, in every component.
-fn beside<V: Vector>(vector: &V) -> V {
-    let sizes = vector.as_slice().iter().map(|x| x.magnitude());
-    let size = match sizes.fold(0.0, f64::max) {
-        0.0 => 1.0,
-        size => size,
-    };
-    let mut beside = vector.clone();
-    for (k, component) in beside.as_mut_slice().iter_mut().enumerate() {
-        let ratio = 1.0 + (k as f64 * 0.618_033_988_749_895) % 1.0;
-        *component += V::Scalar::from_f64(size * ratio / 16.0);
-    }
-    beside
 }

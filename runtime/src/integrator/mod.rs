@@ -50,8 +50,8 @@ pub(crate) mod validation;
 
 use memory::StepMemory;
 use validation::{
-    check_masses, check_quadratic_kinetic, check_start, check_state, check_step_size,
-    has_linear_velocity,
+    check_declarations, check_masses, check_quadratic_kinetic, check_start, check_state,
+    check_step_size, has_linear_velocity,
 };
 
 /// The plan of the method `M` for the class of the system `S`.
@@ -116,7 +116,7 @@ impl<M: Method, S: System<V>, V: Vector> Integrator<M, S, V> {
     /// # Errors
     ///
     /// [`Error::StepSize`], [`Error::Dimension`] if the dimensions of `q` and `p` differ, [`Error::NonFiniteState`],
-    /// [`Error::NotQuadraticKinetic`], [`Error::NotUnitMasses`]. With constraints also [`Error::InconsistentStart`],
+    /// [`Error::NotQuadraticKinetic`], [`Error::NotUnitMasses`], [`Error::NotSeparable`], [`Error::NotForced`]. With constraints also [`Error::InconsistentStart`],
     /// [`Error::DependentConstraints`] and [`Error::ResizedEvaluation`]. If parameters of a formula do not fit the state,
     /// [`Error::ParameterLength`], [`Error::PairOutOfRange`], [`Error::DimensionFactor`] or [`Error::TooFewBodies`].
     pub fn new(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error>
@@ -241,6 +241,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         check_step_size(step_size)?;
         check_start(system, state)?;
         check_masses(system, state)?;
+        check_declarations(system, state)?;
         let orders = M::NEEDS_QUADRATIC_KINETIC.then_some(M::ORDERS);
         check_quadratic_kinetic::<M, V, S>(orders, system, state)?;
         <PlanOf<M, S, V> as Plan>::check(system, state.time, &state.q, &state.p)

@@ -5,6 +5,7 @@ use crate::error::{Error, Quantity};
 use crate::method::RunTimeTableau;
 use crate::method::storage::is_finite;
 use crate::method::{Method, Orders, Solver};
+use crate::number::vector::beside;
 use crate::number::{Scalar, Vector};
 use crate::state::State;
 use crate::system::linearity::non_linear_velocity;
@@ -39,6 +40,41 @@ pub(super) fn check_masses<V: Vector, S: System<V>>(
                 velocity,
                 momentum,
             });
+        }
+    }
+    Ok(())
+}
+
+/// Checks what a system declares of its arguments: a separable one must not read the other half, and an applied force has to be declared.
+pub(super) fn check_declarations<V: Vector, S: System<V>>(
+    system: &S,
+    State { time, q, p }: &State<V>,
+) -> Result<(), Error> {
+    if S::WELL_DECLARED {
+        return Ok(());
+    }
+    let time = V::Scalar::from_f64(*time);
+    let (other_q, other_p) = (beside(q), beside(p));
+    let (mut one, mut other) = (q.zeros_like(), q.zeros_like());
+    if S::Class::SEPARABLE {
+        system.velocity(time, q, p, &mut one);
+        system.velocity(time, &other_q, p, &mut other);
+        if let Some((component, ..)) = first_difference(&one, &other) {
+            let what = Quantity::Velocity;
+            return Err(Error::NotSeparable { what, component });
+        }
+        system.force(time, q, p, &mut one);
+        system.force(time, q, &other_p, &mut other);
+        if let Some((component, ..)) = first_difference(&one, &other) {
+            let what = Quantity::Force;
+            return Err(Error::NotSeparable { what, component });
+        }
+    }
+    if !S::FORCED {
+        let (zero, mut applied) = (q.zeros_like(), q.zeros_like());
+        system.applied_force(time, q, &other_p, &mut applied);
+        if let Some((component, ..)) = first_difference(&applied, &zero) {
+            return Err(Error::NotForced { component });
         }
     }
     Ok(())

@@ -143,6 +143,7 @@ impl<V: Vector, F: Velocity<V>, G: Fn(V::Scalar, &V, &mut V), E: Energy<V>> Syst
     type Solver = FixedPoint;
 
     const MASSES: Masses = F::MASSES;
+    const WELL_DECLARED: bool = true;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: V::Scalar, _q: &V, p: &V, velocity: &mut V) {
@@ -164,6 +165,8 @@ impl<V: Vector, F: Fn(V::Scalar, &V, &V, &mut V), G: Fn(V::Scalar, &V, &V, &mut 
 {
     type Class = General;
     type Solver = FixedPoint;
+
+    const WELL_DECLARED: bool = true;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {

@@ -87,6 +87,10 @@ pub trait Hamiltonian {
     /// Whether the force has a part without a potential: [`applied_force`](Self::applied_force).
     const FORCED: bool = false;
 
+    /// [`System::WELL_DECLARED`]
+    #[doc(hidden)]
+    const WELL_DECLARED: bool = false;
+
     /// Writes ∂H/∂p at `(time, q, p)` into `velocity`.
     fn velocity<T: Scalar>(
         &self,
@@ -709,6 +713,8 @@ impl<S: SeparableHamiltonian> Hamiltonian for S {
     const MASSES: Masses = S::MASSES;
     const JOINS: bool = S::JOINS;
     const INLINED: bool = S::INLINED;
+    // By the arguments of the functions.
+    const WELL_DECLARED: bool = true;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn in_lanes<V, L, K>(work: K) -> K::Output

@@ -69,6 +69,11 @@ pub trait System<V: Vector>: Sized {
     /// Whether the force has a part without a potential: see [`Hamiltonian::applied_force`].
     const FORCED: bool = false;
 
+    /// Whether it is certain that a separable system does not read the other half and that [`FORCED`](Self::FORCED) is right; otherwise an
+    /// integrator tests both when it is made.
+    #[doc(hidden)]
+    const WELL_DECLARED: bool = false;
+
     /// Writes −∂H/∂q at `(time, q, p)`, plus the [applied force](Self::applied_force), into `force`.
     fn force(&self, time: V::Scalar, q: &V, p: &V, force: &mut V);
 
@@ -213,6 +218,7 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
     }
 
     const FORCED: bool = H::FORCED;
+    const WELL_DECLARED: bool = H::WELL_DECLARED;
 
     fn applied_force(&self, time: V::Scalar, q: &V, p: &V, applied: &mut V) {
         Hamiltonian::applied_force::<V::Scalar>(self, time, q, p, applied);

@@ -207,6 +207,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Vector> System<W> for Tangent<S> {
     type Solver = Automatic;
 
     const FORCED: bool = S::FORCED;
+    const WELL_DECLARED: bool = S::WELL_DECLARED;
     const DISPLACED: bool = true;
 
     fn check_dimension(&self, dimension: usize) -> Result<(), Error> {

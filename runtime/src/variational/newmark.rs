@@ -229,6 +229,7 @@ impl<S: Hamiltonian<Class = Separable>> System<S::Vector<f64>> for Newmark<S> {
 
     const MASSES: Masses = S::MASSES;
     const FORCED: bool = S::FORCED;
+    const WELL_DECLARED: bool = true;
 
     fn velocity(
         &self,

@@ -156,6 +156,16 @@ fn systems_whose_constraints_are_wrong_are_refused() {
         matches!(error, Error::GradientMismatch { constraint: 0, .. }),
         "{error}"
     );
+    // Right at the start only, where y is zero.
+    let twice: fn(&[f64; 2]) -> [[f64; 2]; 3] = |q| [[2.0 * q[0], 4.0 * q[1]], [0.0; 2], [0.0; 2]];
+    let error = at(Point {
+        gradients: twice,
+        ..CIRCLE
+    });
+    assert!(
+        matches!(error, Error::GradientMismatch { constraint: 0, .. }),
+        "{error}"
+    );
     // A constraint that is constant, and one that is there twice.
     let constant = Point {
         values: |_| [0.0; 3],

@@ -40,6 +40,11 @@ fn the_energy_oscillates_and_does_not_drift() -> Result<(), Error> {
 fn verlet_evaluates_the_force_once_a_step_and_once_more() -> Result<(), Error> {
     let mut integrator =
         Integrator::new(StoermerVerlet, Pendulum::default(), point(1.0, 0.0), 0.1)?;
+    // That the system is separable was tested at two states.
+    let Pendulum {
+        forces, velocities, ..
+    } = integrator.system();
+    assert_eq!((forces.replace(0), velocities.replace(0)), (2, 2));
     for _ in 0..10 {
         integrator.step()?;
     }

@@ -172,10 +172,10 @@ fn steps_make_no_vectors() -> Result<(), Error> {
         assert_eq!(count, 2 * 3, "an iterator clones q and p");
         Ok(())
     }
-    // What the state leaves out, the result and what that leaves out, two each; a velocity and a force, and the
-    // stages where they are solved for.
-    check(StoermerVerlet, 6 + 2)?;
-    check(Midpoint, 6 + 4)
+    // To test what the system declares; what the state leaves out, the result and what that leaves out, two each; a velocity and a force,
+    // and the stages where they are solved for.
+    check(StoermerVerlet, 6 + 6 + 2)?;
+    check(Midpoint, 6 + 6 + 4)
 }
 
 /// In blocks, and by themselves.

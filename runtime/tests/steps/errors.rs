@@ -1,6 +1,7 @@
 //! Every error, with the state untouched and the way on.
 
 use std::cell::Cell;
+use std::marker::PhantomData;
 
 use crate::common::systems::{Pendulum, Product, point};
 
@@ -8,11 +9,47 @@ use crate::common::methods::{Gauss2, Lobatto3, Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1};
 use symplectic::solver::FixedPoint;
 use symplectic::{
-    Error, Integrator, Method, ProvedFor, Quantity, Separable, State, System, Vector, acceleration,
-    hamiltonian, separable,
+    Class, Error, General, Integrator, Method, ProvedFor, Quantity, Separable, State, System,
+    Vector, acceleration, hamiltonian, separable,
 };
 
 type Point = Vector1<f64>;
+
+/// A damped oscillator, by hand.
+struct Declared<const FORCED: bool, C>(PhantomData<C>);
+
+impl<const FORCED: bool, C: Class> System<Point> for Declared<FORCED, C> {
+    type Class = C;
+    type Solver = FixedPoint;
+
+    const FORCED: bool = FORCED;
+
+    fn velocity(&self, _: f64, _: &Point, p: &Point, velocity: &mut Point) {
+        *velocity = *p;
+    }
+
+    fn force(&self, _: f64, q: &Point, p: &Point, force: &mut Point) {
+        *force = -q - p;
+    }
+
+    fn applied_force(&self, _: f64, _: &Point, p: &Point, applied: &mut Point) {
+        *applied = -p;
+    }
+}
+
+#[test]
+fn false_declarations_are_refused() {
+    let start = || State::from_arrays(0.0, [1.0], [0.5]);
+    let separable = Declared::<true, Separable>(PhantomData);
+    let error = Integrator::new(Gauss2, separable, start(), 0.1).err();
+    let (what, component) = (Quantity::Force, 0);
+    assert_eq!(error, Some(Error::NotSeparable { what, component }));
+    let silent = Declared::<false, General>(PhantomData);
+    let error = Integrator::new(Gauss2, silent, start(), 0.1).err();
+    assert_eq!(error, Some(Error::NotForced { component }));
+    let right = Declared::<true, General>(PhantomData);
+    assert!(Integrator::new(Gauss2, right, start(), 0.1).is_ok());
+}
 
 /// Fails once, checks that nothing changed, then steps on and compares with one that never failed.
 fn assert_recovers<M, S, V>(

@@ -10,9 +10,10 @@ use super::resolution::Resolution;
 use crate::error::{Error, Quantity};
 use crate::method::Failure;
 use crate::method::storage::is_finite;
+use crate::number::vector::beside;
 use crate::number::{Scalar, Vector};
 use crate::state::State;
-use crate::system::{Class, Constrained, System, Terms, Unconstrained};
+use crate::system::{Class, Constrained, Gradients, System, Terms, Unconstrained};
 
 /// How far a start may be from the constraints, relative to the sizes of their terms.
 pub(in crate::method) const CONSISTENT: f64 = 1e-10;
@@ -212,7 +213,13 @@ pub(crate) fn check_start<V: Vector, S: System<V>>(
 ) -> Result<(), Error> {
     let system = &OfDimension::new(system, q.dimension());
     let examined = system.check(time, Examined::new(system, time, q, p))?;
-    check_gradients(system, q, &examined.point)?;
+    check_gradients(system, q, &examined.point.gradients)?;
+    // Entries may vanish at the start.
+    let mut gradients = examined.point.gradients.clone();
+    let other = beside(q);
+    if gradients.evaluate(|gradients| system.constraint_gradients(&other, gradients)) {
+        check_gradients(system, &other, &gradients)?;
+    }
     let (position, momentum) = (examined.position(), examined.momentum());
     if position.1 <= CONSISTENT && momentum.1 <= CONSISTENT {
         return Ok(());
@@ -230,11 +237,11 @@ pub(crate) fn check_start<V: Vector, S: System<V>>(
     })
 }
 
-/// Compares the gradients with difference quotients of the constraints in two directions.
+/// Compares the gradients at `q` with difference quotients of the constraints in two directions.
 fn check_gradients<V: Vector, S: System<V>>(
     system: &S,
     q: &V,
-    point: &Point<V>,
+    gradients: &Gradients<V::Scalar>,
 ) -> Result<(), Error> {
     let constraints = system.constraints();
     let sizes = q.as_slice().iter().map(|x| x.magnitude());
@@ -255,9 +262,9 @@ fn check_gradients<V: Vector, S: System<V>>(
         for (k, component) in moved.as_mut_slice().iter_mut().enumerate() {
             *component = V::Scalar::from_f64(direction(k));
         }
-        point.gradients.multiply(moved.as_slice(), &mut stated);
+        gradients.multiply(moved.as_slice(), &mut stated);
         let mut terms = vec![Terms::default(); constraints];
-        point.gradients.sizes(direction, &mut terms);
+        gradients.sizes(direction, &mut terms);
         let half = V::Scalar::from_f64((2.0 * step).recip());
         for (constraint, &stated) in stated.iter().enumerate() {
             let found = (high[constraint] - low[constraint]) * half;

@@ -12,6 +12,7 @@ macro_rules! chain_system {
 
             const MASSES: $crate::Masses = $crate::Masses::Unit;
             const INLINED: bool = <Self as $crate::emitted::Bonds>::INLINED;
+            const WELL_DECLARED: bool = true;
 
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {

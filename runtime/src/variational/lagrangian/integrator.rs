@@ -10,6 +10,7 @@ use crate::integrator::step_clock::{StepClock, Stepper};
 use crate::integrator::validation::check_state;
 use crate::method::{Method, ProvedFor};
 use crate::number::Vector;
+use crate::number::vector::beside;
 use crate::state::State;
 use crate::system::{General, Lagrangian};
 use crate::variational::given_ends::GeneratingFunctions;
@@ -158,6 +159,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         let n = state.q.dimension();
         check_state(state.time, &state.q, &state.p, n)?;
         lagrangian.check_dimension(n)?;
+        check_force(&lagrangian, &state)?;
         Ok(Self {
             step_clock: StepClock::new(state.time, step_size)?,
             stages: Stages::new(coefficients, n)?,
@@ -435,5 +437,21 @@ impl<L: Lagrangian + Clone> GeneratingFunctions for LagrangianIntegrator<L> {
         }
         let run = self.stepped_from(start)?;
         Ok((run.state, run.action.unwrap_or(f64::NAN)))
+    }
+}
+
+/// Checks that a force is declared.
+fn check_force<L: Lagrangian>(
+    lagrangian: &L,
+    State { time, q, p }: &State<L::Vector<f64>>,
+) -> Result<(), Error> {
+    if L::FORCED {
+        return Ok(());
+    }
+    let mut force = q.zeros_like();
+    lagrangian.force(*time, q, &beside(p), &mut force);
+    match force.as_slice().iter().position(|&force| force != 0.0) {
+        Some(component) => Err(Error::NotForced { component }),
+        None => Ok(()),
     }
 }
