@@ -33,8 +33,8 @@ pub trait Elements {
 
 /// The step of an asynchronous variational integrator (Lew, Marsden, Ortiz & West 2003): each element kicks with its own step size.
 ///
-/// In a step of size h, element K takes `n_K = ⌈h/h_K⌉` equal steps, with the [step size](Elements::step_size) `h_K`. At the times
-/// `k h/n_K` the components of the element drift from their last positions, and get the kick
+/// In a step of size h, element K takes `n_K = ⌈h/h_K⌉` equal steps, where `h_K` is its [step size](Elements::step_size). At the times
+/// `k h/n_K` the components of the element drift from their last positions. They then get the kick
 ///
 /// ```text
 /// p ← p − (h/n_K) ∂V_K/∂q,   half of it for k = 0 and k = n_K.
@@ -42,10 +42,10 @@ pub trait Elements {
 ///
 /// $$ p \leftarrow p - \frac{h}{n_K} \frac{\partial V_K}{\partial q} $$
 ///
-/// So the force of a stiff bond is evaluated often, that of a soft bond seldom. The numbers `n_K` need no common divisor. The step is
-/// symplectic, symmetric and of order 2. It conserves the total momentum up to rounding if the forces of each element add up to zero. It may
-/// be the whole system, for a [`FlowIntegrator`](super::FlowIntegrator), or a part beside other flows. Within [`Substeps`](super::Substeps)
-/// the two half kicks between two steps share one evaluation.
+/// So the force of a stiff bond is evaluated often, and that of a soft bond rarely. The numbers `n_K` need no common divisor. The step is
+/// symplectic, symmetric and of order 2. It conserves the total momentum up to rounding if the forces of each element add up to zero. Use
+/// it as the whole system, in a [`FlowIntegrator`](super::FlowIntegrator), or as a part beside other flows. Within
+/// [`Substeps`](super::Substeps) the half kicks at the end of one step and the start of the next share one evaluation.
 ///
 /// As in every method with several step sizes, kicks of fast elements can resonate with the oscillations of slow ones. Keep h below half
 /// of the shortest period of the elements with `n_K = 1`, or compare the energy for several step sizes. Sums are not compensated.
@@ -93,7 +93,7 @@ pub trait Elements {
 pub struct Asynchronous<E> {
     elements: E,
     drifts: Drifts,
-    /// The index in `forces` where those of each element begin; at the end, the length of `forces`.
+    /// The index in `forces` where the forces of each element begin; the last entry is the length of `forces`.
     begins: Vec<usize>,
     /// The forces of all elements at their last kicks.
     forces: Vec<f64>,
@@ -120,7 +120,7 @@ impl Drifts {
     }
 }
 
-/// A kick of an element in a step: the `number`-th, from 0 to `count`, of an element with `count` steps.
+/// The `number`-th kick of an element in a step; `number` runs from 0 to `count`, the steps of the element.
 #[derive(Clone, Copy, Debug)]
 struct Kick {
     element: usize,
@@ -135,7 +135,7 @@ impl Kick {
     }
 }
 
-/// The greatest kick is the next one, as a [`BinaryHeap`] gives it: the earliest, and at equal times that of the first element.
+/// [`BinaryHeap`] returns the greatest kick: the earliest one, and at equal times that of the element with the smallest index.
 impl Ord for Kick {
     fn cmp(&self, other: &Self) -> Ordering {
         let by_time = other.part().total_cmp(&self.part());
@@ -158,12 +158,12 @@ impl PartialEq for Kick {
 impl Eq for Kick {}
 
 impl<E: Elements> Asynchronous<E> {
-    /// The step of these elements, for positions with `dimension` components.
+    /// The step for these elements; positions have `dimension` components.
     ///
     /// # Errors
     ///
-    /// [`Error::FlowParameter`] for a step size of an element that is not finite and positive, an inverse mass that is negative or not
-    /// finite, and a component that does not exist or that an element has twice.
+    /// [`Error::FlowParameter`] if the step size of an element is not finite and positive, or an inverse mass is negative or not finite.
+    /// Also if a component does not exist, or an element lists it twice.
     pub fn new(elements: E, dimension: usize) -> Result<Self, Error> {
         let (mut begins, mut longest) = (vec![0], 0);
         let mut seen_by = vec![None; dimension];
@@ -207,7 +207,7 @@ impl<E: Elements> Asynchronous<E> {
         &self.elements
     }
 
-    /// Takes one step. The forces at its start are known if it follows another step.
+    /// Takes one step. If it follows another step, the forces at its start are already known.
     fn step(
         &mut self,
         span: Span,
@@ -266,7 +266,7 @@ impl<E: Elements> Asynchronous<E> {
         }
     }
 
-    /// Adds the kick of an element, by the forces of its last evaluation.
+    /// Kicks an element with its last evaluated forces.
     fn kick(&self, kick: Kick, span: Span, p: &mut [f64]) {
         let Kick {
             element,

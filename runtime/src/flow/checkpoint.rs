@@ -1,4 +1,4 @@
-//! Checkpoints of runs of a flow, which continue with the same bits.
+//! Checkpoints of runs of a flow; a restored run has the same bits.
 
 use super::integrator::{FlowIntegrator, RunState};
 use super::memory::Memory;
@@ -10,10 +10,10 @@ use crate::number::words::{Visit, Words, vector_words, words};
 use crate::state::State;
 
 impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
-    /// All that the run needs to [continue](Self::restore) from here with the same bits: state, step size, clock, the last step, and the
+    /// All that the run needs to [continue](Self::restore) from here with the same bits: state, step size, clock, last step, and the
     /// [memory](Flow::memory) of the flow. See [`Checkpoint`].
     ///
-    /// The flow itself is not stored. A hash of a trial step from the present state identifies it; the trial changes nothing.
+    /// The flow itself is not stored. It is identified by a hash of a trial step from the present state; the trial changes nothing.
     ///
     /// ```
     /// use symplectic::flow::{Drift, FlowIntegrator, Kick, OrnsteinUhlenbeck, Palindrome};
@@ -51,8 +51,8 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     ///
     /// # Errors
     ///
-    /// [`CheckpointError`], with [`OtherSystem`](CheckpointError::OtherSystem) if a step of the flow from the state of the checkpoint has
-    /// another result; the run is then unchanged.
+    /// [`CheckpointError`]; it is [`OtherSystem`](CheckpointError::OtherSystem) if a step of the flow from the stored state gives another
+    /// result. The run is then unchanged.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
         let (mut run_state, mut memory) = (self.run_state.clone(), self.present_memory());
         let own = Checkpoint::of_flow(run_state.state.q.dimension(), memory.len());
@@ -77,7 +77,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
         memory
     }
 
-    /// A hash of the result of the next step, or of the state that a failed step leaves.
+    /// A hash of the state after the next step, also if that step fails.
     fn tried_step(&mut self) -> u64 {
         let memory = self.present_memory();
         let State { time, q, p } = &self.run_state.state;
@@ -86,7 +86,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
             size: self.step_size(),
         };
         let (mut q, mut p) = (q.clone(), p.clone());
-        // The bits after a failure differ from those after a step.
+        // A failed step leaves other bits than a good one.
         let _ = self.flow.flow(span, &mut q, &mut p);
         memory.put_back(&mut self.flow);
         hash(&mut [q, p])

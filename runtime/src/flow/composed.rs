@@ -1,12 +1,12 @@
-//! Compositions of symmetric steps of order 2, of higher order.
+//! Compositions of symmetric steps of order 2: methods of higher order.
 
 use super::{Flow, FlowError, Span};
 use crate::method::Method;
 use crate::method::symmetric_steps::SymmetricSteps;
 use crate::number::Vector;
 
-/// The composition of steps of the sizes `γ_1 h, …, γ_m h` of a symmetric flow of order 2, such as a [`Palindrome`](super::Palindrome) of three
-/// parts. The `γ_i` are those of a composition of Störmer–Verlet steps, made by [`composition!`](crate::composition).
+/// A symmetric flow of order 2, such as a [`Palindrome`](super::Palindrome) of three parts, composed with the step sizes `γ_1 h, …, γ_m h`.
+/// The `γ_i` come from a composition of Störmer–Verlet steps, defined by [`composition!`](crate::composition).
 ///
 /// The order is `M::ORDERS.general`: the order conditions are the same for every symmetric method of order 2 (Hairer, Lubich & Wanner, V.3).
 /// A method that is not a composition of Störmer–Verlet steps does not compile.
@@ -29,7 +29,7 @@ pub struct Composed<F> {
 }
 
 impl<F> Composed<F> {
-    /// The composition of steps of `step`, with the fractions of the method.
+    /// The composition of steps of `step` with the fractions `γ_i` of the method.
     pub fn new<M: Method>(_method: M, step: F) -> Self {
         Self {
             steps: SymmetricSteps::of::<M>(),

@@ -12,11 +12,11 @@ use crate::number::Vector;
 use crate::state::State;
 use crate::system::Separable;
 
-/// A symplectic corrector for a symmetric [`Splitting`] K of `H = A + B` with a small `B = O(ε)` (Wisdom, Holman & Touma, *Fields Inst. Commun.*
-/// 10, 217, 1996): a change of variables C in which the error of the steps is `O(εh^{2m+2} + ε²h²)` instead of `O(εh²)`.
+/// A symplectic corrector for a symmetric [`Splitting`] K of `H = A + B` with a small `B = O(ε)` (Wisdom, Holman & Touma, *Fields Inst.
+/// Commun.* 10, 217, 1996). It is a change of variables C that reduces the error of the steps from `O(εh²)` to `O(εh^{2m+2} + ε²h²)`.
 ///
-/// To first order in ε, a run of `n` steps integrates the kick along the exact flow of A by a quadrature rule in every step. By the
-/// Euler–Maclaurin formula the error of this sum consists of terms at both ends of the run. So a correction is needed only there:
+/// To first order in ε, `n` steps integrate the kick along the exact flow of A, by a quadrature rule in every step. By the Euler–Maclaurin
+/// formula, the error of this sum consists of terms at the two ends of the run. So only the ends need a correction:
 ///
 /// ```text
 /// C K^n C⁻¹ ≈ e^{nh(A+B)}       C = Π_i e^{−a_i hA} e^{b_i hB} e^{a_i hA}
@@ -25,18 +25,18 @@ use crate::system::Separable;
 ///
 /// $$ 2 \sum_{i=1}^m b_i a_i^{2k-1} = -\frac{1}{2k} \sum_j w_j B_{2k}(c_j) \qquad k = 1, \dots, m $$
 ///
-/// with the kicks of weight `w_j` of the method at the times `c_j h` of its drift, and the Bernoulli polynomials `B_{2k}`; the rightmost flow
-/// comes first. C has the pairs `(a_i, b_i)` and `(−a_i, −b_i)` with `a_i = i/2`; [`new`](Self::new) solves for the `b_i`. C takes `2m` kicks
-/// and `2m + 1` drifts, forward and backward, and is symplectic if the flows are. Neither part may depend on time.
+/// Here the `w_j` are the weights of the kicks, `c_j h` their times in the drift, and `B_{2k}` the Bernoulli polynomials. The rightmost
+/// flow acts first. C has the pairs `(a_i, b_i)` and `(−a_i, −b_i)` with `a_i = i/2`; [`new`](Self::new) solves for the `b_i`. It takes
+/// `2m` kicks and `2m + 1` drifts, forward and backward, and is symplectic if the flows are. Neither part may depend on time.
 ///
-/// The run itself is in the variables of the kernel K: [`to_kernel`](Self::to_kernel) transforms the initial state, and
-/// [`from_kernel`](Self::from_kernel) transforms a state of the run back, for output. They are inverse to each other up to rounding. Both need
-/// the step size of the run; with [`Substeps`](super::Substeps), that of a substep. [`integrate_to`](super::FlowIntegrator::integrate_to) takes
-/// shorter steps if the time to the end is not a multiple of the step size. More than four pairs seldom help, because the error ε²h² remains.
+/// The run uses the variables of the kernel K: [`to_kernel`](Self::to_kernel) transforms the initial state,
+/// [`from_kernel`](Self::from_kernel) states of the run back, for output. They are inverse to each other up to rounding. Both take the step
+/// size of the run, or of a substep of [`Substeps`](super::Substeps). [`integrate_to`](super::FlowIntegrator::integrate_to) takes shorter
+/// steps if the time to the end is not a multiple of the step size. More than four pairs rarely help: the error ε²h² remains.
 ///
-/// A state [inside a step](super::FlowIntegrator::state_at) is the end of a shorter step, to which another change of variables belongs:
-/// `from_kernel` leaves the error `O(εh³)` of one step without a corrector. For such a time, transform the last state of the run back and
-/// continue from it in corrected steps of another size.
+/// A state [inside a step](super::FlowIntegrator::state_at) is the end of a shorter step, which has another change of variables. There
+/// `from_kernel` leaves the error `O(εh³)` of one uncorrected step. For such a time, transform the last state of the run back, and continue
+/// from it with corrected steps of another size.
 ///
 /// ```
 /// use symplectic::flow::kepler::Jacobi;
@@ -81,7 +81,7 @@ pub struct Corrector<A, B> {
     pub kick: B,
 }
 
-/// The largest number of pairs. With it the error of first order is about 10⁻¹¹ε if the step is a sixth of the shortest period.
+/// The largest number of pairs. With 8 pairs and steps of a sixth of the shortest period, the first-order error is about 10⁻¹¹ε.
 const MOST: u32 = 8;
 
 /// The spacing of the `a_i`.
@@ -120,12 +120,12 @@ impl<A, B> Corrector<A, B> {
         })
     }
 
-    /// `C⁻¹`: the state in the variables of the kernel, from which a run with steps of size `step_size` starts.
+    /// `C⁻¹`: the state in the variables of the kernel, for the start of a run with steps of size `step_size`.
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`], [`Error::Dimension`], [`Error::NonFiniteState`]; [`Error::Flow`] and [`Error::NonFinite`], with 0 as the step, if a
-    /// flow fails, for example because it cannot go backward.
+    /// [`Error::StepSize`], [`Error::Dimension`], [`Error::NonFiniteState`]. If a flow fails, for example because it cannot go backward,
+    /// [`Error::Flow`] or [`Error::NonFinite`] with step 0.
     pub fn to_kernel<V>(&mut self, state: &State<V>, step_size: f64) -> Result<State<V>, Error>
     where
         V: Vector<Scalar = f64>,
@@ -135,7 +135,7 @@ impl<A, B> Corrector<A, B> {
         self.corrected(state, step_size, true)
     }
 
-    /// `C`: the state that belongs to a state in the variables of the kernel.
+    /// `C`: transforms a state in the variables of the kernel back.
     ///
     /// # Errors
     ///
@@ -169,7 +169,7 @@ impl<A, B> Corrector<A, B> {
         Ok(found)
     }
 
-    /// Applies all pairs. The drift back from one place and the drift to the next are merged.
+    /// Applies all pairs. The drift back from one `a_i` and the drift to the next are merged.
     fn pass<V>(&mut self, state: &mut State<V>, h: f64, inverse: bool) -> Result<(), FlowError>
     where
         V: Vector<Scalar = f64>,
@@ -299,7 +299,7 @@ mod tests {
         }
     }
 
-    /// For drift–kick–drift the third-order corrector of Wisdom, Holman & Touma has a = √(7/40), b = 1/(48 a).
+    /// For drift–kick–drift, the third-order corrector of Wisdom, Holman & Touma has a = √(7/40), b = 1/(48 a).
     #[test]
     fn one_pair_is_that_of_the_paper() {
         let place = (7.0_f64 / 40.0).sqrt();

@@ -6,8 +6,8 @@ use crate::number::Vector;
 
 /// The flow of linear friction, `p' = −γp`: `p ← e^{−γh} p`.
 ///
-/// A splitting of symplectic flows and this flow is conformally symplectic: a step multiplies dq∧dp by `e^{−γh}` exactly (McLachlan &
-/// Perlmutter 2001). The factor is applied as `p + (e^{−γh} − 1)p`, so that its rounding error does not accumulate over many steps.
+/// A splitting into symplectic flows and this flow is conformally symplectic: a step multiplies dq∧dp by `e^{−γh}` exactly (McLachlan
+/// & Perlmutter 2001). The factor is applied as `p + (e^{−γh} − 1)p`, so that its rounding error does not accumulate over many steps.
 ///
 /// ```
 /// use symplectic::flow::{Damping, Flow, Span};

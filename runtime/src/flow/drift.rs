@@ -6,7 +6,7 @@ use crate::error::Quantity;
 use crate::number::Vector;
 use crate::system::{Separable, System};
 
-/// The flow of the kinetic energy of a separable system: `q ← q + h velocity(t, p)`, with t in the [middle](Span::middle) of the span.
+/// The flow of the kinetic energy of a separable system: `q ← q + h velocity(t, p)`, with t at the [middle](Span::middle) of the span.
 ///
 /// It is exact if the velocity does not depend on time, and has order 2 otherwise.
 ///

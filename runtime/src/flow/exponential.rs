@@ -7,7 +7,7 @@ use num_traits::Float;
 use super::FlowError;
 use crate::error::Quantity;
 
-/// The largest relative error of an exponential, as estimated.
+/// The largest estimated relative error of an exponential.
 const LARGEST_ERROR: f64 = 1e-3;
 
 /// The highest power in the exponential series.

@@ -6,13 +6,13 @@ use super::{Flow, FlowError, Span};
 use crate::error::Quantity;
 use crate::number::{Scalar, Vector};
 
-/// The rotation of particles in a magnetic field: `v' = v × B(t, q)` at fixed positions. `B` is charge over mass times the magnetic field, at
-/// the time in the [middle](Span::middle) of the span.
+/// The rotation of particles in a magnetic field: `v' = v × B(t, q)` at fixed positions. `B` is charge over mass times the magnetic field,
+/// at the [middle](Span::middle) of the time span.
 ///
-/// The velocity of each particle, three components of `p`, turns about `B(t, q)` by the angle `−h|B|`, exactly, by Rodrigues' formula. The
-/// map is a rotation of `v` that depends on `q` only, so it conserves `|v|` and the volume in phase space. With a drift and a kick by the
-/// electric field in a [`Palindrome`](super::Palindrome) it is Boris's method with the exact angle, which is of order 2, symmetric and volume
-/// preserving (Boris 1970; Qin et al., *Phys. Plasmas* 20, 084503, 2013). It is not symplectic in general: `v` is the kinetic momentum.
+/// The velocity of each particle, three components of `p`, turns exactly by the angle `−h|B|` about `B(t, q)` (Rodrigues' formula). The
+/// rotation depends on `q` only, so it conserves `|v|` and the volume in phase space. With a drift and a kick by the electric field, a
+/// [`Palindrome`](super::Palindrome) gives Boris's method with the exact angle. It has order 2, is symmetric and preserves volume (Boris
+/// 1970; Qin et al., *Phys. Plasmas* 20, 084503, 2013). It is not symplectic in general: `v` is the kinetic momentum.
 ///
 /// ```
 /// use symplectic::flow::{Flow, FlowError, Gyration, Span};

@@ -11,10 +11,10 @@ use crate::number::words::{Visit, Words, words};
 use crate::number::{Vector, copy};
 use crate::state::State;
 
-/// Takes steps of a [`Flow`] that consists of others: a [`Splitting`](super::Splitting), a [`Palindrome`](super::Palindrome), …
+/// Integrates with a composed [`Flow`], such as a [`Splitting`](super::Splitting) or a [`Palindrome`](super::Palindrome).
 ///
-/// A step that fails leaves the state as it was. Sums are plain. No step allocates, if the flows do not. A clone, where the flow can be
-/// cloned, goes on with the same bits.
+/// A failed step leaves the state untouched. Sums are not compensated. Steps do not allocate unless the flows do. A clone, if the flow
+/// can be cloned, continues with the same bits.
 ///
 /// ```
 /// symplectic::tableau! { Verlet { base: velocity-verlet } }
@@ -36,12 +36,12 @@ use crate::state::State;
 pub struct FlowIntegrator<V, F> {
     pub(super) flow: F,
     pub(super) run_state: RunState<V>,
-    /// Room for the memory of the flow during a partial step.
+    /// Work space for the memory of the flow during a partial step.
     #[cfg(feature = "alloc")]
     present: Memory,
 }
 
-/// What the steps change, beside the flow.
+/// What a step changes, apart from the flow.
 #[derive(Clone, Debug)]
 pub(super) struct RunState<V> {
     pub(super) step_clock: StepClock,
@@ -125,7 +125,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
         })
     }
 
-    /// Goes to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or backward.
+    /// Integrates to the time `end` exactly, forward or backward, in the smallest number of equal steps no longer than the step size.
     ///
     /// # Errors
     ///
@@ -135,7 +135,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
         Ok(&self.run_state.state)
     }
 
-    /// [`integrate_to`](Self::integrate_to) that calls `observe` with the state after every step.
+    /// Like [`integrate_to`](Self::integrate_to), and calls `observe` with the state after every step.
     ///
     /// # Errors
     ///
@@ -154,12 +154,12 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
         &self.run_state.state
     }
 
-    /// The present state, moved out.
+    /// The present state, by value.
     pub fn into_state(self) -> State<V> {
         self.run_state.state
     }
 
-    /// Replaces the present state by another one of the same dimension. The [memory](Flow::memory) of the flow stays.
+    /// Replaces the present state by another state of the same dimension. The [memory](Flow::memory) of the flow stays.
     ///
     /// # Errors
     ///
@@ -192,13 +192,13 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`]; the one before then holds.
+    /// [`Error::StepSize`]; the step size is then unchanged.
     pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
         let time = self.run_state.state.time;
         self.run_state.step_clock.set_step_size(time, step_size)
     }
 
-    /// Writes the state at a time of the last step, or at the present one.
+    /// Writes the state at the present time or at a time within the last step.
     #[cfg(feature = "alloc")]
     pub(super) fn look_at(&mut self, time: f64, out: &mut State<V>) -> Result<(), Error> {
         let RunState {
@@ -235,7 +235,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     }
 }
 
-/// Takes a flow, and checks the result.
+/// Applies a flow and checks the result.
 fn take<V: Vector<Scalar = f64>, F: Flow<V>>(
     flow: &mut F,
     span: Span,

@@ -6,7 +6,7 @@ use crate::method::storage::is_finite;
 use crate::number::Vector;
 use crate::system::{Separable, System};
 
-/// The flow of the potential of a separable system: `p ← p + h force(t, q)`, with t in the [middle](Span::middle) of the span.
+/// The flow of the potential of a separable system: `p ← p + h force(t, q)`, with t at the [middle](Span::middle) of the span.
 ///
 /// ```
 /// use symplectic::flow::{Flow, FlowError, Kick, Span};
@@ -43,7 +43,7 @@ impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> Flow<V> for Kick<
     }
 }
 
-/// The work vector `kept`, made anew if it has not as many components as the state.
+/// The work vector `kept`; reallocated if its dimension is not that of the state.
 pub(super) fn work_vector<'a, V: Vector>(
     kept: &'a mut Option<V>,
     q: &V,
@@ -60,7 +60,7 @@ pub(super) fn work_vector<'a, V: Vector>(
     Ok(kept.get_or_insert_with(|| q.zeros_like()))
 }
 
-/// Adds `size · slope` to a vector. An error if the slope is not finite, or the numbers of components differ.
+/// Adds `size · slope` to a vector. Returns an error if the slope is not finite or the dimensions differ.
 pub(super) fn add<V: Vector<Scalar = f64>>(
     what: Quantity,
     size: f64,

@@ -12,11 +12,11 @@ use crate::number::Vector;
 
 /// The flow of a linear system: `z' = Az` with `z = (q, p)`, so `z ← e^{hA} z`.
 ///
-/// `E = e^{hA} − 1` is computed once for each duration h, of which a method has a few, by scaling and squaring (Moler & Van Loan, *SIAM Rev.*
-/// 45, 2003, method 3): s is chosen such that `2^{−s} hA` is at most 1/2 in the 1-norm (the largest column sum), the exponential series of
-/// `2^{−s} hA` is summed up to the power 15 (the remainder is below 10⁻¹⁸), and `(1 + E)² − 1 = 2E + E²` is applied s times.
+/// `E = e^{hA} − 1` is computed once for each duration h (a method has only a few) by scaling and squaring (Moler & Van Loan, *SIAM Rev.*
+/// 45, 2003, method 3). The 1-norm (largest column sum) of `2^{−s} hA` is at most 1/2, and its exponential series is summed up to the power
+/// 15; the remainder is below 10⁻¹⁸. Then `(1 + E)² − 1 = 2E + E²` is applied s times.
 ///
-/// The relative error is about `nε(1 + ‖hA‖)` if `e^{hA}` is bounded, and so is the deviation from symplecticity. If `nε‖hA‖` exceeds 1/1000,
+/// If `e^{hA}` is bounded, the relative error and the deviation from symplecticity are about `nε(1 + ‖hA‖)`. If `nε‖hA‖` exceeds 1/1000,
 /// the flow fails with [`FlowError::Other`]; if `e^{hA}` overflows, with [`FlowError::NonFinite`].
 ///
 /// The first flow of a new duration allocates. Up to 64 durations are kept; the next one discards them all.
@@ -47,7 +47,7 @@ pub struct Linear {
 const MOST: usize = 64;
 
 impl Linear {
-    /// The flow of `z' = Az` with this matrix A, of 2n rows and columns.
+    /// The flow of `z' = Az` for this matrix A, with 2n rows and columns.
     ///
     /// # Errors
     ///
@@ -76,7 +76,7 @@ impl Linear {
     ///
     /// # Errors
     ///
-    /// Those of [`new`](Self::new); [`Error::FlowParameter`] for a mass that is not finite and positive, and for a stiffness in which two
+    /// Those of [`new`](Self::new). [`Error::FlowParameter`] if a mass is not finite and positive, or the stiffness is not symmetric: two
     /// mirrored entries differ by more than 10⁻¹² of the largest entry.
     pub fn oscillators(masses: &[f64], stiffness: &DMatrix<f64>) -> Result<Self, Error> {
         let n = masses.len();
@@ -123,8 +123,8 @@ impl Linear {
         self.size / 2
     }
 
-    /// The matrix, row by row, that takes initial positions to the mean positions of the motion from rest over the time τ = `duration`. It is
-    /// the position block of `1/τ ∫_0^τ e^{sA} ds`, which is a block of `e^{τB}/τ` with `B = (A, 1; 0, 0)`.
+    /// The matrix, row by row, that maps initial positions to the mean positions of the motion from rest over the time τ = `duration`. It
+    /// is the position block of `1/τ ∫_0^τ e^{sA} ds`, which is a block of `e^{τB}/τ` with `B = (A, 1; 0, 0)`.
     pub(super) fn mean_positions(&self, duration: f64) -> Result<Vec<f64>, FlowError> {
         let (n, size) = (self.size / 2, self.size);
         let rows = size + n;
@@ -144,7 +144,7 @@ impl Linear {
         Ok((0..n * n).map(mean).collect())
     }
 
-    /// The index of `e^{hA} − 1` in `exponentials`; computes it if it is not there.
+    /// The index of `e^{hA} − 1` in `exponentials`; computes the matrix if it is missing.
     fn place(&mut self, h: f64) -> Result<usize, FlowError> {
         if let Some(found) = self.exponentials.iter().position(|(size, _)| *size == h) {
             return Ok(found);

@@ -1,4 +1,4 @@
-//! A copy of what a flow carries from one call to the next.
+//! A copy of the memory of a flow between calls.
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;

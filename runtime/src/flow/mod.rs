@@ -1,16 +1,16 @@
 //! Splittings over flows: `H = A + B + …`, and each part is solved exactly.
 //!
-//! A [`Flow`] takes a state from a time to another one, in place. Flows are put together to flows, and a [`FlowIntegrator`] makes steps of one:
+//! A [`Flow`] advances a state in time, in place. Flows can be composed to larger flows, and a [`FlowIntegrator`] takes steps with a flow:
 //!
 //! | what | step of size h | order |
 //! |---|---|---|
-//! | [`Splitting`] | the drifts and kicks of a proved method, with the flows of `A` and `B` in their places | `M::ORDERS.separable`; for `B = O(ε)` its order for perturbed systems |
+//! | [`Splitting`] | the drifts and kicks of a proved method, with the flows of `A` and `B` instead | `M::ORDERS.separable`; for `B = O(ε)` its order for perturbed systems |
 //! | [`Palindrome`] | `A(h/2) B(h) A(h/2)`; `B` may be a palindrome again, for three parts and more | 2 |
-//! | [`Composed`] | the steps `γ_i h` of a composition, each a step of a palindrome | `M::ORDERS.general` |
+//! | [`Composed`] | steps `γ_i h` of a palindrome, with the `γ_i` of a composition | `M::ORDERS.general` |
 //! | [`Substeps`] | `n` steps of size `h/n`, for fast parts | that of the step |
-//! | `Asynchronous` | each of many potentials in steps of its own | 2 |
+//! | `Asynchronous` | each of many potentials with its own step size | 2 |
 //!
-//! A `Corrector` takes the error of first order in a small `B` away from both ends of a run of symmetric steps.
+//! A `Corrector` removes the first-order error in a small `B` by transforming both ends of a run of symmetric steps.
 //!
 //! Flows of parts:
 //!
@@ -24,18 +24,18 @@
 //! | [`OrnsteinUhlenbeck`] | `dp = −γp dt + √(2γmkT) dW` | in law |
 //! | `kepler` | `Σ p²/(2m) − mμ/∣q∣` | to rounding |
 //!
-//! The order of a method for separable systems is the order of a splitting of any two parts: the order conditions are the same, those of the
-//! free Lie algebra of `A` and `B` (Hairer, Lubich & Wanner, *Geometric numerical integration*, III.5). The step is symplectic where the flows are.
+//! A method for separable systems has the same order as a splitting of any two parts. The order conditions are the same: those of the free
+//! Lie algebra of `A` and `B` (Hairer, Lubich & Wanner, *Geometric numerical integration*, III.5). The step is symplectic if the flows are.
 //!
 //! # Time
 //!
-//! A flow is given a [`Span`] of time. A part that depends on time is taken at the [middle](Span::middle) of the span: by [`Kick`], [`Drift`] and
-//! [`Gyration`], and so it should be by a flow of your own.
+//! A flow is given a [`Span`] of time. [`Kick`], [`Drift`] and [`Gyration`] evaluate a time-dependent part at the [middle](Span::middle) of
+//! the span; your own flows should do so too.
 //!
-//! The first part, in the place of the drift, carries the time: its spans follow one another from the start of the step to its end. A span of
-//! the second part has its middle at the time that the first one has reached. If only the second part depends on time, as a kick by
-//! `U(t, q)` does, the order is that of the method. If other parts do, the order of a [`Splitting`] is 2 in general; that of a
-//! composition of Verlet steps stays, as in [`Composed`].
+//! The first part, in place of the drift, advances the time: its spans are consecutive from the start of the step to its end. A span of the
+//! second part has its middle at the time that the first part has reached. If only the second part depends on time, as a kick by `U(t, q)`
+//! does, the order is that of the method. If other parts do, the order of a [`Splitting`] is 2 in general; a composition of Verlet steps
+//! keeps its order, as in [`Composed`].
 //!
 //! ```
 //! use symplectic::flow::{Drift, FlowIntegrator, Kick, Splitting};
@@ -108,7 +108,7 @@ pub use crate::method::Span;
 use crate::error::Error;
 use crate::number::Vector;
 
-/// The flow of a part of a system, exact, or itself a step that keeps what the flow keeps.
+/// The flow of a part of a system: exact, or a step that preserves the same structure.
 ///
 /// ```
 /// use symplectic::flow::{Flow, FlowError, Span};
@@ -126,16 +126,16 @@ use crate::number::Vector;
 /// }
 /// ```
 pub trait Flow<V: Vector> {
-    /// Takes position and momentum along, for `span.size`, which may be negative. What depends on time is taken at
+    /// Advances position and momentum by `span.size`, which may be negative. Whatever depends on time is evaluated at
     /// [`span.middle()`](Span::middle).
     ///
     /// # Errors
     ///
-    /// [`FlowError`]. Flows that consist of several ones, and those of several particles in a magnetic field, may then have moved the
-    /// state in part; a [`FlowIntegrator`] puts it back.
+    /// [`FlowError`]. Composed flows, and flows of several particles in a magnetic field, may then have changed part of the state; a
+    /// [`FlowIntegrator`] restores it.
     fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError>;
 
-    /// Several flows one after another, each from the end of the one before. Where flows of one part meet they may be made one.
+    /// Several flows in succession, each from the end of the previous one. Adjacent flows of the same part may be merged.
     ///
     /// # Errors
     ///
@@ -155,8 +155,8 @@ pub trait Flow<V: Vector> {
         Ok(())
     }
 
-    /// Shows `visit` all words of 64 bits that the flow carries from one call to the next, always in the same order; `visit` may replace
-    /// them. An [`OrnsteinUhlenbeck`] bath has the number of its draws. A flow that depends only on the span and the state has none.
+    /// Passes each 64-bit word that the flow keeps between calls to `visit`, which may replace it; always in the same order. An
+    /// [`OrnsteinUhlenbeck`] bath has one word, the number of its draws. A flow that depends only on the span and the state has none.
     ///
     /// [Checkpoints](FlowIntegrator::checkpoint) store them. A [partial step](FlowIntegrator::state_at) and a step that fails put them back.
     ///
@@ -186,7 +186,7 @@ pub trait Flow<V: Vector> {
     fn memory(&mut self, _visit: &mut dyn FnMut(&mut u64)) {}
 }
 
-/// Checks a parameter of a flow: finite, and above 0 or not below it.
+/// Checks that a parameter of a flow is finite and positive, or with `zero_too` not negative.
 fn check_parameter(
     what: &'static str,
     index: usize,
@@ -209,7 +209,7 @@ fn check_parameter(
     })
 }
 
-/// Checks a number of rows, of components and the like.
+/// Checks a count, for example of rows or components.
 #[cfg(feature = "alloc")]
 fn check_count(
     what: &'static str,
@@ -228,7 +228,7 @@ fn check_count(
     })
 }
 
-/// Checks that a state has as many components as a flow is for.
+/// Checks that a state has the dimension that a flow expects.
 fn check_dimension<V: Vector>(expected: usize, q: &V) -> Result<(), FlowError> {
     let found = q.dimension();
     if found == expected {

@@ -9,8 +9,8 @@ use crate::number::Vector;
 use crate::system::{Separable, System};
 
 /// The kick of the mollified impulse method (García-Archilla, Sanz-Serna & Skeel, *SIAM J. Sci. Comput.* 20, 930, 1998; Hairer, Lubich &
-/// Wanner, *Geometric numerical integration*, XIII.1): the slow potential `U(q)` is replaced by `U(Aq)`, with the mean `Aq` of the positions
-/// over a time τ of the fast motion that starts at rest from q.
+/// Wanner, *Geometric numerical integration*, XIII.1). It replaces the slow potential `U(q)` by `U(Aq)`; `Aq` is the mean position over a
+/// time τ of the fast motion that starts at rest from q.
 ///
 /// ```text
 /// p ← p + h Aᵀ force(t, Aq)        A = 1/τ ∫_0^τ ∂q(s)/∂q(0) ds
@@ -18,13 +18,13 @@ use crate::system::{Separable, System};
 ///
 /// $$ p \leftarrow p + h A^T f(t, Aq) \qquad A = \frac{1}{\tau} \int_0^\tau \frac{\partial q(s)}{\partial q(0)}\, ds $$
 ///
-/// The fast motion is [`Linear`]. For oscillators with the frequencies Ω, `A = sin(τΩ)/(τΩ)`, which removes from the force the components in
+/// The fast motion is [`Linear`]. For oscillators with the frequencies Ω, `A = sin(τΩ)/(τΩ)`. It removes from the force the components in
 /// resonance with the fast motion. Take τ equal to the step size h of the run: A vanishes at `hω = π, 2π, …` (`LongAverage` of the paper).
 /// With `τ = h/2` it vanishes at `hω = 2π, 4π, …` (`ShortAverage`). `τ = 0` gives the impulse method, whose energy grows at the resonances.
 ///
 /// The kick is the exact flow of the potential `U(Aq)`. So a splitting with it is symplectic, and symmetric if the method is. With `τ ∝ h`,
-/// Störmer–Verlet with the exact fast flow has order 2. Splittings of higher order have order 2 as well, because `U(Aq) − U(q) = O(τ²)`. A is
-/// computed once, for the given τ; a change of the step size does not change it.
+/// Störmer–Verlet with the exact fast flow has order 2. Splittings of higher order have order 2 as well, because `U(Aq) − U(q) = O(τ²)`. A
+/// is computed once, for the given τ; changing the step size does not change it.
 ///
 /// The fast motion must be linear: otherwise A would depend on q, and the kick would need the derivative of the mean.
 ///
@@ -59,12 +59,12 @@ pub struct MollifiedKick<S, V> {
 }
 
 impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> MollifiedKick<S, V> {
-    /// The kick by the force of this system at the mean positions over the time `duration`, τ, of the fast motion.
+    /// The kick by the force of this system at the mean positions of the fast motion over the time τ = `duration`.
     ///
     /// # Errors
     ///
-    /// [`Error::FlowParameter`] for a duration that is negative or not finite, or so long that the fast motion overflows or fewer than three
-    /// digits of it are known.
+    /// [`Error::FlowParameter`] if the duration is negative or not finite, or so long that the fast motion overflows or loses all but three
+    /// digits.
     pub fn new(system: S, fast: &Linear, duration: f64) -> Result<Self, Error> {
         let what = "duration of the mean";
         check_parameter(what, 0, duration, true)?;
@@ -97,7 +97,7 @@ impl<V: Vector<Scalar = f64>, S: System<V, Class = Separable>> Flow<V> for Molli
             *place = row.iter().zip(q.as_slice()).map(|(a, q)| a * q).sum();
         }
         self.system.force(span.middle(), place, p, force);
-        // Aᵀ force replaces the mean positions.
+        // `Aᵀ force` replaces the mean positions.
         place.as_mut_slice().fill(0.0);
         for (row, force) in rows().zip(force.as_slice()) {
             for (sum, a) in place.as_mut_slice().iter_mut().zip(row) {

@@ -1,4 +1,4 @@
-//! A heat bath of friction and noise.
+//! A heat bath: friction and noise.
 
 use super::philox::normal_pair;
 use super::{Flow, FlowError, Span, check_dimension, check_parameter};
@@ -12,7 +12,7 @@ use crate::number::{Scalar, Vector};
 /// ```
 ///
 /// The stationary distribution of p is that of Maxwell and Boltzmann. `Palindrome::new(kick, Palindrome::new(drift, ou))` is BAOAB, the
-/// splitting of these three parts with the most accurate averages over positions (Leimkuhler & Matthews, *Appl. Math. Res. Express* 2013, 34).
+/// splitting of these parts with the most accurate position averages (Leimkuhler & Matthews, *Appl. Math. Res. Express* 2013, 34).
 ///
 /// The random numbers come from the counter-based generator Philox-4×32-10. They depend only on the seed, the number of the
 /// [draw](Self::draws) and the component, and are the same on every machine. Every call of the flow is one draw. If a step fails, a
@@ -53,7 +53,7 @@ impl<W: AsRef<[f64]>> OrnsteinUhlenbeck<W> {
     ///
     /// # Errors
     ///
-    /// [`Error::FlowParameter`] for a rate or a temperature that is negative or not finite, and a mass that is not finite and positive.
+    /// [`Error::FlowParameter`] if a rate or a temperature is negative or not finite, or a mass is not finite and positive.
     pub fn new(friction: f64, temperature: f64, masses: W, seed: u64) -> Result<Self, Error> {
         check_parameter("friction", 0, friction, true)?;
         check_parameter("temperature", 0, temperature, true)?;

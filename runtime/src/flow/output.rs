@@ -1,4 +1,4 @@
-//! What is seen of a run of a flow between its steps.
+//! Output of a run of a flow between its steps.
 
 use super::Flow;
 use super::integrator::FlowIntegrator;
@@ -10,15 +10,15 @@ use crate::output::steps::is_after;
 use crate::state::State;
 
 impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
-    /// Takes steps until all `times` are behind, and shows `observe` the state at each of them, in their order: see
+    /// Takes steps until all `times` have been passed, and calls `observe` with the state at each of them in order: see
     /// [`Integrator::integrate_at`](crate::Integrator::integrate_at).
     ///
-    /// The steps are those of [`step`](Self::step), with the same bits, whatever the times. States inside them are those of
+    /// The steps have the same bits as those of [`step`](Self::step), whatever the times. States inside them are those of
     /// [`state_at`](Self::state_at). The first time may be the present one or lie in the last step.
     ///
     /// # Errors
     ///
-    /// [`Error::OutputTime`] for the first time that is not finite, is before the one before it or before the last step, and
+    /// [`Error::OutputTime`] for the first time that is not finite, or before its predecessor or the last step, and
     /// [`Error::StepCount`]: no step is taken then. Those of [`step`](Self::step) and of [`state_at`](Self::state_at).
     ///
     /// ```
@@ -57,17 +57,17 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
         Ok(self.state())
     }
 
-    /// The state at a time of the last step, by a shorter step of the flow from its start. The error is that of one step, of the order of
-    /// the method; both ends are those of the step, to the bit.
+    /// The state at a time within the last step, by a shorter step of the flow from its start. The error is that of one step, of the order
+    /// of the method; at both ends of the step the state is exact to the bit.
     ///
-    /// The shorter step goes the way of the step, so flows that cannot go backward give it too. It costs as much as a step. It starts
-    /// with the [memory](Flow::memory) that the step started with, and then puts the present one back. So noise is that of the random numbers of
-    /// the step. The law of the state is that of a shorter step from the start; it is not a bridge, which would depend on the end too.
+    /// The shorter step has the direction of the step, so it works for flows that cannot go backward. It costs as much as a step. It starts
+    /// with the [memory](Flow::memory) of the start of the step, and then restores the present memory. So noise uses the random numbers of
+    /// the step. The state has the distribution of a shorter step from the start; it is not a bridge, which would depend on the end too.
     ///
     /// # Errors
     ///
-    /// [`Error::NoStep`] before the first step, after one that failed and after [`set_state`](Self::set_state); [`Error::OutsideStep`];
-    /// [`Error::Flow`] and [`Error::NonFinite`] where the shorter step fails.
+    /// [`Error::NoStep`] before the first step, after a failed step and after [`set_state`](Self::set_state); [`Error::OutsideStep`];
+    /// [`Error::Flow`] and [`Error::NonFinite`] if the shorter step fails.
     pub fn state_at(&mut self, time: f64) -> Result<State<V>, Error> {
         let mut state = self.state().clone();
         if self.run_state.last.is_none() {
@@ -77,7 +77,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
         Ok(state)
     }
 
-    /// The start of the last step, or the present time where there is none, or where the last step went the other way.
+    /// The start of the last step; the present time if there is no last step or it had the other direction.
     fn start_of_last_step(&self) -> f64 {
         let present = self.state().time;
         match self.run_state.last {

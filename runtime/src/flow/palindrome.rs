@@ -8,7 +8,7 @@ use crate::number::Vector;
 /// `B` may be a palindrome again: `Palindrome::new(a, Palindrome::new(b, c))` is `A/2 B/2 C B/2 A/2`, and so on for any number of
 /// parts. [`Composed`](super::Composed) raises the order.
 ///
-/// The inner flow has the time span of the step. The spans of the outer flow have their middles at the start and at the end of the step. In
+/// The span of the inner flow is that of the step. The spans of the outer flow are centred at the start and at the end of the step. In
 /// [`flow_through`](Flow::flow_through) the last outer flow of a step and the first of the next step are merged.
 ///
 /// ```
@@ -51,7 +51,7 @@ impl<V: Vector, A: Flow<V>, B: Flow<V>> Flow<V> for Palindrome<A, B> {
         q: &mut V,
         p: &mut V,
     ) -> Result<(), FlowError> {
-        // Middle and size of the outer flow at the end of the previous step, which is still to be taken.
+        // Middle and size of the pending outer flow at the end of the previous step.
         let mut pending: Option<(f64, f64)> = None;
         for span in spans {
             let half = span.size / 2.0;

@@ -2,8 +2,8 @@
 
 use crate::number::Scalar;
 
-/// Philox-4×32-10 (Salmon, Moraes, Dror & Shaw, *Parallel random numbers: as easy as 1, 2, 3*, SC 2011): four random words as a function of a
-/// counter and a key.
+/// Philox-4×32-10 (Salmon, Moraes, Dror & Shaw, *Parallel random numbers: as easy as 1, 2, 3*, SC 2011): maps a counter and a key to four
+/// random words.
 const fn philox(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
     let mut round = 0;
     while round < 10 {

@@ -1,4 +1,4 @@
-//! Splitting methods whose drifts and kicks are replaced by flows.
+//! Splitting methods with flows in place of drifts and kicks.
 
 use core::marker::PhantomData;
 

@@ -11,23 +11,23 @@ use crate::flow::{FlowError, check_dimension};
 use crate::number::array::array;
 use crate::number::{F64x4, Lanes, Scalar, Vector};
 
-/// The places of n planets, and the forces on them.
+/// The positions of n planets, and the forces on them.
 #[derive(Clone, Debug)]
 pub(super) struct Attraction {
     gravity: f64,
     count: usize,
-    /// The places; planet k is also at k + n, k + 2n, ….
+    /// The positions; planet k is also stored at k + n, k + 2n, ….
     places: Axes,
     /// The masses, likewise.
     masses: Vec<f64>,
     pub(super) forces: Axes,
-    /// The forces between planets that are some places apart, on the first of each pair; before them the last ones once more.
+    /// The forces on the first planet of each pair (k, k + d) for the present d; the last d of them are repeated before the first.
     pulls: Axes,
-    /// The sum of the pulls on the second of each pair, with the opposite sign.
+    /// The sum of the pulls on the second planet of each pair, with the opposite sign.
     reactions: Axes,
 }
 
-/// Pairs side by side.
+/// Pairs in lanes.
 pub(super) type Group = F64x4;
 const WIDTH: usize = Group::WIDTH;
 
@@ -53,13 +53,13 @@ impl Attraction {
         self.count
     }
 
-    /// Checks that a state is one of these bodies.
+    /// Checks that the dimension of a state fits these bodies.
     pub(super) fn check<V: Vector<Scalar = f64>>(&self, q: &V, p: &V) -> Result<(), FlowError> {
         check_dimension(3 * (self.count + 1), q)?;
         check_dimension(3 * (self.count + 1), p)
     }
 
-    /// Puts a planet in its place.
+    /// Stores the position of a planet.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn put(&mut self, planet: usize, place: [f64; 3]) {
         for (list, x) in self.places.iter_mut().zip(place) {
@@ -71,22 +71,22 @@ impl Attraction {
         }
     }
 
-    /// The place of a planet.
+    /// The position of a planet.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn place(&self, planet: usize) -> [f64; 3] {
         let [x, y, z] = &self.places;
         [x[planet], y[planet], z[planet]]
     }
 
-    /// The places of planets side by side.
+    /// The positions of several planets in lanes.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn places(&self, first: usize) -> [Group; 3] {
         load(&self.places, first)
     }
 
-    /// Adds the forces of gravity between the planets. They are not finite where two are at the same position.
+    /// Adds the forces of gravity between the planets. They are not finite if two planets are at the same position.
     ///
-    /// The planets k and k + d are pairs side by side, for d = 1, …, n/2; for `2d = n` each pair comes twice, once from either side.
+    /// Pairs k and k + d are computed in lanes, for d = 1, …, n/2; for `2d = n` each pair occurs twice, once from either side.
     pub(super) fn attract(&mut self) {
         let count = self.count;
         let half = count / 2;
@@ -132,7 +132,7 @@ impl Attraction {
         }
     }
 
-    /// Why forces are not finite: two planets are at the same position, or the star, if given, and another planet than the first.
+    /// Why forces are not finite: two planets coincide, or the star, if given, coincides with a planet other than the first.
     #[cold]
     pub(super) fn failure(&self, star: Option<[f64; 3]>) -> FlowError {
         let count = self.count;

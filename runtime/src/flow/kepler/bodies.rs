@@ -12,7 +12,7 @@ use crate::state::State;
 pub(super) struct Bodies {
     pub(super) gravity: f64,
     pub(super) masses: Vec<f64>,
-    /// `M_i`, the mass of the bodies up to each one.
+    /// `M_i`, the total mass of the bodies up to body i.
     pub(super) sums: Vec<f64>,
     /// `m_i/M_i` and `M_{i−1}/M_i`.
     pub(super) shares: Vec<[f64; 2]>,

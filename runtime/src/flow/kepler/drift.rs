@@ -1,4 +1,4 @@
-//! Bodies on Kepler orbits.
+//! The exact flow of bodies on Kepler orbits.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -12,12 +12,12 @@ use crate::flow::{Flow, FlowError, Span, check_count, check_dimension, check_par
 use crate::number::array::array;
 use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector};
 
-/// The flow of `H = Σ |p|²/(2m) − mμ/|q|`: bodies in space, each on a Kepler orbit about the origin, any number of them in lanes of `L`,
-/// and the last ones in fewer lanes.
+/// The flow of `H = Σ |p|²/(2m) − mμ/|q|`: any number of bodies in space, each on a Kepler orbit about the origin. They are computed in
+/// lanes of `L`, the last ones in narrower lanes.
 ///
-/// Ellipses, parabolas, hyperbolas and lines are one case: with the universal anomaly s, `t' = |q|`, and Stumpff's functions `G_k = s^k c_k(βs²)`,
-/// `β = 2μ/|q| − |v|²`, the end is (Battin, *An introduction to the mathematics and methods of astrodynamics*, 4.5; Rein & Tamayo, *MNRAS*
-/// 452, 2015)
+/// Ellipses, parabolas, hyperbolas and lines are one case. With the universal anomaly s, `t' = |q|`, Stumpff's functions
+/// `G_k = s^k c_k(βs²)` and `β = 2μ/|q| − |v|²`, the end is (Battin, *An introduction to the mathematics and methods of astrodynamics*,
+/// 4.5; Rein & Tamayo, *MNRAS* 452, 2015)
 ///
 /// ```text
 /// h = |q| G1 + (q·v) G2 + μ G3      q1 = f q + g v     v1 = f' q + g' v
@@ -26,12 +26,12 @@ use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector};
 ///
 /// $$ h = |q| G_1 + (q \cdot v) G_2 + \mu G_3 \qquad f = 1 - \frac{\mu G_2}{|q|} \qquad g = h - \mu G_3 $$
 ///
-/// A body that falls into the centre turns back there, as the limit of thin ellipses does.
+/// A body that falls into the centre turns back there, which is the limit of thin ellipses.
 ///
 /// # Errors
 ///
-/// [`FlowError::AtCentre`] where a body starts or ends at the centre, [`FlowError::Periods`], [`FlowError::NoOrbit`] where its end
-/// overflows or loses half of its digits, [`FlowError::Dimension`].
+/// [`FlowError::AtCentre`] if a body starts or ends at the centre, [`FlowError::Periods`], [`FlowError::NoOrbit`] if its end overflows or
+/// loses half of its digits, [`FlowError::Dimension`].
 ///
 /// ```
 /// use symplectic::flow::kepler::KeplerDrift;
@@ -47,7 +47,7 @@ use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector};
 /// ```
 #[derive(Clone, Debug)]
 pub struct KeplerDrift<L = F64x8> {
-    /// The mass of a body before the others that moves freely.
+    /// The mass of a body that moves freely and comes before the others.
     free: Option<f64>,
     masses: Vec<f64>,
     /// `1/m`
@@ -63,7 +63,7 @@ impl KeplerDrift {
     ///
     /// # Errors
     ///
-    /// [`Error::FlowParameter`] where a mass or a μ is not finite and positive, or there are not as many of them.
+    /// [`Error::FlowParameter`] if a mass or a μ is not finite and positive, or their numbers differ.
     pub fn new(masses: &[f64], mus: &[f64]) -> Result<Self, Error> {
         check_count(
             "number of masses",
@@ -79,7 +79,7 @@ impl KeplerDrift {
         Ok(Self::with(None, masses.into(), mus.into()))
     }
 
-    /// Bodies after one of mass `free` that moves freely.
+    /// Bodies that follow a free body of mass `free`.
     pub(super) fn of_checked(free: f64, masses: Vec<f64>, mus: Vec<f64>) -> Self {
         Self::with(Some(free), masses, mus)
     }
@@ -97,7 +97,7 @@ impl KeplerDrift {
 }
 
 impl<L: Lanes> KeplerDrift<L> {
-    /// The same flow, with other lanes: the results are the same to the last bit.
+    /// The same flow with another lane type; the results have the same bits.
     ///
     /// ```
     /// use symplectic::flow::kepler::KeplerDrift;
@@ -117,7 +117,7 @@ impl<L: Lanes> KeplerDrift<L> {
         }
     }
 
-    /// The ends of the orbits of a group of bodies; lanes without a body have the orbit of the last one.
+    /// The ends of the orbits of a group of bodies; lanes without a body repeat the last orbit.
     fn group<W: Lanes>(
         &mut self,
         first: usize,
@@ -160,7 +160,7 @@ impl<V: Vector<Scalar = f64>, L: Lanes> Flow<V> for KeplerDrift<L> {
         let (free_p, p) = p.as_mut_slice().split_at_mut(free);
         let mut first = 0;
         while first < count {
-            // Up to four remaining bodies in two or four lanes.
+            // One or two remaining bodies use two lanes, three or four use four.
             first += match count - first {
                 1..=2 if L::WIDTH > 2 => self.group::<F64x2>(first, h, q, p)?,
                 3..=4 if L::WIDTH > 4 => self.group::<F64x4>(first, h, q, p)?,

@@ -1,11 +1,11 @@
-//! Points side by side.
+//! Points in lanes.
 
 use alloc::vec::Vec;
 
 use crate::number::Lanes;
 use crate::number::array::array;
 
-/// The components of points, side by side; lanes without a point have the last one.
+/// The components of points in lanes; lanes without a point repeat the last point.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn gather<L: Lanes, const N: usize>(points: &[[f64; N]]) -> [L; N] {
     array(L::zero(), |axis| match points.get(..L::WIDTH) {
@@ -14,7 +14,7 @@ pub(super) fn gather<L: Lanes, const N: usize>(points: &[[f64; N]]) -> [L; N] {
     })
 }
 
-/// Writes components side by side into points; lanes without a point are dropped.
+/// Writes components in lanes into points; lanes without a point are dropped.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn scatter<L: Lanes, const N: usize>(lanes: [L; N], points: &mut [[f64; N]]) {
     let lanes = lanes.map(L::to_array);
@@ -25,23 +25,23 @@ pub(super) fn scatter<L: Lanes, const N: usize>(lanes: [L; N], points: &mut [[f6
     }
 }
 
-/// Points, axis by axis.
+/// Points stored by axis.
 pub(super) type Axes = [Vec<f64>; 3];
 
-/// The points from one on, side by side.
+/// The points from index `first` on, in lanes.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn load<L: Lanes>(axes: &Axes, first: usize) -> [L; 3] {
     array(L::zero(), |axis| load_one(&axes[axis], first))
 }
 
-/// Numbers side by side.
+/// Numbers in lanes.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn load_one<L: Lanes>(list: &[f64], first: usize) -> L {
     let list = &list[first..first + L::WIDTH];
     L::from_fn(|lane| list[lane])
 }
 
-/// Writes points side by side, from one on.
+/// Writes points in lanes, from index `first` on.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn store<L: Lanes>(axes: &mut Axes, first: usize, points: [L; 3]) {
     for axis in 0..3 {

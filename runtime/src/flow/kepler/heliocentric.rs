@@ -17,28 +17,28 @@ use crate::state::State;
 /// B = |Σ_i P_i|²/(2m_0) − Σ_{1≤i<j} G m_i m_j/|Q_i − Q_j|
 /// ```
 ///
-/// (Duncan, Levison & Lee, *Astron. J.* 116, 1998.) No order of the bodies is distinguished, so orbits may cross. The two terms of `B` commute: the
-/// jump of the star moves all planets by the same vector, and a kick leaves `Σ P_i`. So the flow of `B` is exact too.
+/// (Duncan, Levison & Lee, *Astron. J.* 116, 1998.) No order of the bodies is assumed, so orbits may cross. The two terms of `B` commute:
+/// the jump of the star moves all planets by the same vector, and a kick leaves `Σ P_i`. So the flow of `B` is exact too.
 #[derive(Clone, Debug)]
 pub struct Heliocentric {
     bodies: Bodies,
-    /// Whether every planet makes a pair with the star.
+    /// Whether every planet forms a pair with the star.
     pairs: bool,
 }
 
 impl Heliocentric {
-    /// Bodies with these masses, the first one that of the star, and the constant of gravity `G`.
+    /// Bodies with these masses, the star first, and the constant of gravity `G`.
     ///
     /// # Errors
     ///
-    /// [`Error::FlowParameter`] where a mass or `G` is not finite and positive, or there is no body.
+    /// [`Error::FlowParameter`] if a mass or `G` is not finite and positive, or there is no body.
     pub fn new(gravity: f64, masses: &[f64]) -> Result<Self, Error> {
         let bodies = Bodies::new(gravity, masses)?;
         let pairs = false;
         Ok(Self { bodies, pairs })
     }
 
-    /// The same coordinates, with another splitting: each planet and the star are a pair that is solved exactly (WHDS, Hernandez & Dehnen,
+    /// The same coordinates with another splitting: each planet and the star form a pair that is solved exactly (WHDS, Hernandez & Dehnen,
     /// *MNRAS* 468, 2017).
     ///
     /// ```text
@@ -46,7 +46,7 @@ impl Heliocentric {
     /// B = Σ_{i<j} P_i·P_j/m_0 − Σ_{1≤i<j} G m_i m_j/|Q_i − Q_j|
     /// ```
     ///
-    /// With two bodies `B = 0`. The two terms of `B` do not commute, and are taken by a palindrome: the error has `O(ε³h²)` in addition.
+    /// With two bodies `B = 0`. The two terms of `B` do not commute, and are composed in a palindrome: this adds an error `O(ε³h²)`.
     ///
     /// # Errors
     ///
@@ -57,11 +57,11 @@ impl Heliocentric {
         Ok(Self { bodies, pairs })
     }
 
-    /// The state in heliocentric coordinates of one in inertial coordinates.
+    /// Transforms a state from inertial to heliocentric coordinates.
     ///
     /// # Errors
     ///
-    /// [`Error::FlowParameter`] where the state does not have three components for each body.
+    /// [`Error::FlowParameter`] if the state does not have three components for each body.
     #[allow(clippy::wrong_self_convention)]
     pub fn from_inertial<V: Vector<Scalar = f64>>(
         &self,
@@ -86,11 +86,11 @@ impl Heliocentric {
         Ok(state)
     }
 
-    /// The state in inertial coordinates of one in heliocentric coordinates.
+    /// Transforms a state from heliocentric to inertial coordinates.
     ///
     /// # Errors
     ///
-    /// [`Error::FlowParameter`] where the state does not have three components for each body.
+    /// [`Error::FlowParameter`] if the state does not have three components for each body.
     pub fn to_inertial<V: Vector<Scalar = f64>>(
         &self,
         state: &State<V>,
@@ -127,7 +127,7 @@ impl Heliocentric {
         KeplerDrift::of_checked(self.bodies.total(), masses, mus)
     }
 
-    /// The flow of `B`, or of [pairs](Self::of_pairs) a step of order 2: the second part.
+    /// The second part: the flow of `B`, or for [pairs](Self::of_pairs) a step of order 2.
     pub fn kick(&self) -> HeliocentricKick {
         HeliocentricKick {
             star: self.bodies.masses[0],
@@ -137,7 +137,7 @@ impl Heliocentric {
     }
 }
 
-/// The flow of the jump of the star and of the gravity between planets in [`Heliocentric`] coordinates.
+/// The flow of the jump of the star and the gravity between planets, in [`Heliocentric`] coordinates.
 ///
 /// # Errors
 ///
@@ -151,7 +151,7 @@ pub struct HeliocentricKick {
 }
 
 impl HeliocentricKick {
-    /// Moves each planet by the velocity that the star has from all planets, or from the others.
+    /// Moves each planet by the velocity of the star that is due to all planets, or for pairs to the others.
     fn jump(&mut self, size: f64, p: &[[f64; 3]]) {
         let factor = size / self.star;
         let mut total = [0.0; 3];
@@ -181,7 +181,7 @@ impl<V: Vector<Scalar = f64>> Flow<V> for HeliocentricKick {
         for (i, place) in q.iter().enumerate() {
             self.attraction.put(i, *place);
         }
-        // The jump of all planets by one vector commutes with the kick.
+        // If all planets jump by the same vector, the jump commutes with the kick.
         let before = if self.pairs { span.size / 2.0 } else { 0.0 };
         if self.pairs {
             self.jump(before, p);

@@ -4,27 +4,27 @@ use super::orbit::{Change, NoEnd, Orbit, g_functions};
 use super::stumpff;
 use crate::number::Lanes;
 
-/// Iterations in lanes; what has not converged then is done one by one.
+/// The number of iterations in lanes; lanes that have not converged then are solved one at a time.
 const MOST: u32 = 6;
 
-/// The relative change after which the next iterate is exact up to rounding, for the iteration is of order 6.
+/// The iteration is of order 6: after a smaller relative change the next iterate is exact up to rounding.
 const LAST_CHANGE: f64 = 1e-4;
 
-/// The terms of orders 4 and 5 up to which they are used: far from the solution larger ones lead away from it.
+/// Terms of orders 4 and 5 are used up to this size; far from the solution larger terms lead away from it.
 const LARGEST_TERMS: f64 = 0.2;
 
-/// The residual of Kepler's equation, relative to its terms, up to which an iterate is the solution: rounding makes a tenth of it.
+/// The largest residual of Kepler's equation, relative to its terms, of an accepted iterate; rounding causes a tenth of it.
 const RESIDUAL: f64 = 32.0 * f64::EPSILON;
 
-/// `|βs²|` up to which lanes are used: a third of a period.
+/// Lanes are used up to this `|βs²|`: a third of a period.
 const LARGEST_PSI: f64 = 4.0;
 
-/// `μs²/r` up to which `h − μG3` has all digits.
+/// Up to this `μs²/r`, `h − μG3` has all digits.
 const LARGEST_ARC: f64 = 32.0;
 
-/// How positions and momenta change in the time `h`, lane by lane; every lane as it would be alone, to the last bit.
+/// The changes of positions and momenta in the time `h`; every lane has the same bits as if computed alone.
 ///
-/// The [series](anomaly) of the universal anomaly from the start is the first iterate, and that from an iterate on is its correction.
+/// The [series](anomaly) of the universal anomaly from the start gives the first iterate; the series from an iterate gives its correction.
 pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (usize, NoEnd)> {
     let (one, two, of) = (L::one(), L::from_f64(2.0), L::from_f64);
     let step = of(h);
@@ -39,7 +39,7 @@ pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (
     let zeta = orbit.zeta();
     let mut s = anomaly(beta, inverse, [radial, zeta], step);
     let mut left = MOST;
-    // A lane that has converged keeps its iterate, and computes the same until the last one has.
+    // A converged lane keeps its iterate until the last lane has converged.
     let ([g0, g1, g2, g3], change, unsettled) = loop {
         let psi = beta * s * s;
         let quarter = psi * of(0.25);
@@ -67,7 +67,7 @@ pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (
     let g2_near = g2 + (g1 * d1 + g0 * d2);
     let g3 = g3 + (g2 * change + (g1 * d2 + g0 * d3));
     s += change;
-    // G1 = s − βG3 and G1² = G2(2 − βG2) to rounding: then the flow keeps areas, and errors of many steps have no common sign.
+    // G1 = s − βG3 and G1² = G2(2 − βG2) hold to rounding, so the flow preserves areas and the errors of many steps have no common sign.
     let g1 = s - beta * g3;
     let g2 = g1 * g1 / (two - beta * g2_near);
 
@@ -89,8 +89,8 @@ pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (
     one_by_one(orbit, h, changes, excess)
 }
 
-/// The universal anomaly in which the time `h` passes, from a point with the reciprocal `1/r` of its distance and the derivatives r' and r''
-/// by the anomaly: its series to the fifth power of `h`.
+/// The universal anomaly after the time `h`, to the fifth power of `h`. The arguments describe the initial point: `1/r`, and the
+/// derivatives r' and r'' by the anomaly.
 ///
 /// ```text
 /// h = r s (1 + r's/2r + r''s²/6r − βr's³/24r − βr''s⁴/120r + …)
@@ -101,7 +101,7 @@ fn anomaly<L: Lanes>(beta: L, inverse: L, [slope, bend]: [L; 2], h: L) -> L {
     let u = h * inverse;
     let square = u * u;
     let (a, b, psi) = (slope * inverse * u, bend * inverse * square, beta * square);
-    // The terms at s = u, from which those of the inverse series follow.
+    // The terms at s = u, which give those of the inverse series.
     let (x, y) = (of(1.0 / 2.0) * a, of(1.0 / 6.0) * b);
     let (z, w) = (of(-1.0 / 24.0) * psi * a, of(-1.0 / 120.0) * psi * b);
     let xx = x * x;
@@ -113,7 +113,7 @@ fn anomaly<L: Lanes>(beta: L, inverse: L, [slope, bend]: [L; 2], h: L) -> L {
     u - u * (x - (third + higher))
 }
 
-/// Computes the lanes that exceed a bound again, by the iteration that ends for every orbit.
+/// Recomputes the lanes that exceed a bound, by the iteration that converges for every orbit.
 #[cold]
 #[inline(never)]
 fn one_by_one<L: Lanes>(

@@ -14,8 +14,8 @@ use crate::number::array::array;
 use crate::number::{Lanes, Scalar, Vector};
 use crate::state::State;
 
-/// Bodies under their gravity, `H = Σ |p|²/(2m) − Σ G m_i m_j/|q_i − q_j|`, in Jacobi coordinates: the position of each body relative to the centre of
-/// mass of those before it.
+/// Bodies under their gravity, `H = Σ |p|²/(2m) − Σ G m_i m_j/|q_i − q_j|`, in Jacobi coordinates: the position of each body is relative to
+/// the centre of mass of the bodies before it.
 ///
 /// ```text
 /// Q_0 = centre of mass      Q_i = q_i − (Σ_{j<i} m_j q_j)/M_{i−1}      M_i = Σ_{j≤i} m_j
@@ -32,22 +32,22 @@ pub struct Jacobi {
 }
 
 impl Jacobi {
-    /// Bodies with these masses, the first one that of the star, and the constant of gravity `G`.
+    /// Bodies with these masses, the star first, and the constant of gravity `G`.
     ///
     /// # Errors
     ///
-    /// [`Error::FlowParameter`] where a mass or `G` is not finite and positive, or there is no body.
+    /// [`Error::FlowParameter`] if a mass or `G` is not finite and positive, or there is no body.
     pub fn new(gravity: f64, masses: &[f64]) -> Result<Self, Error> {
         Ok(Self {
             bodies: Bodies::new(gravity, masses)?,
         })
     }
 
-    /// The state in Jacobi coordinates of one in inertial coordinates.
+    /// Transforms a state from inertial to Jacobi coordinates.
     ///
     /// # Errors
     ///
-    /// [`Error::FlowParameter`] where the state does not have three components for each body.
+    /// [`Error::FlowParameter`] if the state does not have three components for each body.
     #[allow(clippy::wrong_self_convention)]
     pub fn from_inertial<V: Vector<Scalar = f64>>(
         &self,
@@ -70,11 +70,11 @@ impl Jacobi {
         Ok(state)
     }
 
-    /// The state in inertial coordinates of one in Jacobi coordinates.
+    /// Transforms a state from Jacobi to inertial coordinates.
     ///
     /// # Errors
     ///
-    /// [`Error::FlowParameter`] where the state does not have three components for each body.
+    /// [`Error::FlowParameter`] if the state does not have three components for each body.
     pub fn to_inertial<V: Vector<Scalar = f64>>(
         &self,
         state: &State<V>,
@@ -120,7 +120,7 @@ impl Jacobi {
     }
 }
 
-/// Momenta, or forces, of Jacobi coordinates from those in space.
+/// Transforms momenta or forces from inertial to Jacobi coordinates.
 fn to_relative(bodies: &Bodies, p: &mut [f64]) {
     let (p, _) = p.as_chunks_mut::<3>();
     let Some((first, planets)) = p.split_first_mut() else {
@@ -135,7 +135,7 @@ fn to_relative(bodies: &Bodies, p: &mut [f64]) {
     }
 }
 
-/// Hands the positions in space of planets to `put`, the last one first, and returns that of the star.
+/// Passes the inertial positions of the planets to `put`, the last first, and returns the position of the star.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn to_positions(bodies: &Bodies, q: &[f64], mut put: impl FnMut(usize, [f64; 3])) -> [f64; 3] {
     let (mut centre, planets) = match q.as_chunks::<3>().0 {
@@ -158,9 +158,9 @@ fn to_positions(bodies: &Bodies, q: &[f64], mut put: impl FnMut(usize, [f64; 3])
 pub struct JacobiKick {
     bodies: Bodies,
     attraction: Attraction,
-    /// `G m_i m_0` and `G m_i M_{i−1}`; 0 for the first planet and after the last one.
+    /// `G m_i m_0` and `G m_i M_{i−1}`; 0 for the first planet and after the last.
     strengths: [Vec<f64>; 2],
-    /// 1 where these are 0.
+    /// 1 where the strengths are 0.
     more: Vec<f64>,
     /// The forces with these strengths, in Jacobi coordinates.
     falls: Axes,
@@ -225,7 +225,7 @@ impl<V: Vector<Scalar = f64>> Flow<V> for JacobiKick {
             );
         }
         attraction.attract();
-        // The force on the bodies before a planet is opposite to that on the others.
+        // The force on the bodies before a planet is opposite to the force on the others.
         let (mut rest, mut finite) = ([0.0; 3], true);
         for i in (0..count).rev() {
             let [own, before] = bodies.shares[i + 1];

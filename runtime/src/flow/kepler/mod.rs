@@ -1,8 +1,8 @@
 //! Kepler orbits, and the splitting of Wisdom and Holman.
 //!
-//! Planets move almost on Kepler orbits. So `H = A + B`, where `A` is a sum of Kepler problems, solved exactly by
-//! [`KeplerDrift`], and `B` the gravity between planets, smaller by the ratio ε of a planet's mass to the star's (Wisdom & Holman, *Astron. J.* 102,
-//! 1991). With a method for perturbed systems, such as SABA or ABA(10, 6, 4), the error is `O(εh^s1 + ε²h^s2 + …)`.
+//! Planets move almost on Kepler orbits. So `H = A + B`: `A` is a sum of Kepler problems, solved exactly by [`KeplerDrift`], and `B` is the
+//! gravity between planets. `B` is smaller by ε, the ratio of a planet's mass to the star's (Wisdom & Holman, *Astron. J.* 102, 1991). With
+//! a method for perturbed systems, such as SABA or ABA(10, 6, 4), the error is `O(εh^s1 + ε²h^s2 + …)`.
 //!
 //! | coordinates | `A` | `B` |
 //! |---|---|---|
@@ -10,16 +10,18 @@
 //! | [`Heliocentric`] | each planet about the star | a kick and a jump of the star, which commute |
 //! | [`Heliocentric::of_pairs`] | each planet and the star as a pair | a kick and jumps: of order 2 |
 //!
-//! All are canonical, `H` is the same function, and the flows are exact if nothing else is said. The masses of bodies follow the star's, from the inner planet to the outer ones for Jacobi.
+//! All are canonical, `H` is the same function, and the flows are exact unless noted. The star comes first; for Jacobi the planets follow
+//! outward.
 //!
 //! # Rounding
 //!
-//! The universal anomaly is found to the last bits in any case. Steps of less than a third of a period, and of less than a few radii, go in lanes; all
-//! others one by one. Energy and angular momentum, relative to their largest terms, have errors of some ten ε. In many steps of less than a seventh of
-//! a period these have no common sign: their mean is below ε/100, for eccentricities up to 0.3. Where a hyperbola passes its pericentre in
-//! one flow they are larger, up to about `ε(r/a)²` for a fast fall to the centre from the distance r; where half of the digits are lost the flow
-//! fails with [`FlowError::NoOrbit`](super::FlowError::NoOrbit). Over k periods the phase has the error `kε`, and from 2²⁶ periods in one flow on the
-//! error is [`FlowError::Periods`](super::FlowError::Periods). Every body has the same bits for every width of the lanes.
+//! The universal anomaly is always accurate to the last bits. Steps shorter than a third of a period and than a few radii go in lanes,
+//! others one at a time. Relative to their largest terms, energy and angular momentum have errors of about ten ε. Over many steps shorter
+//! than a seventh of a period these have no common sign: their mean is below ε/100, for eccentricities up to 0.3. If a hyperbola passes its
+//! pericentre in one flow they are larger, up to about `ε(r/a)²` for a fast fall to the centre from the distance r. If half of the digits
+//! are lost, the error is [`FlowError::NoOrbit`](super::FlowError::NoOrbit). Over k periods the error of the phase is `kε`; from 2²⁶
+//! periods in one flow on, the error is [`FlowError::Periods`](super::FlowError::Periods). Every body has the same bits for every lane
+//! width.
 //!
 //! ```
 //! symplectic::tableau! { Saba3 { base: saba-3 } }

@@ -1,4 +1,4 @@
-//! The end of any Kepler orbit, one by one.
+//! The end of one Kepler orbit of any kind.
 
 use core::f64::consts::TAU;
 
@@ -12,19 +12,19 @@ use crate::number::Scalar;
 pub(super) enum NoEnd {
     /// The body is at the centre.
     AtCentre,
-    /// It goes through too many periods.
+    /// It passes through too many periods.
     Periods(f64),
     /// It is not finite, or half of its digits are lost.
     NotFound,
 }
 
-/// How position and momentum change, from `(q, p)` to `(q + a q + b p, p + c q + d p)` with `[a, b, c, d]`.
+/// `[a, b, c, d]`: position and momentum change from `(q, p)` to `(q + a q + b p, p + c q + d p)`.
 pub(super) type Change<T> = [T; 4];
 
 /// Periods after which half of the digits of the phase are lost.
 const MOST_PERIODS: f64 = (1_u64 << 26) as f64;
 
-/// Iterations, each of which halves the change of the one before: more than there are bits and exponents.
+/// The maximum number of iterations: each halves the previous change, and this exceeds the number of bits and exponents.
 const MOST: u32 = 1200;
 
 /// An orbit: distance and its reciprocal, `q·v`, `2μ/r − v²`, μ, and the mass with its reciprocal.
@@ -62,7 +62,7 @@ impl<T: Scalar> Orbit<T> {
         self.mu - self.beta * self.distance
     }
 
-    /// The distance at the end, and the one below which cancellation has taken half of its digits.
+    /// The distance at the end, and the distance below which cancellation has lost half of its digits.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn at_end(&self, radial: T, [g1, g2]: [T; 2]) -> (T, T) {
         let (first, second) = (radial * g1, self.zeta() * g2);
@@ -71,7 +71,7 @@ impl<T: Scalar> Orbit<T> {
         (end, terms * T::from_f64(MOST_PERIODS.recip()))
     }
 
-    /// The change with `s G` functions `G1`, `G2`, the distance at the end, and g.
+    /// The change, from the functions `G1` and `G2`, the distance at the end, and g.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn change(&self, [g1, g2]: [T; 2], end: T, g: T) -> Change<T> {
         let Self { inverse, mu, .. } = *self;
@@ -97,7 +97,7 @@ pub(super) fn g_functions<T: Scalar>(s: T, psi: T, (c2, c3): (T, T)) -> [T; 3] {
 impl Orbit<f64> {
     /// The change in the time `h`, for every orbit: ellipse, parabola, hyperbola and line.
     ///
-    /// The universal anomaly s, `t' = r`, is the zero of a monotone function; Newton's iteration is kept in an interval that is halved where it is slow.
+    /// The universal anomaly s, `t' = r`, is the zero of a monotone function. Newton's iteration is safeguarded by bisection.
     pub(super) fn end(&self, h: f64) -> Result<Change<f64>, NoEnd> {
         let Self {
             distance,
@@ -122,7 +122,7 @@ impl Orbit<f64> {
             let psi = beta * s * s;
             let [g1, g2, g3] = g_functions(s, psi, stumpff::any(psi));
             let value = distance * s + (radial * g2 + zeta * g3) - time;
-            // A function that overflows does so above the zero, whatever the sum of infinities is.
+            // A function that overflows does so above the zero, whatever the sum of infinities.
             let value = if value.is_finite() {
                 value
             } else {

@@ -6,7 +6,7 @@ use crate::number::Scalar;
 const SECOND: [f64; 9] = reciprocals(2);
 /// `1/(2k + 3)!`
 const THIRD: [f64; 9] = reciprocals(3);
-/// What rounding takes from 1/6: without it `c_3` would have an error of the same sign in all steps, and the energy would drift.
+/// The rounding error of 1/6: without it the error of `c_3` has the same sign in all steps, and the energy drifts.
 const REST: f64 = ((1.0 - 4.0 * THIRD[0]) - 2.0 * THIRD[0]) / 6.0;
 
 const fn reciprocals(first: u32) -> [f64; 9] {
@@ -24,13 +24,13 @@ const fn reciprocals(first: u32) -> [f64; 9] {
     all
 }
 
-/// `c_2 = (1 − cos √ψ)/ψ` and `c_3 = (√ψ − sin √ψ)/√ψ³` (Stumpff 1959; for `ψ < 0` with hyperbolic functions), for `|ψ| ≤ 1`: the rest of the
-/// series is below 10⁻¹⁷ of the sum.
+/// `c_2 = (1 − cos √ψ)/ψ` and `c_3 = (√ψ − sin √ψ)/√ψ³` for `|ψ| ≤ 1` (Stumpff 1959; hyperbolic functions for `ψ < 0`). The remainder of
+/// the series is below 10⁻¹⁷ of the sum.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn small<T: Scalar>(psi: T) -> (T, T) {
     let x = -psi;
     let (x2, x4) = (x * x, (x * x) * (x * x));
-    // By halves (Estrin), so that few operations wait for one another; the first coefficient comes last.
+    // Estrin's scheme, so that few operations depend on one another; the first coefficient comes last.
     let sum = |coefficients: &[f64; 9], rest: f64| {
         let of = |k: usize| T::from_f64(coefficients[k]);
         let pair = |k: usize| of(k + 1).fused(x, of(k));
@@ -49,7 +49,7 @@ pub(super) fn quadruple<T: Scalar>(psi: T, (c2, c3): (T, T)) -> (T, T) {
     (half * c1 * c1, half * half * (c2 + c0 * c3))
 }
 
-/// The functions of any argument; infinite where they are too large.
+/// The functions of any argument; infinite if they overflow.
 pub(super) fn any(psi: f64) -> (f64, f64) {
     let (mut scaled, mut levels) = (psi, 0_u32);
     while scaled.abs() > 0.5 && levels < 1100 {
@@ -68,7 +68,7 @@ pub(super) fn any(psi: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// Against closed forms where they do not cancel, and against the series near 0.
+    /// Compares with closed forms where they do not cancel, and with the series near 0.
     #[test]
     fn they_are_the_functions_of_stumpff() {
         for k in 1..400 {
