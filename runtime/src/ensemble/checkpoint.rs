@@ -13,9 +13,9 @@ use crate::system::System;
 
 /// Progress of an ensemble: which rows are complete.
 ///
-/// It contains no trajectories. Those without a row run again from their starts, with the same bits. Store what was
-/// computed from the earlier rows next to it, for example [`Moments`](super::Moments). With the feature `serde` it can
-/// be written in any format.
+/// It contains no trajectories. Trajectories without a row run again from their starts, with the same bits. Store
+/// results of the earlier rows next to it, for example [`Moments`](super::Moments). With the feature `serde` it can be
+/// written in any format.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -62,7 +62,7 @@ where
     /// Checkpoint from which a run can [resume](Self::restore) at the trajectory `next`, the number after that of the
     /// last row passed to `show`.
     ///
-    /// It evaluates the system at every start, to identify it later. Take a checkpoint now and then, not after every
+    /// The system is evaluated at every start, to identify it later. Take a checkpoint occasionally, not after every
     /// row.
     ///
     /// # Errors

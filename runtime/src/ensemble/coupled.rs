@@ -1,6 +1,6 @@
 //! Trajectories with coupled stages in lanes.
 //!
-//! Every step is taken in all lanes. A trajectory whose stages do not settle in its lane takes the step alone and returns.
+//! Every step is taken in all lanes. A trajectory whose stages do not converge in its lane takes the step alone.
 
 use core::ops::ControlFlow;
 
@@ -14,7 +14,7 @@ use crate::output::at_times::{self, Output};
 use crate::state::State;
 use crate::system::{Join, System};
 
-/// Number of steps after which a run asks whether it is stopped.
+/// Number of steps between checks whether the run is stopped.
 const BLOCK: u64 = 1 << 10;
 /// Largest number of steps between attempts in lanes.
 const MOST_PAUSE: u32 = 63;
@@ -34,9 +34,9 @@ where
     lanes: CoupledLanes<M, S, V, R, N, W, J>,
     /// The lanes whose trajectory has not failed.
     live: u32,
-    /// Those whose trajectory takes the next step in its lane.
+    /// The lanes whose trajectory takes the next step in its lane.
     ready: u32,
-    /// Number of steps to be taken alone: more and more after attempts of which none succeeds.
+    /// Number of steps to take alone; it grows after attempts in which no lane succeeds.
     pause: u32,
     last_pause: u32,
 }
@@ -54,7 +54,7 @@ where
     W: Vector<Scalar: Lanes>,
     J: System<W, Class = <S as System<V>>::Class>,
 {
-    /// Puts the trajectories into lanes; `None` if the system or its lanes do not allow it.
+    /// Loads the trajectories into lanes; `None` if the system or its lanes do not allow it.
     pub(super) fn new(
         group: &'g mut Group<'a, M, S, V, R, N, L, A>,
         see: &'g F,
@@ -62,7 +62,7 @@ where
         zeros: &W,
     ) -> Option<Self> {
         let count = group.members.len();
-        // Lanes without a trajectory have copies: zeros might be a singular point.
+        // Unused lanes hold copies: zeros might be a singular point.
         let system = group.system(join, (0..W::Scalar::WIDTH).map(|lane| lane % count))?;
         let first = group.members.first_mut()?;
         let mut lanes = CoupledLanes::like(&mut first.run, system, zeros);
@@ -192,7 +192,7 @@ where
         Attempt::Ended
     }
 
-    /// Takes a step of every trajectory, by `alone` if it fails in its lane; returns the lanes whose step succeeded.
+    /// Takes a step of every trajectory, by `alone` if it fails in its lane; returns the lanes that succeeded.
     fn step(
         &mut self,
         size: f64,
@@ -234,7 +234,7 @@ where
     }
 }
 
-/// The numbers of the bits that are set.
+/// The indices of the bits that are set.
 fn bits(mut set: u32) -> impl Iterator<Item = usize> {
     core::iter::from_fn(move || {
         let first = (set != 0).then(|| set.trailing_zeros() as usize);

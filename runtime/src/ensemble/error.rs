@@ -12,7 +12,7 @@ pub enum EnsembleError {
     #[error("there are no starts: an ensemble needs at least one")]
     Empty,
 
-    /// A start has another dimension than the first.
+    /// A start has a different dimension from the first.
     #[error(
         "trajectory {trajectory} starts with {found} components, and trajectory 0 with {expected}: all must have the same number"
     )]
@@ -21,7 +21,7 @@ pub enum EnsembleError {
         trajectory: usize,
         /// Its dimension.
         found: usize,
-        /// That of the first.
+        /// The dimension of the first start.
         expected: usize,
     },
 
@@ -66,7 +66,7 @@ pub enum EnsembleError {
         "there is no part {part} of {count}: there must be at least one part, and parts are numbered from 0"
     )]
     Shard {
-        /// The part asked for.
+        /// The requested part.
         part: usize,
         /// The number of parts.
         count: usize,

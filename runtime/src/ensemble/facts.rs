@@ -1,4 +1,4 @@
-//! What a file of results says of its method.
+//! The facts about a method that are stored in a file of results.
 
 use alloc::string::String;
 
@@ -7,12 +7,12 @@ use crate::method::{Method, RunTimeTableau, Solver};
 use crate::number::{Summation, Vector};
 use crate::system::System;
 
-/// Where the numbers of a file come from.
+/// The origin of the numbers of a file.
 pub(super) struct Facts<'a> {
     pub(super) method: &'a str,
-    /// Of a tableau at run time: `at run time`.
+    /// `at run time` for a tableau at run time.
     pub(super) definition: &'static str,
-    /// Proved, for general H, for separable H and for those with quadratic kinetic energy.
+    /// The proved orders for general H, for separable H, and for H with quadratic kinetic energy.
     pub(super) orders: [u64; 3],
     pub(super) step_size: f64,
     /// `compensated` or `plain`.

@@ -18,10 +18,10 @@ use crate::output::steps::is_after;
 use crate::state::State;
 use crate::system::{Join, LaneWork, System};
 
-/// Number of steps after which a run asks whether it is stopped.
+/// Number of steps between checks whether the run is stopped.
 const BLOCK: u64 = 1 << 16;
 
-/// What every trajectory computes.
+/// The task of every trajectory.
 pub(super) enum Task<'a> {
     /// Integrate to a time.
     To(f64),
@@ -95,7 +95,7 @@ where
         see: &impl Fn(&mut A, &State<V>),
     ) -> ControlFlow<()> {
         let count = self.members.len();
-        // A sweep takes as long in a few lanes as in all: with fewer than half of them, single runs are as fast.
+        // A sweep takes the same time in a few lanes as in all: with fewer than half of them, single runs are as fast.
         let enough = match self.ensemble.way() {
             Way::Alone => false,
             Way::Explicit => count > 1,
@@ -120,7 +120,7 @@ where
         }
     }
 
-    /// Runs all trajectories in lanes; `None` if the system is not known over lanes.
+    /// Runs all trajectories in lanes; `None` if the system is not defined over lanes.
     fn run_in_lanes(
         &mut self,
         task: &Task<'_>,
@@ -147,7 +147,7 @@ where
         }
     }
 
-    /// The system whose lanes have the parameters of the members at these places; `None` if there is none.
+    /// The system whose lanes have the parameters of the members with these indices; `None` if there is none.
     pub(super) fn system<J>(
         &self,
         join: Join<S, J>,
@@ -237,7 +237,7 @@ where
             let coupled = Coupled::new(self.group, self.see, join, zeros);
             return coupled.map_or(Attempt::Refused, |coupled| coupled.run(self.task));
         }
-        // A constant condition: other methods compile without what follows.
+        // A constant condition: other methods compile without the code below.
         if !Integrator::<M, S, V, R, N>::LANEWISE {
             return Attempt::Refused;
         }
@@ -329,7 +329,7 @@ where
                 member.outcome = member.run.take_block(block, &mut own);
                 let statistics = *member.run.statistics();
                 if member.outcome.is_ok() && *first.get_or_insert(statistics) != statistics {
-                    // A retry changed its steps, so that it no longer runs in lockstep with the others.
+                    // A retry changed its steps, so it no longer runs in lockstep with the others.
                     member.outcome = member.run.take_remaining(&mut own);
                     return false;
                 }
@@ -405,8 +405,8 @@ where
         Attempt::Ended
     }
 
-    /// Steps past the first of the times, observes the states at all times in the last step, and returns their number; zero if the run was
-    /// stopped before.
+    /// Steps past the first of the times, observes the states at all times in the last step, and returns their number: zero if the run was
+    /// stopped, `None` if a lane failed.
     fn see_next<W, J>(
         &mut self,
         times: &[f64],
@@ -437,7 +437,7 @@ where
                 break;
             }
             let state = match time == present.time {
-                // A time 0 has the same sign as in a run of one trajectory.
+                // A zero time has the same sign as in a run of one trajectory.
                 true => present,
                 false => {
                     output.look_together(lanes, time).ok()?;

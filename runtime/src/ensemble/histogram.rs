@@ -106,7 +106,7 @@ impl Histogram {
         } else {
             let last = self.counts.len() - 1;
             let bin = (x - low) / (high - low) * self.counts.len() as f64;
-            // Rounding may lift the largest numbers to the upper edge.
+            // Rounding may move the largest numbers to the upper edge.
             &mut self.counts[(bin as usize).min(last)]
         } += 1;
     }
@@ -115,7 +115,7 @@ impl Histogram {
     ///
     /// # Errors
     ///
-    /// [`EnsembleError::OtherBins`] if its bins differ.
+    /// [`EnsembleError::OtherBins`] if the bins differ.
     pub fn merge(&mut self, other: &Self) -> Result<(), EnsembleError> {
         if (&self.range, self.counts.len()) != (&other.range, other.counts.len()) {
             return Err(EnsembleError::OtherBins);

@@ -14,13 +14,13 @@ use crate::system::System;
 
 impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V> {
     /// The trajectories of a system from `starts`, with [`Compensated`](crate::Compensated) sums; a negative
-    /// `step_size` goes backward. Trajectories have the numbers of their starts, from 0.
+    /// `step_size` goes backward. Trajectories are numbered like their starts, from 0.
     ///
     /// # Errors
     ///
     /// [`EnsembleError::Empty`] without starts, [`EnsembleError::All`] for a step size that is zero or not finite,
-    /// [`EnsembleError::Dimension`] for a start with another dimension than the first, [`EnsembleError::Start`] for a
-    /// start that [`Integrator::new`] rejects.
+    /// [`EnsembleError::Dimension`] for starts of different dimensions, [`EnsembleError::Start`] for a start that
+    /// [`Integrator::new`] rejects.
     ///
     /// ```
     /// use symplectic::ensemble::{Ensemble, EnsembleError};

@@ -1,7 +1,7 @@
 //! Ensembles: many trajectories at once, in SIMD lanes and on all cores.
 //!
-//! An [`Ensemble`] consists of a method, a system and many starts. Every trajectory has the same bits as alone in an
-//! [`Integrator`](crate::Integrator), whatever the number of lanes and threads, and however the ensemble is split or resumed.
+//! An [`Ensemble`] consists of a method, a system and many starts. Every trajectory has the same bits as if run alone in an
+//! [`Integrator`](crate::Integrator). They do not depend on the number of lanes and threads, or on how the ensemble is split or resumed.
 //!
 //! | What | Where |
 //! |---|---|
@@ -14,29 +14,28 @@
 //!
 //! # Lanes
 //!
-//! A method advances as many trajectories at once as there are [lanes](Ensemble::in_lanes), if the system is written for
-//! every [`Scalar`](crate::Scalar). The trajectories in the lanes have the same start time, consecutive numbers, and
-//! the same system. Systems of a formula without friction and applied forces may have different parameters in each
-//! lane, as long as arrays have the same lengths, and lists of pairs the same pairs.
+//! A method advances one trajectory per [lane](Ensemble::in_lanes) at once, if the system is written for every
+//! [`Scalar`](crate::Scalar). The trajectories in the lanes have the same start time, consecutive numbers, and the same system. Systems
+//! of a formula without friction and applied forces may have different parameters in each lane. Their arrays must have the same lengths,
+//! and their lists of pairs the same pairs.
 //!
-//! With coupled stages every sweep of the default solver computes the stages of all trajectories, and a trajectory whose
-//! stages have settled waits for the others. A trajectory takes a step alone, and returns to its lane, where its stages
-//! do not settle as after a usual warm start: in its first step, in slow and in failing iterations. A compiled method
-//! does so with AVX-512, or if lanes [are chosen](Ensemble::in_lanes). With narrower registers a single run, with the
-//! stages of one trajectory in lanes, is as fast or faster.
+//! With coupled stages, every sweep of the default solver computes the stages of all trajectories; converged trajectories wait for the
+//! others. A trajectory takes a step alone, and then returns to its lane, if its stages do not converge as usual after a warm start: in
+//! its first step, and in slow or failing iterations. A compiled method runs in lanes with AVX-512, or if you
+//! [choose lanes](Ensemble::in_lanes). With narrower registers a single run, with the stages of one trajectory in lanes, is at least as
+//! fast.
 //!
-//! For [inlined](crate::Hamiltonian::INLINED) systems an ensemble finds the registers of the processor when it is made:
-//! sixteen lanes with AVX-512, eight with AVX2. Other systems have the lanes of the build.
+//! For [inlined](crate::Hamiltonian::INLINED) systems a new ensemble detects the registers of the processor: sixteen lanes with AVX-512,
+//! eight with AVX2. Other systems use the lanes of the build.
 //!
-//! All other trajectories run one by one: those with another solver, with constraints or with a composition of implicit
-//! methods; those of closures and chains; those of [`each`](Ensemble::each) and [`each_as`](Ensemble::each_as); and those
-//! whose [system](Ensemble::of_families) differs from trajectory to trajectory and is written by hand, or is a formula with
-//! friction or applied forces.
+//! All other trajectories run one at a time: with another solver, with constraints or with a composition of implicit methods; of
+//! closures and chains; of [`each`](Ensemble::each) and [`each_as`](Ensemble::each_as). So do trajectories with
+//! [different systems](Ensemble::of_families), if these are written by hand, or are formulas with friction or applied forces.
 //!
-//! A system rounds differently in lanes if it depends on the number type, as products of large matrices in nalgebra do.
-//! So velocity and force are compared at every start, and trajectories run one by one where they differ. A system for
-//! every scalar must not [branch on a value](crate::Scalar), such as a magnitude: in lanes the branch would apply to
-//! all trajectories, and only the starts are compared.
+//! A system rounds differently in lanes if it depends on the number type, such as products of large matrices in nalgebra. So velocity
+//! and force are compared at every start, and trajectories run one at a time if they differ. A system for every scalar must not
+//! [branch on a value](crate::Scalar), such as a magnitude: in lanes the branch would apply to all trajectories, and only the starts are
+//! compared.
 //!
 //! # Threads
 //!
@@ -96,8 +95,7 @@ type Kind<M, R, N, L> = fn() -> (M, R, N, L);
 
 /// Many trajectories with the same method and the same step size.
 ///
-/// Trajectories are created from the stored starts a few at a time: an ensemble needs the memory of its starts,
-/// whatever the number of steps.
+/// Trajectories are created from the stored starts a few at a time: the memory is that of the starts, whatever the number of steps.
 ///
 /// ```
 /// use core::ops::ControlFlow;
@@ -144,7 +142,7 @@ where
     kind: PhantomData<Kind<M, R, N, L>>,
 }
 
-/// Whether trajectories run in lanes if they can.
+/// Whether trajectories use lanes if possible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Wanted {
     No,
@@ -181,7 +179,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
     }
 
     /// The same ensemble with lanes of your choice, for example [`F64x4`](crate::simd::F64x4), in the registers of the build. Implicit
-    /// methods then run in lanes too where this is no faster: in registers of fewer than eight doubles. The results do not depend on it.
+    /// methods then use lanes even where these are not faster: in registers of fewer than eight doubles. The results are the same.
     ///
     /// ```
     /// # use symplectic::State;
@@ -202,7 +200,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         }
     }
 
-    /// The same ensemble without lanes, one trajectory after another. The results do not depend on it.
+    /// The same ensemble without lanes, one trajectory after another. The results are the same.
     #[must_use]
     pub fn one_by_one(self) -> Self {
         Self {
@@ -242,8 +240,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         };
     }
 
-    /// Stops a run as soon as `stop` returns true; typically it reads a flag. Every thread calls it before each
-    /// trajectory, and for trajectories in lanes before each block of at most 65 536 steps; with coupled stages, of 1024.
+    /// Stops a run as soon as `stop` returns true; typically it reads a flag. Every thread calls it before each trajectory. In lanes it
+    /// is called before each block of at most 65 536 steps, or 1024 with coupled stages.
     ///
     /// Unfinished trajectories have no row.
     ///
@@ -271,13 +269,13 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         self.stop = Some(Arc::new(stop));
     }
 
-    /// The starts; of a [shard](Self::shard), those of its part.
+    /// The starts; for a [shard](Self::shard), those of its part.
     pub fn starts(&self) -> &[State<V>] {
         &self.starts
     }
 
-    /// The numbers of the trajectories that a run computes: those of a [shard](Self::shard) only, and after
-    /// [`restore`](Self::restore) those without a row.
+    /// The numbers of the trajectories that a run computes: only those of a [shard](Self::shard), and after [`restore`](Self::restore)
+    /// only those without a row.
     pub const fn trajectories(&self) -> Range<usize> {
         self.offset + self.first..self.offset + self.starts.len()
     }

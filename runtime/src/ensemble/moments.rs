@@ -11,8 +11,8 @@ use crate::error::Error;
 /// m_k = m_{k−1} + (x_k − m_{k−1})/k      s_k = s_{k−1} + (x_k − m_{k−1})(x_k − m_k)      variance = s_n/(n − 1)
 /// ```
 ///
-/// The rows of an ensemble arrive in a fixed order, so that the sums have the same bits for any number of threads. With
-/// the feature `serde` the moments can be stored, bit for bit, and resumed after an interruption.
+/// The rows of an ensemble arrive in a fixed order, so the sums have the same bits for any number of threads. With the
+/// feature `serde` the moments can be stored, bit for bit, and resumed after an interruption.
 ///
 /// ```
 /// use symplectic::Error;
@@ -88,7 +88,7 @@ impl Moments {
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] if the vector has another dimension.
+    /// [`Error::Length`] if the vector has a different dimension.
     pub fn add(&mut self, vector: &[f64]) -> Result<(), Error> {
         let (expected, found) = (self.mean.len(), vector.len());
         if expected != found {
@@ -116,7 +116,7 @@ impl Moments {
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] if they have another dimension.
+    /// [`Error::Length`] if they have a different dimension.
     pub fn merge(&mut self, other: &Self) -> Result<(), Error> {
         let (expected, found) = (self.mean.len(), other.mean.len());
         if expected != found {

@@ -26,9 +26,9 @@ use crate::system::System;
 pub enum ParquetColumn {
     /// Doubles.
     Doubles(Vec<f64>),
-    /// Whole numbers.
+    /// Unsigned integers.
     Integers(Vec<u64>),
-    /// Texts, or null.
+    /// Strings, or null.
     Texts(Vec<Option<String>>),
 }
 
@@ -63,10 +63,10 @@ impl ParquetColumn {
     }
 }
 
-/// Writes a file of Apache Parquet, a table which DuckDB, Polars, pandas, R and Spark read, several files together as one.
+/// Writes a file of Apache Parquet, a table for DuckDB, Polars, pandas, R and Spark; these can read several files as one.
 ///
-/// Rows are written in groups, each as soon as it is given: a run of any length needs the memory of one group. The columns of the first
-/// group are those of the file. A file that was not [finished](Self::finish) cannot be read.
+/// Each group of rows is written immediately: a run of any length needs the memory of one group. The first group determines the columns
+/// of the file. A file that was not [finished](Self::finish) cannot be read.
 ///
 /// ```
 /// use core::ops::ControlFlow;
@@ -103,14 +103,14 @@ pub struct Parquet<W: Write + Send> {
     notes: Vec<KeyValue>,
 }
 
-/// How far a file has come.
+/// The progress of a file.
 enum Stage<W: Write + Send> {
     Empty(W),
     Open {
         schema: TypePtr,
         writer: Box<SerializedFileWriter<W>>,
     },
-    /// A group was written in part.
+    /// A group was written incompletely.
     Broken,
 }
 
@@ -129,14 +129,14 @@ impl<W: Write + Send> Parquet<W> {
         }
     }
 
-    /// Adds a text to the metadata of the file.
+    /// Adds a string to the metadata of the file.
     pub fn note(&mut self, name: &str, text: &str) {
         let note = KeyValue::new(name.to_string(), text.to_string());
         self.notes.push(note);
     }
 
-    /// Adds what is known of an ensemble to the metadata: `method`, `definition`, `orders` (general, separable, with quadratic kinetic
-    /// energy), `step_size`, `sums`, `solver`, `tolerance` and the `version` of this library. The definition of a tableau at run time is
+    /// Writes the metadata of an ensemble: `method`, `definition`, `orders` (general, separable, with quadratic kinetic energy),
+    /// `step_size`, `sums`, `solver`, `tolerance` and the `version` of this library. For a tableau at run time `definition` is
     /// `at run time`.
     pub fn facts<M, S, V, R, N, L>(&mut self, ensemble: &Ensemble<M, S, V, R, N, L>)
     where
@@ -157,12 +157,12 @@ impl<W: Write + Send> Parquet<W> {
         self.note("version", env!("CARGO_PKG_VERSION"));
     }
 
-    /// Writes a group of rows by its columns.
+    /// Writes a group of rows, given by columns.
     ///
     /// # Errors
     ///
-    /// [`ErrorKind::InvalidInput`], and nothing is written, if there is no column, if columns have different lengths or the same name, or
-    /// if the first group had other columns. Those of the output, after which the file takes nothing more.
+    /// [`ErrorKind::InvalidInput`] if there is no column, if columns have different lengths or the same name, or if the first group had
+    /// other columns; nothing is written then. I/O errors of the output, after which the file accepts no more groups.
     pub fn group(&mut self, columns: &[(&str, ParquetColumn)]) -> io::Result<()> {
         let Some(((_, first), rest)) = columns.split_first() else {
             return Err(invalid("a group without columns".to_string()));
@@ -209,7 +209,7 @@ impl<W: Write + Send> Parquet<W> {
         Ok(())
     }
 
-    /// Writes a group of rows of an ensemble: `trajectory`, `time`, `q[0]`, …, `p[0]`, …, `steps`, and `error`, null where there is none.
+    /// Writes a group of rows of an ensemble: `trajectory`, `time`, `q[0]`, …, `p[0]`, …, `steps`, and `error` or null.
     ///
     /// # Errors
     ///
@@ -256,11 +256,11 @@ impl<W: Write + Send> Parquet<W> {
         self.group(&columns)
     }
 
-    /// Writes the metadata, flushes, and returns what was written to.
+    /// Writes the metadata, flushes, and returns the output.
     ///
     /// # Errors
     ///
-    /// Those of the output; [`ErrorKind::InvalidInput`] if there was no group, so no columns, or if a group was written in part.
+    /// I/O errors of the output; [`ErrorKind::InvalidInput`] if no group was written, or a group was written incompletely.
     pub fn finish(self) -> io::Result<W> {
         match self.file {
             Stage::Broken => Err(broken()),
@@ -293,7 +293,7 @@ fn write<W: Write + Send>(
                 open.typed::<DoubleType>().write_batch(values, None, None)?;
             }
             ParquetColumn::Integers(values) => {
-                // An unsigned number has the bits of a signed one.
+                // Unsigned integers are stored as signed integers with the same bits.
                 let bits: Vec<i64> = values.iter().map(|value| value.cast_signed()).collect();
                 open.typed::<Int64Type>().write_batch(&bits, None, None)?;
             }
@@ -319,7 +319,7 @@ fn broken() -> Error {
     invalid("a group was written in part: begin a new file".to_string())
 }
 
-/// The error of the output, if there was one.
+/// The I/O error of the output, if there was one.
 fn of_output(error: ParquetError) -> Error {
     match error {
         ParquetError::External(error) => match error.downcast::<Error>() {

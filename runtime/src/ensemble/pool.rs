@@ -12,7 +12,7 @@ pub(super) fn threads() -> usize {
     return 1;
 }
 
-/// Number of groups of trajectories to run before their rows are shown; adapted so that a batch takes about a second.
+/// Number of groups of trajectories to run before their rows are passed on; adapted so that a batch takes about a second.
 #[cfg(feature = "parallel")]
 pub(super) struct Batch {
     groups: usize,
@@ -37,7 +37,7 @@ impl Batch {
         self.groups
     }
 
-    /// Maps the items by `work` on the threads of `rayon`, in order, and adapts the size of the next batch.
+    /// Applies `work` to the items on the threads of `rayon`, in order, and adapts the size of the next batch.
     pub(super) fn map<T: Send, U: Send>(
         &mut self,
         items: Vec<T>,
@@ -62,7 +62,7 @@ impl Batch {
 #[cfg(feature = "parallel")]
 type Job<'a> = Box<dyn FnOnce() + Send + 'a>;
 
-/// Does all jobs on the threads of `rayon`. As it does not depend on their types, it is compiled once and not for each ensemble.
+/// Runs all jobs on the threads of `rayon`. Independent of the types of the jobs, so it is compiled only once.
 #[cfg(feature = "parallel")]
 #[inline(never)]
 fn do_all(jobs: Vec<Job<'_>>) {
@@ -70,7 +70,7 @@ fn do_all(jobs: Vec<Job<'_>>) {
     jobs.into_par_iter().for_each(|job| job());
 }
 
-/// One group after another.
+/// Runs one group after another.
 #[cfg(not(feature = "parallel"))]
 pub(super) struct Batch;
 
@@ -85,7 +85,7 @@ impl Batch {
         1
     }
 
-    /// Maps the items by `work`, in order.
+    /// Applies `work` to the items, in order.
     pub(super) fn map<T: Send, U: Send>(
         &mut self,
         items: Vec<T>,

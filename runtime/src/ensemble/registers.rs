@@ -1,10 +1,10 @@
-//! The registers in whose lanes trajectories run.
+//! The registers whose lanes run trajectories.
 
 use crate::number::registers::{self, Widest};
 use crate::number::{Lanes, Vector, WideF64x8, WidestF64x16};
 use crate::system::System;
 
-/// Whether this program may have to find registers for a system.
+/// Whether this program may have to detect the registers for a system.
 pub(super) const fn may_be_found<V: Vector, S: System<V>>() -> bool {
     registers::UNKNOWN && S::INLINED
 }
@@ -47,7 +47,7 @@ mod tests {
         Gauss4 { basis: polynomial(4), nodes: gauss(4) }
         Lobatto3 { basis: polynomial(3), nodes: lobatto(3) }
     }
-    // Beyond the energy 1/6 trajectories escape to infinity, in a finite time.
+    // Above the energy 1/6 trajectories escape to infinity in a finite time.
     symplectic::hamiltonian! {
         Escaping
         q: [x, y], p: [px, py];
@@ -111,7 +111,7 @@ mod tests {
         rows
     }
 
-    /// Compares the rows in all registers of this processor with those of trajectories alone.
+    /// Compares the rows in all registers of this processor with those of single trajectories.
     fn compare<M, S, R>(make: impl Fn() -> Ensemble<M, S, Point, R>)
     where
         M: Method,
@@ -127,7 +127,7 @@ mod tests {
         let mut narrower = make();
         if let Some(avx2) = Avx2::detect() {
             narrower.registers = Widest::Avx2(avx2);
-            // Coupled stages, too.
+            // With coupled stages too.
             narrower.lanes = crate::ensemble::Wanted::Yes;
             assert_eq!(rows(&narrower), alone, "{}, AVX2", M::NAME);
         }
@@ -177,7 +177,7 @@ mod tests {
         }
     }
 
-    /// H = p²/2 + q²/2, with the number of forces evaluated by size of the number type.
+    /// H = p²/2 + q²/2; counts the evaluations of the force by the size of the number type.
     #[derive(Clone, Copy)]
     struct Counting<'a>(&'a [AtomicUsize; 129]);
 
@@ -204,7 +204,7 @@ mod tests {
         }
     }
 
-    /// The number of forces in eight and in sixteen lanes, of 32 trajectories with 50 steps.
+    /// The force evaluations in eight and in sixteen lanes, for 32 trajectories of 50 steps.
     fn forces<M: Method + ProvedFor<Separable>>(method: M, avx2: bool) -> [usize; 2] {
         let counts = core::array::from_fn(|_| AtomicUsize::new(0));
         let ensemble = Ensemble::plain(method, Counting(&counts), starts(32), 0.1);
@@ -227,7 +227,7 @@ mod tests {
             assert!(matches!(forces(Gauss4, false), [0, 200..5000]));
         }
         if Avx2::detect().is_some() {
-            // Four groups of eight. A compiled method with coupled stages has these in lanes.
+            // Four groups of eight. A compiled method uses these lanes for its stages.
             assert!(matches!(forces(Verlet, true), [200..250, 0]));
             assert!(matches!(forces(Gauss4, true), [0, 0]));
         }

@@ -19,7 +19,7 @@ use crate::system::{Join, LaneWork, System};
 /// How trajectories run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Way {
-    /// One by one.
+    /// One at a time.
     Alone,
     /// In lanes, with explicit steps.
     Explicit,
@@ -45,7 +45,7 @@ impl<V: Vector, S: System<V>, L: Lanes> LaneWork<V, S, L> for Known {
     }
 }
 
-/// Counts the systems that join from the first on.
+/// Counts the leading systems that join.
 struct Joining<'i, 's, S> {
     systems: &'i mut dyn Iterator<Item = &'s S>,
 }
@@ -63,7 +63,7 @@ impl<V: Vector, S: System<V>, L: Lanes> LaneWork<V, S, L> for Joining<'_, '_, S>
         J: System<W, Class = <S as System<V>>::Class>,
     {
         let mut read = 0;
-        // The last system that is read is the one that does not join.
+        // The last system read is the one that does not join.
         match join(&mut self.systems.inspect(|_| read += 1)) {
             Some(_) => read,
             None => read.saturating_sub(1).max(1),
@@ -82,9 +82,9 @@ where
 {
     /// Integrates every trajectory to the time `end`, like [`Integrator::integrate_to`].
     ///
-    /// `show` receives a [`Row`] for each trajectory, in order, on this thread, also for failed trajectories. The run
-    /// ends if `show` breaks. Returns the number of the first trajectory without a row, which is the end of
-    /// [`trajectories`](Self::trajectories) unless the run was stopped.
+    /// `show` receives a [`Row`] for each trajectory, in order, on this thread, also for failed trajectories. The run ends if `show`
+    /// returns `Break`. Returns the number of the first trajectory without a row, which is the end of [`trajectories`](Self::trajectories)
+    /// unless the run was stopped.
     pub fn integrate_to(&self, end: f64, show: impl FnMut(Row<V>) -> ControlFlow<()>) -> usize {
         self.run(&Task::To(end), |_| (), |(), _| (), show)
     }
@@ -134,8 +134,8 @@ where
 
     /// Calls `work` with the integrator of every trajectory: to find events, observe invariants, take steps.
     ///
-    /// Trajectories run one by one on every thread. The first argument of `work` is the value of `output`. `show` and
-    /// the result are as for [`integrate_at`](Self::integrate_at).
+    /// Trajectories run one at a time on every thread. The first argument of `work` is the value of `output`. `show` and the result are as
+    /// for [`integrate_at`](Self::integrate_at).
     ///
     /// ```
     /// use core::ops::ControlFlow;
@@ -179,12 +179,12 @@ where
         self.each_as(Ok, output, work, show)
     }
 
-    /// [`each`](Self::each) for runs other than integrators: `make` makes the [`Run`] of a trajectory from its integrator, for example
-    /// with [reversible steps of variable size](crate::adaptive::Adaptive). [`set_retry`](Self::set_retry) has no effect on runs with steps of
-    /// variable size.
+    /// [`each`](Self::each) for runs other than integrators: `make` constructs the [`Run`] of a trajectory from its integrator, for example
+    /// with [reversible steps of variable size](crate::adaptive::Adaptive). [`set_retry`](Self::set_retry) has no effect on runs with steps
+    /// of variable size.
     ///
-    /// If `make` fails, the row has its error and the start. A [checkpoint](Self::checkpoint) does not know what `make` and
-    /// `work` do: pass the same ones again.
+    /// If `make` fails, the row has its error and the start. A [checkpoint](Self::checkpoint) does not store `make` and `work`: pass the
+    /// same ones again.
     ///
     /// ```
     /// use core::ops::ControlFlow;
@@ -268,7 +268,7 @@ where
         let width = match self.way() {
             Way::Alone => 1,
             Way::Explicit => width::<L>(self.registers),
-            // Rather all threads than all lanes.
+            // All threads take precedence over all lanes.
             Way::Coupled => {
                 let count = self.starts.len() - self.first;
                 count
@@ -291,7 +291,7 @@ where
         let possible = self.lanes != Wanted::No
             && V::Scalar::IS_DOUBLE
             && S::over_lanes::<L, _>(Known).is_some();
-        // A compiled method has its coupled stages in lanes already.
+        // A compiled method already has its coupled stages in lanes.
         let faster = self.tableau.is_some()
             || cfg!(target_feature = "avx512f")
             || matches!(self.registers, Widest::Avx512(_));

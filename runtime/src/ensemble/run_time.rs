@@ -12,7 +12,7 @@ use crate::system::{Conservative, System};
 impl<S: System<V, Class: Conservative>, V: Vector> Ensemble<AtRunTime, S, V> {
     /// [`new`](Ensemble::new) with a tableau at run time and with [`Compensated`](crate::Compensated) sums.
     ///
-    /// Trajectories run in lanes, whether the stages are explicit or coupled. Each has the same bits as alone in
+    /// Trajectories run in lanes, whether the stages are explicit or coupled. Each has the same bits as if run alone in
     /// [`Integrator::at_run_time`](crate::Integrator::at_run_time).
     ///
     /// # Errors

@@ -14,8 +14,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
 {
     /// Part `part`, from 0, of `count` parts of almost equal size. The trajectories keep their numbers.
     ///
-    /// The parts are consecutive. On several machines, for example with `--array` of Slurm, each machine runs one part;
-    /// the rows of all parts in order are those of the whole ensemble.
+    /// The parts are consecutive. On several machines, for example with `--array` of Slurm, each machine runs one part.
+    /// The rows of all parts in order are those of the whole ensemble.
     ///
     /// # Errors
     ///
@@ -78,7 +78,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         S: Clone,
     {
         let Range { start, end } = self.places_of(part, count)?;
-        // Copy only the systems of these starts; every start may have its own system.
+        // Copies only the systems of these starts; every start may have its own system.
         let first = self.systems.partition_point(|(_, last)| *last <= start);
         let after = &self.systems[first..];
         let count = after.partition_point(|(_, last)| *last < end) + 1;

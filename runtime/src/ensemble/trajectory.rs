@@ -1,4 +1,4 @@
-//! What runs a trajectory: with fixed steps, or with variable ones.
+//! Runs of trajectories, with fixed or variable steps.
 
 use crate::adaptive::Adaptive;
 use crate::integrator::{Integrator, Statistics};
@@ -7,7 +7,7 @@ use crate::number::{Summation, Vector};
 use crate::state::State;
 use crate::system::System;
 
-/// What steps a trajectory in [`Ensemble::each_as`](super::Ensemble::each_as): an [`Integrator`], one with
+/// A run of a trajectory in [`Ensemble::each_as`](super::Ensemble::each_as): an [`Integrator`], a run with
 /// [steps of variable size](Adaptive), or your own type.
 pub trait Run<V> {
     /// The present state, which the row of the trajectory contains.

@@ -17,7 +17,7 @@ use crate::system::System;
 /// Writes a `.npz` file for `numpy.load`: named arrays in an uncompressed ZIP archive.
 ///
 /// Each array is written immediately; [`finish`](Self::finish) writes the directory of the archive. A file without its
-/// directory, from a killed run or a full disk, is incomplete; `zip -FF` recovers its complete arrays.
+/// directory, after a killed run or on a full disk, is incomplete; `zip -FF` recovers its complete arrays.
 ///
 /// ```
 /// use symplectic::ensemble::Npz;
@@ -249,7 +249,7 @@ impl<W: Write> Npz<W> {
         self.entry(&format!("{name}.npy"), &file)
     }
 
-    /// Writes a file of the archive (APPNOTE 6.3.10, 4.3.7 and 4.3.12), stored, dated 1 January 1980.
+    /// Writes a stored (uncompressed) file of the archive, dated 1 January 1980 (APPNOTE 6.3.10, 4.3.7 and 4.3.12).
     fn entry(&mut self, name: &str, file: &[u8]) -> io::Result<()> {
         self.check()?;
         if self.names.iter().any(|known| known == name) {
@@ -341,7 +341,7 @@ fn crc32(bytes: &[u8]) -> u32 {
 mod tests {
     use super::crc32;
 
-    /// The check value of the catalogue of parametrised CRC algorithms (CRC-32/ISO-HDLC), and that of the empty string.
+    /// Check values of the catalogue of parametrised CRC algorithms (CRC-32/ISO-HDLC), and of the empty string.
     #[test]
     fn the_checksum_is_that_of_zip() {
         assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
