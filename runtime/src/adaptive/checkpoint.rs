@@ -1,4 +1,4 @@
-//! Checkpoints of runs with steps of variable size, which continue with the same bits.
+//! Checkpoints of runs with steps of variable size; a restored run has the same bits.
 
 use super::integrator::{Adaptive, Controller};
 use super::monitor::{Monitor, Slopes, seen};
@@ -7,7 +7,7 @@ use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 use crate::system::System;
 
-/// The kind of run, which the checkpoint records beside the method.
+/// The kind of run that the checkpoint records with the method.
 const KIND: &str = "adaptive";
 
 impl<M, S, W, V, R, N> Adaptive<M, S, W, V, R, N>
@@ -40,7 +40,7 @@ where
     ///
     /// # Errors
     ///
-    /// [`CheckpointError`], with [`OtherSystem`](CheckpointError::OtherSystem) also for another monitor; the run is then unchanged.
+    /// [`CheckpointError`]; [`OtherSystem`](CheckpointError::OtherSystem) also for another monitor. The run is then unchanged.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
         let mut found = [0.0; 6];
         let (monitor, slopes) = (&self.monitor, &self.slopes);
@@ -61,7 +61,7 @@ where
     }
 }
 
-/// The value of a monitor at a position, and its logarithmic derivative along `q`: they distinguish monitors with other parameters.
+/// The value of a monitor at a position and its logarithmic derivative along `q`, which identify its parameters.
 fn evaluated<W: Monitor, V: Vector<Scalar = f64>>(
     monitor: &W,
     slopes: &Slopes<V>,

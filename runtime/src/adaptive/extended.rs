@@ -1,4 +1,4 @@
-//! The extended phase space: time is a position, and minus the energy is its momentum.
+//! The extended phase space: time is a position, and its momentum is minus the energy.
 
 use alloc::vec::Vec;
 
@@ -12,7 +12,7 @@ use crate::number::{Scalar, Vector};
 use crate::state::State;
 use crate::system::Hamiltonian;
 
-/// The extended state ((q, t), (p, p_t)) at τ = 0, whose vectors have one component more.
+/// The extended state ((q, t), (p, p_t)) at τ = 0; its vectors have one component more.
 pub(super) fn extended<V, W>(state: &State<V>, momentum: f64) -> Result<State<W>, Error>
 where
     V: Vector<Scalar = f64>,
@@ -100,7 +100,7 @@ impl<S: Hamiltonian> Workspace<S> {
     }
 }
 
-/// The energy of a state. An error if the state is not finite, or the system has constraints or friction, or gives no energy.
+/// The energy of a state. An error if the state is not finite, or the system has constraints, friction or no energy.
 pub(super) fn energy_of<S: Hamiltonian>(
     system: &S,
     state: &State<S::Vector<f64>>,

@@ -26,11 +26,11 @@ use crate::system::System;
 /// $$ z_{n+1/2} = z_n + \frac{\varepsilon}{2} G(q_n, p_n) \qquad (q, p)_{n+1} = \Phi_{\varepsilon/z_{n+1/2}}((q, p)_n) \qquad
 /// z_{n+1} = z_{n+1/2} + \frac{\varepsilon}{2} G(q_{n+1}, p_{n+1}) $$
 ///
-/// The map of (q, p, z) is symmetric, and reversible if the flow is. So the energy of a reversible system does not drift, as it would
-/// if the step size were a function of the state before the step. The map is not symplectic, so the energy of other systems may drift:
-/// take [`Poincare`](super::Poincare) or [`Logarithmic`](super::Logarithmic) for them.
+/// The map of (q, p, z) is symmetric, and reversible if the flow is. So the energy of a reversible system does not drift. It would if the
+/// step size were a function of the state before the step. The map is not symplectic, so the energy of other systems may drift: use
+/// [`Poincare`](super::Poincare) or [`Logarithmic`](super::Logarithmic) for them.
 ///
-/// The order in ε is that of the method: t is the sum of the step sizes. Steps are explicit if those of the method are. Each step costs one
+/// The order in ε is that of the method: t is the sum of the step sizes. Steps are explicit if the method is. Each step costs one
 /// additional derivative of the [`Monitor`], and one velocity unless it [is the momentum](crate::Masses::Unit).
 ///
 /// # Back to the start
@@ -99,9 +99,9 @@ pub(super) struct Controller {
     pub(super) epsilon: f64,
     /// `z_{n+1/2}` of the last step, or `z_0` before the first step.
     pub(super) density: f64,
-    /// The factor ε/2 of the second kick of z in the last step, which the next step applies; 0 before the first step.
+    /// The factor ε/2 of the second kick of z in the last step, which is applied in the next step; 0 before the first step.
     pub(super) unfinished: f64,
-    /// The rounding error of the time of the state, so that the errors of the steps do not add up.
+    /// The rounding error of the time of the state; it prevents errors from accumulating.
     pub(super) time_low: f64,
 }
 
@@ -153,7 +153,7 @@ where
     R: Summation,
     N: Solver<V, S>,
 {
-    /// Continues from the state of an integrator, which may have any sums and solver. Its step size is not used. A step that fails is not
+    /// Continues from the state of an integrator, which may have any sums and solver. Its step size is not used. A failed step is not
     /// [split](Retry), because its parts would not be symmetric.
     ///
     /// Does not compile unless the method is symmetric on systems of this class.
@@ -232,7 +232,7 @@ where
         let mut next = self.controller;
         let half = 0.5 * next.epsilon;
         let kick = next.unfinished + half;
-        // Just after a reversal the two halves cancel: z is not kicked, and the step has the size of the last one.
+        // Just after a reversal the two kicks cancel: z does not change, and the step has the size of the last one.
         if kick != 0.0 {
             next.density += kick * self.rate()?;
         }
@@ -304,7 +304,7 @@ where
         self.controller.epsilon = -self.controller.epsilon;
     }
 
-    /// Replaces the present state by another one of the same dimension, and the step density by 1/σ there.
+    /// Replaces the present state by another state of the same dimension, and the step density by 1/σ there.
     ///
     /// # Errors
     ///

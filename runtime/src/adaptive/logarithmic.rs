@@ -22,7 +22,7 @@ use crate::system::{Hamiltonian, Separable, System};
 ///
 /// $$ K = \ln(T(p) + B) - \ln(-U(q)) \qquad \frac{dt}{d\tau} = \frac{1}{T + B} $$
 ///
-/// Positions are (q, t) and momenta (p, B). K is zero along the motion, and there its orbits are those of H. A step of size ε in τ takes
+/// Positions are (q, t) and momenta (p, B). K is zero along the motion, and its orbits there are those of H. A step of size ε in τ takes
 /// about the time `ε/(T + B) = ε/(−U)`, which is short where the potential is deep. K is separable: all splittings for separable systems
 /// apply, explicit and symplectic. The kinetic part of K is not quadratic: methods whose order holds for quadratic kinetic energy only
 /// (Runge–Kutta–Nyström) are refused with [`Error::NotQuadraticKinetic`].
@@ -36,8 +36,8 @@ use crate::system::{Hamiltonian, Separable, System};
 ///
 /// # How to use it
 ///
-/// [`extend`](Self::extend) makes the initial state, whose vectors have one component more than those of the system;
-/// [`reduce`](Self::reduce) gives back the state at time t. To stop at a time t, use an [`Event`](crate::Event) of the last position.
+/// [`extend`](Self::extend) constructs the initial state, whose vectors have one component more than those of the system.
+/// [`reduce`](Self::reduce) returns the state at time t. To stop at a time t, use an [`Event`](crate::Event) of the last position.
 ///
 /// ```
 /// use symplectic::adaptive::Logarithmic;
@@ -75,9 +75,9 @@ use crate::system::{Hamiltonian, Separable, System};
 /// [applied force](Hamiltonian::applied_force) does not compile.
 pub struct Logarithmic<S: Hamiltonian<Class = Separable>> {
     system: S,
-    /// Work vectors for evaluations of the system; `None` before the first evaluation and during each.
+    /// Work vectors for evaluations of the system; `None` before the first evaluation and during an evaluation.
     workspace: Cell<Option<Box<Workspace<S>>>>,
-    /// The name and the value of the argument of a logarithm that was not positive in the last failed evaluation.
+    /// In the last failed evaluation, the name and the value of the logarithm's argument that was not positive.
     fault: Cell<Option<(&'static str, f64)>>,
 }
 

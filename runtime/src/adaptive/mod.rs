@@ -1,6 +1,6 @@
 //! Steps of variable size without energy drift: for orbits of high eccentricity and close encounters.
 //!
-//! If the step size is a function of the state before the step, symplectic and symmetric methods lose their advantage: the energy drifts.
+//! If the step size depends only on the state before the step, symplectic and symmetric methods lose their advantage: the energy drifts.
 //! Three ways avoid that.
 //!
 //! | | What it is | Methods | Conserves |

@@ -34,7 +34,7 @@ pub trait Monitor {
     fn value<T: Scalar>(&self, q: &[T]) -> T;
 
     /// Writes `∇ ln σ = ∇σ/σ`, with as many components as `q`, and returns `true`. If it returns `false`, the default, dual numbers give
-    /// the derivatives. Worth implementing if it is cheaper than an evaluation of σ in dual numbers.
+    /// the derivatives. Implement it if it is cheaper than evaluating σ in dual numbers.
     fn logarithmic_gradient(&self, _q: &[f64], _gradient: &mut [f64]) -> bool {
         false
     }
@@ -52,7 +52,7 @@ impl<W: Monitor + ?Sized> Monitor for &W {
 
 /// The monitor `σ = |q|^α`, for motion about a centre.
 ///
-/// With `α = 3/2` the step size is proportional to the free-fall time to a Kepler centre: the choice for orbits of high eccentricity.
+/// With `α = 3/2` the step size is proportional to the free-fall time to a Kepler centre: use it for orbits of high eccentricity.
 ///
 /// ```
 /// use symplectic::adaptive::{DistancePower, Monitor};
@@ -86,8 +86,8 @@ impl Monitor for DistancePower {
 /// σ = (Σ_{i<j} |q_i − q_j|^{−2m})^{−α/(2m)}
 /// ```
 ///
-/// `q` holds the bodies one after another, with as many components each as space has dimensions; components left over are ignored. The
-/// larger m is, the closer σ is to `r^α`.
+/// `q` holds the bodies in sequence, with as many components each as space has dimensions; leftover components are ignored. The larger m
+/// is, the closer σ is to `r^α`.
 ///
 /// ```
 /// use symplectic::adaptive::{Monitor, PairDistances};
@@ -150,7 +150,7 @@ impl Monitor for PairDistances {
     }
 }
 
-/// A monitor that is small where the force is strong, for systems without a distance to measure:
+/// A monitor that is small where the force is strong, for systems without a natural distance:
 ///
 /// ```text
 /// σ = (F_0² + |∂H/∂q|²)^{−α/2}
@@ -211,7 +211,7 @@ pub(super) fn value_at<W: Monitor>(monitor: &W, q: &[f64]) -> Result<f64, f64> {
     if sound { Ok(value) } else { Err(value) }
 }
 
-/// The part of the positions that a monitor sees: without displacements, see [`System::DISPLACED`].
+/// The positions on which a monitor depends, without displacements: see [`System::DISPLACED`].
 pub(super) fn seen<S: System<V>, V: Vector>(q: &V) -> &[V::Scalar] {
     let q = q.as_slice();
     match S::DISPLACED {

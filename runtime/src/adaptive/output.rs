@@ -26,11 +26,10 @@ where
     R: Summation,
     N: Solver<V, S>,
 {
-    /// Takes steps until `end` is reached or passed, and returns the state at `end`. If `end` is inside the last step, a shorter step of the
-    /// method from the start of the last one gives that state. The present state is that after the last step, so that the step sizes do not
-    /// depend on `end`.
+    /// Takes steps until `end` is reached or passed, and returns the state at `end`. If `end` is inside the last step, a shorter step from
+    /// its start gives that state. The present state is that after the last step, so the step sizes do not depend on `end`.
     ///
-    /// If `end` is inside the last step already, no other step is taken.
+    /// If `end` is already inside the last step, no step is taken.
     ///
     /// # Errors
     ///
@@ -40,7 +39,7 @@ where
         self.integrate_with(end, |_| ())
     }
 
-    /// [`integrate_to`](Self::integrate_to) that calls `observe` with the state after every step.
+    /// Like [`integrate_to`](Self::integrate_to), and calls `observe` with the state after every step.
     ///
     /// # Errors
     ///
@@ -195,7 +194,7 @@ where
         &self.integrator
     }
 
-    /// The controller alone sets the step size, whatever the end.
+    /// The controller alone sets the step size, whatever the end time.
     fn size_to(&self, _end: f64) -> f64 {
         self.step_size()
     }

@@ -21,12 +21,12 @@ use crate::system::{Conservative, General, Hamiltonian, System};
 ///
 /// $$ K = \sigma(q)\,(H(t, q, p) + p_t) \qquad p_t = -H(\text{start}) \qquad \frac{dt}{d\tau} = \sigma(q) $$
 ///
-/// Positions are (q, t) and momenta (p, p_t). K is zero along the motion, and there its orbits are those of H. A step of size ε in τ takes
-/// about the time `ε σ(q)`. K is not separable, even if H is. It needs a method for [`General`] systems, such as `basis: polynomial(s),
-/// nodes: gauss(s)`, which is symplectic in the extended phase space. The order in ε is that of the method.
+/// Positions are (q, t) and momenta (p, p_t). K is zero along the motion, and its orbits there are those of H. A step of size ε in τ takes
+/// about the time `ε σ(q)`. K is not separable, even if H is. It needs a method for [`General`] systems, such as
+/// `basis: polynomial(s), nodes: gauss(s)`, which is symplectic in the extended phase space. The order in ε is that of the method.
 ///
-/// The system must give its [energy](Hamiltonian::energy), which may depend on time. [`extend`](Self::extend) makes the initial state, whose
-/// vectors have one component more than those of the system; [`reduce`](Self::reduce) gives back the state at time t.
+/// The system must give its [energy](Hamiltonian::energy), which may depend on time. [`extend`](Self::extend) constructs the initial state,
+/// whose vectors have one component more than those of the system; [`reduce`](Self::reduce) returns the state at time t.
 ///
 /// ```
 /// use symplectic::adaptive::{DistancePower, Poincare};
@@ -63,7 +63,7 @@ use crate::system::{Conservative, General, Hamiltonian, System};
 pub struct Poincare<S: Hamiltonian, W> {
     system: S,
     monitor: W,
-    /// Work vectors for evaluations of system and monitor; `None` before the first evaluation and during each.
+    /// Work vectors for evaluations of system and monitor; `None` before the first evaluation and during an evaluation.
     workspace: Cell<Option<Box<Workspaces<S>>>>,
     /// The value of the monitor in the last failed evaluation, unless it was NaN.
     fault: Cell<Option<f64>>,

@@ -7,7 +7,7 @@ use num_traits::Zero;
 use crate::number::Vector;
 use crate::number::dual::Dual;
 
-/// Both halves of the components.
+/// The first and the second half of the components.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn halves<T>(components: &[T]) -> (&[T], &[T]) {
     components.split_at(components.len() / 2)
@@ -19,7 +19,7 @@ pub(super) fn halves_mut<T>(components: &mut [T]) -> (&mut [T], &mut [T]) {
     components.split_at_mut(components.len() / 2)
 }
 
-/// The zero vector of a dimension; `None` if the vector type has another fixed dimension.
+/// The zero vector of a dimension; `None` if the vector type has a different fixed dimension.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn zeros<V: Vector>(dimension: usize) -> Option<V> {
     let blank = V::blank();

@@ -33,14 +33,14 @@ use crate::system::{Class, Conservative, Hamiltonian, LaneWork, OverEveryScalar,
 /// A step of an explicit method maps the displacement `(δq, δp)` by the derivative of the step map. So the symplectic
 /// product of two displacements is conserved, and `(q, p)` has the same bits as without a displacement.
 ///
-/// The vectors have twice the dimension: `SVector<f64, 4>` for two positions. The system runs like any other, also in the
-/// lanes of an [`Ensemble`](crate::ensemble::Ensemble). In [steps of variable size](crate::adaptive::Adaptive) the
-/// monitor sees `q` only. Each step then maps the displacement by its derivative at fixed size, which agrees with the
-/// variational equations to the order of the method.
+/// The vectors have twice the dimension: `SVector<f64, 4>` for two positions. The system runs like any other, also in the lanes of
+/// an [`Ensemble`](crate::ensemble::Ensemble). In [steps of variable size](crate::adaptive::Adaptive) the monitor depends on `q`
+/// only. Each step then maps the displacement by its derivative at fixed size, which agrees with the variational equations to the
+/// order of the method.
 ///
 /// Limits: systems with friction or constraints, closures and chains have no tangent system. Dynamic vectors are allocated in every
-/// evaluation; prefer fixed sizes. If velocity or force is not differentiable, as `|x|` at zero written as a root, a
-/// step fails with [`Error::NonFinite`].
+/// evaluation; prefer fixed sizes. If velocity or force is not differentiable, such as `|x|` at zero written as a root, a step
+/// fails with [`Error::NonFinite`].
 ///
 /// A displacement is a direction. Choose it no longer than the state: a new integrator checks whether the velocity is
 /// linear in the momentum, relative to the largest component. Explicit methods work with any shorter length; a
@@ -216,7 +216,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Vector> System<W> for Tangent<S> {
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity(&self, time: W::Scalar, q: &W, p: &W, velocity: &mut W) {
-        // The velocity of a separable system does not depend on q; any vector will do.
+        // The velocity of a separable system does not depend on q; any vector serves.
         let q = if S::Class::SEPARABLE { p } else { q };
         let Some([q, p, mut found]) = duals::<S, W>(q, p) else {
             return write_nothing(velocity);

@@ -86,7 +86,7 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
         Ok(factors.factor(&derivatives.mixed).is_ok())
     }
 
-    /// `|Ld(q0, q1, h) + Ld(q1, q0, −h)|`: zero, up to rounding, on every path if and only if `Ld` is self-adjoint. Then its steps are
+    /// `|Ld(q0, q1, h) + Ld(q1, q0, −h)|`: zero up to rounding on every path if and only if `Ld` is self-adjoint. Then its steps are
     /// symmetric and their order is even (Marsden & West, §2.4).
     pub fn self_adjoint_defect<L>(&self, lagrangian: &L) -> f64
     where

@@ -1,4 +1,4 @@
-//! Derivative of the end of a step with respect to half of its start, by central differences.
+//! Derivative of the end of a step with respect to the position or momentum at its start, by central differences.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -11,9 +11,9 @@ use crate::variational::regular::{Factors, Singular, largest};
 
 /// Length of a difference relative to the unknown, about the cube root of the rounding error.
 const DIFFERENCE: f64 = 6e-6;
-/// Half of a movement of the end up to this, relative to the end, is a rounding error, 27 ε.
+/// A movement of the end whose half is at most this, relative to the end, is a rounding error: 27 ε.
 const NOISE: f64 = 6e-15;
-/// The smallest length, and the largest of an unknown that is zero: 2^−200 and 2^200.
+/// The smallest length, and the largest for an unknown that is zero: 2^−200 and 2^200.
 const LENGTHS: [f64; 2] = [6.2e-61, 1.6e60];
 /// A length that does not move the end measurably grows by this factor: at most 40 times between these bounds.
 const GROWTH: f64 = 1024.0;
@@ -49,9 +49,9 @@ impl EndDerivative {
         &self.moves[i * n..][..n]
     }
 
-    /// Measures the derivative. `shifted(j, by)` is the end with `x_j` shifted; `unknown` are x and the same half of the end, which tell the
-    /// size of x, and `sizes` those of the components of the end. A length grows up to the largest unknown or its last value; that of an
-    /// unknown that is zero begins with its last value and grows without this limit.
+    /// Measures the derivative. `shifted(j, by)` is the end with `x_j` shifted; `unknown` are x and the same quantity at the end, which set
+    /// the scale of x; `sizes` are the sizes of the components of the end. A length grows up to the largest unknown or its last value. For
+    /// an unknown that is zero it starts at its last value and grows without this limit.
     ///
     /// # Errors
     ///

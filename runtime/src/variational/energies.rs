@@ -15,8 +15,8 @@ pub(super) struct EnergyAt<'a, V: Vector> {
 }
 
 /// `h Σ b_i H(Q_i, P_i)`. If `b̃ ≠ b`, as for splittings, `h Σ (b_i T(P_i) + b̃_i U(Q_i))` for `H = T + U`, from the energies at
-/// `(q, P_i)`, `(Q_i, p)` and `(q, p)` for any point: both lists of weights have the sum h. `check` sees the energies at the stages, with
-/// the numbers of these from 1.
+/// `(q, P_i)`, `(Q_i, p)` and `(q, p)` for any point: both lists of weights have the sum h. `check` receives the energies at the stages,
+/// and the number of the stage from 1.
 pub(super) fn weighted_energy<'a, S: System<V>, V: Vector>(
     system: &S,
     (q, p): (&V, &V),
@@ -35,7 +35,7 @@ pub(super) fn weighted_energy<'a, S: System<V>, V: Vector>(
         let [position_time, momentum_time] = stage.times;
         let energy = at(position_time, stage.q, stage.p)?;
         check(energy, number)?;
-        // A system that does not depend on time gives the same number, bit for bit.
+        // A system independent of time gives the same number, bit for bit.
         if position_time != momentum_time && at(momentum_time, stage.q, stage.p)? != energy {
             return Err(Error::DifferentNodes {
                 stage: number,

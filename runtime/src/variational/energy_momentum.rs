@@ -14,7 +14,7 @@ use crate::number::Vector;
 use crate::state::State;
 
 /// Symplectic–energy–momentum steps of a [`DiscreteLagrangian`] that does not depend on time (Kane, Marsden & Ortiz 1999; Marsden & West
-/// 2001, 4.9): the step size is an unknown, and the discrete energy `E_d = −∂Ld/∂h` is the same in all steps.
+/// 2001, 4.9). The step size is an unknown, and the discrete energy `E_d = −∂Ld/∂h` is the same in all steps.
 ///
 /// ```text
 /// p0 = −D1 Ld(q0, q1, h)      E = −∂Ld/∂h (q0, q1, h)      p1 = D2 Ld(q0, q1, h)
@@ -27,10 +27,10 @@ use crate::state::State;
 ///
 /// # Where no step exists
 ///
-/// At a state with the energy H the discrete energy of a step of size h is `H − h²c + …`, with a curvature c of the orbit. For the midpoint
-/// rule `c = (p·M⁻¹∇²V M⁻¹p + ∇V·M⁻¹∇V)/8`. So `h ∝ c^{−1/2}`, and where c changes its sign no step conserves the energy: the steps grow as
-/// the run approaches such a point, and the run ends with [`Error::NoEnergyStep`]. A step is at most twice and at least half as long as the
-/// previous one, which excludes other roots of the equations. For an autonomous Lagrangian, steps of constant size
+/// At a state with the energy H, the discrete energy of a step of size h is `H − h²c + …`, where c is a curvature of the orbit. For the
+/// midpoint rule `c = (p·M⁻¹∇²V M⁻¹p + ∇V·M⁻¹∇V)/8`. So `h ∝ c^{−1/2}`, and where c changes its sign no step conserves the energy. The
+/// steps grow as the run approaches such a point, and the run ends with [`Error::NoEnergyStep`]. A step is at most twice and at least half
+/// as long as the previous one, which excludes other roots of the equations. For an autonomous Lagrangian, steps of constant size
 /// ([`VariationalIntegrator`](super::VariationalIntegrator)) continue beyond this point, as Marsden & West (4.9.3) advise.
 ///
 /// The condition number of the equations grows as `h⁻²`: E is conserved up to rounding errors times this number. Newton's iteration ends
@@ -192,7 +192,7 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
         &self.state
     }
 
-    /// The size of the last step; before the first step, the size that it will have.
+    /// The size of the last step; before the first step, its prescribed size.
     pub const fn step_size(&self) -> f64 {
         self.step_size
     }

@@ -5,7 +5,7 @@ use crate::error::{Error, Quantity};
 
 /// Why a step failed.
 pub(super) enum Failure {
-    /// A value is not finite: at this stage, from 1.
+    /// A value is not finite; stages are counted from 1.
     NonFinite {
         stage: Option<usize>,
     },
@@ -24,7 +24,7 @@ pub(super) enum Failure {
 }
 
 impl Failure {
-    /// The error of the step with the number `step`; `what` is not finite.
+    /// The error of step number `step`; `what` is the quantity that is not finite.
     pub(super) fn error(self, what: Quantity, time: f64, step_size: f64, step: u64) -> Error {
         match self {
             Self::NonFinite { stage } => Error::NonFinite {

@@ -25,15 +25,15 @@ use crate::variational::regular::{Singular, largest};
 ///
 /// $$ L_d(q_0, q_1) \qquad H_d^{+}(q_0, p_1) = p_1 q_1 - L_d \qquad H_d^{-}(p_0, q_1) = -p_0 q_0 - L_d $$
 ///
-/// (Leok & Ohsawa, arXiv:0810.0740v1, 9.8 and 9.9; Leok & Zhang 2011, eq. 43). The missing half of the start is found by Newton's
-/// iteration on the steps of the integrator, from that half of its present state. The matrix of the iteration is computed by central
-/// differences: an iteration takes 2n + 1 steps for n components, or more where a short difference does not move the end measurably. The
-/// residual is at the rounding errors of a step. The integrator itself takes no step.
+/// (Leok & Ohsawa, arXiv:0810.0740v1, 9.8 and 9.9; Leok & Zhang 2011, eq. 43). Newton's iteration on the steps of the integrator finds
+/// the missing position or momentum at the start, beginning with that of the present state. The matrix of the iteration is computed by
+/// central differences. An iteration takes 2n + 1 steps for n components, or more if a short difference does not move the end
+/// measurably. The residual is at the rounding errors of a step. The integrator itself takes no step.
 ///
 /// # Errors
 ///
-/// All three return [`Error::NoStart`] where the ends do not determine the start, or it is not found: Type I if H does not determine the
-/// velocity, as `H = q·p`, and at a conjugate point; Type II where `∂p1/∂p0` is singular, Type III where `∂q1/∂q0` is. They return
+/// All three return [`Error::NoStart`] if the ends do not determine the start, or it is not found. Type I: H does not determine the
+/// velocity, as for `H = q·p`, or at a conjugate point; Type II: `∂p1/∂p0` is singular; Type III: `∂q1/∂q0` is. They return
 /// [`Error::Dimension`] and [`Error::NonFiniteState`] for the arguments, and the errors of a step and of its
 /// [stages](Integrator::step_with_stages), which are found by fixed points: a step may be too large for them.
 ///
@@ -172,7 +172,7 @@ where
     }
 }
 
-/// Half of a state.
+/// The position or the momentum of a state.
 #[derive(Clone, Copy)]
 enum Half {
     Position,
@@ -216,7 +216,7 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// A residual below this that no longer halves consists of rounding errors inside the step: Newton's iteration converges quadratically.
 const STATIONARY: f64 = 1e-9;
 
-/// Finds the half `unknown` of the start whose step ends at `target`.
+/// Finds the position or momentum `unknown` of the start whose step ends at `target`.
 fn find<I: GeneratingFunctions + ?Sized>(
     run: &I,
     mut start: State<I::Vector>,

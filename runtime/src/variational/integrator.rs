@@ -135,8 +135,7 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
         Ok(&self.state)
     }
 
-    /// Integrates to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or
-    /// backward.
+    /// Integrates to the time `end` exactly, forward or backward, in the smallest number of equal steps no longer than the step size.
     ///
     /// # Errors
     ///

@@ -1,9 +1,9 @@
 //! Discrete mechanics: generating functions and stages of steps, and the balances of energy and momentum.
 //!
 //! Every step of a method has a [generating function](generating_function()), and [stages](StagesOfStep) with the work and the impulse of
-//! applied forces. A [`DiscreteLagrangian`] supplied by the user generates the steps of a [`VariationalIntegrator`], or those of an
-//! [`EnergyMomentumIntegrator`], which chooses their size. A [`DiscretePath`] tests its properties. A [`LagrangianIntegrator`] takes the
-//! steps of a method for a [`Lagrangian`](crate::Lagrangian). A [`DiracIntegrator`] is for degenerate Lagrangians and for constraints on
+//! applied forces. A [`DiscreteLagrangian`] supplied by the user generates the steps of a [`VariationalIntegrator`], or of an
+//! [`EnergyMomentumIntegrator`], which chooses the step size. A [`DiscretePath`] tests its properties. A [`LagrangianIntegrator`] applies
+//! a method to a [`Lagrangian`](crate::Lagrangian). A [`DiracIntegrator`] is for degenerate Lagrangians and for constraints on
 //! velocities.
 
 mod checks;

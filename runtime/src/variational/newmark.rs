@@ -20,8 +20,8 @@ use crate::state::State;
 use crate::system::linearity::non_linear_velocity;
 use crate::system::{Hamiltonian, Masses, Separable, System};
 
-/// A system `H = pᵀM⁻¹p/2 + V(q)` in the shifted positions in which Newmark's method with `γ = 1/2` and any β is Störmer–Verlet
-/// (Newmark 1959; Marsden & West 2001, 2.6.3; Skeel, Zhang & Schlick 1997):
+/// A system `H = pᵀM⁻¹p/2 + V(q)` in shifted positions. In these, Newmark's method with `γ = 1/2` and any β is Störmer–Verlet (Newmark
+/// 1959; Marsden & West 2001, 2.6.3; Skeel, Zhang & Schlick 1997):
 ///
 /// ```text
 /// q1 = q0 + h v0 + h²/2 ((1 − 2β) a(q0) + 2β a(q1))      v1 = v0 + h/2 (a(q0) + a(q1))      a = M⁻¹ force
@@ -51,8 +51,8 @@ use crate::system::{Hamiltonian, Masses, Separable, System};
 ///
 /// # Step size
 ///
-/// The shift has the `h` given here. A step of another size, such as the last one before an end time, is a step of Störmer–Verlet for the
-/// same shifted system, which differs by O(h²) from the given one.
+/// The shift uses the `h` given here. A step of another size, such as the last before an end time, is a Störmer–Verlet step for the same
+/// shifted system, which differs by O(h²) from the given one.
 ///
 /// # Cost
 ///
@@ -84,7 +84,7 @@ use crate::system::{Hamiltonian, Masses, Separable, System};
 /// # }
 /// ```
 ///
-/// A force that depends on momenta makes a system [`General`](crate::General), and is refused:
+/// A force that depends on momenta makes a system [`General`](crate::General), and does not compile:
 ///
 /// ```compile_fail,E0271
 /// use symplectic::variational::Newmark;
@@ -97,7 +97,7 @@ pub struct Newmark<S: Hamiltonian<Class = Separable>> {
     system: S,
     /// `βh²`
     shift: f64,
-    /// Memory to solve for `q(x)`; `None` before the first evaluation and during one.
+    /// Memory to solve for `q(x)`; `None` before the first evaluation and during an evaluation.
     workspace: Cell<Option<Box<Workspace<S>>>>,
 }
 
@@ -162,7 +162,7 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
         check_state(*time, q, p, q.dimension())?;
         let q = match self.at_position(*time, q, S::Vector::clone) {
             Ok(q) => q,
-            // A wrong dimension may be why there is no position.
+            // The cause may be a wrong dimension.
             Err(error) => return self.acceleration(*time, q).and(Err(error)),
         };
         Ok(State::new(*time, q, p.clone()))
@@ -254,7 +254,7 @@ impl<S: Hamiltonian<Class = Separable>> System<S::Vector<f64>> for Newmark<S> {
     ) {
         let evaluate = |q: &S::Vector<f64>| Hamiltonian::force(&self.system, time, q, q, force);
         if self.at_position(time, q, evaluate).is_err() {
-            // A wrong dimension may be why there is no position; the step finds it here.
+            // The cause may be a wrong dimension; the step finds it here.
             Hamiltonian::force(&self.system, time, q, q, force);
             force.as_mut_slice().fill(f64::NAN);
         }

@@ -85,7 +85,7 @@ impl Factors {
         &self.elimination.right
     }
 
-    /// Adds the solution for this right-hand side to the iterate `end` of an iteration that began at `start`.
+    /// Adds the solution for this right-hand side to the iterate `end`; the iteration began at `start`.
     pub(super) fn correct(
         &mut self,
         right: impl Iterator<Item = f64>,

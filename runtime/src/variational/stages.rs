@@ -1,4 +1,4 @@
-//! The stages of a step, and the balances of energy and momentum that they give.
+//! The stages of a step, and their balances of energy and momentum.
 
 use alloc::vec::Vec;
 
@@ -16,7 +16,7 @@ use crate::system::{Class, System};
 pub struct StageOfStep<V> {
     /// `h b_i`
     pub weight: f64,
-    /// `h b̃_i`, the same except for splittings.
+    /// `h b̃_i`, equal to `weight` except for splittings.
     pub force_weight: f64,
     /// The time of the position and of the force, `t0 + c_i h`.
     pub time: f64,
@@ -34,8 +34,8 @@ pub struct StageOfStep<V> {
     pub applied: V,
 }
 
-/// The stages of the tableau, for a composition those of all its steps; returned by [`Integrator::step_with_stages`] and by the methods of
-/// this name for Lagrangians.
+/// The stages of the tableau, or for a composition those of all its steps. Returned by [`Integrator::step_with_stages`] and by the methods
+/// of this name for Lagrangians.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StagesOfStep<V> {
     stages: Vec<StageOfStep<V>>,
@@ -56,7 +56,7 @@ impl<V: Vector> StagesOfStep<V> {
     /// The work of the applied force, `h Σ b̃_i f_i·v_i`.
     ///
     /// The exact flow changes the energy by the integral of `f·v`. A step changes it by the work, up to an error of the order of the
-    /// method; of a splitting up to one of order 1, because its velocities are not those at the places of the forces.
+    /// method. For splittings this error is of order 1: the velocities and forces are evaluated at different points.
     pub fn work(&self) -> V::Scalar {
         self.sum(|stage| dot(&stage.applied, &stage.velocity))
     }
@@ -64,8 +64,8 @@ impl<V: Vector> StagesOfStep<V> {
     /// The impulse of the applied force in the direction of a symmetry with the generator `ξ_Q`, `h Σ b̃_i f_i·ξ_Q(Q_i)`; `generator(q, out)`
     /// writes `ξ_Q(q)` into `out`.
     ///
-    /// If H, and constraints if there are any, have this symmetry and `ξ_Q` is linear in q, the momentum map `J = p·ξ_Q(q)` changes in a
-    /// step by exactly this impulse (Marsden & West, 2001, 3.2.3), up to rounding.
+    /// If H and any constraints have this symmetry and `ξ_Q` is linear in q, a step changes the momentum map `J = p·ξ_Q(q)` by exactly this
+    /// impulse, up to rounding (Marsden & West, 2001, 3.2.3).
     pub fn impulse(&self, mut generator: impl FnMut(&V, &mut V)) -> V::Scalar {
         let Some(first) = self.stages.first() else {
             return V::Scalar::from_f64(0.0);
@@ -77,8 +77,8 @@ impl<V: Vector> StagesOfStep<V> {
         })
     }
 
-    /// The discrete Lagrangian `L_d(q0, q1) = h Σ (b_i P_i·v_i − b_i T(P_i) − b̃_i U(Q_i))`, the action of the step; without `H = T + U`,
-    /// where `b̃ = b`, `h Σ b_i (P_i·v_i − H(Q_i, P_i))`.
+    /// The discrete Lagrangian `L_d(q0, q1) = h Σ (b_i P_i·v_i − b_i T(P_i) − b̃_i U(Q_i))`, the action of the step. If H is not `T + U`,
+    /// then `b̃ = b` and it is `h Σ b_i (P_i·v_i − H(Q_i, P_i))`.
     ///
     /// # Errors
     ///
@@ -107,7 +107,7 @@ impl<V: Vector> StagesOfStep<V> {
         Ok(action)
     }
 
-    /// With the weights of forces.
+    /// A sum over the stages with the weights of forces.
     fn sum(&self, mut term: impl FnMut(&StageOfStep<V>) -> V::Scalar) -> V::Scalar {
         let mut sum = V::Scalar::from_f64(0.0);
         for stage in &self.stages {
@@ -120,9 +120,9 @@ impl<V: Vector> StagesOfStep<V> {
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Takes one step and returns its stages, for balances of energy and momentum, and for the discrete action.
     ///
-    /// The solver of the step keeps its stages in a form of its own. So they are computed again, to rounding and from no starting values.
-    /// For Gauss methods two to four times as many evaluations as a step, for explicit methods many more. Memory is allocated. Use it for
-    /// tests and reports, not for every step of a long run.
+    /// The solver of the step does not keep its stages in this form. So they are computed again, to rounding, without starting values. This
+    /// takes two to four times as many evaluations as a step for Gauss methods, and many more for explicit methods. Memory is allocated.
+    /// Use it for tests and reports, not for every step of a long run.
     ///
     /// # Errors
     ///
@@ -241,7 +241,7 @@ fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
     Ok(StagesOfStep { stages })
 }
 
-/// The error of a step that succeeded once and fails when it is repeated.
+/// The error of a step that succeeded once and failed when repeated.
 fn error<V: Vector>(step: &Step<'_, V>, number: u64, failure: Failure) -> Error {
     let attempt = Attempt::of(step, number);
     let observed = FirstFault::new(attempt.dimension);

@@ -1,4 +1,4 @@
-//! The stages of a step, found from the position at its start and the momentum at one of its ends.
+//! The stages of a step from the position at its start and the momentum at its start or end.
 
 use alloc::vec::Vec;
 use core::marker::PhantomData;
@@ -16,8 +16,8 @@ use crate::number::{Coefficient, Coefficients, Plain, Scalar, Summation, Vector,
 use crate::solver::fixed_point::by_stages;
 use crate::system::{Class, System};
 
-/// The stages of the step with position `step.q` at its start and momentum `step.p` at its end, or at its start too if `FORWARD`; also the
-/// momentum at the other end and the position at the end. `number` is the number of the step, for errors.
+/// The stages of the step with position `step.q` at its start and momentum `step.p` at its end, or at its start if `FORWARD`. Also returns
+/// the other momentum and the position at the end. `number` is the number of the step, for errors.
 pub(super) fn solve<const FORWARD: bool, M: Method, S: System<V>, V: Vector>(
     system: &S,
     step: &Step<'_, V>,
@@ -50,15 +50,15 @@ pub(super) fn solve<const FORWARD: bool, M: Method, S: System<V>, V: Vector>(
     let mismatch = stages.mismatch(attempt.dimension);
     let sound = mismatch.is_none() && is_finite(&q1) && is_finite(&p);
     if outcome.is_err() || !sound {
-        // The stages are in memory for the error.
+        // The error is determined from the stages in memory.
         let observed = FirstFault::new(attempt.dimension);
         return Err(attempt.error(outcome.err(), &observed, &stages, &q1));
     }
     Ok((stages, [p, q1]))
 }
 
-/// The plan that goes from `(q0, p1)` to `(q1, p0)`, or `FORWARD` from `(q0, p0)` to `(q1, p1)`. The position and the momentum of its
-/// [`Step`] are the known ones, and the momentum of its result is the other one.
+/// Maps `(q0, p1)` to `(q1, p0)`, or if `FORWARD` `(q0, p0)` to `(q1, p1)`. The position and momentum of its [`Step`] are the known ones;
+/// its result contains the other momentum.
 struct Ends<const FORWARD: bool, M, C>(PhantomData<(M, C)>);
 
 impl<const FORWARD: bool, M: Method, C: Class> StagePlan for Ends<FORWARD, M, C> {
@@ -82,7 +82,7 @@ impl<const FORWARD: bool, M: Method, C: Class> StagePlan for Ends<FORWARD, M, C>
         stages.weights = Weights::new(&M::COEFFICIENTS, step.size, FORWARD);
         stages.q.iter_mut().for_each(|q| q.clone_from(step.q));
         stages.p.iter_mut().for_each(|p| p.clone_from(step.p));
-        // One evaluation for all stages: the iteration does the rest.
+        // One evaluation for all stages is enough to start the iteration.
         if let Some((first, others)) = stages.velocity.split_first_mut() {
             system.velocity(V::Scalar::from_f64(step.time), step.q, step.p, first);
             others.iter_mut().for_each(|other| other.clone_from(first));
@@ -212,7 +212,7 @@ impl<M: Method, V: Vector> StageStorage<V> for Unknowns<M, V> {
         }
     }
 
-    /// No data is left for another step.
+    /// No data is kept for another step.
     fn words(&mut self, _visit: &mut Visit<'_>) {}
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
@@ -237,7 +237,7 @@ pub(super) fn sum<V: Vector>(out: &mut V, weights: &[V::Scalar], terms: &[V]) {
     }
 }
 
-/// `out = base + increment`; records in `change` how far `out` moved.
+/// `out = base + increment`; records the change of `out` in `change`.
 fn settle<V: Vector>(out: &mut V, base: &V, increment: &V, change: &mut HalfChange) {
     let ends = base.as_slice().iter().zip(increment.as_slice());
     for (out, (&base, &increment)) in out.as_mut_slice().iter_mut().zip(ends) {

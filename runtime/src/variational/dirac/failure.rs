@@ -1,4 +1,4 @@
-//! Why a step failed.
+//! Failed steps.
 
 use crate::error::{Error, Quantity};
 use crate::variational;
@@ -8,7 +8,7 @@ pub(super) const MAX_ITERATIONS: u32 = 40;
 
 /// Why a step failed.
 pub(super) enum Failure {
-    /// An evaluation of the Lagrangian.
+    /// A failed evaluation of the Lagrangian.
     Evaluation(variational::failure::Failure),
     NonFinite,
     MovingRows,

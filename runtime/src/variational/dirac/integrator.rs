@@ -29,10 +29,10 @@ use crate::variational::two_ends::dot;
 ///
 /// A [`DiracRule`] gives `Ld` and `w_d`. A force of the Lagrangian is added to both of its derivatives, as an impulse (Marsden & West 3.2.5).
 ///
-/// The second line says that every state is a state of the continuous system: its momentum obeys the primary constraints, given by
-/// [`primary_constraints`](super::primary_constraints), and its velocity obeys the constraints. For a regular Lagrangian this determines μ,
-/// as in a step of [`Nonholonomic`](crate::Nonholonomic) systems, and the steps are the same. For a degenerate Lagrangian it also gives the
-/// conditions on `q1` that the first line does not contain.
+/// By the second line every state is a state of the continuous system. Its momentum satisfies the
+/// [primary constraints](super::primary_constraints), and its velocity satisfies the constraints. For a regular Lagrangian this determines
+/// μ, as in a step of [`Nonholonomic`](crate::Nonholonomic) systems, and the steps are the same. For a degenerate Lagrangian it also gives
+/// the conditions on `q1` that the first line does not contain.
 ///
 /// # Degenerate Lagrangians
 ///
@@ -40,8 +40,8 @@ use crate::variational::two_ends::dot;
 /// `q1` has to be determined; otherwise an error names the component. A step is not always possible:
 ///
 /// * A Lagrangian that is linear in the velocities, `L = a(q)·v − H(q)` with a linear a, such as that of point vortices, needs the rule
-///   [`Midpoint`](DiracRule::Midpoint). Its steps are those of Gauss with one stage for H, and symplectic. If a is not linear, `D2 Ld` is
-///   not `a(q1)`, and no such step exists. Its discrete Lagrangian is regular if `∂a/∂q − (∂a/∂q)ᵀ` is. A
+///   [`Midpoint`](DiracRule::Midpoint). Its steps are those of the one-stage Gauss method for H, and symplectic. If a is not linear,
+///   `D2 Ld` is not `a(q1)`, and no such step exists. Its discrete Lagrangian is regular if `∂a/∂q − (∂a/∂q)ᵀ` is. A
 ///   [`VariationalIntegrator`](crate::variational::VariationalIntegrator) then takes its steps, with momenta off the primary constraints.
 /// * Velocities without a mass, as in a loop of capacitors, need [`Trapezoid`](DiracRule::Trapezoid).
 /// * The trapezoidal rule needs a start that satisfies the conditions on positions (secondary constraints).
@@ -180,9 +180,9 @@ impl<L: DiracSystem> DiracIntegrator<L> {
     /// Takes one step and returns its stages, for balances of energy and momentum. The force of a stage is `∂L/∂q + f`, without the impulses
     /// of constraints.
     ///
-    /// The step changes the momentum map of a linear symmetry of L and of the constraints by exactly the
-    /// [impulse](StagesOfStep::impulse) of the force, and the energy by its [work](StagesOfStep::work) up to an error of the order of the
-    /// method. The step is taken twice. Memory is allocated.
+    /// In a step the momentum map of a linear symmetry of L and of the constraints changes by exactly the [impulse](StagesOfStep::impulse)
+    /// of the force. The energy changes by its [work](StagesOfStep::work), up to an error of the order of the method. The step is taken
+    /// twice. Memory is allocated.
     ///
     /// # Errors
     ///
@@ -202,8 +202,7 @@ impl<L: DiracSystem> DiracIntegrator<L> {
         Ok(StagesOfStep::new(stages))
     }
 
-    /// Integrates to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or
-    /// backward.
+    /// Integrates to the time `end` exactly, forward or backward, in the smallest number of equal steps no longer than the step size.
     ///
     /// # Errors
     ///
@@ -218,8 +217,8 @@ impl<L: DiracSystem> DiracIntegrator<L> {
         &self.state
     }
 
-    /// A velocity v with `∂L/∂v = p` and `w(q) v = 0`. Components that these equations do not determine are those of the mean velocity of
-    /// the last step, and 0 before the first step.
+    /// A velocity v with `∂L/∂v = p` and `w(q) v = 0`. Components that these equations leave free are those of the mean velocity of the
+    /// last step, and 0 before the first step.
     pub const fn velocity(&self) -> &L::Vector<f64> {
         &self.velocity
     }

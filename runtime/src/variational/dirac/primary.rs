@@ -109,7 +109,7 @@ fn derivatives_like<L: Lagrangian>(
     Derivatives::new(position)
 }
 
-/// A velocity v with `∂L/∂v = p` and `w(q) v = 0`, found from zero: components that neither equation determines are zero.
+/// A velocity v with `∂L/∂v = p` and `w(q) v = 0`, found from zero: undetermined components are zero.
 pub(super) fn consistent_velocity<L: DiracSystem>(
     system: &L,
     State { time, q, p }: &State<L::Vector<f64>>,

@@ -135,7 +135,7 @@ impl<L: DiracSystem> Equations<L> {
         }
     }
 
-    /// The equation that contradicts the others most, if any does.
+    /// The equation with the largest contradiction, if there is one.
     fn contradiction(&self, n: usize) -> Option<Failure> {
         let Rest { row, value, .. } = largest_contradiction(self.linear.rests())?;
         let (what, index) = if row < 2 * n {

@@ -126,7 +126,7 @@ impl StageCoefficients {
 /// `count` functions on the nodes that span `a_ij/b_j` and the constant 1, orthonormal for the weights up to their sign. Gram–Schmidt, with
 /// each function orthogonalised twice, the largest remainder first. `None` if the span is larger.
 fn orthonormal(rows: &[Vec<f64>], weights: &[f64], count: usize) -> Option<Vec<Vec<f64>>> {
-    /// A norm that is a rounding error compared with 1, for functions as smooth as a method can have.
+    /// Norms below this are rounding errors relative to 1, for functions as smooth as those of a method.
     const NOTHING: f64 = 1e-8;
     let product = |x: &[f64], y: &[f64]| -> f64 {
         let terms = x.iter().zip(y).zip(weights);

@@ -254,8 +254,8 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
 
     /// Takes one step and returns its stages, for balances of energy and momentum. The force of a stage is `∂L/∂q + f`.
     ///
-    /// The step changes the momentum map of a linear symmetry of L by exactly the [impulse](StagesOfStep::impulse) of the force, and
-    /// the energy by its [work](StagesOfStep::work) up to an error of the order of the method. Memory is allocated.
+    /// In a step the momentum map of a linear symmetry of L changes by exactly the [impulse](StagesOfStep::impulse) of the force. The
+    /// energy changes by its [work](StagesOfStep::work), up to an error of the order of the method. Memory is allocated.
     ///
     /// # Errors
     ///
@@ -294,8 +294,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         Ok(StagesOfStep::new(stages))
     }
 
-    /// Integrates to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size; forward or
-    /// backward.
+    /// Integrates to the time `end` exactly, forward or backward, in the smallest number of equal steps no longer than the step size.
     ///
     /// # Errors
     ///

@@ -58,8 +58,8 @@ const MAX_HALVINGS: u32 = 60;
 const CONTRACTION: f64 = 0.1;
 /// Changes below this, relative to the velocities, are rounding errors.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// Changes that no longer decrease are accepted below these bounds: with a matrix that was kept, and with a new one, whose iteration
-/// otherwise converges quadratically.
+/// Changes that no longer decrease are accepted below these bounds, for a kept matrix and for a new one. With a new matrix the
+/// iteration otherwise converges quadratically.
 const STATIONARY: [f64; 2] = [1e-13, 1e-9];
 
 impl<L: Lagrangian> Stages<L> {
@@ -97,7 +97,7 @@ impl<L: Lagrangian> Stages<L> {
         self.forget();
     }
 
-    /// Begins as a new integrator does, without the stages and the factors of earlier steps.
+    /// Starts like a new integrator, without the stages and factors of earlier steps.
     pub(super) fn forget(&mut self) {
         self.before.copy_from_slice(&self.first);
         self.unknowns.copy_from_slice(&self.first);
@@ -182,7 +182,7 @@ impl<L: Lagrangian> Stages<L> {
         })
     }
 
-    /// Whether the residual consists of rounding errors. Needed near rest, where there are no velocities to compare changes with.
+    /// Whether the residual consists of rounding errors. Needed near rest, where the velocities give no scale for the changes.
     fn is_solved(&self) -> bool {
         let mut rows = self.residual.iter().zip(&self.terms);
         rows.all(|(residual, terms)| Float::abs(*residual) <= ROUNDING * terms)
@@ -197,7 +197,7 @@ impl<L: Lagrangian> Stages<L> {
         })
     }
 
-    /// Evaluates at the present unknowns. While something is not finite there, halves the last change, at most `MAX_HALVINGS` times.
+    /// Evaluates at the present unknowns. If something is not finite there, halves the last change, at most `MAX_HALVINGS` times.
     /// Returns whether the whole change was made.
     fn evaluate_on_the_way(
         &mut self,
