@@ -121,8 +121,8 @@ impl Basis {
     /// A basis of given functions.
     ///
     /// # Errors
-    /// [`ErrorKind::DependentBasis`]. Functions whose coefficients lie in no one constant field are taken
-    /// for independent; where they are not, no derivation succeeds.
+    /// [`ErrorKind::DependentBasis`]. Functions whose coefficients do not lie in one constant field are assumed
+    /// independent; if they are not, every derivation fails.
     pub fn new(functions: Vec<Function>) -> Result<Self, ErrorKind> {
         let texts: Vec<String> = functions.iter().map(ToString::to_string).collect();
         let name = texts.join(", ");
@@ -199,7 +199,7 @@ impl Basis {
         }
     }
 
-    /// Whether there are none.
+    /// Whether there are no functions.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -306,7 +306,7 @@ fn echelon_form(functions: &[Function]) -> Option<Echelon> {
     Some(Echelon::Independent(rows.iter().map(function).collect()))
 }
 
-/// A number that can stand before a function in a combination.
+/// A number that can be the coefficient of a function in a combination.
 pub(crate) trait Coefficient: Display {
     /// Whether the number is zero as it is written.
     fn is_absent(&self) -> bool;

@@ -10,15 +10,15 @@ use crate::tableau::Tableau;
 
 /// Checks a table file, TOML or JSON by the extension of its name, and returns its tableau.
 ///
-/// Nothing in the file is trusted: the tableau is derived anew from basis and nodes, its properties
-/// are proved, and every entry of the file is held against what is written of the result, in the order
-/// in which the entries stand: the node polynomial, exact data, decimals to their last digit, doubles,
-/// properties with their evidence. The name and the source are taken as they are.
+/// Nothing in the file is trusted. The tableau is derived again from basis and nodes, and its
+/// properties are proved. Every entry of the file is compared with the result, in the order of the
+/// entries: the node polynomial, exact data, decimals to their last digit, doubles, properties with
+/// their evidence. The name and the source are not checked.
 ///
 /// # Errors
-/// [`ErrorKind::Mismatch`] for the first entry that does not fit; [`ErrorKind::Document`] where the
-/// file is no table file; everything that [`derive`](crate::derive()) refuses about its basis and
-/// nodes. Each with its place in the file.
+/// [`ErrorKind::Mismatch`] for the first entry that differs; [`ErrorKind::Document`] if the file is
+/// not a table file; every error of [`derive`](crate::derive()) for its basis and nodes. Each with its
+/// place in the file.
 ///
 /// ```
 /// use symplectic_compiler::{Limits, check, derive, export::toml};

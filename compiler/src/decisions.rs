@@ -157,7 +157,7 @@ fn order_text(report: &OrderReport) -> String {
     format!("{orders:?}")
 }
 
-/// What differs: what is told to users, and what usual enclosures alone decide, from what wide ones do.
+/// What wide enclosures decide differently from the reported results, and from usual enclosures alone.
 fn compare(tableau: &Tableau) -> Vec<Difference> {
     let undecided = |evidence| matches!(evidence, Evidence::Undecided { .. });
     let options = OrderOptions {

@@ -1,4 +1,4 @@
-//! What a tableau is derived from: the texts that a person writes.
+//! The definition of a tableau, as the user writes it.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -52,16 +52,15 @@ keys! {
     /// The nodes of the square construction: `lobatto(3)`, `0, 1/2, 1`.
     Nodes = "nodes", Some("NODES"),
         "A rule such as `gauss(3)` (`symplectic list` shows all), or a list of numbers in [0, 1]: \"0, 1/3, 1\"";
-    /// The nodes of the quadrature formula of the rectangular construction, as many as there are
-    /// functions or more.
+    /// The nodes of the quadrature formula of the rectangular construction: at least as many as functions.
     Quadrature = "quadrature", Some("QUADRATURE"),
         "Nodes of the rectangular construction: as many as there are functions, or more";
     /// A method on which a composition is built: a name of the [`catalogue`](crate::catalogue), or a definition in
     /// brackets. Without [`Key::Weights`] it is the method itself.
     Base = "base", Some("METHOD"),
         "A method to compose with `--weights`: a name of `symplectic list`, or a definition in brackets: \"[kick: [1/2, 1/2], drift: [1, 0]]\"";
-    /// The weights of the quadrature formula, if they are not the interpolatory ones; beside a base the fractions of
-    /// the steps that a composition makes with it: `1/2, adjoint(1/2)`, `triple_jump(4)`, `suzuki(4)`.
+    /// The weights of the quadrature formula, if they are not the interpolatory ones. With a base, the fractions of the steps of
+    /// the composition: `1/2, adjoint(1/2)`, `triple_jump(4)`, `suzuki(4)`.
     Weights = "weights", Some("WEIGHTS"),
         "The weights of the quadrature, if not the interpolatory ones: \"1/6, 2/3, 1/6\". With `--base`, the fractions of its steps: \"1/2, adjoint(1/2)\", \"triple_jump(4)\", \"suzuki(4)\"";
     /// Given coefficients `a_ij`: `[[0, 0], [1/2, 1/2]]`.
@@ -85,17 +84,17 @@ keys! {
     /// `drift` where each drift of a splitting comes before the kick of the same number; `kick` otherwise.
     First = "first", Some("FLOW"),
         "What comes first: kick or drift [default: kick]";
-    /// What printed kicks and drifts claim: `separable(6)`, `nystrom(6)`, `perturbed(8, 6, 4)`, or printed weights of a
-    /// composition, `separable(8)`. The coefficients are then those of the exact method that is proved to be near the
-    /// digits, see [`certify`](crate::certify).
+    /// The claimed order of printed kicks and drifts, `separable(6)`, `nystrom(6)`, `perturbed(8, 6, 4)`, or of printed weights of
+    /// a composition, `separable(8)`. The coefficients are then those of the exact method that is proved to be near the digits: see
+    /// [`certify`](crate::certify).
     Claim = "claim", Some("CLAIM"),
         "The claimed order of printed kicks and drifts, or of printed weights of a composition: `separable(6)`, `nystrom(6)`, `perturbed(8, 6, 4)`. The exact method near the digits is derived, with a proof that it exists";
     /// Steps of other methods one after another, each with its fraction of the step and its own
     /// definition: `[[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]]`.
     Compose = "compose", Some("STEPS"),
         "Steps of other methods one after another, each with its fraction of the step: \"[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]\"";
-    /// `true` where the parts of a splitting, or the weights of a composition, are the first half of a sequence that
-    /// reads the same from both ends. The last one that is written stands in the middle, once.
+    /// `true` if the parts of a splitting, or the weights of a composition, are the first half of a palindrome. The last entry is
+    /// the middle one and is not repeated.
     Symmetric = "symmetric", None,
         "Continue a splitting, or the weights of a composition, in reverse order; the last entry is the middle one and is not repeated";
     /// `true` where the coefficients for positions and momenta are exchanged in the end.

@@ -7,20 +7,20 @@
 //! error = C (n/N)^p = (n C^{1/p} / N)^p .
 //! ```
 //!
-//! So `n C^{1/p}` is the number of evaluations in a unit of time at which the error is 1 by its leading term: methods of
-//! one order compare by it at any accuracy, and for an error `ε` it is `n (C/ε)^{1/p}`, from which methods of different
-//! orders compare (McLachlan 1995, §3; Blanes & Moan 2002, the effective error).
+//! So `n C^{1/p}` is the number of evaluations in a unit of time at which the error is 1, by its leading term. It
+//! compares methods of one order at any accuracy. For an error `ε` the number is `n (C/ε)^{1/p}`, which compares methods
+//! of different orders (McLachlan 1995, §3; Blanes & Moan 2002, the effective error).
 
 use crate::arithmetic::rounding::to_f64;
 use crate::order::HamiltonianClass;
 use crate::tableau::Tableau;
 
 impl Tableau {
-    /// Force evaluations in a unit of time for an error of `tolerance`, `n (C/ε)^{1/p}`, by the leading term of the
-    /// error for a class of Hamiltonians: a figure to compare methods by, not a bound.
+    /// Force evaluations in a unit of time for an error of `tolerance`, `n (C/ε)^{1/p}`, by the leading term of the error
+    /// for a class of Hamiltonians. This figure compares methods; it is not a bound.
     ///
-    /// `None` for methods that solve for their stages, for those that are only known to have at least some order, and for
-    /// a method or a tolerance for which the figure is not finite.
+    /// `None` for methods that solve for their stages, for methods whose order is only a lower bound, and if the figure
+    /// is not finite.
     ///
     /// ```
     /// use symplectic_compiler::{catalogue, order::HamiltonianClass::Separable};

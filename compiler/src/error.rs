@@ -5,12 +5,12 @@ use std::ops::Range;
 
 use crate::formula::FormulaError;
 
-/// An input that cannot be compiled: what is wrong, where it stands, and what to do instead.
+/// An input that cannot be compiled: what is wrong, where, and what to do instead.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Error {
     /// What is wrong.
     pub kind: Box<ErrorKind>,
-    /// Where it stands, if the input was text.
+    /// The place, if the input was text.
     pub place: Option<Place>,
 }
 
@@ -39,9 +39,9 @@ pub enum ErrorKind {
     /// The text does not follow the grammar of expressions.
     #[error("{found}, expected {expected}")]
     Syntax {
-        /// What stands there.
+        /// The text found there.
         found: String,
-        /// What could have stood there.
+        /// The expected text.
         expected: String,
     },
     /// A formula that no system can have.
@@ -55,19 +55,19 @@ pub enum ErrorKind {
         /// Why.
         reason: &'static str,
     },
-    /// A method of which no stepper can be written.
+    /// A method for which no stepper can be written.
     #[error("no stepper of this method can be written: {reason}")]
     NoStepper {
         /// Why, and what to do.
         reason: &'static str,
     },
-    /// A system of which no velocity and force can be written beside a stepper.
+    /// A system for which no velocity and force can be written with a stepper.
     #[error("no stepper of this system can be written: it has {what}")]
     NoStepperOfSystem {
         /// What cannot be written, and what to do.
         what: &'static str,
     },
-    /// A method of which no theorem can be written for a proof assistant.
+    /// A method for which no theorem can be written for a proof assistant.
     #[error("no theorem of this method can be written for Coq: {reason}")]
     NoTheorem {
         /// Why.
@@ -76,9 +76,9 @@ pub enum ErrorKind {
     /// A parenthesis or bracket without its partner.
     #[error("`{bracket}` has no matching `{partner}`")]
     Unbalanced {
-        /// The lonely bracket.
+        /// The unmatched bracket.
         bracket: char,
-        /// What is missing.
+        /// The missing character.
         partner: char,
     },
     /// A function or a name that does not exist here.
@@ -96,7 +96,7 @@ pub enum ErrorKind {
     Arguments {
         /// The function.
         function: String,
-        /// The arguments it takes.
+        /// The expected arguments.
         expected: String,
         /// What was written.
         found: String,
@@ -104,7 +104,7 @@ pub enum ErrorKind {
     /// A division by zero.
     #[error("division by zero")]
     DivisionByZero,
-    /// A constant that cannot be told from zero where that matters.
+    /// A constant that cannot be distinguished from zero where this matters.
     #[error(
         "cannot decide whether {constant} is zero (|x| < 2^-{bits}); write 0 if it is, or write it in another form"
     )]
@@ -121,7 +121,7 @@ pub enum ErrorKind {
         value: String,
         /// The function.
         function: &'static str,
-        /// Which arguments it takes.
+        /// The arguments that it needs.
         needs: &'static str,
     },
     /// A root of a polynomial that does not exist.
@@ -129,7 +129,7 @@ pub enum ErrorKind {
     RootIndex {
         /// The polynomial.
         polynomial: String,
-        /// The number that was asked for.
+        /// The requested number.
         index: String,
         /// How many real roots there are.
         real: usize,
@@ -139,7 +139,7 @@ pub enum ErrorKind {
         "{found} is not supported: {reason}; supported are sums of products of t^k and sin, cos, exp, cosh, sinh of q*t + c with q rational, a rational multiple of pi or a sum of both, and constant multiples of tan(q*t) with |q| < pi/2"
     )]
     FunctionClass {
-        /// What stands there.
+        /// The text found there.
         found: String,
         /// Why it is not supported.
         reason: &'static str,
@@ -155,7 +155,7 @@ pub enum ErrorKind {
     /// A value of the wrong kind.
     #[error("found {found}, expected {expected}")]
     Type {
-        /// What stands there.
+        /// The text found there.
         found: String,
         /// What is needed.
         expected: String,
@@ -189,7 +189,7 @@ pub enum ErrorKind {
         "{stages} stages exceed the limit of {limit}, beyond which a derivation may run for very long; raise it with `--max-stages {stages}` (in the macro `max_stages: {stages}`)"
     )]
     TooManyStages {
-        /// The stages asked for.
+        /// The requested stages.
         stages: String,
         /// The limit in force.
         limit: usize,
@@ -199,7 +199,7 @@ pub enum ErrorKind {
     TooFewStages {
         /// The rule.
         rule: &'static str,
-        /// The nodes asked for.
+        /// The requested nodes.
         stages: String,
         /// The smallest number of nodes.
         minimum: usize,
@@ -211,7 +211,7 @@ pub enum ErrorKind {
     ComplexNodes {
         /// The rule.
         rule: &'static str,
-        /// Nodes asked for.
+        /// The requested nodes.
         stages: usize,
         /// How many of them are real.
         real: usize,
@@ -260,7 +260,7 @@ pub enum ErrorKind {
         /// A combination of the basis that vanishes at all nodes.
         combination: String,
     },
-    /// Basis functions that cannot be told from dependent ones on the nodes.
+    /// Basis functions that cannot be distinguished from dependent ones on the nodes.
     #[error(
         "the matrix of the basis at the nodes cannot be told from a singular one: as far as enclosures tell, {combination} vanishes at every node; change a node or a basis function"
     )]
@@ -318,7 +318,7 @@ pub enum ErrorKind {
         /// Its node.
         node: String,
     },
-    /// A weight that cannot be told from zero.
+    /// A weight that cannot be distinguished from zero.
     #[error(
         "the weight b_{index} cannot be told from zero, |b_{index}| ≤ 2^-{bits}, and ã_{index}j = (b_{index} b_j − b_j a_j{index})/b_{index} divides by it; choose other nodes, another basis or other weights"
     )]
@@ -339,7 +339,7 @@ pub enum ErrorKind {
     Mismatch {
         /// The first entry that does not fit.
         entry: String,
-        /// What the file says.
+        /// The entry in the file.
         found: String,
         /// What it should say.
         expected: String,
@@ -347,7 +347,7 @@ pub enum ErrorKind {
     /// A printed number that the exact method of the claimed order does not round to. The method is right; its print is not.
     #[error("{message}")]
     WrongDigits {
-        /// Which one, and the right one.
+        /// The wrong number, and the right one.
         message: String,
     },
     /// Printed coefficients that are not those of a method with the claimed order.

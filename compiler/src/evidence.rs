@@ -9,8 +9,8 @@ pub enum Evidence {
     Certified,
     /// It does not hold, by exact arithmetic or by an enclosure that excludes it.
     Refuted,
-    /// Known only up to enclosures: each number that has to vanish is at most `2⁻ᵇⁱᵗˢ` in size, compared with the largest
-    /// term of the sum that it is or with 1, and all inequalities are proved. That is no proof.
+    /// Known only up to enclosures: each number that has to vanish is at most `2⁻ᵇⁱᵗˢ` in size, relative to the largest
+    /// term of its sum or to 1. All inequalities are proved. This is not a proof.
     Verified {
         /// The width of the enclosures.
         bits: u32,

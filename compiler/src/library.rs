@@ -33,7 +33,7 @@ pub enum Library {
 }
 
 /// How a library steps a splitting: for each stage `i` a drift `q += drift_i h ∂T/∂p(p)` and a kick `p −= kick_i h ∂U/∂q(q)`, in
-/// this order or in the other one.
+/// this order or the reverse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Stepping {
     /// The library's name for the drifts.
@@ -44,7 +44,7 @@ pub struct Stepping {
     pub drifts_first: bool,
     /// Whether the lists are the first half of a step that is the same from both ends.
     pub mirrored: bool,
-    /// Where the library says so.
+    /// Where the library documents this.
     pub evidence: &'static str,
 }
 

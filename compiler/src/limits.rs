@@ -1,6 +1,6 @@
-//! Bounds on the work that an input can ask for.
+//! Bounds on the work for an input.
 
-/// Bounds on the work that an input can ask for.
+/// Bounds on the work for an input.
 ///
 /// The derivation of `s` stages takes time that grows roughly like `s³`, and with the length of the
 /// nodes (the book has measured figures).

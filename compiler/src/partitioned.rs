@@ -46,12 +46,12 @@ pub(crate) enum LowerTriangular {
 }
 
 impl LowerTriangular {
-    /// Whether a stage position has the drift of its own stage in it.
+    /// Whether a stage position contains the drift of its own stage.
     pub fn has_own_drift(self) -> bool {
         self == LowerTriangular::DriftsFirst
     }
 
-    /// Whether a stage momentum has the kick of its own stage in it.
+    /// Whether a stage momentum contains the kick of its own stage.
     pub fn has_own_kick(self) -> bool {
         self == LowerTriangular::KicksFirst
     }
@@ -102,7 +102,7 @@ impl<T> Flows<T> {
         }
     }
 
-    /// The first half of an odd number of flows, with half of the one in the middle at its end.
+    /// The first half of an odd number of flows, with half of the middle flow at its end.
     pub fn first_half(mut self, halved: impl FnOnce(&T) -> T) -> Self {
         self.fractions.truncate(self.fractions.len() / 2 + 1);
         if let Some(middle) = self.fractions.last_mut() {
@@ -156,7 +156,7 @@ impl<A: StageAlgebra> Partitioned<A> {
     /// `ã_ij = (b_i b_j − b_j a_ji)/b_i`.
     ///
     /// # Errors
-    /// The first stage whose weight vanishes, or cannot be told from zero, and which of the two.
+    /// The first stage whose weight vanishes or cannot be distinguished from zero, and which of the two.
     pub fn symplectic(algebra: Arc<A>, a: A::Matrix, b: A::Vector) -> Result<Self, (usize, Zero)> {
         let inverse = algebra.reciprocal(&b)?;
         let one = algebra.constant(&BigRational::one());
@@ -204,8 +204,8 @@ impl<A: StageAlgebra> Partitioned<A> {
     /// The adjoint method, the inverse of the step with `−h`: `a*_ij = b_j − a_ij` and
     /// `ã*_ij = b̃_j − ã_ij`, `b* = b`, `b̃* = b̃` up to the order of the stages (GNI II.3).
     ///
-    /// The stages keep their labels, so that the adjoint of the adjoint is the method itself; in the
-    /// order of ascending `c*` they stand in reverse.
+    /// The stages keep their labels, so the adjoint of the adjoint is the method itself. In the order of ascending `c*`
+    /// they are reversed.
     #[must_use]
     pub fn adjoint(&self) -> Self {
         let algebra = &self.algebra;
@@ -255,7 +255,7 @@ impl<A: StageAlgebra> Partitioned<A> {
         self.row_sums(&self.a_tilde)
     }
 
-    /// Whether the coefficients are those of a splitting as they stand; there may be splittings with other ones.
+    /// Whether the coefficients have the form of a splitting; other coefficients may also be splittings.
     pub(crate) fn lower_triangular(&self) -> Option<LowerTriangular> {
         let algebra = &*self.algebra;
         let steps = |positions, momenta| {

@@ -36,8 +36,8 @@ pub struct Provenance {
 /// $$ Q_i = q_0 + h \sum_j a_{ij} \frac{\partial H}{\partial p}(Q_j, P_j) \qquad
 /// P_i = p_0 - h \sum_j \tilde a_{ij} \frac{\partial H}{\partial q}(Q_j, P_j) $$
 ///
-/// with `c_i = Σ_j a_ij` and `c̃_i = Σ_j ã_ij`. Stages of a derived method are ordered by ascending
-/// nodes; those of its adjoint keep their labels, and those of a composition follow one another as the steps do. Nothing in it is a floating-point number.
+/// with `c_i = Σ_j a_ij` and `c̃_i = Σ_j ã_ij`. Stages of a derived method are ordered by ascending nodes. Those of its adjoint keep their
+/// labels, and those of a composition have the order of its steps. Nothing in it is a floating-point number.
 #[derive(Debug, Clone)]
 pub struct Tableau {
     pub(crate) name: Option<String>,
@@ -195,8 +195,8 @@ impl Tableau {
         self.stability.get_or_init(decided).clone()
     }
 
-    /// The interval `(0, ν)` of stable steps, of a splitting that reads the same from both ends: a bound that is proved in
-    /// a second also for hundreds of stages, for which [`Tableau::stability`] takes minutes.
+    /// The interval `(0, ν)` of stable steps of a palindromic splitting. This bound is proved in a second also for hundreds of stages, for
+    /// which [`Tableau::stability`] takes minutes.
     ///
     /// `None` for other methods, and where enclosures do not decide it: where the step is `±1` at the end of the
     /// interval, so that there may be more of it.

@@ -146,7 +146,7 @@ impl Ball {
         Interval { low, high, bits }
     }
 
-    /// What is known about whether the number equals a rational.
+    /// Whether the number equals a rational, if this can be decided.
     pub fn difference(&self, value: &BigRational) -> Zero {
         // Both ends and the number as multiples of a power of two.
         let up = (-self.exponent).max(0);

@@ -193,9 +193,9 @@ impl Constants {
         &self.field
     }
 
-    /// The smallest field known to hold all constants. `None` if they are not algebraic over one
-    /// transcendental number, π, `e^{1/n}` or `tan(1/(2n))`, or if a degree exceeds the bounds of number
-    /// fields, or of rational functions for this number of constants.
+    /// The smallest field known to hold all constants. `None` if they are not algebraic over one transcendental number: π, `e^{1/n}`
+    /// or `tan(1/(2n))`. Also if a degree exceeds the bounds of number fields, or of rational functions for this number of
+    /// constants.
     pub fn containing<'a>(constants: impl IntoIterator<Item = &'a Constant>) -> Option<Self> {
         let constants: Vec<&Constant> = constants.into_iter().collect();
         let mut parts = Parts::default();

@@ -12,7 +12,7 @@ use crate::symbolic::Constant;
 /// A field of real numbers.
 pub trait Field: Debug + PartialEq {
     /// Its elements. Equal elements are equal numbers. If equal numbers may be different elements,
-    /// [`Field::zero`] tells what is known.
+    /// [`Field::zero`] decides as far as possible.
     type Element: Clone + Debug + PartialEq;
 
     /// A rational number.

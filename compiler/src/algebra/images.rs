@@ -4,8 +4,8 @@ use super::field::{ConstantField, FieldElement};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::prime_field::{PrimeField, large_primes};
 
-/// A homomorphism to the field with `p` elements from the elements of `Q(θ)(X)` whose denominators it does not
-/// map to zero: `θ` is mapped to a root of its equation modulo `p`, and `X` to some residue.
+/// A homomorphism from `Q(θ)(X)` to the field with `p` elements: `θ` is mapped to a root of its equation
+/// modulo `p`, and `X` to some residue. It is defined if the denominator is not mapped to zero.
 #[derive(Debug, Clone, Copy)]
 pub struct Image {
     /// The field of the images.
@@ -37,7 +37,7 @@ impl Image {
         (0..).zip(found).map(image).take(count).collect()
     }
 
-    /// The image of an element; `None` if a denominator goes to zero.
+    /// The image of an element; `None` if a denominator is mapped to zero.
     pub fn of(&self, element: &FieldElement) -> Option<u64> {
         let denominator = self.polynomial(element.denominator())?;
         if denominator == 0 {

@@ -128,7 +128,7 @@ impl Number<'_> {
         }
     }
 
-    /// What is known about whether the number equals a rational.
+    /// Whether the number equals a rational, if this can be decided.
     pub fn difference(&self, value: &BigRational) -> Zero {
         let equal = match self {
             Number::Rational(known) => known == value,
@@ -155,7 +155,7 @@ impl Number<'_> {
         self.difference(value).may_be()
     }
 
-    /// What is known about whether the number is zero.
+    /// Whether the number is zero, if this can be decided.
     pub fn zero(&self) -> Zero {
         self.difference(&BigRational::zero())
     }

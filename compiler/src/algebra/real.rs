@@ -12,8 +12,8 @@ use crate::arithmetic::rational::{add, length, multiply};
 use crate::certify::{Affine, Certificate, Coefficient};
 use crate::symbolic::Constant;
 
-/// Binary places to which equations are verified, and to which a number is compared with zero when it is rounded.
-/// Half the smallest positive double is `2⁻¹⁰⁷⁵`, so that what is not told from zero is the double zero.
+/// Binary places to which equations are verified, and to which a number is compared with zero when it is rounded. Half the
+/// smallest positive double is `2⁻¹⁰⁷⁵`, so a number that is not distinguished from zero is the double zero.
 pub const ZERO_BITS: u32 = 1280;
 /// Binary places of smallness up to which no extra places are added.
 const USUAL_BITS: u64 = 256;
@@ -33,15 +33,14 @@ pub const ROUNDING_BITS: u32 = 8192;
 
 /// A real number: constants joined by field operations.
 ///
-/// The expression is a graph, not a tree: what is shared is evaluated once, and the finest enclosure so
-/// far is kept.
+/// The expression is a graph, not a tree: shared parts are evaluated once, and the finest enclosure so far is kept.
 #[derive(Debug, Clone)]
 pub struct Real(Arc<Expression>);
 
 #[derive(Debug)]
 struct Expression {
     operation: Operation,
-    /// The binary places beyond the usual ones that it takes to see the smallest of its numbers.
+    /// The additional binary places needed to resolve the smallest of its numbers.
     fineness: u32,
     finest: Mutex<Option<Interval>>,
 }
@@ -59,7 +58,7 @@ enum Operation {
 }
 
 impl Operation {
-    /// That of a sum is that of its finest term, that of a product the sum of those of its factors.
+    /// The fineness of a sum is that of its finest term; the fineness of a product is the sum over its factors.
     fn fineness(&self) -> u32 {
         match self {
             Operation::Rational(value) => beyond_usual(length(value)),
@@ -73,8 +72,8 @@ impl Operation {
 }
 
 impl Real {
-    /// The binary places beyond the usual ones that it takes to see the smallest of the numbers in the expression: a zero
-    /// is one only beyond these.
+    /// The additional binary places needed to resolve the smallest number in the expression; a zero is verified only beyond
+    /// them.
     pub(crate) fn fineness(&self) -> u32 {
         self.0.fineness
     }
@@ -113,8 +112,8 @@ impl Real {
         }
     }
 
-    /// The number as an affine function of the unknowns of one certificate, which is put in its place where none is known yet;
-    /// `None` where it is no such function.
+    /// The number as an affine function of the unknowns of `certificate`, which is set to the first certificate found; `None`
+    /// if the number is not such a function.
     pub(crate) fn affine(&self, certificate: &mut Option<Certificate>) -> Option<Affine> {
         let one = BigRational::one();
         match &self.0.operation {
@@ -187,8 +186,8 @@ impl Real {
         Some(value)
     }
 
-    /// What is known about whether the number equals a rational, from enclosures with as many binary places
-    /// as `limit` and those that it takes to see the smallest of its numbers.
+    /// Whether the number equals a rational, by enclosures with `limit` binary places and those needed to resolve the smallest
+    /// of its numbers.
     pub fn difference(&self, value: &BigRational, limit: u32) -> Zero {
         if let Some(known) = self.as_rational() {
             return if known == value { Zero::Yes } else { Zero::No };
@@ -325,6 +324,6 @@ impl Field for Reals {
     }
 }
 
-/// Binary places of the first enclosures, by which pivots are compared: those of [`Number::enclose`], so that
-/// everything is evaluated once with them.
+/// Binary places of the first enclosures, which compare pivots: those of [`Number::enclose`], so that everything is evaluated
+/// once with them.
 const PIVOT_BITS: u32 = 192;

@@ -33,7 +33,7 @@ pub trait StageAlgebra: Debug + PartialEq + Sized {
     /// `1/f_i`.
     ///
     /// # Errors
-    /// The first stage at which `f` vanishes, or cannot be told from zero, and which of the two.
+    /// The first stage at which `f` vanishes or cannot be distinguished from zero, and which of the two.
     fn reciprocal(&self, f: &Self::Vector) -> Result<Self::Vector, (usize, Zero)>;
     /// The numbers over which this is a linear algebra.
     fn constants(&self) -> &Self::Constants;
@@ -81,8 +81,8 @@ pub trait StageAlgebra: Debug + PartialEq + Sized {
     /// all equations are decided.
     fn verified_bits(&self) -> Option<u32>;
 
-    /// Whether `m_ij` is `b_j` below the diagonal, zero above it, and on it `b_j` if it is `filled` and zero otherwise:
-    /// all of that as elements, so that it is so for certain. An algebra may not look.
+    /// Whether `m_ij` is `b_j` below the diagonal and zero above it, and on it `b_j` if `filled`, otherwise zero. All of this holds
+    /// for the elements, so it is certain. An algebra may return `false` without looking.
     fn is_lower_triangular(&self, _m: &Self::Matrix, _b: &Self::Vector, _filled: bool) -> bool {
         false
     }
@@ -93,8 +93,8 @@ pub trait StageAlgebra: Debug + PartialEq + Sized {
         None
     }
 
-    /// The numbers of stages after which a step of several ends: `m_ij` is `b_j` for the stages `j` before and `i` after, and
-    /// zero for `i` before and `j` after; all of that as elements. An algebra may not look.
+    /// The numbers of stages after which one of several steps ends: `m_ij` is `b_j` for the stages `j` before and `i` after, and
+    /// zero for `i` before and `j` after. This holds for the elements. An algebra may return nothing without looking.
     fn ends_of_steps(&self, _m: &Self::Matrix, _b: &Self::Vector) -> Vec<usize> {
         Vec::new()
     }

@@ -1,9 +1,9 @@
 //! Compositions of Störmer–Verlet by printed weights: the exact weights near the digits are certified.
 //!
-//! Where a source has the drifts and kicks of such a method, the drifts are the weights. They are printed by their
-//! papers, and those of Kahan & Li and of Sofroniou & Spaletta also by Hairer, Lubich & Wanner (2006), in REBOUND
-//! (`integrator_janus.c`), in `locuoco/molecular_dynamics` and in Huayno (`integrators_shared.c`). Titles and names count
-//! the steps of Störmer–Verlet, `s` in Kahan & Li and `m` in McLachlan (1995).
+//! Where a source has the drifts and kicks of such a method, the drifts are the weights. Their papers print them. Those
+//! of Kahan & Li and of Sofroniou & Spaletta are also in Hairer, Lubich & Wanner (2006), REBOUND (`integrator_janus.c`),
+//! `locuoco/molecular_dynamics` and Huayno (`integrators_shared.c`). Titles and names count the steps of Störmer–Verlet,
+//! `s` in Kahan & Li and `m` in McLachlan (1995).
 
 use super::Row;
 

@@ -69,7 +69,7 @@ impl Entry {
     }
 }
 
-/// A method, or a family with one member for each number of stages, for which `{s}` stands.
+/// A method, or a family with one member for each number of stages `{s}`.
 struct Row {
     name: &'static str,
     title: &'static str,

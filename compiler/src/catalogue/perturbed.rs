@@ -1,9 +1,9 @@
 //! Splittings for nearly integrable systems `H = A + εB`, `A` solved by the drifts and `B` by the kicks.
 //!
-//! Order `(s₁, s₂, …)` is a local error `O(εh^{s₁+1} + ε²h^{s₂+1} + ⋯)`. The kicks and drifts of `SABA_n` and `SBAB_n` are
-//! the weights of the quadrature formulas of Gauss and Lobatto and the differences of their nodes, of order `(2n, 2)`;
-//! where they have no short closed form, their digits are certified with this order, and so are the others. The digits are
-//! those of `schema.f` of the IMCCE (Gastineau 2012) and of REBOUND (`integrator_saba.c`).
+//! Order `(s₁, s₂, …)` is a local error `O(εh^{s₁+1} + ε²h^{s₂+1} + ⋯)`. The kicks of `SABA_n` and `SBAB_n` are the
+//! weights of the Gauss and Lobatto formulas, and the drifts are the differences of their nodes; their order is `(2n, 2)`.
+//! Without a short closed form, their digits are certified with this order. The digits of the others are certified too.
+//! The digits are those of `schema.f` of the IMCCE (Gastineau 2012) and of REBOUND (`integrator_saba.c`).
 
 use super::Row;
 

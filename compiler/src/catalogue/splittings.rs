@@ -1,9 +1,9 @@
 //! Splittings and compositions for separable Hamiltonians with exact coefficients.
 //!
-//! Where a paper prints digits, the closed form is the solution of the order conditions that has these digits; the
-//! test `splittings` holds both against each other, and the orders are proved like those of any other method. The
-//! letters: drifts and kicks here are `a_i`, `b_i` in McLachlan (1995) and `c_i`, `d_i` in Ruth (1983), Forest & Ruth
-//! (1990) and Yoshida (1990).
+//! If a paper prints digits, the closed form is the solution of the order conditions with these digits. The test
+//! `splittings` compares both, and the orders are proved like those of any other method. The letters: drifts and
+//! kicks here are `a_i`, `b_i` in McLachlan (1995) and `c_i`, `d_i` in Ruth (1983), Forest & Ruth (1990) and Yoshida
+//! (1990).
 
 use super::Row;
 

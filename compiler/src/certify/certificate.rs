@@ -295,8 +295,8 @@ impl Certificate {
         &self.0.suspects
     }
 
-    /// The radius around the printed values of the free unknowns within which the solution is unique, with the others
-    /// fixed; `None` if the method is exact, or if the digits are too far away for a proof.
+    /// The radius around the printed values of the free unknowns within which the solution is unique, with the others fixed. `None`
+    /// if the method is exact, or if the digits are too far away for a proof.
     pub fn uniqueness_radius(&self) -> Option<&BigRational> {
         let Uniqueness {
             proof,
@@ -323,9 +323,8 @@ impl Certificate {
         self.0.targets.iter().find(|t| t.name == coefficient)
     }
 
-    /// The value of a coefficient, if it is known to be rational: a fixed coefficient, one that a linear condition
-    /// determines from such coefficients, or any coefficient of a method whose coefficients are all known to be
-    /// rational.
+    /// The value of a coefficient, if it is known to be rational. This holds for fixed coefficients, for those that a linear
+    /// condition determines from such coefficients, and if all coefficients are known to be rational.
     pub fn rational(&self, coefficient: Coefficient) -> Option<BigRational> {
         self.target(coefficient)?.rational(&self.0.solution)
     }

@@ -11,15 +11,14 @@
 //! and has order `p` for every separable `H` if `S = exp(A + B)` in the free associative algebra up to the
 //! degree `p` (GNI III.5; Murua & Sanz-Serna 1999).
 //!
-//! **Lyndon words suffice.** Both sides are exponentials of Lie series, so for both the map of a word to its coefficient
-//! is a character of the shuffle algebra. The Lyndon words generate that algebra over ℚ
-//! (Radford 1979; Reutenauer, *Free Lie algebras*, theorem 6.1): a word is a polynomial in Lyndon words that have
-//! together the same letters. So if the coefficients of all Lyndon words of degree at most `p` are those of
-//! `exp(A + B)`, namely `1/|w|!`, then the same holds for all words.
+//! **Lyndon words suffice.** Both sides are exponentials of Lie series, so for both the map of a word to its coefficient is a
+//! character of the shuffle algebra. The Lyndon words generate that algebra over ℚ (Radford 1979; Reutenauer, *Free Lie
+//! algebras*, theorem 6.1): a word is a polynomial in Lyndon words that have together the same letters. So if the coefficients
+//! of all Lyndon words of degree at most `p` are those of `exp(A + B)`, namely `1/|w|!`, so are those of all words.
 //!
-//! **Symmetric methods need odd degrees only.** For a palindromic `S`, replacing `h` by `−h` gives the inverse,
-//! so `log S` is odd in `h`. If the conditions of all degrees below an even degree `2k` hold, then
-//! `log S = A + B + O(h^{2k+1})`, because its part of degree `2k` is zero: the conditions of degree `2k` hold too.
+//! **Symmetric methods need odd degrees only.** For a palindromic `S`, replacing `h` by `−h` gives the inverse, so `log S` is
+//! odd in `h`. If the conditions of all degrees below an even degree `2k` hold, then `log S = A + B + O(h^{2k+1})`, because
+//! its part of degree `2k` is zero. So the conditions of degree `2k` hold too.
 //!
 //! **Compositions of a symmetric method.** A symmetric basic method has the logarithm `hE₁ + h³E₃ + h⁵E₅ + ⋯`,
 //! and its composition with weights `w₁, …, w_s` is `∏ exp(w_i E₁ + w_i³ E₃ + ⋯)`. Over the letters `E₁, E₃, …`
@@ -27,12 +26,11 @@
 //! the coefficient 0. This is sufficient for every basic method, implicit ones included (McLachlan 1995;
 //! GNI V.3.2). There are 1, 1, 2, 4, 8 conditions of degree 1, 3, 5, 7, 9.
 //!
-//! **Perturbed systems**, `H = H_A + εH_B`, order `(s₁, s₂, …, s_m)` with `s₁ ≥ s₂ ≥ …`: the terms of `log S` with
-//! `j` letters `B` vanish up to the degree `s_j` (for `j > m`, `s_m`), apart from `A + B` (Blanes, Casas,
-//! Farrés, Laskar, Makazaga & Murua 2013; Laskar & Robutel 2001 for `m = 2`). The grades with `a` drifts
-//! and `j ≥ 1` kicks, `a + j > s_j`, span an ideal. If a word has any other grade, so do all words with at most as many
-//! of each letter, except powers of `A`, which `[A] = 1` determines. So the Lyndon
-//! words of the other grades are a sufficient set.
+//! **Perturbed systems**, `H = H_A + εH_B`. The order is `(s₁, s₂, …, s_m)` with `s₁ ≥ s₂ ≥ …` if the terms of `log S` with
+//! `j` letters `B` vanish up to the degree `s_j` (for `j > m`, `s_m`), apart from `A + B` (Blanes, Casas, Farrés, Laskar,
+//! Makazaga & Murua 2013; Laskar & Robutel 2001 for `m = 2`). The grades with `a` drifts and `j ≥ 1` kicks, `a + j > s_j`,
+//! span an ideal. If a word has any other grade, so do all words with at most as many of each letter, except powers of `A`,
+//! which `[A] = 1` determines. So the Lyndon words of the other grades are a sufficient set.
 
 use std::collections::BTreeMap;
 use std::fmt;

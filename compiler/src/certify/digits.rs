@@ -9,8 +9,8 @@ use super::linear::magnitude;
 use super::structure::Target;
 use crate::arithmetic::interval::Interval;
 
-/// Whether an exact method of the claimed order, with the structure that was read, has all printed digits: each
-/// coefficient rounds to its print, and equals a printed fraction or integer.
+/// Whether an exact method of the claimed order, with the structure that was read, has all printed digits. Then
+/// each coefficient rounds to its print, and equals a printed fraction or integer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Digits {
     /// The method of the certificate has all printed digits.

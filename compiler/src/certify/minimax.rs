@@ -1,8 +1,8 @@
 //! The point nearest to printed numbers, each distance measured in units of the number's last place: a linear programme.
 //!
-//! For rows `i` with a residual `r_i`, slopes `A_i` and half a unit `h_i > 0` of the last place, [`minimax`] finds the
-//! shift `y` with the smallest `t` such that `|r_i + A_i y| ≤ t h_i` for all `i`. It does so with the simplex method on the
-//! dual programme,
+//! For rows `i` with a residual `r_i`, slopes `A_i` and half a unit `h_i > 0` of the last place, [`minimax`] finds a shift
+//! `y`. It minimises `t` such that `|r_i + A_i y| ≤ t h_i` for all `i`. It does so with the simplex method on the dual
+//! programme,
 //!
 //! ```text
 //! max Σ μ_i r_i    with    Σ μ_i A_i = 0,    Σ |μ_i| h_i = 1,

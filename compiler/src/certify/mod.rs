@@ -24,13 +24,13 @@
 //! 2. Each structure has a sufficient set of order conditions ([`Conditions`], where they are derived), which
 //!    are polynomials in the unknowns with rational coefficients.
 //! 3. There may be more unknowns than conditions, as in methods whose authors minimised an error norm. Then the excess
-//!    unknowns are fixed at exact values ([`Certificate::fixed`]): first those that look exact in print, as
+//!    unknowns are fixed at exact values ([`Certificate::fixed`]): first those that look exact in print, such as
 //!    `0.28` or `0.5454…5455 = 6/11`, then those on which the conditions depend least.
 //! 4. Newton's iteration leads from the digits to a point, and Krawczyk's test in interval arithmetic proves that
 //!    this point is near an exact solution (Krawczyk 1969).
 //!
-//! The proof depends on none of the guesses: whatever structure was read and whichever unknowns were fixed, the
-//! method in the certificate has real coefficients that satisfy every order condition of the claim.
+//! The proof does not depend on the guesses. Whatever structure was read and whichever unknowns were fixed, the method
+//! in the certificate has real coefficients that satisfy every order condition of the claim.
 
 mod affine;
 mod certificate;

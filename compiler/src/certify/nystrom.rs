@@ -1,19 +1,18 @@
 //! Order conditions for kinetic energies that are quadratic in the momenta.
 //!
-//! The Lie derivatives of `T` and `U` correspond to `T` and `U` with the Poisson bracket. A Lie element with
-//! `a` letters `A` and `b` letters `B` has degree `a − b + 1` in `p` if `T` has degree 2 and `U` has degree 0,
-//! because each of the `a + b − 1` brackets takes one derivative with respect to `p`. So the elements with `b − a ≥ 2` vanish,
-//! and with them the ideal `J` of the free Lie algebra `L` which they generate (McLachlan 1995; Blanes &
-//! Moan 2002).
+//! The Lie derivatives of `T` and `U` correspond to `T` and `U` with the Poisson bracket. If `T` has degree 2 and `U` degree
+//! 0, a Lie element with `a` letters `A` and `b` letters `B` has degree `a − b + 1` in `p`: each of the `a + b − 1` brackets
+//! takes one derivative with respect to `p`. So the elements with `b − a ≥ 2` vanish, and with them the ideal `J` that they
+//! generate in the free Lie algebra `L` (McLachlan 1995; Blanes & Moan 2002).
 //!
-//! Conditions in the quotient. Let `I` be the two-sided ideal of the free associative algebra `F = U(L)` that
-//! `J` generates; as products of Lie derivatives its elements vanish too. Let `S = exp Z` with a Lie series
-//! `Z`, and let `Z ≡ A + B` modulo `J` hold in the degrees below `n`. The part of degree `n` of `exp Z` is then,
-//! modulo `I`, that of `exp(A + B + Z_n)`, in which `Z_n` occurs without any other factor, so that
-//! `S_n − exp(A + B)_n ≡ Z_n` (for `n = 1`, `Z₁ − A − B`). A linear form `φ` on `F_n` that vanishes on `I_n` has
-//! therefore the same value for both sides. Such forms whose restrictions to `L_n` are a basis of the dual of
-//! `L_n/(L_n ∩ I_n)` are a sufficient set of conditions of degree `n`: if all are satisfied, `Z_n` lies in `I`.
-//! No condition is superfluous, because `F/I = U(L/J)`, and `L ∩ I = J` by the theorem of Poincaré, Birkhoff and Witt.
+//! Conditions in the quotient. Let `I` be the two-sided ideal of the free associative algebra `F = U(L)` that `J` generates;
+//! as products of Lie derivatives its elements vanish too. Let `S = exp Z` with a Lie series `Z`, and let `Z ≡ A + B` modulo
+//! `J` hold in the degrees below `n`. The part of degree `n` of `exp Z` is then, modulo `I`, that of `exp(A + B + Z_n)`. There
+//! `Z_n` occurs without any other factor, so `S_n − exp(A + B)_n ≡ Z_n` (for `n = 1`, `Z₁ − A − B`). A linear form `φ` on
+//! `F_n` that vanishes on `I_n` has therefore the same value for both sides. Let the restrictions of such forms to `L_n` be a
+//! basis of the dual of `L_n/(L_n ∩ I_n)`. These forms are a sufficient set of conditions of degree `n`: if all are satisfied,
+//! `Z_n` lies in `I`. No condition is superfluous, because `F/I = U(L/J)`, and `L ∩ I = J` by the theorem of Poincaré,
+//! Birkhoff and Witt.
 //!
 //! `I` and `L` are graded by the numbers of both letters, so both are computed exactly, degree by degree.
 //! The dimensions of `L_n/J_n` are 2, 1, 2, 2, 4, 5, 10, 14, 25, 39 (Blanes, Casas &

@@ -116,8 +116,8 @@ impl Printed {
         })
     }
 
-    /// The exact number that the digits seem to stand for, if it is simple: the value of a fraction, of
-    /// a decimal with few digits, or the fraction that a long decimal rounds.
+    /// The exact number that the digits seem to represent, if it is simple: a fraction, a decimal with few digits, or the
+    /// fraction that a long decimal rounds.
     ///
     /// A decimal with `D` significant digits is taken for `a/b` if `|a|·b ≤ 10^(D/2)`, which happens by chance
     /// with a probability of about `10^(−D/2)`. The proofs do not depend on the guess: it only chooses

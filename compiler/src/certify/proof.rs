@@ -1,7 +1,7 @@
 //! The proof that an exact solution exists, and where it is unique.
 //!
-//! Let `F` be the residuals as a function of the free coefficients, `y` a point with exact dyadic coordinates,
-//! `C` a matrix, and `X` the cube of all `x` with `|x − y|_∞ ≤ ρ`. Interval arithmetic gives
+//! Let `F` be the residuals as a function of the free coefficients, and `y` a point with exact dyadic coordinates. Let `C` be a matrix,
+//! and `X` the cube of all `x` with `|x − y|_∞ ≤ ρ`. Interval arithmetic gives
 //!
 //! ```text
 //! δ ≥ ‖C F(y)‖_∞        and        ε ≥ ‖1 − C F'(X)‖_∞.
@@ -12,13 +12,12 @@
 //! and contracts it by `ε < 1`, so that it has exactly one fixed point in `X`. As `ε < 1`, `C` is regular, and the
 //! fixed point is a zero of `F`.
 //!
-//! **Uniqueness** in a cube `X` around any point, for instance the printed one, if `ε(X) < 1`: zeros `x, x'` in `X`
-//! have `0 = C(F(x) − F(x')) = C M (x − x')` with the mean `M ∈ F'(X)` of the derivative on the segment between
-//! them, and `CM` is regular.
+//! **Uniqueness** in a cube `X` around any point, for instance the printed one, follows from `ε(X) < 1`. Zeros `x, x'` in `X` have
+//! `0 = C(F(x) − F(x')) = C M (x − x')` with the mean `M ∈ F'(X)` of the derivative on the segment between them, and `CM` is regular.
 //!
 //! **Refinement.** In the same way the zero `x*` and another point `z` of `X` satisfy `C F(z) = CM(z − x*)`, so
-//! `‖z − x*‖_∞ ≤ ‖C F(z)‖_∞/(1 − ε)`: after any approximate iteration, one evaluation of `F` at `z`, rounded outward,
-//! encloses the solution anew. Simplified Newton iterations lead from one such `z` to the next, with more digits.
+//! `‖z − x*‖_∞ ≤ ‖C F(z)‖_∞/(1 − ε)`. After any approximate iteration, one evaluation of `F` at `z`, rounded outward, encloses the
+//! solution again. Simplified Newton iterations lead from one such `z` to the next, with more digits.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -130,8 +129,8 @@ impl<S: Equations> Proof<S> {
         sums.max().unwrap_or_else(BigInt::zero)
     }
 
-    /// The largest power of two for which it is proved that the solution is unique in the cube with that radius around
-    /// a point; `None` if the point is not near enough for a proof.
+    /// The largest power of two for which the solution is proved to be unique in the cube with that radius around a point; `None` if the
+    /// point is not near enough for a proof.
     pub fn unique_around(&self, start: &[BigRational]) -> Option<BigRational> {
         let enclosed: Vec<Interval> = {
             let enclose = |x| Interval::enclosing(x, self.bits);

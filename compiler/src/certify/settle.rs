@@ -12,11 +12,10 @@
 //! [`minimax`] finds the shift that brings all of them nearest to their prints, each measured by its own last place.
 //! Newton's iteration leads back to the manifold. This repeats until all round to their prints or no shift can help.
 //!
-//! **No method has all digits.** Let `p` be the print, `X` the box of all `x` that round to it, and `h` its half edges. For
-//! any numbers `μ` and `λ` let `φ(x) = Σ μ_i (L_i x − p_i) − λᵀF(x)`. At a method in `X`, `|φ(x)| ≤ Σ |μ_i| h_i`. But
-//! `|φ(x)| ≥ |φ(p)| − Σ_j |∂_jφ(X)| h_j` in all of `X`. If the second bound is larger than the first, no method has all
-//! digits: interval arithmetic proves it, and the `μ` of the linear programme with `λᵀF_B = Σ μ_i L_iB` are the numbers
-//! which show it.
+//! **No method has all digits.** Let `p` be the print, `X` the box of all `x` that round to it, and `h` its half edges. For any
+//! numbers `μ` and `λ` let `φ(x) = Σ μ_i (L_i x − p_i) − λᵀF(x)`. At a method in `X`, `|φ(x)| ≤ Σ |μ_i| h_i`. But
+//! `|φ(x)| ≥ |φ(p)| − Σ_j |∂_jφ(X)| h_j` in all of `X`. If the second bound is larger than the first, interval arithmetic proves that
+//! no method has all digits. The `μ` of the linear programme with `λᵀF_B = Σ μ_i L_iB` show it.
 
 use num_bigint::BigInt;
 use num_integer::Integer;

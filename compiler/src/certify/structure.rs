@@ -81,7 +81,7 @@ pub struct Unknown {
     pub name: Coefficient,
     /// The printed value.
     pub start: BigRational,
-    /// The exact value that the digits seem to stand for.
+    /// The exact value that the digits seem to represent.
     pub simple: Option<BigRational>,
     /// Whether the print is a fraction or an integer.
     pub exact: bool,

@@ -276,7 +276,7 @@ impl Base {
         }
     }
 
-    /// The tableau of the base, from which the requirements of a composition are decided, if it is symmetric.
+    /// The tableau of the base, if it is symmetric; the requirements of a composition are decided from it.
     fn symmetric(&self, what: &str, definition: &Definition) -> Result<Tableau, Error> {
         let at_base = |message: String| misfit_at(definition, Key::Base, message);
         let tableau = self

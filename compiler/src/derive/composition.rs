@@ -131,7 +131,7 @@ fn read_step(input: Input<'_>, range: Range<usize>, limits: &Limits) -> Result<S
     Ok(Step { fraction, method })
 }
 
-/// Reads the one constant in a range.
+/// Reads the single constant in a range.
 fn read_fraction(input: Input<'_>, range: Range<usize>) -> Result<Constant, Error> {
     let part = Input {
         text: &input.text[range.clone()],

@@ -1,10 +1,10 @@
 //! From a definition to the tableau (LZ §4.4, steps 1–5; T §2.2).
 //!
-//! The tier follows from the definition. Polynomial bases at all roots of one polynomial are derived in
-//! the node algebra; anything else in a constant field, if one holds all values and integrals of the
-//! basis, and as certified enclosures otherwise. Splittings and their compositions are derived in the field of
-//! their fractions. Results of [operations](crate::Tableau::concatenate) on tableaux
-//! are derived from the definitions of the operands by the same operations.
+//! The tier follows from the definition. Polynomial bases at all roots of one polynomial are derived in the node
+//! algebra. Anything else is derived in a constant field, if one holds all values and integrals of the basis,
+//! and otherwise as certified enclosures. Splittings and their compositions are derived in the field of their
+//! fractions. Results of [operations](crate::Tableau::concatenate) on tableaux are derived from the definitions
+//! of the operands by the same operations.
 
 mod base_method;
 mod certified;
@@ -73,10 +73,9 @@ impl Definition {
     /// Derives the tableau, or returns all errors in the parts.
     ///
     /// # Errors
-    /// Wrong expressions, unknown names, too many stages, nodes that are equal or outside `[0, 1]`,
-    /// dependent functions, each at its place in the part; parts that do not go together;
-    /// [`ErrorKind::NotSquare`], [`ErrorKind::SingularBasis`], [`ErrorKind::ZeroWeight`] and the undecided cases
-    /// of the last two.
+    /// Wrong expressions, unknown names, too many stages, nodes that are equal or outside `[0, 1]`, dependent
+    /// functions, each at its place in the part. Incompatible parts; [`ErrorKind::NotSquare`],
+    /// [`ErrorKind::SingularBasis`], [`ErrorKind::ZeroWeight`] and the undecided cases of the last two.
     pub fn derive_or_all_errors(&self, limits: &Limits) -> Result<Tableau, Vec<Error>> {
         let problem = Problem::read(self, limits)?;
         problem.derive().map_err(|kind| vec![self.place(kind)])

@@ -74,8 +74,8 @@ impl Scheme {
 
     /// The fractions that turn a symmetric method of order `from` into one of order `to`.
     ///
-    /// All roots are powers of one number, `2^{1/n}` with the least common multiple `n` of the `p + 1`, if the
-    /// field that it generates is within the bounds of number fields; otherwise each root is a separate number.
+    /// All roots are powers of one number, `2^{1/n}` with the least common multiple `n` of the `p + 1`, if its
+    /// field is within the bounds of number fields. Otherwise each root is a separate number.
     ///
     /// # Errors
     /// None up to [`MAX_ORDER`]; [`ErrorKind::ExpressionSize`] if a constant would be too long.

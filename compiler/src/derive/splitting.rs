@@ -1,6 +1,6 @@
 //! Splittings: their definition and parsing.
 //!
-//! For `H = T(p) + U(q)` the two parts can be integrated exactly, and a splitting composes fractions of their flows
+//! For `H = T(p) + U(q)` the two parts can be integrated exactly. A splitting composes fractions of their flows
 //! (Ruth 1983; GNI II.5): for `i = 1, …, n`
 //!
 //! ```text

@@ -38,10 +38,9 @@ impl<'n, 'a> StagePolynomials<'n, 'a> {
 
     /// The extension of the velocities or of the forces of a step. The index of `kind` does not matter.
     ///
-    /// Let `ℓ_j` be the Lagrange polynomials of the nodes and `L_k` the Legendre polynomials on [0, 1]. Then
-    /// `ℓ_j = Σ_k γ_jk L_k`; an entry is `γ_jk`, or `γ_jk/b_j` where evaluations are increments. Returns `None` if nodes
-    /// coincide or if the weights are not the integrals of the `ℓ_j`: a polynomial through all evaluations would then not
-    /// lead to the end of the step.
+    /// Let `ℓ_j` be the Lagrange polynomials of the nodes and `L_k` the Legendre polynomials on [0, 1]. Then `ℓ_j = Σ_k γ_jk L_k`; an
+    /// entry is `γ_jk`, or `γ_jk/b_j` where evaluations are increments. Returns `None` if nodes coincide or if the weights are not the
+    /// integrals of the `ℓ_j`. A polynomial through all evaluations would then not lead to the end of the step.
     pub(super) fn extension(
         &self,
         graph: &StepGraph<'_>,

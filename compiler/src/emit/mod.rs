@@ -3,9 +3,9 @@
 //! The generated code names everything as `::symplectic::emitted::…`, or as `emitted::…` in a block that imports this module. It contains
 //! the coefficients as constants, each rounded correctly to a double. It also contains them in the form that the runtime computes with: the
 //! exact value rounded correctly to a double, the rest rounded to another, and the exact value rounded to a single. The single is infinite
-//! for a coefficient beyond the largest single, because the method is sound in doubles. For each class of Hamiltonians there is a plan of
-//! the step, or one for both, in which every evaluation and every sum is written once: no product with zero, equal stages computed once,
-//! explicit stages in order, and no evaluation that the previous step has made already.
+//! for a coefficient beyond the largest single, because the method is sound in doubles. For each class of Hamiltonians, or for both, there
+//! is a plan of the step. It contains every evaluation and every sum once: no product with zero, equal stages computed once, explicit
+//! stages in order, and no evaluation that the previous step has made already.
 
 mod constrained;
 mod dense_output;

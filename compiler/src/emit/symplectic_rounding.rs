@@ -1,10 +1,10 @@
 //! Coefficients relative to the weights, `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`, with which the stages are
 //! sums of increments: `Q_i = q0 + Σ_j μ_ij (h b_j velocity_j)`.
 //!
-//! A method is symplectic iff `μ̃_ij + μ_ji = 1`, which can hold exactly in floating-point arithmetic:
-//! the larger of the two, which is at least 1/2, is rounded correctly to x. The other one is 1 − x, which is exact
-//! for every double from 1/2 to 2⁵³. With correctly rounded `a_ij` the condition fails by a rounding error that is always the
-//! same, and the energy drifts (Hairer, McLachlan & Razakarivony, 2008; Antoñana, Makazaga & Murua, 2017).
+//! A method is symplectic iff `μ̃_ij + μ_ji = 1`. This can hold exactly in floating-point arithmetic: the larger of the two, which
+//! is at least 1/2, is rounded correctly to x. The other one is 1 − x, which is exact for every double from 1/2 to 2⁵³. With
+//! correctly rounded `a_ij` the condition fails by a rounding error that is always the same, and the energy drifts (Hairer,
+//! McLachlan & Razakarivony, 2008; Antoñana, Makazaga & Murua, 2017).
 
 use num_rational::BigRational;
 

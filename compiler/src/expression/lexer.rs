@@ -99,7 +99,7 @@ pub(crate) fn number_end(text: &str, start: usize) -> usize {
     end
 }
 
-/// The number that stands somewhere, exactly.
+/// The number in `span`, exactly.
 pub(crate) fn number(input: Input<'_>, span: Range<usize>) -> Result<BigRational, Error> {
     let text = &input.text[span.clone()];
     let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));

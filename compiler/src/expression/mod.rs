@@ -8,7 +8,7 @@
 //! ```
 //!
 //! Numbers are decimals and exact: `0.1` is 1/10. The command line, table files and the macro share
-//! this grammar; every node of the tree knows the bytes it was read from.
+//! this grammar; every node of the tree stores the range of bytes it was read from.
 
 mod lexer;
 mod parser;
@@ -44,7 +44,7 @@ pub const MAX_BITS: usize = 100_000;
 pub struct Expression {
     /// What it is.
     pub kind: ExpressionKind,
-    /// Where it stands.
+    /// Its place.
     pub span: Range<usize>,
     /// The height of the tree, which bounds every recursion over it.
     height: usize,
@@ -79,7 +79,7 @@ pub enum ExpressionKind {
     Call {
         /// The function.
         function: String,
-        /// Where its name stands.
+        /// The place of its name.
         name: Range<usize>,
         /// The arguments.
         arguments: Vec<Expression>,
@@ -90,9 +90,9 @@ pub enum ExpressionKind {
     Binary {
         /// The operator.
         operator: Operator,
-        /// What stands before it.
+        /// The left operand.
         left: Box<Expression>,
-        /// What stands after it.
+        /// The right operand.
         right: Box<Expression>,
     },
 }
@@ -122,7 +122,7 @@ pub struct Input<'a> {
 }
 
 impl<'a> Input<'a> {
-    /// The text of a file, without the byte-order mark that may stand at its start.
+    /// The text of a file, without a byte-order mark at its start.
     pub(crate) fn of_file(name: &'a str, text: &'a str) -> Self {
         let text = without_mark(text);
         Input { name, text }

@@ -41,7 +41,7 @@ pub fn parse_list(input: Input<'_>) -> Result<Vec<Expression>, Error> {
     }
 }
 
-/// A row of a matrix and where it stands.
+/// The place of a row of a matrix, and its entries.
 pub type Row = (Range<usize>, Vec<Expression>);
 
 /// Reads a list of lists in brackets, a row each: `[[0, 0], [1/2, 1/2]]`.

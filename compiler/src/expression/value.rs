@@ -174,7 +174,7 @@ mod tests {
     }
 
     proptest::proptest! {
-        /// Whatever is written, there is an answer, and an error stands at a part of the text.
+        /// Every text has an answer, and every error refers to a part of the text.
         #[test]
         fn any_text_has_an_answer(
             tokens in proptest::collection::vec(

@@ -21,8 +21,8 @@ pub struct Scatter {
     pub value: Id,
 }
 
-/// The derivatives of a node with respect to all coordinates of a half, times a factor. The node stands in the given loops, and the
-/// derivatives stay in them.
+/// The derivatives of a node with respect to all positions or all momenta, times a factor. The node is inside the given loops, and so are
+/// the derivatives.
 ///
 /// If a coordinate has several parts, they come in the order in which they are listed.
 pub fn gradient(

@@ -21,7 +21,7 @@ const MOST_CHARACTERS: usize = 8_000;
 /// Longest display on a page.
 const MOST_KATEX: usize = 2_000;
 
-/// The two halves of the equations of motion: what is differentiated by, what changes, and the sign.
+/// The equations of motion: what is differentiated by, what changes, and the sign.
 const HALVES: [(Half, Half, i64); 2] = [(Half::P, Half::Q, 1), (Half::Q, Half::P, -1)];
 
 impl System {

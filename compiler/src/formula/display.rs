@@ -21,7 +21,7 @@ pub enum Notation {
     Latex,
 }
 
-/// How strongly a formula holds together: what is weaker than its surroundings needs brackets.
+/// How strongly a formula binds: a formula weaker than its surroundings needs brackets.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Strength {
     Sum,

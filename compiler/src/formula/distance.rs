@@ -20,7 +20,7 @@ pub enum Distance {
     },
 }
 
-/// The largest distance of two coordinates that stand in the same loops.
+/// The largest distance of two coordinates inside the same loops.
 pub fn distance(system: &System, [a, b]: [&Coordinate; 2]) -> Option<Distance> {
     let components = system.layout.components() as i64;
     let within = a.component as i64 - b.component as i64;

@@ -2,7 +2,7 @@
 //!
 //! The numbers are elements of the field with 2⁶¹ − 1 elements. A nonzero rational function vanishes there at a random point with a
 //! probability of its degree over 2⁶¹. Sine and cosine are rational functions of a random number that depends on their argument, so that
-//! sin² + cos² = 1 holds, and likewise for hyperbolic functions and the exponential function; other functions have random values.
+//! sin² + cos² = 1 holds. The same is true of hyperbolic functions and the exponential function; other functions have random values.
 //! Zeros by other identities, such as the addition theorem of sin(a + b), are detected in doubles.
 
 use num_bigint::BigInt;

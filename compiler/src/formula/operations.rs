@@ -149,7 +149,7 @@ impl<'a> Operations<'a> {
         once.collect()
     }
 
-    /// Whether a reciprocal is not an operation of its own, but the division in the only product that contains it.
+    /// Whether a reciprocal is only the division in the single product that contains it, not a separate operation.
     ///
     /// This depends on all roots, not on the function that is written: two functions with the same operations round alike.
     pub fn is_division(&self, op: Op) -> bool {

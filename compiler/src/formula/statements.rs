@@ -173,7 +173,7 @@ impl Plan<'_> {
         self.operations.depends(op).loops & !block.scope.bound == 0
     }
 
-    /// Finds what is computed in a block, and how often it is used.
+    /// Finds the operations computed in a block, and how often each is used.
     fn collect(&self, block: &mut Block, tasks: &[Task]) {
         let mut seen = BTreeSet::new();
         // Operations, and whether they are needed in an inner block.

@@ -259,7 +259,7 @@ pub fn goes_over_all(system: &System, id: LoopId) -> bool {
     *start == Index::number(0) && *end == all
 }
 
-/// Whether parts of a derivative set each coordinate once: in a loop over all of them, or one by one.
+/// Whether parts of a derivative set each coordinate once: in a loop over all of them, or individually.
 pub fn each_once(system: &System, parts: &[Scatter]) -> bool {
     let components = system.layout.components();
     let distinct = |parts: &[Scatter]| {

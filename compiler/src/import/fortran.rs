@@ -10,9 +10,9 @@ use super::tokens::{Spanned, Token};
 use super::value::Value;
 use crate::library::Notation;
 
-/// Whether a text is Fortran. It has no braces outside comments, and one of these: a declaration with ` :: `, a line continued by `&`, a `data`
-/// statement, a line that begins with a keyword of Fortran, an element that gets a value with an exponent `d`; where the language is
-/// otherwise C, any element in round brackets that gets a value, in a text without `;`.
+/// Whether a text is Fortran. It has no braces outside comments, and one of these: a declaration with ` :: `, a line continued by `&`, a
+/// `data` statement, a line that begins with a keyword of Fortran, an element that is assigned a value with an exponent `d`. If the
+/// language is otherwise C, an assignment to any element in round brackets is enough, in a text without `;`.
 pub(super) fn is_fortran(text: &str, notation: Notation) -> bool {
     let braces = |line: &str| {
         line.split('!')

@@ -1,4 +1,4 @@
-//! The coefficients of methods one after another, in a field that holds those of all.
+//! The coefficients of methods in succession, in a common field.
 
 use std::ptr;
 use std::sync::Arc;
@@ -16,8 +16,8 @@ use crate::symbolic::Constant;
 /// The coefficients of `Φ^m_{γ_m h} ∘ … ∘ Φ^1_{γ_1 h}`, the first step first.
 ///
 /// # Errors
-/// [`ErrorKind::Definition`] where there is no method, [`ErrorKind::ExpressionSize`] where a node or a
-/// coefficient is beyond the bounds of constants.
+/// [`ErrorKind::Definition`] if there is no method, [`ErrorKind::ExpressionSize`] if a node or a coefficient exceeds the
+/// bounds of constants.
 pub(crate) fn concatenate(parts: &[(&Constant, &Exact)]) -> Result<Exact, ErrorKind> {
     if parts.is_empty() {
         return Err(ErrorKind::Definition {
@@ -95,8 +95,8 @@ enum Method<'a> {
     Reals(&'a Partitioned<Dense<Reals>>),
 }
 
-/// The entries of `a`, `ã`, `b` and `b̃`. What is equal for positions and momenta is there once, so that
-/// it stays the same in a field that does not compare expressions.
+/// The entries of `a`, `ã`, `b` and `b̃`. Values that positions and momenta share are stored once, so that they stay
+/// equal in a field that does not compare expressions.
 struct Coefficients<T> {
     a: Vec<Vec<T>>,
     b: Vec<T>,
@@ -186,7 +186,7 @@ impl<'a> Method<'a> {
         })
     }
 
-    /// The constants that the coefficients are polynomials of; `None` where there are none.
+    /// The constants of which the coefficients are polynomials; `None` if there are none.
     fn constants(&self) -> Option<Vec<&Constant>> {
         match self {
             Method::Nodes(_, nodes) => Some(nodes.iter().collect()),

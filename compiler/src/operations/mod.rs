@@ -17,8 +17,8 @@ use crate::tableau::Tableau;
 impl Tableau {
     /// The adjoint method `Φ*_h = Φ_{−h}⁻¹`: `a*_ij = b_j − a_ij` and `b* = b`, and the same with tildes.
     ///
-    /// The stages keep their labels, so that the adjoint of the adjoint is the method itself; in the order
-    /// of ascending `c*` they stand in reverse (GNI II.3, Theorem 3.3).
+    /// The stages keep their labels, so the adjoint of the adjoint is the method itself. In the order of ascending `c*`
+    /// they are reversed (GNI II.3, Theorem 3.3).
     ///
     /// ```
     /// let euler = symplectic_compiler::derive("1", "0")?;
@@ -68,8 +68,8 @@ impl Tableau {
         Tableau::concatenate(&[(step, self)])
     }
 
-    /// The composition `Φ ∘ Ψ`: a step of this method `Ψ` and then one of `next`, `Φ`, both of the whole
-    /// step `h`, so that the two together are a step of `2h`.
+    /// The composition `Φ ∘ Ψ`: a step of this method `Ψ` and then one of `next`, `Φ`. Both have the whole step `h`, so
+    /// together they are a step of `2h`.
     ///
     /// With the coefficients `a, b` of `Ψ` and `a', b'` of `Φ` it has the stages of both, in this order:
     ///
@@ -94,27 +94,26 @@ impl Tableau {
         Tableau::concatenate(&[(&one, self), (&one, next)])
     }
 
-    /// The composition `Φ^m_{γ_m h} ∘ … ∘ Φ^1_{γ_1 h}` of methods with fractions of the step, the first to be
-    /// made first (MW 2.5; GNI II.4). It has the stages of all methods, in this order:
+    /// The composition `Φ^m_{γ_m h} ∘ … ∘ Φ^1_{γ_1 h}` of methods with fractions of the step; `Φ^1` acts
+    /// first (MW 2.5; GNI II.4). It has the stages of all methods, in this order:
     ///
     /// ```text
     /// Q_i of method k = q0 + h Σ_{l<k} γ_l Σ_j bˡ_j ∂H/∂p(Q_j, P_j) + h γ_k Σ_j aᵏ_ij ∂H/∂p(Q_j, P_j)
     /// ```
     ///
-    /// and so with tildes for `P_i`, with the sign of the forces. No methods at all make the step that does nothing,
-    /// which has no stages and is refused.
+    /// and likewise with tildes for `P_i`, with the sign of the forces. An empty list of methods is rejected: its step does
+    /// nothing and has no stages.
     ///
-    /// Where all methods are splittings, so is the result: neighbouring drifts and kicks are one there, so that it has
-    /// fewer stages than the methods together.
+    /// If all methods are splittings, so is the result. It merges neighbouring drifts and kicks, so it has fewer stages than
+    /// the methods together.
     ///
-    /// The coefficients are in the field that the nodes or coefficients of all methods and the `γ_k` generate,
-    /// where it is a constant field, and otherwise certified enclosures. The result has no name and no source; its
-    /// definition is made of the definitions of the methods, and derives it again.
+    /// The coefficients are in the field that the nodes or coefficients of all methods and the `γ_k` generate, if it is
+    /// a constant field, and otherwise certified enclosures. The result has no name and no source; its definition
+    /// consists of the definitions of the methods, and derives it.
     ///
     /// # Errors
-    /// [`ErrorKind::Definition`] where there are no methods; [`ErrorKind::ExpressionSize`] where a node or
-    /// a coefficient is beyond the bounds of constants, or where compositions of compositions are too deep to be
-    /// read as a definition.
+    /// [`ErrorKind::Definition`] if there are no methods; [`ErrorKind::ExpressionSize`] if a node or a coefficient
+    /// exceeds the bounds of constants, or if compositions of compositions are too deep to be read as a definition.
     ///
     /// ```
     /// use symplectic_compiler::{Tableau, order::OrderOptions, symbolic::Constant};

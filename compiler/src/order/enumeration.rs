@@ -1,9 +1,8 @@
 //! All trees of a class, order by order.
 //!
-//! Every tree with more than one vertex is, in exactly one way, a smaller tree `rest` with an additional
-//! child `last` at its root that does not come before the other children in the enumeration. So
-//! orders grow from products of smaller ones without repetition, a tree takes 16 bytes, and `Φ(rest)`
-//! times the stages of `last` is `Φ` of the tree.
+//! Every tree with more than one vertex consists, in exactly one way, of a smaller tree `rest` and an additional child
+//! `last` at its root. In the enumeration `last` does not come before the other children. So orders grow from products of
+//! smaller ones without repetition, a tree takes 16 bytes, and `Φ(rest)` times the stages of `last` is `Φ` of the tree.
 
 use std::ops::Range;
 

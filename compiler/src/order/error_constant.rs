@@ -86,7 +86,7 @@ mod tests {
     use super::*;
     use crate::arithmetic::rational::ratio;
 
-    /// The residual of rounded numbers is passed over, unless there is no other.
+    /// The residual of rounded numbers is skipped, unless there is no other.
     #[test]
     fn leading_residuals_are_not_those_of_roundings() {
         let values = |residuals: &[(i64, i32)]| -> Vec<(Number<'static>, BigRational)> {

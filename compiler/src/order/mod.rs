@@ -18,10 +18,10 @@
 //! | all, three classes, Gauss with 5 stages | 20 ms | 60 ms | 0.3 s | 1.2 s | 6 s |
 //! | memory for that | 14 MB | 14 MB | 14 MB | 18 MB | 72 MB |
 //!
-//! Measured on one core, optimised. With the default options the methods of the catalogue take at most
-//! 0.1 s each, except the two of order 9, which take 1 s, and Gauss with 20 stages, order 40, which takes 0.2 s. Conditions of an
-//! order are not enumerated if they take more than ten million products of a coefficient and a stage, or four million if numbers are
-//! expressions. Then only the simplifying assumptions give information about that order.
+//! Measured on one core, optimised. With the default options the methods of the catalogue take at most 0.1 s each. The two of order
+//! 9 take 1 s, and Gauss with 20 stages, order 40, takes 0.2 s. Conditions of an order are not enumerated if they take more than ten
+//! million products of a coefficient and a stage, or four million if numbers are expressions. Then only the simplifying assumptions
+//! give information about that order.
 //!
 //! The order [observed](Tableau::observed_order) in a step of a pendulum does not use any of this.
 //!
@@ -325,8 +325,8 @@ fn class_order<A: StageAlgebra>(
     }
 }
 
-/// The order for a class up to a tolerance of the conditions, for rounded numbers, and the first condition that is violated
-/// by more than that; the order is at most `limit`.
+/// The order for a class up to a tolerance of the conditions, for rounded numbers, and the first condition violated by more than
+/// that. The order is at most `limit`.
 pub(crate) fn order_within<A: StageAlgebra>(
     pair: &Partitioned<A>,
     class: HamiltonianClass,

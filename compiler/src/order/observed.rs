@@ -22,7 +22,7 @@ const TERMS: usize = 24;
 /// Sweeps over the stages; each reduces the error by a factor proportional to `h`.
 const SWEEPS: usize = 64;
 
-/// A Hamiltonian of the pendulum; each is in the smallest class that it can stand for.
+/// A Hamiltonian of the pendulum; each represents the smallest class that contains it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pendulum {
     /// `H = p²/2 − cos q`, with quadratic kinetic energy.

@@ -8,15 +8,14 @@
 //! O(ε h^{s₁} + ε² h^{s₂} + ε³ h^{s₃} + ⋯):
 //! ```
 //!
-//! the terms of `log S` with `j` letters `B` vanish up to the degree `s_j`, apart from `A + B` (Blanes, Casas, Farrés,
-//! Laskar, Makazaga & Murua 2013). This holds if and only if the Lyndon words with `j` letters `B`, of degree at most
-//! `s_j`, have in `S` the coefficients that they have in `exp(A + B)`, `1/|w|!`; [`crate::certify`] gives the reason. So `s_m`
-//! is the largest degree up to which the conditions with at most `m` letters `B` hold, and the condition that refutes
-//! `s_m + 1` has a word.
+//! the terms of `log S` with `j` letters `B` vanish up to the degree `s_j`, apart from `A + B` (Blanes, Casas, Farrés, Laskar,
+//! Makazaga & Murua 2013). This holds if and only if the Lyndon words with `j` letters `B` and degree at most `s_j` have the
+//! same coefficients in `S` as in `exp(A + B)`, `1/|w|!`; [`crate::certify`] gives the reason. So `s_m` is the largest degree
+//! up to which the conditions with at most `m` letters `B` hold, and the condition that refutes `s_m + 1` has a word.
 //!
-//! The words with one letter `B` are quadrature conditions, `Σ k_i c_iⁿ = 1/(n + 1)` with the kicks `k_i` at the times `c_i`:
-//! `s₁` is the degree of the quadrature plus 1. The conditions of all words together are those for separable `H`, so that the
-//! orders decrease to the order `p` for these, with `s_{p−1} = p` at the latest.
+//! The words with one letter `B` are quadrature conditions, `Σ k_i c_iⁿ = 1/(n + 1)` with the kicks `k_i` at the times `c_i`.
+//! So `s₁` is the degree of the quadrature plus 1. The conditions of all words together are those for separable `H`, so that
+//! the orders decrease to the order `p` for these, with `s_{p−1} = p` at the latest.
 
 use std::fmt;
 
@@ -141,8 +140,8 @@ impl fmt::Display for ViolatedWord {
 }
 
 impl Tableau {
-    /// The order `(s₁, s₂, …)` for perturbed systems `H = H_A + εH_B` with drifts for `H_A` and kicks for `εH_B`,
-    /// computed on the first call; `None` for a method that is not a splitting for separable `H`.
+    /// The order `(s₁, s₂, …)` for perturbed systems `H = H_A + εH_B` with drifts for `H_A` and kicks for `εH_B`, computed on
+    /// the first call. `None` for a method that is not a splitting for separable `H`.
     ///
     /// The first order is determined up to [`MAX_PERTURBED_ORDER`], the others up to [`MAX_ORDER`].
     ///

@@ -4,15 +4,14 @@
 //! Nørsett & Wanner, *Solving ODEs I*, Theorem II.7.4: `p ≤ η + ζ + 1` and `p ≤ 2η + 2`). It does not require
 //! symplecticity.
 //!
-//! **Proof**, along the lines of Butcher's. Write `η_x`, `ζ_x` for the numbers of the matrix that belongs
-//! to children of colour `x`. Let a *generalised tree* have, besides vertices, factors `c` at vertices,
-//! each counted as one vertex of the order. Its weight has `c_i` there. Its required value is the
-//! weight under the exact flow, which is the method with the stages `0 ≤ t ≤ 1`, `Σ_j a_ij f_j = ∫_0^t f`
-//! and `c = t`. The exact flow satisfies all assumptions for all `k`, so each replacement below changes
-//! weight and required value in the same way. So it is enough to show that replacements lead every
-//! generalised tree of order `n ≤ p` to trees of lower order and to `Σ_i b_i c_i^(n−1)`, where `B` holds.
-//! The colour of the root does not matter, because `b = b̃`. The proof is by induction over the order and then over the
-//! number of vertices.
+//! **Proof**, along the lines of Butcher's. Write `η_x`, `ζ_x` for the numbers of the matrix that belongs to children
+//! of colour `x`. Let a *generalised tree* have, besides vertices, factors `c` at vertices, each counted as one vertex
+//! of the order. Its weight has `c_i` there. Its required value is the weight under the exact flow. This is the method
+//! with the stages `0 ≤ t ≤ 1`, `Σ_j a_ij f_j = ∫_0^t f` and `c = t`. The exact flow satisfies all assumptions for all
+//! `k`, so each replacement below changes weight and required value in the same way. So it is enough to show that
+//! replacements lead every generalised tree of order `n ≤ p` to trees of lower order and to `Σ_i b_i c_i^(n−1)`, where
+//! `B` holds. The colour of the root does not matter, because `b = b̃`. The proof is by induction over the order and
+//! then over the number of vertices.
 //!
 //! 1. A vertex of colour `x` other than the root that carries `k − 1` factors `c` and nothing else, with
 //!    `k ≤ η_x`, is replaced by `c^k/k` at its parent, by `C`. That leaves fewer vertices.
@@ -20,19 +19,18 @@
 //! 2. If no such vertex is left, each branch at the root has a lowest vertex, of some colour `y`, with
 //!    at least `η_y` factors `c`: the branch has order at least `η_y + 1`. Two branches would give
 //!    `n ≥ 2 min(η, η̂) + 3 > p`. So there is one branch, or none, which is `B`.
-//! 3. The root has `k − 1` factors `c` and one branch, whose own root has colour `x`. If that root is the
-//!    lowest vertex, the branch has order at least `η_x + 1` and `k ≤ n − η_x − 1 ≤ ζ_x`. If the lowest
-//!    vertex is a different one, of colour `y`, the order is at least `η_y + 2` and
-//!    `k ≤ n − η_y − 2 ≤ p − min(η, η̂) − 2 ≤ min(ζ, ζ̂) ≤ ζ_x`. In both cases `D` replaces
-//!    `Σ_i b_i c_i^(k−1) a_ij` by `b_j (1 − c_j^k)/k`: the root of the branch becomes the root, once with
-//!    order `n − k`, and once with `k` additional factors `c`, order `n` and one vertex less.
+//! 3. The root has `k − 1` factors `c` and one branch, whose own root has colour `x`. If that root is the lowest
+//!    vertex, the branch has order at least `η_x + 1` and `k ≤ n − η_x − 1 ≤ ζ_x`. If the lowest vertex is a different
+//!    one, of colour `y`, the order is at least `η_y + 2` and
+//!    `k ≤ n − η_y − 2 ≤ p − min(η, η̂) − 2 ≤ min(ζ, ζ̂) ≤ ζ_x`. In both cases `D` replaces `Σ_i b_i c_i^(k−1) a_ij` by
+//!    `b_j (1 − c_j^k)/k`. The root of the branch becomes the root, once with order `n − k`, and once with `k`
+//!    additional factors `c`, order `n` and one vertex less.
 //!
-//! The second case of step 3, for `y ≠ x`, is the difference from using Butcher's theorem with the smaller
-//! numbers of both matrices. Lobatto IIIA has `C(s)`, `D(s−2)`, IIIB `Ĉ(s−2)`, `D̂(s)`; the theorem gives
-//! `2s − 2`, the order of the quadrature (Jay 1996), whereas the smaller numbers give `2s − 3`. For a collocation
-//! method `a` at `s` nodes with a quadrature of order `s + m` and the `ã` that makes the pair symplectic, `C(s)`
-//! and `D(m)` hold, hence `D̂(s)` and `Ĉ(m)`, and the theorem gives `min(s + m, 2m + 2)`: Gauss `2s`, Radau
-//! `2s − 1`, Lobatto `2s − 2`.
+//! The second case of step 3, for `y ≠ x`, is the difference from using Butcher's theorem with the smaller numbers of
+//! both matrices. Lobatto IIIA has `C(s)`, `D(s−2)`, IIIB `Ĉ(s−2)`, `D̂(s)`; the theorem gives `2s − 2`, the order of
+//! the quadrature (Jay 1996), whereas the smaller numbers give `2s − 3`. Let `a` be a collocation method at `s` nodes
+//! with a quadrature of order `s + m`, and `ã` its symplectic partner. Then `C(s)` and `D(m)` hold, hence `D̂(s)` and
+//! `Ĉ(m)`, and the theorem gives `min(s + m, 2m + 2)`: Gauss `2s`, Radau `2s − 1`, Lobatto `2s − 2`.
 
 use num_rational::BigRational;
 use num_traits::One;

@@ -47,9 +47,9 @@ impl Colour {
 /// `Σ_i b_i Φ_i(τ) = 1/γ(τ)`. Here `Φ_i(τ)` is the product over the children `u` of the root of
 /// `Σ_j a_ij Φ_j(u)` for a child coloured `q` and `Σ_j ã_ij Φ_j(u)` for a child coloured `p`.
 ///
-/// It is written as the letter of its root and, in brackets, its children: `q[p,p[q]]` has a white root
-/// with a black leaf and a black child that has a white leaf. Four or more equal children are written once,
-/// with their number: `q[p^4]`.
+/// It is written as the letter of its root, followed by its children in brackets. `q[p,p[q]]` has a white root
+/// with a black leaf and a black child that has a white leaf. Four or more equal children are written once, with
+/// their number: `q[p^4]`.
 ///
 /// ```
 /// use symplectic_compiler::order::BicolouredTree;

@@ -1,20 +1,19 @@
 //! Trees without a root: the order conditions that remain for a symplectic method.
 //!
-//! Let `u` have a root coloured `q` and `v` a root coloured `p`, let `u∘v` be `u` with `v` as an additional
-//! child of its root, and write `φ` for elementary weights. `b_i ã_ij + b̃_j a_ji = b_i b̃_j` gives
+//! Let `u` have a root coloured `q` and `v` a root coloured `p`. Let `u∘v` be `u` with `v` as an additional child of its root, and
+//! write `φ` for elementary weights. `b_i ã_ij + b̃_j a_ji = b_i b̃_j` gives
 //!
 //! ```text
 //! φ(u∘v) + φ(v∘u) = Σ_ij Φ_i(u) (b_i ã_ij + b̃_j a_ji) Φ_j(v) = φ(u) φ(v)
 //! ```
 //!
-//! and the exact flow, being symplectic too, satisfies the same for `1/γ`. Hence if the conditions of
-//! lower orders hold, the residuals of `u∘v` and `v∘u` are equal up to the sign: the condition of a
-//! tree is equivalent to that of any tree that differs only in the place of the root (GNI VI.7). Moving the root along
-//! an edge keeps which end of the edge is differentiated by `q` and which by `p`: a child coloured `q`
-//! makes the old root a child coloured `p` and vice versa. In a separable class this leaves
-//! all colours unchanged. For general `H` the colour of the root itself does not matter if
-//! `b = b̃`, so the classes are trees with directed edges. For one tableau, `ã = a`, colours do not
-//! matter at all, and the condition of a tree `u∘u` follows from lower orders: it is superfluous.
+//! and the exact flow, being symplectic too, satisfies the same for `1/γ`. Hence if the conditions of lower orders hold, the
+//! residuals of `u∘v` and `v∘u` are equal up to the sign. The condition of a tree is equivalent to that of any tree that differs only
+//! in the place of the root (GNI VI.7). Moving the root along an edge does not change which end of the edge is differentiated by `q`
+//! and which by `p`: a child coloured `q` makes the old root a child coloured `p` and vice versa. In a separable class this leaves
+//! all colours unchanged. For general `H` the colour of the root itself does not matter if `b = b̃`, so the classes are trees with
+//! directed edges. For one tableau, `ã = a`, colours do not matter at all, and the condition of a tree `u∘u` follows from lower
+//! orders: it is superfluous.
 //!
 //! On the way the root may pass a Nyström vertex for `q'` with two neighbours: its tree is not in the
 //! class, but the identity still holds for it.
@@ -32,8 +31,8 @@ use super::enumeration::{TreeRule, Trees};
 use super::tree::{BicolouredTree, Colour};
 
 impl Trees {
-    /// One tree for each condition of this order that remains for a symplectic method, as `(rest, last)`;
-    /// the order is at least 2 and at most one higher than the highest.
+    /// One tree for each condition of this order that remains for a symplectic method, as `(rest, last)`. The order is at least 2 and
+    /// at most one higher than the highest.
     pub(super) fn representatives(&self, order: usize) -> impl Iterator<Item = (u32, u32)> {
         let products = self.products_with_last(order, order.div_ceil(2) + 1);
         products.filter(move |&(rest, last)| self.is_representative(order, rest, last))
@@ -69,8 +68,7 @@ impl Trees {
 impl BicolouredTree {
     /// The trees that differ from this one only in the place of the root, including this tree.
     ///
-    /// The colour of a new root is the one that it has as a child; its old parent gets the opposite
-    /// colour, see the head of this file.
+    /// A new root has the colour that it has as a child; its old parent gets the opposite colour. See the head of this file.
     pub fn rerooted(&self) -> BTreeSet<BicolouredTree> {
         let mut found = BTreeSet::from([self.clone()]);
         let mut pending = vec![self.clone()];

@@ -1,9 +1,8 @@
 //! Elementary weights over a pair of matrices, exactly.
 //!
-//! `Φ_i(u∘v) = Φ_i(u) Σ_j a_ij Φ_j(v)`, so if the stages of all smaller trees are stored, a tree takes one
-//! product of vectors, and a condition one inner product: in a node algebra a trace. For each tree
-//! `Φ_i`, `b_i Φ_i` and `Σ_j a_ij Φ_j` are stored, each computed when it is first needed.
-//! For conditions of the highest order nothing is stored.
+//! `Φ_i(u∘v) = Φ_i(u) Σ_j a_ij Φ_j(v)`. So if the stages of all smaller trees are stored, a tree takes one product of vectors,
+//! and a condition one inner product: in a node algebra a trace. For each tree `Φ_i`, `b_i Φ_i` and `Σ_j a_ij Φ_j` are stored,
+//! each computed when it is first needed. For conditions of the highest order nothing is stored.
 
 use std::cell::OnceCell;
 

@@ -10,8 +10,8 @@
 //! Enclosures prove `det X ≠ 0`. Whether `det X = 0` is decided exactly if the coefficients are in a field of constants: rational, algebraic,
 //! or rational in one transcendental number. For other expressions it remains undecided.
 //!
-//! Symplectic Euler has one stage, `Q_1 = q0`, and `φ(q1) = 0` takes the place of the conditions on stages (GNI VII.1): its end
-//! is a second stage of weight 0. Its adjoint has the stage `Q_1 = q1`, and the start is a stage of weight 0 before it.
+//! Symplectic Euler has one stage, `Q_1 = q0`, and `φ(q1) = 0` replaces the conditions on stages (GNI VII.1): its end is a second stage of
+//! weight 0. Its adjoint has the stage `Q_1 = q1`, and the start is a stage of weight 0 before it.
 
 use num_rational::BigRational;
 use num_traits::One;

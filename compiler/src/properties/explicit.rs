@@ -5,9 +5,9 @@ use crate::algebra::{Number, StageAlgebra};
 use crate::arithmetic::roots::compare;
 use crate::schedule::{Class, StageValue, StepGraph};
 
-/// Decides from the zeros of both matrices whether the stages can be computed one after another, for
-/// `H = T(p) + U(q)`, where `Q_i` needs the velocities at the `P_j` with `a_ij ≠ 0` and `P_i` needs the
-/// forces at the `Q_j` with `ã_ij ≠ 0`. Stages that coincide are one.
+/// Decides from the zeros of both matrices whether the stages can be computed in sequence for
+/// `H = T(p) + U(q)`. There `Q_i` needs the velocities at the `P_j` with `a_ij ≠ 0`, and `P_i` needs the
+/// forces at the `Q_j` with `ã_ij ≠ 0`. Stages that coincide count as one.
 ///
 /// Where the algebra does not look for coincidences of some stages, the property is refuted for certain
 /// only if they cannot coincide, because their `c` and `c̃` differ.

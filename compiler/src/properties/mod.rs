@@ -151,8 +151,7 @@ struct Examined<'a, A: StageAlgebra> {
     numbers: &'a Coefficients<Number<'a>>,
 }
 
-/// What is known of numbers that should all be zero: how it is known that they are, or the first that
-/// is not.
+/// Decides whether numbers are all zero: the evidence that they are, or the first that is not.
 fn vanishing<'a, 'n: 'a>(
     numbers: impl IntoIterator<Item = &'a Number<'n>>,
 ) -> Result<Evidence, usize> {

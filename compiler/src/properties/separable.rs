@@ -12,8 +12,8 @@ use crate::schedule::{Class, Groups};
 
 /// Properties of a method for `H = T(p) + U(q)`, which has them for every `H` or for these only.
 ///
-/// There a stage `Q_i` is seen by forces and a stage `P_i` by velocities only: it does not matter which of them have
-/// the same number, and a splitting may have other weights for positions than for momenta.
+/// There a stage `Q_i` enters only forces, and a stage `P_i` only velocities. So it does not matter which of them have the same number, and
+/// a splitting may have different weights for positions and momenta.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SeparableProperties {
     /// `b_i ã_ij + b̃_j a_ji = b_i b̃_j` (MW 2.6.7; GNI VI.4, Theorem 4.6).
@@ -33,7 +33,7 @@ impl SeparableProperties {
         all.get(index).copied()
     }
 
-    /// Decides both. `symmetric` is what is known of symmetry for every Hamiltonian.
+    /// Decides both. `symmetric` is the symmetry for every Hamiltonian, as far as known.
     ///
     /// A splitting is symplectic whatever its coefficients are: with the matrices of a [lower_triangular](Partitioned::lower_triangular) one of
     /// `b_i ã_ij` and `b̃_j a_ji` is `b_i b̃_j`, and the other is zero.
@@ -73,8 +73,8 @@ impl SeparableSymmetry for NodeAlgebra {
 }
 
 impl<F: Field + Clone> SeparableSymmetry for Dense<F> {
-    /// A method with a stage for each distinct position and one for each distinct momentum is equal to this one for
-    /// separable Hamiltonians, and an order of its stages is an order of each kind.
+    /// For separable Hamiltonians this method equals one with a stage for each distinct position and one for each distinct momentum. An
+    /// order of its stages is an order of each kind.
     fn separably_symmetric(pair: &Partitioned<Self>, _for_all: Property) -> Property {
         // Flows are their own adjoints.
         if pair.flows().is_some_and(|flows| flows.is_palindrome()) {

@@ -1,7 +1,7 @@
 //! Nodes and weights: the classical rules on `[0, 1]`, each a rational node polynomial.
 //!
-//! A family is a few lines of data in a file of its own: its name, its node polynomial, the degree of
-//! precision that the literature states, which the tests hold against the exact one.
+//! A family is a few lines of data in a separate file: its name, its node polynomial, and the degree of
+//! precision from the literature, which the tests compare with the exact one.
 
 mod chebyshev;
 mod clenshaw_curtis;

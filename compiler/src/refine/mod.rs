@@ -58,11 +58,10 @@ pub struct Refinement {
 /// ```
 ///
 /// # Errors
-/// [`ErrorKind::Document`](crate::ErrorKind::Document) for an invalid file: missing and unknown keys, texts that
-/// are not numbers, lists of different length, impossible claims.
-/// [`ErrorKind::NotCertified`](crate::ErrorKind::NotCertified) if the digits are not those of a method with the
-/// claimed order: they do not sum to 1, are too few, or no solution is near them. The error tells the distance of the
-/// nearest solution that was found. Each with its place in the file.
+/// [`ErrorKind::Document`](crate::ErrorKind::Document) for an invalid file: missing and unknown keys, texts that are not
+/// numbers, lists of different length, impossible claims. [`ErrorKind::NotCertified`](crate::ErrorKind::NotCertified) if
+/// the digits are not those of a method with the claimed order: they do not sum to 1, are too few, or no solution is near
+/// them. The error gives the distance of the nearest solution that was found. Each with its place in the file.
 pub fn refine(file_name: &str, text: &str) -> Result<Refinement, Error> {
     file::refine(crate::expression::Input::of_file(file_name, text))
 }

@@ -15,7 +15,7 @@ use crate::properties::{Properties, SeparableProperties};
 use crate::stability::StableSteps;
 use crate::tableau::Tableau;
 
-/// A requirement, as it stands in `require: […]`.
+/// A requirement, as written in `require: […]`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Requirement {
     /// A property of [`Properties::NAMES`].
@@ -52,7 +52,7 @@ impl Requirement {
     /// Reads a requirement.
     ///
     /// # Errors
-    /// [`ErrorKind::Unknown`] and [`ErrorKind::Type`] at the place of what is wrong.
+    /// [`ErrorKind::Unknown`] and [`ErrorKind::Type`] at the place of the error.
     ///
     /// ```
     /// use symplectic_compiler::Requirement;
@@ -214,8 +214,8 @@ impl fmt::Display for Requirement {
 }
 
 impl Tableau {
-    /// Decides a requirement. What is certified is proved. `accepted` are the binary places to which it is enough that equations are
-    /// verified; without them everything has to be proved.
+    /// Decides a requirement. Certified statements count as proved. `accepted` are the binary places to which it is enough that equations
+    /// are verified; without them everything has to be proved.
     ///
     /// # Errors
     /// [`ErrorKind::Requirement`] with the witness where it is refuted, [`ErrorKind::NotProved`] where it is

@@ -7,7 +7,7 @@ use crate::expression::shown;
 use crate::order::{PowerOrder, listed};
 use crate::tableau::Tableau;
 
-/// Whether what stands before the sign asks for it.
+/// Whether the text before the sign asks for this order.
 pub(super) fn is_meant(text: &str) -> bool {
     let letters = text.chars().filter(|c| !c.is_whitespace());
     letters.eq("order(perturbed)".chars())
@@ -76,7 +76,7 @@ impl Tableau {
         self.enough(requirement, evidence, accepted)
     }
 
-    /// The evidence for an order in a power of `ε` that is at most the one found: more may be given that far.
+    /// The evidence for at most the order found in a power of `ε`; it may be stronger up to the given order.
     fn evidence_to(&self, found: &PowerOrder, power: usize, order: usize) -> Evidence {
         match (found.evidence, &self.given) {
             (Evidence::Verified { .. }, Some(given)) if given.in_power(power) >= order => {

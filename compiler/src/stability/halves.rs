@@ -1,16 +1,16 @@
 //! The first stable steps of a palindromic (symmetric) splitting, from one half of it.
 //!
 //! Let `N = (a b; c d)` be the matrix of the first half, with the middle flow halved, and `R = diag(1, −1)`. Each flow satisfies
-//! `R F⁻¹ R = F`, so that the other half, the same flows in reverse, is `R N⁻¹ R = (d b; c a)`, and the step is
+//! `R F⁻¹ R = F`. So the other half, the same flows in reverse, is `R N⁻¹ R = (d b; c a)`, and the step is
 //!
 //! ```text
 //! M = R N⁻¹ R N = ⎛ ad + bc   2bd    ⎞      (tr M/2)² − 1 = 4abcd .
 //!                 ⎝ 2ac      ad + bc ⎠
 //! ```
 //!
-//! Near zero `a, d > 0`, `b > 0` and `c < 0`. So all steps are stable up to the first root of `a`, `b/ν`, `c/ν` or `d`,
-//! which are polynomials in `x = ν²` of half the degree of the trace. As `ad − bc = 1`, a root of exactly one of
-//! them leaves one of the entries `2bd` and `2ac` nonzero: that step is not stable, nor are those just after it.
+//! Near zero `a, d > 0`, `b > 0` and `c < 0`. So all steps are stable up to the first root of `a`, `b/ν`, `c/ν` or `d`, which
+//! are polynomials in `x = ν²` of half the degree of the trace. Because `ad − bc = 1`, a root of exactly one of them leaves one
+//! of the entries `2bd` and `2ac` nonzero: that step is not stable, nor are those just after it.
 //!
 //! The trace comes close to ±2 wherever a step is close to a multiple of half a period. Its roots there are pairs whose
 //! distance is as small as the phase error; the roots of the four polynomials are well separated.

@@ -21,9 +21,9 @@ use crate::expression::shown;
 /// symmetries of the functions: constants that are equal for these reasons have equal trees. [`Eq`] compares trees;
 /// different trees may have the same value.
 ///
-/// Every operation can return three errors: [`ErrorKind::ExpressionSize`] if its result would exceed a limit of
-/// [`crate::symbolic`], [`ErrorKind::Undecided`] if it depends on whether a constant is zero and this could not be
-/// decided, and [`ErrorKind::Magnitude`] if its result would be too large or too small.
+/// Every operation can return three errors. [`ErrorKind::ExpressionSize`]: its result would exceed a limit of
+/// [`crate::symbolic`]. [`ErrorKind::Undecided`]: its result depends on whether a constant is zero, and this could not
+/// be decided. [`ErrorKind::Magnitude`]: its result would be too large or too small.
 #[derive(Clone)]
 pub struct Constant(Arc<Node>);
 

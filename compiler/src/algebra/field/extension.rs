@@ -88,14 +88,14 @@ impl NumberField {
         )
     }
 
-    /// The smallest field that contains this one and a real root `β` of a monic squarefree polynomial
-    /// over this field, lowest degree first, given by enclosures that shrink as the places grow.
+    /// The smallest field that contains this field and a real root `β` of a monic squarefree polynomial over
+    /// it. The lowest degree comes first; enclosures of `β` shrink as the places grow.
     ///
     /// In `A = Q(θ)[y]/(q)`, whose dimension is the number of its embeddings `(θ_i, β_ij)`, `u = θ + k y` takes
     /// a different value in each, for some small `k`. The sums of its powers over all embeddings give the
-    /// characteristic polynomial `R` of `u`, and `Q(θ, β) = Q(u)` is given by the irreducible factor of `R`
-    /// that vanishes at the real number `θ + k β`. There `θ = g(u)/R'(u)`, where `g` interpolates the
-    /// traces `Tr(θ uᵏ)` (the rational univariate representation; Rouillier 1999).
+    /// characteristic polynomial `R` of `u`. The irreducible factor of `R` that vanishes at the real number
+    /// `θ + k β` defines `Q(θ, β) = Q(u)`. There `θ = g(u)/R'(u)`, where `g` interpolates the traces `Tr(θ uᵏ)`
+    /// (the rational univariate representation; Rouillier 1999).
     pub(super) fn adjoin_root(
         &self,
         monic: &[Polynomial],

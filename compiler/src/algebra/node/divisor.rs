@@ -7,11 +7,11 @@ use crate::arithmetic::roots::Root;
 /// Whether `T(c_row, c_column) = 0`, decided exactly.
 ///
 /// Over the field `Q(c_row)` the zeros of `T(c_row, y)` among the nodes are the roots of
-/// `g(y) = gcd(m(y), T(c_row, y))`. The Euclidean algorithm runs over `Q[x]/(M)` where `M` starts as
-/// the node polynomial; whenever a leading coefficient is neither zero nor a unit there, its common
-/// divisor with `M` splits `M`, and the computation continues with the factor that has `c_row` as a root (dynamic
-/// evaluation: Della Dora, Dicrescenzo, Duval 1985). The degree of `g` is the number of vanishing entries of the
-/// row, and enclosures are refined until they exclude all the others.
+/// `g(y) = gcd(m(y), T(c_row, y))`. The Euclidean algorithm runs over `Q[x]/(M)`, where `M` starts as the node
+/// polynomial. If a leading coefficient is neither zero nor a unit there, its common divisor with `M` splits `M`.
+/// The computation continues with the factor that has `c_row` as a root (dynamic evaluation: Della Dora,
+/// Dicrescenzo, Duval 1985). The degree of `g` is the number of vanishing entries of the row, and enclosures are
+/// refined until they exclude all the others.
 pub(super) fn vanishes(algebra: &NodeAlgebra, tensor: &Tensor, row: usize, column: usize) -> bool {
     let dimension = algebra.dimension();
     let zeros = zeros_in_row(algebra, tensor, &algebra.roots()[row]);

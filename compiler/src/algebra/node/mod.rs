@@ -1,10 +1,9 @@
 //! The node algebra `K = Q[x]/(m)`: exact arithmetic on functions of the nodes.
 //!
-//! If the nodes `c_1 < … < c_s` are the roots of a squarefree rational polynomial `m`, a quantity with
-//! one index is a polynomial `f` modulo `m` with `f_i = f(c_i)`, and a quantity with two indices is an
-//! element of `K ⊗ K`, a polynomial in `x` and `y` modulo `m(x)` and `m(y)`. Sums over nodes are
-//! traces. `m` may be reducible; no splitting field is ever built, and no root is approximated to
-//! derive or to prove anything.
+//! Let the nodes `c_1 < … < c_s` be the roots of a squarefree rational polynomial `m`. A quantity with one index is
+//! a polynomial `f` modulo `m` with `f_i = f(c_i)`. A quantity with two indices is an element of `K ⊗ K`, a
+//! polynomial in `x` and `y` modulo `m(x)` and `m(y)`. Sums over nodes are traces. `m` may be reducible; no
+//! splitting field is ever built, and no root is approximated to derive or to prove anything.
 
 mod closed_form;
 mod divisor;

@@ -57,7 +57,7 @@ pub struct Writer<'a> {
     pub(super) prefix: String,
     /// The code for a pair that is out of range.
     pub(super) outside: TokenStream,
-    /// The argument that stands for every coordinate, in a function of one coordinate.
+    /// The argument that replaces every coordinate, in a function of one coordinate.
     pub(super) argument: Option<TokenStream>,
     /// Whether parameters have a value for each lane.
     pub(super) in_lanes: bool,

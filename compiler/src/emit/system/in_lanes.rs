@@ -12,7 +12,7 @@ use crate::formula::derivative::Scatter;
 pub(super) struct Lanes {
     /// The type of the joined systems.
     pub(super) system: TokenStream,
-    /// What the trait of the system says of it.
+    /// Its items in the trait of the system.
     pub(super) join: TokenStream,
 }
 

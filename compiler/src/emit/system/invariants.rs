@@ -1,4 +1,4 @@
-//! Functions for what is conserved, and observers of it.
+//! Functions for conserved quantities, and their observers.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -9,7 +9,7 @@ use crate::formula::Layout;
 use crate::formula::description::{conserves_energy, momenta};
 use crate::formula::graph::Id;
 
-/// A function for what is conserved.
+/// A function for a conserved quantity.
 struct Conserved {
     name: String,
     parts: Vec<Id>,
@@ -18,7 +18,7 @@ struct Conserved {
 }
 
 impl Emitter<'_> {
-    /// Functions for what is conserved, and observers of their values.
+    /// Functions for conserved quantities, and observers of their values.
     pub(super) fn invariants(&mut self) -> TokenStream {
         let mut code = TokenStream::new();
         let mut conserved = Vec::new();

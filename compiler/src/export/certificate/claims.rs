@@ -164,8 +164,8 @@ fn chain(stages: &Polynomial, numerator: &Polynomial, denominator: &Polynomial) 
     short.then(|| List(chain.iter().map(row).collect()))
 }
 
-/// All stable steps of an area-preserving method, and the trace if it is rational; `None` if an irrational one touches 2 or −2. Those of a
-/// solution of order conditions, which are verified here, the checker proves: it needs no zeros for a splitting.
+/// All stable steps of an area-preserving method, and the trace if it is rational; `None` if an irrational one touches 2 or −2. For a
+/// solution of order conditions they are verified here, and the checker proves them; it needs no zeros for a splitting.
 fn stability(tableau: &Tableau, lower_triangular: Option<LowerTriangular>) -> Option<Fact> {
     let StableSteps::All(found) = tableau.stable_steps() else {
         return None;

@@ -12,7 +12,7 @@ use crate::export::facts::Fact;
 
 use Fact::{List, Table};
 
-/// The splittings that are Störmer–Verlet as they stand.
+/// The splittings that are Störmer–Verlet themselves.
 const BASES: [&str; 2] = ["velocity-verlet", "position-verlet"];
 
 /// The binary places of the root.

@@ -24,8 +24,8 @@ const VERSION: usize = 1;
 /// Writes the certificate of a tableau as JSON.
 ///
 /// # Errors
-/// [`ErrorKind::NotCertified`] for a method whose coefficients are only enclosed: functions such as π and cosines of nodes together, and
-/// compositions in a field of degree above 32 that are no triple jump or Suzuki's fractal of Störmer–Verlet.
+/// [`ErrorKind::NotCertified`] for a method whose coefficients are only enclosed: functions such as π together with cosines of nodes,
+/// and compositions in a field of degree above 32, except triple jumps and Suzuki's fractals of Störmer–Verlet.
 ///
 /// ```
 /// use symplectic_compiler::{catalogue, export::certificate};

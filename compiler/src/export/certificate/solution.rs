@@ -156,7 +156,7 @@ impl Solution<'_> {
         here.iter().enumerate().map(row).collect()
     }
 
-    /// The flows one after another, without those of no length.
+    /// The flows in sequence, without those of zero length.
     fn flows(&self) -> Vec<(Kind, &Affine)> {
         let [drift, kick] = [Kind::Letter(DRIFT), Kind::Letter(KICK)];
         let each =

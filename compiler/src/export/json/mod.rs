@@ -14,11 +14,10 @@
 //! determine the tableau, and holds all parts of the [`Definition`](crate::Definition). `tier` is the name of the
 //! [`Tier`](crate::Tier).
 //!
-//! `exact` is an expression such as `1/2 - sqrt(3)/6` or `(pi - 4)/(4*pi)`, null if there is no readable
-//! form; `decimal` has the requested number of significant digits, correctly rounded (zero is `0`); `f64`
-//! and `f32` are the shortest decimals that read back to the correctly rounded floating-point numbers.
-//! `name` and `source` are strings or null. The keys of `properties` are
-//! [`Properties::NAMES`](crate::Properties::NAMES).
+//! `exact` is an expression such as `1/2 - sqrt(3)/6` or `(pi - 4)/(4*pi)`, or null if there is no readable form.
+//! `decimal` has the requested number of significant digits, correctly rounded (zero is `0`). `f64` and `f32` are
+//! the shortest decimals that read back to the correctly rounded floating-point numbers. `name` and `source` are
+//! strings or null. The keys of `properties` are [`Properties::NAMES`](crate::Properties::NAMES).
 
 mod read;
 mod write;

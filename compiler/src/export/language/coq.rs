@@ -152,7 +152,7 @@ fn symmetry(
     (None, "table no_images".to_owned())
 }
 
-/// The stages of a splitting with the same flows from both ends that drift and those that kick, without those of no time at either end.
+/// The drift stages and the kick stages of a palindromic splitting, without those of zero time at either end.
 fn used_stages(
     tableau: &Tableau,
     [drifts, kicks]: &[Vec<Polynomial>; 2],
@@ -211,7 +211,7 @@ fn in_nodes(table: &Table<'_>, pair: &Partitioned<NodeAlgebra>) -> Theorem {
     }
 }
 
-/// Whether the method equals its adjoint with the stages in reverse order: `c` goes to `1 − c`.
+/// Whether the method equals its adjoint with the stages in reverse order: `c` becomes `1 − c`.
 fn is_mirrored(table: &Table<'_>, pair: &Partitioned<NodeAlgebra>) -> bool {
     let properties = table.tableau.properties();
     let (modulus, node) = (pair.algebra.modulus(), pair.algebra.variable());

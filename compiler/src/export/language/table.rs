@@ -11,7 +11,7 @@ use crate::schedule::{Class, Node, StepGraph};
 use crate::stability::evidence_text;
 use crate::tableau::{Tableau, left_out};
 
-/// Longer exact forms are left out where decimals stand beside them.
+/// Longer exact forms are left out next to decimals.
 const LONGEST_EXACT: usize = 60;
 
 /// A tableau with its coefficients in all forms.
@@ -316,7 +316,7 @@ fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Words that are no names in C, Fortran, Julia or Python; those of Python in lower case.
+/// Words that cannot be names in C, Fortran, Julia or Python; those of Python in lower case.
 const KEYWORDS: &[&str] = &[
     "and",
     "as",
@@ -405,7 +405,7 @@ const KEYWORDS: &[&str] = &[
 /// The most letters of a name, less than the 63 of Fortran because more may follow.
 const MOST_LETTERS: usize = 40;
 
-/// A name of letters, digits and single underscores that begins with a letter and is no keyword.
+/// A name of letters, digits and single underscores that begins with a letter and is not a keyword.
 fn identifier(name: &str) -> String {
     let mut found = String::new();
     for c in name.chars() {

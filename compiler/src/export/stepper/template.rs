@@ -1,6 +1,6 @@
 //! Templates with placeholders for values.
 
-/// A template with its placeholders filled: `@name@` stands for the value of that name. Other text stays as it is, and values are not
+/// A template with its placeholders filled: `@name@` becomes the value of that name. Other text stays as it is, and values are not
 /// searched for placeholders.
 pub(super) fn fill(template: &str, values: &[(&str, &str)]) -> String {
     let mut text = String::with_capacity(template.len());

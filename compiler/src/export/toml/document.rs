@@ -26,7 +26,7 @@ pub(super) type Matrix = Spanned<Vec<List>>;
 pub(crate) struct Document {
     name: Option<String>,
     provenance: Spanned<ProvenanceTable>,
-    /// The data derived from the definition; a file written by a person has none.
+    /// The data derived from the definition; a file written by hand has none.
     pub(super) derived: Option<Derived>,
 }
 

@@ -33,8 +33,7 @@
 //! such as `"(pi - 4)/(4*pi)"`. If it is `enclosure`, there is no `[exact]`: the definition is the
 //! lossless part. The matrices of a splitting with more than 36 stages are left out, because its weights determine them.
 //!
-//! A person writes the definition only, and [`check`](crate::check()), [`read`] and the macro derive the
-//! rest:
+//! Write only the definition; [`check`](crate::check()), [`read`] and the macro derive the rest:
 //!
 //! ```toml
 //! name = "kutta-3"

@@ -321,7 +321,7 @@ impl Elaborator<'_> {
     }
 }
 
-/// The index that stands for the stretch of a bond among the positions.
+/// The index that represents the stretch of a bond among the positions.
 pub const STRETCH: Index = Index {
     base: Base::Start,
     offset: -1,

@@ -71,7 +71,7 @@ impl Masses {
         Masses::from(&mut system.graph, &parts, velocities.collect(), None)
     }
 
-    /// The masses from the momenta, which all stand in one loop or in none.
+    /// The masses from the momenta, which are all in one loop or all outside loops.
     fn from(
         graph: &mut Graph,
         parts: &[Scatter],

@@ -1,4 +1,4 @@
-//! What is not written so here, and what was probably meant.
+//! Unknown notation, and what was probably meant.
 
 use super::tokens::Token;
 use super::{Parser, VECTOR_FUNCTIONS, is_function};
@@ -8,7 +8,7 @@ use crate::formula::function::ELEMENTARY;
 use crate::formula::syntax::Name;
 
 impl Parser<'_> {
-    /// How to write what is written as in Rust or Python here.
+    /// The notation here for what is written as in Rust or Python.
     pub(super) fn instead(&self) -> Option<String> {
         let power = "`^` for a power: `x^2`";
         let before = self.next.checked_sub(1).map(|last| &self.tokens[last]);

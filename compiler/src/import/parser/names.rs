@@ -1,4 +1,4 @@
-//! What a name stands for: a variable, an element of a list, a call, or the type of a list.
+//! The meaning of a name: a variable, an element of a list, a call, or the type of a list.
 
 use std::ops::Range;
 

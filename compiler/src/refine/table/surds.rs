@@ -66,7 +66,7 @@ impl Scaled {
     }
 }
 
-/// A text for each of the cells from which the table is derived: fractions, and surds with one common root.
+/// The text from which the table is derived, for each cell: fractions, and surds with one common root.
 pub(super) fn recognised(table: &Table) -> Option<Vec<String>> {
     let simple = |cell: &Cell| cell.printed.simple();
     let rational = table.cells.iter().map(simple);

@@ -33,7 +33,7 @@ pub(super) fn width(formula: &str) -> f64 {
     sum
 }
 
-/// What the braces at the start of a text hold; the text goes on behind them.
+/// The contents of the braces at the start of a text; `rest` then begins after them.
 fn group<'a>(rest: &mut &'a str) -> &'a str {
     let mut depth = 0;
     let end = rest.char_indices().find_map(|(at, c)| {

@@ -7,7 +7,7 @@ use crate::exact::Exact;
 use crate::export::language::table::{Entry, Table};
 use crate::partitioned::Partitioned;
 
-/// Longer exact forms do not stand in cells,
+/// Longer exact forms are not written in cells,
 const LONGEST_EXACT: usize = 28;
 /// unless they are not wider than this, in digits.
 const NARROW: f64 = 6.0;

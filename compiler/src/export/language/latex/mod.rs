@@ -133,7 +133,7 @@ fn flows(table: &Table<'_>, legend: &mut Legend<'_>) -> Option<String> {
     Some(list(["i", first.0, second.0], rows))
 }
 
-/// A table that goes on on the next page.
+/// A table that continues on the next page.
 fn list(head: [&str; 3], rows: impl Iterator<Item = [String; 3]>) -> String {
     let line = |[x, y, z]: [&str; 3]| format!("${x}$ & ${y}$ & ${z}$ \\\\\n");
     let rows: String = rows.map(|[x, y, z]| line([&x, &y, &z])).collect();

@@ -3,7 +3,7 @@
 use super::super::Stepper;
 use super::{c, julia, python, rust};
 
-/// The templates of a language for the functions of a system, and for statements and expressions. Names in `@` stand for values.
+/// The templates of a language for the functions of a system, and for statements and expressions. Names in `@` mark values.
 pub(in super::super) struct Formulas {
     /// Parameters, velocity, force and energy.
     pub template: &'static str,
@@ -39,8 +39,8 @@ pub(in super::super) struct Formulas {
     pub result: &'static str,
     /// A loop begins: from `start` up to but excluding `end`, which is `last + 1`; or while `before < limit`.
     pub range: &'static str,
-    /// A loop over a list of pairs begins: the line of the loop, and lines in it that name both indices and leave the function if one is
-    /// not less than the number of `bodies`.
+    /// The start of a loop over a list of pairs: the line of the loop, and lines in it that name both indices. They leave the function
+    /// if one index is not less than the number of `bodies`.
     pub pairs: &'static [&'static str],
     /// Leaves a function that writes a derivative, without a result.
     pub outside: &'static str,

@@ -8,7 +8,7 @@ mod rust;
 
 use super::Stepper;
 
-/// The templates of a language for a stepper, and of its parts. Names in `@` stand for values.
+/// The templates of a language for a stepper, and of its parts. Names in `@` mark values.
 pub(super) struct Notation {
     /// A file with drifts and kicks.
     pub splitting: &'static str,

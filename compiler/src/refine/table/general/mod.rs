@@ -2,10 +2,10 @@
 //!
 //! The equations are the order conditions of all trees, symplecticity `b_i ã_ij + b̃_j a_ji = b_i b̃_j` and symmetry
 //! `a_ij + a_{σi,σj} = b_j`, as far as they are claimed, and nodes that are printed exactly. Conditions that provably follow
-//! from others are left out: those of even orders in a symmetric method, and all but one for each tree without a
-//! root in a symplectic method (GNI VI.7). Independent equations are solved for as many unknowns, as in
-//! [`certify`](crate::certify); the other unknowns move within their last places. Equations that depend on these to
-//! first order are evaluated at the solution: they are verified to some binary places, which is not a proof.
+//! from others are left out: those of even orders in a symmetric method, and all but one for each unrooted tree in a
+//! symplectic method (GNI VI.7). Independent equations are solved for as many unknowns, as in [`certify`](crate::certify);
+//! the other unknowns move within their last places. Equations that depend on these to first order are evaluated at the
+//! solution: they are verified to some binary places, which is not a proof.
 
 mod equations;
 mod reading;

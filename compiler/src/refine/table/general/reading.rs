@@ -232,8 +232,8 @@ fn pairs(stages: usize) -> impl Iterator<Item = (usize, usize)> {
 
 /// `N_ij = b_i ã_ij + b̃_j a_ji − b_i b̃_j = 0`.
 ///
-/// If one tableau stands for both, `N_ji = N_ij`. In a symmetric method `N_{σi,σj} = −N_ij`, which follows from symmetry by a
-/// line of algebra. So one equation of each set of indices is kept, and none if the two are the same.
+/// If one tableau is used for both, `N_ji = N_ij`. In a symmetric method `N_{σi,σj} = −N_ij`, which follows from symmetry by
+/// a line of algebra. So one equation of each set of indices is kept, and none if the two are the same.
 fn symplectic(table: &Table, positions: &Half, momenta: &Half) -> Vec<Quadratic> {
     let mirror = |i: usize| table.stages - 1 - i;
     let one_tableau = positions == momenta;
