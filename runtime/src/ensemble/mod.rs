@@ -20,8 +20,8 @@
 //! and their lists of pairs the same pairs.
 //!
 //! With coupled stages, every sweep of the default solver computes the stages of all trajectories; converged trajectories wait for the
-//! others. A trajectory takes a step alone, and then returns to its lane, if its stages do not converge as usual after a warm start: in
-//! its first step, and in slow or failing iterations. A compiled method runs in lanes with AVX-512, or if you
+//! others. A trajectory takes a step alone if its stages do not converge as usual after a warm start, and then returns to its lane. This
+//! happens in its first step, and in slow or failing iterations. A compiled method runs in lanes with AVX-512, or if you
 //! [choose lanes](Ensemble::in_lanes). With narrower registers a single run, with the stages of one trajectory in lanes, is at least as
 //! fast.
 //!

@@ -104,7 +104,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     ///
     /// # Errors
     ///
-    /// Those of [`step`](Self::step); the state is then that of the last good step.
+    /// Those of [`step`](Self::step); the state is then that of the last successful step.
     pub fn take_steps(&mut self, count: u64) -> Result<&State<V>, Error> {
         for _ in 0..count {
             self.one_step()?;
@@ -129,7 +129,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     ///
     /// # Errors
     ///
-    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last good step.
+    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last successful step.
     pub fn integrate_to(&mut self, end: f64) -> Result<&State<V>, Error> {
         self.steps_to(end)?;
         Ok(&self.run_state.state)

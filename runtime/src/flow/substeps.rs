@@ -8,9 +8,9 @@ use crate::number::Vector;
 
 /// `n` steps of size `h/n` of a flow.
 ///
-/// Inside the steps of the slow part of a system it makes several steps of the fast part: a velocity-Verlet [`Splitting`](super::Splitting)
-/// with `Substeps` of the fast part as the drift and a kick by the slow force is the multiple-time-step method r-RESPA (Tuckerman, Berne &
-/// Martyna 1992). The last flow of a substep and the first of the next are merged, so that a kick–drift–kick substep evaluates the force once.
+/// In a step of the slow part of a system it takes several steps of the fast part. For r-RESPA (Tuckerman, Berne & Martyna 1992), use a
+/// velocity-Verlet [`Splitting`](super::Splitting): its drift is `Substeps` of the fast part, its kick the slow force. The last flow of a
+/// substep and the first of the next are merged, so that a kick–drift–kick substep evaluates the force once.
 ///
 /// ```
 /// symplectic::tableau! { Verlet { base: velocity-verlet } }

@@ -116,7 +116,7 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
         Ok([(p0, self.q0), (p1, self.q1)].map(|(p, q)| dot(&p, &generator(q))))
     }
 
-    /// How far the difference `Δ` of two discrete Lagrangians is from a function of the step size, `(strong, weak)`, on a path that
+    /// How far the difference `Δ` of two discrete Lagrangians is from a function of the step size: `(strong, weak)`, on a path that
     /// continues to `q2` (Marsden & West, §2.1.2):
     ///
     /// ```text

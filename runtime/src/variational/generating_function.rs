@@ -34,8 +34,8 @@ impl<V: Vector> GeneratingFunction<V> {
     }
 }
 
-/// The Type II generating function of a step of size `step_size` that begins at `time`, as a function of the position
-/// `q0` at its start and the momentum `p1` at its end (Leok & Zhang, eq. 43):
+/// The Type II generating function of a step of size `step_size` that begins at `time`. Its arguments are the position `q0` at the start
+/// and the momentum `p1` at the end (Leok & Zhang, eq. 43):
 ///
 /// ```text
 /// H_d⁺(q0, p1) = p1·q0 − h² Σ_ij b̃_i a_ij ∂H/∂q(Q_i, P_i)·∂H/∂p(Q_j, P_j) + h Σ_i b_i H(Q_i, P_i)
@@ -56,7 +56,7 @@ impl<V: Vector> GeneratingFunction<V> {
 /// `b_i ã_ij + b̃_j a_ji = b_i b̃_j`, which includes every method that the macro derives. If `b̃ ≠ b`, as for splittings, the last sum is
 /// `h Σ_i (b_i T(P_i) + b̃_i U(Q_i))`. For another method, written by hand, the value has no meaning.
 ///
-/// The sum over l = 0..k of `H_d⁺(q_l, p_{l+1}) − p_{l+1}·q_{l+1}` along an orbit, plus `p_k·q_k`, is the discrete extremum function, whose
+/// Along an orbit, the sum over l = 0..k of `H_d⁺(q_l, p_{l+1}) − p_{l+1}·q_{l+1}` plus `p_k·q_k` is the discrete extremum function. Its
 /// derivative with respect to `p_k` is `q_k` (eq. 21 to 24). Unlike a discrete Lagrangian it exists for degenerate systems too, such as
 /// `H = q·p` below.
 ///

@@ -9,8 +9,8 @@ use crate::integrator::validation::check_step_size;
 use crate::number::{Vector, larger_or_nan};
 use crate::state::State;
 
-/// The order of a discrete Lagrangian observed along an orbit. It is `log2` of the ratio of the errors of its momenta in a step of size
-/// `step_size` and in a step of half that size, both from the time `time`.
+/// The order of a discrete Lagrangian observed along an orbit. It is `log2` of the ratio of the errors of its momenta in steps of size
+/// `step_size` and half that size, both from `time`.
 ///
 /// ```text
 /// error(h) = max(|−D1 Ld(q(t), q(t + h)) − p(t)|, |D2 Ld(q(t), q(t + h)) − p(t + h)|)

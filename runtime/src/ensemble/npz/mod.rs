@@ -58,8 +58,8 @@ impl<W: Write> Npz<W> {
     ///
     /// # Errors
     ///
-    /// I/O errors of the output, after which the file accepts no more arrays; [`ErrorKind::InvalidInput`] if the shape
-    /// does not match the number of values, if the name exists already, or if the file would exceed 4 GiB. Write the
+    /// I/O errors of the output, after which the file accepts no more arrays. [`ErrorKind::InvalidInput`] if the shape
+    /// does not match the number of values, the name exists already, or the file would exceed 4 GiB. Write the
     /// [shards](Ensemble::shard) of a large ensemble to separate files.
     pub fn doubles(&mut self, name: &str, shape: &[usize], values: &[f64]) -> io::Result<()> {
         let bytes = values.iter().flat_map(|value| value.to_le_bytes());
