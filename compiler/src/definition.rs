@@ -274,7 +274,7 @@ impl fmt::Display for Definition {
     }
 }
 
-/// A text that has brackets where it is a list, so that its commas are not those between the parts.
+/// A text with brackets if it is a list, so that its commas do not separate parts.
 struct Bracketed<'a>(&'a str);
 
 impl fmt::Display for Bracketed<'_> {

@@ -268,7 +268,7 @@ pub enum ErrorKind {
         /// The combination of the basis.
         combination: String,
     },
-    /// Basis functions whose products a quadrature formula does not tell apart.
+    /// Basis functions whose products a quadrature formula does not distinguish.
     #[error(
         "the Gram matrix of the basis with these nodes and weights is singular: the quadrature formula gives 0 for {combination} times each basis function; change a weight, a node or a function"
     )]

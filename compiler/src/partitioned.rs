@@ -29,7 +29,7 @@ pub struct Partitioned<A: StageAlgebra> {
     pub b_tilde: A::Vector,
 }
 
-/// What the matrices of a splitting look like, each stage of which makes one drift and one kick.
+/// The form of the matrices of a splitting whose stages have one drift and one kick each.
 ///
 /// ```text
 /// kicks first    a_ij = b_j for j < i    ã_ij = b̃_j for j ≤ i
@@ -39,9 +39,9 @@ pub struct Partitioned<A: StageAlgebra> {
 /// and zero elsewhere, so that the weights say all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum LowerTriangular {
-    /// `P_i` has the kick that is made at `Q_i`.
+    /// `P_i` contains the kick at `Q_i`.
     KicksFirst,
-    /// `Q_i` has the drift that is made at `P_i`.
+    /// `Q_i` contains the drift at `P_i`.
     DriftsFirst,
 }
 
@@ -57,7 +57,7 @@ impl LowerTriangular {
     }
 }
 
-/// The flows of a splitting in the order in which they are made: kicks and drifts in turn, none of no time at either end.
+/// The flows of a splitting in their order: alternating kicks and drifts, without flows of zero time at either end.
 #[derive(Debug, Clone)]
 pub(crate) struct Flows<T> {
     /// Whether the first one is a kick.

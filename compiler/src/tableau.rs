@@ -43,7 +43,7 @@ pub struct Tableau {
     pub(crate) name: Option<String>,
     pub(crate) provenance: Provenance,
     pub(crate) exact: Exact,
-    /// The order that follows from how the method is made, however well its coefficients are known.
+    /// The order that follows from the construction of the method, however well its coefficients are known.
     pub(crate) given: Option<GivenOrder>,
     pub(crate) wrong_digits: Vec<Error>,
     properties: OnceLock<Properties>,
@@ -134,7 +134,7 @@ impl Tableau {
         self.properties.get_or_init(decided).clone()
     }
 
-    /// What the method is for separable Hamiltonians `H = T(p) + U(q)`, which may be more than what it is for all.
+    /// The properties for separable Hamiltonians `H = T(p) + U(q)`, which may be more than those for all Hamiltonians.
     ///
     /// ```
     /// use symplectic_compiler::{Definition, Limits};
@@ -163,7 +163,7 @@ impl Tableau {
         self.orders.get_or_init(decided).clone()
     }
 
-    /// Whether the method is for general Hamiltonians what it is for separable ones: symplectic, and of the same order.
+    /// Whether the method is symplectic for general Hamiltonians, and has the same order as for separable ones.
     ///
     /// ```
     /// use symplectic_compiler::{catalogue, derive};

@@ -306,7 +306,7 @@ impl Search<'_> {
         moved
     }
 
-    /// The printed numbers, each of which is the only wrong one for some method. The last number in the step comes first: papers
+    /// The printed numbers, each of which is the only wrong number for some method. The last number in the step comes first: papers
     /// compute it from the others.
     fn suspects<S: Equations>(&self, start: &Method<S>) -> Vec<Suspect> {
         let level = |index: usize| {

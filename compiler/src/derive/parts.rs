@@ -1,4 +1,4 @@
-//! The methods, steps and functions of which a method is built, for its code.
+//! The methods, steps and functions from which a method is built, for its code.
 
 use super::composition::Step;
 use super::problem::{Construction, Problem};
@@ -16,7 +16,7 @@ pub(crate) struct Substep {
     pub method: usize,
 }
 
-/// The methods, steps and functions of which a method is built.
+/// The methods, steps and functions from which a method is built.
 pub(crate) struct Parts {
     /// The distinct methods of a composition that is not a splitting; empty for other definitions.
     pub methods: Vec<Tableau>,

@@ -64,7 +64,7 @@ fn is_declaration(line: &str) -> bool {
     data || parameter || KEYWORDS.iter().any(|word| keyword(word))
 }
 
-/// The names of lists with a lower bound of their own, as in `x(0:1)` and `dimension(0:1) :: x`.
+/// The names of lists with an explicit lower bound, as in `x(0:1)` and `dimension(0:1) :: x`.
 pub(super) fn bounded(tokens: &[Spanned]) -> BTreeSet<String> {
     let is = |at: usize, symbol: char| matches!(tokens.get(at), Some(found) if matches!(found.token, Token::Symbol(c) if c == symbol));
     let one = |at: usize| matches!(&tokens[at].token, Token::Number(value) if value.constant.to_string() == "1");

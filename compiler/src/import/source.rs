@@ -66,7 +66,7 @@ pub(super) struct Source<'a> {
     pub input: Input<'a>,
     pub notation: Notation,
     pub fortran: bool,
-    /// Lists of Fortran with a lower bound of their own.
+    /// Lists of Fortran with an explicit lower bound.
     pub bounded: BTreeSet<String>,
     tokens: Vec<Spanned>,
     /// The bracket depth of each token.

@@ -1,4 +1,4 @@
-//! What a method is for separable Hamiltonians, where it is not so for all.
+//! Properties that a method has only for separable Hamiltonians.
 
 use std::sync::Arc;
 
@@ -90,7 +90,7 @@ impl<F: Field + Clone> SeparableSymmetry for Dense<F> {
     }
 }
 
-/// The distinct position stages of a pair that are used, and then the momentum stages, as stages of their own.
+/// The distinct used position stages of a pair, and then the momentum stages, as separate stages.
 ///
 /// What the force does not see of a momentum stage, and the velocity of a position stage, has no weight; the
 /// coefficients that it never meets are half the weights, which are their own in the adjoint.

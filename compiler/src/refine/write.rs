@@ -11,7 +11,7 @@ use crate::arithmetic::rounding::Decimal;
 use crate::certify::{CertifyError, Coefficient, Digits};
 use crate::error::{Error, ErrorKind};
 
-/// Longer exact values are not shown beside decimals.
+/// Longer exact values are not shown next to decimals.
 const LONGEST_EXACT: usize = 24;
 
 /// The contents of the JSON text.

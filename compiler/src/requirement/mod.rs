@@ -45,7 +45,7 @@ pub enum Requirement {
     StableTo(BigRational),
 }
 
-/// The requirements beside the properties, as messages list them.
+/// The requirements other than properties, as messages list them.
 const OTHERS: &str = "symplectic(separable), symmetric(separable), order >= 4, order(separable) == 6, order(perturbed) >= (8, 4), p_stable, stable_to(2)";
 
 impl Requirement {

@@ -70,7 +70,7 @@ struct Vanishing<P> {
 /// The powers are bounded where the eigenvalues are in the closed unit disc ([`Step::conditions`]) and those on the
 /// circle are semisimple. A real matrix can only fail the latter with a double eigenvalue ±1, that is with `det M = 1`
 /// and `tr M = ±2`, unless `M = ±1`. Where the stages have no unique solution there is no step, and so no stability.
-/// Returns `None` if the roots cannot be separated. The truth value tells whether the matrix is 1 or −1 somewhere, so that the trace touches 2
+/// Returns `None` if the roots cannot be separated. The truth value says if the matrix is 1 or −1 somewhere, so that the trace touches 2
 /// or −2 there.
 pub(super) fn stable<P: RealPolynomial>(step: &Step<P>) -> Option<(Vec<StabilityInterval>, bool)> {
     let conditions = step.conditions();

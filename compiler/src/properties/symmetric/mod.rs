@@ -142,7 +142,7 @@ mod tests {
     use crate::exact::Exact;
     use crate::tableau::Tableau;
 
-    /// Two stages that nothing tells apart: all entries of both matrices are the same number.
+    /// Two indistinguishable stages: all entries of both matrices are the same number.
     fn twins(entry: BigRational) -> Tableau {
         let mut tableau = crate::derive("polynomial(2)", "0, 1").expect("derived");
         let Exact::Nodes(pair) = &mut tableau.exact else {
