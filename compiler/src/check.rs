@@ -1,4 +1,4 @@
-//! Checking a file from nothing but its basis and nodes.
+//! Checking a file from nothing but its definition.
 
 use std::path::Path;
 
@@ -10,14 +10,14 @@ use crate::tableau::Tableau;
 
 /// Checks a table file, TOML or JSON by the extension of its name, and returns its tableau.
 ///
-/// Nothing in the file is trusted. The tableau is derived again from basis and nodes, and its
+/// Nothing in the file is trusted. The tableau is derived again from its definition, and its
 /// properties are proved. Every entry of the file is compared with the result, in the order of the
 /// entries: the node polynomial, exact data, decimals to their last digit, doubles, properties with
 /// their evidence. The name and the source are not checked.
 ///
 /// # Errors
 /// [`ErrorKind::Mismatch`] for the first entry that differs; [`ErrorKind::Document`] if the file is
-/// not a table file; every error of [`derive`](crate::derive()) for its basis and nodes. Each with its
+/// not a table file; every error of [`derive`](crate::derive()) for its definition. Each with its
 /// place in the file.
 ///
 /// ```

@@ -35,7 +35,7 @@ impl SeparableProperties {
 
     /// Decides both. `symmetric` is the symmetry for every Hamiltonian, as far as known.
     ///
-    /// A splitting is symplectic whatever its coefficients are: with the matrices of a [lower_triangular](Partitioned::lower_triangular) one of
+    /// A splitting is symplectic whatever its coefficients are: with [lower triangular](Partitioned::lower_triangular) matrices one of
     /// `b_i ã_ij` and `b̃_j a_ji` is `b_i b̃_j`, and the other is zero.
     pub(crate) fn of_pair<A: SeparableSymmetry>(
         pair: &Partitioned<A>,
