@@ -3,8 +3,8 @@
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
 use symplectic::system::Gradients;
 use symplectic::{
-    Constrained, Error, Hamiltonian, Integrator, Method, ProvedFor, Separable, State, Vector,
-    consistent,
+    Constrained, Error, Event, Hamiltonian, Integrator, Method, ProvedFor, Separable, State,
+    Vector, consistent,
 };
 
 use crate::systems::*;
@@ -452,4 +452,32 @@ fn magnetic_fields() {
     assert!(late < 1.1 * early, "{early:e} {late:e}");
     let ratio = late / fine;
     assert!((3.9..4.1).contains(&ratio), "{ratio}");
+}
+
+symplectic::hamiltonian! {
+    /// A particle on a sphere of radius 1, with gravity.
+    Bowl q: [x, y, z], p: [px, py, pz];
+    H = (px^2 + py^2 + pz^2)/2 + z
+    constraints: { sphere = x^2 + y^2 + z^2 - 1 }
+}
+
+/// The state at a wall is on the constraints, and so is the reflected one after it is projected.
+#[test]
+fn a_particle_on_a_sphere_bounces_off_a_wall() -> Result<(), Error> {
+    let start: State<SVector<f64, 3>> = State::from_arrays(0.0, [0.6, 0.0, -0.8], [0.0, 0.7, 0.0]);
+    let mut run = Integrator::new(Lobatto3, Bowl, start, 0.1)?;
+    let energy = run.energy().expect("known");
+    let wall = Event::wall(|state: &State<SVector<f64, 3>>| state.q[0] + 0.1);
+    let mut impacts = 0;
+    while let Some(mut state) = run.find_event(20.0, &wall)? {
+        assert!((0.0..1e-13).contains(&(state.q[0] + 0.1)));
+        // Along the sphere.
+        let normal = SVector::from([1.0, 0.0, 0.0]) - state.q * state.q[0];
+        state.p -= normal * (2.0 * state.p.dot(&normal) / normal.dot(&normal));
+        run.set_state(consistent(&Bowl, state)?)?;
+        impacts += 1;
+    }
+    assert!(impacts > 3, "{impacts}");
+    assert!((run.energy().expect("known") - energy).abs() < 1e-5);
+    Ok(())
 }

@@ -228,7 +228,7 @@ fn evaluations_that_are_not_finite_are_named() {
     }
     struct Whole(Broken);
     impl System<Point> for Whole {
-        type Class = symplectic::General;
+        type Class = General;
         type Solver = FixedPoint;
         fn velocity(&self, _time: f64, q: &Point, p: &Point, velocity: &mut Point) {
             *velocity = p * (1.0 + q[0] * q[0]) * self.0.factor(Quantity::Velocity);

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::common::methods::{Gauss2, Gauss5, StoermerVerlet};
+use crate::common::methods::{Gauss2, Gauss4, Gauss5, StoermerVerlet};
 use symplectic::nalgebra::{Vector1, Vector2};
 use symplectic::{
     Error, Event, Integrator, Method, Moment, ProvedFor, Separable, State, System, acceleration,
@@ -509,5 +509,26 @@ fn a_start_behind_a_wall_is_named() -> Result<(), Error> {
         })?;
         assert_eq!(count, 1);
     }
+    Ok(())
+}
+
+/// A bounce changes the energy by no more than the error of a step: H = p²/2 + x²/2 + x⁴/4 between a wall and the potential.
+#[test]
+fn bounces_keep_the_energy() -> Result<(), Error> {
+    let quartic = acceleration::<Vector1<f64>, _>(|_, q, force| force[0] = -q[0] - q[0].powi(3));
+    let energy = |state: &Ball| {
+        let (q, p) = (state.q[0], state.p[0]);
+        p * p / 2.0 + q * q / 2.0 + q.powi(4) / 4.0
+    };
+    let mut run = Integrator::new(Gauss4, quartic, ball(1.0, 0.0), 0.1)?;
+    let before = energy(run.state());
+    let wall = Event::wall(|state: &Ball| state.q[0] + 0.5);
+    for _ in 0..300 {
+        let mut state = run.find_event(1e9, &wall)?.expect("an impact");
+        state.p = -state.p;
+        run.set_state(state)?;
+    }
+    let change = (energy(run.state()) - before).abs();
+    assert!(change < 1e-11, "{change:e}");
     Ok(())
 }

@@ -131,8 +131,8 @@ impl<G> Event<G> {
 
     /// A wall, which keeps the state at g ≥ 0. An event is a change from plus to minus, in the direction of the steps.
     ///
-    /// A wall differs from [`falling`](Self::falling) in two ways. A start at g ≤ 0 is an event at once unless g rises above zero. The
-    /// integration does not continue behind the wall: after an event the present state is the state that the handler leaves. The handler
+    /// A wall differs from [`falling`](Self::falling) in three ways. It is located [by steps](Self::by_steps), because the run continues from
+    /// the state there. A start at g ≤ 0 is an event at once unless g rises above zero. The integration does not continue behind the wall: after an event the present state is the state that the handler leaves. The handler
     /// reflects it. A handler that lets the state continue into the wall receives the same event again, until
     /// [`Error::EventsAccumulate`](crate::Error::EventsAccumulate), or [`Error::BehindWall`](crate::Error::BehindWall) if g is negative.
     ///
@@ -161,7 +161,7 @@ impl<G> Event<G> {
     pub const fn wall(function: G) -> Self {
         let mut event = Self::falling(function);
         event.kind.wall = true;
-        event
+        event.by_steps()
     }
 
     /// Number of points at which each step is sampled, including its end; the default is eight. Two points make a
