@@ -223,10 +223,15 @@ pub fn text(system: &System, structure: &Structure) -> String {
             system.formula(system.energy, Notation::Text)
         )],
     );
-    section(
-        "equations of motion",
-        &system.equations_of_motion(Notation::Text),
-    );
+    let without = match (system.friction.is_empty(), system.is_constrained()) {
+        (true, false) => "equations of motion",
+        (false, false) => "equations of motion, without the friction",
+        (true, true) => "equations of motion, without the forces of the constraints",
+        (false, true) => {
+            "equations of motion, without the friction and the forces of the constraints"
+        }
+    };
+    section(without, &system.equations_of_motion(Notation::Text));
     if system.is_constrained() {
         section("constraints", &system.constraint_equations(Notation::Text));
     }

@@ -311,6 +311,8 @@ impl<'a> Parser<'a> {
             Token::Name(name) => {
                 let other = match self.ahead(1) {
                     Token::Symbol(':') if STATEMENTS.contains(&name.as_str()) => true,
+                    // A word of this kind that is misspelt.
+                    Token::Symbol(':') if *self.ahead(2) == Token::Symbol('{') => true,
                     Token::Symbol(':' | '=') => self.is_keyword(name),
                     _ => false,
                 };

@@ -3,7 +3,8 @@
 use num_traits::ToPrimitive;
 
 use super::tokens::Token;
-use super::{Parser, constant};
+use super::unknown::suggestion;
+use super::{Parser, STATEMENTS, constant};
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
 use crate::formula::syntax::{
@@ -327,9 +328,15 @@ impl Parser<'_> {
             "H" | "L" | "p" | "v" if self.is('=') || self.is(':') => {
                 return Err(self.other_form(word, &span));
             }
-            _ => {
+            word => {
+                let known = [&STATEMENTS[..], &["invariants", "require"]].concat();
+                let meant = suggestion(word, &known).filter(|_| self.is(':'));
                 self.next -= 1;
-                return Err(self.unexpected(statement(self.form)));
+                let expected = match meant {
+                    Some(meant) => format!("`{meant}:`"),
+                    None => statement(self.form).to_owned(),
+                };
+                return Err(self.unexpected(&expected));
             }
         }
         Ok(())
