@@ -248,7 +248,16 @@ where
         let (span, rest) = two_sum(size, next.time_low);
         let (sum, error) = two_sum(time, span);
         let (end, low) = fast_two_sum(sum, error + rest);
-        self.integrator.advance(size, end)?;
+        if let Err(error) = self.integrator.advance(size, end) {
+            return Err(match error {
+                // The steps have become too short, not too short from the start.
+                Error::TimeResolution { .. } if self.integrator.steps() > 0 => {
+                    let q = seen::<S, V>(&self.integrator.state().q);
+                    Error::monitor_at(time)(self.monitor.value(q))
+                }
+                error => error,
+            });
+        }
         next.time_low = low;
         next.unfinished = half;
         self.controller = next;

@@ -22,7 +22,7 @@ pub enum Error {
     /// The iteration for the coupled stages diverged, or converged too slowly. Take a smaller step, or for a stiff
     /// system [`Newton`](crate::solver::Newton) instead of a fixed-point iteration.
     #[error(
-        "step {step} of size {step_size} at time {time}: the stages {}; take a smaller step, or `by_newton()` for a stiff system without constraints",
+        "step {step} of size {step_size} at time {time}: the stages {}; take a smaller step, or `by_newton()`, if it is not taken yet, for a stiff system without constraints",
         Divergence { residual: *.residual, iterations: *.iterations },
         time = Short(*.time),
         step_size = Short(*.step_size)
@@ -629,6 +629,16 @@ pub enum Error {
         pivot: f64,
     },
 
+    /// A discrete Lagrangian that is not self-adjoint, for a composition.
+    #[error(
+        "Ld(q0, q1, h) + Ld(q1, q0, −h) is {defect:e} instead of 0: the discrete Lagrangian is not self-adjoint, so its compositions have \
+         order 1; take a self-adjoint one, such as the mean of Ld and −Ld(q1, q0, −h), or `VariationalIntegrator::new`"
+    )]
+    NotSelfAdjoint {
+        /// The sum, for the path from the start to a point nearby.
+        defect: f64,
+    },
+
     /// The basis of a Galerkin method does not contain the constants, so that it excludes uniform motion.
     #[error(
         "the basis of {method} does not contain the constants: add 1 to it, or take the tableau with `LagrangianIntegrator::new`"
@@ -883,7 +893,7 @@ pub enum Error {
 
     /// The monitor of variable steps is not positive and finite, or its derivative along the motion is not finite.
     #[error(
-        "the monitor of the step sizes is {value} at time {time}; it must be finite and positive along the orbit, with a finite derivative",
+        "the monitor of the step sizes is {value} at time {time}; it must be finite, positive and away from zero along the orbit, with a finite derivative",
         time = Short(*.time),
         value = Short(*.value)
     )]

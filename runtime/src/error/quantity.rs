@@ -16,6 +16,8 @@ pub enum Quantity {
     Velocity,
     /// −∂H/∂q.
     Force,
+    /// The displacement (δq, δp) of a tangent.
+    Displacement,
     /// A derivative of the velocity or the force.
     Derivative,
     /// The change of the momentum by a kick.
@@ -42,6 +44,7 @@ impl fmt::Display for Quantity {
             Self::Momentum => "momentum",
             Self::Velocity => "velocity",
             Self::Force => "force",
+            Self::Displacement => "displacement",
             Self::Derivative => "derivative of the velocity or the force",
             Self::Kick => "change of the momentum by a kick",
             Self::Energy => "energy",

@@ -62,7 +62,15 @@ impl Linear {
         )?;
         let entries: Vec<f64> = matrix.transpose().iter().copied().collect();
         for (index, &value) in entries.iter().enumerate() {
-            check_parameter("entry of the matrix", index, value.abs(), true)?;
+            if !value.is_finite() {
+                let (what, range) = ("entry of the matrix", "finite");
+                return Err(Error::FlowParameter {
+                    what,
+                    index,
+                    value,
+                    range,
+                });
+            }
         }
         Ok(Self {
             size,

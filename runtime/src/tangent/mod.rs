@@ -12,7 +12,7 @@ use alloc::vec;
 
 use dual_vector::{halves, halves_mut, joined, part, zeros};
 
-use crate::error::Error;
+use crate::error::{Error, Quantity};
 use crate::integrator::validation::{check_start, check_state};
 use crate::number::dual::Dual;
 use crate::number::{Lanes, Scalar, Vector};
@@ -109,7 +109,12 @@ impl<S: Hamiltonian> Tangent<S> {
     ) -> Result<State<W>, Error> {
         let dimension = state.q.dimension();
         check_start(&self.0, state)?;
-        check_state(state.time, dq, dp, dimension)?;
+        check_state(state.time, dq, dp, dimension).map_err(|error| match error {
+            Error::NonFiniteState { .. } => Error::NonFiniteState {
+                what: Quantity::Displacement,
+            },
+            error => error,
+        })?;
         let mut parts = dq.as_slice().iter().chain(dp.as_slice());
         if parts.all(|&part| part == 0.0) {
             return Err(Error::NoDisplacement);

@@ -226,7 +226,12 @@ fn find<I: GeneratingFunctions + ?Sized>(
 ) -> Result<GivenEnds<I::Vector>, Error> {
     let n = run.present().q.dimension();
     check_state(start.time, &start.q, &start.p, n)?;
-    check_state(start.time, &start.q, target, n)?;
+    check_state(start.time, &start.q, target, n).map_err(|error| match error {
+        Error::NonFiniteState { .. } => Error::NonFiniteState {
+            what: half.quantity(),
+        },
+        error => error,
+    })?;
     let not_found = |component, residual| Error::NoStart {
         time: run.present().time,
         what: unknown.quantity(),

@@ -1,5 +1,6 @@
 //! Steps of a discrete Lagrangian.
 
+use super::checks::DiscretePath;
 use super::discrete_lagrangian::{At, Derivatives, DiscreteLagrangian};
 use super::failure::Failure;
 use super::given_ends::GeneratingFunctions;
@@ -11,6 +12,7 @@ use crate::integrator::validation::check_state;
 use crate::method::Method;
 use crate::method::symmetric_steps::{Part, SymmetricSteps};
 use crate::number::Vector;
+use crate::number::vector::beside;
 use crate::state::State;
 
 /// Takes the steps of a [`DiscreteLagrangian`], with its forces if there are any (Marsden & West 2001, 2.1.1 and 3.2.5):
@@ -74,6 +76,8 @@ pub struct VariationalIntegrator<L: DiscreteLagrangian> {
     action: Option<f64>,
 }
 
+/// Largest defect of a self-adjoint discrete Lagrangian, relative to its value.
+const SELF_ADJOINT: f64 = 1e-10;
 /// Maximum number of Newton iterations; 3 to 6 are typical.
 const MAX_ITERATIONS: u32 = 40;
 
@@ -88,19 +92,32 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
     }
 
     /// [`new`](Self::new) with the steps of a composition of Störmer–Verlet steps, made by [`composition!`](crate::composition). It has the
-    /// order of that composition for general Hamiltonians, `M::ORDERS.general`, if `Ld` has order 2 and is self-adjoint, which
-    /// [`self_adjoint_defect`](super::DiscretePath::self_adjoint_defect) tests.
+    /// order of that composition for general Hamiltonians, `M::ORDERS.general`, if `Ld` has order 2 and is self-adjoint.
     ///
     /// # Errors
     ///
-    /// As for [`new`](Self::new). Does not compile with another method.
+    /// As for [`new`](Self::new); [`Error::NotSelfAdjoint`] if the [defect](super::DiscretePath::self_adjoint_defect) of a path from the start
+    /// is not a rounding error. Does not compile with another method.
     pub fn composed<M: Method>(
         _method: M,
         lagrangian: L,
         state: State<L::Vector<f64>>,
         step_size: f64,
     ) -> Result<Self, Error> {
-        Self::by(SymmetricSteps::of::<M>(), lagrangian, state, step_size)
+        let run = Self::by(SymmetricSteps::of::<M>(), lagrangian, state, step_size)?;
+        let State { time, q, .. } = &run.state;
+        let path = DiscretePath {
+            time: *time,
+            step_size,
+            q0: q,
+            q1: &beside(q),
+        };
+        let defect = path.self_adjoint_defect(&run.lagrangian);
+        let size = run.lagrangian.value(*time, step_size, path.q0, path.q1);
+        match defect > SELF_ADJOINT * size.abs() {
+            true => Err(Error::NotSelfAdjoint { defect }),
+            false => Ok(run),
+        }
     }
 
     fn by(

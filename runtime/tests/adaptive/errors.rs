@@ -87,6 +87,20 @@ fn a_monitor_that_fails_later_leaves_the_state_alone() -> Result<(), Error> {
     Ok(())
 }
 
+/// Steps become shorter and shorter until they do not change the time; the cause is the monitor.
+#[test]
+fn a_monitor_that_vanishes_is_named() -> Result<(), Error> {
+    let spring = acceleration(|_, q: &Vector1<f64>, acceleration| *acceleration = -q);
+    let start = State::from_arrays(1e9, [1.0], [0.0]);
+    let mut run = Integrator::adaptive(VelocityVerlet, spring, DistancePower(1.5), start, 0.05)?;
+    let error = run.take_steps(1_000_000).err();
+    assert!(
+        matches!(error, Some(Error::Monitor { value, .. }) if value < 1e-4),
+        "{error:?}"
+    );
+    Ok(())
+}
+
 #[test]
 fn a_density_that_is_not_positive_leaves_the_state_alone() -> Result<(), Error> {
     // σ grows so fast that z = 1/σ − ε σ'/(2σ) is negative.
