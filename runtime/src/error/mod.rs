@@ -160,6 +160,13 @@ pub enum Error {
         momentum: usize,
     },
 
+    /// A parameter of a formula is NaN.
+    #[error("the parameter `{parameter}` is NaN: give it a number")]
+    ParameterNotANumber {
+        /// Its name.
+        parameter: &'static str,
+    },
+
     /// An array among the parameters of a system has another length than the state or a list of pairs requires.
     #[error(
         "the parameter `{parameter}` has {}; it needs {expected}: give an entry for each body or pair, or start from a state with \

@@ -1,4 +1,4 @@
-//! Checks of the parameters of a system from a formula against the dimension of its states.
+//! Checks of the parameters of a system from a formula.
 
 use crate::error::Error;
 
@@ -25,6 +25,18 @@ pub const fn bodies(dimension: usize, components: usize) -> Result<usize, Error>
 pub const fn check_bodies(bodies: usize, least: usize) -> Result<(), Error> {
     match bodies < least {
         true => Err(Error::TooFewBodies { bodies, least }),
+        false => Ok(()),
+    }
+}
+
+/// Checks that a parameter is a number.
+///
+/// # Errors
+///
+/// [`Error::ParameterNotANumber`].
+pub const fn check_number(parameter: &'static str, value: f64) -> Result<(), Error> {
+    match value.is_nan() {
+        true => Err(Error::ParameterNotANumber { parameter }),
         false => Ok(()),
     }
 }

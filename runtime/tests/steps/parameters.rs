@@ -42,6 +42,19 @@ symplectic::lagrangian! {
     L = -sum(i: m[i] sqrt(1 - v[i]^2)) - sum(i: q[i]^2/2)
 }
 
+symplectic::hamiltonian! {
+    Attracted { mu: 1 } q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 - mu/sqrt(x^2 + y^2)
+}
+
+#[test]
+fn a_parameter_is_a_number() {
+    let start = || State::from_arrays(0.0, [1.0, 0.0], [0.0, 1.0]);
+    let error = Integrator::new(Gauss2, Attracted { mu: f64::NAN }, start(), 0.01).err();
+    let parameter = "mu";
+    assert_eq!(error, Some(Error::ParameterNotANumber { parameter }));
+    assert!(Integrator::new(Gauss2, Attracted { mu: 2.0 }, start(), 0.01).is_ok());
+}
+
 /// A state at rest whose positions are all different.
 fn start(dimension: usize) -> State<DVector<f64>> {
     let q = DVector::from_fn(dimension, |i, _| (i * i) as f64);

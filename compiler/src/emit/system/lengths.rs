@@ -9,7 +9,8 @@ use crate::formula::syntax::Length;
 use crate::formula::{Layout, Shape};
 
 impl Emitter<'_> {
-    /// The check that the lengths of arrays, the pairs and the number of bodies fit; empty if the types ensure it.
+    /// The check that parameters are numbers, and that the lengths of arrays, the pairs and the number of bodies fit; empty if there is
+    /// nothing to check.
     pub(super) fn check_dimension(&self) -> TokenStream {
         let mut checks = TokenStream::new();
         let length = self.system.layout.length();
@@ -30,7 +31,9 @@ impl Emitter<'_> {
         for parameter in &self.system.parameters {
             let (name, field) = (&parameter.name, identifier(&parameter.name));
             let check = match &parameter.shape {
-                Shape::Number(_) => TokenStream::new(),
+                Shape::Number(_) => {
+                    quote!(::symplectic::emitted::check_number(#name, self.#field)?;)
+                }
                 Shape::Pairs => {
                     quote!(::symplectic::emitted::check_pairs(#name, &self.#field, #bodies)?;)
                 }
@@ -43,6 +46,7 @@ impl Emitter<'_> {
             return TokenStream::new();
         }
         quote! {
+            #[allow(unused_variables)]
             fn check_dimension(&self, dimension: usize) -> ::core::result::Result<(), ::symplectic::Error> {
                 #checks
                 ::core::result::Result::Ok(())

@@ -174,6 +174,14 @@ const _: () = {
         fn half_bandwidth(&self) -> usize {
             1
         }
+        #[allow(unused_variables)]
+        fn check_dimension(
+            &self,
+            dimension: usize,
+        ) -> ::core::result::Result<(), ::symplectic::Error> {
+            ::symplectic::emitted::check_number("g", self.g)?;
+            ::core::result::Result::Ok(())
+        }
     }
     #[allow(non_snake_case)]
     struct DoublePendulumInLanes {

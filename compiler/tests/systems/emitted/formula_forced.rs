@@ -147,5 +147,14 @@ const _: () = {
         fn half_bandwidth(&self) -> usize {
             1
         }
+        #[allow(unused_variables)]
+        fn check_dimension(
+            &self,
+            dimension: usize,
+        ) -> ::core::result::Result<(), ::symplectic::Error> {
+            ::symplectic::emitted::check_number("c", self.c)?;
+            ::symplectic::emitted::check_number("g", self.g)?;
+            ::core::result::Result::Ok(())
+        }
     }
 };

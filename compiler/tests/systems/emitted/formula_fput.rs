@@ -74,12 +74,14 @@ const _: () = {
                 value
             })
         }
+        #[allow(unused_variables)]
         fn check_dimension(
             &self,
             dimension: usize,
         ) -> ::core::result::Result<(), ::symplectic::Error> {
             let n = ::symplectic::emitted::bodies(dimension, 1)?;
             ::symplectic::emitted::check_bodies(n, 1)?;
+            ::symplectic::emitted::check_number("beta", self.beta)?;
             ::core::result::Result::Ok(())
         }
     }

@@ -205,6 +205,14 @@ const _: () = {
             .force_by_position.add(i * 3 + 2, i * 3 + 1, T::from_f64(3.0) * x8); jacobian
             .force_by_position.add(i * 3 + 2, i * 3 + 2, - x7); } true }
         }
+        #[allow(unused_variables)]
+        fn check_dimension(
+            &self,
+            dimension: usize,
+        ) -> ::core::result::Result<(), ::symplectic::Error> {
+            ::symplectic::emitted::check_number("G", self.G)?;
+            ::core::result::Result::Ok(())
+        }
     }
     #[allow(non_snake_case)]
     struct PlanetsInLanes<const N: usize> {

@@ -102,6 +102,16 @@ const _: () = {
             force[0] = -T::from_f64(self.drag) * v[0];
             force[1] = -T::from_f64(self.drag) * v[1];
         }
+        #[allow(unused_variables)]
+        fn check_dimension(
+            &self,
+            dimension: usize,
+        ) -> ::core::result::Result<(), ::symplectic::Error> {
+            ::symplectic::emitted::check_number("m", self.m)?;
+            ::symplectic::emitted::check_number("c", self.c)?;
+            ::symplectic::emitted::check_number("drag", self.drag)?;
+            ::core::result::Result::Ok(())
+        }
     }
     #[allow(unused_variables, non_snake_case, clippy::all)]
     impl Particle {
