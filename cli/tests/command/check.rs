@@ -97,9 +97,9 @@ fn what_is_no_table_file_is_bad_input() {
         (file("truncated.json", b"{\"name\": "), "EOF while parsing"),
         (
             file("garbage.toml", &garbage),
-            "no UTF-8 text: the byte at offset 0 is wrong",
+            "not UTF-8 text: the byte at offset 0 is wrong",
         ),
-        (file("garbage.json", &garbage), "no UTF-8 text"),
+        (file("garbage.json", &garbage), "not UTF-8 text"),
         (
             file("marked.toml", &marked),
             "is UTF-16 (little-endian) text",

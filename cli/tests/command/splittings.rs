@@ -120,7 +120,7 @@ fn bad_input_is_refused_with_a_caret() {
     let (status, errors) = failure(&["derive", "--kick", "1/2, 1/3", "--drift", "1, 0"]);
     assert_eq!(status, Some(2));
     expect![[r#"
-        error: the kicks sum to 5/6, and a step makes them for a time of 1 together; give exact numbers, one of them as 1 minus the others
+        error: the kicks sum to 5/6, but must sum to 1; give exact numbers, one of them as 1 minus the others
          --> kick:1:1
           |
         1 | 1/2, 1/3

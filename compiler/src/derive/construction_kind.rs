@@ -84,10 +84,14 @@ impl Kind {
                 "`base` is a whole method, with which `weights` make a composition: leave out `{name}`, or `base`"
             ),
             (Kind::Splitting, _) => {
-                format!("a splitting is all in `kick` and `drift`: leave out `{name}`, or them")
+                format!(
+                    "`kick` and `drift` define a splitting completely: leave out `{name}`, or both of them"
+                )
             }
             (Kind::Given | Kind::Derived, _) => {
-                format!("coefficients are given by `a` and `b`: leave out `{name}`, or them")
+                format!(
+                    "`a` and `b` define a method completely: leave out `{name}`, or both of them"
+                )
             }
         }
     }

@@ -196,7 +196,7 @@ impl Splitting {
             if let Some(sum) = off_one(values.map(|(_, value)| *value)) {
                 let mirrored = if self.symmetric { ", mirrored," } else { "" };
                 let message = format!(
-                    "the {}s{mirrored} sum to {sum}, and a step makes them for a time of 1 together; give exact numbers, one of them as 1 minus the others",
+                    "the {}s{mirrored} sum to {sum}, but must sum to 1; give exact numbers, one of them as 1 minus the others",
                     flow.key().name(),
                 );
                 return Err(misfit_at(definition, flow.key(), message));

@@ -23,7 +23,7 @@ pub fn read_text(path: &Path) -> Result<String, Error> {
         .map_err(unreadable)?;
     if bytes.len() as u64 > MAX_FILE {
         return Err(bad(format!(
-            "`{name}` is longer than {MAX_FILE} bytes, so it is no table file"
+            "`{name}` is longer than {MAX_FILE} bytes, too long for a table file"
         )));
     }
     decode(&name.to_string(), bytes)
@@ -42,7 +42,7 @@ fn decode(name: &str, bytes: Vec<u8>) -> Result<String, Error> {
     let text = String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         bad(format!(
-            "`{name}` is no UTF-8 text: the byte at offset {valid} is wrong; {INSTEAD}"
+            "`{name}` is not UTF-8 text: the byte at offset {valid} is wrong; {INSTEAD}"
         ))
     })?;
     Ok(with_line_feeds(without_mark(&text)))

@@ -40,7 +40,7 @@ impl Tableau {
         let refused = |message: String| Err(ErrorKind::Requirement { message });
         let Some(found) = self.perturbed_order() else {
             return refused(
-                "the method has no order for perturbed H: it is no splitting".to_owned(),
+                "the method has no order for perturbed H: it is not a splitting".to_owned(),
             );
         };
         let numbers = found.numbers();

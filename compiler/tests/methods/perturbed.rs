@@ -274,7 +274,7 @@ fn requirements_name_the_word() {
     let gauss = required(&known("gauss-2"), "order(perturbed) >= (2, 2)");
     assert_eq!(
         gauss.expect_err("no splitting"),
-        "the method has no order for perturbed H: it is no splitting"
+        "the method has no order for perturbed H: it is not a splitting"
     );
     // What is printed is read.
     for text in ["order(perturbed) >= (8, 4)", "order(perturbed) == (2, 2)"] {

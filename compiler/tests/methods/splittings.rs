@@ -446,7 +446,7 @@ fn what_is_wrong_is_said_where_it_stands() {
         ),
         (
             "kick: [1/2, 1/3], drift: [1, 0]",
-            "kick, column 1: the kicks sum to 5/6, and a step makes them for a time of 1 together; give exact numbers, one of them as 1 minus the others",
+            "kick, column 1: the kicks sum to 5/6, but must sum to 1; give exact numbers, one of them as 1 minus the others",
         ),
         (
             "kick: [1/2], drift: [1/2], symmetric: true",
@@ -467,7 +467,7 @@ fn what_is_wrong_is_said_where_it_stands() {
         ),
         (
             "kick: 1, drift: 1, basis: polynomial(1)",
-            "a splitting is all in `kick` and `drift`: leave out `basis`, or them",
+            "`kick` and `drift` define a splitting completely: leave out `basis`, or both of them",
         ),
         (
             "basis: 1, nodes: 0, symmetric: true",
@@ -479,7 +479,7 @@ fn what_is_wrong_is_said_where_it_stands() {
         ),
         (
             "kick: 1, drift: 1, weights: 1",
-            "a splitting is all in `kick` and `drift`: leave out `weights`, or them",
+            "`kick` and `drift` define a splitting completely: leave out `weights`, or both of them",
         ),
         (
             "base: stormer-verlett",
@@ -568,7 +568,7 @@ fn what_is_wrong_is_said_where_it_stands() {
         ),
         (
             "base: gauss-2, weights: [1.3512071920, -1.7024143840], symmetric: true, claim: separable(4)",
-            "base, column 1: a `claim` takes a base of kicks and drifts, such as velocity-verlet, and gauss-2 is none",
+            "base, column 1: a `claim` takes a base of kicks and drifts, such as velocity-verlet: gauss-2 is another method",
         ),
     ] {
         let found = message(text);

@@ -27,10 +27,10 @@ pub enum WriteError {
         source: io::Error,
     },
     /// The measurements cannot be written as JSON.
-    #[error("the measurements are no JSON: {0}")]
+    #[error("the measurements cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
     /// The measurements cannot be written as a table.
-    #[error("the measurements are no table: {0}")]
+    #[error("the measurements cannot be written as a table: {0}")]
     Csv(#[from] csv::Error),
 }
 

@@ -52,9 +52,7 @@ pub enum EnsembleError {
     },
 
     /// Histograms that cannot be merged.
-    #[error(
-        "the histograms have other ends or another number of bins: only like ones can be merged"
-    )]
+    #[error("the histograms have different ends or numbers of bins: only equal bins can be merged")]
     OtherBins,
 
     /// A file does not have the expected contents.

@@ -56,7 +56,7 @@
 ///
 /// ```compile_fail
 /// symplectic::splitting! {
-///     // error: the kicks sum to 11/12, and a step makes them for a time of 1 together; …
+///     // error: the kicks sum to 11/12, but must sum to 1; …
 ///     Typo { kick: [7/24, 3/4, -1/8], drift: [2/3, -2/3, 1] }
 /// }
 /// ```

@@ -123,7 +123,7 @@ pub(super) fn by_equations(file: Input<'_>, table: &Table) -> Result<RefinedTabl
     let Some(found) = best else {
         let none = || {
             format!(
-                "no exact method with order {} for {} H and what else is claimed was found near these arrays; that there is none is not proved",
+                "no exact method with order {} for {} H and what else is claimed was found near these arrays; but this does not prove that none exists",
                 table.order, table.class
             )
         };
