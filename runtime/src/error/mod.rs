@@ -141,7 +141,9 @@ pub enum Error {
     },
 
     /// Time, position or momentum of a given state is not finite.
-    #[error("the {what} of the state is not finite; start from finite values")]
+    #[error(
+        "the {what} of the state is not finite; start from finite values, and check the parameters of the system"
+    )]
     NonFiniteState {
         /// What is not finite.
         what: Quantity,
@@ -714,7 +716,7 @@ pub enum Error {
     /// The position at the end of a step of a degenerate Lagrangian is not determined.
     #[error(
         "step {step} of size {step_size} at time {time}: component {component} of the position at the end of the step is not determined; \
-         take the rule `Trapezoid` or `AtEnd`, or a Lagrangian that depends on that component",
+         take a Lagrangian that depends on that component, or, with another rule, `Trapezoid` or `AtEnd`",
         time = Short(*.time),
         step_size = Short(*.step_size)
     )]
@@ -732,8 +734,8 @@ pub enum Error {
     /// The equations of a step of a degenerate Lagrangian contradict each other.
     #[error(
         "step {step} of size {step_size} at time {time}: the conditions on the step contradict each other; the condition for {what} {index} \
-         is violated by {value:e}; start where the conditions on positions hold, take the rule `AtEnd` for the first step, and for a \
-         Lagrangian that is linear in the velocities the rule `Midpoint`",
+         is violated by {value:e}; start where the conditions on positions hold, take the rule `AtEnd` for the first step; for \
+         L = a(q)·v − H(q) take the rule `Midpoint` if a is linear, and otherwise a `DiscreteLagrangian`",
         time = Short(*.time),
         step_size = Short(*.step_size)
     )]

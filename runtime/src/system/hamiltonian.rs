@@ -81,7 +81,7 @@ pub trait Hamiltonian {
     /// is compiled for every x86-64 processor.
     /// The results have the same bits. Systems from a formula without functions of your own declare it.
     ///
-    /// A function that is not inlined after all makes steps up to 50 times slower: see the chapter "Faster steps" of the book.
+    /// A function that is not inlined after all makes steps many times slower: see the chapter "Faster steps" of the book.
     const INLINED: bool = false;
 
     /// Whether the force has a part without a potential: [`applied_force`](Self::applied_force).
