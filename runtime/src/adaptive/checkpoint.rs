@@ -30,6 +30,7 @@ where
             density,
             unfinished,
             time_low,
+            ..
         } = self.controller;
         let [value, slope] = evaluated(&self.monitor, &self.slopes, seen::<S, V>(&self.state().q));
         let beside = [epsilon, density, unfinished, time_low, value, slope];
@@ -56,6 +57,7 @@ where
             density,
             unfinished,
             time_low,
+            ..self.controller
         };
         Ok(())
     }

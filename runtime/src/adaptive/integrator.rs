@@ -103,6 +103,8 @@ pub(super) struct Controller {
     pub(super) unfinished: f64,
     /// The rounding error of the time of the state; it prevents errors from accumulating.
     pub(super) time_low: f64,
+    /// The step size at the start. An error names the monitor only if this step would change the time.
+    pub(super) first_size: f64,
 }
 
 impl Controller {
@@ -113,6 +115,7 @@ impl Controller {
             density: 1.0 / monitor,
             unfinished: 0.0,
             time_low: 0.0,
+            first_size: epsilon * monitor,
         }
     }
 
@@ -251,7 +254,7 @@ where
         if let Err(error) = self.integrator.advance(size, end) {
             return Err(match error {
                 // The steps have become too short, not too short from the start.
-                Error::TimeResolution { .. } if self.integrator.steps() > 0 => {
+                Error::TimeResolution { .. } if time + next.first_size != time => {
                     let q = seen::<S, V>(&self.integrator.state().q);
                     Error::monitor_at(time)(self.monitor.value(q))
                 }

@@ -85,7 +85,8 @@ impl Linear {
     /// # Errors
     ///
     /// Those of [`new`](Self::new). [`Error::FlowParameter`] if a mass is not finite and positive, or the stiffness is not symmetric: two
-    /// mirrored entries differ by more than 10⁻¹² of the largest entry.
+    /// mirrored entries differ by more than 10⁻¹² of the geometric mean of the
+    /// largest entries of their rows.
     pub fn oscillators(masses: &[f64], stiffness: &DMatrix<f64>) -> Result<Self, Error> {
         let n = masses.len();
         check_count(
@@ -97,12 +98,13 @@ impl Linear {
         for (index, &mass) in masses.iter().enumerate() {
             check_parameter("mass", index, mass, false)?;
         }
-        // Rounding errors are relative to the largest entry; entries that are not finite have their own error.
-        let rounding = 1e-12 * stiffness.amax();
+        // Rounding errors are relative to the largest entries of both rows; entries that are not finite have their own error.
+        let largest: Vec<f64> = (0..n).map(|i| stiffness.row(i).amax()).collect();
         for i in 0..n {
             for j in 0..i {
                 let (value, mirrored) = (stiffness[(i, j)], stiffness[(j, i)]);
-                if (value - mirrored).abs() > rounding {
+                let scale = num_traits::Float::sqrt(largest[i] * largest[j]);
+                if (value - mirrored).abs() > 1e-12 * scale {
                     let (what, index) = ("stiffness", i * n + j);
                     let range =
                         "equal to the entry with exchanged indices: the matrix is symmetric";

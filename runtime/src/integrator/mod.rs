@@ -50,8 +50,8 @@ pub(crate) mod validation;
 
 use memory::StepMemory;
 use validation::{
-    check_declarations, check_masses, check_quadratic_kinetic, check_start, check_state,
-    check_step_size, has_linear_velocity,
+    check_masses, check_quadratic_kinetic, check_start, check_state, check_step_size,
+    has_linear_velocity,
 };
 
 /// The plan of the method `M` for the class of the system `S`.
@@ -241,7 +241,6 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         check_step_size(step_size)?;
         check_start(system, state)?;
         check_masses(system, state)?;
-        check_declarations(system, state)?;
         let orders = M::NEEDS_QUADRATIC_KINETIC.then_some(M::ORDERS);
         check_quadratic_kinetic::<M, V, S>(orders, system, state)?;
         <PlanOf<M, S, V> as Plan>::check(system, state.time, &state.q, &state.p)

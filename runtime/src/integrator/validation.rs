@@ -46,7 +46,7 @@ pub(super) fn check_masses<V: Vector, S: System<V>>(
 }
 
 /// Checks what a system declares of its arguments: a separable one must not read the other half, and an applied force has to be declared.
-pub(super) fn check_declarations<V: Vector, S: System<V>>(
+fn check_declarations<V: Vector, S: System<V>>(
     system: &S,
     State { time, q, p }: &State<V>,
 ) -> Result<(), Error> {
@@ -55,29 +55,42 @@ pub(super) fn check_declarations<V: Vector, S: System<V>>(
     }
     let time = V::Scalar::from_f64(*time);
     let (other_q, other_p) = (beside(q), beside(p));
-    let (mut one, mut other) = (q.zeros_like(), q.zeros_like());
     if S::Class::SEPARABLE {
+        let [mut one, mut other] = [q, q].map(V::zeros_like);
         system.velocity(time, q, p, &mut one);
         system.velocity(time, &other_q, p, &mut other);
-        if let Some((component, ..)) = first_difference(&one, &other) {
+        if let Some(component) = first_clear_difference(&one, &other) {
             let what = Quantity::Velocity;
             return Err(Error::NotSeparable { what, component });
         }
+        let [mut one, mut other] = [q, q].map(V::zeros_like);
         system.force(time, q, p, &mut one);
         system.force(time, q, &other_p, &mut other);
-        if let Some((component, ..)) = first_difference(&one, &other) {
+        if let Some(component) = first_clear_difference(&one, &other) {
             let what = Quantity::Force;
             return Err(Error::NotSeparable { what, component });
         }
     }
     if !S::FORCED {
-        let (zero, mut applied) = (q.zeros_like(), q.zeros_like());
+        let [zero, mut applied] = [q, q].map(V::zeros_like);
         system.applied_force(time, q, &other_p, &mut applied);
         if let Some((component, ..)) = first_difference(&applied, &zero) {
             return Err(Error::NotForced { component });
         }
     }
     Ok(())
+}
+
+/// The first component in which two vectors differ by more than sums in another order could, relative to the largest component.
+fn first_clear_difference<V: Vector>(left: &V, right: &V) -> Option<usize> {
+    first_difference(left, right)?;
+    let sizes = left.as_slice().iter().map(|x| x.magnitude());
+    let bound = num_traits::Float::sqrt(V::Scalar::EPSILON) * sizes.fold(0.0, f64::max);
+    let mut pairs = left.as_slice().iter().zip(right.as_slice());
+    // NaN on one side is a difference.
+    pairs.position(|(&left, &right)| {
+        left.is_finite() != right.is_finite() || (left - right).magnitude() > bound
+    })
 }
 
 /// Checks that the velocity is linear in the momentum, for a method that has the order of these `orders` only then.
@@ -138,14 +151,15 @@ fn first_difference<V: Vector>(left: &V, right: &V) -> Option<(usize, f64, f64)>
     Some((component, left.magnitude(), right.magnitude()))
 }
 
-/// [`check_state`], and that the parameters of the system fit the dimension.
+/// [`check_state`], that the parameters of the system fit the dimension, and that its declarations are right.
 pub(crate) fn check_start<V: Vector, S: System<V>>(
     system: &S,
     state: &State<V>,
 ) -> Result<(), Error> {
     let dimension = state.q.dimension();
     check_state(state.time, &state.q, &state.p, dimension)?;
-    system.check_dimension(dimension)
+    system.check_dimension(dimension)?;
+    check_declarations(system, state)
 }
 
 pub(crate) fn check_state<V: Vector>(

@@ -5,7 +5,6 @@ use core::marker::PhantomData;
 #[cfg(feature = "alloc")]
 use crate::method::LaneStep;
 #[cfg(feature = "alloc")]
-#[cfg(feature = "alloc")]
 use crate::method::tableau::eliminates;
 use crate::method::{
     Failure, Inside, Interpolation, Outcome, Plan, Solver, StageTableau, Step, StepStatistics,

@@ -174,8 +174,8 @@ fn steps_make_no_vectors() -> Result<(), Error> {
     }
     // To test what the system declares; what the state leaves out, the result and what that leaves out, two each; a velocity and a force,
     // and the stages where they are solved for.
-    check(StoermerVerlet, 6 + 6 + 2)?;
-    check(Midpoint, 6 + 6 + 4)
+    check(StoermerVerlet, 8 + 6 + 2)?;
+    check(Midpoint, 8 + 6 + 4)
 }
 
 /// In blocks, and by themselves.

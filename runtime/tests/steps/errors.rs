@@ -438,7 +438,7 @@ fn messages_say_what_where_and_what_to_do() {
     assert_eq!(
         error.to_string(),
         "step 1 of size 0.1 at time 0: the stages did not converge in 200 iterations \
-         (last relative change 2.5e-1); take a smaller step, or `by_newton()` for a stiff system without constraints"
+         (last relative change 2.5e-1); take a smaller step, or `by_newton()`, if it is not taken yet, for a stiff system without constraints"
     );
 }
 

@@ -245,10 +245,11 @@ fn starts_on_zero() -> Result<(), Error> {
 #[test]
 fn a_ball_that_stays_down_rests() -> Result<(), Error> {
     let floor: fn(&Ball) -> f64 = height;
-    for event in [Event::falling(floor), Event::wall(floor)] {
+    // By steps, flights of 1e-9 are resolved: they end by their number.
+    for (event, most) in [(Event::falling(floor), 20), (Event::wall(floor), 1001)] {
         let (times, ended, last) = bounces(&event, ball(1.0, 0.0), 0.0, 0.1)?;
         let fall = (2.0 / GRAVITY).sqrt();
-        assert!((times[0] - fall).abs() < 1e-15 && times.len() < 20);
+        assert!((times[0] - fall).abs() < 1e-15 && times.len() < most);
         assert!(
             matches!(ended, Err(Error::EventsAccumulate { .. })),
             "{ended:?}"

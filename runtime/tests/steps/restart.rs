@@ -211,7 +211,7 @@ fn other_numbers_are_refused() -> Result<(), Error> {
 #[cfg(feature = "serde")]
 mod files {
     use std::path::Path;
-    use std::process::Command;
+    use std::process::{Child, Command};
     use std::time::Duration;
     use std::{env, fs, thread};
 
@@ -219,6 +219,16 @@ mod files {
 
     /// The variable that names the checkpoint of the process that is killed.
     const FILE: &str = "SYMPLECTIC_TEST_CHECKPOINT";
+
+    /// A process that does not survive a test that fails.
+    struct Killed(Child);
+
+    impl Drop for Killed {
+        fn drop(&mut self) {
+            self.0.kill().expect("killed");
+            self.0.wait().expect("ended");
+        }
+    }
 
     /// A process that saves its run after every hundred steps is killed, three times, at any of them. The last one goes on to the bits of a
     /// run that was never interrupted.
@@ -248,14 +258,15 @@ mod files {
         let _ = fs::remove_file(&path);
         let mut steps = 0;
         for _ in 0..3 {
-            let mut process = Command::new(env::current_exe().expect("this test"))
+            let process = Command::new(env::current_exe().expect("this test"))
                 .args(["--exact", NAME])
                 .env(FILE, &path)
                 .spawn()
                 .expect("a process");
+            let mut process = Killed(process);
             let last = loop {
                 thread::sleep(Duration::from_millis(20));
-                assert_eq!(process.try_wait().expect("its status"), None, "it ended");
+                assert_eq!(process.0.try_wait().expect("its status"), None, "it ended");
                 let mut run = made()?;
                 if let Some(checkpoint) = read(&path) {
                     run.restore(&checkpoint).expect("the same run");
@@ -264,8 +275,7 @@ mod files {
                     break run.statistics().steps;
                 }
             };
-            process.kill().expect("killed");
-            process.wait().expect("ended");
+            drop(process);
             steps = last;
         }
         let mut resumed = made()?;
@@ -277,6 +287,8 @@ mod files {
         assert_eq!(resumed.statistics(), whole.statistics());
         assert_eq!(resumed.checkpoint(), whole.checkpoint());
         fs::remove_file(&path).expect("removed");
+        // A file that was not renamed any more.
+        let _ = fs::remove_file(path.with_extension("new"));
         Ok(())
     }
 

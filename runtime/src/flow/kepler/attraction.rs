@@ -86,7 +86,7 @@ impl Attraction {
 
     /// Adds the forces of gravity between the planets. They are not finite if two planets are at the same position.
     ///
-    /// Pairs k and k + d are computed in lanes, for d = 1, …, n/2; for `2d = n` each pair occurs twice, once from either side.
+    /// The pairs of planets (k, k + d) are computed in lanes, for d = 1, …, n/2; for `2d = n` each pair occurs twice, once from either side.
     pub(super) fn attract(&mut self) {
         let count = self.count;
         let half = count / 2;

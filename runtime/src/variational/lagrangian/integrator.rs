@@ -2,7 +2,7 @@
 
 use super::coefficients::StageCoefficients;
 use super::legendre::{momentum_of_velocity, velocity_near, velocity_of_momentum};
-use super::linear::LinearConstraint;
+use super::linear::{LinearConstraint, is_regular_beside};
 use super::stages::{Stages, Start};
 use crate::error::{Error, Quantity};
 use crate::integrator::StepMap;
@@ -195,14 +195,23 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         self.allow_linear::<M>(may_be_linear, component)
     }
 
-    /// Keeps an L that is linear in the velocities if it `may_be`; refuses others, which do not determine this component.
+    /// Keeps an L that is linear in the velocities if it `may_be`, and one that is degenerate at the start only; refuses others, which do not
+    /// determine this component.
     fn allow_linear<M: Method>(&mut self, may_be: bool, component: usize) -> Result<(), Error> {
         let State { time, q, p } = &self.state;
-        let mut constraint = LinearConstraint::new(q)?;
-        if !may_be || !constraint.is_linear(&self.lagrangian, *time, q) {
-            let method = M::NAME;
-            return Err(Error::DegenerateLagrangian { method, component });
+        let degenerate = Error::DegenerateLagrangian {
+            method: M::NAME,
+            component,
+        };
+        if !may_be {
+            return Err(degenerate);
         }
+        let Some(mut constraint) = LinearConstraint::new(&self.lagrangian, *time, q)? else {
+            return match is_regular_beside(&self.lagrangian, *time, q, p)? {
+                true => Ok(()),
+                false => Err(degenerate),
+            };
+        };
         if let Some((component, value)) = constraint.violation(&self.lagrangian, *time, q, p) {
             return Err(Error::PrimaryConstraint { component, value });
         }
@@ -388,6 +397,8 @@ impl<L: Lagrangian> Stepper for LagrangianIntegrator<L> {
             && let State { q, p, .. } = &self.next
             && let Some((component, _)) = constraint.violation(&self.lagrangian, end, q, p)
         {
+            // The next attempt begins as the first step did.
+            self.stages.forget();
             let method = self.method;
             return Err(Error::DegenerateLagrangian { method, component });
         }

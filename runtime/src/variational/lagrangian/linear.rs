@@ -1,37 +1,53 @@
 //! Lagrangians that are linear in the velocities, `L = a(q)·v − H(q)`: momenta are `p = a(q)`.
 
+use alloc::vec::Vec;
+
 use super::derivatives::Derivatives;
 use crate::error::Error;
 use crate::number::Vector;
+use crate::number::vector::beside;
 use crate::system::Lagrangian;
+use crate::variational::regular::Factors;
 
-/// The largest deviation of `p` from `a(q)`, relative to the largest component of both: rounding errors of long runs are smaller.
-const LARGEST: f64 = 1e-10;
+/// The largest deviation of `p` from `a(q)`, relative to their largest terms so far. Rounding errors of long runs are smaller; the
+/// deviation of a method that leaves `p = a(q)` grows above it, unless its steps are so short that it does not matter.
+const LARGEST: f64 = 1e-8;
 
 /// The primary constraints `p = a(q)`.
 #[derive(Clone)]
 pub(super) struct LinearConstraint<L: Lagrangian> {
     derivatives: Derivatives<L>,
     velocity: L::Vector<f64>,
+    /// `|∂a_i/∂q_j|` at the start, by rows.
+    slopes: Vec<f64>,
+    /// The largest term so far.
+    size: f64,
 }
 
 impl<L: Lagrangian> LinearConstraint<L> {
-    pub(super) fn new(q: &L::Vector<f64>) -> Result<Self, Error> {
-        Ok(Self {
-            derivatives: Derivatives::new(q.dimension())?,
-            velocity: q.zeros_like(),
-        })
-    }
-
-    /// Whether `∂²L/∂v∂v` is zero, at two velocities.
-    pub(super) fn is_linear(&mut self, lagrangian: &L, time: f64, q: &L::Vector<f64>) -> bool {
-        [1.0, 0.0].into_iter().all(|component| {
-            self.velocity.as_mut_slice().fill(component);
-            let (q, v) = (q.as_slice(), self.velocity.as_slice());
-            self.derivatives.second(lagrangian, time, q, v);
-            let mut entries = self.derivatives.momentum_by_velocity.iter();
-            entries.all(|&entry| entry == 0.0)
-        })
+    /// The constraints, if `∂²L/∂v∂v` is zero at two velocities; `None` if it is not.
+    pub(super) fn new(
+        lagrangian: &L,
+        time: f64,
+        q: &L::Vector<f64>,
+    ) -> Result<Option<Self>, Error> {
+        let mut derivatives = Derivatives::new(q.dimension())?;
+        let mut velocity = q.zeros_like();
+        for component in [1.0, 0.0] {
+            velocity.as_mut_slice().fill(component);
+            derivatives.second(lagrangian, time, q.as_slice(), velocity.as_slice());
+            let mut entries = derivatives.momentum_by_velocity.iter();
+            if !entries.all(|&entry| entry == 0.0) {
+                return Ok(None);
+            }
+        }
+        let slopes = derivatives.momentum_by_position.iter();
+        Ok(Some(Self {
+            slopes: slopes.map(|slope| slope.abs()).collect(),
+            derivatives,
+            velocity,
+            size: 0.0,
+        }))
     }
 
     /// The component in which `p` deviates most from `a(q)`, and the deviation; `None` if it is a rounding error.
@@ -42,17 +58,32 @@ impl<L: Lagrangian> LinearConstraint<L> {
         q: &L::Vector<f64>,
         p: &L::Vector<f64>,
     ) -> Option<(usize, f64)> {
-        self.velocity.as_mut_slice().fill(0.0);
         let (q, v) = (q.as_slice(), self.velocity.as_slice());
         self.derivatives.first(lagrangian, time, q, v);
-        let (mut size, mut largest) = (0.0_f64, (0, 0.0_f64));
+        let mut largest = (0, 0.0_f64);
         let pairs = p.as_slice().iter().zip(&self.derivatives.momentum);
-        for (component, (&p, &a)) in pairs.enumerate() {
-            size = size.max(p.abs()).max(a.abs());
+        let rows = self.slopes.chunks_exact(q.len().max(1));
+        for ((component, (&p, &a)), row) in pairs.enumerate().zip(rows) {
+            let terms = row.iter().zip(q).map(|(slope, q)| slope * q.abs());
+            self.size = self.size.max(p.abs()).max(a.abs()).max(terms.sum());
             if (p - a).abs() > largest.1.abs() {
                 largest = (component, p - a);
             }
         }
-        (largest.1.abs() > LARGEST * size).then_some(largest)
+        (largest.1.abs() > LARGEST * self.size).then_some(largest)
     }
+}
+
+/// Whether `∂²L/∂v∂v` is regular beside a state: L is degenerate at that state only, as in polar coordinates at the centre.
+pub(super) fn is_regular_beside<L: Lagrangian>(
+    lagrangian: &L,
+    time: f64,
+    q: &L::Vector<f64>,
+    v: &L::Vector<f64>,
+) -> Result<bool, Error> {
+    let n = q.dimension();
+    let mut derivatives = Derivatives::new(n)?;
+    derivatives.second(lagrangian, time, beside(q).as_slice(), beside(v).as_slice());
+    let mut factors = Factors::new(n);
+    Ok(derivatives.is_finite() && factors.factor(&derivatives.momentum_by_velocity).is_ok())
 }
