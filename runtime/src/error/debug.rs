@@ -1,7 +1,7 @@
 //! Errors as `main` and `unwrap` print them.
 
-/// Prints an error by its message in `Debug`, too: a `main` that returns it, and `unwrap`, print that form. It says more than the names and
-/// values of fields.
+/// Prints the message of an error in `Debug`, too, because `unwrap` and a `main` that returns the error print this form. The message says
+/// more than the names and values of fields.
 macro_rules! debug_by_message {
     ($name:ident) => {
         impl core::fmt::Debug for $name {

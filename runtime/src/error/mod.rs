@@ -331,7 +331,7 @@ pub enum Error {
         component: usize,
     },
 
-    /// A system writes an applied force, but does not say so by `FORCED`.
+    /// A system writes an applied force, but does not declare it by `FORCED`.
     #[error(
         "component {component} of the applied force is not zero, but would be ignored: add `const FORCED: bool = true`"
     )]
@@ -421,8 +421,9 @@ pub enum Error {
         time: f64,
     },
 
-    /// Events follow each other more closely than time or the state can resolve, or a thousand of them in a row, each within 1/16384 of a
-    /// step after the one before: impacts accumulate, or the state rests on a wall. The present state is that at the last event.
+    /// Events follow each other more closely than time or the state can resolve. Also returned after a thousand events in a row, each
+    /// within 1/16384 of a step after the one before. Impacts accumulate, or the state rests on a wall. The present state is that at the
+    /// last event.
     #[error(
         "events accumulate at time {time}: after {count} events in a row, each within 1/16384 of a step, the search ends at function \
          {index}; stop there, constrain the state to the wall, or take a smaller step if the events are real",
@@ -705,7 +706,7 @@ pub enum Error {
     NoStart {
         /// Time at the start of the step.
         time: f64,
-        /// The unknown half of the start.
+        /// The unknown part of the start: position or momentum.
         what: Quantity,
         /// The component that the ends do not determine, from 0; `None` if Newton's iteration does not converge.
         component: Option<usize>,

@@ -92,7 +92,7 @@ pub enum CheckpointError {
         expected: String,
     },
 
-    /// The system gives another velocity, force, constraint or flow at the state of the checkpoint or beside it.
+    /// The system gives another velocity, force, constraint or flow at the state of the checkpoint or near it.
     #[error(
         "the system gives another velocity, force, constraint or flow at the state of the checkpoint or beside it: it is another system, or \
          has other parameters"
@@ -136,7 +136,7 @@ impl Checkpoint {
         self
     }
 
-    /// Lets `take` replace its words by those of this checkpoint, which has to have as many, and the other fields of `own`.
+    /// Lets `take` replace its words by those of this checkpoint. It must have the same number of words, and the other fields of `own`.
     pub(crate) fn read(
         &self,
         own: &Self,

@@ -1,6 +1,6 @@
 //! Runs with coupled stages in lanes.
 //!
-//! A lane has the bits of its run. Not every step can be taken in lanes: a run leaves its lane for such a step, and returns after it.
+//! A lane has the bits of its run. A run leaves its lane for a step that cannot be taken in lanes, and returns after it.
 
 use alloc::boxed::Box;
 use alloc::vec;

@@ -11,7 +11,7 @@ use crate::number::{Summation, Vector};
 use crate::system::System;
 
 /// Number of steps of vectors of this dimension that are taken in place before the result is checked. The cost of the check is negligible
-/// beside them, and few steps are wasted if the result is NaN or infinite.
+/// compared with theirs, and few steps are wasted if the result is NaN or infinite.
 fn block(dimension: usize) -> u64 {
     (1 << 20) / (dimension as u64).clamp(16, 1 << 13)
 }
@@ -121,7 +121,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         true
     }
 
-    /// Whether the memory that steps change is small and contiguous, so that copying it is cheap beside a few steps.
+    /// Whether the memory that steps change is small and contiguous, so that copying it is cheap compared with a few steps.
     fn is_light(&self) -> bool {
         let bytes = size_of::<StepMemory<V, MemoryOf<M, S, V, N>>>();
         let at_run_time = <MemoryOf<M, S, V, N> as StageStorage<V>>::AT_RUN_TIME;

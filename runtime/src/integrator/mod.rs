@@ -516,7 +516,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         self.step_memory.statistics.iterations
     }
 
-    /// The energy of the present state, if the system knows it.
+    /// The energy of the present state, if the system provides it.
     pub fn energy(&self) -> Option<V::Scalar> {
         let State { time, q, p } = &self.step_memory.state;
         self.system.energy(V::Scalar::from_f64(*time), q, p)

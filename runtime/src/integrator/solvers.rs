@@ -43,7 +43,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// With constraints nothing changes either: their steps have an iteration of their own.
     ///
     /// The second derivatives are exact if the system [implements them](System::second_derivatives), as a system from a
-    /// [formula](crate::hamiltonian!) does. Otherwise they are difference quotients. The matrices are banded if the system knows its
+    /// [formula](crate::hamiltonian!) does. Otherwise they are difference quotients. The matrices are banded if the system provides its
     /// [half bandwidth](System::half_bandwidth), and full otherwise. The first step allocates them.
     ///
     /// ```

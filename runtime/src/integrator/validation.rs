@@ -45,7 +45,8 @@ pub(super) fn check_masses<V: Vector, S: System<V>>(
     Ok(())
 }
 
-/// Checks what a system declares of its arguments: a separable one must not read the other half, and an applied force has to be declared.
+/// Checks the declarations of a system: a separable velocity does not read the position, nor a separable force the momentum; an applied
+/// force is declared.
 fn check_declarations<V: Vector, S: System<V>>(
     system: &S,
     State { time, q, p }: &State<V>,

@@ -19,7 +19,7 @@ pub struct Substep {
     pub start: Coefficient,
     /// The fraction γ of the whole step.
     pub fraction: Coefficient,
-    /// What the memory of its plan still holds from the previous substep, or from the last substep of the previous step.
+    /// The data in the memory of its plan from the previous substep, or from the last substep of the previous step.
     pub kept: WarmStart,
     /// The number of stages of the substeps before it, for error messages.
     pub stages: usize,
@@ -153,7 +153,7 @@ impl<L: Substeps> Plan for Composition<L> {
 }
 
 /// Takes substeps one after another. `place` gives the start and the size of a substep, as fractions of the whole step. `take` takes the
-/// substep with a number, from 0; its [`WarmStart`] says what the previous substep or step has left.
+/// substep with a number, from 0; its [`WarmStart`] states which data of the previous substep or step are kept.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn in_turn<'a, V: Vector, P>(
     substeps: &[P],

@@ -33,7 +33,7 @@ pub struct DampedPlan<M>(PhantomData<M>);
 /// ```
 ///
 /// `h β_k` is the length of kick k; β_k is the sum of the weights `b̃_i` of successive stages with the same position. For h > 0 only
-/// negative kicks grow, and x is 0 if there are none. The method is one that steps systems of class [`Damped`].
+/// negative kicks grow, and x is 0 if there are none. The method must support systems of class [`Damped`].
 ///
 /// `rate` is γ, in units of 1/time, as in [`Hamiltonian::friction`](crate::Hamiltonian::friction). `step_size` is h, in units of time. x
 /// has no unit, and is NaN if either argument is NaN. With x = 1 a kick multiplies a momentum and its errors by e, and the positive kicks

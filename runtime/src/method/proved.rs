@@ -7,12 +7,12 @@ use crate::system::{Class, Unconstrained};
 /// A method that keeps its order and its symplecticity on all systems of class `C`.
 ///
 /// The macros implement it if the compiler proves two things for class `C`. The order is as high as on the narrower classes, and the step
-/// is symplectic if it is on those. Every method has it for [`Separable`](crate::Separable). A splitting is symplectic for separable
-/// Hamiltonians only and lacks it for [`General`](crate::General), so [`Integrator::new`](crate::Integrator::new) does not compile for a
-/// general system. [`Method::accept_lower_order`] lifts this restriction.
+/// is symplectic if it is on those. Every method implements it for [`Separable`](crate::Separable). A splitting is symplectic for separable
+/// Hamiltonians only and does not implement it for [`General`](crate::General), so [`Integrator::new`](crate::Integrator::new) does not
+/// compile for a general system. [`Method::accept_lower_order`] lifts this restriction.
 ///
-/// Every method also has it for `()`, which is not a class. If a method had it for one class only, rustc would infer that class from the
-/// method and report an error in the system.
+/// Every method also implements it for `()`, which is not a class. If a method implemented it for one class only, rustc would infer that
+/// class from the method and report an error in the system.
 ///
 /// Code that is generic over the method and the system needs the bound `M: Method + ProvedFor<S::Class>`.
 ///
@@ -79,7 +79,7 @@ impl Symmetry {
     }
 }
 
-/// A method on systems for which it has a lower order, or is not symplectic: what [`Method::accept_lower_order`] returns.
+/// The result of [`Method::accept_lower_order`]: a method on systems for which it has a lower order, or is not symplectic.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LowerOrder<M>(pub(crate) M);
 

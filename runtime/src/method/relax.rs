@@ -128,7 +128,7 @@ fn double<T: Scalar>(number: T) -> f64 {
     T::doubles(slice::from_ref(&number)).map_or(0.0, |number| number[0])
 }
 
-/// The rows of a stage, in registers `K`: as many of each vector. The work returns the largest change and the largest number.
+/// The rows of a stage, in registers `K`, the same number of each vector. The work returns the largest change and the largest number.
 struct Rows<'a, R, K, L> {
     out: &'a mut [[f64; 8]],
     base: &'a [[f64; 8]],

@@ -123,7 +123,7 @@ where
         self.drift_by(stage, time, weight, false);
     }
 
-    /// [`drift`](Self::drift), with the velocity that the previous step has kept, if it has.
+    /// [`drift`](Self::drift), with the velocity kept by the previous step, if there is one.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn kept_drift(&mut self, stage: usize, time: Coefficient, weight: Coefficient) {
         self.drift_by(stage, time, weight, self.kept);

@@ -11,7 +11,7 @@ use crate::method::{RunTimeTableau, StageVisit};
 use crate::number::vector::LIGHT;
 use crate::number::{Scalar, Vector, Visit, vector_words};
 
-/// Memory of one [`Plan`](crate::emitted::Plan), made once and used for every step.
+/// Memory of one [`Plan`](crate::emitted::Plan), allocated once and used for every step.
 pub trait StageStorage<V: Vector>: Sized + Clone {
     /// Whether it holds a [tableau](Self::tableau) that is known only at run time.
     const AT_RUN_TIME: bool = false;
@@ -67,7 +67,7 @@ pub trait StageStorage<V: Vector>: Sized + Clone {
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)>;
 }
 
-/// Looks at a copy of stages on the stack: stages to which no pointer exists can stay in registers from step to step.
+/// Visits a copy of the stages on the stack: stages to which no pointer exists can stay in registers from step to step.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn aside<M: Clone, T>(stages: &M, look: impl FnOnce(&M) -> T) -> T {
     match mem::needs_drop::<M>() || size_of::<M>() > LIGHT {
@@ -241,7 +241,7 @@ pub(crate) fn first_mismatch<V: Vector>(
 /// Whether every component is finite.
 #[inline]
 pub(crate) fn is_finite<V: Vector>(vector: &V) -> bool {
-    // Every step checks its result with this function, so it is branch-free and vectorises: adding 1 to the exponent carries into the sign
+    // Every step checks its result with this function, so it is branch-free and vectorises. Adding 1 to the exponent carries into the sign
     // bit only if the number is NaN or infinite.
     const SIGN: u64 = 1 << 63;
     const LEAST_EXPONENT: u64 = 1 << 52;

@@ -4,7 +4,7 @@ use crate::method::{ConstrainedStep, Method};
 
 /// The fractions `γ_1, …, γ_m` of a composition of Störmer–Verlet steps.
 ///
-/// They serve for every symmetric method of order 2, because its compositions have the same order conditions (Hairer, Lubich & Wanner,
+/// They apply to every symmetric method of order 2, because its compositions have the same order conditions (Hairer, Lubich & Wanner,
 /// *Geometric numerical integration*, V.3).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SymmetricSteps(&'static [ConstrainedStep]);

@@ -65,14 +65,14 @@ pub struct StagePolynomial {
     pub order: u32,
 }
 
-/// One half of a [`StageTableau`]: stage values, and the evaluations at them.
+/// The positions or the momenta of a [`StageTableau`]: stage values, and the evaluations at them.
 ///
 /// Every list over the stages has an entry for each lane: the last stage is repeated to fill the lanes.
 #[derive(Clone, Copy, Debug)]
 pub struct HalfTableau {
     /// The number of stages.
     pub count: usize,
-    /// The matrix by its columns: one column for each evaluation of the other half, with an entry for each stage.
+    /// The matrix by its columns, with an entry for each stage: for positions one column for each velocity, for momenta one for each force.
     pub columns: &'static [&'static [f64]],
     /// The times of the evaluations, as fractions of the step.
     pub times: &'static [f64],

@@ -15,7 +15,7 @@
 ///
 /// One macro may contain any number of definitions. The type is `Copy`, has no fields and implements [`Method`](crate::Method). Its
 /// coefficients are constants, each the double nearest to the exact one: `A`, `A_TILDE`, `B`, `B_TILDE`, `C`, `C_TILDE`. For scalars other
-/// than f64 there is [`Method::COEFFICIENTS`](crate::Method::COEFFICIENTS), rounded anew from the exact coefficients. Its page in the
+/// than f64 there is [`Method::COEFFICIENTS`](crate::Method::COEFFICIENTS), rounded separately from the exact coefficients. Its page in the
 /// documentation shows the exact tableau and what is proved about it.
 ///
 /// | key | value |
@@ -31,7 +31,7 @@
 /// | `compose` | instead of all these: steps of other methods one after another, each with its fraction of the step and its definition: `[[1/2, basis: 1, nodes: 0], [1/2, basis: 1, nodes: 1]]` |
 /// | `exchange` | `true` exchanges positions and momenta at the end |
 /// | `adjoint` | `true` for the adjoint of the method |
-/// | `file` | instead of all these: a TOML file with a definition or a whole tableau, relative to the crate: `"tableaux/gauss-4.toml"`; it is derived and proved anew, and an edit of it rebuilds the crate |
+/// | `file` | instead of all these: a TOML file with a definition or a whole tableau, relative to the crate: `"tableaux/gauss-4.toml"`; it is derived and proved again, and an edit of it rebuilds the crate |
 /// | `require` | a list of the requirements below |
 /// | `accept` | `verified(100 bits)`: a property verified to that many bits satisfies a requirement too; needed only for tableaux that no exact arithmetic can represent |
 /// | `max_stages` | maximum number of stages; default 36 |

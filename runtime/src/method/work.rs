@@ -15,8 +15,8 @@ pub struct StepStatistics {
     pub factorisations: u32,
     /// Failed attempts to find the stages after which another solver succeeded.
     pub rejected: u32,
-    /// The largest absolute values of the positions and of the momenta of the coupled stages, as last measured: in a fixed-point
-    /// iteration no later than the first change that can be rounding errors. Where the momenta are eliminated, both are that of the
+    /// The largest absolute values of the positions and of the momenta of the coupled stages, as last measured. A fixed-point iteration
+    /// measures them no later than the first change that can be rounding errors. If the momenta are eliminated, both values are that of the
     /// positions. Zero if unknown. For several steps, those of the last step.
     pub scales: [f64; 2],
     /// Relative change of the stages in the last sweep of a Newton iteration; for several steps, the largest one. Zero for other solvers.

@@ -6,14 +6,15 @@ use num_traits::{One, Zero};
 
 use crate::number::{Coefficient, Scalar, larger_or_nan};
 
-/// `value + slope ε` with `ε² = 0`: a number and its derivative by a parameter. The value has the same bits as without the slope.
+/// `value + slope ε` with `ε² = 0`: a number and its derivative with respect to a parameter. The value has the same bits as without the
+/// slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Dual<T> {
     pub(crate) value: T,
     pub(crate) slope: T,
 }
 
-/// `value + first ε1 + second ε2 + mixed ε1ε2`: a value, its derivatives by two parameters, and the second derivative by both
+/// `value + first ε1 + second ε2 + mixed ε1ε2`: a value, its derivatives with respect to two parameters, and the mixed second derivative
 /// (Fike & Alonso 2011).
 pub(crate) type HyperDual = Dual<Dual<f64>>;
 
@@ -39,7 +40,7 @@ impl HyperDual {
         self.value.value
     }
 
-    /// The derivative by the first parameter.
+    /// The derivative with respect to the first parameter.
     #[inline]
     pub(crate) const fn first(self) -> f64 {
         self.slope.value
@@ -48,19 +49,19 @@ impl HyperDual {
 
 #[cfg(feature = "alloc")]
 impl HyperDual {
-    /// The derivative by the second parameter.
+    /// The derivative with respect to the second parameter.
     #[inline]
     pub(crate) const fn second(self) -> f64 {
         self.value.slope
     }
 
-    /// The derivative by both parameters.
+    /// The derivative with respect to both parameters.
     #[inline]
     pub(crate) const fn mixed(self) -> f64 {
         self.slope.slope
     }
 
-    /// Sets the derivative by the first parameter.
+    /// Sets the derivative with respect to the first parameter.
     #[inline]
     pub(crate) const fn set_first(&mut self, first: f64) {
         self.slope.value = first;
@@ -310,12 +311,13 @@ mod tests {
     use super::*;
     use crate::number::{F64x2, Lanes};
 
-    /// Checks every function against differences of order 4, along both parameters, and checks the same values and slopes in lanes.
+    /// Checks every function against differences of order 4, with respect to both parameters, and checks the same values and slopes in
+    /// lanes.
     #[test]
     fn derivatives() {
         fn check(name: &str, f: impl Fn(HyperDual) -> HyperDual) {
             let at = |a: f64, b: f64| {
-                // x(a, b) has derivatives by both parameters and a mixed derivative.
+                // x(a, b) has derivatives with respect to both parameters and a mixed derivative.
                 let x = 0.4 + 0.7 * a + 0.3 * b + 0.2 * a * b;
                 f(HyperDual::from_f64(x)).real()
             };

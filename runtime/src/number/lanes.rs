@@ -15,8 +15,8 @@ pub const MOST_LANES: usize = 16;
 /// Several doubles side by side, in one register of the processor if its registers are wide enough.
 ///
 /// Every lane has the bits of the same computation with a single double, and all lanes are computed at once. Only `tan`, inverse and
-/// hyperbolic functions are computed lane by lane. The target sets the width of the registers; integrators and ensembles find wider ones
-/// when they are made, if the system is [inlined](crate::Hamiltonian::INLINED).
+/// hyperbolic functions are computed lane by lane. The target sets the width of the registers; integrators and ensembles detect wider ones
+/// when they are created, if the system is [inlined](crate::Hamiltonian::INLINED).
 ///
 /// ```
 /// use symplectic::Scalar;
@@ -141,7 +141,7 @@ broadcast! { wide::f64x4 wide::f64x8 }
 #[cfg(target_arch = "x86_64")]
 broadcast! { registers::f64x4 registers::f64x8 registers::eight_doubles }
 
-/// The largest of several numbers, any of them if one is NaN: by halves, because narrower registers are enough for these.
+/// The largest of several numbers, or any of them if one is NaN. The two halves are compared, because narrower registers suffice for these.
 trait Largest {
     fn largest(self) -> f64;
 }

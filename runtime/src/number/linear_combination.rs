@@ -1,8 +1,7 @@
 //! The linear combinations in generated code.
 //!
-//! Nothing is allocated. Vectors of different dimension are combined up to the length of the shortest one. Only a system that resizes a
-//! result can bring them here; the integrator then returns
-//! [`Error::EvaluationDimension`](crate::Error::EvaluationDimension).
+//! Nothing is allocated. Vectors of different dimension are combined up to the length of the shortest one. Such vectors occur only if a
+//! system resizes a result; the integrator then returns [`Error::EvaluationDimension`](crate::Error::EvaluationDimension).
 
 use core::marker::PhantomData;
 
@@ -187,7 +186,7 @@ impl<R: Summation, T: Scalar> Work for AddProducts<'_, R, T> {
 }
 
 /// [`add_products`] in the registers of the caller.
-// The compiler knows that slices passed as arguments do not overlap. For the memory that vectors point to it has to check before every
+// The compiler knows that slices passed as arguments do not overlap. For memory to which vectors point it has to check this before every
 // loop.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn add_products_here<R: Summation, T: Scalar>(

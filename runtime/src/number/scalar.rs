@@ -50,7 +50,7 @@ pub trait Scalar:
     #[doc(hidden)]
     const IS_DOUBLE: bool = false;
 
-    /// Whether these are lanes of registers that the program has found: see [`in_registers`](Self::in_registers).
+    /// Whether these are lanes of registers that the program detects at run time: see [`in_registers`](Self::in_registers).
     #[doc(hidden)]
     const FOUND: bool = false;
 

@@ -44,7 +44,8 @@ impl Summation for Plain {
     const COMPENSATED: bool = false;
 }
 
-/// The sums of `R` in an over-relaxed sweep, which moves stages twice as far. Where the sweep converges fast, it about mirrors the stages.
+/// The sums of `R` in an over-relaxed sweep, which moves stages twice as far. If the sweep converges fast, this approximately mirrors the
+/// stages.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Overrelaxed<R>(PhantomData<R>);
 

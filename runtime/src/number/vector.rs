@@ -48,8 +48,8 @@ pub trait Vector: Clone + Debug + PartialEq + 'static {
     ///
     /// [`Error::Length`] if a vector of this type has another dimension.
     fn from_slice(components: &[Self::Scalar]) -> Result<Self, Error>;
-    /// A vector without components, or the zero vector if their number is fixed: the value that is left where a vector is moved
-    /// out. Allocates no memory.
+    /// A vector without components, or the zero vector if their number is fixed: the value that remains when a vector is moved out.
+    /// Allocates no memory.
     fn blank() -> Self;
     /// The zero vector of the same dimension.
     fn zeros_like(&self) -> Self;

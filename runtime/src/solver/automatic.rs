@@ -83,7 +83,7 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> fmt::Debug for Automatic
     }
 }
 
-/// Whether the stages are this many doubles in lanes, and may be in registers that the program has to find.
+/// Whether the stages are this many doubles in lanes, and may be in registers that the program detects at run time.
 const fn may_be_wide<V: Vector, S: System<V>, P: StageTableau>(width: usize) -> bool {
     registers::UNKNOWN && S::INLINED && P::Lanes::WIDTH == width
 }
@@ -408,7 +408,7 @@ mod tests {
         let zero = Vector2::zeros();
         let found: AutomaticStages<_, S, P> = StageStorage::like(&zero);
         let mut kinds = vec![found];
-        // Only where they are taken at all: with the feature `fma` the lanes of the program have other bits.
+        // Only if they are used at all: with the feature `fma` the lanes of the program have other bits.
         if registers::UNKNOWN
             && P::Lanes::WIDTH == 8
             && let Some(avx2) = Avx2::detect()

@@ -27,32 +27,32 @@ use crate::system::System;
 /// change can be rounding errors and has stopped shrinking.
 ///
 /// - *Can be rounding errors:* at most 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON), relative to the largest position and the
-///   largest momentum. In a separable system one half suffices, in a general one both must be.
+///   largest momentum. In a separable system the positions or the momenta suffice; in a general one both must be.
 /// - *Shrinks:* the relative change of the stages becomes smaller; in a separable system, that of the positions.
 /// - *Has stopped shrinking:* at least one sweep, and more than a sixteenth of all sweeps, made no progress. A slow iteration with
 ///   oscillations has changes that grow now and then before that. In the last allowed sweep, one sweep without progress suffices.
 /// - The first nine sweeps count only from the first change on that can be rounding errors.
 ///
-/// If evaluations are noisier than that, or sweeps amplify rounding errors, the iteration has also settled where all of this holds:
+/// If evaluations are noisier than that, or sweeps amplify rounding errors, the iteration has also settled if all of these conditions hold:
 ///
 /// - no sweep of the last ten made progress;
 /// - the smallest change was 1024 times smaller than the first one, or than the largest one after nine sweeps;
-/// - the smallest change was at most 64 units in one half, and the present change is at most 256 units in one half.
+/// - the smallest change was at most 64 units in the positions or in the momenta, and the present one is at most 256 units in either.
 ///
 /// If the iteration settles with a nonzero change, rounding makes the stages alternate between two values. The side
 /// from which the starting values come decides at which of them it ends. This would cause an energy drift, though only of a relative
 /// 1e-21 per step (measured; Hénon–Heiles, Gauss 8). In half of the steps, by a pseudo-random bit of their time, one more sweep is
 /// made.
 ///
-/// If the stages stand still, they stand at one of several roundings that solve the rounded equations. The same side decides at
-/// which. For a system that is not separable the relative energy drift is 1e-20 per step (measured;
-/// `(q² + 1)(p² + 1)/2`, Gauss 6 and 8). In such a system, half of the steps with a warm start, by another such bit, therefore
-/// come from the other side. Their second sweep moves the stages twice as far: if sweeps converge fast, to about the mirror image of
-/// the stages after the first sweep. Both sweeps are counted. If fewer than ten sweeps are allowed, this is omitted.
+/// If the stages no longer change, they are one of several solutions of the rounded equations. The same side decides which. For a system
+/// that is not separable the relative energy drift is 1e-20 per step (measured; `(q² + 1)(p² + 1)/2`, Gauss 6 and 8). In such a system,
+/// half of the steps with a warm start, by another such bit, therefore approach from the other side. Their second sweep moves the stages
+/// twice as far. If sweeps converge fast, this leads to about the mirror image of the stages after the first sweep. Both sweeps are
+/// counted. If fewer than ten sweeps are allowed, this is omitted.
 ///
-/// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for stagnation. It also
-/// ends with a change of at most one unit, and with one of at most 64 units if the next change would be at most one unit. The next
-/// change is predicted by the same contraction rate. With a [tolerance](crate::Integrator::set_tolerance) it also ends with the first change within it.
+/// With [`Plain`](crate::Plain) sums the energy drifts anyway, and the iteration does not wait for stagnation. It also ends with a change
+/// of at most one unit. A change of at most 64 units suffices if the next one would be at most one unit, predicted by the same contraction
+/// rate. With a [tolerance](crate::Integrator::set_tolerance) it also ends with the first change within it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FixedPoint;
 

@@ -29,9 +29,9 @@ use crate::system::{Gradients, Jacobian};
 ///
 /// If H depends on time, a partitioned method uses two times per stage. Stage `i` evaluates the *force* at `t0 + c_i h`, the time of its
 /// position `Q_i`. It evaluates the *velocity* at `t0 + c̃_i h`, the time of its momentum `P_i`. For a separable H this is an autonomous
-/// system in which each half has its own time variable, so the method keeps its order. If `c = c̃`, as MW 4.9.3 (Marsden & West, 2001)
-/// requires, both times are the same. With two times a step of a non-separable H is not symplectic if ∂²H/∂q∂p depends on time: choose a
-/// method with `c = c̃`.
+/// system in which positions and momenta each have their own time variable, so the method keeps its order. If `c = c̃`, as MW 4.9.3
+/// (Marsden & West, 2001) requires, both times are the same. With two times a step of a non-separable H is not symplectic if ∂²H/∂q∂p
+/// depends on time: choose a method with `c = c̃`.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -72,14 +72,14 @@ pub trait Hamiltonian {
         + Vector<With<WideF64x8> = Self::Vector<WideF64x8>>
         + Vector<With<WidestF64x8> = Self::Vector<WidestF64x8>>;
 
-    /// What the system declares of its masses, which is optional: see [`Masses`].
+    /// Optional declaration about the masses: see [`Masses`].
     const MASSES: Masses = Masses::Any;
 
-    /// Whether everything is inlined that velocity and force call. Each function that computes with numbers `T` is marked
-    /// `#[inline(always)]`; there is no such closure, and no function of whole vectors of nalgebra such as `dot`. Coupled stages and
-    /// the trajectories of ensembles are then computed in the widest registers that the processor has, AVX2 or AVX-512, also in a program that
-    /// is compiled for every x86-64 processor.
-    /// The results have the same bits. Systems from a formula without functions of your own declare it.
+    /// Whether everything that velocity and force call is inlined. Each function that computes with numbers `T` is marked
+    /// `#[inline(always)]`. No closure computes with them, and no function of whole vectors of nalgebra, such as `dot`, is called. Coupled
+    /// stages and the trajectories of ensembles are then computed in the widest registers of the processor, AVX2 or AVX-512. This also
+    /// holds for a program that is compiled for every x86-64 processor. The results have the same bits. Systems from a formula without
+    /// functions of your own declare it.
     ///
     /// A function that is not inlined after all makes steps many times slower: see the chapter "Faster steps" of the book.
     const INLINED: bool = false;
@@ -213,7 +213,7 @@ pub trait Hamiltonian {
         }
     }
 
-    /// H at `(time, q, p)`, if the system knows it. No method needs it.
+    /// H at `(time, q, p)`, if the system provides it. No method needs it.
     fn energy<T: Scalar>(&self, _time: T, _q: &Self::Vector<T>, _p: &Self::Vector<T>) -> Option<T> {
         None
     }
@@ -283,8 +283,9 @@ pub trait Hamiltonian {
     }
 
     /// Writes the second derivatives of H at `(time, q, p)` into `jacobian`, which is initially zero, and returns `true`. Returns `false`
-    /// if the system does not know them; the iteration of [Newton](crate::solver::Newton) then uses differences. Derivatives of an [applied
-    /// force](Self::applied_force) by positions are added to `force_by_position`; those by momenta have a matrix of their own.
+    /// if the system does not provide them; the iteration of [Newton](crate::solver::Newton) then uses differences. Derivatives of an
+    /// [applied force](Self::applied_force) with respect to positions are added to `force_by_position`; those with respect to momenta have
+    /// a separate matrix.
     #[cfg(feature = "alloc")]
     fn second_derivatives<T: Scalar>(
         &self,
@@ -585,7 +586,7 @@ pub trait SeparableHamiltonian {
         + Vector<With<WideF64x8> = Self::Vector<WideF64x8>>
         + Vector<With<WidestF64x8> = Self::Vector<WidestF64x8>>;
 
-    /// What is known of the [masses](Masses). With `Masses::Unit` steps use the momentum as the velocity.
+    /// Declaration about the [masses](Masses). With `Masses::Unit` steps use the momentum as the velocity.
     ///
     /// ```
     /// use symplectic::nalgebra::DVector;
@@ -619,13 +620,13 @@ pub trait SeparableHamiltonian {
     /// Writes −∂H/∂q at `(time, q)` into `force`.
     fn force<T: Scalar>(&self, time: T, q: &Self::Vector<T>, force: &mut Self::Vector<T>);
 
-    /// H at `(time, q, p)`, if the system knows it. No method needs it.
+    /// H at `(time, q, p)`, if the system provides it. No method needs it.
     fn energy<T: Scalar>(&self, _time: T, _q: &Self::Vector<T>, _p: &Self::Vector<T>) -> Option<T> {
         None
     }
 
     /// Writes the second derivatives of H at `(time, q, p)` into `jacobian`, which is initially zero, and returns `true`. Returns `false`
-    /// if the system does not know them; the iteration of [Newton](crate::solver::Newton) then uses differences.
+    /// if the system does not provide them; the iteration of [Newton](crate::solver::Newton) then uses differences.
     ///
     /// ```
     /// use symplectic::nalgebra::SVector;

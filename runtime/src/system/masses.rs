@@ -1,8 +1,8 @@
-//! What a system declares of its masses.
+//! What a system declares about its masses.
 
-/// What a system declares of its masses: [`Hamiltonian::MASSES`](crate::Hamiltonian::MASSES).
+/// What a system declares about its masses: [`Hamiltonian::MASSES`](crate::Hamiltonian::MASSES).
 ///
-/// The declaration is optional and only saves work. In a separable system the integrator itself finds whether the kinetic energy is
+/// The declaration is optional and only saves work. In a separable system the integrator itself determines whether the kinetic energy is
 /// `pᵀM⁻¹p/2` with constant M.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Masses {

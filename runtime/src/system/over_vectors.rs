@@ -50,10 +50,10 @@ pub trait System<V: Vector>: Sized {
     type Class: Class;
 
     /// The solver of coupled stages unless another solver is [named](crate::Integrator::with_solver):
-    /// [`FixedPoint`](crate::solver::FixedPoint), or [`Automatic`] for a system that is known over every scalar.
+    /// [`FixedPoint`](crate::solver::FixedPoint), or [`Automatic`] for a system that is defined over every scalar.
     type Solver: Solver<V, Self>;
 
-    /// What is known of the masses: see [`SeparableHamiltonian::MASSES`](crate::SeparableHamiltonian::MASSES).
+    /// Declaration about the masses: see [`SeparableHamiltonian::MASSES`](crate::SeparableHamiltonian::MASSES).
     const MASSES: Masses = Masses::Any;
 
     /// Whether everything is inlined: see [`Hamiltonian::INLINED`].
@@ -69,8 +69,8 @@ pub trait System<V: Vector>: Sized {
     /// Whether the force has a part without a potential: see [`Hamiltonian::applied_force`].
     const FORCED: bool = false;
 
-    /// Whether it is certain that a separable system does not read the other half and that [`FORCED`](Self::FORCED) is right; otherwise an
-    /// integrator tests both when it is made.
+    /// Whether [`FORCED`](Self::FORCED) and the class are certainly right: the velocity of a separable system does not read the position,
+    /// its force not the momentum. Otherwise an integrator tests this when it is created.
     #[doc(hidden)]
     const WELL_DECLARED: bool = false;
 
@@ -110,7 +110,7 @@ pub trait System<V: Vector>: Sized {
         }
     }
 
-    /// H at `(time, q, p)`, if the system knows it. No method needs it.
+    /// H at `(time, q, p)`, if the system provides it. No method needs it.
     fn energy(&self, _time: V::Scalar, _q: &V, _p: &V) -> Option<V::Scalar> {
         None
     }
@@ -120,8 +120,7 @@ pub trait System<V: Vector>: Sized {
         applied.as_mut_slice().fill(V::Scalar::zero());
     }
 
-    /// Writes the second derivatives of H into `jacobian`, if the system knows them: see
-    /// [`Hamiltonian::second_derivatives`].
+    /// Writes the second derivatives of H into `jacobian`, if the system provides them: see [`Hamiltonian::second_derivatives`].
     #[cfg(feature = "alloc")]
     fn second_derivatives(
         &self,
@@ -180,13 +179,13 @@ pub trait System<V: Vector>: Sized {
         Ok(())
     }
 
-    /// The error of a step from the position `q`, supplemented with what the system knows about it.
+    /// The error of a step from the position `q`, supplemented with details from the system.
     #[doc(hidden)]
     fn explain(&self, error: Error, _q: &V) -> Error {
         error
     }
 
-    /// Runs `work` over vectors of these lanes, if the system is known over them.
+    /// Runs `work` over vectors of these lanes, if the system is defined over them.
     #[doc(hidden)]
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn over_lanes<L: Lanes, W: LaneWork<V, Self, L>>(_work: W) -> Option<W::Output>
@@ -350,7 +349,7 @@ impl<V: Vector, S> SystemInLanes<V> for S where
 {
 }
 
-/// A system over `V` that is known over every scalar.
+/// A system over `V` that is defined over every scalar.
 pub trait OverEveryScalar<V: Vector>: System<V> + SystemInLanes<Self::Doubles> {
     /// The same vectors over doubles: `V` itself if its scalar is f64.
     type Doubles: Vector<Scalar = f64>;

@@ -12,7 +12,7 @@ use crate::number::{Scalar, Vector};
 use crate::state::State;
 use crate::system::{Class, Constrained, System, Unconstrained};
 
-/// The force of the constraints at a state, and their multipliers: what [`constraint_force`] returns.
+/// The result of [`constraint_force`]: the force of the constraints at a state, and their multipliers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConstraintForce<V: Vector> {
     /// The multiplier λ of each constraint.

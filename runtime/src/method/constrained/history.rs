@@ -11,7 +11,7 @@ use crate::number::{Scalar, Vector, Visit, larger_or_nan, scalar_words, vector_w
 /// Number of steps from which stages are extrapolated.
 const STEPS: usize = 5;
 
-/// What the last steps contribute to the next, the last step first.
+/// Weights of the last steps in the extrapolation to the next, the last step first.
 type Weights = [f64; STEPS];
 
 /// The quartic through the last five steps, minus or plus an eighth of its difference from the parabola through the last three. So the
@@ -25,7 +25,7 @@ const SIDES: [Weights; 2] = [
 /// quarter of the difference between quartic and parabola. The iteration could then end at another solution of the equations.
 const APART: f64 = 0.0125;
 
-/// What is extrapolated of a step.
+/// The quantities of a step that are extrapolated.
 #[derive(Clone, Debug)]
 struct Stages<V: Vector> {
     /// The differences between stages and their first guesses.

@@ -96,7 +96,7 @@ impl<V: Vector, S: System<V>> System<V> for OfDimension<'_, S> {
     }
 }
 
-/// What an evaluation of a wrong dimension is of, its stage from 1, or 0 outside the stages, and its dimension. NaN took its place, so its
+/// The quantity of an evaluation of a wrong dimension, its stage from 1 (0 outside the stages), and its dimension. NaN replaced it, so its
 /// stage is the first increment of a step that is not finite.
 pub(in crate::method) fn place_of_resized<V: Vector>(
     (what, found): (Quantity, usize),

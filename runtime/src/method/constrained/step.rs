@@ -50,7 +50,7 @@ impl<V: Vector> Workspace<V> {
         let separable = S::Class::SEPARABLE;
         let mut work = StepStatistics::default();
         if !carried {
-            // The multipliers of another state, or of a step that failed, are no starting values.
+            // The multipliers of another state, or of a step that failed, are not used as starting values.
             self.multipliers.fill(V::Scalar::from_f64(0.0));
             self.histories.iter_mut().for_each(History::forget);
             let Self {

@@ -6,9 +6,9 @@
 //! ```
 //!
 //! For Gauss with one stage the discrete constraint is imposed at the midpoint. For Lobatto IIIA–IIIB with two stages it is the mean of
-//! both ends. For the Euler methods it is imposed at one end. Each step is its own adjoint, or the adjoint of the other, as its tableau is.
-//! So a symmetric tableau gives a symmetric step of order 2, which can be composed as such. Positions do not depend on μ: the next step
-//! finds λ for any momentum in `p1 + span wᵀ`.
+//! both ends. For the Euler methods it is imposed at one end. A step is its own adjoint if its tableau is; the two Euler steps are adjoints
+//! of each other. So a symmetric tableau gives a symmetric step of order 2, which can be composed as such. Positions do not depend on μ:
+//! the next step finds λ for any momentum in `p1 + span wᵀ`.
 //!
 //! The stages need only H, so H may be degenerate as long as `w H_pp wᵀ` is invertible. Let `H_d^±` be the generating functions of the same
 //! tableau without constraints, `P = p1 + w(q1)ᵀμ` and `p = p0 − w(q0)ᵀλ`. A step then satisfies the implicit discrete Hamilton's equations

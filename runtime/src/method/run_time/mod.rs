@@ -41,7 +41,7 @@ pub struct RunTimeCoefficients {
     pub c_tilde: Vec<f64>,
 }
 
-/// Those of an emitted method: `Midpoint::COEFFICIENTS.into()`.
+/// The coefficients of an emitted method: `Midpoint::COEFFICIENTS.into()`.
 impl From<Coefficients> for RunTimeCoefficients {
     fn from(exact: Coefficients) -> Self {
         let doubles = |list: &[Coefficient]| list.iter().map(|x| x.double()).collect();
@@ -246,7 +246,7 @@ impl Method for AtRunTime {
     type Separable = RunTimePlan<Separable>;
 }
 
-// Checked when the integrator is made.
+// Checked when the integrator is created.
 impl<C: Conservative> ProvedFor<C> for AtRunTime {}
 
 // Required of every method.

@@ -153,7 +153,7 @@ impl<C: Class> Plan for RunTimePlan<C> {
                     ..StepStatistics::default()
                 })
             }
-            // A constant condition: found registers compile without the other branch.
+            // A constant condition: registers detected at run time compile without the other branch.
             Schedule::Coupled(_) if V::Scalar::FOUND => {
                 unreachable!("coupled stages of several trajectories are in `LaneStages`")
             }

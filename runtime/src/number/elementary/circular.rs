@@ -207,7 +207,7 @@ impl<D: Doubles> Branches<D> for Cosine<D> {
     }
 }
 
-/// `1 − y²/2`, where the half is exact.
+/// `1 − y²/2`, where the division by 2 is exact.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn near<D: Doubles>(square: D) -> D {
     square.fused(D::from_f64(-0.5), D::one())

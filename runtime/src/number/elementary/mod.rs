@@ -1,9 +1,9 @@
 //! Elementary functions of doubles, one by one or side by side in lanes, with the same bits.
 //!
-//! Those of the standard library take one double and differ between platforms. Here the functions that systems need most consist of sums,
-//! products and operations on bits, which lanes have too: sine, cosine, exponential function, logarithm. The error of each is below one
-//! unit in the last place; `tests/tests/elementary.rs` checks it. Arguments outside this guarantee go to [`libm`], one by one: huge and
-//! tiny numbers, infinities, NaN.
+//! The functions of the standard library take one double and differ between platforms. Here the functions that systems need most consist of
+//! sums, products and operations on bits, which lanes also have. They are sine, cosine, exponential function and logarithm. The error of
+//! each is below one unit in the last place; `tests/tests/elementary.rs` checks it. Huge and tiny numbers, infinities and NaN are passed to
+//! [`libm`], one by one, without this guarantee.
 
 mod circular;
 mod doubles;
@@ -20,7 +20,7 @@ use crate::number::array::array;
 /// `2⁵² + 2⁵¹`: adding it to a double below 2⁵¹ rounds the double to an integer, which is in the last bits of the sum.
 const TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 
-/// `coefficients_0 + coefficients_1 x + …`, summed by pairs, so that few sums wait for one another.
+/// `coefficients_0 + coefficients_1 x + …`, summed in pairs, so that few sums depend on one another.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn polynomial<D: Doubles, const N: usize>(x: D, coefficients: [f64; N]) -> D {
     let mut terms: [D; N] = array(D::zero(), |k| D::from_f64(coefficients[k]));

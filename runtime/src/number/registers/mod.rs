@@ -1,18 +1,19 @@
 //! Registers of the processor that are wider than those for which the program is compiled.
 //!
 //! A default build for x86-64 has registers of two doubles. Most processors have AVX2 with registers of four, some AVX-512 with registers
-//! of eight. A program finds that out when it runs.
+//! of eight. A program detects them at run time.
 //!
 //! # Safety
 //!
-//! An instruction of AVX2 or AVX-512 is sound only on a processor that has it. Code for vectors is entered only in [`Work`] that
-//! is run by a token, [`Avx2`] or [`Avx512`], or where a token is at hand. A token is made only after the processor was asked. Code outside this crate cannot get hold of the types: these occur in bounds of public traits, but no public item has one as an
-//! associated type, a field or an argument. It meets them only as the scalar `T` of a function that is called there.
+//! An instruction of AVX2 or AVX-512 is sound only on a processor that has it. Code for vectors runs only in [`Work`] that a token starts,
+//! [`Avx2`] or [`Avx512`], or where a token is available. A token is created only after a check of the processor. Code outside this crate
+//! cannot access the types. They occur in bounds of public traits, but no public item has one as an associated type, a field or an
+//! argument. Such code gets them only as the scalar `T` of a function that is called there.
 //!
 //! # Speed
 //!
-//! An instruction is fast only where it is inlined into a function that is compiled for it, which is the one that runs the work. Elsewhere
-//! every operation is a call. To store vectors, copy them, and read single numbers needs no such instruction.
+//! An instruction is fast only if it is inlined into a function that is compiled for it: the function that runs the work. Elsewhere every
+//! operation is a call. Storing vectors, copying them and reading single numbers need no such instruction.
 
 #![allow(unsafe_code, non_camel_case_types)]
 
@@ -45,15 +46,15 @@ mod tests;
 
 use crate::number::Scalar;
 
-/// Work to be compiled for wide registers. Its function has to be inlined, and so has everything that it calls: closures too, so it calls
-/// none that computes with vectors.
+/// Work to be compiled for wide registers. Its function and everything that it calls have to be inlined. Closures may not be inlined, so it
+/// calls none that computes with vectors.
 pub trait Work {
     type Output;
 
     fn run(self) -> Self::Output;
 }
 
-/// Whether a program of this build may have to find wide registers when it runs.
+/// Whether a program of this build may have to detect wide registers at run time.
 pub(crate) const UNKNOWN: bool = cfg!(all(
     target_arch = "x86_64",
     feature = "std",
@@ -90,11 +91,11 @@ impl Widest {
     }
 }
 
-/// Number of components of the shortest vector of doubles for which wide registers save more than it takes to ask for them.
+/// Number of components of the shortest vector of doubles for which wide registers save more time than their detection takes.
 pub(crate) const LONG: usize = 32;
 
-/// Runs work on `count` numbers of type `T` in the widest registers of the processor, if these are many doubles. Its loops are plain: the
-/// compiler translates them for each kind of registers.
+/// Runs work on `count` numbers of type `T` in the widest registers of the processor, if the numbers are doubles and `count` is large. Its
+/// loops are plain: the compiler translates them for each kind of registers.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn in_widest<T: Scalar, W: Work>(count: usize, work: W) -> W::Output {
     // Constant conditions first: other numbers compile without this code.

@@ -1,4 +1,4 @@
-//! Processors without registers to be found.
+//! Processors without wide registers to detect.
 
 use core::convert::Infallible;
 

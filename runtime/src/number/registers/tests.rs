@@ -26,7 +26,7 @@ fn vectors_have_the_bits_of_doubles() {
     }
 }
 
-/// Doubles of all sizes: also at the limits of what is left to `libm`, and next to them.
+/// Doubles of all sizes, also at the limits beyond which `libm` is called, and next to these limits.
 fn arguments() -> impl Iterator<Item = f64> + Clone {
     let special = [
         0.0,

@@ -50,9 +50,9 @@ pub use list::Events;
 /// The search cannot resolve flights shorter than the resolution of time, a g within its rounding error, or a state at rest on the zero. It
 /// then ends with [`Error::EventsAccumulate`](crate::Error::EventsAccumulate), at the state of the last event.
 ///
-/// So does a search that has found a thousand events in a row, each at most 1/16384 of a step after the one before: a body at rest on a wall
-/// whose handler only reflects it makes flights so short. Events through which the search continues, because it is no wall and the handler
-/// changes nothing, do not count. If that many events are real, take smaller steps.
+/// So does a search that has found a thousand events in a row, each at most 1/16384 of a step after the one before. A body at rest on a
+/// wall makes such short flights if the handler only reflects it. Events that are not walls and at which the handler changes nothing do not
+/// count. If that many events are real, take smaller steps.
 ///
 /// ```
 /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
@@ -132,9 +132,10 @@ impl<G> Event<G> {
     /// A wall, which keeps the state at g ≥ 0. An event is a change from plus to minus, in the direction of the steps.
     ///
     /// A wall differs from [`falling`](Self::falling) in three ways. It is located [by steps](Self::by_steps), because the run continues from
-    /// the state there. A start at g ≤ 0 is an event at once unless g rises above zero. The integration does not continue behind the wall: after an event the present state is the state that the handler leaves. The handler
-    /// reflects it. A handler that lets the state continue into the wall receives the same event again, until
-    /// [`Error::EventsAccumulate`](crate::Error::EventsAccumulate), or [`Error::BehindWall`](crate::Error::BehindWall) if g is negative.
+    /// the state there. A start at g ≤ 0 is an event at once unless g rises above zero. The integration does not continue behind the wall:
+    /// after an event the present state is the state that the handler leaves. The handler has to reflect it. A handler that lets the state
+    /// continue into the wall receives the same event again, until [`Error::EventsAccumulate`](crate::Error::EventsAccumulate), or
+    /// [`Error::BehindWall`](crate::Error::BehindWall) if g is negative.
     ///
     /// ```
     /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }

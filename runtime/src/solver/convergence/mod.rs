@@ -279,7 +279,7 @@ struct Sizes {
 impl Sizes {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn new(scales: [f64; 2]) -> Self {
-        // Finite, so that no change is none beside a size of zero.
+        // Finite, so that a change of zero is zero relative to a size of zero, not NaN.
         let inverse = scales.map(|size| smaller(1.0 / size, f64::MAX));
         Self { scales, inverse }
     }
@@ -362,8 +362,8 @@ impl Progress {
     }
 }
 
-/// Whether a relative change ends an iteration that does not wait for stagnation: if it is at most one unit of EPSILON, or if it can be
-/// rounding errors and the next one would be at most one unit. The next one is estimated by a constant contraction rate.
+/// Whether a relative change ends an iteration that does not wait for stagnation. It does if it is at most one unit of EPSILON. It also
+/// does if it can be rounding errors and the next one would be at most one unit. The next one is estimated by a constant contraction rate.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn is_last<T: Scalar>(before: Option<f64>, this: f64) -> bool {
     let is_next_within = |before: f64| this * this <= before * T::EPSILON;

@@ -208,7 +208,7 @@ fn an_iteration_is_begun_once_whatever_its_bound_is() {
         check::<false>(bound);
         check::<true>(bound);
     }
-    // A bound of zero is one of one.
+    // A bound of zero counts as a bound of one.
     let changes = alike([1e3; 2]);
     let mut script = Scripted::<false>::new(&changes, &[1.0], time(false));
     assert!(made::<General, _>(&mut script, stages([1.0; 2]), at_most(0)).is_err());
@@ -378,7 +378,7 @@ fn a_tolerance_is_not_waited_for_where_the_next_change_would_be_a_unit() {
     assert_eq!(tolerant::<General>(25.0, kept, &changes), Ok((6, [1.0; 2])));
     let changes = alike([1e12, 1e9, 1e6, 30.0, 2.0, 0.7, 0.7, 0.7, 0.7, 0.7, 0.7, 0.7]);
     assert_eq!(tolerant::<General>(1e-3, kept, &changes), Ok((4, [1.0; 2])));
-    // Larger values in the previous step leave no bound that is too wide, and the new sizes are returned.
+    // Larger values in the previous step do not make the bound too wide, and the new sizes are returned.
     let kept = stages([1e9; 2]);
     let made = tolerant::<General>(1.0, kept, &changes);
     assert_eq!(made, Ok((4, [1.0; 2])));

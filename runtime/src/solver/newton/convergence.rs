@@ -37,7 +37,7 @@ const STEPS_IN_FULL: u32 = 16;
 pub(super) struct Attempt {
     /// Whether it starts from the stages of the previous step.
     pub(super) kept: bool,
-    /// Whether it uses the derivatives at every stage, anew in every sweep.
+    /// Whether it uses the derivatives at every stage, again in every sweep.
     pub(super) in_full: bool,
     /// Whether another attempt follows.
     gives_up: bool,
@@ -174,9 +174,9 @@ where
     Err(history.failure(max_iterations))
 }
 
-/// Size of a change. For a separable system it is the relative change of the positions: if they stand still, so do the forces, and
-/// the momenta follow. Momenta may stand still earlier: beside a huge momentum, changes of the others are negligible. For a general
-/// system it is the larger of both relative changes.
+/// Size of a change. For a separable system it is the relative change of the positions: if they no longer change, neither do the forces,
+/// and the momenta follow. Momenta may stop changing earlier: relative to a huge momentum, changes of the others are negligible. For a
+/// general system it is the larger of both relative changes.
 pub(super) fn size<C: Class>(change: &StageChange) -> f64 {
     if C::SEPARABLE {
         change.q.relative()
@@ -255,7 +255,7 @@ fn is_last<T: Scalar>(before: Option<StageChange>, change: &StageChange, both: b
 ///
 /// In a general system both halves must be. In a separable system one half suffices, once the positions have stopped shrinking. The
 /// other half then moves at most by the noise of the system's evaluations. This noise can be far above the rounding errors of a
-/// sum, as with stiff springs between masses far from the origin. One half alone proves nothing: beside a huge momentum, the changes
+/// sum, as with stiff springs between masses far from the origin. One half alone proves nothing: relative to a huge momentum, the changes
 /// of all other momenta are negligible from the start.
 fn settling<C: Class>(change: &StageChange) -> f64 {
     if C::SEPARABLE {

@@ -198,7 +198,7 @@ impl<T: Scalar, D> Matrices<T, D> {
         self.all_stages = None;
     }
 
-    /// Allocates anew for another half bandwidth; does nothing if it has not changed.
+    /// Allocates new matrices for another half bandwidth; does nothing if it has not changed.
     fn fit(&mut self, half_bandwidth: usize, separable: bool) {
         let matrix = &self.jacobian.force_by_position;
         if matrix.half_bandwidth() != half_bandwidth.min(matrix.size().saturating_sub(1)) {

@@ -30,9 +30,8 @@ use convergence::settle;
 use sweep::ByIncrements;
 
 /// The simplified Newton iteration, for stiff and strongly coupled systems. The [`LinearSolver`] `L` solves its linear
-/// systems. [`by_newton`](crate::Integrator::by_newton) uses what the system provides of its second derivatives:
-/// [`BandOrDense`] matrices, [`AnalyticOrDifferences`]. Alternatives are named explicitly: [`Dense`] or [`Banded`] matrices, with dual
-/// numbers or [`Differences`].
+/// systems. [`by_newton`](crate::Integrator::by_newton) uses [`BandOrDense`] matrices, and the second derivatives that the system provides
+/// ([`AnalyticOrDifferences`]). Alternatives are named explicitly: [`Dense`] or [`Banded`] matrices, with dual numbers or [`Differences`].
 ///
 /// The unknowns are the increments `h velocity_j` and `h force_j`, not the stages. In a stiff system, the evaluation at a
 /// rounded stage has the rounding error times the stiffness; the solution of the linear system does not. With the
@@ -65,9 +64,9 @@ use sweep::ByIncrements;
 /// * The change stagnates if it has not halved in three sweeps. It also stagnates if it has not become smaller for at least one
 ///   sweep and more than a sixteenth of all sweeps.
 /// * The level of rounding is 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) of the largest position or
-///   momentum; one half suffices for a separable system. Otherwise the noise is measured: the arguments of
-///   all evaluations move by one unit, and a change up to 16 times the response is noise. A stiff spring `k (r − 1)` is evaluated with an
-///   error of `k` units; momenta are then uncertain by `1/h` units of the positions.
+///   momentum; one of the two suffices for a separable system. Otherwise the noise is measured: the arguments of all evaluations move by
+///   one unit, and a change up to 16 times the response is noise. A stiff spring `k (r − 1)` is evaluated with an error of `k` units;
+///   momenta are then uncertain by `1/h` units of the positions.
 ///
 /// With [`Plain`](crate::Plain) sums it stops earlier, as [`FixedPoint`](crate::solver::FixedPoint) does. The remaining change is
 /// [`Statistics::largest_residual`](crate::Statistics::largest_residual).

@@ -40,7 +40,7 @@ pub(super) struct ByIncrements<'a, P, R, V: Vector, S: System<V>, L: LinearSolve
     sweeps: u32,
     /// Sweeps since the matrices were factored, or since the start of the step.
     since: u32,
-    /// Whether the derivatives are evaluated at every stage, anew in every sweep.
+    /// Whether the derivatives are evaluated at every stage, again in every sweep.
     in_full: bool,
     /// Whether the derivatives were recomputed within the step.
     renewed: bool,

@@ -485,7 +485,7 @@ where
         }
         self.velocities();
         let q = self.positions();
-        // Positions stand for both halves.
+        // The change of the positions is used for the momenta, too.
         LaneMovement { q, p: q }
     }
 

@@ -19,8 +19,8 @@ use crate::system::{Class, System, SystemInLanes};
 /// system computes two, four or eight stages.
 ///
 /// The system must be generic over the scalar. Long vectors are allowed. [`FixedPoint`](crate::solver::FixedPoint) vectorises along
-/// the components instead. Its sums over the stages are slower than sums with all stages of a component at hand
-/// (`--example ratios` of the benchmarks times both for a chain of 1024 particles).
+/// the components instead. Its sums over the stages are slower than sums that have all stages of a component at hand. `--example ratios` of
+/// the benchmarks times both for a chain of 1024 particles.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SimdFixedPoint;
 
@@ -59,10 +59,9 @@ where
 /// [`SimdFixedPoint`] for Hamiltonians that are not separable, with positions and momenta iterated simultaneously.
 ///
 /// A sweep of [`SimdFixedPoint`] evaluates the velocities at the new momenta, after its forces (Gauss–Seidel). Here both are evaluated
-/// at the stages of the previous sweep (Jacobi). Neither half waits for the other, but more sweeps may be needed.
-/// It pays if `∂²H/∂q∂p` is as large as the other second derivatives and evaluations are cheap. If velocity and force have
-/// costly parts in common, [`Hamiltonian::slopes`](crate::Hamiltonian::slopes) evaluates them together.
-/// The stages are those of [`SimdFixedPoint`] up to rounding.
+/// at the stages of the previous sweep (Jacobi). Velocities and forces do not wait for each other, but more sweeps may be needed. It pays
+/// if `∂²H/∂q∂p` is as large as the other second derivatives and evaluations are cheap. If velocity and force have costly parts in common,
+/// [`Hamiltonian::slopes`](crate::Hamiltonian::slopes) evaluates them together. The stages are those of [`SimdFixedPoint`] up to rounding.
 ///
 /// Separable systems are solved as by [`SimdFixedPoint`]: for them, Jacobi sweeps would double the number of sweeps.
 #[derive(Clone, Copy, Debug, Default)]

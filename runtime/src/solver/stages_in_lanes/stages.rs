@@ -104,7 +104,7 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SimdStages<V,
             let mut groups = groups.as_ref().iter().map(Vector::dimension).enumerate();
             groups.find(|&(_, found)| found != dimension)
         };
-        // A system that returns a wrong dimension returns it in all lanes: the first stage of the group stands for all.
+        // A system that returns a wrong dimension returns it in all lanes: the first stage of the group represents all.
         let stage = |group: usize| group * P::Lanes::WIDTH + 1;
         if let Some((group, found)) = first(&self.force) {
             return Some((Quantity::Force, stage(group), found));

@@ -130,7 +130,7 @@ pub(crate) fn values<P: StageTableau, V: Vector<Scalar = f64>>(
         .min(base.dimension())
         .min(low.dimension());
     let (base, low) = (&base.as_slice()[..n], &low.as_slice()[..n]);
-    // Where components lie is looked up once: the compiler would repeat that after every write.
+    // The addresses of the components are loaded once: the compiler would load them again after every write.
     let mut places = out.iter_mut();
     let mut out = P::groups(|_| match places.next() {
         Some(group) => &mut group.as_mut_slice()[..n],

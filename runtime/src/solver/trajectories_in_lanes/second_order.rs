@@ -275,7 +275,7 @@ where
         }
         self.velocities();
         let q = self.next();
-        // Positions stand for both halves.
+        // The change of the positions is used for the momenta, too.
         LaneMovement { q, p: q }
     }
 

@@ -15,7 +15,7 @@ pub(super) struct Settled<L> {
     pub(super) scales: [L; 2],
 }
 
-/// Sweeps from the stages of the previous step, which have the sizes `scales`, until every one of the `live` lanes has settled or is left to
+/// Sweeps from the stages of the previous step, which have the sizes `scales`. Ends when each of the `live` lanes has settled or is left to
 /// a single run. A lane that settles here does so in the same sweep as its single run. A lane with NaN never does.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn settle<C: Class, L: Lanes, W: LaneSweeps<L>>(

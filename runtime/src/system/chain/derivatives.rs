@@ -5,7 +5,7 @@ use crate::number::Scalar;
 use crate::system::Jacobian;
 
 impl<B: Bonds> Chain<B> {
-    /// Adds the second derivatives of H; returns `None` if the bonds do not know theirs.
+    /// Adds the second derivatives of H; returns `None` if the bonds do not provide theirs.
     pub(super) fn add_second_derivatives<T: Scalar>(
         &self,
         time: T,

@@ -20,16 +20,16 @@ use crate::system::{Masses, OverEveryScalar, Separable, System};
 /// The forces on the particles of a [`Chain`].
 ///
 /// Doubles are evaluated eight at a time, as one [`Scalar`]. As in all code that is generic over scalars, no branch may depend on a value.
-/// The same holds for whether there is an outer force.
+/// Whether there is an outer force must not depend on a value either.
 pub trait Bonds {
     /// Whether the tension and the outer force are inlined everywhere: see [`Hamiltonian::INLINED`](crate::Hamiltonian::INLINED).
     const INLINED: bool = false;
 
-    /// The derivative `V′` of the energy of a bond at `stretch = q_{i+1} − q_i`. A positive one pulls the left particle to the right and
+    /// The derivative `V′` of the energy of a bond at `stretch = q_{i+1} − q_i`. A positive value pulls the left particle to the right and
     /// the right one to the left.
     fn tension<T: Scalar>(&self, time: T, stretch: T) -> T;
 
-    /// The force `−W′` on a particle at `position` apart from the bonds; `None` if there is none.
+    /// The force `−W′` on a particle at `position`, in addition to that of the bonds; `None` if there is none.
     fn outer_force<T: Scalar>(&self, _time: T, _position: T) -> Option<T> {
         None
     }
