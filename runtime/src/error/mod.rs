@@ -250,7 +250,7 @@ pub enum Error {
         value: f64,
     },
 
-    /// The integration needs more than 2⁵³ steps, the largest exact count.
+    /// The integration needs 2⁵³ steps or more; smaller counts are exact.
     #[error(
         "from time {time} to {end} in steps of size {step_size}: this takes more than 2^53 steps; take larger ones",
         time = Short(*.time),

@@ -80,8 +80,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<W, J>>
     Integrator<M, J, W, R, N>
 {
-    /// [`take_block`](Self::take_block) for runs side by side; returns `false` if one of them fails or is not finite. The warm starts of the
-    /// other runs are then lost, and all have to [return](Self::return_to) to the start of the block.
+    /// [`take_block`](Self::take_block) for runs side by side; returns `false` if one of them fails or is not finite. The warm starts of
+    /// the other runs are then lost, and all have to [return](Self::return_to) to the start of the block.
     pub(crate) fn take_block_together(
         &mut self,
         block: u64,

@@ -116,9 +116,9 @@ impl<M: Method, S: System<V>, V: Vector> Integrator<M, S, V> {
     /// # Errors
     ///
     /// [`Error::StepSize`], [`Error::Dimension`] if the dimensions of `q` and `p` differ, [`Error::NonFiniteState`],
-    /// [`Error::NotQuadraticKinetic`], [`Error::NotUnitMasses`], [`Error::NotSeparable`], [`Error::NotForced`]. With constraints also [`Error::InconsistentStart`],
-    /// [`Error::DependentConstraints`] and [`Error::ResizedEvaluation`]. If parameters of a formula do not fit the state,
-    /// [`Error::ParameterLength`], [`Error::PairOutOfRange`], [`Error::DimensionFactor`] or [`Error::TooFewBodies`].
+    /// [`Error::NotQuadraticKinetic`], [`Error::NotUnitMasses`], [`Error::NotSeparable`], [`Error::NotForced`]. With constraints also
+    /// [`Error::InconsistentStart`], [`Error::DependentConstraints`] and [`Error::ResizedEvaluation`]. If parameters of a formula do not
+    /// fit the state, [`Error::ParameterLength`], [`Error::PairOutOfRange`], [`Error::DimensionFactor`] or [`Error::TooFewBodies`].
     pub fn new(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error>
     where
         M: ProvedFor<S::Class>,

@@ -16,8 +16,8 @@ pub enum Retry {
     /// The step fails, with the error.
     #[default]
     Never,
-    /// The step is repeated as 2, 4, … up to 2^`halvings` equal steps; if all attempts fail, it fails with the error
-    /// of the whole step. `halvings` is limited to [`Retry::MOST_HALVINGS`].
+    /// The step is repeated as 2, 4, … up to 2^`halvings` equal steps. If all attempts fail, it fails with the error of the whole step.
+    /// `halvings` is limited to [`Retry::MOST_HALVINGS`].
     ///
     /// A method with variable steps is not the symplectic map that it is with equal steps. Use this for rare
     /// stiff phases; [`Statistics::rejected`](crate::Statistics::rejected) counts them. Convergence of the

@@ -35,8 +35,8 @@ pub struct Statistics {
     pub evaluations: u64,
     /// Factorisations of the linear systems of Newton's iteration: one for each pair of stages.
     pub factorisations: u64,
-    /// The largest residual of a step by Newton's iteration: the relative change of the positions or momenta of the stages in its last sweep.
-    /// In a stiff system it is the rounding error of the force, divided by the step size. It may be far above
+    /// The largest residual of a step by Newton's iteration: the relative change of the positions or momenta of the stages in its last
+    /// sweep. In a stiff system it is the rounding error of the force, divided by the step size. It may be far above
     /// [`Scalar::EPSILON`](crate::Scalar::EPSILON). Zero for other iterations.
     pub largest_residual: f64,
 }

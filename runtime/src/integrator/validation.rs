@@ -19,7 +19,7 @@ pub(crate) fn check_step_size(value: f64) -> Result<(), Error> {
     }
 }
 
-/// Checks that the velocity equals the momentum if the system claims it: at the momentum of the state, which may be zero, and at another.
+/// Checks that the velocity equals the momentum if the system claims it. Tests the momentum of the state, which may be zero, and another.
 pub(super) fn check_masses<V: Vector, S: System<V>>(
     system: &S,
     state: &State<V>,
@@ -45,8 +45,8 @@ pub(super) fn check_masses<V: Vector, S: System<V>>(
     Ok(())
 }
 
-/// Checks the declarations of a system: a separable velocity does not read the position, nor a separable force the momentum; an applied
-/// force is declared.
+/// Checks the declarations of a system. If it is separable, its velocity must not read q, nor its force p. An applied force must be
+/// declared.
 fn check_declarations<V: Vector, S: System<V>>(
     system: &S,
     State { time, q, p }: &State<V>,

@@ -18,12 +18,12 @@ use crate::number::{Scalar, Vector};
 pub enum Interpolation {
     /// The polynomials through the velocities and the forces of the stages, integrated.
     ///
-    /// If the basis has as many polynomials as there are nodes, this is the Galerkin polynomial itself. With collocation coefficients `a` it
-    /// passes through the stages (Hairer, Nørsett & Wanner, *Solving ODEs I*, Theorem II.7.10).
+    /// If the basis has as many polynomials as there are nodes, this is the Galerkin polynomial itself. With collocation coefficients `a`
+    /// it passes through the stages (Hairer, Nørsett & Wanner, *Solving ODEs I*, Theorem II.7.10).
     ///
     /// Its orders follow from the order of interpolation and from the stage orders, `C(η)` and `Ĉ(η̂)`. In a separable system it has the
-    /// order `min(s, η̂ + 1) + 1` for positions and `min(s, η + 1) + 1` for momenta. In a general system both have the smaller one. So Gauss
-    /// and Radau with s > 1 stages have the order `s + 1`.
+    /// order `min(s, η̂ + 1) + 1` for positions and `min(s, η + 1) + 1` for momenta. In a general system both have the smaller one. So
+    /// Gauss and Radau with s > 1 stages have the order `s + 1`.
     Stages {
         /// The order of positions.
         positions: u32,

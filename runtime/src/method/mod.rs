@@ -94,8 +94,8 @@ pub trait Method: ProvedFor<Separable> + ProvedFor<()> + Copy + Debug + 'static 
     /// Whether it is refused for separable systems whose kinetic energy is not quadratic, because its order is lower there.
     const NEEDS_QUADRATIC_KINETIC: bool = Self::ORDERS.nystrom > Self::ORDERS.separable;
 
-    /// Number of basis functions of the velocity inside a step. It is the number of stages, or less if the quadrature formula has more nodes
-    /// than the basis has functions.
+    /// Number of basis functions of the velocity inside a step. It is the number of stages, or less if the quadrature formula has more
+    /// nodes than the basis has functions.
     const FUNCTIONS: usize = Self::STAGES;
 
     /// Its steps for systems with holonomic constraints: one step, or those of a composition. Empty if it has none.

@@ -124,8 +124,8 @@ pub use symplectic_macros::splitting;
 ///
 /// # Errors
 ///
-/// As with [`tableau!`](crate::tableau). Also for an unknown base (the message lists similar names), for weights whose sum is not 1, and
-/// for a base that must be symmetric.
+/// As with [`tableau!`](crate::tableau). Also for an unknown base (the message lists similar names), for weights whose sum is not 1, and if
+/// a base is not symmetric but must be.
 ///
 /// ```compile_fail
 /// symplectic::composition! {

@@ -6,8 +6,7 @@ use num_traits::{One, Zero};
 
 use crate::number::{Coefficient, Scalar, larger_or_nan};
 
-/// `value + slope ε` with `ε² = 0`: a number and its derivative with respect to a parameter. The value has the same bits as without the
-/// slope.
+/// `value + slope ε` with `ε² = 0`: a number and its derivative with respect to a parameter. The bits of the value are those without it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Dual<T> {
     pub(crate) value: T,
@@ -311,8 +310,7 @@ mod tests {
     use super::*;
     use crate::number::{F64x2, Lanes};
 
-    /// Checks every function against differences of order 4, with respect to both parameters, and checks the same values and slopes in
-    /// lanes.
+    /// Checks every function against differences of order 4, along both parameters, and checks the same values and slopes in lanes.
     #[test]
     fn derivatives() {
         fn check(name: &str, f: impl Fn(HyperDual) -> HyperDual) {

@@ -44,8 +44,7 @@ impl Summation for Plain {
     const COMPENSATED: bool = false;
 }
 
-/// The sums of `R` in an over-relaxed sweep, which moves stages twice as far. If the sweep converges fast, this approximately mirrors the
-/// stages.
+/// The sums of `R` in an over-relaxed sweep, which moves stages twice as far. If it converges fast, this approximately mirrors the stages.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Overrelaxed<R>(PhantomData<R>);
 
@@ -135,7 +134,8 @@ pub(crate) fn add_sum<T: Scalar>(base: T, low: T, sum: Sum<T>) -> (T, T) {
 /// A sum, and its round-off if it is known.
 pub(crate) type Sum<T> = (T, Option<T>);
 
-/// The sum of the first eight terms, at least one: by pairs, and pairs of pairs, so that additions need not wait for one another.
+/// The sum of the first eight terms, at least one. They are added in pairs, and pairs of pairs, so that additions need not wait for one
+/// another.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn eight<R: Summation, T: Scalar>(count: usize, terms: &impl Terms<T>) -> Sum<T> {
     let second = if 1 < count {

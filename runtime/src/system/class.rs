@@ -141,8 +141,8 @@ impl Class for Separable {
 /// ```
 ///
 /// The constraints are in [`Hamiltonian::constraint_values`](crate::Hamiltonian::constraint_values). Methods that are `constrained` step
-/// such systems: Lobatto IIIA–IIIB (with two stages RATTLE), other pairs with stages at both ends, symplectic Euler and its adjoint, and
-/// compositions. For any other method [`Integrator::new`](crate::Integrator::new) does not compile.
+/// such systems. They are Lobatto IIIA–IIIB (with two stages RATTLE), other pairs with stages at both ends, symplectic Euler and its
+/// adjoint, and compositions. For any other method [`Integrator::new`](crate::Integrator::new) does not compile.
 ///
 /// `Constrained<Damped>` does not compile: friction is part of the force of a system of class `Constrained<General>`.
 ///
@@ -176,8 +176,9 @@ impl<C: Class + Unconstrained> Class for Constrained<C> {
 ///
 /// The rows of the m×n matrix `w` are in [`Hamiltonian::nonholonomic_rows`](crate::Hamiltonian::nonholonomic_rows). Methods that are
 /// `nonholonomic` step such systems by the discrete Lagrange–d'Alembert–Pontryagin principle (Leok & Ohsawa, arXiv:0810.0740). These are
-/// symmetric methods of order 2, such as the implicit midpoint rule and Lobatto IIIA–IIIB with two stages, compositions of one of them, and
-/// methods of order 1. A method of any other order would lose its order, and [`Integrator::new`](crate::Integrator::new) does not compile:
+/// symmetric methods of order 2, compositions of one of them, and methods of order 1. Examples of the first are the implicit midpoint rule
+/// and Lobatto IIIA–IIIB with two stages. A method of any other order would lose its order, and [`Integrator::new`](crate::Integrator::new)
+/// does not compile:
 ///
 /// ```compile_fail,E0277
 /// use symplectic::nalgebra::Vector2;

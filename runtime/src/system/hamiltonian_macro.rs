@@ -76,8 +76,8 @@
 /// | `sum((i, j) in springs: …)`, `sum(s = (i, j) in springs: stiffness[s] …)` | the pairs of a parameter; `s` is the number of the pair |
 /// | `bonds: walls;` and `sum(bonds d: d^2/2)` | the bonds of a chain between `walls`, with `free` ends, or in a `ring`; `d` is the stretch |
 ///
-/// `let d = a - b;` is an abbreviation; `let s(i, j) = sigma^2/|q[i] - q[j]|^2;` has arguments. `extern fn V with dV, d2V;` names functions in
-/// scope: `fn V<T: Scalar>(x: T) -> T` and its two derivatives. They must be generic, even if they depend on a parameter only. H must be
+/// `let d = a - b;` is an abbreviation; `let s(i, j) = sigma^2/|q[i] - q[j]|^2;` has arguments. `extern fn V with dV, d2V;` names functions
+/// in scope: `fn V<T: Scalar>(x: T) -> T` and its two derivatives. They must be generic, even if they depend on a parameter only. H must be
 /// twice continuously differentiable: `|x|^3` is allowed, `abs`, `min`, `max` and `sqrt(x^2)` are not. Constants must be finite in double
 /// precision.
 ///
@@ -87,8 +87,8 @@
 /// vectors. `link(i in 1..N)` is one for each index; `rod(s = (i, j) in rods) = …` is one for each pair of a parameter. The class of the
 /// system is [`Constrained`](crate::Constrained), for methods that are `constrained`.
 ///
-/// `nonholonomic: { edge = vx sin(a) - vy cos(a) }` lists the linear forms of the velocities that vanish. Their coefficients are functions of
-/// the positions. `v: [vx, vy, va]` after `p: […]` names the velocities for this section. The class of the system is
+/// `nonholonomic: { edge = vx sin(a) - vy cos(a) }` lists the linear forms of the velocities that vanish. Their coefficients are functions
+/// of the positions. `v: [vx, vy, va]` after `p: […]` names the velocities for this section. The class of the system is
 /// [`Nonholonomic`](crate::Nonholonomic), for methods that are `nonholonomic`.
 ///
 /// `friction: gamma` adds the force `−γp` to a separable system. `friction: [a, b]` has a rate for each coordinate or, if positions are
@@ -170,8 +170,8 @@
 /// # Order of evaluation
 ///
 /// * The same text gives the same bits, in doubles and in lanes.
-/// * Numeric factors are multiplied exactly, and equal terms and factors are combined. The others keep the order in which they first appear;
-///   a sum or product in parentheses counts as one.
+/// * Numeric factors are multiplied exactly, and equal terms and factors are combined. The others keep the order in which they first
+///   appear; a sum or product in parentheses counts as one.
 /// * Expressions of parameters only are computed first, in double precision. Divisors are multiplied with each other, and divide last.
 /// * Common subexpressions are computed once, for velocity and force together if H is not separable.
 /// * Sums are loops: the code is as long for a thousand bodies as for three.

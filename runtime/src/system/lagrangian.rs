@@ -3,8 +3,8 @@
 use crate::error::Error;
 use crate::number::{Scalar, Vector};
 
-/// A mechanical system given by its Lagrangian `L(t, q, v)`, written once for every scalar. Its derivatives are exact, by hyper-dual numbers:
-/// the momentum `p = ∂L/∂v`, the rate `p' = ∂L/∂q + f`, and their Jacobians.
+/// A mechanical system given by its Lagrangian `L(t, q, v)`, written once for every scalar. Its derivatives are exact, by hyper-dual
+/// numbers: the momentum `p = ∂L/∂v`, the rate `p' = ∂L/∂q + f`, and their Jacobians.
 ///
 /// L need not be quadratic in the velocities. [`lagrangian!`](macro@crate::lagrangian) writes this trait from a formula.
 ///

@@ -42,9 +42,9 @@
 /// $$ L = \tfrac12 v^T M v + A^T v - U \qquad p = \frac{\partial L}{\partial v} = M v + A \qquad
 /// H = \tfrac12 (p - A)^T M^{-1} (p - A) + U $$
 ///
-/// Then H is a formula too. Velocities that M does not couple are not coupled in H. So a sum over bodies remains a loop, and the code is that
-/// of the same system written with H. M is inverted in closed form for two or three coupled velocities, by elimination for up to sixteen.
-/// Cartesian velocities may be written with sines and cosines of angles: `cos a cos b + sin a sin b = cos(a − b)` is used in M.
+/// Then H is a formula too. Velocities that M does not couple are not coupled in H. So a sum over bodies remains a loop, and the code is
+/// that of the same system written with H. M is inverted in closed form for two or three coupled velocities, by elimination for up to
+/// sixteen. Cartesian velocities may be written with sines and cosines of angles: `cos a cos b + sin a sin b = cos(a − b)` is used in M.
 ///
 /// # Momenta
 ///

@@ -10,7 +10,7 @@ pub enum Masses {
     #[default]
     Any,
     /// The velocity depends on the momentum alone. It matters for constrained systems of class [`General`](crate::General), whose force
-    /// depends on momenta too: if the velocity is `M⁻¹p`, constrained steps then compute M⁻¹ once.
+    /// depends on momenta too. If the velocity is `M⁻¹p`, constrained steps then compute M⁻¹ once.
     Constant,
     /// The velocity equals the momentum to the last bit, `H = |p|²/2 + U(t, q)`. Steps then use the momentum as the velocity,
     /// without copies of long vectors. If the velocity differs from the momentum, creating an integrator returns

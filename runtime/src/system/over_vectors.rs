@@ -69,8 +69,8 @@ pub trait System<V: Vector>: Sized {
     /// Whether the force has a part without a potential: see [`Hamiltonian::applied_force`].
     const FORCED: bool = false;
 
-    /// Whether [`FORCED`](Self::FORCED) and the class are certainly right: the velocity of a separable system does not read the position,
-    /// its force not the momentum. Otherwise an integrator tests this when it is created.
+    /// Whether [`FORCED`](Self::FORCED) and the class are certainly right. In a separable system the velocity does not read the position,
+    /// and the force does not read the momentum. Otherwise an integrator tests this when it is created.
     #[doc(hidden)]
     const WELL_DECLARED: bool = false;
 

@@ -36,9 +36,9 @@ struct Stages<V: Vector> {
 
 /// The stages of the last steps with one tableau, all of the same size.
 ///
-/// With equal steps, the differences between the stages and guesses from the start of the step are smooth functions of time. Those of the next
-/// step follow from the last ones with a relative error of order h³. [`dither_side`] chooses its sign: the iteration ends within a rounding
-/// error of its limit, on the side from which it came.
+/// With equal steps, the differences between the stages and guesses from the start of the step are smooth functions of time. Those of the
+/// next step follow from the last ones with a relative error of order h³. [`dither_side`] chooses its sign: the iteration ends within a
+/// rounding error of its limit, on the side from which it came.
 #[derive(Clone, Debug)]
 pub(super) struct History<V: Vector> {
     /// The size of the steps.

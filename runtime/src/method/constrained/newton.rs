@@ -48,7 +48,8 @@ impl<V: Vector> Workspace<V> {
         self.metric.is_full()
     }
 
-    /// Changes of the impulses of the constraints from the defects, by a Newton step. Uses the matrix of an earlier sweep unless `renew` is set.
+    /// Changes of the impulses of the constraints from the defects, by a Newton step. Uses the matrix of an earlier sweep unless `renew` is
+    /// set.
     ///
     /// # Errors
     /// [`Failure::SingularMatrix`]

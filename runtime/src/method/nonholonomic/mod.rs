@@ -1,4 +1,5 @@
-//! Steps of systems with non-holonomic constraints `w(q)·q' = 0`: discrete Lagrange–d'Alembert–Pontryagin (Leok & Ohsawa, arXiv:0810.0740v1, 4.28).
+//! Steps of systems with non-holonomic constraints `w(q)·q' = 0`: discrete Lagrange–d'Alembert–Pontryagin (Leok & Ohsawa,
+//! arXiv:0810.0740v1, 4.28).
 //!
 //! ```text
 //! p = p0 − w(q0)ᵀλ      Q_i = q0 + h Σ_j a_ij velocity_j    P_i = p + h Σ_j ã_ij force_j

@@ -131,10 +131,10 @@ impl<G> Event<G> {
 
     /// A wall, which keeps the state at g ≥ 0. An event is a change from plus to minus, in the direction of the steps.
     ///
-    /// A wall differs from [`falling`](Self::falling) in three ways. It is located [by steps](Self::by_steps), because the run continues from
-    /// the state there. A start at g ≤ 0 is an event at once unless g rises above zero. The integration does not continue behind the wall:
-    /// after an event the present state is the state that the handler leaves. The handler has to reflect it. A handler that lets the state
-    /// continue into the wall receives the same event again, until [`Error::EventsAccumulate`](crate::Error::EventsAccumulate), or
+    /// A wall differs from [`falling`](Self::falling) in three ways. It is located [by steps](Self::by_steps), because the run continues
+    /// from the state there. A start at g ≤ 0 is an event at once unless g rises above zero. The integration does not continue behind the
+    /// wall: after an event the present state is the state that the handler leaves. The handler has to reflect it. A handler that lets the
+    /// state continue into the wall receives the same event again, until [`Error::EventsAccumulate`](crate::Error::EventsAccumulate), or
     /// [`Error::BehindWall`](crate::Error::BehindWall) if g is negative.
     ///
     /// ```

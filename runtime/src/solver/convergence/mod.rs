@@ -284,8 +284,8 @@ impl Sizes {
         Self { scales, inverse }
     }
 
-    /// The largest changes that are examined in early sweeps: all that can be rounding errors, even if the sizes grow to twice these, or
-    /// are within the tolerance. Where the size is not known, all changes are examined.
+    /// The largest changes that are examined in early sweeps: all that can be rounding errors, even if the sizes double, and all within the
+    /// tolerance. If the size is not known, all changes are examined.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn rounding<T: Scalar>(&self, tolerance: f64) -> [f64; 2] {
         self.scales.map(|size| match size == 0.0 {

@@ -253,10 +253,10 @@ fn is_last<T: Scalar>(before: Option<StageChange>, change: &StageChange, both: b
 
 /// The relative change of the stages that must be at the level of rounding errors when an iteration has settled.
 ///
-/// In a general system both halves must be. In a separable system one half suffices, once the positions have stopped shrinking. The
-/// other half then moves at most by the noise of the system's evaluations. This noise can be far above the rounding errors of a
-/// sum, as with stiff springs between masses far from the origin. One half alone proves nothing: relative to a huge momentum, the changes
-/// of all other momenta are negligible from the start.
+/// In a general system positions and momenta must be. In a separable system one of them suffices, once the positions have stopped
+/// shrinking. The other then moves at most by the noise of the system's evaluations. This noise can be far above the rounding errors of a
+/// sum, as with stiff springs between masses far from the origin. One of them alone proves nothing: relative to a huge momentum, the
+/// changes of all other momenta are negligible from the start.
 fn settling<C: Class>(change: &StageChange) -> f64 {
     if C::SEPARABLE {
         change.q.relative().min(change.p.relative())

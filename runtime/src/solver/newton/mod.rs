@@ -52,9 +52,8 @@ use sweep::ByIncrements;
 /// recomputed within the step if the contraction rate predicts more than 16 sweeps.
 ///
 /// Derivatives at one point do not suffice for all stages if a stiff direction turns within the step. An example is a pendulum with a
-/// spring of frequency ω if `h²ω` is above 1. If recomputed derivatives still contract
-/// too slowly, the step starts again with full Newton, with the derivatives of every stage in every sweep
-/// ([`LinearSolver::correct`]). The next 16 steps also use full Newton.
+/// spring of frequency ω if `h²ω` is above 1. If recomputed derivatives still contract too slowly, the step starts again with full Newton,
+/// with the derivatives of every stage in every sweep ([`LinearSolver::correct`]). The next 16 steps also use full Newton.
 ///
 /// # Convergence
 ///
@@ -63,10 +62,10 @@ use sweep::ByIncrements;
 ///
 /// * The change stagnates if it has not halved in three sweeps. It also stagnates if it has not become smaller for at least one
 ///   sweep and more than a sixteenth of all sweeps.
-/// * The level of rounding is 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) of the largest position or
-///   momentum; one of the two suffices for a separable system. Otherwise the noise is measured: the arguments of all evaluations move by
-///   one unit, and a change up to 16 times the response is noise. A stiff spring `k (r − 1)` is evaluated with an error of `k` units;
-///   momenta are then uncertain by `1/h` units of the positions.
+/// * The level of rounding is 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) of the largest position or momentum. One of the two
+///   suffices for a separable system. Otherwise the noise is measured. The arguments of all evaluations move by one unit, and a change up
+///   to 16 times the response is noise. A stiff spring `k (r − 1)` is evaluated with an error of `k` units; momenta are then uncertain by
+///   `1/h` units of the positions.
 ///
 /// With [`Plain`](crate::Plain) sums it stops earlier, as [`FixedPoint`](crate::solver::FixedPoint) does. The remaining change is
 /// [`Statistics::largest_residual`](crate::Statistics::largest_residual).

@@ -581,8 +581,7 @@ where
     }
 }
 
-/// The factor that scales a velocity or a force to an increment, and the factor that scales an increment to
-/// `h velocity` or `h force`.
+/// The factor that scales a velocity or a force to an increment, and the factor that scales an increment to `h velocity` or `h force`.
 fn factors<P: StageTableau, V: Vector>(
     half: &HalfTableau,
     stage: usize,
