@@ -111,7 +111,10 @@ fn files_define_splittings() {
     );
     let (status, errors) = failure(&["derive", &wrong]);
     assert_eq!(status, Some(2));
-    assert!(errors.contains("the kicks sum to 1/2, and"), "{errors}");
+    assert!(
+        errors.contains("the kicks sum to 1/2, but must sum to 1;"),
+        "{errors}"
+    );
     assert!(errors.contains("2 | kick = \"1/6, 1/3\""), "{errors}");
 }
 

@@ -262,7 +262,7 @@ impl Base {
         let refused = |message| Err(misfit_at(definition, Key::Base, message));
         if self.method.sequence().is_none() {
             return refused(format!(
-                "a `claim` takes a base of kicks and drifts, such as velocity-verlet: {} is another method",
+                "a `claim` takes a base of kicks and drifts, such as velocity-verlet, not {}",
                 self.text
             ));
         }

@@ -568,7 +568,7 @@ fn what_is_wrong_is_said_where_it_stands() {
         ),
         (
             "base: gauss-2, weights: [1.3512071920, -1.7024143840], symmetric: true, claim: separable(4)",
-            "base, column 1: a `claim` takes a base of kicks and drifts, such as velocity-verlet: gauss-2 is another method",
+            "base, column 1: a `claim` takes a base of kicks and drifts, such as velocity-verlet, not gauss-2",
         ),
     ] {
         let found = message(text);
