@@ -450,11 +450,11 @@ fn what_is_wrong_is_said_where_it_stands() {
         ),
         (
             "kick: [1/2], drift: [1/2], symmetric: true",
-            "drift, column 1: the drifts, mirrored, sum to 1/2, and a step",
+            "drift, column 1: the drifts, mirrored, sum to 1/2, but must",
         ),
         (
             "kick: [0.5, 0.5], drift: [0.33333333333333333333, 0.66666666666666666666]",
-            "drift, column 1: the drifts sum to 0.99999999999999999999… (off by -1.0e-20), and",
+            "drift, column 1: the drifts sum to 0.99999999999999999999… (off by -1.0e-20), but",
         ),
         ("kick: [], drift: []", "kick, column 2: found `]`"),
         (
