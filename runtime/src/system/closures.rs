@@ -39,7 +39,7 @@ pub const fn separable<V: Vector, F: Fn(V::Scalar, &V, &mut V), G: Fn(V::Scalar,
 /// A second-order system `q'' = acceleration(t, q)` given by one closure, `|time, q, acceleration| …`, with `p = q'`.
 ///
 /// It is the separable system `H = |p|²/2 + U(q)` with `acceleration = −∂U/∂q`. If the acceleration is not a gradient there
-/// is no Hamiltonian, and nothing is conserved.
+/// is no Hamiltonian, and energy is not conserved.
 ///
 /// ```
 /// use symplectic::acceleration;
