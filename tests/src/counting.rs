@@ -47,6 +47,9 @@ impl<V: Vector, S: System<V>> System<V> for Counting<'_, S> {
     type Class = S::Class;
     type Solver = FixedPoint;
 
+    // What is counted are steps.
+    const WELL_DECLARED: bool = S::WELL_DECLARED;
+
     #[inline]
     fn velocity(&self, time: V::Scalar, q: &V, p: &V, velocity: &mut V) {
         Counts::count(&self.counts.velocities);
