@@ -107,10 +107,10 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
         let run = Self::by(SymmetricSteps::of::<M>(), lagrangian, state, step_size)?;
         let State { time, q, p } = &run.state;
         // Two paths of about the length of a step: the value at one of them may be small by chance.
-        let (mut defect, mut size) = (0.0_f64, 0.0_f64);
+        let (along, mut defect, mut size) = (beside(p), 0.0_f64, 0.0_f64);
         for steps in [1.0, 2.0] {
             let mut q1 = q.clone();
-            for (q, &p) in q1.as_mut_slice().iter_mut().zip(beside(p).as_slice()) {
+            for (q, &p) in q1.as_mut_slice().iter_mut().zip(along.as_slice()) {
                 *q += steps * step_size * p;
             }
             let path = DiscretePath {

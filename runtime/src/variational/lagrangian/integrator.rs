@@ -393,8 +393,8 @@ impl<L: Lagrangian> Stepper for LagrangianIntegrator<L> {
         self.stages
             .take(&self.lagrangian, start, q1, p1)
             .map_err(|failure| failure.error(Quantity::Lagrangian, start.time, size, number))?;
+        let State { q, p, .. } = &self.next;
         if let Some(constraint) = &mut self.constraint
-            && let State { q, p, .. } = &self.next
             && let Some((component, _)) = constraint.violation(&self.lagrangian, end, q, p)
         {
             // The next attempt begins as the first step did.
