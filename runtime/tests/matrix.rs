@@ -14,8 +14,8 @@ use symplectic::solver::{
 };
 use symplectic::system::{Conservative, SystemInLanes, Unconstrained};
 use symplectic::{
-    Checkpoint, Compensated, Error, General, Integrator, Method, Plain, ProvedFor, RunTimeTableau,
-    Separable, State, Statistics, Summation, System, TableauError,
+    AtRunTime, Checkpoint, Compensated, Error, General, Integrator, Method, Plain, ProvedFor,
+    RunTimeTableau, Separable, State, Statistics, Summation, System, TableauError,
 };
 
 type Point = State<Vector2<f64>>;
@@ -274,23 +274,42 @@ where
     };
     let mut compiled = Integrator::new(method, system, start(), SIZE)?;
     let expected = compiled.take_steps(20)?;
-    let found = [
-        check(cell, &|start, size| {
-            Ok(Box::new(Integrator::at_run_time(
-                tableau, system, start, size,
-            )?))
-        })?,
-        check(cell, &|start, size| {
-            Ok(Box::new(Integrator::plain_at_run_time(
-                tableau, system, start, size,
-            )?))
-        })?,
-    ];
-    for found in found {
-        let apart = distance(&found, expected);
-        assert!(apart < 1e-13, "{}, at run time: {apart:e}", cell.name);
+    let compensated = solvers_at_run_time(cell, &|start, size| {
+        Integrator::at_run_time(tableau, system, start, size)
+    })?;
+    let plain = solvers_at_run_time(cell, &|start, size| {
+        Integrator::plain_at_run_time(tableau, system, start, size)
+    })?;
+    for (number, found) in compensated.iter().chain(&plain).enumerate() {
+        let apart = distance(found, expected);
+        let name = cell.name;
+        assert!(apart < 1e-13, "{name}, at run time, {number}: {apart:e}");
     }
     Ok(())
+}
+
+/// All solvers of a tableau at run time.
+fn solvers_at_run_time<'a, S, R>(
+    cell: Cell<'_>,
+    made: &dyn Fn(Point, f64) -> Result<Integrator<AtRunTime, S, Vector2<f64>, R>, Error>,
+) -> Result<[Point; 3], Error>
+where
+    S: System<Vector2<f64>, Class: Conservative> + Copy + 'a,
+    R: Summation,
+{
+    Ok([
+        check(cell, &|start, size| Ok(Box::new(made(start, size)?)))?,
+        check(cell, &|start, size| {
+            Ok(Box::new(made(start, size)?.by_newton()))
+        })?,
+        check(cell, &|start, size| {
+            let solver = FixedPointThenNewton::<Dense<Differences>>::new();
+            let mut made = made(start, size)?.with_solver(solver);
+            // Some steps are left to Newton's iteration.
+            made.set_max_iterations(9);
+            Ok(Box::new(made))
+        })?,
+    ])
 }
 
 /// All checks; returns the state after some steps.

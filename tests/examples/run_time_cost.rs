@@ -1,7 +1,8 @@
 //! What a step of a tableau at run time takes beside one of the emitted method of the same coefficients.
 //!
 //! `cargo run --release -p symplectic-tests --example run_time_cost`. Medians of runs that all forms take in turn; plain and compensated
-//! sums. "default" is the solver that an integrator has from the start, "one by one" is `FixedPoint`, the iteration of the tableau at run time.
+//! sums. "a step" is with the solver that an integrator has from the start, "one by one" with `FixedPoint`, the iteration of the tableau at
+//! run time. Stiff springs are stepped by Newton's iteration in both forms.
 #![allow(clippy::print_stdout, reason = "the table is what this program is for")]
 
 use std::error::Error;
@@ -27,6 +28,13 @@ symplectic::hamiltonian! {
     Product
     q: [x], p: [px];
     H = (x^2 + 1) (px^2 + 1)/2
+}
+
+symplectic::hamiltonian! {
+    /// Stiff springs between masses in quartic potentials.
+    StiffSprings { k }
+    q: [..], p: [..]; bonds: free;
+    H = sum(i: p[i]^2/2 + q[i]^4/4) + sum(bonds d: k d^2/2)
 }
 
 /// Springs between 1024 masses, by closures.
@@ -74,8 +82,7 @@ where
     R: Summation,
     Integrator<symplectic::AtRunTime, S, V, R>: Made<S, V>,
 {
-    let exact = Definition::parse(M::DEFINITION)?.derive(&Limits::default())?;
-    let tableau = tableau(M::NAME, &exact)?;
+    let tableau = derived(method)?;
     let emitted = || {
         Integrator::<M, S, V, R>::with_summation(method, system.clone(), start.clone(), step_size)
     };
@@ -94,18 +101,70 @@ where
         times[2].push(time(&mut at_run_time, steps)?);
     }
     let [default, one_by_one, at_run_time] = times.map(median);
-    let ratio = at_run_time / default;
+    let one_by_one = format!("{:.2}", one_by_one / default);
+    Ok(print::<M, R>(problem, default, &one_by_one, at_run_time))
+}
+
+/// A row of Newton's iteration in both forms.
+fn stiff_row<M, R: Summation>(
+    method: M,
+    (start, step_size, steps): (&State<DVector<f64>>, f64, u64),
+) -> Result<f64, Box<dyn Error>>
+where
+    M: Method + ProvedFor<symplectic::Separable>,
+    Integrator<symplectic::AtRunTime, StiffSprings, DVector<f64>, R>:
+        Made<StiffSprings, DVector<f64>>,
+{
+    let tableau = derived(method)?;
+    let (system, start) = (StiffSprings::new(1e6), || start.clone());
+    let emitted =
+        Integrator::<M, StiffSprings, _, R>::with_summation(method, system, start(), step_size)?;
+    let mut emitted = emitted.by_newton();
+    let mut at_run_time = Integrator::<symplectic::AtRunTime, StiffSprings, DVector<f64>, R>::made(
+        &tableau,
+        system,
+        start(),
+        step_size,
+    )?
+    .by_newton();
+    let mut times = [const { Vec::new() }; 2];
+    for _ in 0..ROUNDS {
+        times[0].push(time(&mut emitted, steps)?);
+        times[1].push(time(&mut at_run_time, steps)?);
+    }
+    let [emitted, at_run_time] = times.map(median);
+    Ok(print::<M, R>(
+        "64 stiff springs, Newton",
+        emitted,
+        "–",
+        at_run_time,
+    ))
+}
+
+/// The tableau of a method, derived again.
+fn derived<M: Method>(_method: M) -> Result<RunTimeTableau, Box<dyn Error>> {
+    let exact = Definition::parse(M::DEFINITION)?.derive(&Limits::default())?;
+    Ok(tableau(M::NAME, &exact)?)
+}
+
+/// Prints a row; returns its ratio.
+fn print<M: Method, R: Summation>(
+    problem: &str,
+    emitted: f64,
+    one_by_one: &str,
+    at_run_time: f64,
+) -> f64 {
+    let ratio = at_run_time / emitted;
     println!(
-        "| {problem} | {} | {} | {default:.0} ns | {:.2} | {ratio:.2} |",
+        "| {problem} | {} | {} | {emitted:.0} ns | {one_by_one} | {ratio:.2} |",
         M::NAME,
         if R::COMPENSATED {
             "compensated"
         } else {
             "plain"
         },
-        one_by_one / default,
     );
-    Ok(ratio)
+    ratio
 }
 
 /// The constructor for either sums.
@@ -156,6 +215,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let q = DVector::from_fn(1024, |i, _| (i as f64 / 100.0).sin());
     let start = State::new(0.0, q.clone(), -q);
     rows!("1024 springs, closures", chain(), start, 0.1, 50: StoermerVerlet, ForestRuth, Lobatto3, Gauss2, Gauss4, Gauss8);
+    let q = DVector::from_fn(64, |i, _| (i as f64).sin() * 1e-3);
+    let start = State::new(0.0, q.clone(), q);
+    macro_rules! stiff_rows {
+        ($($method:ident),+) => {$(
+            ratios.push(stiff_row::<_, symplectic::Plain>($method, (&start, 0.1, 100))?);
+            ratios.push(stiff_row::<_, symplectic::Compensated>($method, (&start, 0.1, 100))?);
+        )+};
+    }
+    stiff_rows!(Gauss2, Gauss4, Gauss8);
     let mean = ratios.iter().map(|ratio| ratio.ln()).sum::<f64>() / ratios.len() as f64;
     println!("\nGeometric mean of the last column: {:.2}", mean.exp());
     Ok(())

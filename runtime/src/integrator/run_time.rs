@@ -14,8 +14,8 @@ impl<S: System<V, Class: Conservative>, V: Vector> Integrator<AtRunTime, S, V> {
     /// [`Compensated`](crate::Compensated) sums.
     ///
     /// On separable systems an explicit tableau takes drifts and kicks. Coupled stages use the iteration of
-    /// [`FixedPoint`](crate::solver::FixedPoint), one by one and never in lanes; code with another solver does not compile. Dense output is
-    /// the cubic polynomial through the ends of the step.
+    /// [`FixedPoint`](crate::solver::FixedPoint), one by one and never in lanes. For stiff systems take
+    /// [`by_newton`](Integrator::by_newton). Dense output is the cubic polynomial through the ends of the step.
     ///
     /// # Errors
     ///
@@ -63,15 +63,16 @@ impl<S: System<V, Class: Conservative>, V: Vector> Integrator<AtRunTime, S, V> {
     /// # let _used: fn(&RunTimeTableau) -> Result<(), symplectic::Error> = step;
     /// ```
     ///
-    /// Newton's iteration needs an emitted method:
+    /// Solvers in lanes need an emitted method:
     ///
     /// ```compile_fail
-    /// # use symplectic::nalgebra::Vector1;
-    /// # use symplectic::{Integrator, RunTimeTableau, State, acceleration};
+    /// # use symplectic::solver::SimdFixedPoint;
+    /// # use symplectic::{Integrator, RunTimeTableau, State};
+    /// symplectic::hamiltonian! { Oscillator q: [x], p: [px]; H = px^2/2 + x^2/2 }
+    ///
     /// fn step(tableau: &RunTimeTableau) -> Result<(), symplectic::Error> {
-    ///     let stiff = acceleration(|_time, q: &Vector1<f64>, acceleration| *acceleration = -q * 1e12);
     ///     let start = State::from_arrays(0.0, [1.0], [0.0]);
-    ///     Integrator::at_run_time(tableau, stiff, start, 0.1)?.by_newton().step()?;
+    ///     Integrator::at_run_time(tableau, Oscillator, start, 0.1)?.with_solver(SimdFixedPoint).step()?;
     ///     Ok(())
     /// }
     /// # let _used: fn(&RunTimeTableau) -> Result<(), symplectic::Error> = step;

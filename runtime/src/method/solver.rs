@@ -4,11 +4,11 @@
 use alloc::string::String;
 use core::fmt::Debug;
 
+#[cfg(feature = "alloc")]
+use crate::method::LaneStep;
 use crate::method::{
     Failure, Inside, Outcome, StageStorage, StageTableau, Step, StepStatistics, Stopping, WarmStart,
 };
-#[cfg(feature = "alloc")]
-use crate::method::{LaneStep, RunTimeStages};
 #[cfg(feature = "alloc")]
 use crate::number::Lanes;
 use crate::number::{Summation, Vector};
@@ -32,6 +32,10 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
 
     /// Its memory for one plan, allocated once and used for every step.
     type Memory<P: StageTableau>: StageStorage<V>;
+
+    /// Its memory for the coupled stages of a tableau that is known only at run time, for systems of class `C`.
+    #[cfg(feature = "alloc")]
+    type AtRunTime<C: Class>: StageStorage<V>;
 
     /// Takes `step` and writes its result into `outcome`; returns the statistics of the step.
     ///
@@ -61,7 +65,7 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     fn take_at_run_time<C, R>(
         _step: &Step<'_, V>,
         _system: &S,
-        _memory: &mut RunTimeStages<V, C>,
+        _memory: &mut Self::AtRunTime<C>,
         _kept: WarmStart,
         _stopping: Stopping,
         _outcome: Outcome<'_, V>,
@@ -74,7 +78,7 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
         const {
             assert!(
                 size_of::<V>() == usize::MAX,
-                "a tableau at run time works with `FixedPoint` and with the default solver of an integrator: leave out `with_solver`"
+                "this solver does not take tableaux at run time: take the default solver, `FixedPoint`, `Newton` or `FixedPointThenNewton`"
             );
         }
         Ok(StepStatistics::default())

@@ -200,6 +200,8 @@ where
 
 impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
     type Memory<P: StageTableau> = AutomaticStages<V, S, P>;
+    #[cfg(feature = "alloc")]
+    type AtRunTime<C: Class> = RunTimeStages<V, C>;
 
     const TRIES_LINEARITY: bool = V::Scalar::IS_DOUBLE;
 

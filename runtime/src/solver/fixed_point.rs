@@ -58,6 +58,8 @@ pub struct FixedPoint;
 
 impl<V: Vector, S: System<V>> Solver<V, S> for FixedPoint {
     type Memory<P: StageTableau> = P::Stages<V>;
+    #[cfg(feature = "alloc")]
+    type AtRunTime<C: Class> = RunTimeStages<V, C>;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<P, R>(

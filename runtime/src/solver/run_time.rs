@@ -6,7 +6,7 @@ use num_traits::Zero;
 
 use crate::error::Quantity;
 use crate::method::relax::{LinearCombination, relax_by};
-use crate::method::run_time::{Coupled, Half, MOST, Row, Schedule};
+use crate::method::run_time::{Coupled, Half, MOST, Row, coupled};
 use crate::method::storage::{first_non_finite, first_non_finite_of};
 use crate::method::{
     EvaluationCounts, Failure, HalfChange, Outcome, RunTimeStages, StageChange, Step,
@@ -37,10 +37,7 @@ pub(crate) fn by_rows<C: Class, R: Summation, V: Vector, S: System<V, Class = C>
         force,
         ..
     } = memory;
-    let schedule = tableau.as_ref().map(|tableau| tableau.schedule::<C>());
-    let Some(Schedule::Coupled(coupled)) = schedule else {
-        unreachable!("a splitting has no coupled stages");
-    };
+    let coupled = coupled::<C>(tableau.as_ref());
     let common = &CoupledStep {
         step,
         system,
@@ -69,7 +66,9 @@ pub(crate) struct CoupledStep<'a, V, S> {
 impl<V: Vector, S: System<V>> CoupledStep<'_, V, S> {
     /// The evaluations of a step.
     pub(crate) fn counts(&self) -> EvaluationCounts {
-        let Coupled { positions, momenta } = self.coupled;
+        let Coupled {
+            positions, momenta, ..
+        } = self.coupled;
         let always = momenta.extrapolation.is_empty();
         EvaluationCounts {
             begin: u32::from(always),
@@ -124,7 +123,12 @@ impl<V: Vector, S: System<V>> CoupledStep<'_, V, S> {
         force: &[V],
         outcome: Outcome<'_, V>,
     ) {
-        let (step, Coupled { positions, momenta }) = (self.step, self.coupled);
+        let (
+            step,
+            Coupled {
+                positions, momenta, ..
+            },
+        ) = (self.step, self.coupled);
         let Outcome { q, q_low, p, p_low } = outcome;
         total::<R, V>((q, q_low), (step.q, step.q_low), momenta, velocity);
         total::<R, V>((p, p_low), (step.p, step.p_low), positions, force);
@@ -145,7 +149,9 @@ impl<R: Summation, V: Vector, S: System<V>> ByRows<'_, R, V, S> {
     fn sweep_by<T: Summation>(&mut self) -> StageChange {
         let mut change = StageChange::default();
         let CoupledStep { step, coupled, .. } = *self.common;
-        let Coupled { positions, momenta } = coupled;
+        let Coupled {
+            positions, momenta, ..
+        } = coupled;
         self.common.forces(self.q, self.p, self.force);
         for (row, p) in momenta.rows.iter().zip(&mut *self.p) {
             relax::<T, V>(p, (step.p, step.p_low), row, self.force, &mut change.p);
@@ -173,7 +179,9 @@ impl<R: Summation, V: Vector, S: System<V>> Sweeps for ByRows<'_, R, V, S> {
 
     fn begin(&mut self, kept: WarmStart) {
         let CoupledStep { step, coupled, .. } = *self.common;
-        let Coupled { positions, momenta } = coupled;
+        let Coupled {
+            positions, momenta, ..
+        } = coupled;
         if kept.stages && !momenta.extrapolation.is_empty() {
             transform(self.velocity, &momenta.extrapolation);
         } else {

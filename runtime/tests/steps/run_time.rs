@@ -5,7 +5,7 @@ use crate::common::systems::{Driven, Pendulum, Product};
 use crate::common::{coefficients, distance, tableau};
 use symplectic::nalgebra::{DVector, Vector1, Vector2};
 use symplectic::simd::{F64x4, Lanes};
-use symplectic::solver::FixedPoint;
+use symplectic::solver::{FixedPoint, FixedPointThenNewton};
 use symplectic::system::Conservative;
 use symplectic::{
     Error, Event, Integrator, Method, ProvedFor, Quantity, Retry, RunTimeCoefficients,
@@ -387,4 +387,82 @@ fn events_are_where_emitted_methods_find_them() -> Result<(), Error> {
     }
     check(Gauss4)?;
     check(ForestRuth)
+}
+
+symplectic::hamiltonian! {
+    /// A chain of stiff springs between the walls of a quartic potential.
+    Springs { k }
+    q: [..], p: [..];
+    bonds: free;
+    H = sum(i: p[i]^2/2 + q[i]^4/4) + sum(bonds d: k d^2/2)
+}
+
+symplectic::hamiltonian! {
+    /// A stiff oscillator and a soft one, coupled by a product of momentum and position.
+    Mixed { k }
+    q: [x, y], p: [px, py];
+    H = (px^2 + py^2)/2 + k x^2/2 + y^2/2 + px y^2/10
+}
+
+/// A run of a tableau beside that of the emitted method, by Newton's iteration: the same states, and about as many sweeps.
+fn same_by_newton<M, S, V>(method: M, system: &S, start: &State<V>, h: f64) -> Result<(), Error>
+where
+    M: Method + ProvedFor<S::Class>,
+    S: System<V, Class: Conservative> + Clone,
+    V: symplectic::Vector<Scalar = f64>,
+{
+    let tableau = tableau(method);
+    let made = || Integrator::at_run_time(&tableau, system.clone(), start.clone(), h);
+    let mut emitted = Integrator::new(method, system.clone(), start.clone(), h)?.by_newton();
+    let mut at_run_time = made()?.by_newton();
+    emitted.take_steps(100)?;
+    at_run_time.take_steps(100)?;
+    let size = 1.0
+        + distance(
+            start,
+            &State::new(start.time, start.q.zeros_like(), start.p.zeros_like()),
+        );
+    let apart = distance(emitted.state(), at_run_time.state()) / size;
+    assert!(apart < 1e-12, "{}: {apart:e}", M::NAME);
+    let (expected, found) = (emitted.statistics(), at_run_time.statistics());
+    assert!(found.factorisations > 0 && found.factorisations <= 2 * expected.factorisations + 4);
+    let sweeps = found.mean_iterations() / expected.mean_iterations();
+    assert!(sweeps < 1.2, "{}: {sweeps} times the sweeps", M::NAME);
+    // The fixed-point iteration diverges, and its fallback takes over.
+    assert!(made()?.step().is_err(), "{}", M::NAME);
+    let mut fallback = made()?.with_solver(<FixedPointThenNewton>::new());
+    fallback.take_steps(100)?;
+    assert!(fallback.statistics().rejected > 0);
+    let apart = distance(emitted.state(), fallback.state()) / size;
+    assert!(apart < 1e-12, "{}: {apart:e}", M::NAME);
+    Ok(())
+}
+
+#[test]
+fn newtons_iteration_is_that_of_emitted_methods() -> Result<(), Error> {
+    let q = DVector::from_fn(12, |i, _| (i as f64).sin() * 1e-3);
+    let chain = State::new(0.0, q.clone(), q);
+    let mixed = State::from_arrays(0.0, [1e-3, 1.0], [0.2, 0.1]);
+    macro_rules! check {
+        ($($method:ident)*) => {$(
+            same_by_newton($method, &Springs::new(1e6), &chain, 0.1)?;
+            same_by_newton($method, &Mixed::new(1e6), &mixed, 0.1)?;
+        )*};
+    }
+    check!(Midpoint Gauss2 Gauss4);
+    Ok(())
+}
+
+#[test]
+fn newtons_iteration_takes_explicit_tableaux_too() -> Result<(), Error> {
+    let made = || Integrator::at_run_time(&tableau(StoermerVerlet), kepler(), ellipse(), 0.01);
+    let (mut plain, mut by_newton) = (made()?, made()?.by_newton());
+    assert_eq!(by_newton.take_steps(100)?, plain.take_steps(100)?);
+    assert_eq!(by_newton.statistics(), plain.statistics());
+    let both = made()?
+        .with_solver(<FixedPointThenNewton>::new())
+        .take_steps(100)?
+        .clone();
+    assert_eq!(&both, plain.state());
+    Ok(())
 }

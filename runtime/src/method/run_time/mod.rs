@@ -1,5 +1,6 @@
 //! Methods that are known only at run time: a tableau is a value instead of a type.
 
+mod decoupling;
 mod error;
 mod plan;
 mod schedule;
@@ -11,6 +12,7 @@ use core::fmt::Write as _;
 
 pub use error::TableauError;
 pub use plan::{RunTimePlan, RunTimeStages};
+use schedule::NO_STAGES;
 pub(crate) use schedule::{Coupled, Half, Kind, MOST, Row, Schedule, Splitting};
 
 use crate::method::{Method, Orders, ProvedFor};
@@ -96,6 +98,15 @@ impl From<Coefficients> for RunTimeCoefficients {
 pub struct RunTimeTableau {
     data: Arc<Data>,
     accepts_lower_order: bool,
+}
+
+/// The coupled stages of a tableau for systems of class `C`; none without a tableau, or if its steps are drifts and kicks.
+#[inline]
+pub(crate) fn coupled<C: Class>(tableau: Option<&RunTimeTableau>) -> &Coupled {
+    match tableau.map(RunTimeTableau::schedule::<C>) {
+        Some(Schedule::Coupled(coupled)) => coupled,
+        _ => &NO_STAGES,
+    }
 }
 
 #[derive(Debug, PartialEq)]

@@ -3,12 +3,12 @@
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
-use super::{Kind, RunTimeTableau, Schedule, Splitting};
+use super::{Coupled, Kind, RunTimeTableau, Schedule, Splitting, coupled};
 use crate::error::Quantity;
 use crate::method::storage::{first_mismatch, first_non_finite, first_non_finite_of};
 use crate::method::{
-    EvaluationObserver, Failure, Inside, Interpolation, LaneStep, Outcome, Plan, Solver, StagePart,
-    StageStorage, StageVisit, Step, StepStatistics, Stopping, WarmStart,
+    EvaluationObserver, Evaluations, Failure, Inside, Interpolation, LaneStep, Outcome, Plan,
+    Solver, StagePart, StageStorage, StageVisit, Step, StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{
     Coefficient, Lanes, Scalar, Summation, Vector, Visit, advance, copy, vector_words,
@@ -19,7 +19,74 @@ use crate::system::{Class, System};
 #[derive(Clone, Copy, Debug)]
 pub struct RunTimePlan<C>(PhantomData<C>);
 
-/// The memory of a [`RunTimePlan`]: the tableau, and one vector for each stage value and evaluation that its schedule stores.
+/// The memory of a [`RunTimePlan`]: the tableau, the latest evaluations of a splitting, and the solver's memory `M` for coupled stages.
+#[derive(Clone, Debug)]
+pub struct RunTimeMemory<V, M, C> {
+    tableau: Option<RunTimeTableau>,
+    splitting: Option<Evaluations<V>>,
+    coupled: M,
+    class: PhantomData<C>,
+}
+
+impl<V: Vector, M: StageStorage<V>, C: Class> StageStorage<V> for RunTimeMemory<V, M, C> {
+    const AT_RUN_TIME: bool = true;
+
+    /// Without a tableau there is nothing to store.
+    fn like(prototype: &V) -> Self {
+        Self {
+            tableau: None,
+            splitting: None,
+            coupled: M::like(prototype),
+            class: PhantomData,
+        }
+    }
+
+    fn tableau(&self) -> Option<&RunTimeTableau> {
+        self.tableau.as_ref()
+    }
+
+    fn set_tableau(&mut self, tableau: &RunTimeTableau, prototype: &V) {
+        self.splitting = match tableau.schedule::<C>() {
+            Schedule::Splitting(_) => Some(Evaluations::like(prototype)),
+            Schedule::Coupled(_) => None,
+        };
+        self.coupled.set_tableau(tableau, prototype);
+        self.tableau = Some(tableau.clone());
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        match &mut self.splitting {
+            Some(evaluations) => evaluations.words(visit),
+            None => self.coupled.words(visit),
+        }
+    }
+
+    fn stages(&mut self, visit: &mut StageVisit<'_>) {
+        self.coupled.stages(visit);
+    }
+
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        // An observer receives the evaluations of a splitting.
+        match self.splitting {
+            Some(_) => None,
+            None => self.coupled.non_finite(),
+        }
+    }
+
+    fn non_finite_force(&self) -> Option<usize> {
+        self.coupled.non_finite_force()
+    }
+
+    #[inline]
+    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
+        match &self.splitting {
+            Some(evaluations) => evaluations.mismatch(dimension),
+            None => self.coupled.mismatch(dimension),
+        }
+    }
+}
+
+/// Coupled stages one by one: one vector for each stage value and evaluation. Empty if the steps are drifts and kicks.
 #[derive(Clone, Debug)]
 pub struct RunTimeStages<V, C> {
     pub(crate) tableau: Option<RunTimeTableau>,
@@ -31,8 +98,6 @@ pub struct RunTimeStages<V, C> {
 }
 
 impl<V: Vector, C: Class> StageStorage<V> for RunTimeStages<V, C> {
-    const AT_RUN_TIME: bool = true;
-
     /// Without a tableau there is nothing to store.
     fn like(_prototype: &V) -> Self {
         Self {
@@ -51,20 +116,15 @@ impl<V: Vector, C: Class> StageStorage<V> for RunTimeStages<V, C> {
 
     fn set_tableau(&mut self, tableau: &RunTimeTableau, prototype: &V) {
         let zeros = |count: usize| (0..count).map(|_| prototype.zeros_like()).collect();
-        // A splitting stores the latest evaluation of each kind, and no stages.
-        let (stages, forces, velocities) = match tableau.schedule::<C>() {
-            Schedule::Splitting(_) => ((0, 0), 1, 1),
-            Schedule::Coupled(coupled) => {
-                let (forces, velocities) =
-                    (coupled.positions.rows.len(), coupled.momenta.rows.len());
-                ((forces, velocities), forces, velocities)
-            }
-        };
+        let Coupled {
+            positions, momenta, ..
+        } = coupled::<C>(Some(tableau));
+        let (positions, momenta) = (positions.rows.len(), momenta.rows.len());
         *self = Self {
-            q: zeros(stages.0),
-            p: zeros(stages.1),
-            velocity: zeros(velocities),
-            force: zeros(forces),
+            q: zeros(positions),
+            p: zeros(momenta),
+            velocity: zeros(momenta),
+            force: zeros(positions),
             tableau: Some(tableau.clone()),
             class: PhantomData,
         };
@@ -99,10 +159,6 @@ impl<V: Vector, C: Class> StageStorage<V> for RunTimeStages<V, C> {
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
-        if self.q.is_empty() {
-            // An observer receives the evaluations of a splitting.
-            return None;
-        }
         first_non_finite((&self.q, &self.force), (&self.p, &self.velocity))
     }
 
@@ -121,7 +177,7 @@ const TABLEAU: &str = "the memory of a step at run time has its tableau";
 
 impl<C: Class> Plan for RunTimePlan<C> {
     type Class = C;
-    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = RunTimeStages<V, C>;
+    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = RunTimeMemory<V, N::AtRunTime<C>, C>;
 
     /// Valid only if the tableau [is explicit](RunTimeTableau::is_explicit).
     const LANEWISE: bool = C::SEPARABLE;
@@ -130,7 +186,7 @@ impl<C: Class> Plan for RunTimePlan<C> {
     fn take<R: Summation, V: Vector, S: System<V, Class = C>, N: Solver<V, S>>(
         step: &Step<'_, V>,
         system: &S,
-        memory: &mut RunTimeStages<V, C>,
+        memory: &mut Self::Memory<V, S, N>,
         kept: WarmStart,
         stopping: Stopping,
         outcome: Outcome<'_, V>,
@@ -138,7 +194,7 @@ impl<C: Class> Plan for RunTimePlan<C> {
         let tableau = memory.tableau.as_ref().expect(TABLEAU);
         match tableau.schedule::<C>() {
             Schedule::Splitting(splitting) => {
-                let evaluations = (&mut *memory.velocity, &mut *memory.force);
+                let evaluations = memory.splitting.as_mut().expect(TABLEAU);
                 let count = apply::<R, V, S, ()>(
                     splitting,
                     step,
@@ -158,6 +214,7 @@ impl<C: Class> Plan for RunTimePlan<C> {
                 unreachable!("coupled stages of several trajectories are in `LaneStages`")
             }
             Schedule::Coupled(_) => {
+                let memory = &mut memory.coupled;
                 N::take_at_run_time::<C, R>(step, system, memory, kept, stopping, outcome)
             }
         }
@@ -188,7 +245,7 @@ impl<C: Class> Plan for RunTimePlan<C> {
     fn observe<R, V, S, N, W>(
         step: &Step<'_, V>,
         system: &S,
-        memory: &mut RunTimeStages<V, C>,
+        memory: &mut Self::Memory<V, S, N>,
         outcome: Outcome<'_, V>,
         observer: &mut W,
     ) where
@@ -202,7 +259,7 @@ impl<C: Class> Plan for RunTimePlan<C> {
         // The evaluations of coupled stages are in the memory.
         if let Schedule::Splitting(splitting) = tableau.schedule::<C>() {
             memory.set_tableau(&tableau, step.q);
-            let evaluations = (&mut *memory.velocity, &mut *memory.force);
+            let evaluations = memory.splitting.as_mut().expect(TABLEAU);
             let kept = WarmStart::default();
             apply::<R, V, S, W>(
                 splitting,
@@ -219,7 +276,7 @@ impl<C: Class> Plan for RunTimePlan<C> {
     const INTERPOLATION: Interpolation = Interpolation::Hermite;
 
     /// Does nothing: values inside a step come from the cubic polynomial of its ends.
-    fn extend<V, S, N>(_memory: &RunTimeStages<V, C>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
+    fn extend<V, S, N>(_memory: &Self::Memory<V, S, N>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
     where
         V: Vector,
         S: System<V, Class = C>,
@@ -234,7 +291,7 @@ fn apply<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
     splitting: &Splitting,
     step: &Step<'_, V>,
     system: &S,
-    (velocity, force): (&mut [V], &mut [V]),
+    Evaluations { velocity, force }: &mut Evaluations<V>,
     kept: WarmStart,
     state: Outcome<'_, V>,
     observer: &mut W,
@@ -246,9 +303,6 @@ fn apply<R: Summation, V: Vector, S: System<V>, W: EvaluationObserver>(
         copy(q_low, step.q_low);
         copy(p_low, step.p_low);
     }
-    let (Some(velocity), Some(force)) = (velocity.first_mut(), force.first_mut()) else {
-        return 0;
-    };
     let mut counts = [0; 2];
     let mut made = 0;
     for (index, evaluation) in splitting.evaluations.iter().enumerate() {

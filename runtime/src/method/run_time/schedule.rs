@@ -1,9 +1,11 @@
 //! From coefficients to the order of computation.
 
+use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
 
 use super::RunTimeCoefficients;
+use super::decoupling::Decoupling;
 use crate::number::summation::two_sum;
 
 /// Order of computation of a step.
@@ -12,7 +14,7 @@ pub enum Schedule {
     /// Drifts and kicks, each applied to the state in full.
     Splitting(Splitting),
     /// Stages that depend on each other.
-    Coupled(Coupled),
+    Coupled(Box<Coupled>),
 }
 
 /// The evaluations of a splitting in their order.
@@ -51,12 +53,16 @@ pub struct Coupled {
     pub positions: Half,
     /// Momenta, and the velocities there.
     pub momenta: Half,
+    /// How the linear systems of a Newton iteration decouple; `None` if they do not.
+    pub decoupling: Option<Decoupling>,
 }
 
 /// One half of coupled stages: stage values, and the evaluations at them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Half {
-    /// For each stage value, its terms: increments of the other half.
+    /// The matrix, by rows: coefficients of the increments of the other half.
+    pub matrix: Vec<Vec<f64>>,
+    /// Its nonzero entries.
     pub rows: Vec<Row>,
     /// For each stage value, the evaluation there.
     pub evaluations: Vec<Evaluation>,
@@ -82,6 +88,23 @@ struct Graph {
     momenta: Vec<Vec<f64>>,
 }
 
+/// No stages.
+pub static NO_STAGES: Coupled = Coupled {
+    positions: Half::NONE,
+    momenta: Half::NONE,
+    decoupling: None,
+};
+
+impl Half {
+    const NONE: Self = Self {
+        matrix: Vec::new(),
+        rows: Vec::new(),
+        evaluations: Vec::new(),
+        counting: Vec::new(),
+        extrapolation: Vec::new(),
+    };
+}
+
 impl Schedule {
     /// The schedule for separable Hamiltonians, or for general ones.
     pub fn new(coefficients: &RunTimeCoefficients, separable: bool) -> Self {
@@ -89,10 +112,13 @@ impl Schedule {
         let order = separable.then(|| graph.order()).flatten();
         order.map_or_else(
             || {
-                Self::Coupled(Coupled {
+                let a = scaled(&graph.positions, &graph.velocities);
+                let a_tilde = scaled(&graph.momenta, &graph.forces);
+                Self::Coupled(Box::new(Coupled {
                     positions: half(&graph.positions, &graph.forces),
                     momenta: half(&graph.momenta, &graph.velocities),
-                })
+                    decoupling: Decoupling::new(&a, &a_tilde, separable),
+                }))
             },
             Self::Splitting,
         )
@@ -273,6 +299,15 @@ fn complement(mu: &mut f64, mu_tilde: &mut f64) {
     }
 }
 
+/// The coefficients of evaluations from those of their increments.
+fn scaled(matrix: &[Vec<f64>], evaluations: &[Evaluation]) -> Vec<Vec<f64>> {
+    let row = |row: &Vec<f64>| {
+        let pairs = row.iter().zip(evaluations);
+        pairs.map(|(entry, other)| entry * other.factor).collect()
+    };
+    matrix.iter().map(row).collect()
+}
+
 fn half(matrix: &[Vec<f64>], evaluations: &[Evaluation]) -> Half {
     let row = |row: &Vec<f64>| -> Row {
         let entries = row.iter().copied().enumerate();
@@ -280,6 +315,7 @@ fn half(matrix: &[Vec<f64>], evaluations: &[Evaluation]) -> Half {
     };
     Half {
         rows: matrix.iter().map(row).collect(),
+        matrix: matrix.to_vec(),
         counting: (0..evaluations.len())
             .filter(|&i| evaluations[i].counts)
             .collect(),

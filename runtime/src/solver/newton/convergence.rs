@@ -1,10 +1,9 @@
 //! Convergence test of the Newton iteration, and the attempts of a step.
 
+use super::coefficients::StageCoefficients;
 use super::linear_solver::LinearSolver;
 use super::sweep::ByIncrements;
-use crate::method::{
-    Failure, HalfChange, StageChange, StageTableau, StepStatistics, Stopping, WarmStart,
-};
+use crate::method::{Failure, HalfChange, StageChange, StepStatistics, Stopping, WarmStart};
 use crate::number::dither::dither_last_sweep;
 use crate::number::{Scalar, Summation, Vector};
 use crate::solver::convergence::{Progress, ROUNDING, STAGNATION, non_finite};
@@ -59,16 +58,16 @@ fn attempts(kept: bool, in_full: bool, available: bool) -> impl Iterator<Item = 
 }
 
 /// Iterates until the stages have settled; returns the statistics of the step.
-pub(super) fn settle<P, R, V, S, L>(
-    sweeps: &mut ByIncrements<'_, P, R, V, S, L>,
+pub(super) fn settle<T, R, V, S, L>(
+    sweeps: &mut ByIncrements<'_, T, R, V, S, L>,
     kept: WarmStart,
     stopping: Stopping,
 ) -> Result<StepStatistics, Failure>
 where
-    P: StageTableau,
+    T: StageCoefficients,
     R: Summation,
     V: Vector,
-    S: System<V, Class = P::Class>,
+    S: System<V, Class = T::Class>,
     L: LinearSolver<V, S>,
 {
     let mut work = StepStatistics::default();
@@ -98,17 +97,17 @@ where
 }
 
 /// One attempt.
-fn take<P, R, V, S, L>(
-    sweeps: &mut ByIncrements<'_, P, R, V, S, L>,
+fn take<T, R, V, S, L>(
+    sweeps: &mut ByIncrements<'_, T, R, V, S, L>,
     attempt: Attempt,
     stopping: Stopping,
     work: &mut StepStatistics,
 ) -> Result<(), Failure>
 where
-    P: StageTableau,
+    T: StageCoefficients,
     R: Summation,
     V: Vector,
-    S: System<V, Class = P::Class>,
+    S: System<V, Class = T::Class>,
     L: LinearSolver<V, S>,
 {
     let max_iterations = stopping.max_iterations;
@@ -131,7 +130,7 @@ where
             });
         }
         let before = history.last;
-        history.note::<P::Class>(&change, FLOOR * V::Scalar::EPSILON);
+        history.note::<T::Class>(&change, FLOOR * V::Scalar::EPSILON);
         work.scales = change.scales();
         work.residual = change.residual();
         let within = |tolerance: f64| {
@@ -148,7 +147,7 @@ where
             let is_within = |size: f64| size <= ROUNDING * V::Scalar::EPSILON;
             // The noise with derivatives at one point may be larger than necessary.
             let may_be_noise = !attempt.gives_up || is_within(settling::<Separable>(&change));
-            let is_noise = is_within(settling::<P::Class>(&change))
+            let is_noise = is_within(settling::<T::Class>(&change))
                 || may_be_noise && history.may_be_noise() && measurements < MOST_MEASUREMENTS && {
                     measurements += 1;
                     work.evaluations += 2 * sweeps.evaluations();
@@ -166,7 +165,7 @@ where
             }
         }
         let is_late = iteration >= MOST_SWEEPS || history.progress.slow >= SLOW;
-        let is_far = settling::<P::Class>(&change) > ROUNDING * V::Scalar::EPSILON;
+        let is_far = settling::<T::Class>(&change) > ROUNDING * V::Scalar::EPSILON;
         if attempt.gives_up && (is_late && is_far || sweeps.is_slow()) {
             return Err(history.failure(iteration));
         }

@@ -1,19 +1,18 @@
 //! The fixed-point iteration with a fallback to Newton's.
 
-use core::fmt;
-
 use super::linear_solver::{BandOrDense, LinearSolver};
-use super::{AnalyticOrDifferences, Newton, memory::NewtonMemory};
+use super::{AnalyticOrDifferences, Newton};
 use crate::error::Quantity;
 use crate::method::{
-    Failure, Inside, Outcome, Solver, StageStorage, StageTableau, Step, StepStatistics, Stopping,
-    WarmStart,
+    Failure, Inside, Outcome, RunTimeTableau, Solver, StageStorage, StageTableau, Step,
+    StepStatistics, Stopping, WarmStart,
 };
 use crate::number::words::words;
 use crate::number::{Summation, Vector, Visit};
 use crate::solver::FixedPoint;
 use crate::solver::fixed_point::by_stages;
-use crate::system::System;
+use crate::solver::run_time::by_rows;
+use crate::system::{Class, System};
 
 /// Steps that use Newton's iteration after a step in which the fixed-point iteration failed.
 const PATIENCE: u32 = 16;
@@ -59,43 +58,36 @@ impl<L> Default for FixedPointThenNewton<L> {
     }
 }
 
-/// The memory of [`FixedPointThenNewton`] for the method `P`.
-pub struct FixedPointThenNewtonMemory<
-    V: Vector,
-    P: StageTableau,
-    S: System<V>,
-    L: LinearSolver<V, S>,
-> {
-    fixed_point: P::Stages<V>,
-    newton: NewtonMemory<V, P, S, L>,
+/// The memory of [`FixedPointThenNewton`]: that of the fixed-point iteration and that of Newton's.
+#[derive(Clone, Debug)]
+pub struct FixedPointThenNewtonMemory<F, N> {
+    fixed_point: F,
+    newton: N,
     /// Whether the previous step used Newton's iteration.
     was_newton: bool,
     /// Number of further steps that use Newton's iteration.
     newton_steps: u32,
 }
 
-impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> Clone
-    for FixedPointThenNewtonMemory<V, P, S, L>
-{
-    fn clone(&self) -> Self {
-        Self {
-            fixed_point: self.fixed_point.clone(),
-            newton: self.newton.clone(),
-            ..*self
-        }
-    }
-}
-
-impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStorage<V>
-    for FixedPointThenNewtonMemory<V, P, S, L>
+impl<V: Vector, F: StageStorage<V>, N: StageStorage<V>> StageStorage<V>
+    for FixedPointThenNewtonMemory<F, N>
 {
     fn like(prototype: &V) -> Self {
         Self {
-            fixed_point: StageStorage::like(prototype),
-            newton: StageStorage::like(prototype),
+            fixed_point: F::like(prototype),
+            newton: N::like(prototype),
             was_newton: false,
             newton_steps: 0,
         }
+    }
+
+    fn tableau(&self) -> Option<&RunTimeTableau> {
+        self.fixed_point.tableau()
+    }
+
+    fn set_tableau(&mut self, tableau: &RunTimeTableau, prototype: &V) {
+        self.fixed_point.set_tableau(tableau, prototype);
+        self.newton.set_tableau(tableau, prototype);
     }
 
     fn words(&mut self, visit: &mut Visit<'_>) {
@@ -115,14 +107,42 @@ impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStora
     }
 }
 
-impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> fmt::Debug
-    for FixedPointThenNewtonMemory<V, P, S, L>
-{
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter
-            .debug_struct("FixedPointThenNewtonMemory")
-            .field("newton", &self.newton)
-            .finish_non_exhaustive()
+impl<F, N> FixedPointThenNewtonMemory<F, N> {
+    /// Takes a step by one of the two iterations, each of which takes its memory and its warm start.
+    fn take<V: Vector>(
+        &mut self,
+        step: &Step<'_, V>,
+        kept: WarmStart,
+        mut outcome: Outcome<'_, V>,
+        by_fixed_point: impl FnOnce(
+            &mut F,
+            WarmStart,
+            Outcome<'_, V>,
+        ) -> Result<StepStatistics, Failure>,
+        by_newton: impl FnOnce(&mut N, WarmStart, Outcome<'_, V>) -> Result<StepStatistics, Failure>,
+    ) -> Result<StepStatistics, Failure>
+    where
+        F: StageStorage<V>,
+    {
+        // A warm start is valid only if the same iteration took the previous step.
+        let if_kept = |is: bool| if is { kept } else { WarmStart::default() };
+        let mut rejected = 0;
+        if self.newton_steps == 0 {
+            let kept = if_kept(!self.was_newton);
+            let taken = by_fixed_point(&mut self.fixed_point, kept, outcome.reborrow());
+            if taken.is_ok() {
+                self.was_newton = false;
+                return taken;
+            }
+            // The stages have diverged: clear them.
+            self.fixed_point.forget(step.q);
+            (rejected, self.newton_steps) = (1, PATIENCE + 1);
+        }
+        self.newton_steps -= 1;
+        let mut work = by_newton(&mut self.newton, if_kept(self.was_newton), outcome)?;
+        self.was_newton = true;
+        work.rejected = rejected;
+        Ok(work)
     }
 }
 
@@ -132,7 +152,12 @@ where
     S: System<V>,
     L: LinearSolver<V, S>,
 {
-    type Memory<P: StageTableau> = FixedPointThenNewtonMemory<V, P, S, L>;
+    type Memory<P: StageTableau> =
+        FixedPointThenNewtonMemory<P::Stages<V>, <Newton<L> as Solver<V, S>>::Memory<P>>;
+    type AtRunTime<C: Class> = FixedPointThenNewtonMemory<
+        <FixedPoint as Solver<V, S>>::AtRunTime<C>,
+        <Newton<L> as Solver<V, S>>::AtRunTime<C>,
+    >;
 
     fn take<P, R>(
         step: &Step<'_, V>,
@@ -140,40 +165,50 @@ where
         memory: &mut Self::Memory<P>,
         kept: WarmStart,
         stopping: Stopping,
-        mut outcome: Outcome<'_, V>,
+        outcome: Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure>
     where
         P: StageTableau,
         R: Summation,
         S: System<V, Class = P::Class>,
     {
-        // A warm start is valid only if the same solver took the previous step.
-        let if_kept = |is: bool| if is { kept } else { WarmStart::default() };
-        let mut rejected = 0;
-        if memory.newton_steps == 0 {
-            let taken = by_stages::<P, R, V, S>(
-                step,
-                system,
-                &mut memory.fixed_point,
-                if_kept(!memory.was_newton),
-                stopping,
-                outcome.reborrow(),
-            );
-            if taken.is_ok() {
-                memory.was_newton = false;
-                return taken;
-            }
-            // The stages have diverged: clear them.
-            memory.fixed_point = StageStorage::like(step.q);
-            (rejected, memory.newton_steps) = (1, PATIENCE + 1);
-        }
-        memory.newton_steps -= 1;
-        let kept = if_kept(memory.was_newton);
-        let newton = &mut memory.newton;
-        let mut work = Newton::<L>::take::<P, R>(step, system, newton, kept, stopping, outcome)?;
-        memory.was_newton = true;
-        work.rejected = rejected;
-        Ok(work)
+        memory.take(
+            step,
+            kept,
+            outcome,
+            |stages, kept, outcome| {
+                by_stages::<P, R, V, S>(step, system, stages, kept, stopping, outcome)
+            },
+            |newton, kept, outcome| {
+                Newton::<L>::take::<P, R>(step, system, newton, kept, stopping, outcome)
+            },
+        )
+    }
+
+    fn take_at_run_time<C, R>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::AtRunTime<C>,
+        kept: WarmStart,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure>
+    where
+        C: Class,
+        R: Summation,
+        S: System<V, Class = C>,
+    {
+        memory.take(
+            step,
+            kept,
+            outcome,
+            |stages, kept, outcome| {
+                by_rows::<C, R, V, S>(step, system, stages, kept, stopping, outcome)
+            },
+            |newton, kept, outcome| {
+                Newton::<L>::take_at_run_time::<C, R>(step, system, newton, kept, stopping, outcome)
+            },
+        )
     }
 
     fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {

@@ -3,20 +3,26 @@
 use alloc::vec;
 use alloc::vec::Vec;
 use core::fmt;
-use core::marker::PhantomData;
 
 use num_traits::Zero;
 
+use super::coefficients::{HalfCoefficients, StageCoefficients};
 use super::linear_solver::{LinearSolver, Parts};
 use crate::error::Quantity;
 use crate::method::storage::{first_mismatch, first_non_finite};
-use crate::method::{StageStorage, StageTableau};
+use crate::method::{RunTimeTableau, StageStorage};
 use crate::number::words::words;
 use crate::number::{Vector, Visit, vector_words};
 use crate::system::{Class, System};
 
-/// The memory of a [`Newton`](crate::solver::Newton) iteration for the method `P`.
-pub struct NewtonMemory<V: Vector, P, S: System<V>, L: LinearSolver<V, S>> {
+/// The memory of a [`Newton`](crate::solver::Newton) iteration with the coefficients `T`.
+pub struct NewtonMemory<V: Vector, T, S: System<V>, L: LinearSolver<V, S>> {
+    pub(super) coefficients: T,
+    pub(super) work: Work<V, S, L>,
+}
+
+/// What the sweeps read and write.
+pub(super) struct Work<V: Vector, S: System<V>, L: LinearSolver<V, S>> {
     /// Stage values.
     pub(super) q: Vec<V>,
     pub(super) p: Vec<V>,
@@ -53,20 +59,19 @@ pub struct NewtonMemory<V: Vector, P, S: System<V>, L: LinearSolver<V, S>> {
     pub(super) residuals: [Vec<V::Scalar>; 2],
     /// Number of steps before starting values are extrapolated again.
     pub(super) pause: u32,
-    plan: PhantomData<(P, S)>,
 }
 
 /// The number of rows of a linear system per part of its unknown, for vectors of dimension `n`.
-pub(super) const fn rows<P: StageTableau>(n: usize) -> usize {
-    if P::Class::SEPARABLE { n } else { 2 * n }
+pub(super) const fn rows<C: Class>(n: usize) -> usize {
+    if C::SEPARABLE { n } else { 2 * n }
 }
 
 /// The linear systems of a method.
-fn systems<P: StageTableau>() -> Vec<Parts> {
-    let Some(decoupling) = P::DECOUPLING else {
-        return vec![Parts::Stages(P::MOMENTA.count)];
+fn systems<T: StageCoefficients>(coefficients: &T) -> Vec<Parts> {
+    let Some(blocks) = coefficients.blocks() else {
+        return vec![Parts::Stages(coefficients.momenta().count())];
     };
-    let parts = decoupling.blocks.iter().map(|&(_, imaginary)| {
+    let parts = blocks.iter().map(|&(_, imaginary)| {
         if imaginary == 0.0 {
             Parts::One
         } else {
@@ -76,7 +81,7 @@ fn systems<P: StageTableau>() -> Vec<Parts> {
     parts.collect()
 }
 
-impl<V: Vector, P, S: System<V>, L: LinearSolver<V, S>> Clone for NewtonMemory<V, P, S, L> {
+impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Clone for Work<V, S, L> {
     fn clone(&self) -> Self {
         Self {
             q: self.q.clone(),
@@ -101,16 +106,26 @@ impl<V: Vector, P, S: System<V>, L: LinearSolver<V, S>> Clone for NewtonMemory<V
     }
 }
 
-impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStorage<V>
-    for NewtonMemory<V, P, S, L>
-{
-    fn like(prototype: &V) -> Self {
+impl<V: Vector, T: Clone, S: System<V>, L: LinearSolver<V, S>> Clone for NewtonMemory<V, T, S, L> {
+    fn clone(&self) -> Self {
+        Self {
+            coefficients: self.coefficients.clone(),
+            work: self.work.clone(),
+        }
+    }
+}
+
+impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Work<V, S, L> {
+    fn new<T: StageCoefficients>(coefficients: &T, prototype: &V) -> Self {
         let vectors = |count| (0..count).map(|_| prototype.zeros_like()).collect();
         let zeros = |count| vec![V::Scalar::zero(); count];
-        let (positions, momenta) = (P::POSITIONS.count, P::MOMENTA.count);
+        let (positions, momenta) = (
+            coefficients.positions().count(),
+            coefficients.momenta().count(),
+        );
         let n = prototype.dimension();
-        let unknowns = momenta * rows::<P>(n);
-        let coupled = match P::DECOUPLING {
+        let unknowns = momenta * rows::<T::Class>(n);
+        let coupled = match coefficients.blocks() {
             Some(_) => 0,
             None => momenta * momenta,
         };
@@ -128,7 +143,7 @@ impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStora
             unknown: zeros(unknowns),
             vectors: [zeros(n), zeros(n)],
             couplings: [vec![0.0; coupled], vec![0.0; coupled]],
-            linear: L::memory(prototype, &systems::<P>()),
+            linear: L::memory(prototype, &systems(coefficients)),
             factored: None,
             stale: true,
             times: vec![0.0; positions.max(momenta)],
@@ -139,42 +154,68 @@ impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStora
             steps_in_full: 0,
             residuals: [zeros(unknowns), zeros(positions * n)],
             pause: 0,
-            plan: PhantomData,
         }
+    }
+
+    /// The first evaluation that is NaN or infinite although its argument is finite.
+    pub(super) fn non_finite(&self) -> Option<(Quantity, usize)> {
+        first_non_finite((&self.q, &self.force), (&self.p, &self.velocity))
+    }
+}
+
+impl<V: Vector, T: StageCoefficients, S: System<V>, L: LinearSolver<V, S>> StageStorage<V>
+    for NewtonMemory<V, T, S, L>
+{
+    fn like(prototype: &V) -> Self {
+        let coefficients = T::default();
+        Self {
+            work: Work::new(&coefficients, prototype),
+            coefficients,
+        }
+    }
+
+    fn tableau(&self) -> Option<&RunTimeTableau> {
+        self.coefficients.tableau()
+    }
+
+    fn set_tableau(&mut self, tableau: &RunTimeTableau, prototype: &V) {
+        self.coefficients.set_tableau(tableau);
+        self.work = Work::new(&self.coefficients, prototype);
     }
 
     /// What the next step starts from: increments for the extrapolation, factors, and what earlier steps have decided.
     fn words(&mut self, visit: &mut Visit<'_>) {
+        let work = &mut self.work;
         for vectors in [
-            &mut self.q,
-            &mut self.p,
-            &mut self.velocity,
-            &mut self.force,
-            &mut self.u,
-            &mut self.w,
+            &mut work.q,
+            &mut work.p,
+            &mut work.velocity,
+            &mut work.force,
+            &mut work.u,
+            &mut work.w,
         ] {
             vector_words(vectors, visit);
         }
-        L::words(&mut self.linear, visit);
-        words!(visit: self.factored, self.stale, self.steps_in_full, self.pause);
+        L::words(&mut work.linear, visit);
+        words!(visit: work.factored, work.stale, work.steps_in_full, work.pause);
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
-        first_non_finite((&self.q, &self.force), (&self.p, &self.velocity))
+        self.work.non_finite()
     }
 
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
-        first_mismatch(&self.force, &self.velocity, dimension)
+        first_mismatch(&self.work.force, &self.work.velocity, dimension)
     }
 }
 
-impl<V: Vector, P, S: System<V>, L: LinearSolver<V, S>> fmt::Debug for NewtonMemory<V, P, S, L> {
+impl<V: Vector, T, S: System<V>, L: LinearSolver<V, S>> fmt::Debug for NewtonMemory<V, T, S, L> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter
             .debug_struct("NewtonMemory")
-            .field("q", &self.q)
-            .field("p", &self.p)
-            .field("factored", &self.factored)
+            .field("q", &self.work.q)
+            .field("p", &self.work.p)
+            .field("factored", &self.work.factored)
             .finish_non_exhaustive()
     }
 }

@@ -1,5 +1,6 @@
 //! Coupled stages by a simplified Newton iteration.
 
+mod coefficients;
 mod convergence;
 #[cfg(feature = "num-dual")]
 mod dual_numbers;
@@ -25,7 +26,8 @@ use crate::method::{
     StoredEvaluations, WarmStart,
 };
 use crate::number::{Summation, Vector};
-use crate::system::System;
+use crate::system::{Class, System};
+use coefficients::{AtRunTime, Emitted, StageCoefficients};
 use convergence::settle;
 use sweep::ByIncrements;
 
@@ -113,7 +115,8 @@ impl<L> Default for Newton<L> {
 }
 
 impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Solver<V, S> for Newton<L> {
-    type Memory<P: StageTableau> = NewtonMemory<V, P, S, L>;
+    type Memory<P: StageTableau> = NewtonMemory<V, Emitted<P>, S, L>;
+    type AtRunTime<C: Class> = NewtonMemory<V, AtRunTime<C>, S, L>;
 
     fn take<P, R>(
         step: &Step<'_, V>,
@@ -128,14 +131,30 @@ impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Solver<V, S> for Newton<L> 
         R: Summation,
         S: System<V, Class = P::Class>,
     {
-        let mut sweeps = ByIncrements::<P, R, V, S, L>::new(step, system, memory);
-        let mut work = settle(&mut sweeps, kept, stopping)?;
-        work.factorisations = sweeps.finish(outcome);
-        Ok(work)
+        take::<_, R, V, S, L>(step, system, memory, kept, stopping, outcome)
+    }
+
+    fn take_at_run_time<C, R>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::AtRunTime<C>,
+        kept: WarmStart,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure>
+    where
+        C: Class,
+        R: Summation,
+        S: System<V, Class = C>,
+    {
+        take::<_, R, V, S, L>(step, system, memory, kept, stopping, outcome)
     }
 
     fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
-        let halves = [(&P::MOMENTA, &memory.u, q), (&P::POSITIONS, &memory.w, p)];
+        let halves = [
+            (&P::MOMENTA, &memory.work.u, q),
+            (&P::POSITIONS, &memory.work.w, p),
+        ];
         for (half, values, out) in halves {
             let increments = StoredEvaluations {
                 values,
@@ -144,4 +163,26 @@ impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Solver<V, S> for Newton<L> 
             at.add(half, P::INCREMENTS, increments, out);
         }
     }
+}
+
+/// Takes a step with the coefficients in `memory`.
+fn take<T, R, V, S, L>(
+    step: &Step<'_, V>,
+    system: &S,
+    memory: &mut NewtonMemory<V, T, S, L>,
+    kept: WarmStart,
+    stopping: Stopping,
+    outcome: Outcome<'_, V>,
+) -> Result<StepStatistics, Failure>
+where
+    T: StageCoefficients,
+    R: Summation,
+    V: Vector,
+    S: System<V, Class = T::Class>,
+    L: LinearSolver<V, S>,
+{
+    let mut sweeps = ByIncrements::<T, R, V, S, L>::new(step, system, memory);
+    let mut work = settle(&mut sweeps, kept, stopping)?;
+    work.factorisations = sweeps.finish(outcome);
+    Ok(work)
 }

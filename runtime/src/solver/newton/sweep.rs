@@ -4,15 +4,14 @@ use core::marker::PhantomData;
 
 use num_traits::Zero;
 
+use super::coefficients::{HalfCoefficients, StageCoefficients};
 use super::convergence::{Attempt, MOST_SWEEPS, size};
 use super::every_stage::{EveryStage, NOT_FINITE};
 use super::linear_solver::{Coupling, LinearSolver};
-use super::memory::{NewtonMemory, rows};
+use super::memory::{NewtonMemory, Work, rows};
 use crate::error::Quantity;
 use crate::method::storage::first_non_finite_of;
-use crate::method::{
-    Failure, HalfChange, HalfTableau, Outcome, StageChange, StageStorage, StageTableau, Step,
-};
+use crate::method::{Failure, HalfChange, Outcome, StageChange, Step};
 use crate::number::linear_combination::totals_by;
 use crate::number::{Scalar, Summation, Vector};
 use crate::system::{Class, System};
@@ -30,10 +29,11 @@ const NOISE: f64 = 16384.0;
 const PATIENCE: u32 = 16;
 
 /// The increments of a method; each sweep corrects all of them simultaneously.
-pub(super) struct ByIncrements<'a, P, R, V: Vector, S: System<V>, L: LinearSolver<V, S>> {
+pub(super) struct ByIncrements<'a, T, R, V: Vector, S: System<V>, L: LinearSolver<V, S>> {
     step: &'a Step<'a, V>,
     system: &'a S,
-    memory: &'a mut NewtonMemory<V, P, S, L>,
+    coefficients: &'a T,
+    memory: &'a mut Work<V, S, L>,
     /// The change in the previous sweep.
     last: f64,
     /// Sweeps made.
@@ -55,23 +55,24 @@ pub(super) struct ByIncrements<'a, P, R, V: Vector, S: System<V>, L: LinearSolve
     sums: PhantomData<R>,
 }
 
-impl<'a, P, R, V, S, L> ByIncrements<'a, P, R, V, S, L>
+impl<'a, T, R, V, S, L> ByIncrements<'a, T, R, V, S, L>
 where
-    P: StageTableau,
+    T: StageCoefficients,
     R: Summation,
     V: Vector,
-    S: System<V, Class = P::Class>,
+    S: System<V, Class = T::Class>,
     L: LinearSolver<V, S>,
 {
     pub(super) fn new(
         step: &'a Step<'a, V>,
         system: &'a S,
-        memory: &'a mut NewtonMemory<V, P, S, L>,
+        memory: &'a mut NewtonMemory<V, T, S, L>,
     ) -> Self {
         Self {
             step,
             system,
-            memory,
+            coefficients: &memory.coefficients,
+            memory: &mut memory.work,
             last: f64::NAN,
             sweeps: 0,
             since: 0,
@@ -86,8 +87,8 @@ where
     }
 
     /// Evaluations in one sweep.
-    pub(super) const fn evaluations(&self) -> u32 {
-        (P::POSITIONS.count + P::MOMENTA.count) as u32
+    pub(super) fn evaluations(&self) -> u32 {
+        (self.coefficients.positions().count() + self.coefficients.momenta().count()) as u32
     }
 
     /// Time at the start of the step.
@@ -116,14 +117,13 @@ where
             let evaluations = memory.velocity.iter_mut().chain(&mut memory.force);
             evaluations.for_each(clear);
         }
-        let extrapolates = attempt.kept
-            && memory.pause == 0
-            && !P::MOMENTA.extrapolation.is_empty()
-            && !P::POSITIONS.extrapolation.is_empty();
+        let (positions, momenta) = (self.coefficients.positions(), self.coefficients.momenta());
+        let extrapolates =
+            attempt.kept && memory.pause == 0 && momenta.extrapolates() && positions.extrapolates();
         self.first_change = extrapolates.then_some(f64::NAN);
         if extrapolates {
-            extrapolate(&P::MOMENTA, &mut memory.u, &mut memory.unknown);
-            extrapolate(&P::POSITIONS, &mut memory.w, &mut memory.unknown);
+            extrapolate(momenta, &mut memory.u, &mut memory.unknown);
+            extrapolate(positions, &mut memory.w, &mut memory.unknown);
         } else {
             memory.u.iter_mut().chain(&mut memory.w).for_each(clear);
         }
@@ -166,7 +166,7 @@ where
     pub(super) fn noise(&mut self) -> Result<[f64; 2], Failure> {
         self.evaluate();
         self.residuals();
-        let NewtonMemory {
+        let Work {
             q,
             p,
             x,
@@ -180,7 +180,7 @@ where
         p.iter_mut().enumerate().for_each(|(j, p)| jog(p, j));
         self.evaluate();
         self.residuals();
-        let NewtonMemory {
+        let Work {
             x, y, residuals, ..
         } = &mut *self.memory;
         for (new, old) in [(x, &residuals[0]), (y, &residuals[1])] {
@@ -195,12 +195,19 @@ where
     /// Writes the result of the step, and decides what is kept for the next one; returns the number of factorisations of the linear
     /// systems.
     pub(super) fn finish(self, outcome: Outcome<'_, V>) -> u32 {
-        let Self { step, memory, .. } = self;
+        let Self {
+            step,
+            coefficients,
+            memory,
+            ..
+        } = self;
         let Outcome { q, q_low, p, p_low } = outcome;
+        let factor = (!coefficients.increments()).then_some(step.size);
         let base = (step.q, step.q_low);
-        total::<R, P, V>(step.size, &P::MOMENTA, &memory.u, base, (q, q_low));
+        let (momenta, positions) = (coefficients.momenta(), coefficients.positions());
+        total::<R, _, V>(factor, momenta, &memory.u, base, (q, q_low));
         let base = (step.p, step.p_low);
-        total::<R, P, V>(step.size, &P::POSITIONS, &memory.w, base, (p, p_low));
+        total::<R, _, V>(factor, positions, &memory.w, base, (p, p_low));
         if self.contraction > GOOD {
             memory.stale = true;
         }
@@ -210,7 +217,7 @@ where
                 q: moved(&memory.q, step.q),
                 p: moved(&memory.p, step.p),
             };
-            if first > size::<P::Class>(&change) {
+            if first > size::<T::Class>(&change) {
                 memory.pause = PATIENCE;
             }
         }
@@ -219,7 +226,8 @@ where
 
     /// Evaluates velocities and forces at the stages.
     fn evaluate(&mut self) {
-        let NewtonMemory {
+        let (positions, momenta) = (self.coefficients.positions(), self.coefficients.momenta());
+        let Work {
             q,
             p,
             velocity,
@@ -228,21 +236,21 @@ where
         } = &mut *self.memory;
         // In a separable system the numbers of positions and momenta may differ. The argument that is not read is the start of the step.
         for (i, (q, force)) in q.iter().zip(force).enumerate() {
-            let p = if P::Class::SEPARABLE {
+            let p = if T::Class::SEPARABLE {
                 self.step.p
             } else {
                 &p[i]
             };
-            let time = self.step.time + P::POSITIONS.times[i] * self.step.size;
+            let time = self.step.time + positions.time(i) * self.step.size;
             self.system.force(V::Scalar::from_f64(time), q, p, force);
         }
         for (i, (p, velocity)) in p.iter().zip(velocity).enumerate() {
-            let q = if P::Class::SEPARABLE {
+            let q = if T::Class::SEPARABLE {
                 self.step.q
             } else {
                 &q[i]
             };
-            let time = self.step.time + P::MOMENTA.times[i] * self.step.size;
+            let time = self.step.time + momenta.time(i) * self.step.size;
             self.system
                 .velocity(V::Scalar::from_f64(time), q, p, velocity);
         }
@@ -251,7 +259,9 @@ where
     /// Computes the residuals: `h velocity` and `h force` minus the current increments.
     fn residuals(&mut self) {
         let (h, n) = (self.step.size, self.step.q.dimension());
-        let NewtonMemory {
+        let (positions, momenta) = (self.coefficients.positions(), self.coefficients.momenta());
+        let increments = self.coefficients.increments();
+        let Work {
             velocity,
             force,
             u,
@@ -260,21 +270,21 @@ where
             y,
             ..
         } = &mut *self.memory;
-        let rows = rows::<P>(n);
+        let rows = rows::<T::Class>(n);
         for (j, (velocity, u)) in velocity.iter().zip(&*u).enumerate() {
-            let (factor, unit) = factors::<P, V>(&P::MOMENTA, j, h);
+            let (factor, unit) = factors::<_, V>(increments, momenta, j, h);
             let pairs = velocity.as_slice().iter().zip(u.as_slice());
             for (k, (&velocity, &u)) in pairs.enumerate() {
-                let place = if P::Class::SEPARABLE { k } else { 2 * k };
+                let place = if T::Class::SEPARABLE { k } else { 2 * k };
                 x[j * rows + place] = (factor * velocity - u) * unit;
             }
         }
         for (i, (force, w)) in force.iter().zip(&*w).enumerate() {
-            let (factor, unit) = factors::<P, V>(&P::POSITIONS, i, h);
+            let (factor, unit) = factors::<_, V>(increments, positions, i, h);
             let pairs = force.as_slice().iter().zip(w.as_slice());
             for (k, (&force, &w)) in pairs.enumerate() {
                 let residual = (factor * force - w) * unit;
-                if P::Class::SEPARABLE {
+                if T::Class::SEPARABLE {
                     y[i * n + k] = residual;
                 } else {
                     x[i * rows + 2 * k + 1] = residual;
@@ -289,7 +299,7 @@ where
             let corrected = self.correct_in_full();
             return corrected.map_err(|failure| self.failure(failure));
         }
-        if P::Class::SEPARABLE {
+        if T::Class::SEPARABLE {
             self.correct_separable();
         } else {
             self.solve();
@@ -299,7 +309,7 @@ where
 
     /// Corrects with the derivatives at every stage.
     fn correct_in_full(&mut self) -> Result<(), Failure> {
-        let NewtonMemory {
+        let Work {
             q,
             p,
             x,
@@ -325,23 +335,26 @@ where
     /// Computes the coefficients for [`correct_in_full`](Self::correct_in_full).
     fn scale(&mut self) {
         let Step { time, size: h, .. } = *self.step;
-        let NewtonMemory {
+        let Work {
             times,
             scaled: [positions, momenta],
             ..
         } = &mut *self.memory;
-        let (of_q, of_p) = (P::POSITIONS.count, P::MOMENTA.count);
+        let coefficients = self.coefficients;
+        let (forces, velocities) = (coefficients.positions(), coefficients.momenta());
+        let (of_q, of_p) = (forces.count(), velocities.count());
+        let last = |stage: usize, count: usize| (count > 0).then(|| stage.min(count - 1));
         for (i, stage) in times.iter_mut().enumerate() {
             // In a system that depends on time, force and velocity of a stage may have different times: derivatives are evaluated halfway.
-            let forces = P::POSITIONS.times.get(i.min(of_q.saturating_sub(1)));
-            let velocities = P::MOMENTA.times.get(i.min(of_p.saturating_sub(1)));
-            let sum = forces.unwrap_or(&0.5) + velocities.unwrap_or(&0.5);
+            let force = last(i, of_q).map_or(0.5, |i| forces.time(i));
+            let velocity = last(i, of_p).map_or(0.5, |i| velocities.time(i));
+            let sum = force + velocity;
             *stage = time + 0.5 * sum * h;
         }
         for i in 0..of_q {
             for j in 0..of_p {
-                positions[i * of_p + j] = h * position::<P>(i, j);
-                momenta[j * of_q + i] = h * momentum::<P>(j, i);
+                positions[i * of_p + j] = h * position(coefficients, i, j);
+                momenta[j * of_q + i] = h * momentum(coefficients, j, i);
             }
         }
     }
@@ -349,25 +362,32 @@ where
     /// The largest changes that the corrections cause in the positions and in the momenta of the stages.
     fn extent(&self) -> [f64; 2] {
         let n = self.step.q.dimension();
-        let rows = rows::<P>(n);
-        let NewtonMemory { x, y, .. } = &*self.memory;
-        let (stride, turn) = if P::Class::SEPARABLE { (1, 0) } else { (2, 1) };
+        let rows = rows::<T::Class>(n);
+        let Work { x, y, .. } = &*self.memory;
+        let (stride, turn) = if T::Class::SEPARABLE { (1, 0) } else { (2, 1) };
         let of_velocities = |j: usize, k: usize| x[j * rows + stride * k];
-        let of_forces = |i: usize, k: usize| match P::Class::SEPARABLE {
+        let of_forces = |i: usize, k: usize| match T::Class::SEPARABLE {
             true => y[i * n + k],
             false => x[i * rows + stride * k + turn],
         };
-        let (positions, momenta) = (P::POSITIONS.count, P::MOMENTA.count);
-        let q = largest_sum(n, (positions, momenta), position::<P>, of_velocities);
-        let p = largest_sum(n, (momenta, positions), momentum::<P>, of_forces);
+        let coefficients = self.coefficients;
+        let (positions, momenta) = (
+            coefficients.positions().count(),
+            coefficients.momenta().count(),
+        );
+        let a = |i, j| position(coefficients, i, j);
+        let a_tilde = |i, j| momentum(coefficients, i, j);
+        let q = largest_sum(n, (positions, momenta), a, of_velocities);
+        let p = largest_sum(n, (momenta, positions), a_tilde, of_forces);
         [q, p]
     }
 
     /// Turns the residuals into corrections, for a separable system.
     fn correct_separable(&mut self) {
         let (h, n) = (self.step.size, self.step.q.dimension());
-        for j in 0..P::MOMENTA.count {
-            let NewtonMemory {
+        let coefficients = self.coefficients;
+        for j in 0..coefficients.momenta().count() {
+            let Work {
                 x,
                 y,
                 vectors,
@@ -375,14 +395,14 @@ where
                 ..
             } = &mut *self.memory;
             let [sum, product] = vectors;
-            combine::<V>(sum, y, |i| h * momentum::<P>(j, i));
+            combine::<V>(sum, y, |i| h * momentum(coefficients, j, i));
             L::velocity_by_momentum(linear, self.system, sum, product);
             let row = x[j * n..(j + 1) * n].iter_mut().zip(&*product);
             row.for_each(|(x, &product)| *x += product);
         }
         self.solve();
-        for i in 0..P::POSITIONS.count {
-            let NewtonMemory {
+        for i in 0..coefficients.positions().count() {
+            let Work {
                 x,
                 y,
                 vectors,
@@ -390,7 +410,7 @@ where
                 ..
             } = &mut *self.memory;
             let [sum, product] = vectors;
-            combine::<V>(sum, x, |j| h * position::<P>(i, j));
+            combine::<V>(sum, x, |j| h * position(coefficients, i, j));
             L::force_by_position(linear, self.system, sum, product);
             let row = y[i * n..(i + 1) * n].iter_mut().zip(&*product);
             row.for_each(|(y, &product)| *y += product);
@@ -399,16 +419,17 @@ where
 
     /// Solves the linear systems for `x`.
     fn solve(&mut self) {
-        let rows = rows::<P>(self.step.q.dimension());
-        let count = P::MOMENTA.count;
-        let NewtonMemory {
+        let rows = rows::<T::Class>(self.step.q.dimension());
+        let coefficients = self.coefficients;
+        let count = coefficients.momenta().count();
+        let Work {
             x,
             transformed,
             unknown,
             linear,
             ..
         } = &mut *self.memory;
-        let Some(decoupling) = P::DECOUPLING else {
+        let Some(blocks) = coefficients.blocks() else {
             for (place, entry) in unknown.iter_mut().enumerate() {
                 *entry = x[place % count * rows + place / count];
             }
@@ -419,11 +440,11 @@ where
             return;
         };
         let mut first = 0;
-        for (number, &(_, imaginary)) in decoupling.blocks.iter().enumerate() {
+        for (number, &(_, imaginary)) in blocks.iter().enumerate() {
             let parts = if imaginary == 0.0 { 1 } else { 2 };
             let unknown = &mut unknown[..parts * rows];
             for (place, entry) in unknown.iter_mut().enumerate() {
-                let row = decoupling.from_stages[first + place % parts];
+                let row = coefficients.block_row(first + place % parts);
                 *entry = dot(row, x, rows, place / parts);
             }
             L::solve(linear, self.system, number, unknown);
@@ -433,7 +454,7 @@ where
             first += parts;
         }
         for (place, entry) in x.iter_mut().enumerate() {
-            let row = decoupling.to_stages[place / rows];
+            let row = coefficients.stage_row(place / rows);
             *entry = dot(row, transformed, rows, place % rows);
         }
     }
@@ -441,20 +462,22 @@ where
     /// Adds the corrections to the increments.
     fn update(&mut self) {
         let (h, n) = (self.step.size, self.step.q.dimension());
-        let rows = rows::<P>(n);
-        let NewtonMemory { u, w, x, y, .. } = &mut *self.memory;
+        let rows = rows::<T::Class>(n);
+        let (positions, momenta) = (self.coefficients.positions(), self.coefficients.momenta());
+        let increments = self.coefficients.increments();
+        let Work { u, w, x, y, .. } = &mut *self.memory;
         for (j, u) in u.iter_mut().enumerate() {
-            let unit = V::Scalar::from_f64(increment::<P>(&P::MOMENTA, j, h));
+            let unit = V::Scalar::from_f64(increment(increments, momenta, j, h));
             for (k, u) in u.as_mut_slice().iter_mut().enumerate() {
-                let place = if P::Class::SEPARABLE { k } else { 2 * k };
+                let place = if T::Class::SEPARABLE { k } else { 2 * k };
                 *u += x[j * rows + place] * unit;
             }
         }
         for (i, w) in w.iter_mut().enumerate() {
-            let unit = V::Scalar::from_f64(increment::<P>(&P::POSITIONS, i, h));
+            let unit = V::Scalar::from_f64(increment(increments, positions, i, h));
             for (k, w) in w.as_mut_slice().iter_mut().enumerate() {
                 *w += unit
-                    * if P::Class::SEPARABLE {
+                    * if T::Class::SEPARABLE {
                         y[i * n + k]
                     } else {
                         x[i * rows + 2 * k + 1]
@@ -465,23 +488,28 @@ where
 
     /// Computes stage values from the increments; returns their change.
     fn values(&mut self) -> StageChange {
-        let step = self.step;
-        let NewtonMemory { q, p, u, w, .. } = &mut *self.memory;
-        let factor = if P::INCREMENTS { 1.0 } else { step.size };
+        let (step, coefficients) = (self.step, self.coefficients);
+        let (positions, momenta) = (coefficients.positions(), coefficients.momenta());
+        let Work { q, p, u, w, .. } = &mut *self.memory;
+        let factor = if coefficients.increments() {
+            1.0
+        } else {
+            step.size
+        };
         StageChange {
-            q: values::<R, V>(&P::POSITIONS, factor, q, (step.q, step.q_low), u),
-            p: values::<R, V>(&P::MOMENTA, factor, p, (step.p, step.p_low), w),
+            q: values::<R, _, V>(positions, factor, q, (step.q, step.q_low), u),
+            p: values::<R, _, V>(momenta, factor, p, (step.p, step.p_low), w),
         }
     }
 
     /// Decides from a change whether the derivatives at one point are still accurate enough.
     fn judge(&mut self, change: &StageChange) -> Result<(), Failure> {
         if self.sweeps == 0 && self.first_change.is_some() {
-            self.first_change = Some(size::<P::Class>(change));
+            self.first_change = Some(size::<T::Class>(change));
         }
         self.sweeps += 1;
         self.since += 1;
-        let size = size::<P::Class>(change);
+        let size = size::<T::Class>(change);
         let contraction = size / self.last;
         self.last = size;
         if self.in_full
@@ -534,11 +562,12 @@ where
             }
             memory.stale = false;
         }
-        let factor = if P::Class::SEPARABLE { h * h } else { h };
-        let count = P::MOMENTA.count;
-        let regular = match P::DECOUPLING {
-            Some(decoupling) => {
-                let mut blocks = decoupling.blocks.iter().enumerate();
+        let factor = if T::Class::SEPARABLE { h * h } else { h };
+        let coefficients = self.coefficients;
+        let count = coefficients.momenta().count();
+        let regular = match coefficients.blocks() {
+            Some(blocks) => {
+                let mut blocks = blocks.iter().enumerate();
                 blocks.all(|(number, &(real, imaginary))| {
                     let coupling = if imaginary == 0.0 {
                         Coupling::Real(factor * real)
@@ -552,14 +581,18 @@ where
                 let [positions, momenta] = &mut memory.couplings;
                 for i in 0..count {
                     for j in 0..count {
-                        (positions[i * count + j], momenta[i * count + j]) = if P::Class::SEPARABLE
+                        (positions[i * count + j], momenta[i * count + j]) = if T::Class::SEPARABLE
                         {
-                            let products = (0..P::POSITIONS.count)
-                                .map(|k| momentum::<P>(i, k) * position::<P>(k, j));
+                            let products = (0..coefficients.positions().count()).map(|k| {
+                                momentum(coefficients, i, k) * position(coefficients, k, j)
+                            });
                             let product: f64 = products.sum();
                             (factor * product, factor * product)
                         } else {
-                            (factor * position::<P>(i, j), factor * momentum::<P>(i, j))
+                            (
+                                factor * position(coefficients, i, j),
+                                factor * momentum(coefficients, i, j),
+                            )
                         };
                     }
                 }
@@ -582,13 +615,14 @@ where
 }
 
 /// The factor that scales a velocity or a force to an increment, and the factor that scales an increment to `h velocity` or `h force`.
-fn factors<P: StageTableau, V: Vector>(
-    half: &HalfTableau,
+fn factors<C: HalfCoefficients, V: Vector>(
+    increments: bool,
+    half: C,
     stage: usize,
     h: f64,
 ) -> (V::Scalar, V::Scalar) {
-    let (factor, unit) = if P::INCREMENTS {
-        (h * half.weights[stage], half.weights[stage].recip())
+    let (factor, unit) = if increments {
+        (h * half.weight(stage), half.weight(stage).recip())
     } else {
         (1.0, h)
     };
@@ -596,32 +630,32 @@ fn factors<P: StageTableau, V: Vector>(
 }
 
 /// The factor that scales `h velocity` or `h force` to an increment.
-fn increment<P: StageTableau>(half: &HalfTableau, stage: usize, h: f64) -> f64 {
-    if P::INCREMENTS {
-        half.weights[stage]
+fn increment<C: HalfCoefficients>(increments: bool, half: C, stage: usize, h: f64) -> f64 {
+    if increments {
+        half.weight(stage)
     } else {
         h.recip()
     }
 }
 
 /// `a_ij`
-fn position<P: StageTableau>(i: usize, j: usize) -> f64 {
-    let weight = if P::INCREMENTS {
-        P::MOMENTA.weights[j]
+fn position<T: StageCoefficients>(coefficients: &T, i: usize, j: usize) -> f64 {
+    let weight = if coefficients.increments() {
+        coefficients.momenta().weight(j)
     } else {
         1.0
     };
-    P::POSITIONS.columns[j][i] * weight
+    coefficients.positions().entry(i, j) * weight
 }
 
 /// `ã_ij`
-fn momentum<P: StageTableau>(i: usize, j: usize) -> f64 {
-    let weight = if P::INCREMENTS {
-        P::POSITIONS.weights[j]
+fn momentum<T: StageCoefficients>(coefficients: &T, i: usize, j: usize) -> f64 {
+    let weight = if coefficients.increments() {
+        coefficients.positions().weight(j)
     } else {
         1.0
     };
-    P::MOMENTA.columns[j][i] * weight
+    coefficients.momenta().entry(i, j) * weight
 }
 
 /// Moves every component by one unit of EPSILON, up or down in a pseudo-random pattern.
@@ -679,8 +713,8 @@ fn combine<V: Vector>(sum: &mut [V::Scalar], vectors: &[V::Scalar], factor: impl
 }
 
 /// Computes the stage values `base + low + factor Σ_j columns_j increments_j`; returns their change.
-fn values<R: Summation, V: Vector>(
-    half: &HalfTableau,
+fn values<R: Summation, C: HalfCoefficients, V: Vector>(
+    half: C,
     factor: f64,
     values: &mut [V],
     (base, low): (&V, &V),
@@ -692,8 +726,8 @@ fn values<R: Summation, V: Vector>(
         let components = components.zip(base.as_slice().iter().zip(low.as_slice()));
         for (k, (value, (&base, &low))) in components.enumerate() {
             let mut sum = V::Scalar::zero();
-            for (column, increment) in half.columns.iter().zip(increments) {
-                sum += V::Scalar::from_f64(factor * column[i]) * increment.as_slice()[k];
+            for (j, increment) in increments.iter().enumerate() {
+                sum += V::Scalar::from_f64(factor * half.entry(i, j)) * increment.as_slice()[k];
             }
             if R::COMPENSATED {
                 sum += low;
@@ -731,13 +765,17 @@ fn clear<V: Vector>(vector: &mut V) {
 }
 
 /// Extrapolates the increments from those of the previous step; `scratch` has at least one entry for each stage.
-fn extrapolate<V: Vector>(half: &HalfTableau, increments: &mut [V], scratch: &mut [V::Scalar]) {
+fn extrapolate<C: HalfCoefficients, V: Vector>(
+    half: C,
+    increments: &mut [V],
+    scratch: &mut [V::Scalar],
+) {
     let n = increments.first().map_or(0, V::dimension);
     for k in 0..n {
         for (i, new) in scratch.iter_mut().enumerate().take(increments.len()) {
             *new = V::Scalar::zero();
-            for (column, increment) in half.extrapolation.iter().zip(&*increments) {
-                *new += V::Scalar::from_f64(column[i]) * increment.as_slice()[k];
+            for (j, increment) in increments.iter().enumerate() {
+                *new += V::Scalar::from_f64(half.extrapolation(i, j)) * increment.as_slice()[k];
             }
         }
         for (increment, &new) in increments.iter_mut().zip(&*scratch) {
@@ -746,10 +784,10 @@ fn extrapolate<V: Vector>(half: &HalfTableau, increments: &mut [V], scratch: &mu
     }
 }
 
-/// Computes one half of the result of a step from its increments.
-fn total<R: Summation, P: StageTableau, V: Vector>(
-    h: f64,
-    half: &HalfTableau,
+/// Computes one half of the result of a step from its increments; with a `factor`, increments are evaluations without their weights.
+fn total<R: Summation, C: HalfCoefficients, V: Vector>(
+    factor: Option<f64>,
+    half: C,
     increments: &[V],
     base: (&V, &V),
     out: (&mut V, &mut V),
@@ -757,9 +795,10 @@ fn total<R: Summation, P: StageTableau, V: Vector>(
     let (n, count) = (base.0.dimension(), increments.len());
     totals_by::<R, V>(out, base, (n, count), |k: usize, j: usize| {
         let increment = increments[j].as_slice()[k];
-        match P::INCREMENTS {
-            true => increment,
-            false => V::Scalar::from_f64(h * half.weights[j]) * increment,
+        match factor {
+            None if half.counts(j) => increment,
+            None => V::Scalar::zero(),
+            Some(h) => V::Scalar::from_f64(h * half.weight(j)) * increment,
         }
     });
 }

@@ -6,6 +6,8 @@ pub(crate) mod stages;
 pub(crate) mod sums;
 pub(crate) mod sweeps;
 
+#[cfg(feature = "alloc")]
+use crate::method::RunTimeStages;
 use crate::method::{
     Failure, Inside, Outcome, Solver, StageTableau, Step, StepStatistics, Stopping, WarmStart,
 };
@@ -30,6 +32,8 @@ where
     S: SystemInLanes<V>,
 {
     type Memory<P: StageTableau> = SimdStages<V, P>;
+    #[cfg(feature = "alloc")]
+    type AtRunTime<C: Class> = RunTimeStages<V, C>;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<P, R>(
@@ -73,6 +77,8 @@ where
     S: SystemInLanes<V>,
 {
     type Memory<P: StageTableau> = SimdStages<V, P>;
+    #[cfg(feature = "alloc")]
+    type AtRunTime<C: Class> = RunTimeStages<V, C>;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<P, R>(

@@ -303,7 +303,9 @@ where
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn begin(&mut self) {
         let CoupledStep { step, coupled, .. } = *self.common;
-        let Coupled { positions, momenta } = coupled;
+        let Coupled {
+            positions, momenta, ..
+        } = coupled;
         if momenta.extrapolation.is_empty() {
             self.common.start(&mut self.now.velocity);
         } else {
