@@ -41,6 +41,8 @@ pub(super) struct Work<V: Vector, S: System<V>, L: LinearSolver<V, S>> {
     /// `x` after the transformation that decouples the stages, and the unknown of one linear system.
     pub(super) transformed: Vec<V::Scalar>,
     pub(super) unknown: Vec<V::Scalar>,
+    /// One component of all increments, while they are extrapolated.
+    pub(super) component: Vec<V::Scalar>,
     /// Two scratch vectors.
     pub(super) vectors: [Vec<V::Scalar>; 2],
     /// Coupling matrices over the stages, for methods without a decoupling.
@@ -95,6 +97,7 @@ impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Clone for Work<V, S, L> {
             y: self.y.clone(),
             transformed: self.transformed.clone(),
             unknown: self.unknown.clone(),
+            component: self.component.clone(),
             vectors: self.vectors.clone(),
             couplings: self.couplings.clone(),
             linear: self.linear.clone(),
@@ -141,6 +144,7 @@ impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Work<V, S, L> {
             y: zeros(positions * n),
             transformed: zeros(unknowns),
             unknown: zeros(unknowns),
+            component: zeros(positions.max(momenta)),
             vectors: [zeros(n), zeros(n)],
             couplings: [vec![0.0; coupled], vec![0.0; coupled]],
             linear: L::memory(prototype, &systems(coefficients)),

@@ -122,8 +122,8 @@ where
             attempt.kept && memory.pause == 0 && momenta.extrapolates() && positions.extrapolates();
         self.first_change = extrapolates.then_some(f64::NAN);
         if extrapolates {
-            extrapolate(momenta, &mut memory.u, &mut memory.unknown);
-            extrapolate(positions, &mut memory.w, &mut memory.unknown);
+            extrapolate(momenta, &mut memory.u, &mut memory.component);
+            extrapolate(positions, &mut memory.w, &mut memory.component);
         } else {
             memory.u.iter_mut().chain(&mut memory.w).for_each(clear);
         }
