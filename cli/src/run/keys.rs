@@ -170,3 +170,24 @@ fn in_words(expected: &str) -> &str {
         other => other,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::setup::Setup;
+
+    #[test]
+    fn the_keys_of_a_file_are_those_of_the_setup() {
+        let error = toml::from_str::<Setup>("nothing = 1").expect_err("an unknown key");
+        let message = error.message();
+        let known = message
+            .split_once("expected")
+            .map_or("", |(_, known)| known);
+        let mut known: Vec<&str> = known.split('`').skip(1).step_by(2).collect();
+        let mut expected = OF_FILE.to_vec();
+        expected.extend(["parameters", "starts", "output"]);
+        known.sort_unstable();
+        expected.sort_unstable();
+        assert_eq!(known, expected, "{message}");
+    }
+}

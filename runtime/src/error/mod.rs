@@ -162,8 +162,8 @@ pub enum Error {
         momentum: usize,
     },
 
-    /// A parameter of a formula is NaN.
-    #[error("the parameter `{parameter}` is NaN: give it a number")]
+    /// A parameter of a formula, or one of its entries, is NaN.
+    #[error("the parameter `{parameter}` is NaN or has an entry that is: give it a number")]
     ParameterNotANumber {
         /// Its name.
         parameter: &'static str,

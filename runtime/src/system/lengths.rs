@@ -41,6 +41,16 @@ pub const fn check_number(parameter: &'static str, value: f64) -> Result<(), Err
     }
 }
 
+/// Checks that all entries of a parameter are numbers.
+///
+/// # Errors
+///
+/// [`Error::ParameterNotANumber`].
+pub fn check_numbers(parameter: &'static str, values: &[f64]) -> Result<(), Error> {
+    let mut values = values.iter();
+    values.try_for_each(|&value| check_number(parameter, value))
+}
+
 /// Checks the length of a parameter.
 ///
 /// # Errors

@@ -44,6 +44,6 @@ pub use lagrangian_macro::lagrangian;
 #[doc(hidden)]
 pub use lane_parameters::LaneParameter;
 #[doc(hidden)]
-pub use lengths::{bodies, check_bodies, check_length, check_number, check_pairs};
+pub use lengths::{bodies, check_bodies, check_length, check_number, check_numbers, check_pairs};
 pub use masses::Masses;
 pub use over_vectors::{OverEveryScalar, System, SystemInLanes};

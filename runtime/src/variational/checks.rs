@@ -5,6 +5,7 @@ use num_traits::Float;
 use super::discrete_lagrangian::{At, Derivatives, DiscreteLagrangian};
 use super::regular::Factors;
 use crate::error::Error;
+use crate::integrator::validation::check_step_size;
 use crate::number::{Scalar, Vector};
 
 /// Two positions, and the step from the first one to the second.
@@ -55,7 +56,7 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] if the positions differ in dimension; [`Error::ResizedEvaluation`] if a force does.
+    /// [`Error::StepSize`]; [`Error::Dimension`] if the positions differ in dimension; [`Error::ResizedEvaluation`] if a force does.
     pub fn momenta<L>(&self, lagrangian: &L) -> Result<(V, V), Error>
     where
         L: DiscreteLagrangian<Vector<f64> = V>,
@@ -74,7 +75,7 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] if the positions differ in dimension; [`Error::ResizedEvaluation`] if a force does.
+    /// [`Error::StepSize`]; [`Error::Dimension`] if the positions differ in dimension; [`Error::ResizedEvaluation`] if a force does.
     pub fn is_regular<L>(&self, lagrangian: &L) -> Result<bool, Error>
     where
         L: DiscreteLagrangian<Vector<f64> = V>,
@@ -103,7 +104,7 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] if the positions differ in dimension; [`Error::ResizedEvaluation`] if a force does.
+    /// [`Error::StepSize`]; [`Error::Dimension`] if the positions differ in dimension; [`Error::ResizedEvaluation`] if a force does.
     pub fn momentum_maps<L>(
         &self,
         lagrangian: &L,
@@ -129,7 +130,7 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`] if the positions differ in dimension; [`Error::ResizedEvaluation`] if a force does.
+    /// [`Error::StepSize`]; [`Error::Dimension`] if the positions differ in dimension; [`Error::ResizedEvaluation`] if a force does.
     pub fn difference<L, K>(&self, one: &L, other: &K, q2: &V) -> Result<(f64, f64), Error>
     where
         L: DiscreteLagrangian<Vector<f64> = V>,
@@ -186,6 +187,7 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
         if position != momentum {
             return Err(Error::Dimension { position, momentum });
         }
+        check_step_size(self.step_size)?;
         Derivatives::new(self.q0)
     }
 }

@@ -334,6 +334,12 @@ fn self_adjoint_or_not() {
         q0: &q0,
         q1: &q1,
     };
+    let at_once = DiscretePath {
+        step_size: 0.0,
+        ..path
+    };
+    let error = Error::StepSize { value: 0.0 };
+    assert_eq!(at_once.momenta(&AtOnePoint(0.5)), Err(error));
     assert!(path.self_adjoint_defect(&AtOnePoint(0.5)) < 1e-16);
     assert!(path.self_adjoint_defect(&AtTwoPoints(0.3)) < 1e-16);
     assert!(path.self_adjoint_defect(&AtOnePoint(0.3)) > 1e-3);

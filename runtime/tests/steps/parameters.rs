@@ -55,6 +55,24 @@ fn a_parameter_is_a_number() {
     assert!(Integrator::new(Gauss2, Attracted { mu: 2.0 }, start(), 0.01).is_ok());
 }
 
+#[test]
+fn every_entry_of_a_parameter_is_a_number() {
+    let masses = Bodies::new(vec![1.0, f64::NAN]);
+    let error = Integrator::new(StoermerVerlet, masses, start(6), 0.01).err();
+    let parameter = "m";
+    assert_eq!(error, Some(Error::ParameterNotANumber { parameter }));
+    let rows = vec![vec![1.0, 1.0], vec![f64::NAN, 1.0]];
+    let net = Net::new(vec![(0, 1)], vec![1.0], rows);
+    let error = Integrator::new(StoermerVerlet, net, start(2), 0.01).err();
+    let parameter = "coupling";
+    assert_eq!(error, Some(Error::ParameterNotANumber { parameter }));
+    let three = Three::new(vec![(0, 1)], vec![[1.0, f64::NAN]]);
+    let at_rest = State::from_arrays(0.0, [0.0, 1.0, 2.0], [0.0; 3]);
+    let error = Integrator::new(StoermerVerlet, three, at_rest, 0.01).err();
+    let parameter = "both";
+    assert_eq!(error, Some(Error::ParameterNotANumber { parameter }));
+}
+
 /// A state at rest whose positions are all different.
 fn start(dimension: usize) -> State<DVector<f64>> {
     let q = DVector::from_fn(dimension, |i, _| (i * i) as f64);

@@ -55,7 +55,7 @@ impl Emitter<'_> {
     }
 }
 
-/// The checks of an array, and of its rows if it is a matrix. A fixed length is a matter of its type.
+/// The checks of an array, and of its rows if it is a matrix: lengths, and that entries are numbers. A fixed length is a matter of its type.
 fn check_array(name: &str, array: &TokenStream, lengths: &[Length]) -> TokenStream {
     let [length, rest @ ..] = lengths else {
         return TokenStream::new();
@@ -71,7 +71,11 @@ fn check_array(name: &str, array: &TokenStream, lengths: &[Length]) -> TokenStre
     let own = expected.map(
         |expected| quote!(::symplectic::emitted::check_length(#name, #array.len(), #expected)?;),
     );
-    let rows = check_array(name, &quote!(row), rest);
-    let rows = (!rows.is_empty()).then(|| quote!(for row in &#array { #rows }));
-    quote!(#own #rows)
+    let entries = if rest.is_empty() {
+        quote!(::symplectic::emitted::check_numbers(#name, &#array[..])?;)
+    } else {
+        let row = check_array(name, &quote!(row), rest);
+        quote!(for row in &#array { #row })
+    };
+    quote!(#own #entries)
 }

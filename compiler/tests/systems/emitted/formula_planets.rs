@@ -210,6 +210,7 @@ const _: () = {
             &self,
             dimension: usize,
         ) -> ::core::result::Result<(), ::symplectic::Error> {
+            ::symplectic::emitted::check_numbers("m", &self.m[..])?;
             ::symplectic::emitted::check_number("G", self.G)?;
             ::core::result::Result::Ok(())
         }
