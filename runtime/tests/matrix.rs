@@ -274,10 +274,10 @@ where
     };
     let mut compiled = Integrator::new(method, system, start(), SIZE)?;
     let expected = compiled.take_steps(20)?;
-    let compensated = solvers_at_run_time(cell, &|start, size| {
+    let compensated = solvers_at_run_time(cell, |start, size| {
         Integrator::at_run_time(tableau, system, start, size)
     })?;
-    let plain = solvers_at_run_time(cell, &|start, size| {
+    let plain = solvers_at_run_time(cell, |start, size| {
         Integrator::plain_at_run_time(tableau, system, start, size)
     })?;
     for (number, found) in compensated.iter().chain(&plain).enumerate() {
@@ -291,7 +291,7 @@ where
 /// All solvers of a tableau at run time.
 fn solvers_at_run_time<'a, S, R>(
     cell: Cell<'_>,
-    made: &dyn Fn(Point, f64) -> Result<Integrator<AtRunTime, S, Vector2<f64>, R>, Error>,
+    made: impl Fn(Point, f64) -> Result<Integrator<AtRunTime, S, Vector2<f64>, R>, Error>,
 ) -> Result<[Point; 3], Error>
 where
     S: System<Vector2<f64>, Class: Conservative> + Copy + 'a,

@@ -33,7 +33,8 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     /// Its memory for one plan, allocated once and used for every step.
     type Memory<P: StageTableau>: StageStorage<V>;
 
-    /// Its memory for the coupled stages of a tableau that is known only at run time, for systems of class `C`.
+    /// Its memory for the coupled stages of a tableau that is known only at run time, for systems of class `C`. For a solver without
+    /// [`take_at_run_time`](Self::take_at_run_time) any storage does: `<FixedPoint as Solver<V, S>>::AtRunTime<C>`.
     #[cfg(feature = "alloc")]
     type AtRunTime<C: Class>: StageStorage<V>;
 

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use super::{Coupled, Kind, RunTimeTableau, Schedule, Splitting, coupled};
 use crate::error::Quantity;
-use crate::method::storage::{first_mismatch, first_non_finite, first_non_finite_of};
+use crate::method::storage::{first_mismatch, first_non_finite};
 use crate::method::{
     EvaluationObserver, Evaluations, Failure, Inside, Interpolation, LaneStep, Outcome, Plan,
     Solver, StagePart, StageStorage, StageVisit, Step, StepStatistics, Stopping, WarmStart,
@@ -24,7 +24,7 @@ pub struct RunTimePlan<C>(PhantomData<C>);
 pub struct RunTimeMemory<V, M, C> {
     tableau: Option<RunTimeTableau>,
     splitting: Option<Evaluations<V>>,
-    coupled: M,
+    coupled: Option<M>,
     class: PhantomData<C>,
 }
 
@@ -32,11 +32,11 @@ impl<V: Vector, M: StageStorage<V>, C: Class> StageStorage<V> for RunTimeMemory<
     const AT_RUN_TIME: bool = true;
 
     /// Without a tableau there is nothing to store.
-    fn like(prototype: &V) -> Self {
+    fn like(_prototype: &V) -> Self {
         Self {
             tableau: None,
             splitting: None,
-            coupled: M::like(prototype),
+            coupled: None,
             class: PhantomData,
         }
     }
@@ -46,47 +46,47 @@ impl<V: Vector, M: StageStorage<V>, C: Class> StageStorage<V> for RunTimeMemory<
     }
 
     fn set_tableau(&mut self, tableau: &RunTimeTableau, prototype: &V) {
-        self.splitting = match tableau.schedule::<C>() {
-            Schedule::Splitting(_) => Some(Evaluations::like(prototype)),
-            Schedule::Coupled(_) => None,
+        (self.splitting, self.coupled) = match tableau.schedule::<C>() {
+            Schedule::Splitting(_) => (Some(Evaluations::like(prototype)), None),
+            Schedule::Coupled(_) => {
+                let mut coupled = M::like(prototype);
+                coupled.set_tableau(tableau, prototype);
+                (None, Some(coupled))
+            }
         };
-        self.coupled.set_tableau(tableau, prototype);
         self.tableau = Some(tableau.clone());
     }
 
     fn words(&mut self, visit: &mut Visit<'_>) {
-        match &mut self.splitting {
-            Some(evaluations) => evaluations.words(visit),
-            None => self.coupled.words(visit),
+        if let Some(evaluations) = &mut self.splitting {
+            evaluations.words(visit);
+        }
+        if let Some(stages) = &mut self.coupled {
+            stages.words(visit);
         }
     }
 
     fn stages(&mut self, visit: &mut StageVisit<'_>) {
-        self.coupled.stages(visit);
-    }
-
-    fn non_finite(&self) -> Option<(Quantity, usize)> {
-        // An observer receives the evaluations of a splitting.
-        match self.splitting {
-            Some(_) => None,
-            None => self.coupled.non_finite(),
+        if let Some(stages) = &mut self.coupled {
+            stages.stages(visit);
         }
     }
 
-    fn non_finite_force(&self) -> Option<usize> {
-        self.coupled.non_finite_force()
+    /// `None` for a splitting, whose evaluations an observer receives.
+    fn non_finite(&self) -> Option<(Quantity, usize)> {
+        self.coupled.as_ref().and_then(M::non_finite)
     }
 
     #[inline]
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
-        match &self.splitting {
-            Some(evaluations) => evaluations.mismatch(dimension),
-            None => self.coupled.mismatch(dimension),
-        }
+        let evaluations = self.splitting.as_ref();
+        let mismatch = evaluations.and_then(|evaluations| evaluations.mismatch(dimension));
+        let stages = self.coupled.as_ref();
+        mismatch.or_else(|| stages.and_then(|stages| stages.mismatch(dimension)))
     }
 }
 
-/// Coupled stages one by one: one vector for each stage value and evaluation. Empty if the steps are drifts and kicks.
+/// Coupled stages one by one: one vector for each stage value and evaluation.
 #[derive(Clone, Debug)]
 pub struct RunTimeStages<V, C> {
     pub(crate) tableau: Option<RunTimeTableau>,
@@ -162,10 +162,6 @@ impl<V: Vector, C: Class> StageStorage<V> for RunTimeStages<V, C> {
         first_non_finite((&self.q, &self.force), (&self.p, &self.velocity))
     }
 
-    fn non_finite_force(&self) -> Option<usize> {
-        first_non_finite_of(&self.force)
-    }
-
     #[inline]
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
         first_mismatch(&self.force, &self.velocity, dimension)
@@ -214,7 +210,7 @@ impl<C: Class> Plan for RunTimePlan<C> {
                 unreachable!("coupled stages of several trajectories are in `LaneStages`")
             }
             Schedule::Coupled(_) => {
-                let memory = &mut memory.coupled;
+                let memory = memory.coupled.as_mut().expect(TABLEAU);
                 N::take_at_run_time::<C, R>(step, system, memory, kept, stopping, outcome)
             }
         }

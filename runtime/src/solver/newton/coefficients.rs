@@ -159,12 +159,12 @@ impl HalfCoefficients for EmittedHalf {
 
 /// The coefficients of a tableau at run time, for systems of class `C`.
 #[derive(Clone, Debug)]
-pub struct AtRunTime<C> {
+pub struct OfTableau<C> {
     tableau: Option<RunTimeTableau>,
     class: PhantomData<C>,
 }
 
-impl<C> Default for AtRunTime<C> {
+impl<C> Default for OfTableau<C> {
     fn default() -> Self {
         Self {
             tableau: None,
@@ -173,13 +173,13 @@ impl<C> Default for AtRunTime<C> {
     }
 }
 
-impl<C: Class> AtRunTime<C> {
+impl<C: Class> OfTableau<C> {
     fn coupled(&self) -> &Coupled {
         run_time::coupled::<C>(self.tableau.as_ref())
     }
 }
 
-impl<C: Class> StageCoefficients for AtRunTime<C> {
+impl<C: Class> StageCoefficients for OfTableau<C> {
     type Class = C;
     type Half<'a>
         = &'a run_time::Half

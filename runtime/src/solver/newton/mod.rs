@@ -27,7 +27,7 @@ use crate::method::{
 };
 use crate::number::{Summation, Vector};
 use crate::system::{Class, System};
-use coefficients::{AtRunTime, Emitted, StageCoefficients};
+use coefficients::{Emitted, OfTableau, StageCoefficients};
 use convergence::settle;
 use sweep::ByIncrements;
 
@@ -116,7 +116,7 @@ impl<L> Default for Newton<L> {
 
 impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Solver<V, S> for Newton<L> {
     type Memory<P: StageTableau> = NewtonMemory<V, Emitted<P>, S, L>;
-    type AtRunTime<C: Class> = NewtonMemory<V, AtRunTime<C>, S, L>;
+    type AtRunTime<C: Class> = NewtonMemory<V, OfTableau<C>, S, L>;
 
     fn take<P, R>(
         step: &Step<'_, V>,
