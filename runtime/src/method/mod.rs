@@ -150,6 +150,12 @@ pub trait Plan {
     /// Its memory besides the state, allocated once and used for every step.
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>>: StageStorage<V>;
 
+    /// Whether a step is kicks and drifts, which [`take_by`](Self::take_by) takes in another form.
+    const SPLITS: bool = false;
+
+    /// A constant of every integrator with this plan: it fails, with the reason, if the plan has no steps.
+    const POSSIBLE: () = ();
+
     /// Number of evaluations in a step [in place](Self::take_in_place); `None` if the plan takes no steps in place.
     const EVALUATIONS_IN_PLACE: Option<u32> = None;
 
@@ -247,8 +253,8 @@ pub trait Plan {
     {
     }
 
-    /// Takes `step` of a splitting with the kicks and drifts of `kick_drift`, and shows its evaluations to `observer`. Does not compile
-    /// for any other plan.
+    /// Takes `step` of a splitting with the kicks and drifts of `kick_drift`, and shows its evaluations to `observer`. Only for a plan that
+    /// [splits](Self::SPLITS).
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take_by<R, V, S, K, W>(
         _step: &Step<'_, V>,
@@ -266,13 +272,7 @@ pub trait Plan {
         K: KickDrift,
         W: EvaluationObserver,
     {
-        const {
-            assert!(
-                size_of::<V>() == usize::MAX,
-                "a system of class `Damped` is stepped by splittings, such as `velocity-verlet` or `forest-ruth-1990`; for this method make the friction part of `force`, with `type Class = General`"
-            );
-        }
-        StepStatistics::default()
+        unreachable!("a plan that splits has this function, and no other is asked")
     }
 
     /// Repeats a step that failed, and shows its evaluations to `observer`; does nothing if they are in `memory` or have been shown.

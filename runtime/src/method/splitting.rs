@@ -158,6 +158,7 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
     const EVALUATIONS_IN_PLACE: Option<u32> = Some(P::EVALUATIONS - P::CARRIED);
 
     const LANEWISE: bool = true;
+    const SPLITS: bool = true;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<R: Summation, V: Vector, S: System<V, Class = P::Class>, N: Solver<V, S>>(

@@ -115,6 +115,17 @@ pub struct Separable;
 /// `e^{−γh}` exactly. Negative kicks grow by `e^{γ|τ|}`, see [`friction_growth`](crate::friction_growth): for stiff friction choose a
 /// method whose kicks are positive. For any other method [`Integrator::new`](crate::Integrator::new) does not compile; there any friction
 /// can be part of [`Hamiltonian::force`](crate::Hamiltonian::force) of a system of class [`General`].
+///
+/// ```compile_fail,E0080
+/// use symplectic::{Integrator, State};
+///
+/// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
+/// symplectic::hamiltonian! { Pendulum { gamma } q: [a], p: [pa]; H = pa^2/2 - cos(a) friction: gamma }
+///
+/// let start = State::from_arrays(0.0, [1.0], [0.0]);
+/// let integrator = Integrator::new(Gauss2, Pendulum::new(0.1), start, 0.1);
+/// # assert!(integrator.is_ok());
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Damped;
 
