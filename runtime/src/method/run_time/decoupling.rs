@@ -222,6 +222,7 @@ mod tests {
         Gauss2 { basis: polynomial(2), nodes: gauss(2) }
         Gauss5 { basis: polynomial(5), nodes: gauss(5) }
         Gauss8 { basis: polynomial(8), nodes: gauss(8) }
+        Gauss12 { basis: polynomial(12), nodes: gauss(12) }
         Lobatto3 { basis: polynomial(3), nodes: lobatto(3) }
         Lobatto5 { basis: polynomial(5), nodes: lobatto(5) }
         Radau3 { basis: polynomial(3), nodes: radau-left(3) }
@@ -279,7 +280,7 @@ mod tests {
                 compare::<_, <$method as Method>::General>($method, false);
             )*};
         }
-        compare_all!(Gauss2 Gauss5 Gauss8 Lobatto3 Lobatto5 Radau3 Coarse);
+        compare_all!(Gauss2 Gauss5 Gauss8 Gauss12 Lobatto3 Lobatto5 Radau3 Coarse);
     }
 
     /// Its matrix has each eigenvalue twice, and rounding parts them.
