@@ -13,7 +13,7 @@ use symplectic::solver::{
 use symplectic::system::Jacobian;
 use symplectic::{
     Error, General, Hamiltonian, Integrator, Method, ProvedFor, Quantity, Scalar, Separable, State,
-    System, Vector, separable,
+    System, Vector, acceleration, separable,
 };
 
 type ByDifferences = Dense<Differences>;
@@ -730,4 +730,27 @@ fn a_light_body_beside_a_heavy_one_is_as_exact_as_alone() {
             energy_error(heavy)
         );
     }
+}
+
+symplectic::tableau! {
+    /// One momentum and two forces a step.
+    Coarse { basis: polynomial(1), quadrature: gauss(2) }
+}
+
+/// All increments are extrapolated, also if there are more forces than unknowns. With a tolerance the steps show their starting values.
+#[test]
+fn one_pendulum_is_stepped_as_each_of_two() -> Result<(), Error> {
+    let end = |count: usize| {
+        let pendula = acceleration(|_time, q: &DVector<f64>, acceleration| {
+            acceleration.zip_apply(q, |a, q| *a = -q.sin());
+        });
+        let q = DVector::from_element(count, 1.0);
+        let start = State::new(0.0, q, DVector::zeros(count));
+        let mut integrator = Integrator::plain(Coarse, pendula, start, 0.1)?.by_newton();
+        integrator.set_tolerance(1e-3)?;
+        Ok(integrator.take_steps(200)?.q[0])
+    };
+    let apart: f64 = end(1)? - end(2)?;
+    assert!(apart.abs() < 1e-12, "{apart:e}");
+    Ok(())
 }

@@ -55,7 +55,8 @@ impl Emitter<'_> {
     }
 }
 
-/// The checks of an array, and of its rows if it is a matrix: lengths, and that entries are numbers. A fixed length is a matter of its type.
+/// The checks of an array, and of its rows if it is a matrix: lengths, and that entries are numbers. A fixed length is a matter of its
+/// type.
 fn check_array(name: &str, array: &TokenStream, lengths: &[Length]) -> TokenStream {
     let [length, rest @ ..] = lengths else {
         return TokenStream::new();

@@ -37,7 +37,7 @@ const ERROR: f64 = 1e-8;
 const CONDITION: f64 = 1e6;
 
 /// Largest number of stages: the condition of larger matrices is too bad.
-const MOST: usize = 64;
+const MOST_STAGES: usize = 64;
 
 /// Maximum number of sweeps of the eigenvalue iteration, for each row.
 const SWEEPS: usize = 100;
@@ -45,7 +45,7 @@ const SWEEPS: usize = 100;
 impl Decoupling {
     /// Decouples stages with the coefficients `a_ij` and `ã_ij`; `None` if that is impossible or loses too many digits.
     pub fn new(a: &[Vec<f64>], a_tilde: &[Vec<f64>], separable: bool) -> Option<Self> {
-        if a.len().max(a_tilde.len()) > MOST {
+        if a.len().max(a_tilde.len()) > MOST_STAGES {
             return None;
         }
         if separable {
@@ -101,15 +101,11 @@ fn eigenvalues(matrix: &[Vec<f64>], size: f64) -> Option<Vec<(f64, f64)>> {
     let schur = Schur::try_new(dense, f64::EPSILON, SWEEPS * count)?;
     let mut values: Vec<(f64, f64)> = Vec::new();
     for value in schur.complex_eigenvalues().iter() {
-        let real = if value.re.abs().max(value.im.abs()) <= ZERO * size {
-            0.0
-        } else {
-            value.re
-        };
-        let imaginary = if value.im.abs() <= ZERO * size {
-            0.0
-        } else {
-            value.im
+        let is_zero = |part: f64| part.abs() <= ZERO * size;
+        let imaginary = if is_zero(value.im) { 0.0 } else { value.im };
+        let real = match imaginary == 0.0 && is_zero(value.re) {
+            true => 0.0,
+            false => value.re,
         };
         if imaginary < 0.0 {
             continue;
@@ -174,14 +170,8 @@ fn eigenvector(
     }
     for _ in 0..2 {
         elimination.solve();
-        let sizes = elimination.right.iter().map(|entry| entry.size());
-        let (place, _) =
-            sizes.enumerate().fold(
-                (0, 0.0),
-                |best, (place, size)| {
-                    if size > best.1 { (place, size) } else { best }
-                },
-            );
+        let size = |place: usize| elimination.right[place].size();
+        let place = (0..count).max_by(|&a, &b| size(a).total_cmp(&size(b)))?;
         let inverse = elimination.right[place].inverse();
         for entry in &mut elimination.right {
             *entry = *entry * inverse;

@@ -18,11 +18,11 @@ use crate::system::{Class, System};
 /// The memory of a [`Newton`](crate::solver::Newton) iteration with the coefficients `T`.
 pub struct NewtonMemory<V: Vector, T, S: System<V>, L: LinearSolver<V, S>> {
     pub(super) coefficients: T,
-    pub(super) work: Work<V, S, L>,
+    pub(super) work: Workspace<V, S, L>,
 }
 
 /// What the sweeps read and write.
-pub(super) struct Work<V: Vector, S: System<V>, L: LinearSolver<V, S>> {
+pub(super) struct Workspace<V: Vector, S: System<V>, L: LinearSolver<V, S>> {
     /// Stage values.
     pub(super) q: Vec<V>,
     pub(super) p: Vec<V>,
@@ -83,7 +83,7 @@ fn systems<T: StageCoefficients>(coefficients: &T) -> Vec<Parts> {
     parts.collect()
 }
 
-impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Clone for Work<V, S, L> {
+impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Clone for Workspace<V, S, L> {
     fn clone(&self) -> Self {
         Self {
             q: self.q.clone(),
@@ -118,7 +118,7 @@ impl<V: Vector, T: Clone, S: System<V>, L: LinearSolver<V, S>> Clone for NewtonM
     }
 }
 
-impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Work<V, S, L> {
+impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Workspace<V, S, L> {
     fn new<T: StageCoefficients>(coefficients: &T, prototype: &V) -> Self {
         let vectors = |count| (0..count).map(|_| prototype.zeros_like()).collect();
         let zeros = |count| vec![V::Scalar::zero(); count];
@@ -173,7 +173,7 @@ impl<V: Vector, T: StageCoefficients, S: System<V>, L: LinearSolver<V, S>> Stage
     fn like(prototype: &V) -> Self {
         let coefficients = T::default();
         Self {
-            work: Work::new(&coefficients, prototype),
+            work: Workspace::new(&coefficients, prototype),
             coefficients,
         }
     }
@@ -184,7 +184,7 @@ impl<V: Vector, T: StageCoefficients, S: System<V>, L: LinearSolver<V, S>> Stage
 
     fn set_tableau(&mut self, tableau: &RunTimeTableau, prototype: &V) {
         self.coefficients.set_tableau(tableau);
-        self.work = Work::new(&self.coefficients, prototype);
+        self.work = Workspace::new(&self.coefficients, prototype);
     }
 
     /// What the next step starts from: increments for the extrapolation, factors, and what earlier steps have decided.

@@ -8,7 +8,7 @@ use super::coefficients::{HalfCoefficients, StageCoefficients};
 use super::convergence::{Attempt, MOST_SWEEPS, size};
 use super::every_stage::{EveryStage, NOT_FINITE};
 use super::linear_solver::{Coupling, LinearSolver};
-use super::memory::{NewtonMemory, Work, rows};
+use super::memory::{NewtonMemory, Workspace, rows};
 use crate::error::Quantity;
 use crate::method::storage::first_non_finite_of;
 use crate::method::{Failure, HalfChange, Outcome, StageChange, Step};
@@ -33,7 +33,7 @@ pub(super) struct ByIncrements<'a, T, R, V: Vector, S: System<V>, L: LinearSolve
     step: &'a Step<'a, V>,
     system: &'a S,
     coefficients: &'a T,
-    memory: &'a mut Work<V, S, L>,
+    memory: &'a mut Workspace<V, S, L>,
     /// The change in the previous sweep.
     last: f64,
     /// Sweeps made.
@@ -166,7 +166,7 @@ where
     pub(super) fn noise(&mut self) -> Result<[f64; 2], Failure> {
         self.evaluate();
         self.residuals();
-        let Work {
+        let Workspace {
             q,
             p,
             x,
@@ -180,7 +180,7 @@ where
         p.iter_mut().enumerate().for_each(|(j, p)| jog(p, j));
         self.evaluate();
         self.residuals();
-        let Work {
+        let Workspace {
             x, y, residuals, ..
         } = &mut *self.memory;
         for (new, old) in [(x, &residuals[0]), (y, &residuals[1])] {
@@ -227,7 +227,7 @@ where
     /// Evaluates velocities and forces at the stages.
     fn evaluate(&mut self) {
         let (positions, momenta) = (self.coefficients.positions(), self.coefficients.momenta());
-        let Work {
+        let Workspace {
             q,
             p,
             velocity,
@@ -261,7 +261,7 @@ where
         let (h, n) = (self.step.size, self.step.q.dimension());
         let (positions, momenta) = (self.coefficients.positions(), self.coefficients.momenta());
         let increments = self.coefficients.increments();
-        let Work {
+        let Workspace {
             velocity,
             force,
             u,
@@ -309,7 +309,7 @@ where
 
     /// Corrects with the derivatives at every stage.
     fn correct_in_full(&mut self) -> Result<(), Failure> {
-        let Work {
+        let Workspace {
             q,
             p,
             x,
@@ -335,7 +335,7 @@ where
     /// Computes the coefficients for [`correct_in_full`](Self::correct_in_full).
     fn scale(&mut self) {
         let Step { time, size: h, .. } = *self.step;
-        let Work {
+        let Workspace {
             times,
             scaled: [positions, momenta],
             ..
@@ -363,7 +363,7 @@ where
     fn extent(&self) -> [f64; 2] {
         let n = self.step.q.dimension();
         let rows = rows::<T::Class>(n);
-        let Work { x, y, .. } = &*self.memory;
+        let Workspace { x, y, .. } = &*self.memory;
         let (stride, turn) = if T::Class::SEPARABLE { (1, 0) } else { (2, 1) };
         let of_velocities = |j: usize, k: usize| x[j * rows + stride * k];
         let of_forces = |i: usize, k: usize| match T::Class::SEPARABLE {
@@ -387,7 +387,7 @@ where
         let (h, n) = (self.step.size, self.step.q.dimension());
         let coefficients = self.coefficients;
         for j in 0..coefficients.momenta().count() {
-            let Work {
+            let Workspace {
                 x,
                 y,
                 vectors,
@@ -402,7 +402,7 @@ where
         }
         self.solve();
         for i in 0..coefficients.positions().count() {
-            let Work {
+            let Workspace {
                 x,
                 y,
                 vectors,
@@ -422,7 +422,7 @@ where
         let rows = rows::<T::Class>(self.step.q.dimension());
         let coefficients = self.coefficients;
         let count = coefficients.momenta().count();
-        let Work {
+        let Workspace {
             x,
             transformed,
             unknown,
@@ -465,7 +465,7 @@ where
         let rows = rows::<T::Class>(n);
         let (positions, momenta) = (self.coefficients.positions(), self.coefficients.momenta());
         let increments = self.coefficients.increments();
-        let Work { u, w, x, y, .. } = &mut *self.memory;
+        let Workspace { u, w, x, y, .. } = &mut *self.memory;
         for (j, u) in u.iter_mut().enumerate() {
             let unit = V::Scalar::from_f64(increment(increments, momenta, j, h));
             for (k, u) in u.as_mut_slice().iter_mut().enumerate() {
@@ -490,7 +490,7 @@ where
     fn values(&mut self) -> StageChange {
         let (step, coefficients) = (self.step, self.coefficients);
         let (positions, momenta) = (coefficients.positions(), coefficients.momenta());
-        let Work { q, p, u, w, .. } = &mut *self.memory;
+        let Workspace { q, p, u, w, .. } = &mut *self.memory;
         let factor = if coefficients.increments() {
             1.0
         } else {
