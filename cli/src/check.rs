@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 use symplectic_compiler::order::HamiltonianClass;
 use symplectic_compiler::stability::StableSteps;
-use symplectic_compiler::{Error, Limits, Tableau, check, export};
+use symplectic_compiler::{Error, Limits, Tableau, check_and_list, export};
 
 use crate::output;
 use crate::report;
@@ -45,7 +45,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         let name = path.display().to_string();
         let outcome = check_file(path, &limits);
         match &outcome {
-            Ok(tableau) => output::warn_of_wrong_digits(tableau),
+            Ok((tableau, _)) => output::warn_of_wrong_digits(tableau),
             Err(error) => {
                 report::to_stderr(error);
                 status = report::status(error).max(status);
@@ -56,7 +56,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
             continue;
         }
         let verdict = match &outcome {
-            Ok(tableau) => format!("{}, {}", verdict(tableau), facts(tableau)),
+            Ok((tableau, not_stated)) => format!(
+                "{}, {}{}",
+                verdict(tableau),
+                facts(tableau),
+                added(tableau, not_stated)
+            ),
             Err(error) => format!("FAILED, {}", error.kind),
         };
         // File names may contain control characters, such as line breaks.
@@ -85,23 +90,26 @@ fn is_direction(c: char) -> bool {
 }
 
 /// The JSON entry of a file: its tableau as written by `derive`, or the error.
-fn entry(name: &str, outcome: &Result<Tableau, Error>) -> Value {
+fn entry(name: &str, outcome: &Result<Checked, Error>) -> Value {
     match outcome {
-        Ok(tableau) => {
+        Ok((tableau, not_stated)) => {
             let wrong = tableau.wrong_digits().iter();
             let wrong: Vec<String> = wrong.map(ToString::to_string).collect();
             let text = export::json::write(tableau, export::DEFAULT_DIGITS);
             let tableau: Value = serde_json::from_str(&text).unwrap_or_default();
-            json!({ "file": name, "ok": true, "wrong_digits": wrong, "tableau": tableau })
+            json!({ "file": name, "ok": true, "wrong_digits": wrong, "not_stated": not_stated, "tableau": tableau })
         }
         Err(error) => json!({ "file": name, "ok": false, "error": error.to_string() }),
     }
 }
 
-fn check_file(path: &Path, limits: &Limits) -> Result<Tableau, Error> {
+/// A tableau, and the properties that its file does not state.
+type Checked = (Tableau, Vec<&'static str>);
+
+fn check_file(path: &Path, limits: &Limits) -> Result<Checked, Error> {
     let name = path.display().to_string();
     let text = export::read_text(path)?;
-    check(&name, &text, limits)
+    check_and_list(&name, &text, limits)
 }
 
 /// The verdict on a file: the number of wrong digits in its claim, and whether the method is consistent.
@@ -115,6 +123,23 @@ fn verdict(tableau: &Tableau) -> String {
     match consistent.witness.filter(|_| !consistent.holds) {
         Some(witness) => format!("{verdict} but not consistent: {witness}"),
         None => verdict,
+    }
+}
+
+/// The properties that a file of an older format does not state.
+fn added(tableau: &Tableau, not_stated: &[&str]) -> String {
+    let properties = tableau.properties();
+    let missing = properties.all().into_iter();
+    let missing = missing.filter(|(name, _)| not_stated.contains(name));
+    let missing: Vec<String> = missing
+        .map(|(name, property)| {
+            let holds = if property.holds { "yes" } else { "no" };
+            format!("{name} {holds}")
+        })
+        .collect();
+    match missing.is_empty() {
+        true => String::new(),
+        false => format!("; not in the file: {}", missing.join(", ")),
     }
 }
 

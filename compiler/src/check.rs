@@ -13,7 +13,7 @@ use crate::tableau::Tableau;
 /// Nothing in the file is trusted. The tableau is derived again from its definition, and its
 /// properties are proved. Every entry of the file is compared with the result, in the order of the
 /// entries: the node polynomial, exact data, decimals to their last digit, doubles, properties with
-/// their evidence. The name and the source are not checked.
+/// their evidence. The name and the source are not checked. A file of an older format may lack properties, orders and stability.
 ///
 /// # Errors
 /// [`ErrorKind::Mismatch`] for the first entry that differs; [`ErrorKind::Document`] if the file is
@@ -34,11 +34,35 @@ use crate::tableau::Tableau;
 /// # Ok::<(), symplectic_compiler::Error>(())
 /// ```
 pub fn check(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Error> {
+    check_and_list(file_name, text, limits).map(|(tableau, _)| tableau)
+}
+
+/// [Checks](check()) a file, and returns with its tableau the names of the properties that the file does not state: files of
+/// older formats may lack them.
+///
+/// # Errors
+/// Those of [`check`].
+///
+/// ```
+/// use symplectic_compiler::{Limits, check_and_list, derive, export::toml};
+///
+/// let text = toml::write(&derive("polynomial(2)", "gauss(2)")?, 10);
+/// let older = text.replace("format = 2\n", "");
+/// let older: Vec<&str> = older.lines().filter(|line| !line.starts_with("constrained")).collect();
+/// let (_, not_stated) = check_and_list("gauss.toml", &older.join("\n"), &Limits::default())?;
+/// assert_eq!(not_stated, ["constrained"]);
+/// # Ok::<(), symplectic_compiler::Error>(())
+/// ```
+pub fn check_and_list(
+    file_name: &str,
+    text: &str,
+    limits: &Limits,
+) -> Result<(Tableau, Vec<&'static str>), Error> {
     let extension = Path::new(file_name).extension().and_then(|e| e.to_str());
     match extension.map(str::to_ascii_lowercase).as_deref() {
         Some("toml") => check_toml(file_name, text, limits),
         // Reading JSON is checking it.
-        Some("json") => export::json::read(file_name, text, limits),
+        Some("json") => export::json::read_and_compare(file_name, text, limits),
         _ => Err(ErrorKind::Document {
             message: format!("`{file_name}` is named neither .toml nor .json"),
         }
@@ -46,13 +70,17 @@ pub fn check(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Er
     }
 }
 
-fn check_toml(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Error> {
+fn check_toml(
+    file_name: &str,
+    text: &str,
+    limits: &Limits,
+) -> Result<(Tableau, Vec<&'static str>), Error> {
     let file = Input::of_file(file_name, text);
     let document = export::toml::Document::parse(file, limits)?;
     let tableau = document.derive(file, limits)?;
     let Some(digits) = document.digits() else {
         // Only a definition: there is nothing to compare.
-        return Ok(tableau);
+        return Ok((tableau, Vec::new()));
     };
     let fresh = export::toml::write(&tableau, digits);
     let expected = Input {
@@ -60,6 +88,11 @@ fn check_toml(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, E
         text: &fresh,
     };
     let expected = export::toml::Document::parse(expected, limits)?;
-    compare(file, &document.entries(), &expected.entries())?;
-    Ok(tableau)
+    compare(
+        file,
+        document.format,
+        document.entries(),
+        expected.entries(),
+    )?;
+    Ok((tableau, document.not_stated()))
 }

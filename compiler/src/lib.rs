@@ -69,7 +69,7 @@ pub mod symbolic;
 mod tableau;
 
 pub use basis::Basis;
-pub use check::check;
+pub use check::{check, check_and_list};
 pub use coefficients::Coefficients;
 pub use definition::{Definition, Key};
 pub use derive::{derive, derive_from, derive_within};

@@ -193,8 +193,8 @@ fn irrational_and_long_entries_are_readable() {
 #[test]
 fn toml_is_readable() {
     expect![[r##"
-        # A symplectic partitioned Runge–Kutta method, written by `symplectic`.
-        # `symplectic check` derives it anew, proves its properties and compares every entry.
+        # A symplectic partitioned Runge–Kutta method. `symplectic check` derives it anew and compares every entry.
+        format = 2
         name = "stormer-verlet"
         stages = 2
 

@@ -1,5 +1,6 @@
 //! The entries of a file in their order, each with its name and its place.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::ops::Range;
 
@@ -9,6 +10,7 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use crate::error::{Error, ErrorKind};
+use crate::export::format::Format;
 use crate::expression::Input;
 
 /// One entry of a file.
@@ -32,14 +34,68 @@ impl Entry {
     }
 }
 
-/// Compares every entry of a file with the expected entry.
+/// The entries of a file.
+pub(crate) struct Entries {
+    /// The definition and the coefficients.
+    pub table: Vec<Entry>,
+    /// The tier of a TOML file, properties, orders and stability.
+    pub facts: Vec<Entry>,
+}
+
+/// Compares every entry of a file with the derived entry.
 ///
-/// Both lists come from files of one format. If their lengths differ, an entry before the end,
-/// the number of stages, differs.
+/// A file of an older format may lack facts that were not written then; those that it has are compared. Their evidence may
+/// have become stronger since, and what is not so may be explained by another example.
 ///
 /// # Errors
 /// [`ErrorKind::Mismatch`] for the first entry that differs.
-pub(crate) fn compare(file: Input<'_>, found: &[Entry], expected: &[Entry]) -> Result<(), Error> {
+pub(crate) fn compare(
+    file: Input<'_>,
+    format: Format,
+    mut found: Entries,
+    mut derived: Entries,
+) -> Result<(), Error> {
+    if format.is_older() {
+        let explains = |entry: &Entry| EXPLAINS.iter().any(|end| entry.name.ends_with(end));
+        for facts in [&mut found.facts, &mut derived.facts] {
+            facts.retain(|entry| !explains(entry));
+        }
+        for entry in &mut found.facts {
+            let known = derived.facts.iter().find(|known| known.name == entry.name);
+            if let Some(known) = known.filter(|known| is_stronger(&known.value, &entry.value)) {
+                entry.value.clone_from(&known.value);
+            }
+        }
+        // A list is stated as a whole.
+        let key = |entry: &Entry| entry.name.split('[').next().map(str::to_owned);
+        let stated: BTreeSet<_> = found.facts.iter().map(key).collect();
+        derived.facts.retain(|entry| stated.contains(&key(entry)));
+    }
+    let all = |entries: Entries| [entries.table, entries.facts].concat();
+    compare_each(file, &all(found), &all(derived))
+}
+
+/// The ends of the names of entries that explain a fact: another version may explain it by another example.
+const EXPLAINS: [&str; 7] = [
+    "(witness)",
+    "(bits)",
+    ".bits",
+    ".refuted_by",
+    ".value",
+    ".wanted",
+    ".residual",
+];
+
+/// Whether a kind of evidence is stronger than another one.
+fn is_stronger(evidence: &str, than: &str) -> bool {
+    let kinds = ["undecided", "verified", "certified", "proved"];
+    let place = |text: &str| kinds.iter().position(|kind| *kind == text);
+    let (evidence, than) = (place(evidence), place(than));
+    evidence.is_some() && than.is_some() && evidence > than
+}
+
+/// Compares two lists of entries. If their lengths differ, an entry before the end differs.
+fn compare_each(file: Input<'_>, found: &[Entry], expected: &[Entry]) -> Result<(), Error> {
     let all = found;
     let Some((found, expected)) = all
         .iter()

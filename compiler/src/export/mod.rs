@@ -18,6 +18,7 @@ pub mod columns;
 mod encoding;
 mod entries;
 mod facts;
+mod format;
 pub mod json;
 mod language;
 mod provenance;
@@ -27,6 +28,7 @@ pub mod toml;
 
 pub use encoding::{read_text, without_mark};
 pub(crate) use entries::{compare, first_line};
+pub(crate) use format::Format;
 pub use language::Language;
 pub use stepper::{SteppedClass, Stepper};
 

@@ -11,6 +11,7 @@ mod extreme_definitions;
 mod golden;
 mod imports;
 mod observed_order;
+mod older_files;
 mod perturbed;
 mod properties;
 mod refused_files;

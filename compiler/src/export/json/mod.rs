@@ -1,7 +1,7 @@
 //! JSON for other programs.
 //!
 //! ```text
-//! {"name", "stages", "basis", "nodes", "definition", "tier", "source",
+//! {"format": 2, "name", "stages", "basis", "nodes", "definition", "tier", "source",
 //!  "c": [N], "c_tilde": [N], "b": [N], "b_tilde": [N], "a": [[N]], "a_tilde": [[N]],
 //!  "properties": {"symplectic": P, "symmetric": P, …}}
 //!
@@ -23,5 +23,6 @@ mod read;
 mod write;
 
 pub use read::read;
+pub(crate) use read::read_and_compare;
 pub(super) use write::evidence;
 pub use write::write;

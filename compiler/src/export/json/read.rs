@@ -13,9 +13,9 @@ use serde_json::value::RawValue;
 use crate::coefficients::subscript;
 use crate::definition::{Definition, Key};
 use crate::error::{Error, ErrorKind};
-use crate::export::MAX_DIGITS;
-use crate::export::entries::{Entry, compare, of_json, offset};
+use crate::export::entries::{Entries, Entry, compare, of_json, offset};
 use crate::export::provenance::{Origin, Part};
+use crate::export::{Format, MAX_DIGITS};
 use crate::expression::Input;
 use crate::limits::Limits;
 use crate::properties::Properties;
@@ -45,8 +45,17 @@ use crate::tableau::Tableau;
 /// # Ok::<(), symplectic_compiler::Error>(())
 /// ```
 pub fn read(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Error> {
+    read_and_compare(file_name, text, limits).map(|(tableau, _)| tableau)
+}
+
+/// [Reads](read()) a tableau; also the properties that the file does not state.
+pub(crate) fn read_and_compare(
+    file_name: &str,
+    text: &str,
+    limits: &Limits,
+) -> Result<(Tableau, Vec<&'static str>), Error> {
     let file = Input::of_file(file_name, text);
-    let document = Document::parse(file)?;
+    let (format, document) = Document::parse(file)?;
     let found = document.entries(file, limits)?;
     let tableau = document.origin(file)?.derive(file, limits)?;
     let fresh = super::write(&tableau, document.digits());
@@ -54,12 +63,9 @@ pub fn read(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Err
         name: "the derivation",
         text: &fresh,
     };
-    compare(
-        file,
-        &found,
-        &Document::parse(expected)?.entries(expected, limits)?,
-    )?;
-    Ok(tableau)
+    let (_, derived) = Document::parse(expected)?;
+    compare(file, format, found, derived.entries(expected, limits)?)?;
+    Ok((tableau, document.properties.missing()))
 }
 
 /// A value as written in the text.
@@ -67,10 +73,19 @@ pub fn read(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Err
 #[serde(transparent)]
 struct Leaf<'a>(#[serde(borrow)] &'a RawValue);
 
+/// The number of the format, whatever else a file has.
+#[derive(Deserialize)]
+struct FormatKey<'a> {
+    #[serde(borrow, default)]
+    format: Option<Leaf<'a>>,
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Document<'a> {
-    #[serde(borrow)]
+    // Read before the others.
+    #[serde(borrow, default, rename = "format")]
+    _format: Option<Leaf<'a>>,
     name: Leaf<'a>,
     stages: Leaf<'a>,
     basis: Leaf<'a>,
@@ -88,9 +103,18 @@ struct Document<'a> {
     a: Option<Vec<Vec<Number<'a>>>>,
     a_tilde: Option<Vec<Vec<Number<'a>>>>,
     properties: PropertyList<'a>,
-    order: Leaf<'a>,
-    stability: Leaf<'a>,
-    symplecticity_order: Leaf<'a>,
+    /// These may be absent in an older format.
+    #[serde(borrow, default, deserialize_with = "stated")]
+    order: Option<Leaf<'a>>,
+    #[serde(borrow, default, deserialize_with = "stated")]
+    stability: Option<Leaf<'a>>,
+    #[serde(borrow, default, deserialize_with = "stated")]
+    symplecticity_order: Option<Leaf<'a>>,
+}
+
+/// A value that is present, null included.
+fn stated<'de: 'a, 'a, D: Deserializer<'de>>(from: D) -> Result<Option<Leaf<'a>>, D::Error> {
+    Leaf::deserialize(from).map(Some)
 }
 
 #[derive(Deserialize)]
@@ -116,6 +140,15 @@ struct PropertyEntry<'a> {
 /// The properties, each of them at most once.
 struct PropertyList<'a>(Vec<(&'static str, PropertyEntry<'a>)>);
 
+impl PropertyList<'_> {
+    /// The properties that are not stated.
+    fn missing(&self) -> Vec<&'static str> {
+        let stated = |name: &&&str| self.0.iter().any(|(known, _)| known == *name);
+        let missing = Properties::NAMES.iter().filter(|name| !stated(name));
+        missing.copied().collect()
+    }
+}
+
 impl<'de: 'a, 'a> Deserialize<'de> for PropertyList<'a> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct All<'a>(PhantomData<&'a ()>);
@@ -137,14 +170,9 @@ impl<'de: 'a, 'a> Deserialize<'de> for PropertyList<'a> {
                         return Err(A::Error::duplicate_field(name));
                     }
                 }
-                let each = Properties::NAMES.iter().map(|name| {
-                    let property = known.remove(name);
-                    Ok((
-                        *name,
-                        property.ok_or_else(|| A::Error::missing_field(name))?,
-                    ))
-                });
-                each.collect::<Result<_, _>>().map(PropertyList)
+                let each = Properties::NAMES.iter();
+                let stated = each.filter_map(|name| Some((*name, known.remove(name)?)));
+                Ok(PropertyList(stated.collect()))
             }
         }
         deserializer.deserialize_map(All(PhantomData))
@@ -226,8 +254,8 @@ impl<'a> Leaf<'a> {
 }
 
 impl<'a> Document<'a> {
-    fn parse(file: Input<'a>) -> Result<Self, Error> {
-        serde_json::from_str(file.text).map_err(|error| {
+    fn parse(file: Input<'a>) -> Result<(Format, Self), Error> {
+        let refused = |error: serde_json::Error| {
             let start = offset(file.text, error.line(), error.column());
             let length = file.text[start..].chars().next();
             let end = start + length.filter(|c| *c != '\n').map_or(0, char::len_utf8);
@@ -238,7 +266,29 @@ impl<'a> Document<'a> {
                 .map_or(message.as_str(), |(message, _)| message);
             let message = format!("not a JSON export of a tableau: {message}");
             file.error(&(start..end), ErrorKind::Document { message })
-        })
+        };
+        // A later format may have other keys.
+        let FormatKey { format } = serde_json::from_str(file.text).map_err(refused)?;
+        let stated = format.map(|leaf| (leaf.span(file.text), leaf.value().as_u64()));
+        let format = Format::read(file, stated)?;
+        let document: Self = serde_json::from_str(file.text).map_err(refused)?;
+        let sections = [
+            ("order", document.order.is_some()),
+            ("stability", document.stability.is_some()),
+            (
+                "symplecticity_order",
+                document.symplecticity_order.is_some(),
+            ),
+        ];
+        let sections = sections.into_iter().filter(|(_, stated)| !stated);
+        let mut missing = sections
+            .map(|(name, _)| name)
+            .chain(document.properties.missing());
+        if let Some(missing) = missing.next().filter(|_| !format.is_older()) {
+            return Err(refused(serde::de::Error::missing_field(missing)));
+        }
+        drop(missing);
+        Ok((format, document))
     }
 
     fn origin(&self, file: Input<'_>) -> Result<Origin, Error> {
@@ -294,7 +344,7 @@ impl<'a> Document<'a> {
     }
 
     /// All entries except the name and the source, which cannot be derived.
-    fn entries(&self, file: Input<'a>, limits: &Limits) -> Result<Vec<Entry>, Error> {
+    fn entries(&self, file: Input<'a>, limits: &Limits) -> Result<Entries, Error> {
         let stages = self.stages.value().as_u64().map(|s| s as usize);
         let Some(stages) = stages.filter(|&s| s > 0) else {
             return Err(self.stages.error(file, "expected a number of stages"));
@@ -365,6 +415,8 @@ impl<'a> Document<'a> {
                 }
             }
         }
+        let table = entries;
+        let mut entries = Vec::new();
         for (name, property) in &self.properties.0 {
             let fields = [
                 ("holds", &property.holds, Types::Bool),
@@ -376,14 +428,19 @@ impl<'a> Document<'a> {
                 entries.push(leaf.entry(file, format!("{name} ({field})"), types)?);
             }
         }
-        of_json(file, "order", self.order.0, &mut entries);
-        of_json(file, "stability", self.stability.0, &mut entries);
-        let types = Types::NumberOrNull;
-        entries.push(
-            self.symplecticity_order
-                .entry(file, "symplecticity_order", types)?,
-        );
-        Ok(entries)
+        for (name, section) in [("order", &self.order), ("stability", &self.stability)] {
+            if let Some(section) = section {
+                of_json(file, name, section.0, &mut entries);
+            }
+        }
+        if let Some(order) = &self.symplecticity_order {
+            let types = Types::NumberOrNull;
+            entries.push(order.entry(file, "symplecticity_order", types)?);
+        }
+        Ok(Entries {
+            table,
+            facts: entries,
+        })
     }
 
     /// The number of significant digits that most decimals have.

@@ -3,7 +3,7 @@
 use crate::arithmetic::rounding::{shortest, shortest_single};
 use crate::definition::Key;
 use crate::evidence::Evidence;
-use crate::export::{facts, written};
+use crate::export::{Format, facts, written};
 use crate::properties::Property;
 use crate::tableau::Tableau;
 
@@ -36,6 +36,7 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
         .collect();
     let definition = &provenance.definition;
     let mut members = vec![
+        ("format", Format::CURRENT.to_string()),
         ("name", optional(tableau.name())),
         ("stages", tableau.stages().to_string()),
         ("basis", optional(definition.get(Key::Basis))),

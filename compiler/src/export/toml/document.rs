@@ -11,8 +11,9 @@ use toml::Spanned;
 use crate::coefficients::subscript;
 use crate::definition::Key;
 use crate::error::{Error, ErrorKind};
+use crate::export::Format;
 use crate::export::MAX_DIGITS;
-use crate::export::entries::{Entry, first_line, of_toml};
+use crate::export::entries::{Entries, Entry, first_line, of_toml};
 use crate::export::provenance::{Origin, Part};
 use crate::expression::Input;
 use crate::limits::Limits;
@@ -22,8 +23,15 @@ use crate::tableau::Tableau;
 pub(super) type List = Spanned<Vec<Spanned<String>>>;
 pub(super) type Matrix = Spanned<Vec<List>>;
 
+/// The number of the format, whatever else a file has.
+#[derive(Deserialize)]
+struct FormatKey {
+    format: Option<Spanned<toml::Value>>,
+}
+
 /// A file with the keys and shapes of a tableau; the entries are not checked yet.
 pub(crate) struct Document {
+    pub(crate) format: Format,
     name: Option<String>,
     provenance: Spanned<ProvenanceTable>,
     /// The data derived from the definition; a file written by hand has none.
@@ -34,6 +42,9 @@ pub(crate) struct Document {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Keys {
+    // Read before the others.
+    #[serde(rename = "format")]
+    _format: Option<toml::Value>,
     name: Option<String>,
     stages: Option<Spanned<usize>>,
     provenance: Spanned<ProvenanceTable>,
@@ -175,12 +186,27 @@ impl Document {
     /// [`ErrorKind::Document`] if the text is not TOML, if keys are missing or unknown, or if
     /// lists have a wrong length; [`ErrorKind::TooManyStages`].
     pub fn parse(file: Input<'_>, limits: &Limits) -> Result<Self, Error> {
-        let keys: Keys = toml::from_str(file.text).map_err(|error| {
+        let refused = |error: toml::de::Error| {
             let span = error.span().unwrap_or(0..0);
             let message = format!("not a TOML file of a tableau: {}", error.message());
             document_error(file, span, message)
-        })?;
-        let sections = (keys.order, keys.stability);
+        };
+        // A later format may have other keys.
+        let FormatKey { format } = toml::from_str(file.text).map_err(refused)?;
+        let stated = format.map(|number| {
+            let value = number.get_ref().as_integer();
+            (
+                number.span(),
+                value.and_then(|value| u64::try_from(value).ok()),
+            )
+        });
+        let format = Format::read(file, stated)?;
+        let keys: Keys = toml::from_str(file.text).map_err(refused)?;
+        let sections = (
+            format.is_older() || keys.order.is_some(),
+            format.is_older() || keys.stability.is_some(),
+        );
+        let any = keys.order.is_some() || keys.stability.is_some();
         let derived = match (
             keys.stages,
             keys.exact,
@@ -188,8 +214,8 @@ impl Document {
             keys.properties,
             sections,
         ) {
-            (None, None, None, None, (None, None)) => None,
-            (Some(stages), exact, Some(decimals), Some(properties), (Some(_), Some(_))) => {
+            (None, None, None, None, _) if !any => None,
+            (Some(stages), exact, Some(decimals), Some(properties), (true, true)) => {
                 Some(Derived {
                     stages,
                     exact,
@@ -203,7 +229,7 @@ impl Document {
                     (None, ..) => "stages",
                     (_, None, ..) => "decimals",
                     (_, _, None, _) => "properties",
-                    (.., None) => "order",
+                    (.., false) => "order",
                     _ => "stability",
                 };
                 let message = format!(
@@ -213,9 +239,10 @@ impl Document {
             }
         };
         if let Some(derived) = &derived {
-            derived.check_shapes(file, limits)?;
+            derived.check_shapes(file, format, limits)?;
         }
         Ok(Document {
+            format,
             name: keys.name,
             provenance: keys.provenance,
             derived,
@@ -249,20 +276,37 @@ impl Document {
     }
 
     /// All entries except the name and the source, which cannot be derived.
-    pub fn entries(&self) -> Vec<Entry> {
+    pub fn entries(&self) -> Entries {
         let Some(derived) = &self.derived else {
-            return Vec::new();
+            return Entries {
+                table: Vec::new(),
+                facts: Vec::new(),
+            };
         };
         let mut entries = vec![one("stages".to_owned(), &derived.stages)];
         for Part { key, text, span } in &self.provenance.get_ref().parts {
             entries.push(Entry::new(key.name(), text, span.clone()));
         }
-        if let Some(tier) = &self.provenance.get_ref().tier {
-            entries.push(one("tier".to_owned(), tier));
+        entries.extend(derived.coefficients());
+        let tier = self.provenance.get_ref().tier.iter();
+        let tier = tier.map(|tier| one("tier".to_owned(), tier));
+        let mut facts: Vec<Entry> = tier.chain(derived.property_entries()).collect();
+        facts.extend(derived.facts.iter().cloned());
+        Entries {
+            table: entries,
+            facts,
         }
-        entries.extend(derived.entries());
-        entries.extend(derived.facts.iter().cloned());
-        entries
+    }
+
+    /// The properties that the file does not state.
+    pub fn not_stated(&self) -> Vec<&'static str> {
+        let Some(derived) = &self.derived else {
+            return Vec::new();
+        };
+        let missing = Properties::NAMES
+            .iter()
+            .filter(|name| !derived.states(name));
+        missing.copied().collect()
     }
 }
 
@@ -285,7 +329,7 @@ fn one<T: ToString>(name: String, value: &Spanned<T>) -> Entry {
 }
 
 impl Derived {
-    fn check_shapes(&self, file: Input<'_>, limits: &Limits) -> Result<(), Error> {
+    fn check_shapes(&self, file: Input<'_>, format: Format, limits: &Limits) -> Result<(), Error> {
         let stages = *self.stages.get_ref();
         if stages == 0 {
             let message = "a tableau has at least one stage".to_owned();
@@ -359,14 +403,18 @@ impl Derived {
             };
             return Err(file.error(&unknown.span(), kind));
         }
-        if let Some(missing) = Properties::NAMES
-            .iter()
-            .find(|name| !properties.keys().any(|key| key.get_ref() == *name))
-        {
+        let mut missing = Properties::NAMES.iter().filter(|name| !self.states(name));
+        if let Some(missing) = missing.next().filter(|_| !format.is_older()) {
             let message = format!("the property `{missing}` is missing");
             return Err(document_error(file, self.properties.span(), message));
         }
         Ok(())
+    }
+
+    /// Whether the file states a property.
+    fn states(&self, name: &str) -> bool {
+        let stated = self.properties.get_ref().keys();
+        stated.into_iter().any(|key| key.get_ref() == name)
     }
 
     /// The number of stages.
@@ -409,7 +457,7 @@ impl Derived {
         entries
     }
 
-    fn entries(&self) -> Vec<Entry> {
+    fn coefficients(&self) -> Vec<Entry> {
         let mut entries = self.exact_entries();
         let decimals = &self.decimals;
         entries.push(one("digits".to_owned(), &decimals.digits));
@@ -431,6 +479,11 @@ impl Derived {
                 }
             }
         }
+        entries
+    }
+
+    fn property_entries(&self) -> Vec<Entry> {
+        let mut entries = Vec::new();
         for name in Properties::NAMES {
             let properties = self.properties.get_ref().iter();
             for (key, property) in properties.filter(|(key, _)| key.get_ref() == name) {

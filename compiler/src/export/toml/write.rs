@@ -3,6 +3,7 @@
 use crate::algebra::{NodeAlgebra, Tensor};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::exact::Exact;
+use crate::export::Format;
 use crate::export::columns::{right, widths};
 use crate::export::facts::{self, Fact};
 use crate::export::json::evidence;
@@ -20,8 +21,7 @@ const WIDEST: usize = 110;
 const LONGEST_EXPRESSIONS: usize = 50_000;
 
 const HEAD: &str = "\
-# A symplectic partitioned Runge–Kutta method, written by `symplectic`.
-# `symplectic check` derives it anew, proves its properties and compares every entry.
+# A symplectic partitioned Runge–Kutta method. `symplectic check` derives it anew and compares every entry.
 ";
 
 const EXACT: &str = "\
@@ -60,7 +60,7 @@ const DRIFTS_FIRST: &str = "\
 /// # Ok::<(), symplectic_compiler::Error>(())
 /// ```
 pub fn write(tableau: &Tableau, digits: usize) -> String {
-    let mut text = HEAD.to_owned();
+    let mut text = format!("{HEAD}format = {}\n", Format::CURRENT);
     if let Some(name) = tableau.name() {
         text.push_str(&format!("name = {}\n", string(name)));
     }
