@@ -169,6 +169,8 @@ pub mod emitted {
 mod book {
     #[doc = include_str!("../../README.md")]
     struct Readme;
+    #[doc = include_str!("../../docs/src/guide/tutorial.md")]
+    struct Tutorial;
     #[doc = include_str!("../../docs/src/guide/formulas.md")]
     struct Formulas;
     #[doc = include_str!("../../docs/src/guide/hamiltonian.md")]
@@ -211,6 +213,12 @@ mod book {
     struct Ensembles;
     #[doc = include_str!("../../docs/src/guide/chaos.md")]
     struct Chaos;
+    #[doc = include_str!("../../docs/src/guide/from-rebound.md")]
+    struct FromRebound;
+    #[doc = include_str!("../../docs/src/guide/from-scipy.md")]
+    struct FromScipy;
+    #[doc = include_str!("../../docs/src/guide/from-sciml.md")]
+    struct FromSciml;
     #[doc = include_str!("../../docs/src/reference/errors.md")]
     struct Errors;
 }
