@@ -4,7 +4,7 @@ mod overview;
 mod verdicts;
 
 use super::plot::element::Element;
-use super::plot::{file_name, style};
+use super::plot::{COLOURS, file_name, style};
 use super::table::{cost, error};
 use super::text;
 use super::{
@@ -131,12 +131,13 @@ impl Measurements {
         let roles = self.roles(problem);
         let is_coloured = |curve: &&Curve| roles.iter().any(|(_, held)| *held == *curve);
         let pale = problem.curves.iter().filter(|curve| !is_coloured(curve));
-        let pale = match pale.count() {
-            0 => None,
-            count => Some(format!(
-                "{count} more in grey: a name appears under the mouse; a click on a curve or on a row of the table brings it forward."
-            )),
-        };
+        let all_coloured = problem.curves.len() <= COLOURS;
+        let pale = (!all_coloured).then(|| {
+            format!(
+                "{} more in grey, with numbers; a click on a curve or on a row of the table brings it forward.",
+                pale.count()
+            )
+        });
         let named = roles.iter().map(|(role, curve)| {
             Element::new("span")
                 .text(format!("{}: ", role.name()))
@@ -365,16 +366,23 @@ mod tests {
     fn methods_without_a_role_are_pale_and_can_be_brought_forward() {
         let mut found = measurements();
         assert!(!found.page().contains("curve pale") && !found.page().contains("more in grey"));
-        let slower = crate::tests::curve("Gauss 2", &[(1e-2, 1e-2), (1e-4, 1e-1)]);
-        found.problems[0].curves.push(slower);
-        let mut record = found.methods[1].clone();
-        record.name = "Gauss 2".into();
-        found.methods.push(record);
+        for (count, name) in ["Gauss 2", "A", "B", "C", "D", "E"].into_iter().enumerate() {
+            // Up to eight curves each have a colour.
+            assert!(!found.page().contains("curve pale"), "{count}");
+            let slower = crate::tests::curve(name, &[(1e-2, 1e-2), (1e-4, 1e-1)]);
+            found.problems[0].curves.push(slower);
+            let mut record = found.methods[1].clone();
+            record.name = name.into();
+            found.methods.push(record);
+        }
         let page = found.page();
         // Once in each of the plots of time, evaluations and energy.
         let pale = "<g class=\"curve pale\" data-method=\"Gauss 2\">";
         assert_eq!(page.matches(pale).count(), 3);
-        assert!(page.contains("<tr data-method=\"Gauss 2\">") && page.contains("1 more in grey"));
+        assert!(page.contains("<tr data-method=\"Gauss 2\">") && page.contains("6 more in grey"));
+        // In print they are known by their numbers.
+        let key = "1 Gauss 2  ·  2 A  ·  3 B  ·  4 C  ·  5 D  ·  6 E";
+        assert_eq!(page.matches(key).count(), 3, "{page}");
         assert!(page.contains("best implicit: <b>Gauss 4</b>"), "{page}");
     }
 

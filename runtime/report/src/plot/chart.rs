@@ -10,8 +10,10 @@ use crate::Kind;
 
 /// The width of a chart, including texts.
 pub const WIDTH: f64 = 820.0;
-/// The height of a chart.
-pub const HEIGHT: f64 = 470.0;
+/// The height of a chart without the key of its pale curves.
+const HEIGHT: f64 = 470.0;
+/// The height of a line of the key.
+const LINE: f64 = 17.0;
 
 /// The area of the curves.
 const INNER: Area = Area {
@@ -57,13 +59,45 @@ pub enum Shape {
 }
 
 impl Chart {
-    /// The elements of the chart, in a rectangle of [`WIDTH`] and [`HEIGHT`].
+    /// The height of the chart.
+    pub fn height(&self) -> f64 {
+        match self.pale_key().len() {
+            0 => HEIGHT,
+            lines => HEIGHT + LINE * (lines as f64 + 0.4),
+        }
+    }
+
+    /// The pale curves: their numbers begin with 1.
+    fn pale(&self) -> Vec<&Drawn> {
+        let curves = self.curves.iter();
+        curves
+            .filter(|curve| curve.look.colour.is_none() && !self.line(curve).is_empty())
+            .collect()
+    }
+
+    /// The lines of the key of the pale curves.
+    fn pale_key(&self) -> Vec<String> {
+        let mut lines: Vec<String> = Vec::new();
+        for (index, curve) in self.pale().into_iter().enumerate() {
+            let entry = format!("{} {}", index + 1, curve.name);
+            match lines.last_mut() {
+                Some(line) if labels::width(line) + labels::width(&entry) < WIDTH - INNER.left => {
+                    line.push_str("  ·  ");
+                    line.push_str(&entry);
+                }
+                _ => lines.push(entry),
+            }
+        }
+        lines
+    }
+
+    /// The elements of the chart, in a rectangle of [`WIDTH`] and [`height`](Self::height).
     pub fn elements(&self) -> Vec<Element> {
         let mut elements = vec![
             Element::new("rect")
                 .with("class", "background")
                 .at("width", WIDTH)
-                .at("height", HEIGHT),
+                .at("height", self.height()),
             text(INNER.left, 26.0, "ink", &self.title)
                 .with("font-size", 16)
                 .with("font-weight", 600),
@@ -73,15 +107,44 @@ impl Chart {
         elements.extend(self.unknown_area());
         elements.extend(self.grid());
         // Coloured curves are drawn over pale ones, but their names are placed first.
-        let (pale, coloured): (Vec<&Drawn>, Vec<&Drawn>) = self
-            .curves
-            .iter()
-            .partition(|curve| curve.look.role.is_none());
+        let coloured = self.curves.iter();
+        let coloured: Vec<&Drawn> = coloured
+            .filter(|curve| curve.look.colour.is_some())
+            .collect();
         let (coloured, taken) = self.groups(&coloured, &[], COLUMN);
+        let pale = self.pale();
+        let numbers = self.numbers(&pale, &taken);
         let (pale, _) = self.groups(&pale, &taken, f64::INFINITY);
         elements.extend(pale);
         elements.extend(coloured);
+        elements.extend(numbers);
+        for (index, line) in self.pale_key().iter().enumerate() {
+            let y = HEIGHT + LINE * (index as f64 + 0.4);
+            elements.push(text(INNER.left, y, "muted", line).with("font-size", 12));
+        }
         elements
+    }
+
+    /// The numbers of pale curves at their ends.
+    fn numbers(&self, pale: &[&Drawn], taken: &[Area]) -> Vec<Element> {
+        let ends = pale.iter().enumerate().filter_map(|(index, curve)| {
+            Some(((index + 1).to_string(), self.line(curve).last().copied()?))
+        });
+        let ends: Vec<(String, (f64, f64))> = ends.collect();
+        let ends: Vec<(&str, (f64, f64))> = ends
+            .iter()
+            .map(|(number, end)| (number.as_str(), *end))
+            .collect();
+        let frame = Area {
+            right: WIDTH - 2.0,
+            ..INNER
+        };
+        let areas = labels::place(&ends, &[], taken, &frame, f64::INFINITY);
+        let numbers = ends.iter().zip(areas).map(|((number, _), area)| {
+            let y = (area.top + area.bottom) / 2.0 + 4.0;
+            text(area.left, y, "label muted", number).with("font-size", 11)
+        });
+        numbers.collect()
     }
 
     /// Draws curves with their names; also returns the areas of the names.
@@ -103,7 +166,7 @@ impl Chart {
         let mut groups = Vec::new();
         for (curve, end) in curves.iter().zip(ends) {
             let group = Element::new("g");
-            let group = match curve.look.role {
+            let group = match curve.look.colour {
                 Some(_) => group.with("class", "curve"),
                 None => group
                     .with("class", "curve pale")
@@ -265,7 +328,13 @@ impl Chart {
                 None => line,
             }
         };
-        let width = |coloured| if look.role.is_some() { coloured } else { "1.1" };
+        let width = |coloured| {
+            if look.colour.is_some() {
+                coloured
+            } else {
+                "1.1"
+            }
+        };
         // The area that reacts to the mouse is wider than the visible line.
         let hit = |path: &str| {
             let title = Element::new("title").text(curve.name.as_str());

@@ -3,7 +3,7 @@
 use core::fmt::Write;
 
 use super::element::{Element, Pixels};
-use crate::{Kind, Role};
+use crate::Kind;
 
 /// The background of a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,8 +16,8 @@ pub enum Scheme {
     Reader,
 }
 
-/// Five colours of the colour-blind safe palette of M. Okabe & K. Ito (2008), brightened for dark backgrounds. Texts
-/// need more contrast than lines and marks.
+/// Six colours of the colour-blind safe palette of M. Okabe & K. Ito (2008), brightened for dark backgrounds, with brown
+/// and violet. Texts need more contrast than lines and marks.
 struct Palette {
     background: &'static str,
     ink: &'static str,
@@ -25,12 +25,12 @@ struct Palette {
     grid: &'static str,
     /// Curves in the background.
     pale: &'static str,
-    lines: [&'static str; ROLES],
-    texts: [&'static str; ROLES],
+    lines: [&'static str; COLOURS],
+    texts: [&'static str; COLOURS],
 }
 
-/// Number of colours, one per [`Role`].
-const ROLES: usize = Role::ALL.len();
+/// Number of colours. The first belong to the [roles](crate::Role).
+pub const COLOURS: usize = 8;
 
 const LIGHT: Palette = Palette {
     background: "#ffffff",
@@ -38,8 +38,12 @@ const LIGHT: Palette = Palette {
     muted: "#5b6570",
     grid: "#e9ecf0",
     pale: "#c6ccd3",
-    lines: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00"],
-    texts: ["#00609a", "#b04c00", "#007354", "#a34a7c", "#8a5f00"],
+    lines: [
+        "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7a5230", "#6a3d9a",
+    ],
+    texts: [
+        "#00609a", "#b04c00", "#007354", "#a34a7c", "#8a5f00", "#23719f", "#6b4628", "#6a3d9a",
+    ],
 };
 
 const DARK: Palette = Palette {
@@ -48,8 +52,12 @@ const DARK: Palette = Palette {
     muted: "#98a2ad",
     grid: "#242a33",
     pale: "#464f5a",
-    lines: ["#3b9ade", "#ee7733", "#1dbb8c", "#dd94bb", "#e9a820"],
-    texts: ["#6fb6ea", "#f59a66", "#45cfa5", "#e6acca", "#efbb50"],
+    lines: [
+        "#3b9ade", "#ee7733", "#1dbb8c", "#dd94bb", "#e9a820", "#9bd3f5", "#b8895f", "#a985dd",
+    ],
+    texts: [
+        "#6fb6ea", "#f59a66", "#45cfa5", "#e6acca", "#efbb50", "#b5dff8", "#cda480", "#c3a8ea",
+    ],
 };
 
 /// The style sheet of plots.
@@ -107,14 +115,14 @@ fn rules(palette: &Palette) -> String {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Look {
     pub kind: Kind,
-    /// The role, which determines the colour; pale grey without a role.
-    pub role: Option<Role>,
+    /// The colour, below [`COLOURS`]; pale grey without one.
+    pub colour: Option<usize>,
 }
 
 impl Look {
     fn class(self, what: &str) -> String {
-        match self.role {
-            Some(role) => format!("{what}{}", role as usize),
+        match self.colour {
+            Some(colour) => format!("{what}{colour}"),
             None => what.into(),
         }
     }

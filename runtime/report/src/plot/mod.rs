@@ -10,16 +10,17 @@ use axis::{Axis, Scale};
 use chart::{Chart, Drawn, Shape};
 use element::Element;
 use look::Look;
-pub(super) use look::style;
+pub(super) use look::{COLOURS, style};
 
 pub use look::Scheme;
 
-use super::{Curve, Kind, Measured, Measurements, Parameter, ProblemRecord, Trace, text};
+use super::{Curve, Kind, Measured, Measurements, Parameter, ProblemRecord, Role, Trace, text};
 
 /// A plot, for a light or a dark background.
 ///
-/// Methods with a [`Role`](super::Role) have colour-blind safe colours and their names at the ends of the curves. All
-/// others are pale grey; their names, and the numbers of every run, appear under the mouse.
+/// With at most eight curves each has a colour-blind safe colour and its name at its end. With more, methods with a
+/// [`Role`](super::Role) have a colour; the others are pale grey, with a number at their end and a key below the plot. Names,
+/// and the numbers of every run, appear under the mouse.
 #[derive(Clone, Debug)]
 pub struct Plot {
     chart: Chart,
@@ -39,7 +40,7 @@ impl Plot {
     }
 
     fn root(&self) -> Element {
-        let (width, height) = (chart::WIDTH, chart::HEIGHT);
+        let (width, height) = (chart::WIDTH, self.chart.height());
         Element::new("svg")
             .with("xmlns", "http://www.w3.org/2000/svg")
             .with("viewBox", format!("0 0 {width} {height}"))
@@ -82,13 +83,29 @@ impl Measurements {
     /// The appearance of the curves of a problem, by method.
     fn looks(&self, problem: &ProblemRecord) -> impl Fn(&str) -> Look {
         let roles = self.roles(problem);
-        move |method| {
+        let held = |method: &str| {
             let held = roles.iter().filter(|(_, curve)| curve.method == method);
-            Look {
-                kind: self.method(method).map_or(Kind::Peer, |known| known.kind),
-                // Verlet keeps its own colour even if it is also the best explicit method.
-                role: held.map(|(role, _)| *role).next_back(),
+            // Verlet keeps its own colour even if it is also the best explicit method.
+            held.map(|(role, _)| *role as usize).next_back()
+        };
+        let methods = problem.curves.iter().map(|curve| curve.method.as_str());
+        let mut colours: Vec<(&str, Option<usize>)> =
+            methods.map(|method| (method, held(method))).collect();
+        if colours.len() <= COLOURS {
+            for index in 0..colours.len() {
+                let used = |colour| colours.iter().any(|(_, used)| *used == Some(colour));
+                // The colours without a role come first.
+                let free = (Role::ALL.len()..COLOURS).chain(0..Role::ALL.len());
+                let free = free.into_iter().find(|colour| !used(*colour));
+                colours[index].1 = colours[index].1.or(free);
             }
+        }
+        move |method| Look {
+            kind: self.method(method).map_or(Kind::Peer, |known| known.kind),
+            colour: colours
+                .iter()
+                .find(|(known, _)| *known == method)
+                .and_then(|(_, colour)| *colour),
         }
     }
 
@@ -325,6 +342,27 @@ mod tests {
         assert_eq!(svg.matches("l3.8 6.6h-7.6z").count(), 2 + 1);
         assert_eq!(svg.matches("<rect").count(), 3 + 1 + 1);
         assert!(svg.contains("Gauss 4: error 1.0·10⁻⁷ in 2.00 ms"), "{svg}");
+    }
+
+    #[test]
+    fn eight_curves_have_eight_colours_and_their_names() {
+        let mut found = measurements();
+        for name in ["A", "B", "C", "D", "E"] {
+            let runs = [(1e-2, 1e-2), (1e-4, 1e-1)];
+            found.problems[0]
+                .curves
+                .push(crate::tests::curve(name, &runs));
+        }
+        let look = found.looks(&found.problems[0]);
+        let methods = found.problems[0].curves.iter();
+        let mut colours: Vec<_> = methods.map(|curve| look(&curve.method).colour).collect();
+        colours.sort_unstable();
+        assert_eq!(colours, (0..8).map(Some).collect::<Vec<_>>());
+        let plot = found.time_plot(&found.problems[0]).expect("there are runs");
+        let svg = plot.svg(Scheme::Light);
+        for curve in &found.problems[0].curves {
+            assert!(svg.contains(&format!(">{}</text>", curve.method)), "{svg}");
+        }
     }
 
     #[test]
