@@ -5,7 +5,6 @@ use std::process::ExitCode;
 use clap::Args;
 use rayon::prelude::*;
 use symplectic_compiler::order::{HamiltonianClass, OrderReport};
-use symplectic_compiler::stability::StableSteps;
 use symplectic_compiler::{Error, Evidence, FAMILIES, Tableau, catalogue};
 
 use crate::choice::{self, Choice};
@@ -110,13 +109,9 @@ fn less_than_proved(report: &OrderReport) -> Option<&'static str> {
 
 /// The first interval of stable steps.
 fn first_interval(tableau: &Tableau) -> String {
-    let intervals = match tableau.stable_steps() {
-        StableSteps::All(stability) => stability.intervals,
-        less => return less.to_string(),
-    };
-    let first = intervals
-        .first()
-        .map_or("∅".to_owned(), ToString::to_string);
-    let more = if intervals.len() > 1 { " ∪ …" } else { "" };
-    format!("{first}{more}")
+    let steps = tableau.stable_steps().to_string();
+    match steps.split_once(" ∪ ") {
+        Some((first, _)) => format!("{first} ∪ …"),
+        None => steps,
+    }
 }

@@ -37,23 +37,49 @@ impl StabilityInterval {
 
 /// Digits of an end without a short exact form.
 pub(super) const SHOWN_DIGITS: usize = 12;
-/// How often the digits are doubled to distinguish the ends of an interval.
+/// How often the digits are doubled to distinguish two ends.
 const MOST_DOUBLINGS: u32 = 7;
+
+/// The ends of ascending intervals, each with enough digits, at least `fewest`, to distinguish it from the ends beside it.
+///
+/// Equal ends, as those of a single point, have the fewest digits.
+pub(crate) fn distinguished(
+    intervals: &[StabilityInterval],
+    fewest: usize,
+) -> Vec<[(&EndPoint, usize); 2]> {
+    let ends = intervals.iter().flat_map(|i| [&i.low, &i.high]);
+    let mut ends: Vec<(&EndPoint, usize)> = ends.map(|end| (end, fewest)).collect();
+    for last in 1..ends.len() {
+        let (low, high) = (ends[last - 1].0, ends[last].0);
+        if low.exact().is_some() && low.exact() == high.exact() {
+            continue;
+        }
+        let mut digits = (0..=MOST_DOUBLINGS).map(|n| fewest << n);
+        if let Some(digits) = digits.find(|&digits| low.decimal(digits) != high.decimal(digits)) {
+            ends[last - 1].1 = ends[last - 1].1.max(digits);
+            ends[last].1 = digits;
+        }
+    }
+    ends.chunks_exact(2).map(|ends| [ends[0], ends[1]]).collect()
+}
+
+/// `(0, 2*sqrt(2)) ∪ (2*sqrt(3), 2*sqrt(6))`, with brackets at closed ends, and enough digits to distinguish the ends.
+pub(super) fn union(intervals: &[StabilityInterval]) -> String {
+    let ends = distinguished(intervals, SHOWN_DIGITS);
+    let text = |(interval, ends): (&StabilityInterval, [(&EndPoint, usize); 2])| {
+        let open = if interval.low_closed { '[' } else { '(' };
+        let close = if interval.high_closed { ']' } else { ')' };
+        let [low, high] = ends.map(|(end, digits)| end.text(digits));
+        format!("{open}{low}, {high}{close}")
+    };
+    let texts: Vec<String> = intervals.iter().zip(ends).map(text).collect();
+    texts.join(" ∪ ")
+}
 
 impl fmt::Display for StabilityInterval {
     /// `(0, 2*sqrt(2))`, with brackets at closed ends, and enough digits to distinguish the ends.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let open = if self.low_closed { '[' } else { '(' };
-        let close = if self.high_closed { ']' } else { ')' };
-        let differ = |digits: &usize| self.low.decimal(*digits) != self.high.decimal(*digits);
-        let mut digits = SHOWN_DIGITS;
-        if !differ(&digits) {
-            // If the interval is a single point, no number of digits distinguishes its ends.
-            let more = (1..=MOST_DOUBLINGS).map(|n| SHOWN_DIGITS << n);
-            digits = more.into_iter().find(differ).unwrap_or(digits);
-        }
-        let (low, high) = (self.low.text(digits), self.high.text(digits));
-        write!(f, "{open}{low}, {high}{close}")
+        f.write_str(&union(std::slice::from_ref(self)))
     }
 }
 

@@ -476,6 +476,22 @@ fn a_constant_trace_leaves_the_points_where_the_matrix_is_scalar() {
     assert_eq!(stability.intervals_text(), "[sqrt(2), sqrt(2)]");
 }
 
+/// The trace of this splitting goes below −2 by less than 1e-30 at ν = 3.043: its ends there differ in the 21st digit.
+#[test]
+fn ends_of_neighbouring_intervals_are_shown_with_the_digits_that_distinguish_them() {
+    let definition = "first: drift, symmetric: true, kick: [0.1916678, 0.3083322], \
+         drift: [0.071353913450279725904, 0.268548791161230105820, 0.320194590776980336552]";
+    let definition = crate::Definition::parse(definition).expect("a definition");
+    let tableau = definition.derive(&crate::Limits::default());
+    let stability = tableau.expect("derived").stability();
+    let shown = "(0, 3.04299999999999999998351…) ∪ (3.04300000000000000001533…, 5.35371767219…) ∪ ";
+    assert!(stability.intervals_text().starts_with(shown), "{stability}");
+    // Each decimal that is asked for with too few digits, too.
+    let [first, second] = [0, 1].map(|i| stability.decimal_ends(6)[i].clone());
+    assert_eq!(first[1], "3.04299999999999999998351");
+    assert_eq!(second, ["3.04300000000000000001533", "5.35372"]);
+}
+
 /// The trace and the spectral radius of one step, computed from the coefficients in floating-point arithmetic.
 fn trace_and_radius(c: &Coefficients<f64>, nu: f64) -> (f64, f64) {
     let s = c.b.len();
