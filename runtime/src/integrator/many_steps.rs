@@ -157,8 +157,10 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         self.step_memory = step_memory;
         let before = mem::replace(remaining, steps);
         if let Some((failure, time)) = failed {
-            let error = self.fail(size, failure);
-            self.take_again(size, time, error)?;
+            match self.prepare_as_first(size, failure) {
+                Ok(work) => self.step_memory.accept::<R>(size, time, work),
+                Err(error) => self.take_again(size, time, error).map(|_| ())?,
+            }
             remaining.tick();
         }
         Ok(remaining.left < before.left)

@@ -13,6 +13,14 @@ use crate::number::{Visit, scalar_words};
 use crate::state::State;
 use crate::system::System;
 
+/// A failed attempt at a step.
+pub(super) struct Failed {
+    /// `None` if the result is not finite, or an evaluation has a wrong dimension.
+    pub(super) failure: Option<Failure>,
+    /// Whether it used anything that earlier steps left.
+    pub(super) from_kept: bool,
+}
+
 /// The data that steps change: the state, and the values that a step leaves behind for the next one.
 #[derive(Clone)]
 pub(super) struct StepMemory<V, T> {
@@ -121,6 +129,12 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
         self.kept = WarmStart::default();
     }
 
+    /// Rounds the state; returns what was cut off.
+    pub(super) fn take_low(&mut self) -> (V, V) {
+        let zeros = || self.state.q.zeros_like();
+        mem::replace(&mut self.low, (zeros(), zeros()))
+    }
+
     /// Computes a step of size `size` into `next` and checks it; returns its statistics.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn attempt<P, R, S, N>(
@@ -128,7 +142,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
         system: &S,
         size: f64,
         stopping: Stopping,
-    ) -> Result<StepStatistics, Option<Failure>>
+    ) -> Result<StepStatistics, Failed>
     where
         P: Plan<Class = S::Class, Memory<V, S, N> = T>,
         R: Summation,
@@ -142,8 +156,15 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
             ..before
         };
         let (step, outcome, memory) = self.lend(size);
-        let work = P::take::<R, V, S, N>(&step, system, memory, kept, stopping, outcome)?;
-        if self.is_sound() { Ok(work) } else { Err(None) }
+        let failure = match P::take::<R, V, S, N>(&step, system, memory, kept, stopping, outcome) {
+            Ok(work) if self.is_sound() => return Ok(work),
+            Ok(_) => None,
+            Err(failure) => Some(failure),
+        };
+        Err(Failed {
+            failure,
+            from_kept: kept.evaluation || kept.stages,
+        })
     }
 
     /// Whether `next` is finite, and all evaluations have the right dimension.

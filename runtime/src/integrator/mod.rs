@@ -1,6 +1,7 @@
 //! Integrators and their steps.
 
 pub(crate) mod clock;
+pub(crate) mod first_step;
 pub(crate) mod last_step;
 pub(crate) mod partial_step;
 pub(crate) mod retry;

@@ -2,6 +2,8 @@
 
 use core::ops::ControlFlow;
 
+use super::first_step::or_as_first_step;
+use super::memory::Failed;
 use super::{Integrator, PlanOf};
 use crate::error::Error;
 use crate::method::diagnosis::{Attempt, FirstFault};
@@ -64,7 +66,39 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         let attempt =
             self.step_memory
                 .attempt::<PlanOf<M, S, V>, R, S, N>(&self.system, size, self.stopping);
-        attempt.map_err(|failure| self.fail(size, failure))
+        attempt.or_else(|failed| self.prepare_as_first(size, failed))
+    }
+
+    /// [`prepare`](Self::prepare) after an attempt that failed: once more as the first step of a new integrator, unless it was one. The
+    /// step then starts from the rounded state too: a long iteration may end elsewhere if its start differs by less than a rounding error.
+    #[cold]
+    pub(super) fn prepare_as_first(
+        &mut self,
+        size: f64,
+        failed: Failed,
+    ) -> Result<StepStatistics, Error> {
+        // This also forgets what earlier steps left.
+        let error = self.fail(size, failed.failure);
+        let forget = |_: &mut Self| failed.from_kept;
+        or_as_first_step(self, Err(error), forget, |run| {
+            let low = run.step_memory.take_low();
+            match run.attempt_apart(size) {
+                Ok(work) => Ok(StepStatistics {
+                    rejected: work.rejected + 1,
+                    ..work
+                }),
+                Err(failed) => {
+                    run.step_memory.low = low;
+                    Err(run.fail(size, failed.failure))
+                }
+            }
+        })
+    }
+
+    /// [`StepMemory::attempt`](super::StepMemory::attempt), for steps that are rare: the code of a step is not repeated there.
+    #[inline(never)]
+    fn attempt_apart(&mut self, size: f64) -> Result<StepStatistics, Failed> {
+        (self.step_memory).attempt::<PlanOf<M, S, V>, R, S, N>(&self.system, size, self.stopping)
     }
 
     /// Returns the reason of a failed step, and forgets all data that the step left behind.

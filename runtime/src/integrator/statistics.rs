@@ -25,7 +25,7 @@ use crate::method::StepStatistics;
 pub struct Statistics {
     /// Steps taken; for a [split](crate::Retry::Split) step, its parts.
     pub steps: u64,
-    /// Failed attempts that were repeated with shorter steps or another solver.
+    /// Failed attempts that were repeated with shorter steps, another solver, or the starting values of a first step.
     pub rejected: u64,
     /// Fixed-point sweeps; 0 for an explicit method.
     pub iterations: u64,

@@ -13,7 +13,7 @@ pub struct StepStatistics {
     pub evaluations: u32,
     /// How often the linear systems of a Newton iteration were assembled and factored.
     pub factorisations: u32,
-    /// Failed attempts to find the stages after which another solver succeeded.
+    /// Failed attempts to find the stages, after which another solver or the starting values of a first step succeeded.
     pub rejected: u32,
     /// The largest absolute values of the positions and of the momenta of the coupled stages, as last measured. A fixed-point iteration
     /// measures them no later than the first change that can be rounding errors. If the momenta are eliminated, both values are that of the

@@ -216,16 +216,23 @@ pub struct PulsatingProduct<'a>(pub &'a Fuse);
 
 /// Counts evaluations down; after the last one, evaluations are NaN.
 #[derive(Debug)]
-pub struct Fuse(Cell<u64>);
+pub struct Fuse(Cell<u64>, Cell<bool>);
 
 impl Fuse {
     /// For a system whose evaluations are always finite.
     pub const fn never() -> Self {
-        Self(Cell::new(u64::MAX))
+        Self(Cell::new(u64::MAX), Cell::new(false))
     }
 
     pub fn set(&self, evaluations: u64) {
         self.0.set(evaluations);
+        self.1.set(false);
+    }
+
+    /// One evaluation is NaN, after this number of others.
+    pub fn set_once(&self, evaluations: u64) {
+        self.0.set(evaluations);
+        self.1.set(true);
     }
 
     /// Whether all evaluations were finite.
@@ -236,7 +243,12 @@ impl Fuse {
     /// Counts an evaluation: returns 1, or NaN if none is left.
     fn burn<T: Scalar>(&self) -> T {
         match self.0.get() {
-            0 => T::from_f64(f64::NAN),
+            0 => {
+                if self.1.get() {
+                    self.0.set(u64::MAX);
+                }
+                T::from_f64(f64::NAN)
+            }
             u64::MAX => T::one(),
             left => {
                 self.0.set(left - 1);

@@ -13,6 +13,7 @@ mod discrete_lagrangians;
 mod emitted_inverse;
 mod equivariance;
 mod every_integrator;
+mod first_step;
 mod forces;
 mod forces_of_time;
 mod formulas;

@@ -7,6 +7,7 @@ use super::step::Equations;
 use super::{DiracRule, DiracSystem};
 use crate::error::Error;
 use crate::integrator::StepMap;
+use crate::integrator::first_step::or_as_first_step;
 use crate::integrator::step_clock::{StepClock, Stepper};
 use crate::integrator::validation::check_state;
 use crate::method::Method;
@@ -188,8 +189,22 @@ impl<L: DiracSystem> DiracIntegrator<L> {
     ///
     /// Those of [`step`](Self::step); the state is then unchanged.
     pub fn step_with_stages(&mut self) -> Result<StagesOfStep<L::Vector<f64>>, Error> {
-        let (mut state, mut velocity) = (self.state.clone(), self.velocity.clone());
+        let (state, velocity) = (self.state.clone(), self.velocity.clone());
         self.step()?;
+        let stages = self.stages_from(state.clone(), velocity);
+        let take = |run: &mut Self| {
+            let velocity = consistent_velocity(&run.system, &state)?;
+            run.stages_from(state, velocity)
+        };
+        or_as_first_step(self, stages, |_| true, take)
+    }
+
+    /// Repeats the last step, from its start and a starting value of the velocity.
+    fn stages_from(
+        &mut self,
+        mut state: State<L::Vector<f64>>,
+        mut velocity: L::Vector<f64>,
+    ) -> Result<StagesOfStep<L::Vector<f64>>, Error> {
         let (start, end, size) = (state.time, self.state.time, self.step_clock.step_size());
         let mut stages = Vec::new();
         for part in self.steps.parts(start, size, end) {
@@ -264,25 +279,45 @@ impl<L: DiracSystem> Stepper for DiracIntegrator<L> {
     }
 
     fn advance(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
+        let velocity = self.next.1.as_mut_slice();
+        velocity.copy_from_slice(self.velocity.as_slice());
+        let taken = self.attempt(size, end, number);
+        or_as_first_step(self, taken, Self::begin_as_first, |run| {
+            run.attempt(size, end, number)
+        })?;
+        let (next, velocity) = &mut self.next;
+        next.time = end;
+        core::mem::swap(&mut self.state, next);
+        core::mem::swap(&mut self.velocity, velocity);
+        Ok(())
+    }
+}
+
+impl<L: DiracSystem> DiracIntegrator<L> {
+    /// Computes a step into `next`, whose velocity is the starting value.
+    fn attempt(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
         let start = self.state.time;
         let (next, velocity) = &mut self.next;
-        for (to, from) in [
-            (&mut next.q, &self.state.q),
-            (&mut next.p, &self.state.p),
-            (velocity, &self.velocity),
-        ] {
+        for (to, from) in [(&mut next.q, &self.state.q), (&mut next.p, &self.state.p)] {
             to.as_mut_slice().copy_from_slice(from.as_slice());
         }
-        let (next, velocity) = &mut self.next;
         for part in self.steps.parts(start, size, end) {
             self.equations
                 .take(&self.system, part, next, velocity)
                 .map_err(|failure| failure.error(start, size, number))?;
         }
-        next.time = end;
-        core::mem::swap(&mut self.state, next);
-        core::mem::swap(&mut self.velocity, velocity);
         Ok(())
+    }
+
+    /// Lets the next attempt start from the velocity with which a new integrator starts; returns whether it differs.
+    fn begin_as_first(&mut self) -> bool {
+        match consistent_velocity(&self.system, &self.state) {
+            Ok(velocity) if velocity.as_slice() != self.velocity.as_slice() => {
+                self.next.1 = velocity;
+                true
+            }
+            _ => false,
+        }
     }
 }
 

@@ -6,6 +6,7 @@ use super::linear::{LinearConstraint, is_regular_beside};
 use super::stages::{Stages, Start};
 use crate::error::{Error, Quantity};
 use crate::integrator::StepMap;
+use crate::integrator::first_step::or_as_first_step;
 use crate::integrator::step_clock::{StepClock, Stepper};
 use crate::integrator::validation::check_state;
 use crate::method::{Method, ProvedFor};
@@ -383,6 +384,20 @@ impl<L: Lagrangian> Stepper for LagrangianIntegrator<L> {
     }
 
     fn advance(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
+        let are_new = self.stages.are_new();
+        let taken = self.attempt(size, end, number);
+        let forget = |run: &mut Self| !are_new && run.begin_as_first();
+        or_as_first_step(self, taken, forget, |run| run.attempt(size, end, number))?;
+        self.next.time = end;
+        self.action = Some(self.stages.action(size));
+        core::mem::swap(&mut self.state, &mut self.next);
+        Ok(())
+    }
+}
+
+impl<L: Lagrangian> LagrangianIntegrator<L> {
+    /// Computes a step into `next`.
+    fn attempt(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
         let start = Start {
             time: self.state.time,
             size,
@@ -402,10 +417,20 @@ impl<L: Lagrangian> Stepper for LagrangianIntegrator<L> {
             let method = self.method;
             return Err(Error::DegenerateLagrangian { method, component });
         }
-        self.next.time = end;
-        self.action = Some(self.stages.action(size));
-        core::mem::swap(&mut self.state, &mut self.next);
         Ok(())
+    }
+
+    /// Lets the next step start like that of a new integrator at the present state; returns `true`.
+    fn begin_as_first(&mut self) -> bool {
+        let Self {
+            stages,
+            lagrangian,
+            state: State { time, q, p },
+            ..
+        } = self;
+        let velocity = || velocity_near(&*lagrangian, *time, q, p, p.clone()).ok();
+        stages.begin_as_first(velocity);
+        true
     }
 }
 

@@ -8,6 +8,7 @@ use num_traits::Float;
 use super::coefficients::StageCoefficients;
 use super::derivatives::Derivatives;
 use crate::error::Error;
+use crate::number::Vector;
 use crate::system::Lagrangian;
 use crate::variational::failure::Failure;
 use crate::variational::regular::{Factors, Singular, largest};
@@ -88,13 +89,19 @@ impl<L: Lagrangian> Stages<L> {
 
     /// Begins with this velocity at every stage.
     pub(super) fn begin_with(&mut self, velocity: &[f64]) {
-        let unknowns = self.first.chunks_exact_mut(velocity.len().max(1));
+        self.set_unknowns(velocity);
+        self.first.copy_from_slice(&self.unknowns);
+        self.forget();
+    }
+
+    /// The same velocity at every stage.
+    fn set_unknowns(&mut self, velocity: &[f64]) {
+        let unknowns = self.unknowns.chunks_exact_mut(velocity.len().max(1));
         for (unknowns, factor) in unknowns.zip(&self.coefficients.constant) {
             for (unknown, component) in unknowns.iter_mut().zip(velocity) {
                 *unknown = factor * component;
             }
         }
-        self.forget();
     }
 
     /// Starts like a new integrator, without the stages and factors of earlier steps.
@@ -102,6 +109,22 @@ impl<L: Lagrangian> Stages<L> {
         self.before.copy_from_slice(&self.first);
         self.unknowns.copy_from_slice(&self.first);
         self.factored = None;
+    }
+
+    /// Whether the next step starts like that of a new integrator.
+    pub(super) fn are_new(&self) -> bool {
+        self.factored.is_none() && self.unknowns == self.first
+    }
+
+    /// Lets the next step start like that of a new integrator: with this velocity at every stage, unless a new one begins at rest.
+    pub(super) fn begin_as_first(&mut self, velocity: impl FnOnce() -> Option<L::Vector<f64>>) {
+        self.factored = None;
+        self.unknowns.copy_from_slice(&self.first);
+        if self.first.iter().any(|&component| component != 0.0)
+            && let Some(velocity) = velocity()
+        {
+            self.set_unknowns(velocity.as_slice());
+        }
     }
 
     /// Adds `(q1 − q0)/h` of the last step to `out`.
