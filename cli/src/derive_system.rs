@@ -40,7 +40,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let (system, structure) = formula::read(&arguments.file)?;
     output::print(&match arguments.format {
         Format::Text => description::text(&system, &structure),
-        Format::Latex => description::latex(&system),
+        Format::Latex => description::latex(&system, &structure),
         Format::Json => format!("{:#}\n", description::json(&system, &structure)),
     })
 }

@@ -27,6 +27,7 @@ system!(DRIVEN: Driven { k: 1/3 } q: [x], p: [y]; H = y^2/2 + (1 + k t) x^2/2 + 
 system!(MOLECULE: Molecule<N> { m: [N], springs: pairs, stiffness: [springs], length: [springs], G: 1/8 } q: [N; 3], p: [N; 3];
     H = sum(i: |p[i]|^2 / (2 m[i])) + sum(s = (i, j) in springs: stiffness[s] (|q[i] - q[j]| - length[s])^2/2)
         - sum(i < j: G m[i] m[j] / |q[i] - q[j]|));
+system!(FIELD: Field<N> { g: 1 } q: [N; 2], p: [N; 2]; H = sum(i: |p[i]|^2/2 + g q[i][1]));
 system!(PENDULUM: Pendulum { g: 9.81 } q: [a], p: [pa]; H = pa^2/2 - g cos(a) + exp(-t) sin(a)/8);
 
 symplectic::tableau! { Verlet { base: stormer-verlet } }
@@ -160,6 +161,19 @@ fn warped() -> Case {
     }
 }
 
+/// The force has components that are zero.
+fn field() -> Case {
+    Case {
+        method: "forest-ruth-1990",
+        formula: FIELD,
+        kind: "Field",
+        values: vec![("N", Length(2)), ("g", Number(9.81))],
+        start: [vec![0.5, 0.1, -0.2, 0.3], vec![-0.2, 1.0, 0.7, 0.0]],
+        h: 0.01,
+        steps: 100,
+    }
+}
+
 fn pendulum() -> Case {
     Case {
         method: "stormer-verlet",
@@ -214,6 +228,13 @@ fn splittings_have_the_bits_of_the_runtime() {
     agree(
         &case,
         &runtime!(case, Forest, system, SMatrix<f64, 3, 4>),
+        0.0,
+    );
+    let case = field();
+    let system = Field::<2> { g: 9.81 };
+    agree(
+        &case,
+        &runtime!(case, Forest, system, SMatrix<f64, 2, 2>),
         0.0,
     );
     let case = driven();
@@ -315,6 +336,8 @@ fn systems_that_do_not_fit_are_refused() {
     assert!(refusal("blanes-moan-2002-srkn11b", moving, &[]).contains("depends on the time"));
     for (more, what) in [
         ("friction: 1/10;", "friction"),
+        ("friction: [1, 2];", "friction"),
+        ("v: [vx, vz], nonholonomic: { c = vx - vz }", "constraints"),
         ("force: { x = t }", "forces"),
         ("constraints: { c = x }", "constraints"),
         (

@@ -11,6 +11,7 @@ mod coq;
 mod emit;
 mod emit_systems;
 mod encodings;
+mod equations;
 mod import;
 mod languages;
 mod list;

@@ -94,6 +94,7 @@ fn a_system_is_derived_from_its_lagrangian() {
           a' = pa
           f' = pf/sin(a)²
           pa' = g sin(a) + cos(a) (pf²/sin(a)³)
+          pf' = 0
 
         second derivatives
           ∂²H/∂pa∂pa += 1
@@ -124,6 +125,121 @@ fn a_system_is_derived_from_its_lagrangian() {
         .output()
         .expect("a run");
     assert!(String::from_utf8_lossy(&output.stderr).contains("has both keys"));
+}
+
+#[test]
+fn equations_in_latex_have_friction_multipliers_and_zeros() {
+    for (name, text, latex) in [
+        (
+            "friction",
+            "Fric { g: 0.1 } q: [x], p: [px]; H = px^2/2 + x^2/2 friction: g",
+            expect![[r#"
+                \begin{aligned}
+                  H &= \tfrac{1}{2}\,{\mathrm{px}}^{2} + \tfrac{1}{2}\,{x}^{2} \\
+                  \dot{x} &= \mathrm{px} \\
+                  \dot{\mathrm{px}} &= -x - \mathrm{px}\,g \\
+                  \frac{\partial^2 H}{\partial \mathrm{px}\,\partial \mathrm{px}} &\mathrel{+}= 1 \\
+                  \frac{\partial^2 H}{\partial x\,\partial x} &\mathrel{+}= 1
+                \end{aligned}
+            "#]],
+        ),
+        (
+            "constraints",
+            "C { g: 9.81 } q: [x, y], p: [px, py]; H = (px^2+py^2)/2 + g y constraints: { rod = x^2 + y^2 - 1 }",
+            expect![[r#"
+                \begin{aligned}
+                  H &= \tfrac{1}{2}\,\left({\mathrm{px}}^{2} + {\mathrm{py}}^{2}\right) + y\,g \\
+                  \dot{x} &= \mathrm{px} \\
+                  \dot{y} &= \mathrm{py} \\
+                  \dot{\mathrm{px}} &= -2\,x\,\lambda \\
+                  \dot{\mathrm{py}} &= -g - 2\,y\,\lambda \\
+                  {x}^{2} + {y}^{2} - 1 &= 0 \\
+                  \frac{\partial^2 H}{\partial \mathrm{px}\,\partial \mathrm{px}} &\mathrel{+}= 1 \\
+                  \frac{\partial^2 H}{\partial \mathrm{py}\,\partial \mathrm{py}} &\mathrel{+}= 1
+                \end{aligned}
+            "#]],
+        ),
+        (
+            "cyclic",
+            "Cyclic q: [x, y], p: [px, py]; H = (px^2+py^2)/2 + x^2",
+            expect![[r#"
+                \begin{aligned}
+                  H &= \tfrac{1}{2}\,\left({\mathrm{px}}^{2} + {\mathrm{py}}^{2}\right) + {x}^{2} \\
+                  \dot{x} &= \mathrm{px} \\
+                  \dot{y} &= \mathrm{py} \\
+                  \dot{\mathrm{px}} &= -2\,x \\
+                  \dot{\mathrm{py}} &= 0 \\
+                  \frac{\partial^2 H}{\partial \mathrm{px}\,\partial \mathrm{px}} &\mathrel{+}= 1 \\
+                  \frac{\partial^2 H}{\partial \mathrm{py}\,\partial \mathrm{py}} &\mathrel{+}= 1 \\
+                  \frac{\partial^2 H}{\partial x\,\partial x} &\mathrel{+}= 2
+                \end{aligned}
+            "#]],
+        ),
+    ] {
+        let path = file(&format!("{name}.txt"), text);
+        latex.assert_eq(&stdout(&["derive-system", &path, "--format", "latex"]));
+    }
+}
+
+#[test]
+fn conserved_momenta_have_the_names_of_their_components() {
+    for (text, sentences, components) in [
+        (
+            "Body q: [1; 3], p: [1; 3]; H = |p[0]|^2/2 + q[0][2]",
+            "`total_momentum` in x and y is conserved\n  `angular_momentum` about z is conserved",
+            vec![
+                ("total_momentum", "x"),
+                ("total_momentum", "y"),
+                ("angular_momentum", "z"),
+            ],
+        ),
+        (
+            "Frame { w: 1 } q: [3], p: [3]; H = |p|^2/2 - 1/|q| + w (q[0] p[1] - q[1] p[0])",
+            "`angular_momentum` about z is conserved",
+            vec![("angular_momentum", "z")],
+        ),
+        (
+            "Names q: [a, b, c], p: [pa, pb, pc]; H = (pa^2 + pb^2 + pc^2)/2 + b + (a^2 + c^2)^2",
+            "`angular_momentum` about b is conserved",
+            vec![("angular_momentum", "b")],
+        ),
+        (
+            "Wide<N> q: [N; 5], p: [N; 5]; H = sum(i: |p[i]|^2/2 + q[i][0]^2 + q[i][1]^2 + q[i][3]^4)",
+            "`total_momentum` in 2 and 4 is conserved",
+            vec![("total_momentum", "2"), ("total_momentum", "4")],
+        ),
+    ] {
+        let path = file("conserved.txt", text);
+        let shown = stdout(&["derive-system", &path]);
+        assert!(shown.contains(&format!("  {sentences}\n")), "{shown}");
+        let json = stdout(&["derive-system", &path, "--format", "json"]);
+        let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+        let found = json["conserved_momenta"].as_array().expect("a list");
+        let found = found
+            .iter()
+            .map(|part| [&part["name"], &part["component"]].map(|x| x.as_str().expect("a name")));
+        let expected = components
+            .iter()
+            .map(|&(name, component)| [name, component]);
+        assert_eq!(found.collect::<Vec<_>>(), expected.collect::<Vec<_>>());
+        let latex = stdout(&["derive-system", &path, "--format", "latex"]);
+        assert_eq!(latex.matches("\\mathrm{const}").count(), components.len());
+    }
+    // A number needs no name of a component, and old readers find the names of the momenta.
+    let chain = "Chain q: [..], p: [..]; bonds: free; H = sum(i: p[i]^2/2) + sum(bonds d: d^4)";
+    let path = file("conserved.txt", chain);
+    assert!(stdout(&["derive-system", &path]).contains("  `total_momentum` is conserved\n"));
+    let json = stdout(&["derive-system", &path, "--format", "json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(json["conserved"], serde_json::json!(["total_momentum"]));
+    let momentum = &json["conserved_momenta"][0];
+    assert_eq!(
+        (&momentum["component"], &momentum["text"]),
+        (
+            &serde_json::Value::Null,
+            &serde_json::json!("Σ(0 ≤ i < n) p[i]")
+        )
+    );
 }
 
 #[test]

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::derivative::gradient;
 use super::display::{Notation, number_text};
-use super::graph::{Base, Coordinate, Half, Id, Index, Loop, LoopId, LoopRange, Number, integer};
+use super::graph::{Base, Coordinate, Half, Id, Index, Number};
 use super::hessian::MomentumHessian;
 use super::lagrangian_form;
 use super::structure::{Kinetic, Structure};
@@ -21,23 +21,7 @@ const MOST_CHARACTERS: usize = 8_000;
 /// Longest display on a page.
 const MOST_KATEX: usize = 2_000;
 
-/// The equations of motion: what is differentiated by, what changes, and the sign.
-const HALVES: [(Half, Half, i64); 2] = [(Half::P, Half::Q, 1), (Half::Q, Half::P, -1)];
-
 impl System {
-    /// Hamilton's equations, a line for each part.
-    pub fn equations_of_motion(&self, notation: Notation) -> Vec<String> {
-        let mut copy = self.clone();
-        let halves = HALVES.map(|(half, dotted, sign)| {
-            let mut parts = gradient(&mut copy.graph, self.energy, &[], integer(sign), half);
-            if half == Half::Q {
-                copy.add_applied(&mut parts);
-            }
-            (dotted, parts)
-        });
-        copy.equations(&halves, notation)
-    }
-
     /// The Lagrangian that H was derived from.
     pub fn lagrangian_formula(&self, notation: Notation) -> Option<String> {
         let lagrangian = self.lagrangian.as_ref()?;
@@ -57,6 +41,7 @@ impl System {
             Number::one(),
             Half::V,
         );
+        let parts = copy.completed(parts);
         let values = parts.iter().map(|part| copy.formula(part.value, notation));
         copy.lines(&parts, values, notation, |target| {
             copy.coordinate_name(&target.of(Half::P), notation)
@@ -73,19 +58,6 @@ impl System {
                 Notation::Latex => format!("f_{{{target}}}"),
             }
         })
-    }
-
-    /// The constraints, a line for each.
-    pub fn constraint_equations(&self, notation: Notation) -> Vec<String> {
-        let all = self.constraints.iter().chain(&self.nonholonomic);
-        let lines = all.flat_map(|constraint| {
-            let loops: Vec<LoopId> = constraint.over.into_iter().collect();
-            constraint.parts.iter().map(move |&part| {
-                let formula = self.formula(part, notation);
-                format!("{formula} = 0{}", self.ranges(&loops, notation))
-            })
-        });
-        lines.collect()
     }
 
     /// The second derivatives of H, a line for each part of one that is not zero; then the parts in common.
@@ -223,15 +195,10 @@ pub fn text(system: &System, structure: &Structure) -> String {
             system.formula(system.energy, Notation::Text)
         )],
     );
-    let without = match (system.friction.is_empty(), system.is_constrained()) {
-        (true, false) => "equations of motion",
-        (false, false) => "equations of motion, without the friction",
-        (true, true) => "equations of motion, without the forces of the constraints",
-        (false, true) => {
-            "equations of motion, without the friction and the forces of the constraints"
-        }
-    };
-    section(without, &system.equations_of_motion(Notation::Text));
+    section(
+        "equations of motion",
+        &system.equations_of_motion(Notation::Text),
+    );
     if system.is_constrained() {
         section("constraints", &system.constraint_equations(Notation::Text));
     }
@@ -244,7 +211,7 @@ pub fn text(system: &System, structure: &Structure) -> String {
 }
 
 /// The equations of a system for LaTeX: an `aligned` environment.
-pub fn latex(system: &System) -> String {
+pub fn latex(system: &System, structure: &Structure) -> String {
     let mut lines = Vec::new();
     if let Some(lagrangian) = system.lagrangian_formula(Notation::Latex) {
         lines.push(format!("L = {lagrangian}"));
@@ -258,6 +225,9 @@ pub fn latex(system: &System) -> String {
             lines.extend(system.equations_of_motion(Notation::Latex));
             lines.extend(system.constraint_equations(Notation::Latex));
             lines.extend(system.second_derivatives(Notation::Latex));
+            let conserved = conserved_momenta(system, structure, Notation::Latex);
+            let conserved = conserved.into_iter();
+            lines.extend(conserved.map(|(.., formula)| format!("{formula} = \\mathrm{{const}}")));
         }
     }
     let lines: Vec<String> = lines
@@ -334,6 +304,13 @@ pub fn json(system: &System, structure: &Structure) -> Value {
         },
         "cyclic": cyclic,
         "conserved": conserved,
+        "conserved_momenta": conserved_momenta(system, structure, Notation::Text)
+            .into_iter()
+            .zip(conserved_momenta(system, structure, Notation::Latex))
+            .map(|((name, component, text), (.., latex))| {
+                json!({ "name": name, "component": component, "text": text, "latex": latex })
+            })
+            .collect::<Vec<_>>(),
     });
     if system.is_constrained() {
         all["constraints"] = both(System::constraint_equations);
@@ -457,8 +434,9 @@ pub fn facts(system: &System, structure: &Structure) -> Vec<String> {
             system.layout.name(Half::P, k)
         ));
     }
-    for (name, _) in momenta(system, structure) {
-        facts.push(format!("`{name}` is conserved"));
+    for (name, momentum) in momenta(system, structure) {
+        let components = momentum.in_words(system);
+        facts.push(format!("`{name}`{components} is conserved"));
     }
     facts
 }
@@ -494,10 +472,76 @@ pub fn momenta(system: &System, structure: &Structure) -> Vec<(&'static str, Mom
     found
 }
 
+/// The components of the conserved momenta: the name of the momentum, that of the component if there are others, and the formula.
+fn conserved_momenta(
+    system: &System,
+    structure: &Structure,
+    notation: Notation,
+) -> Vec<(&'static str, Option<String>, String)> {
+    let mut copy = system.clone();
+    let mut all = Vec::new();
+    for (name, momentum) in momenta(system, structure) {
+        let components = momentum.components(system);
+        for (k, part) in momentum.parts(&mut copy).into_iter().enumerate() {
+            let component = components.get(k).cloned();
+            all.push((name, component, copy.formula(part, notation)));
+        }
+    }
+    all
+}
+
 impl Momentum {
+    /// The names of its components: directions or axes. None if there can be only one component.
+    fn components(&self, system: &System) -> Vec<String> {
+        let axes: Vec<String> = match &system.layout {
+            Layout::Named([names, _]) => names.clone(),
+            layout => {
+                let count = match (layout, layout.length()) {
+                    (Layout::Numbered(_, Some(components)), _) => *components,
+                    (_, Length::Fixed(n)) if matches!(self, Momentum::Angular(_)) => n,
+                    _ => 1,
+                };
+                match count {
+                    ..=3 => ["x", "y", "z"][..count]
+                        .iter()
+                        .map(|&axis| axis.to_owned())
+                        .collect(),
+                    _ => (0..count).map(|k| k.to_string()).collect(),
+                }
+            }
+        };
+        match self {
+            Momentum::Linear(_) if axes.len() < 2 => Vec::new(),
+            Momentum::Angular(_) if axes.len() < 3 => Vec::new(),
+            Momentum::Linear(components) => components.iter().map(|&k| axes[k].clone()).collect(),
+            // The axis that is not in the plane.
+            Momentum::Angular(planes) => planes
+                .iter()
+                .map(|[a, b]| axes[3 - a - b].clone())
+                .collect(),
+        }
+    }
+
+    /// Its components in words, after a space: ` in x and y`, ` about z`.
+    pub fn in_words(&self, system: &System) -> String {
+        let names = self.components(system);
+        let Some((last, others)) = names.split_last() else {
+            return String::new();
+        };
+        let preposition = match self {
+            Momentum::Linear(_) => "in",
+            Momentum::Angular(_) => "about",
+        };
+        match others {
+            [] => format!(" {preposition} {last}"),
+            _ => format!(" {preposition} {} and {last}", others.join(", ")),
+        }
+    }
+
     /// Its components as formulas.
     pub fn parts(&self, system: &mut System) -> Vec<Id> {
-        let over = all(system);
+        let over = system.over_all();
+        let over = over.map(|id| (id, Index::of(Base::Loop(id))));
         let bodies = !matches!(system.layout, Layout::Named(_)) && (over.is_some());
         let vectors = matches!(system.layout, Layout::Numbered(_, Some(_)));
         let at = |system: &mut System, half: Half, component: usize| {
@@ -548,16 +592,4 @@ impl Momentum {
         }
         parts
     }
-}
-
-/// A loop over all numbered coordinates.
-fn all(system: &mut System) -> Option<(LoopId, Index)> {
-    let end = match &system.layout {
-        Layout::Named(_) => return None,
-        Layout::Numbered(Length::Fixed(n), _) => Index::number(*n as i64),
-        Layout::Numbered(length, _) => Index::of(Base::End(length.clone())),
-    };
-    let range = LoopRange::Between(Index::number(0), end);
-    let id = system.graph.add_loop(Loop { range, depth: 0 })?;
-    Some((id, Index::of(Base::Loop(id))))
 }

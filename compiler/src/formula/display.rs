@@ -8,7 +8,6 @@ use num_traits::{One, Signed, Zero};
 use super::derivative::Scatter;
 use super::elaborate::STRETCH;
 use super::graph::{Base, Coordinate, Half, Id, Index, LoopId, LoopRange, Node, Number};
-use super::structure::each_once;
 use super::syntax::Length;
 use super::system::{Layout, System};
 
@@ -65,16 +64,6 @@ impl System {
 
     /// Derivatives, one line for each part: `q'[i] = …`, or `+=` where several are added; then a line for each part in common that has a name.
     pub fn equations(&self, halves: &[(Half, Vec<Scatter>)], notation: Notation) -> Vec<String> {
-        let dotted = |half: Half, target: &Coordinate| {
-            let name = self.coordinate_name(&target.of(half), notation);
-            match notation {
-                Notation::Text => match name.split_once('[') {
-                    Some((head, rest)) => format!("{head}'[{rest}"),
-                    None => format!("{name}'"),
-                },
-                Notation::Latex => format!("\\dot{{{name}}}"),
-            }
-        };
         let parts = halves.iter().flat_map(|(_, parts)| parts);
         let values: Vec<Id> = parts.map(|part| part.value).collect();
         let (values, common) = self.formulas(&values, 's', notation);
@@ -82,7 +71,9 @@ impl System {
         let mut lines = Vec::new();
         for (half, parts) in halves {
             let own = values.by_ref().take(parts.len());
-            lines.extend(self.lines(parts, own, notation, |target| dotted(*half, target)));
+            lines.extend(self.lines(parts, own, notation, |target| {
+                self.dotted(&target.of(*half), notation)
+            }));
         }
         lines.extend(common);
         lines
@@ -96,12 +87,9 @@ impl System {
         notation: Notation,
         name: impl Fn(&Coordinate) -> String,
     ) -> Vec<String> {
-        // Whether each line is the whole of a derivative.
-        let single = parts.iter().all(|part| part.loops.is_empty());
-        let alone = single || each_once(self, parts);
         let lines = parts.iter().zip(values).map(|(part, value)| {
             let name = name(&part.target);
-            let sign = match (alone, notation) {
+            let sign = match (self.is_alone(parts, part), notation) {
                 (true, _) => "=",
                 (false, Notation::Text) => "+=",
                 (false, Notation::Latex) => "\\mathrel{+}=",
@@ -112,16 +100,53 @@ impl System {
         lines.collect()
     }
 
+    /// Whether a part of a derivative is the whole derivative by its coordinates.
+    fn is_alone(&self, parts: &[Scatter], part: &Scatter) -> bool {
+        let component = part.target.component;
+        let mut others = parts
+            .iter()
+            .filter(|other| other.target.component == component && *other != part);
+        let index = &part.target.index;
+        match part.loops.as_slice() {
+            [] => others.all(|other| {
+                let apart = other.target.index != *index && other.target.index.base == index.base;
+                other.loops.is_empty() && apart
+            }),
+            [over] => index.base == Base::Loop(*over) && others.next().is_none(),
+            _ => false,
+        }
+    }
+
+    /// The derivative of a coordinate with respect to the time.
+    fn dotted(&self, coordinate: &Coordinate, notation: Notation) -> String {
+        let name = self.coordinate_name(coordinate, notation);
+        match notation {
+            Notation::Text => match name.split_once('[') {
+                Some((head, rest)) => format!("{head}'[{rest}"),
+                None => format!("{name}'"),
+            },
+            Notation::Latex => format!("\\dot{{{name}}}"),
+        }
+    }
+
     /// The loops over which a line holds, in parentheses.
     pub(super) fn ranges(&self, loops: &[LoopId], notation: Notation) -> String {
-        let ranges: Vec<String> = loops
-            .iter()
-            .map(|&over| self.range(over, notation))
-            .collect();
-        match (ranges.is_empty(), notation) {
+        self.notes(loops, None, notation)
+    }
+
+    /// The loops over which a line holds, and a note, in parentheses.
+    pub(super) fn notes(
+        &self,
+        loops: &[LoopId],
+        note: Option<String>,
+        notation: Notation,
+    ) -> String {
+        let ranges = loops.iter().map(|&over| self.range(over, notation));
+        let notes: Vec<String> = ranges.chain(note).collect();
+        match (notes.is_empty(), notation) {
             (true, _) => String::new(),
-            (false, Notation::Text) => format!("    ({})", ranges.join(", ")),
-            (false, Notation::Latex) => format!("\\quad ({})", ranges.join(",\\; ")),
+            (false, Notation::Text) => format!("    ({})", notes.join(", ")),
+            (false, Notation::Latex) => format!("\\quad ({})", notes.join(",\\; ")),
         }
     }
 
@@ -129,18 +154,18 @@ impl System {
         let index = index_letter(over);
         match &self.graph.get_loop(over).range {
             LoopRange::Between(start, end) => {
-                let (start, end) = (index_text(start), index_text(end));
+                let (start, end) = (index_text(start, notation), index_text(end, notation));
                 match notation {
                     Notation::Text => format!("{start} ≤ {index} < {end}"),
                     Notation::Latex => format!("{start} \\le {index} < {end}"),
                 }
             }
             LoopRange::List(parameter) => {
-                let list = &self.parameters[*parameter].name;
-                let [first, second] = ["′", "″"].map(|mark| format!("{index}{mark}"));
+                let list = symbol(&self.parameters[*parameter].name, notation);
+                let [first, second, _] = primes(notation).map(|mark| format!("{index}{mark}"));
                 match notation {
                     Notation::Text => format!("({first}, {second}) in {list}"),
-                    Notation::Latex => format!("({index}', {index}'') \\in \\mathrm{{{list}}}"),
+                    Notation::Latex => format!("({first}, {second}) \\in {list}"),
                 }
             }
         }
@@ -151,8 +176,12 @@ impl System {
         if coordinate.index == STRETCH {
             return "d".to_owned();
         }
+        // A system with H has velocities in constraints only.
+        if coordinate.half == Half::V && self.lagrangian.is_none() {
+            return self.dotted(&coordinate.of(Half::Q), notation);
+        }
         let half = coordinate.half.letter();
-        let index = index_text(&coordinate.index);
+        let index = index_text(&coordinate.index, notation);
         match (&self.layout, notation) {
             (Layout::Named(_), _) => symbol(&self.name_of(coordinate), notation),
             (Layout::Numbered(_, None), Notation::Text) => format!("{half}[{index}]"),
@@ -189,12 +218,17 @@ impl System {
             ),
             Node::Time => ("t".to_owned(), Strength::Atom),
             Node::Parameter(parameter, indices) => {
-                let name = symbol(&self.parameters[*parameter].name, notation);
-                let indices: Vec<String> = indices.iter().map(index_text).collect();
+                let name = &self.parameters[*parameter].name;
+                let indices = indices.iter().map(|index| index_text(index, notation));
+                let indices: Vec<String> = indices.collect();
                 let text = match (indices.is_empty(), notation) {
-                    (true, _) => name,
+                    (true, _) => symbol(name, notation),
                     (false, Notation::Text) => format!("{name}[{}]", indices.join(", ")),
-                    (false, Notation::Latex) => format!("{name}_{{{}}}", indices.join(",")),
+                    (false, Notation::Latex) => {
+                        let (head, index) = head_and_index(name);
+                        let indices: Vec<String> = index.into_iter().chain(indices).collect();
+                        format!("{head}_{{{}}}", indices.join(","))
+                    }
                 };
                 (text, Strength::Atom)
             }
@@ -419,12 +453,44 @@ fn operator(name: &str, notation: Notation) -> String {
 
 /// A name; in LaTeX a long name is upright.
 fn symbol(name: &str, notation: Notation) -> String {
-    let escaped = name.replace('_', "\\_");
-    match (notation, name.chars().count()) {
-        (Notation::Text, _) => name.to_owned(),
-        (Notation::Latex, 1) => escaped,
-        (Notation::Latex, _) => format!("\\mathrm{{{escaped}}}"),
+    match notation {
+        Notation::Text => name.to_owned(),
+        Notation::Latex => match head_and_index(name) {
+            (head, Some(index)) => format!("{head}_{{{index}}}"),
+            (head, None) => head,
+        },
     }
+}
+
+/// A name in LaTeX. What follows a Greek letter and `_` is an index.
+fn head_and_index(name: &str) -> (String, Option<String>) {
+    let upright = |text: &str| {
+        let escaped = text.replace('_', "\\_");
+        match text.chars().count() {
+            1 => escaped,
+            _ => format!("\\mathrm{{{escaped}}}"),
+        }
+    };
+    let mut letters = name.chars();
+    let first = letters.next().and_then(greek);
+    match (first, letters.as_str(), letters.as_str().strip_prefix('_')) {
+        (Some(letter), "", _) => (format!("\\{letter}"), None),
+        (Some(letter), _, Some(index)) if !index.is_empty() => {
+            (format!("\\{letter}"), Some(upright(index)))
+        }
+        _ => (upright(name), None),
+    }
+}
+
+/// The command of LaTeX for a Greek letter.
+fn greek(letter: char) -> Option<&'static str> {
+    const FROM_ALPHA: &str = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi o pi rho \
+                              varsigma sigma tau upsilon phi chi psi omega";
+    let place = u32::from(letter).checked_sub(u32::from('α'))?;
+    FROM_ALPHA
+        .split(' ')
+        .nth(place as usize)
+        .filter(|name| *name != "o")
 }
 
 fn superscript(digits: &str) -> String {
@@ -483,14 +549,22 @@ pub(crate) fn index_letter(over: LoopId) -> String {
     }
 }
 
-fn index_text(index: &Index) -> String {
+/// The marks of the indices of a pair, and of its number.
+fn primes(notation: Notation) -> [&'static str; 3] {
+    match notation {
+        Notation::Text => ["′", "″", ""],
+        Notation::Latex => ["'", "''", ""],
+    }
+}
+
+fn index_text(index: &Index, notation: Notation) -> String {
     let base = match &index.base {
         Base::Start => return index.offset.to_string(),
         Base::End(Length::Fixed(n)) => n.to_string(),
         Base::End(Length::Generic(name)) => name.clone(),
         Base::End(_) => "n".to_owned(),
         Base::Loop(id) => index_letter(*id),
-        Base::Pair(id, slot) => format!("{}{}", index_letter(*id), ["′", "″", ""][*slot]),
+        Base::Pair(id, slot) => format!("{}{}", index_letter(*id), primes(notation)[*slot]),
     };
     match index.offset {
         0 => base,

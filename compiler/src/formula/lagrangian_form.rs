@@ -17,6 +17,7 @@ pub fn equations(system: &System, notation: Notation) -> Option<Vec<String>> {
     let of = lagrangian.formula;
     let mut parts: Vec<Scatter> = gradient(&mut copy.graph, of, &[], integer(1), Half::Q);
     copy.add_applied(&mut parts);
+    let parts = copy.completed(parts);
     Some(copy.equations(&[(Half::P, parts)], notation))
 }
 

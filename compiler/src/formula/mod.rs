@@ -20,6 +20,7 @@
 //! | whether a formula vanishes | [`modular`] |
 //! | class, kinetic energy, symmetries | [`structure`] |
 //! | the degree of a polynomial, a singular `∂²H/∂p²` | [`degree`], [`hessian`] |
+//! | the equations of motion | [`System::equations_of_motion`] |
 //! | as text, LaTeX and JSON | [`description`], [`display`] |
 //! | the operations of an evaluation, in their order | [`operations`] |
 //! | statements and loops | [`statements`] |
@@ -33,6 +34,7 @@ pub mod description;
 pub mod display;
 pub mod distance;
 pub mod elaborate;
+mod equations;
 mod error;
 pub mod evaluate;
 pub mod function;

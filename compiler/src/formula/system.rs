@@ -181,21 +181,6 @@ impl System {
         !(self.constraints.is_empty() && self.nonholonomic.is_empty())
     }
 
-    /// Adds the applied forces to the parts of `−∂H/∂q`: in the same term if loops and coordinate agree.
-    pub fn add_applied(&mut self, force: &mut Vec<Scatter>) {
-        for applied in &self.applied {
-            let same =
-                |part: &&mut Scatter| part.loops == applied.loops && part.target == applied.target;
-            match force.iter_mut().find(same) {
-                Some(part) => {
-                    let terms = [part.value, applied.value].map(|value| (integer(1), value));
-                    part.value = self.graph.sum(terms);
-                }
-                None => force.push(applied.clone()),
-            }
-        }
-    }
-
     /// An applied force that depends on momenta, if there is one.
     pub fn force_of_momenta(&self) -> Option<Id> {
         let mut values = self.applied.iter().map(|part| part.value);

@@ -354,7 +354,7 @@ fn a_forced_system() {
     );
     expect_file!["emitted/formula_forced.rs"].assert_eq(&formula::code(&read, &structure));
     expect_file!["data/forced.txt"].assert_eq(&description::text(&read, &structure));
-    expect_file!["data/forced.latex"].assert_eq(&description::latex(&read));
+    expect_file!["data/forced.latex"].assert_eq(&description::latex(&read, &structure));
 }
 
 #[test]

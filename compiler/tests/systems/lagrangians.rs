@@ -177,7 +177,7 @@ fn lagrangians_without_a_hamiltonian() {
           \dot{\mathrm{px}} &= -x - \mathrm{vx}\,\mathrm{drag} \\
           \dot{\mathrm{py}} &= -y - \mathrm{vy}\,\mathrm{drag}
         \end{aligned}
-    "#]].assert_eq(&description::latex(&read));
+    "#]].assert_eq(&description::latex(&read, &structure));
     let json = description::json(&read, &structure);
     assert_eq!(json["hamiltonian"], serde_json::Value::Null);
     assert_eq!(json["momenta"]["text"].as_array().map(Vec::len), Some(2));

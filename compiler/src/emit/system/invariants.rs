@@ -52,8 +52,9 @@ impl Emitter<'_> {
         for (name, kind) in found {
             let parts = kind.parts(&mut self.system);
             let what = format!(
-                " The {}, which the exact flow conserves: H has the symmetry.",
-                name.replace('_', " ")
+                " The {}{}, which the exact flow conserves: H has the symmetry.",
+                name.replace('_', " "),
+                kind.in_words(&self.system)
             );
             let known = self
                 .system

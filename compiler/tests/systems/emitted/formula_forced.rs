@@ -5,15 +5,15 @@ H = (1/2) (px² + py²) + y g
 
 x' = px
 y' = py
-py' = −g − py c √(px² + py²)
 px' = sin(t) − px c √(px² + py²)
+py' = −g − py c √(px² + py²)
 ```
 
 $$H = \\tfrac{1}{2}\\,\\left({\\mathrm{px}}^{2} + {\\mathrm{py}}^{2}\\right) + y\\,g$$
 $$\\dot{x} = \\mathrm{px}$$
 $$\\dot{y} = \\mathrm{py}$$
-$$\\dot{\\mathrm{py}} = -g - \\mathrm{py}\\,c\\,\\sqrt{{\\mathrm{px}}^{2} + {\\mathrm{py}}^{2}}$$
 $$\\dot{\\mathrm{px}} = \\sin\\left(t\\right) - \\mathrm{px}\\,c\\,\\sqrt{{\\mathrm{px}}^{2} + {\\mathrm{py}}^{2}}$$
+$$\\dot{\\mathrm{py}} = -g - \\mathrm{py}\\,c\\,\\sqrt{{\\mathrm{px}}^{2} + {\\mathrm{py}}^{2}}$$
 
 Found in the formula: separable, with the kinetic energy |p|²/2; dependent on time; with an applied force that depends on momenta, so steps are those for general systems; a polynomial of degree 2 in positions and momenta.
 */

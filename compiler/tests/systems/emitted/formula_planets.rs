@@ -27,7 +27,7 @@ $$\\dot{p\_{j,1}} \\mathrel{+}= \\left(q\_{i,1} - q\_{j,1}\\right)\\,s\_{1}(i, j
 $$\\dot{p\_{j,2}} \\mathrel{+}= \\left(q\_{i,2} - q\_{j,2}\\right)\\,s\_{1}(i, j)\\quad (0 \\le i \< N,\\; i+1 \\le j \< N)$$
 $$s\_{1}(i, j) = \\frac{G\\,m\_{i}\\,m\_{j}}{{\\left({\\left(q\_{i,0} - q\_{j,0}\\right)}^{2} + {\\left(q\_{i,1} - q\_{j,1}\\right)}^{2} + {\\left(q\_{i,2} - q\_{j,2}\\right)}^{2}\\right)}^{3/2}}$$
 
-Found in the formula: separable, with a kinetic energy of constant masses; independent of time, so H is conserved; `total_momentum` is conserved; `angular_momentum` is conserved.
+Found in the formula: separable, with a kinetic energy of constant masses; independent of time, so H is conserved; `total_momentum` in x, y and z is conserved; `angular_momentum` about x, y and z is conserved.
 */
 #[allow(non_snake_case)]
 #[derive(Clone, Copy, Debug, PartialEq)]
