@@ -373,12 +373,13 @@ impl System {
             let size = factor.abs();
             let term = match size.is_one() {
                 true => held(x, Strength::Product),
-                false => format!(
-                    "{}{}{}",
-                    number(&size, notation).0,
-                    space(notation),
-                    held(x, Strength::Product)
-                ),
+                false => {
+                    let (size, text) = (number(&size, notation).0, held(x, Strength::Product));
+                    match (notation, text.strip_prefix("1/")) {
+                        (Notation::Text, Some(below)) => format!("{size}/{below}"),
+                        _ => format!("{size}{}{text}", space(notation)),
+                    }
+                }
             };
             push(factor.is_negative(), term);
         }

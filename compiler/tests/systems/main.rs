@@ -5,3 +5,4 @@
 mod formula;
 mod formulas;
 mod lagrangians;
+mod names;

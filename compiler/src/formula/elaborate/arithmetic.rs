@@ -24,6 +24,14 @@ impl Elaborator<'_> {
             };
             values.push((sign, self.whole(value), term));
         }
+        if values
+            .iter()
+            .any(|(_, value, _)| matches!(value, Value::Scalar(_)))
+        {
+            for (_, value, _) in &mut values {
+                *value = self.single(value.clone());
+            }
+        }
         let (_, first, _) = &values[0];
         match first.clone() {
             Value::Scalar(_) => {
@@ -65,7 +73,18 @@ impl Elaborator<'_> {
         let mut other: Option<Value> = None;
         for (divide, factor) in factors {
             let value = self.value(factor)?;
-            match (self.whole(value), other.take()) {
+            let mut value = self.whole(value);
+            // Of two vectors one must be a number, so one with a single component is.
+            match (&value, &other) {
+                (Value::Vector(_), _) if *divide => value = self.single(value),
+                (Value::Vector(_), Some(Value::Vector(parts))) if parts.len() == 1 => {
+                    scalars.push((parts[0], integer(1)));
+                    other = None;
+                }
+                (Value::Vector(_), Some(Value::Vector(_))) => value = self.single(value),
+                _ => {}
+            }
+            match (value, other.take()) {
                 (Value::Scalar(id), before) => {
                     if *divide && self.divides_by_zero(id) {
                         return self.error(factor, ErrorKind::DivisionByZero);
@@ -171,6 +190,7 @@ impl Elaborator<'_> {
         let value = self.value(base)?;
         let x = match self.whole(value) {
             Value::Scalar(id) => id,
+            Value::Vector(parts) if parts.len() == 1 => parts[0],
             found => {
                 return self.mismatch(base, &found, "a number (the square of a vector is `|v|^2`)");
             }
@@ -258,12 +278,7 @@ impl Elaborator<'_> {
             };
             return self.error(at, kind);
         }
-        if let Some(user) = self
-            .definition
-            .functions
-            .iter()
-            .position(|[known, ..]| known.text == name)
-        {
+        if let Some(&Value::Function(user)) = self.names.get(name) {
             let x = self.scalar(&arguments[0])?;
             return Ok(Value::Scalar(self.graph.user(user, 0, x)));
         }

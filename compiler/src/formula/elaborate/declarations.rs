@@ -1,10 +1,70 @@
 //! Coordinates and parameters.
 
+use std::collections::HashMap;
+
 use super::super::error::FormulaError;
-use super::super::syntax::{CoordinatesKind, Definition, Form, Length, Name, ParameterKind};
+use super::super::parse::unknown_length;
+use super::super::syntax::{
+    Coordinates, CoordinatesKind, Definition, Form, Length, Name, ParameterKind,
+};
 use super::super::system::{Layout, Parameter, Shape};
 use crate::error::{Error, ErrorKind};
 use crate::expression::Input;
+
+/// Checks that no two of the names that a definition declares for its whole formula are equal.
+pub(super) fn check_names(input: Input<'_>, definition: &Definition) -> Result<(), Error> {
+    let taken = |name: &Name, meaning: &str| {
+        let kind = FormulaError::Taken {
+            name: name.text.clone(),
+            meaning: meaning.to_owned(),
+        };
+        Err(input.error(&name.span, kind.into()))
+    };
+    let [q, p] = [0, 1].map(|half| named(&definition.coordinates[half]));
+    if let ([one], [other]) = (q, p)
+        && one.text == other.text
+        && one.text.starts_with(char::is_uppercase)
+    {
+        // `q: [N], p: [N];` without `<N>`.
+        return Err(unknown_length(input, definition, one));
+    }
+    let parameters = definition.parameters.iter().map(|known| &known.name);
+    let functions = definition.functions.iter().map(|[function, ..]| function);
+    let abbreviations = definition.abbreviations.iter().map(|known| &known.name);
+    let all = (definition.lengths.iter())
+        .map(|name| (name, "a length"))
+        .chain(parameters.map(|name| (name, "a parameter")))
+        .chain(
+            q.iter()
+                .chain(p)
+                .map(|name| (name, coordinate(definition.form))),
+        )
+        .chain(
+            named(&definition.velocities)
+                .iter()
+                .map(|name| (name, "a velocity")),
+        )
+        .chain(functions.map(|name| (name, "a function")))
+        .chain(abbreviations.map(|name| (name, "an abbreviation")));
+    let mut known: HashMap<&str, &str> = HashMap::from([(&*definition.name.text, "the system")]);
+    for (name, meaning) in all {
+        match known.insert(&name.text, meaning) {
+            // Only a length is a name in the type of the system.
+            Some("the system") if meaning != "a length" => {}
+            Some(earlier) => return taken(name, earlier),
+            None => {}
+        }
+    }
+    Ok(())
+}
+
+/// The names of coordinates that have names.
+fn named(coordinates: &Option<Coordinates>) -> &[Name] {
+    match coordinates.as_ref().map(|known| &known.kind) {
+        Some(CoordinatesKind::Named(names)) => names,
+        _ => &[],
+    }
+}
 
 /// The layout of the coordinates, and the names of velocities.
 pub(super) fn layout(
@@ -26,17 +86,6 @@ pub(super) fn layout(
     };
     let (place, found) = match (&q.kind, &p.kind) {
         (CoordinatesKind::Named(q), CoordinatesKind::Named(momenta)) => {
-            let mut names: Vec<&Name> = Vec::new();
-            for name in q.iter().chain(momenta) {
-                if names.iter().any(|known| known.text == name.text) {
-                    let kind = FormulaError::Taken {
-                        name: name.text.clone(),
-                        meaning: coordinate(form).to_owned(),
-                    };
-                    return Err(input.error(&name.span, kind.into()));
-                }
-                names.push(name);
-            }
             if q.len() == momenta.len() {
                 let text = |names: &[Name]| -> Vec<String> {
                     names.iter().map(|name| name.text.clone()).collect()
@@ -103,17 +152,7 @@ fn velocities(input: Input<'_>, definition: &Definition) -> Result<Vec<String>, 
         Err(input.error(&velocities.span, ErrorKind::Type { found, expected }))
     };
     match (&q.kind, &p.kind, &velocities.kind) {
-        (CoordinatesKind::Named(q), CoordinatesKind::Named(p), CoordinatesKind::Named(names)) => {
-            for (k, name) in names.iter().enumerate() {
-                let mut known = q.iter().chain(p).chain(&names[..k]);
-                if known.any(|known| known.text == name.text) {
-                    let kind = FormulaError::Taken {
-                        name: name.text.clone(),
-                        meaning: "a coordinate, momentum or velocity".to_owned(),
-                    };
-                    return Err(input.error(&name.span, kind.into()));
-                }
-            }
+        (CoordinatesKind::Named(q), CoordinatesKind::Named(_), CoordinatesKind::Named(names)) => {
             if q.len() != names.len() {
                 return wrong(format!(
                     "{} velocities for {} positions",
@@ -136,7 +175,7 @@ pub(super) fn coordinate(form: Form) -> &'static str {
     }
 }
 
-/// The names of the momenta in a Lagrangian system: `pa` for `a`, or `p_a`, `p__a`, … if that name is taken.
+/// The names of the momenta in a Lagrangian system: `p` for `q`, `pa` for `a`, or `p_a`, `p__a`, … if that name is taken.
 fn momentum_names(
     definition: &Definition,
     positions: &[String],
@@ -154,6 +193,9 @@ fn momentum_names(
     let pi = "pi".to_owned();
     taken.push(&pi);
     let name = |position: &String| {
+        if position == "q" {
+            return "p".to_owned();
+        }
         let mut momentum = format!("p{position}");
         let mut between = "_".to_owned();
         while taken.contains(&&momentum) {
@@ -169,35 +211,10 @@ pub(super) fn parameters(
     input: Input<'_>,
     definition: &Definition,
     layout: &Layout,
-    velocities: &[String],
 ) -> Result<Vec<Parameter>, Error> {
     let mut parameters: Vec<Parameter> = Vec::new();
-    let taken = |name: &Name, meaning: &str| {
-        let kind = FormulaError::Taken {
-            name: name.text.clone(),
-            meaning: meaning.to_owned(),
-        };
-        Err(input.error(&name.span, kind.into()))
-    };
     for parameter in &definition.parameters {
         let name = &parameter.name;
-        if parameters.iter().any(|known| known.name == name.text) {
-            return taken(name, "a parameter");
-        }
-        if definition
-            .lengths
-            .iter()
-            .any(|length| length.text == name.text)
-        {
-            return taken(name, "a length");
-        }
-        if layout
-            .names()
-            .chain(velocities)
-            .any(|known| *known == name.text)
-        {
-            return taken(name, coordinate(definition.form));
-        }
         let shape = match &parameter.kind {
             ParameterKind::Number(value) => Shape::Number(value.clone()),
             ParameterKind::Pairs => Shape::Pairs,

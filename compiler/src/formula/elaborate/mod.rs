@@ -12,7 +12,7 @@ mod values;
 
 use std::collections::HashMap;
 
-use self::declarations::{coordinate, layout, parameters};
+use self::declarations::{check_names, coordinate, layout, parameters};
 pub use self::totals::STRETCH;
 use super::error::FormulaError;
 use super::graph::{Base, Coordinate, Graph, Half, Id, Index, LoopId, Node};
@@ -44,6 +44,8 @@ enum Value {
     Index(Index),
     /// An abbreviation with arguments.
     Abbreviation(usize),
+    /// A function of the user.
+    Function(usize),
 }
 
 /// Whether momenta are available here.
@@ -59,8 +61,9 @@ enum Momenta {
 /// # Errors
 /// Unknown names, wrong shapes, indices out of range, functions that are not smooth, each at its place.
 pub fn elaborate(input: Input<'_>, definition: &Definition) -> Result<System, Error> {
+    check_names(input, definition)?;
     let (layout, velocities) = layout(input, definition)?;
-    let parameters = parameters(input, definition, &layout, &velocities)?;
+    let parameters = parameters(input, definition, &layout)?;
     let elaborator = Elaborator {
         input,
         definition,
@@ -138,11 +141,17 @@ impl Elaborator<'_> {
             let index = Index::of(Base::End(Length::Generic(length.text.clone())));
             self.names.insert(length.text.clone(), Value::Index(index));
         }
-        for (half, name) in [(Half::Q, "q"), (Half::P, "p")] {
-            self.names.insert(name.to_owned(), Value::Half(half));
+        let velocity = definition.form == Form::Lagrangian || definition.velocities.is_some();
+        let halves = [Half::Q, Half::P]
+            .into_iter()
+            .chain(velocity.then_some(Half::V));
+        for half in halves {
+            // A single coordinate can have this name.
+            let name = self.names.entry(half.letter().to_owned());
+            name.or_insert(Value::Half(half));
         }
-        if definition.form == Form::Lagrangian || definition.velocities.is_some() {
-            self.names.insert("v".to_owned(), Value::Half(Half::V));
+        for (k, [function, ..]) in definition.functions.iter().enumerate() {
+            self.names.insert(function.text.clone(), Value::Function(k));
         }
         for (k, abbreviation) in definition.abbreviations.iter().enumerate() {
             let name = &abbreviation.name;
@@ -174,15 +183,20 @@ impl Elaborator<'_> {
         let friction = self.friction()?;
         let mut invariants: Vec<Invariant> = Vec::new();
         for (name, written) in &definition.invariants {
-            let constructor = name.text == "new";
-            let velocities =
-                definition.form == Form::Lagrangian && name.text == "momentum_of_velocity";
-            if constructor || velocities || invariants.iter().any(|known| known.name == name.text) {
-                let meaning = match (constructor, velocities) {
-                    (true, _) => "what makes a system",
-                    (_, true) => "the function for p = ∂L/∂v",
-                    _ => "an invariant",
-                };
+            let meaning = match name.text.as_str() {
+                "new" => Some("what makes a system"),
+                "momentum_of_velocity" if definition.form == Form::Lagrangian => {
+                    Some("the function for p = ∂L/∂v")
+                }
+                "energy" => Some("the value of H, which is observed"),
+                // The momentum of a cyclic coordinate is observed by its name.
+                text if self.layout.names().any(|known| known == text) => {
+                    Some(coordinate(definition.form))
+                }
+                text if invariants.iter().any(|known| known.name == text) => Some("an invariant"),
+                _ => None,
+            };
+            if let Some(meaning) = meaning {
                 let kind = FormulaError::Taken {
                     name: name.text.clone(),
                     meaning: meaning.to_owned(),
@@ -263,6 +277,12 @@ impl Elaborator<'_> {
             Some(Value::Half(Half::V)) => "the velocities".to_owned(),
             Some(Value::Parameter(_)) => "a parameter".to_owned(),
             Some(Value::Index(_)) => "an index or a length".to_owned(),
+            Some(Value::Function(_)) => "a function".to_owned(),
+            // The formula of a Lagrangian does not name it.
+            Some(value) if self.definition.form == Form::Lagrangian && self.is_momentum(value) => {
+                "the name of a momentum".to_owned()
+            }
+            _ if self.locals.iter().any(|known| known == name) => "an argument".to_owned(),
             _ if self
                 .parameters
                 .iter()

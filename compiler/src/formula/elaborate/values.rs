@@ -5,7 +5,7 @@ use super::{Elaborator, MOST_COMPONENTS, MOST_NODES, Momenta, Value};
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
 use crate::formula::function::ELEMENTARY;
-use crate::formula::graph::{Coordinate, Half, Id, Index, Node};
+use crate::formula::graph::{Base, Coordinate, Half, Id, Index, Loop, LoopRange, Node};
 use crate::formula::parse::{VECTOR_FUNCTIONS, suggestion, unknown_function};
 use crate::formula::syntax::{Expression, Kind, Length, Name};
 use crate::formula::system::{Layout, Shape};
@@ -51,13 +51,23 @@ impl Elaborator<'_> {
             Value::Parameter(k) => format!("the whole parameter `{}`", self.parameters[*k].name),
             Value::Index(_) => "an index".to_owned(),
             Value::Abbreviation(_) => "an abbreviation with arguments".to_owned(),
+            Value::Function(_) => "a function".to_owned(),
         }
     }
 
     pub(super) fn scalar(&mut self, written: &Expression) -> Result<Id, Error> {
-        match self.value(written)? {
+        let value = self.value(written)?;
+        match self.single(value) {
             Value::Scalar(id) => Ok(id),
             other => self.mismatch(written, &other, "a number"),
+        }
+    }
+
+    /// A vector of one component, where a number is meant, as this number; other values as they are.
+    pub(super) fn single(&mut self, value: Value) -> Value {
+        match self.whole(value.clone()) {
+            Value::Vector(parts) if parts.len() == 1 => Value::Scalar(parts[0]),
+            _ => value,
         }
     }
 
@@ -113,6 +123,22 @@ impl Elaborator<'_> {
                     _ => value,
                 }
             }
+            // A length as a number: a sum of ones.
+            Value::Index(Index {
+                base: Base::End(length),
+                offset: 0,
+            }) => {
+                let end = Index::of(Base::End(length.clone()));
+                let range = LoopRange::Between(Index::number(0), end);
+                let one = self.graph.integer(1);
+                match self.graph.add_loop(Loop {
+                    range,
+                    depth: self.loops.len(),
+                }) {
+                    Some(over) => Value::Scalar(self.graph.total(over, one)),
+                    None => value,
+                }
+            }
             _ => value,
         }
     }
@@ -165,7 +191,7 @@ impl Elaborator<'_> {
         })
     }
 
-    fn is_momentum(&self, value: &Value) -> bool {
+    pub(super) fn is_momentum(&self, value: &Value) -> bool {
         match value {
             Value::Half(half) => *half == Half::P,
             Value::Scalar(id) => matches!(
@@ -204,7 +230,7 @@ impl Elaborator<'_> {
             return Ok(value.clone());
         }
         match name {
-            "pi" => return Ok(Value::Scalar(self.graph.pi())),
+            "pi" | "π" => return Ok(Value::Scalar(self.graph.pi())),
             "t" => return Ok(Value::Scalar(self.graph.time())),
             _ => {}
         }
@@ -236,7 +262,13 @@ impl Elaborator<'_> {
             true => Some("exp(x)"),
             false => meant,
         };
-        let known = known.join(", ");
+        let mut known = known.join(", ");
+        if matches!(self.layout, Layout::Numbered(..)) && matches!(name, "N" | "n" | "len") {
+            known.push_str(&format!(
+                "; for the length of `q`: `sum(i: …)` goes over all coordinates, `sum(i: 1)` is their number, and `{}<N>` with `q: [N]` names it",
+                self.definition.name.text
+            ));
+        }
         let known = match meant {
             _ if is_abbreviation => {
                 format!("{known}; its definition, `let {name}`, has to come first")

@@ -15,13 +15,13 @@
 //!            | "friction" ":" expression
 //!            | "invariants" ":" "{" name "=" expression { "," … } "}"
 //!            | "require" ":" "[" names "]"
-//! expression = term { ("+" | "-") term }      term = factor { [ "*" | "/" ] factor }      factor = { "-" } atom [ "^" factor ]
+//! expression = term { ("+" | "-") term }      term = factor { [ "*" | "/" ] factor }      factor = { "-" } atom [ "^" factor | raised ]
 //! atom       = number | name | name "(" list ")" | atom "[" list "]" | "(" expression ")" | "|" expression "|" | "[" list "]"
-//!            | "sum" "(" over ":" expression ")"
+//!            | "√" atom | "sum" "(" over ":" expression ")"
 //! over       = name [ "in" expression ".." expression ] | name "<" name | "bonds" name | [ name "=" ] "(" name "," name ")" "in" name
 //! ```
 //!
-//! Factors that follow one another are multiplied: `2 pa pb cos(d)`.
+//! Factors that follow one another are multiplied: `2 pa pb cos(d)`. Powers and roots may be written as they are printed: `x²`, `√(x + 1)`.
 
 mod form;
 mod statements;
@@ -33,7 +33,7 @@ use num_traits::{One, ToPrimitive, Zero};
 
 pub use self::form::form;
 use self::tokens::{Token, tokenize};
-pub use self::unknown::{suggestion, unknown_function};
+pub use self::unknown::{suggestion, unknown_function, unknown_length};
 use super::error::FormulaError;
 use super::function::Function;
 use super::syntax::{Definition, Expression, Form, Kind, Name, Over, Span};
@@ -43,7 +43,7 @@ use crate::expression::Input;
 /// The deepest nesting of parentheses.
 const MAX_DEPTH: usize = 64;
 /// Words that are not names.
-const KEYWORDS: [&str; 12] = [
+const KEYWORDS: [&str; 13] = [
     "H",
     "q",
     "p",
@@ -51,6 +51,7 @@ const KEYWORDS: [&str; 12] = [
     "pi",
     "let",
     "sum",
+    "in",
     "bonds",
     "extern",
     "fn",
@@ -219,7 +220,7 @@ impl<'a> Parser<'a> {
         let name = self.name(expected)?;
         let meaning = match name.text.as_str() {
             "t" => "the time",
-            "pi" => "the number π",
+            "pi" | "π" => "the number π",
             "q" => "the positions",
             "p" => "the momenta",
             "H" => "the Hamiltonian",
@@ -306,7 +307,7 @@ impl<'a> Parser<'a> {
     /// Whether a factor begins here that multiplies the previous one.
     fn factor_follows(&self) -> bool {
         match self.peek() {
-            Token::Number(_) | Token::Symbol('(') => true,
+            Token::Number(_) | Token::Symbol('(' | '√') => true,
             Token::Symbol('|') => self.in_bars.last() != Some(&true),
             Token::Name(name) => {
                 let other = match self.ahead(1) {
@@ -389,10 +390,20 @@ impl<'a> Parser<'a> {
             });
         }
         let base = self.entry()?;
-        if !self.accept('^') {
-            return Ok(base);
-        }
-        let exponent = self.deeper(Self::factor)?;
+        let exponent = match self.peek().clone() {
+            Token::Raised(number) => {
+                let span = self.span();
+                self.next += 1;
+                if self.is('^') {
+                    let expected = "parentheses around this power: `(x²)^3`";
+                    return Err(self.unexpected(expected));
+                }
+                let kind = Kind::Number(number);
+                Expression { kind, span }
+            }
+            _ if self.accept('^') => self.deeper(Self::factor)?,
+            _ => return Ok(base),
+        };
         let span = start..self.end();
         Ok(Expression {
             kind: Kind::Power(Box::new(base), Box::new(exponent)),
@@ -443,10 +454,20 @@ impl<'a> Parser<'a> {
                 }
                 self.within(['(', ')'], Self::total)?
             }
-            Token::Name(text) if self.calls.contains(&text) || is_function(&text) => {
+            Token::Name(text)
+                if is_function(&text)
+                    || self.calls.contains(&text) && *self.ahead(1) == Token::Symbol('(') =>
+            {
                 self.next += 1;
                 if !self.is('(') {
-                    return Err(self.unexpected(&format!("`(` and the argument of `{text}`")));
+                    let power = match self.peek() {
+                        Token::Symbol('^') | Token::Raised(_) => {
+                            format!(": the square is `{text}(x)^2`")
+                        }
+                        _ => String::new(),
+                    };
+                    let expected = format!("`(` and the argument of `{text}`{power}");
+                    return Err(self.unexpected(&expected));
                 }
                 let arguments = self.within(['(', ')'], |parser| parser.list(')'))?;
                 Kind::Call(Name { text, span }, arguments)
@@ -470,6 +491,18 @@ impl<'a> Parser<'a> {
                     span: start..self.end(),
                     ..inner
                 });
+            }
+            Token::Symbol('√') => {
+                self.next += 1;
+                let name = Name {
+                    text: "sqrt".to_owned(),
+                    span,
+                };
+                let argument = self.deeper(Self::entry)?;
+                if matches!(self.peek(), Token::Symbol('^') | Token::Raised(_)) {
+                    return Err(self.unexpected("parentheses: `√(x²)` or `(√x)²`"));
+                }
+                Kind::Call(name, vec![argument])
             }
             Token::Symbol('[') => Kind::List(self.within(['[', ']'], |parser| parser.list(']'))?),
             Token::Symbol('|') => Kind::Bars(Box::new(self.within(['|', '|'], Self::expression)?)),
@@ -500,14 +533,24 @@ impl<'a> Parser<'a> {
         }
         let index = self.new_name(OVER)?;
         if self.accept('=') {
+            if !self.is('(') {
+                let index = &index.text;
+                return Err(self.unexpected(&format!(
+                    "`in` for a range without its end, `sum({index} in 0..N: …)`, or pairs, `sum({index} = (i, j) in pairs: …)`"
+                )));
+            }
             self.pair_list(Some(index))
         } else if self.accept('<') {
             let other = self.new_name("the other index: `i < j`")?;
             Ok(Over::Pairs(index, other))
         } else if self.accept_word("in") {
             let from = self.expression()?;
-            self.expect('.', "`..`: a range is written `0..N`")?;
-            self.expect('.', "`..`: a range is written `0..N`")?;
+            for _ in 0..2 {
+                self.expect('.', "`..`: a range is written `0..N`")?;
+            }
+            if self.is('=') {
+                return Err(self.unexpected("the index after the last: `0..3` is 0, 1, 2"));
+            }
             Ok(Over::Range(index, Some([from, self.expression()?])))
         } else {
             Ok(Over::Range(index, None))

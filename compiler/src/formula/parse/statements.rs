@@ -3,7 +3,7 @@
 use num_traits::ToPrimitive;
 
 use super::tokens::Token;
-use super::unknown::suggestion;
+use super::unknown::{suggestion, unknown_length};
 use super::{Parser, STATEMENTS, constant};
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
@@ -147,20 +147,8 @@ impl Parser<'_> {
                 } else if definition.parameters.iter().find(pairs).is_some() {
                     Ok(Length::PairsOf(text))
                 } else {
-                    let known = definition.lengths.iter().map(|length| length.text.clone());
-                    let known: Vec<String> = known.collect();
-                    let known = match known.is_empty() {
-                        true => format!("none; write `{}<{text}>`", definition.name.text),
-                        false => known.join(", "),
-                    };
-                    Err(self.input.error(
-                        &span,
-                        ErrorKind::Unknown {
-                            what: "length",
-                            name: text,
-                            known,
-                        },
-                    ))
+                    let name = Name { text, span };
+                    Err(unknown_length(self.input, definition, &name))
                 }
             }
             _ => Err(self.unexpected(EXPECTED)),
@@ -187,7 +175,7 @@ impl Parser<'_> {
                 if definition.coordinates[half].is_some() {
                     return twice(self, &format!("`{word}`"));
                 }
-                definition.coordinates[half] = Some(self.coordinates(definition)?);
+                definition.coordinates[half] = Some(self.coordinates(word, definition)?);
                 // `q: […], p: […];`, or `v: […];`
                 if !self.accept(',') && !self.accept(';') {
                     return Err(self.unexpected("`,` or `;`"));
@@ -320,7 +308,7 @@ impl Parser<'_> {
                 if definition.velocities.is_some() {
                     return twice(self, "`v`");
                 }
-                definition.velocities = Some(self.coordinates(definition)?);
+                definition.velocities = Some(self.coordinates("v", definition)?);
                 if !self.accept(',') && !self.accept(';') {
                     return Err(self.unexpected("`,` or `;`"));
                 }
@@ -430,12 +418,22 @@ impl Parser<'_> {
         Ok(())
     }
 
-    fn coordinates(&mut self, definition: &Definition) -> Result<Coordinates, Error> {
+    /// The coordinates after `letter`, which is also the name of a single one: `q: [q]`.
+    fn coordinates(&mut self, letter: &str, definition: &Definition) -> Result<Coordinates, Error> {
         let open = self.span();
         self.expect('[', "`[`: `[a, b]`, `[N]`, `[N; 3]` or `[..]`")?;
         let is_length = |name: &str| definition.lengths.iter().any(|length| length.text == name);
         let kind = match self.peek() {
-            Token::Name(name) if !is_length(name) => {
+            Token::Name(name) if name == letter && *self.ahead(1) == Token::Symbol(']') => {
+                CoordinatesKind::Named(vec![self.name("a coordinate")?])
+            }
+            Token::Name(name)
+                if match self.ahead(1) {
+                    Token::Symbol(';') => false,
+                    Token::Symbol(',') => true,
+                    _ => !is_length(name),
+                } =>
+            {
                 let mut names = vec![self.new_name("a coordinate")?];
                 while self.accept(',') && !self.is(']') {
                     names.push(self.new_name("a coordinate")?);

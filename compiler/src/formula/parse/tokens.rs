@@ -1,5 +1,6 @@
 //! The tokens of a text.
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
 
 use super::super::syntax::Span;
@@ -14,6 +15,8 @@ pub(super) enum Token {
     Number(BigRational),
     Name(String),
     Symbol(char),
+    /// A raised number: the power in `x²`.
+    Raised(BigRational),
     End,
 }
 
@@ -50,15 +53,34 @@ pub(super) fn tokenize(input: Input<'_>) -> Result<Vec<(Token, Span)>, Error> {
                 false => number_end(text, start),
             };
             Token::Number(number(input, start..position)?)
+        } else if raised(first).is_some() {
+            let end = rest.find(|c| raised(c).is_none());
+            position += end.unwrap_or(rest.len());
+            let digits: String = rest[..position - start]
+                .chars()
+                .filter_map(raised)
+                .collect();
+            match digits.parse::<BigInt>() {
+                Ok(number) => Token::Raised(number.into()),
+                Err(_) => {
+                    let kind = ErrorKind::Syntax {
+                        found: format!("found `{}`", &text[start..position]),
+                        expected: "a whole number as a raised power: `x²`, `x⁻¹`".to_owned(),
+                    };
+                    return Err(input.error(&(start..position), kind));
+                }
+            }
         } else if first.is_alphabetic() || first == '_' {
             // A raw identifier, `r#type`, means the name `type`.
             let begin = start + if rest.starts_with("r#") { 2 } else { 0 };
-            let end = text[begin..].find(|c: char| !(c.is_alphanumeric() || c == '_'));
+            let in_name = |c: char| (c.is_alphanumeric() || c == '_') && raised(c).is_none();
+            let end = text[begin..].find(|c| !in_name(c));
             position = begin + end.unwrap_or(text.len() - begin);
             Token::Name(text[begin..position].to_owned())
-        } else if "+-*/^()[]{},;:|<>=.×·".contains(first) {
+        } else if "+-−*/^()[]{},;:|<>=.×·√".contains(first) {
             position += first.len_utf8();
-            Token::Symbol(first)
+            // The minus sign of printed formulas.
+            Token::Symbol(if first == '−' { '-' } else { first })
         } else {
             let kind = ErrorKind::Syntax {
                 found: format!("found `{first}`"),
@@ -70,4 +92,11 @@ pub(super) fn tokenize(input: Input<'_>) -> Result<Vec<(Token, Span)>, Error> {
     }
     tokens.push((Token::End, text.len()..text.len()));
     Ok(tokens)
+}
+
+/// The digit or the sign that is raised.
+fn raised(c: char) -> Option<char> {
+    const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻";
+    let place = RAISED.chars().position(|known| known == c)?;
+    "0123456789-".chars().nth(place)
 }

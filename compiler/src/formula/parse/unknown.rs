@@ -5,7 +5,7 @@ use super::{Parser, VECTOR_FUNCTIONS, is_function};
 use crate::error::{Error, ErrorKind};
 use crate::expression::Input;
 use crate::formula::function::ELEMENTARY;
-use crate::formula::syntax::Name;
+use crate::formula::syntax::{Definition, Name};
 
 impl Parser<'_> {
     /// The notation here for what is written as in Rust or Python.
@@ -39,6 +39,24 @@ impl Parser<'_> {
             _ => None,
         }
     }
+}
+
+/// The error for a length that is not declared.
+pub fn unknown_length(input: Input<'_>, definition: &Definition, name: &Name) -> Error {
+    let known = definition.lengths.iter().map(|length| length.text.as_str());
+    let known = known.collect::<Vec<_>>().join(", ");
+    let kind = ErrorKind::Unknown {
+        what: "length",
+        name: name.text.clone(),
+        known: match known.as_str() {
+            "" => format!(
+                "none; write `{}<{}>`, or `..` for a length that is known at run time only",
+                definition.name.text, name.text
+            ),
+            _ => known,
+        },
+    };
+    input.error(&name.span, kind)
 }
 
 /// The error for a function that is not known.
