@@ -1,5 +1,6 @@
 //! `symplectic run`
 
+mod advice;
 mod keys;
 mod memory;
 mod method;
@@ -362,7 +363,8 @@ impl Run<'_> {
         }
         let progress = Progress::new(ensemble.trajectories().len());
         let mut rows: Vec<Trajectory> = Vec::with_capacity(ensemble.trajectories().len());
-        let keep = |row| {
+        let keep = |mut row: Trajectory| {
+            row.outcome = row.outcome.map_err(advice::without_calls);
             rows.push(row);
             progress.trajectory();
             ControlFlow::Continue(())
@@ -455,6 +457,7 @@ impl Run<'_> {
             .find_map(|row| row.outcome.as_ref().err().map(|error| (row, error)));
         if let Some((row, error)) = first {
             message.push_str(&format!("trajectory {}: {error}\n", row.trajectory));
+            message.extend(advice::note(error));
         }
         message.extend(self.note_on_times(C::SEPARABLE));
         self.target.write(&results)?;

@@ -22,8 +22,9 @@ pub enum Error {
     /// The iteration for the coupled stages diverged, or converged too slowly. Take a smaller step, or for a stiff
     /// system [`Newton`](crate::solver::Newton) instead of a fixed-point iteration.
     #[error(
-        "step {step} of size {step_size} at time {time}: the stages {}; take a smaller step, or `by_newton()`, if it is not taken yet, for a stiff system without constraints",
+        "step {step} of size {step_size} at time {time}: the stages {}; take a smaller step{}",
         Divergence { residual: *.residual, iterations: *.iterations },
+        if *.newton_may_help { ", or `by_newton()` for a stiff system" } else { "" },
         time = Short(*.time),
         step_size = Short(*.step_size)
     )]
@@ -38,6 +39,8 @@ pub enum Error {
         residual: f64,
         /// Sweeps made.
         iterations: u32,
+        /// Whether Newton's iteration may find the stages: a fixed-point iteration did not, and the system has no constraints.
+        newton_may_help: bool,
     },
 
     /// The iteration for the coupled stages stagnates far above rounding errors, because evaluations are noisy.
@@ -85,7 +88,7 @@ pub enum Error {
 
     /// A linear system of the Newton iteration for the coupled stages has a pivot that is zero or not finite.
     #[error(
-        "step {step} of size {step_size} at time {time}: a matrix of the Newton iteration is singular; take another step size",
+        "step {step} of size {step_size} at time {time}: a matrix of the Newton iteration is singular; take a smaller step",
         time = Short(*.time),
         step_size = Short(*.step_size)
     )]
@@ -617,11 +620,11 @@ pub enum Error {
         iterations: u32,
     },
 
-    /// A Lagrangian, discrete or continuous, is singular: the momentum at the start of the step does not determine the
-    /// position at its end.
+    /// The equations of a step of a Lagrangian, discrete or continuous, are singular: at an iterate, because the step is too large, or
+    /// everywhere, because the momentum at the start of the step does not determine the position at its end.
     #[error(
-        "step {step} of size {step_size} at time {time}: the Lagrangian does not determine component {component} at the end of the step \
-         (pivot {pivot:e}); take a Lagrangian that determines every velocity, or keep away from this position. If ∂²L/∂v∂v is singular, \
+        "step {step} of size {step_size} at time {time}: the equations of the step do not determine component {component} at its end \
+         (pivot {pivot:e}); take a smaller step, or a Lagrangian that determines every velocity. If ∂²L/∂v∂v is singular, \
          `primary_constraints` returns the constraints on the momenta, and `DiracIntegrator` steps such a Lagrangian",
         time = Short(*.time),
         step_size = Short(*.step_size)

@@ -15,6 +15,9 @@ use crate::system::System;
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Takes one step and returns the state after it.
     ///
+    /// A step that fails from what earlier steps left, such as extrapolated stages, is taken once more as the first step of a new
+    /// integrator: see [`Statistics::rejected`](crate::Statistics::rejected).
+    ///
     /// # Errors
     ///
     /// [`Error::NoConvergence`], [`Error::NonFinite`], [`Error::EvaluationDimension`], [`Error::TimeResolution`]; with
@@ -106,7 +109,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     pub(super) fn fail(&mut self, size: f64, failure: Option<Failure>) -> Error {
         let number = self.step_memory.statistics.steps + 1;
         let (step, outcome, memory) = self.step_memory.lend(size);
-        let attempt = Attempt::of(&step, number);
+        let attempt = Attempt::of(&step, number).with_solver::<V, S, N>();
         let mut fault = FirstFault::new(attempt.dimension);
         if failure.is_none() {
             <PlanOf<M, S, V> as Plan>::observe::<R, V, S, N, FirstFault>(

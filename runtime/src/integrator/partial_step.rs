@@ -63,7 +63,7 @@ impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S, V, 
             },
         );
         taken.map(|_| ()).map_err(|failure| {
-            let attempt = Attempt::of(&step, integrator.steps());
+            let attempt = Attempt::of(&step, integrator.steps()).with_solver::<V, S, N>();
             let fault = FirstFault::new(attempt.dimension);
             attempt.error(Some(failure), &fault, &self.memory, &state.q)
         })

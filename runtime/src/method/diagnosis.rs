@@ -2,8 +2,9 @@
 
 use crate::error::{Error, Quantity};
 use crate::method::storage::is_finite;
-use crate::method::{EvaluationObserver, Failure, StageStorage, Step};
+use crate::method::{EvaluationObserver, Failure, Solver, StageStorage, Step};
 use crate::number::Vector;
+use crate::system::{Class, System};
 
 /// A fault of an evaluation.
 #[derive(Clone, Copy)]
@@ -83,6 +84,8 @@ pub(crate) struct Attempt {
     pub step: u64,
     /// Dimension of the state.
     pub dimension: usize,
+    /// Whether Newton's iteration may find the stages.
+    pub newton_may_help: bool,
 }
 
 impl Attempt {
@@ -93,6 +96,16 @@ impl Attempt {
             step_size: step.size,
             step: number,
             dimension: step.q.dimension(),
+            newton_may_help: false,
+        }
+    }
+
+    /// The same step with this solver and class.
+    pub(crate) fn with_solver<V: Vector, S: System<V>, N: Solver<V, S>>(self) -> Self {
+        Self {
+            // Without memory there is none.
+            newton_may_help: cfg!(feature = "alloc") && !N::IS_NEWTON && !S::Class::CONSTRAINED,
+            ..self
         }
     }
 
@@ -110,6 +123,7 @@ impl Attempt {
             step_size,
             step,
             dimension,
+            newton_may_help,
         } = self;
         let mismatch = observed.mismatch().or_else(|| stages.mismatch(dimension));
         if let Some((what, stage, found)) = mismatch {
@@ -138,6 +152,7 @@ impl Attempt {
                 step,
                 residual,
                 iterations,
+                newton_may_help,
             },
             Failure::Stagnation {
                 residual,

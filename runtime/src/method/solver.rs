@@ -20,6 +20,9 @@ use crate::system::System;
 ///
 /// [`FixedPoint`](crate::solver::FixedPoint) is available for every system.
 pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
+    /// Whether it takes steps by Newton's iteration, always or if another one fails.
+    const IS_NEWTON: bool = false;
+
     /// Whether a new integrator tests if the velocity is [linear](Step::linear_velocity) in the momentum.
     const TRIES_LINEARITY: bool = false;
 

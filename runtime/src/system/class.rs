@@ -30,6 +30,9 @@ pub trait Class: sealed::Sealed + Clone + 'static {
     /// Whether there is friction that is not part of the force.
     #[doc(hidden)]
     const FRICTION: bool = false;
+    /// Whether there are constraints.
+    #[doc(hidden)]
+    const CONSTRAINED: bool = false;
 }
 
 /// A class without constraints: [`General`], [`Separable`] or [`Damped`].
@@ -170,6 +173,7 @@ pub struct Constrained<C>(PhantomData<C>);
 #[cfg(feature = "alloc")]
 impl<C: Class + Unconstrained> Class for Constrained<C> {
     type Plan<M: Method> = ConstrainedPlan<M, C>;
+    const CONSTRAINED: bool = true;
     const SEPARABLE: bool = {
         assert!(
             !C::FRICTION,
@@ -225,6 +229,7 @@ pub struct Nonholonomic<C>(PhantomData<C>);
 #[cfg(feature = "alloc")]
 impl<C: Class + Unconstrained> Class for Nonholonomic<C> {
     type Plan<M: Method> = NonholonomicPlan<M, C>;
+    const CONSTRAINED: bool = true;
     const SEPARABLE: bool = {
         assert!(
             !C::FRICTION,

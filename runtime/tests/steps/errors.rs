@@ -3,17 +3,27 @@
 use std::cell::Cell;
 use std::marker::PhantomData;
 
+use crate::common;
 use crate::common::systems::{Pendulum, Product, point};
 
 use crate::common::methods::{Gauss2, Lobatto3, Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1};
-use symplectic::solver::FixedPoint;
+use symplectic::solver::{FixedPoint, FixedPointThenNewton};
 use symplectic::{
     Class, Error, General, Integrator, Method, ProvedFor, Quantity, Separable, State, System,
     Vector, acceleration, hamiltonian, separable,
 };
 
 type Point = Vector1<f64>;
+
+symplectic::tableau! { Rattle { base: lobatto-2 } }
+
+symplectic::hamiltonian! {
+    /// A point on a circle.
+    Rotor q: [x, y], p: [px, py];
+    H = (px^2 + py^2)/2
+    constraints: { rod = x^2 + y^2 - 1 }
+}
 
 /// A damped oscillator, by hand.
 struct Declared<const FORCED: bool, C>(PhantomData<C>);
@@ -142,10 +152,12 @@ fn divergence_is_reported_and_harmless() -> Result<(), Error> {
         step,
         residual,
         iterations,
+        newton_may_help,
     } = error
     else {
         panic!("{error}");
     };
+    assert!(newton_may_help);
     assert_eq!((time, step_size, step), (0.0, 0.1, 1));
     assert!(residual.is_finite() && residual > 0.1, "{residual}");
     assert!(iterations > 100 && iterations <= 200, "{iterations}");
@@ -428,18 +440,55 @@ fn messages_say_what_where_and_what_to_do() {
         "step 16 of size 0.1 at time 1.5: the force at stage 2 is not finite; take a smaller step, \
          or keep the state where the system is defined"
     );
-    let error = Error::NoConvergence {
-        time: 0.0,
-        step_size: 0.1,
-        step: 1,
-        residual: 0.25,
-        iterations: 200,
+    let message = |newton_may_help| {
+        let error = Error::NoConvergence {
+            time: 0.0,
+            step_size: 0.1,
+            step: 1,
+            residual: 0.25,
+            iterations: 200,
+            newton_may_help,
+        };
+        error.to_string()
     };
+    let plain = "step 1 of size 0.1 at time 0: the stages did not converge in 200 iterations (last relative change 2.5e-1); take a smaller step";
+    assert_eq!(message(false), plain);
     assert_eq!(
-        error.to_string(),
-        "step 1 of size 0.1 at time 0: the stages did not converge in 200 iterations \
-         (last relative change 2.5e-1); take a smaller step, or `by_newton()`, if it is not taken yet, for a stiff system without constraints"
+        message(true),
+        format!("{plain}, or `by_newton()` for a stiff system")
     );
+}
+
+/// Newton's iteration is advised where it is another one, and possible.
+#[test]
+fn newton_is_advised_only_where_it_may_help() -> Result<(), Error> {
+    let advised = |outcome: Result<(), Error>| {
+        let text = outcome.expect_err("the step is too large").to_string();
+        assert!(text.contains("; take a smaller step"), "{text}");
+        text.contains("by_newton")
+    };
+    let made = || Integrator::new(Midpoint, Product, point(0.5, 0.3), 1000.0);
+    let stiff = made()?;
+    assert!(advised(stiff.clone().step().map(|_| ())));
+    let mut newton = stiff.clone().by_newton();
+    newton.set_max_iterations(2);
+    assert!(!advised(newton.step().map(|_| ())));
+    let mut both = stiff.with_solver(<FixedPointThenNewton>::new());
+    both.set_max_iterations(2);
+    assert!(!advised(both.step().map(|_| ())));
+    // The step is found by Newton's iteration; its stages are not.
+    let staged = made()?.by_newton().step_with_stages();
+    assert!(!advised(staged.map(|_| ())));
+    let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 1.0]);
+    let mut constrained = Integrator::new(Rattle, Rotor, start, 1.5)?;
+    assert!(!advised(constrained.step().map(|_| ())));
+    let tableau = common::tableau(Midpoint);
+    let mut at_run_time = Integrator::at_run_time(&tableau, Product, point(0.5, 0.3), 1000.0)?;
+    assert!(advised(at_run_time.step().map(|_| ())));
+    let mut newton = at_run_time.by_newton();
+    newton.set_max_iterations(2);
+    assert!(!advised(newton.step().map(|_| ())));
+    Ok(())
 }
 
 /// What a step has begun to change is not used by the next one if the system panics.

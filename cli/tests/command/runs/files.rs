@@ -150,3 +150,29 @@ fn tables_are_the_same_as_parquet_and_as_csv() {
     // Two trajectories at five times; of the third what it reached, and its end.
     assert!(count > 11 && count == lines.len(), "{count}");
 }
+
+/// A file has no key for Newton's iteration: neither the message nor a file of results advises the call.
+#[test]
+fn an_iteration_that_diverges_has_advice_for_files() {
+    let folder = folder("diverges");
+    let setup = "system = \"Osc q: [x], p: [px]; H = px^2/2 + 1e6 x^2/2\"\nmethod = \"gauss-2\"\nstep_size = 0.1\nend = 10\n\
+                 starts = { x = 1, px = 0 }\n";
+    for name in ["t.csv", "t.npz"] {
+        let output = call(&folder, &format!("{setup}output.file = \"{name}\"\n"), &[]);
+        let said = String::from_utf8_lossy(&output.stdout);
+        assert!(said.contains("did not converge"), "{said}");
+        assert!(
+            said.contains("; take a smaller step\nnote: the key is `step_size`"),
+            "{said}"
+        );
+        let file = fs::read(folder.join(name)).expect("the results");
+        let file = String::from_utf8_lossy(&file);
+        assert!(
+            file.contains("did not converge") || name == "t.npz",
+            "{file}"
+        );
+        for text in [&said, &file] {
+            assert!(!text.contains("by_newton"), "{text}");
+        }
+    }
+}

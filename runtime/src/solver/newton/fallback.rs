@@ -152,6 +152,8 @@ where
     S: System<V>,
     L: LinearSolver<V, S>,
 {
+    const IS_NEWTON: bool = true;
+
     type Memory<P: StageTableau> =
         FixedPointThenNewtonMemory<P::Stages<V>, <Newton<L> as Solver<V, S>>::Memory<P>>;
     type AtRunTime<C: Class> = FixedPointThenNewtonMemory<

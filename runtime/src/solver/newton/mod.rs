@@ -115,6 +115,8 @@ impl<L> Default for Newton<L> {
 }
 
 impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Solver<V, S> for Newton<L> {
+    const IS_NEWTON: bool = true;
+
     type Memory<P: StageTableau> = NewtonMemory<V, Emitted<P>, S, L>;
     type AtRunTime<C: Class> = NewtonMemory<V, OfTableau<C>, S, L>;
 
