@@ -365,6 +365,12 @@ where
         self.controller.step_size()
     }
 
+    /// The step density z, positive: `z_{n+1/2}` of the last step, whose size was `ε/z`. Before the first step, and after
+    /// [`set_state`](Self::set_state), `1/σ(q)`.
+    pub const fn step_density(&self) -> f64 {
+        self.controller.density
+    }
+
     /// Number of steps taken.
     pub const fn steps(&self) -> u64 {
         self.integrator.steps()

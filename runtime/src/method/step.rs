@@ -91,7 +91,7 @@ impl Span {
 
 /// A stage of a completed step.
 #[derive(Clone, Copy, Debug)]
-pub struct StageView<'a, V> {
+pub struct StageView<'a, V: Vector> {
     /// `h b_i`
     pub weight: f64,
     /// `h b̃_i`
@@ -104,6 +104,10 @@ pub struct StageView<'a, V> {
     pub q: &'a V,
     /// Momentum `P_i`.
     pub p: &'a V,
+    /// `h b_i Λ_i` of each holonomic constraint; empty without any.
+    pub impulses: &'a [V::Scalar],
+    /// `h b_i` of these, or `h` at a stage of weight zero.
+    pub impulse_weight: f64,
 }
 
 /// Where the result of a step is written; the old values are ignored.

@@ -13,7 +13,7 @@ use crate::system::{Class, System};
 
 /// A stage of a step, with the evaluations there.
 #[derive(Clone, Debug, PartialEq)]
-pub struct StageOfStep<V> {
+pub struct StageOfStep<V: Vector> {
     /// `h b_i`
     pub weight: f64,
     /// `h b̃_i`, equal to `weight` except for splittings.
@@ -32,16 +32,22 @@ pub struct StageOfStep<V> {
     pub force: V,
     /// The [applied force](crate::Hamiltonian::applied_force) f there.
     pub applied: V,
+    /// The multiplier `Λ_i` of each holonomic constraint: at this stage the constraints change the momentum by `−h b_i G(Q_i)ᵀΛ_i`, with 1
+    /// in place of a weight zero, as the last one of symplectic Euler. Empty without holonomic constraints.
+    ///
+    /// With s stages they have order s − 1 (Jay, 1996); those of [`constraint_force`](crate::constraint_force) have the order of the state.
+    /// Non-holonomic constraints have impulses at both ends of a step, not at its stages.
+    pub multipliers: Vec<V::Scalar>,
 }
 
 /// The stages of the tableau, or for a composition those of all its steps. Returned by [`Integrator::step_with_stages`] and by the methods
 /// of this name for Lagrangians.
 #[derive(Clone, Debug, PartialEq)]
-pub struct StagesOfStep<V> {
+pub struct StagesOfStep<V: Vector> {
     stages: Vec<StageOfStep<V>>,
 }
 
-impl<V> StagesOfStep<V> {
+impl<V: Vector> StagesOfStep<V> {
     pub(super) const fn new(stages: Vec<StageOfStep<V>>) -> Self {
         Self { stages }
     }
@@ -202,6 +208,9 @@ fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
             velocity,
             force,
             applied,
+            multipliers: (view.impulses.iter())
+                .map(|&impulse| impulse / V::Scalar::from_f64(view.impulse_weight))
+                .collect(),
         });
     };
     let shown =
@@ -223,6 +232,8 @@ fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
                     momentum_time: step.at(c_tilde),
                     q,
                     p,
+                    impulses: &[],
+                    impulse_weight: step.size,
                 });
             }
         }

@@ -30,6 +30,29 @@ fn assert_near(found: f64, expected: f64) {
     );
 }
 
+/// `h = ε/z`, and between steps z is kicked by `ε G` with `G = −∇σ·q'/σ = −3/2 q·p/|q|²`.
+#[test]
+fn the_step_density_is_that_of_the_last_step() -> Result<(), Error> {
+    const EPSILON: f64 = 0.05;
+    let mut run = leapfrog(EPSILON)?;
+    let at_start = pericentre(0.9).q.norm().powf(-1.5);
+    assert!((run.step_density() / at_start - 1.0).abs() < 4.0 * f64::EPSILON);
+    run.step()?;
+    for _ in 0..100 {
+        let (before, density) = (run.state().clone(), run.step_density());
+        let time = run.step()?.time;
+        let rate = -1.5 * before.q.dot(&before.p) / before.q.norm_squared();
+        let expected = density + EPSILON * rate;
+        // Some roundings of terms no larger than the density at the pericentre.
+        let error = (run.step_density() - expected).abs();
+        assert!(error < 16.0 * f64::EPSILON * at_start, "{error:e}");
+        assert_eq!(run.step_size(), EPSILON / run.step_density());
+        // The times are rounded.
+        assert!((time - before.time - run.step_size()).abs() < 4.0 * f64::EPSILON * time);
+    }
+    Ok(())
+}
+
 /// The figures of an independent program, to two digits: 8.8e-4, 6.9e-4, 7.6e-4, and 1.2e-3, 6.8e-2, 0.18.
 #[test]
 fn the_energy_does_not_drift_and_with_steps_by_the_state_before_it_does() -> Result<(), Error> {

@@ -52,6 +52,49 @@ fn multipliers_in_closed_form() -> Result<(), Error> {
     Ok(())
 }
 
+/// `p1 = p0 + Σ h b_i (force_i − G(Q_i)ᵀΛ_i)`, for a composition over the stages of all its steps, also with a weight zero. The first
+/// multipliers of small steps are near those at the state.
+#[test]
+fn multipliers_of_stages_give_the_momentum_after_the_step() -> Result<(), Error> {
+    fn check<M>(method: M, stages: usize) -> Result<(), Error>
+    where
+        M: Method + ProvedFor<Constrained<Separable>>,
+    {
+        let size = 1.0 / 64.0;
+        let mut run = Integrator::new(method, DoubleSpherical, double_start(), size)?;
+        for _ in 0..10 {
+            let before = run.state().clone();
+            let at_start = constraint_force(&DoubleSpherical, &before)?.multipliers;
+            let step = run.step_with_stages()?;
+            assert_eq!(step.stages().len(), stages, "{}", M::NAME);
+            let mut p = before.p;
+            for stage in step.stages() {
+                let multipliers = Vector2::from_column_slice(&stage.multipliers);
+                // A composition has at most one other size.
+                let weight = match stage.force_weight {
+                    0.0 => size,
+                    weight => weight,
+                };
+                p += stage.force * stage.force_weight;
+                p -= gradients(&stage.q).transpose() * multipliers * weight;
+                for (found, at_start) in stage.multipliers.iter().zip(&at_start) {
+                    // Over a step the multipliers change by about 4 h; those of compositions with steps back by more.
+                    assert!((found - at_start).abs() < 0.5, "{}", M::NAME);
+                }
+            }
+            // The momenta are below 4; a few roundings in each of the stages.
+            let error = (p - run.state().p).amax();
+            assert!(error < 64.0 * f64::EPSILON, "{}: {error:e}", M::NAME);
+        }
+        Ok(())
+    }
+    check(Rattle, 2)?;
+    check(Lobatto4, 4)?;
+    check(Rattle4, 6)?;
+    check(Euler, 2)?;
+    check(AdjointEuler, 2)
+}
+
 /// The multipliers at four times up to `end`.
 fn along<M, S, C, V>(method: M, system: S, start: &State<V>, (end, steps): (f64, u32)) -> Vec<f64>
 where

@@ -12,7 +12,7 @@ use super::of_dimension::place_of_resized;
 use super::resolution::Resolution;
 use crate::error::Quantity;
 use crate::method::storage::first_non_finite;
-use crate::method::{Method, StageStorage};
+use crate::method::{ConstrainedTableau, Method, StageStorage};
 use crate::number::{Scalar, Vector, Visit, scalar_words, vector_words};
 use crate::system::{Class, Gradients, System, Terms};
 
@@ -112,6 +112,17 @@ impl<V: Vector> Workspace<V> {
             terms: vec![Terms::default(); constraints],
             scratch: array::from_fn(|_| q.zeros_like()),
         }
+    }
+}
+
+impl<V: Vector> Workspace<V> {
+    /// The impulses of the constraints at a stage of the last step.
+    pub(super) fn impulses_at(&self, tableau: &ConstrainedTableau, stage: usize) -> &[V::Scalar] {
+        if stage + 1 == tableau.weights.len() {
+            return &self.last_impulse.multipliers;
+        }
+        let constraints = self.multipliers.len();
+        &self.impulses[stage * constraints..][..constraints]
     }
 }
 

@@ -141,7 +141,9 @@ impl<V: Vector> ConstrainedStages<V> {
                 stopping,
                 here,
             );
-            show_stages::<V, S>(tableau, part, (&workspace.q, &workspace.p), &mut show);
+            let places = (&workspace.q[..], &workspace.p[..]);
+            let impulses = |stage| workspace.impulses_at(tableau, stage);
+            show_stages::<V, S>(tableau, part, places, impulses, &mut show);
             taken
         };
         let place = |substep: &ConstrainedStep| (substep.start, substep.fraction);

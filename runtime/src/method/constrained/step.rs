@@ -504,12 +504,13 @@ const fn depends_on_the_start(failure: &Failure) -> bool {
     )
 }
 
-/// Shows the stages of a completed step.
+/// Shows the stages of a completed step, with the impulses of the constraints at each.
 #[inline]
-pub(in crate::method) fn show_stages<V: Vector, S: System<V>>(
+pub(in crate::method) fn show_stages<'s, V: Vector, S: System<V>>(
     tableau: &ConstrainedTableau,
     step: &Step<'_, V>,
     (q, p): (&[V], &[V]),
+    impulses: impl Fn(usize) -> &'s [V::Scalar],
     show: &mut impl FnMut(StageView<'_, V>),
 ) {
     let mut last = 0;
@@ -524,6 +525,11 @@ pub(in crate::method) fn show_stages<V: Vector, S: System<V>>(
             momentum_time: step.at(tableau.momentum_nodes[i]),
             q,
             p: &p[last],
+            impulses: impulses(i),
+            impulse_weight: match weight.double() {
+                0.0 => step.size,
+                weight => step.size * weight,
+            },
         });
     }
 }

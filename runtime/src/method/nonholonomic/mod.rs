@@ -144,7 +144,8 @@ impl<V: Vector> NonholonomicStages<V> {
             let taken =
                 workspace.take::<R, _>(tableau, part, system, kept.evaluation, stopping, here);
             let places = (&workspace.q[..], &workspace.p[..]);
-            show_stages::<V, RowsAsGradients<'_, S>>(tableau, part, places, &mut show);
+            // The impulses are at the ends of the step.
+            show_stages::<V, RowsAsGradients<'_, S>>(tableau, part, places, |_| &[], &mut show);
             taken
         };
         let place = |substep: &ConstrainedStep| (substep.start, substep.fraction);

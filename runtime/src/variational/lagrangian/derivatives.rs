@@ -114,6 +114,7 @@ impl<L: Lagrangian> Derivatives<L> {
             velocity,
             force: vector(&self.rate),
             applied,
+            multipliers: Vec::new(),
         }
     }
 
