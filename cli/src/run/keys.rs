@@ -22,7 +22,7 @@ pub(super) fn key_of(text: &str, span: &Range<usize>) -> Option<Range<usize>> {
 }
 
 /// The keys of a file that are not tables.
-const OF_FILE: [&str; 10] = [
+const OF_FILE: [&str; 13] = [
     "system",
     "method",
     "step_size",
@@ -31,7 +31,10 @@ const OF_FILE: [&str; 10] = [
     "times",
     "section",
     "sums",
+    "solver",
     "accept_lower_order",
+    "skip_impossible_starts",
+    "warn_energy_error",
     "random",
 ];
 
@@ -56,6 +59,10 @@ pub(super) fn explained(text: &str, span: &Range<usize>, message: &str) -> Strin
             }
             None => format!("there is no key `{name}`"),
         };
+    }
+    if message == "duplicate key" {
+        let name = text.get(span.clone()).unwrap_or_default();
+        return format!("the key `{name}` is given twice: leave out one of the two");
     }
     let Ok(table) = DeTable::parse(text) else {
         return message.to_owned();
@@ -165,8 +172,10 @@ fn in_words(expected: &str) -> &str {
         "a boolean" => "`true` or `false`",
         "a sequence" => "a list",
         "a map" => "a table",
-        "struct Output" => "a table with the key `file`",
-        "struct Random" => "a table such as `{ seed = 1, count = 1000 }`",
+        output if output.starts_with("struct Output") => "a table with the key `file`",
+        random if random.starts_with("struct Random") => {
+            "a table such as `{ seed = 1, count = 1000 }`"
+        }
         other => other,
     }
 }

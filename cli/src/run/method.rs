@@ -26,11 +26,8 @@ impl Method {
         max_stages: Option<u16>,
     ) -> Result<Self, Error> {
         let span = setup.method.span();
-        let placed = |error: Error| match error.place {
-            None => file.at(span.clone(), *error.kind),
-            Some(_) => error,
-        };
-        let tableau = derive(file, setup.method.get_ref(), max_stages).map_err(placed)?;
+        let tableau = derive(file, setup.method.get_ref(), max_stages)
+            .map_err(|error| file.placed(span, error))?;
         let report = tableau.orders();
         let order = |class| u32::try_from(report.class(class).order).unwrap_or(u32::MAX);
         let orders = Orders {

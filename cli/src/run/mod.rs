@@ -1,6 +1,9 @@
 //! `symplectic run`
 
 mod advice;
+mod derived;
+mod expression;
+mod integrate;
 mod keys;
 mod memory;
 mod method;
@@ -8,47 +11,40 @@ mod output;
 mod parameters;
 mod progress;
 mod random;
+mod resume;
 mod section;
 mod setup;
 mod spec;
 mod starts;
+mod summary;
+mod surface;
 mod system;
 mod table;
 mod tape;
 mod target;
+mod trajectory;
 mod unroll;
 mod values;
 
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::Args;
-use symplectic::ensemble::{Ensemble, EnsembleError, Row};
-use symplectic::nalgebra::DVector;
-use symplectic::output::Interpolation;
-use symplectic::system::Conservative;
-use symplectic::{
-    AtRunTime, Class, Compensated, Error as RunError, General, Hamiltonian, Integrator, Plain,
-    Separable, State, Summation,
-};
+use symplectic::{General, Separable};
 use symplectic_compiler::export::read_text;
 use symplectic_compiler::formula::{Form, Structure, System};
 use symplectic_compiler::{Error, ErrorKind};
-use toml::Spanned;
 
+use self::derived::{Completed, Completion};
+use self::expression::Names;
 use self::method::Method;
-use self::output::{Facts, Results, Seen, Trajectory, append};
-use self::progress::Progress;
 use self::section::Section;
-use self::setup::{File, Setup, Starts, Sums};
-use self::starts::{Coordinates, Reader, Start};
-use self::system::{Formula, Tapes};
-use self::tape::Parameters;
+use self::setup::{File, Setup, Starts};
+use self::starts::{Coordinates, Reader};
+use self::system::Tapes;
 use self::target::Target;
 use self::unroll::{MOST_STEPS, Refusal};
-use crate::output::print;
 
 /// Integrate an ensemble of trajectories of a system given by its formula.
 ///
@@ -68,6 +64,15 @@ pub(crate) struct Arguments {
     /// Largest number of stages of the method [default: 36].
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u16).range(1..=1000))]
     max_stages: Option<u16>,
+    /// Continue an interrupted run, whose finished trajectories are in `OUTPUT.resume`; without this file, start from the beginning.
+    #[arg(long)]
+    resume: bool,
+    /// Seconds between two times at which finished trajectories are saved.
+    #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = clap::value_parser!(u32))]
+    save_every: u32,
+    /// Write the progress to standard error every ten seconds, even if it is not a terminal.
+    #[arg(long)]
+    progress: bool,
 }
 
 /// One of several parts.
@@ -86,9 +91,6 @@ fn shard(text: &str) -> Result<Shard, String> {
         .ok_or_else(|| "expected a part and a number of parts, such as 0/4, up to 3/4".to_owned())
 }
 
-type Vector = DVector<f64>;
-type States = Vec<State<Vector>>;
-
 /// A run, except for the types that depend on the formula.
 struct Run<'a> {
     file: &'a File<'a>,
@@ -98,7 +100,9 @@ struct Run<'a> {
     tapes: Arc<Tapes>,
     times: Option<Vec<f64>>,
     section: Option<Section>,
-    shard: Option<Shard>,
+    arguments: &'a Arguments,
+    /// The number of starts that are left out.
+    skipped: usize,
     target: Target,
 }
 
@@ -112,13 +116,32 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let (mut system, structure) = read_system(&file, &setup)?;
     let method = Method::read(&file, &setup, arguments.max_stages)?;
     let times = times(&file, &setup)?;
+    if let Some(solver) = &setup.solver
+        && structure.split.is_ok()
+        && method.tableau.is_explicit()
+    {
+        let message = format!(
+            "`{}` is explicit for this H, so its stages need no iteration: leave out `solver`, or take an implicit method",
+            method.tableau.name()
+        );
+        return Err(file.error(solver.span(), message));
+    }
+    if let Some(bound) = &setup.warn_energy_error
+        && !(*bound.get_ref() >= 0.0)
+    {
+        let message = format!(
+            "`warn_energy_error` is {}: it must be a number from 0, or `inf` for no warning",
+            bound.get_ref()
+        );
+        return Err(file.error(bound.span(), message));
+    }
     parameters::check_names(&file, &setup, &system)?;
     let reader = Reader {
         file: &file,
         system: &system,
         setup: &setup,
     };
-    let (coordinates, starts) = reader.read()?;
+    let (coordinates, given) = reader.read()?;
     let bodies = coordinates.dimension() / system.layout.components().max(1);
     let values = parameters::read(&file, &setup, &system, bodies, &coordinates.parameters)?;
     let tapes = Tapes::new(&mut system, &structure, &values).map_err(|refusal| {
@@ -130,6 +153,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         };
         file.error(setup.system.span(), message)
     })?;
+    let further = parameters::further(&file, &setup, &system, &coordinates)?;
+    let completion = Completion {
+        file: &file,
+        setup: &setup,
+        coordinates: &coordinates,
+        names: Names {
+            file: &file,
+            setup: &setup,
+            values: &values,
+            further: &further,
+        },
+        tapes: &tapes,
+    };
+    let Completed { starts, skipped } = completion.complete(given)?;
     if let Some(threads) = arguments.threads {
         // The global pool can be set only once per process, and this is the only call.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
@@ -160,8 +197,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         tapes: Arc::new(tapes),
         times,
         section,
-        shard: arguments.shard,
-        target: Target::open(path)?,
+        arguments,
+        skipped,
+        target: Target::open(path).map_err(|error| file.placed(setup.output.file.span(), error))?,
     };
     match structure.split {
         Ok(_) => run.with_class::<Separable>(starts),
@@ -312,212 +350,6 @@ fn times(file: &File<'_>, setup: &Setup) -> Result<Option<Vec<f64>>, Error> {
         )),
     }
 }
-
-impl Run<'_> {
-    fn with_class<C: Class + Conservative>(self, starts: Vec<Start>) -> Result<ExitCode, Error>
-    where
-        Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>,
-    {
-        match self.setup.sums {
-            Sums::Compensated => self.integrate::<C, Compensated>(starts),
-            Sums::Plain => self.integrate::<C, Plain>(starts),
-        }
-    }
-
-    fn integrate<C: Class + Conservative, R: Summation>(
-        self,
-        starts: Vec<Start>,
-    ) -> Result<ExitCode, Error>
-    where
-        Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>,
-    {
-        let mut parameters: Vec<Vec<f64>> = Vec::new();
-        let mut families: Vec<(Formula<C>, States)> = Vec::new();
-        let same_bits = |a: &[f64], b: &[f64]| {
-            let bits = |x: &f64| x.to_bits();
-            a.iter().map(bits).eq(b.iter().map(bits))
-        };
-        for start in starts {
-            let before = parameters.last();
-            let is_of_family = before.is_some_and(|before| same_bits(before, &start.parameters));
-            match families.last_mut() {
-                Some((_, family)) if is_of_family => {
-                    family.push(start.state);
-                }
-                _ => {
-                    let own = Parameters::Own(start.parameters.as_slice().into());
-                    let system = Formula::new(Arc::clone(&self.tapes), own);
-                    families.push((system, vec![start.state]));
-                }
-            }
-            parameters.push(start.parameters);
-        }
-        let size = *self.setup.step_size.get_ref();
-        let made: Result<Ensemble<AtRunTime, _, Vector, R>, _> =
-            Ensemble::families_at_run_time(&self.method.tableau, families, size);
-        let mut ensemble = made.map_err(|error| self.refused(&error))?;
-        if let Some(Shard { part, count }) = self.shard {
-            ensemble = ensemble
-                .shard(part, count)
-                .map_err(|error| self.refused(&error))?;
-        }
-        let progress = Progress::new(ensemble.trajectories().len());
-        let mut rows: Vec<Trajectory> = Vec::with_capacity(ensemble.trajectories().len());
-        let keep = |mut row: Trajectory| {
-            row.outcome = row.outcome.map_err(advice::without_calls);
-            rows.push(row);
-            progress.trajectory();
-            ControlFlow::Continue(())
-        };
-        let start = self.setup.start();
-        let end = (self.setup.end.as_ref()).map_or(start, |end| *end.get_ref());
-        match (&self.times, &self.section) {
-            (None, Some(section)) => {
-                ensemble.stop_if(section.is_full());
-                let at = |time: f64| progress.within((time - start) / (end - start));
-                let see = |seen: &mut Vec<f64>, run: &mut _| section.see(seen, run, end, at);
-                ensemble.each(|_| Vec::new(), see, keep);
-                if section.is_full()() {
-                    progress.finish();
-                    let fault =
-                        memory::fault_of_section(section.most(), ensemble.trajectories().len());
-                    let given = self.setup.section.as_ref().map_or(0..0, Spanned::span);
-                    return Err(self.file.error(given, fault));
-                }
-            }
-            (Some(times), _) => {
-                let numbers = times.len() * (1 + 2 * self.coordinates.dimension());
-                let last = times.last().map_or(start, |last| *last);
-                let see = |seen: &mut Vec<f64>, state: &State<Vector>| {
-                    append(seen, state);
-                    progress.within((state.time - start) / (last - start));
-                };
-                ensemble.integrate_at(times, |_| Vec::with_capacity(numbers), see, keep);
-            }
-            (None, None) => {
-                let mut keep = keep;
-                let keep = |row: Row<Vector>| {
-                    keep(Trajectory {
-                        trajectory: row.trajectory,
-                        outcome: row.outcome,
-                        state: row.state,
-                        statistics: row.statistics,
-                        output: Vec::new(),
-                    })
-                };
-                match progress.is_single() {
-                    false => ensemble.integrate_to(end, keep),
-                    true => {
-                        let to_end = |(): &mut (), run: &mut Integrator<_, _, _, R>| {
-                            let shown = run.integrate_while(end, |done| {
-                                progress.within(done.fraction());
-                                ControlFlow::<()>::Continue(())
-                            });
-                            shown.map(|_| ())
-                        };
-                        ensemble.each(|_| (), to_end, keep)
-                    }
-                };
-            }
-        }
-        progress.finish();
-        let orders = self.method.tableau.orders();
-        let results = Results {
-            coordinates: self.coordinates,
-            facts: Facts {
-                method: self.method.tableau.name(),
-                definition: &self.method.definition,
-                orders: [orders.general, orders.separable, orders.nystrom].map(u64::from),
-                step_size: *self.setup.step_size.get_ref(),
-                sums: match self.setup.sums {
-                    Sums::Compensated => "compensated",
-                    Sums::Plain => "plain",
-                },
-                formula: self.setup.system.get_ref(),
-                setup: self.file.text,
-            },
-            tapes: &self.tapes,
-            rows: &rows,
-            starts: ensemble.starts(),
-            parameters: &parameters,
-            seen: match (&self.times, &self.section) {
-                (Some(times), _) => Seen::Times(times),
-                (None, Some(_)) => Seen::Section,
-                (None, None) => Seen::End,
-            },
-        };
-        let failed = rows.iter().filter(|row| row.outcome.is_err()).count();
-        let mut message = format!(
-            "{} trajectories, {failed} failed: {}\n",
-            rows.len(),
-            self.target.path().display()
-        );
-        let first = rows
-            .iter()
-            .find_map(|row| row.outcome.as_ref().err().map(|error| (row, error)));
-        if let Some((row, error)) = first {
-            message.push_str(&format!("trajectory {}: {error}\n", row.trajectory));
-            message.extend(advice::note(error));
-        }
-        message.extend(self.note_on_times(C::SEPARABLE));
-        self.target.write(&results)?;
-        let printed = print(&message)?;
-        Ok(match failed > 0 && failed == rows.len() {
-            true => ExitCode::from(1),
-            false => printed,
-        })
-    }
-
-    /// What to know about output times inside steps, if the method has a higher order than their interpolation.
-    fn note_on_times(&self, is_separable: bool) -> Option<String> {
-        let size = *self.setup.step_size.get_ref();
-        let is_inside = |time: &f64| {
-            let steps = (time - self.setup.start()) / size;
-            (steps - steps.round()).abs() > 1e-9 * steps.abs().max(1.0)
-        };
-        let orders = self.method.tableau.orders();
-        let order = if is_separable {
-            orders.separable
-        } else {
-            orders.general
-        };
-        let inside = self
-            .times
-            .as_ref()?
-            .iter()
-            .filter(|time| is_inside(time))
-            .count();
-        (inside > 0 && order > INTERPOLATION).then(|| {
-            format!(
-                "note: {inside} of the `times` are inside steps, where states are interpolated with order {INTERPOLATION}; the method has order {order} at multiples of `step_size`\n"
-            )
-        })
-    }
-
-    /// Translates an error of the ensemble into the terms of the file.
-    fn refused(&self, error: &EnsembleError) -> Error {
-        let accept = "take another method (`symplectic list --class …`), or write `accept_lower_order = true`";
-        let span = self.setup.method.span();
-        let name = self.method.tableau.name();
-        match error {
-            EnsembleError::Start {
-                error: RunError::NotQuadraticKinetic { order, lower_order, .. },
-                ..
-            } => self.file.error(
-                span,
-                format!("`{name}` has order {order} if the kinetic energy is quadratic in the momenta, but for this H only {lower_order}: {accept}"),
-            ),
-            EnsembleError::All(RunError::SeparableTableau { order, lower_order }) => self.file.error(
-                span,
-                format!("H is not separable: `{name}` has order {order} for separable H only, and for this H it has order {lower_order} or is not symplectic: {accept}"),
-            ),
-            other => self.file.error(self.setup.starts.span(), other.to_string()),
-        }
-    }
-}
-
-/// The order of states inside steps.
-const INTERPOLATION: u32 = Interpolation::Hermite.order();
 
 fn document(message: String) -> Error {
     ErrorKind::Document { message }.into()

@@ -4,16 +4,13 @@ use std::io::{self, Write};
 
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use symplectic::State;
-use symplectic::ensemble::{Npz, Row};
+use symplectic::ensemble::Npz;
 use symplectic::nalgebra::DVector;
 
 use super::starts::Coordinates;
 use super::system::Tapes;
 use super::tape::{At, Parameters};
-
-/// A trajectory with its states at the output times: for each of them the time, the positions and the momenta, without an
-/// allocation of their own.
-pub(super) type Trajectory = Row<DVector<f64>, Vec<f64>>;
+use super::trajectory::Trajectory;
 
 /// A state that is written.
 #[derive(Clone, Copy)]
@@ -51,6 +48,7 @@ pub(super) fn points(row: &Trajectory) -> impl Iterator<Item = Point<'_>> {
 }
 
 /// The metadata in the file.
+#[derive(Clone, Copy)]
 pub(super) struct Facts<'a> {
     pub(super) method: &'a str,
     pub(super) definition: &'a str,
@@ -85,6 +83,7 @@ impl Facts<'_> {
 }
 
 /// The results of a run.
+#[derive(Clone, Copy)]
 pub(super) struct Results<'a> {
     pub(super) coordinates: &'a Coordinates,
     pub(super) facts: Facts<'a>,
@@ -142,9 +141,15 @@ impl Results<'_> {
 
     /// The values of the parameters that vary.
     pub(super) fn parameters(&self, row: &Trajectory) -> &[f64] {
-        self.parameters
-            .get(row.trajectory)
-            .map_or(&[], Vec::as_slice)
+        self.parameters.get(row.number).map_or(&[], Vec::as_slice)
+    }
+
+    /// The same trajectories with their last states only.
+    pub(super) fn at_end(&self) -> Self {
+        Results {
+            seen: Seen::End,
+            ..*self
+        }
     }
 
     pub(super) fn write_npz(&self, out: &mut impl Write) -> io::Result<()> {
@@ -182,7 +187,7 @@ impl Results<'_> {
             let all: Vec<f64> = rows.flat_map(|row| self.parameters(row)).copied().collect();
             file.doubles("parameters", &[count, names.len()], &all)?;
         }
-        file.rows(self.rows)?;
+        self.write_rows(&mut file)?;
         let times = match self.seen {
             Seen::Times(times) => times,
             Seen::End => {
@@ -220,6 +225,28 @@ impl Results<'_> {
         file.finish().map(|_| ())
     }
 
+    /// The numbers, last states and errors of trajectories.
+    fn write_rows(&self, file: &mut Npz<impl Write>) -> io::Result<()> {
+        let (rows, count) = (self.rows, self.rows.len());
+        let integers = |of: fn(&Trajectory) -> u64| rows.iter().map(of).collect::<Vec<u64>>();
+        file.integers("trajectory", &[count], &integers(|row| row.number as u64))?;
+        let times: Vec<f64> = rows.iter().map(|row| row.state.time).collect();
+        file.doubles("time", &[count], &times)?;
+        let dimension = self.coordinates.dimension();
+        for (name, half) in [("q", 0), ("p", 1)] {
+            let states = rows.iter().map(|row| Point::from(&row.state));
+            let values = states.flat_map(|state| state.halves[half]).copied();
+            let values = of_length(count * dimension, values);
+            file.doubles(name, &[count, dimension], &values)?;
+        }
+        file.integers("steps", &[count], &integers(|row| row.statistics.steps))?;
+        let failed = |row: &'_ Trajectory| Some((row.number as u64, row.failure.clone()?.message));
+        let (failed, errors): (Vec<u64>, Vec<String>) = rows.iter().filter_map(failed).unzip();
+        file.integers("failed", &[failed.len()], &failed)?;
+        let errors: Vec<&str> = errors.iter().map(String::as_str).collect();
+        file.texts("error", &errors)
+    }
+
     /// The states of a section, one after another. Only one array is in memory at a time.
     fn write_section(&self, file: &mut Npz<impl Write>) -> io::Result<()> {
         let all = || {
@@ -228,7 +255,7 @@ impl Results<'_> {
         };
         let dimension = self.coordinates.dimension();
         let count = self.rows.iter().map(|row| points(row).count()).sum();
-        let trajectories = all().map(|(row, _)| row.trajectory as u64);
+        let trajectories = all().map(|(row, _)| row.number as u64);
         file.integers(
             "section_trajectory",
             &[count],

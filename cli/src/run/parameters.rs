@@ -11,6 +11,7 @@ use toml::Value;
 use super::counted;
 use super::keys::misplaced;
 use super::setup::{self, File, Setup};
+use super::starts::Coordinates;
 use super::values::{Entry, Values};
 
 /// A parameter, or an entry of one, that varies between trajectories.
@@ -48,11 +49,12 @@ pub(super) fn varied(setup: &Setup) -> Vec<Varied<'_>> {
     all
 }
 
-/// Checks that all names in `[parameters]` are those of the formula.
+/// Checks that all names in `[parameters]` are those of the formula, or of formulas of the starts.
 pub(super) fn check_names(file: &File<'_>, setup: &Setup, system: &System) -> Result<(), Error> {
     let names: Vec<&str> = system.parameters.iter().map(|p| p.name.as_str()).collect();
     let mut unknown = setup.parameters.iter();
-    let Some((name, value)) = unknown.find(|(name, _)| !names.contains(&name.as_str())) else {
+    let is_known = |name: &str| names.contains(&name) || setup.starts_use(name);
+    let Some((name, value)) = unknown.find(|(name, _)| !is_known(name)) else {
         return Ok(());
     };
     let there = match names.as_slice() {
@@ -106,8 +108,8 @@ pub(super) fn read(
                     (Some(entry), ..) => entry,
                     (None, None, Some(default)) => Entry::Number(<f64 as Real>::number(default)),
                     _ => {
-                        let (_, span) = given(file, setup, name, "a number")?;
-                        return Err(file.error(span, format!("`{name}`: expected a finite number")));
+                        let (value, span) = given(file, setup, name, "a number")?;
+                        return Err(file.error(span, not_a_number(name, value)));
                     }
                 }]]
             }
@@ -119,7 +121,12 @@ pub(super) fn read(
                         "a list of lists of finite numbers",
                     ];
                     let what = what[usize::from(lengths.len() > 1)];
-                    file.error(span.clone(), format!("`{name}`: expected {what}"))
+                    let message = match value.as_array() {
+                        Some(_) => wrong_entry(name, value, lengths.len())
+                            .unwrap_or_else(|| format!("`{name}`: expected {what}")),
+                        None => format!("`{name}`: found {}, expected {what}", setup::found(value)),
+                    };
+                    file.error(span.clone(), message)
                 })?;
                 let fits = |length: &Length, found: usize, values: &mut Values| {
                     let expected = values.length(system, length);
@@ -150,6 +157,77 @@ pub(super) fn read(
         values.parameters.push(rows);
     }
     Ok(values)
+}
+
+/// The numbers in `[parameters]` that only formulas of the starts use, and the number of the trajectory.
+pub(super) fn further(
+    file: &File<'_>,
+    setup: &Setup,
+    system: &System,
+    coordinates: &Coordinates,
+) -> Result<Vec<(String, Entry)>, Error> {
+    let own: Vec<&str> = system.parameters.iter().map(|p| p.name.as_str()).collect();
+    let mut further = Vec::new();
+    let others = setup.parameters.iter();
+    for (name, value) in others.filter(|(name, _)| !own.contains(&name.as_str())) {
+        let place = coordinates
+            .parameters
+            .iter()
+            .position(|known| known == name);
+        let entry = match place {
+            Some(place) => Some(Entry::Varied(place)),
+            None => number(value.get_ref()).map(Entry::Number),
+        };
+        if coordinates.all().any(|known| known == name) {
+            let message = format!("`{name}` is a coordinate: give the parameter another name");
+            return Err(file.error_at_key(value.span(), message));
+        }
+        let entry =
+            entry.ok_or_else(|| file.error(value.span(), not_a_number(name, value.get_ref())))?;
+        further.push((name.clone(), entry));
+    }
+    let is_taken =
+        own.contains(&NUMBER) || coordinates.with_parameters().any(|name| name == NUMBER);
+    if setup.starts_use(NUMBER) && !is_taken {
+        further.push((
+            NUMBER.to_owned(),
+            Entry::Varied(coordinates.parameters.len()),
+        ));
+    }
+    Ok(further)
+}
+
+/// The name of the number of the trajectory.
+const NUMBER: &str = "trajectory";
+
+fn not_a_number(name: &str, value: &Value) -> String {
+    let found = match setup::number(value) {
+        Some(number) => number.to_string(),
+        None => setup::found(value).to_owned(),
+    };
+    format!(
+        "`{name}`: found {found}, expected a finite number, or several by a table such as {{ values = [1, 2] }}"
+    )
+}
+
+/// What is wrong with the first wrong entry of an array.
+fn wrong_entry(name: &str, value: &Value, dimensions: usize) -> Option<String> {
+    let entries = value.as_array()?.iter().enumerate();
+    let mut entries = entries.map(|(k, entry)| (format!("{name}[{k}]"), entry));
+    match dimensions {
+        1 => {
+            let is_wrong = |entry: &Value| !entry.is_table() && number(entry).is_none();
+            let (name, wrong) = entries.find(|(_, entry)| is_wrong(entry))?;
+            Some(not_a_number(&name, wrong))
+        }
+        _ => entries.find_map(|(name, row)| match row.as_array() {
+            Some(_) => wrong_entry(&name, row, dimensions - 1),
+            None => Some(format!(
+                "`{name}`: found {}, expected a list of finite numbers",
+                setup::found(row)
+            )),
+        }),
+    }
 }
 
 /// A finite number.

@@ -7,14 +7,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use symplectic::nalgebra::DVector;
 use symplectic::{Class, Error as RunError, Event, Hamiltonian, Integrator, Method, State};
 use symplectic_compiler::Error;
-use symplectic_compiler::expression::Input;
-use symplectic_compiler::formula::{Form, System};
 
-use super::output::append;
+use super::expression::Names;
+use super::output::{append, points};
 use super::setup::{Direction, File, Setup};
 use super::system::Formula;
 use super::tape::{At, Tape};
-use super::unroll::{MOST_STEPS, Refusal, Unrolled};
+use super::trajectory::Trajectory;
 use super::values::Values;
 
 /// A section, and the number of its states.
@@ -46,57 +45,32 @@ impl Section {
             ));
         }
         let (span, of) = (section.get_ref().of.span(), section.get_ref().of.get_ref());
-        let formula = setup.system.get_ref();
-        let expression = Input {
-            name: &format!("`of` in {}", file.path.display()),
-            text: of,
-        };
-        let (system, parts) = System::read_with(Form::of(formula), formula, expression)
-            .map_err(|error| file.inside(span.clone(), of, error))?;
-        let &[part] = &parts[..] else {
-            let message = match parts.len() {
-                0 => "`of` has no components: give an expression with a value".to_owned(),
-                count => {
-                    format!("`of` has {count} components: give one of them, or a run for each")
-                }
-            };
-            return Err(file.error(span, message));
-        };
-        let tape = || {
-            if system.graph.overflowed() {
-                return Err(Refusal::TooLong);
-            }
-            let unrolled = Unrolled::new(&system, values, &[part])?;
-            unrolled.tape(&[unrolled.of(part)?])
-        };
-        let refused = |refusal| {
-            let message = match refusal {
-                Refusal::TooLong => format!(
-                    "with its sums written out, `of` has more than {MOST_STEPS} operations: give a shorter expression, or take fewer bodies"
-                ),
-                Refusal::Outside => format!(
-                    "an index in `of` is out of range: that coordinate or entry of a parameter does not exist; positions are from 0 to {}",
-                    values.bodies.saturating_sub(1)
-                ),
-            };
-            file.error(span.clone(), message)
+        let names = Names {
+            file,
+            setup,
+            values,
+            further: &[],
         };
         Ok(Some(Self {
-            tape: tape().map_err(refused)?,
+            tape: names.tape("of", of, span)?,
             direction,
             most,
             found: Arc::default(),
         }))
     }
 
-    /// Integrates to `end` and appends the states of the section; ends early if all trajectories have too many. `at` receives the
-    /// time of each.
+    /// Counts the states that an interrupted run found.
+    pub(super) fn count(&self, rows: &[Trajectory]) {
+        let found = rows.iter().map(|row| points(row).count()).sum();
+        self.found.store(found, Ordering::Relaxed);
+    }
+
+    /// Integrates to `end` and appends the states of the section; ends early if all trajectories have too many.
     pub(super) fn see<M, C, R, N>(
         &self,
         seen: &mut Vec<f64>,
         run: &mut Integrator<M, Formula<C>, DVector<f64>, R, N>,
         end: f64,
-        at: impl Fn(f64),
     ) -> Result<(), RunError>
     where
         M: Method,
@@ -125,7 +99,6 @@ impl Section {
                 return ControlFlow::Break(());
             }
             append(seen, state);
-            at(state.time);
             ControlFlow::Continue(())
         };
         run.integrate_with_events(end, &event.by_steps(), keep)
@@ -186,9 +159,7 @@ mod tests {
             let system = Formula::<Separable>::new(Arc::clone(&tapes), Parameters::Own([].into()));
             let start = State::new(0.0, vec![1.0].into(), vec![0.0].into());
             let mut run = Integrator::new(Verlet, system, start, 0.1).expect("a start");
-            section
-                .see(&mut seen, &mut run, 10.0, |_| ())
-                .expect("steps");
+            section.see(&mut seen, &mut run, 10.0).expect("steps");
             assert_eq!((seen.len() / 3, section.is_full()()), (states, is_full));
         }
     }

@@ -28,8 +28,14 @@ pub(super) struct Setup {
     pub(super) section: Option<Spanned<Section>>,
     #[serde(default)]
     pub(super) sums: Sums,
+    pub(super) solver: Option<Spanned<Iteration>>,
     #[serde(default)]
     pub(super) accept_lower_order: bool,
+    /// Leaves out starts whose formulas have no value, or that do not reach their energy.
+    #[serde(default)]
+    pub(super) skip_impossible_starts: bool,
+    /// The |energy error| above which a run warns.
+    pub(super) warn_energy_error: Option<Spanned<f64>>,
     #[serde(default)]
     pub(super) parameters: BTreeMap<String, Spanned<Value>>,
     pub(super) starts: Spanned<Starts>,
@@ -86,6 +92,28 @@ impl TryFrom<String> for Sums {
             "plain" => Ok(Sums::Plain),
             _ => Err(format!(
                 "unknown sums `{name}`, expected `compensated` or `plain`"
+            )),
+        }
+    }
+}
+
+/// The iteration for coupled stages.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(try_from = "String")]
+pub(super) enum Iteration {
+    FixedPoint,
+    Newton,
+}
+
+impl TryFrom<String> for Iteration {
+    type Error = String;
+
+    fn try_from(name: String) -> Result<Self, String> {
+        match name.as_str() {
+            "fixed-point" => Ok(Iteration::FixedPoint),
+            "newton" => Ok(Iteration::Newton),
+            _ => Err(format!(
+                "unknown solver `{name}`, expected `fixed-point` or `newton`"
             )),
         }
     }
@@ -230,6 +258,27 @@ impl<'de> Deserialize<'de> for Starts {
 }
 
 impl Setup {
+    /// Whether a formula of the starts has a name.
+    pub(super) fn starts_use(&self, name: &str) -> bool {
+        fn uses(value: &Value, name: &str) -> bool {
+            match value {
+                Value::String(text) => text
+                    .split(|c: char| !c.is_alphanumeric() && c != '_')
+                    .any(|word| word.trim_start_matches(|c: char| c.is_ascii_digit()) == name),
+                Value::Array(list) => list.iter().any(|value| uses(value, name)),
+                Value::Table(table) => table.values().any(|value| uses(value, name)),
+                _ => false,
+            }
+        }
+        match self.starts.get_ref() {
+            Starts::File(_) => false,
+            Starts::Grids(grids) => {
+                let mut values = grids.iter().flat_map(|grid| grid.values());
+                values.any(|value| uses(value.get_ref(), name))
+            }
+        }
+    }
+
     /// The time of the starts.
     pub(super) fn start(&self) -> f64 {
         self.start_time.as_ref().map_or(0.0, |time| *time.get_ref())
@@ -307,6 +356,14 @@ impl File<'_> {
         self.error(span, message)
     }
 
+    /// An error with this position, unless it has one.
+    pub(super) fn placed(&self, span: Range<usize>, error: Error) -> Error {
+        match error.place {
+            None => self.at(span, *error.kind),
+            Some(_) => error,
+        }
+    }
+
     /// An error of any kind at a position.
     pub(super) fn at(&self, span: Range<usize>, kind: ErrorKind) -> Error {
         let place = Place {
@@ -341,6 +398,19 @@ impl File<'_> {
     /// The path of a file named in this file, relative to its folder unless absolute.
     pub(super) fn beside(&self, name: &Path) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(name)
+    }
+}
+
+/// The type of a value, in words.
+pub(super) fn found(value: &Value) -> &'static str {
+    match value {
+        Value::String(_) => "a string",
+        Value::Integer(_) | Value::Float(_) => "a number",
+        Value::Boolean(_) => "a boolean",
+        Value::Datetime(_) => "a date or time",
+        Value::Array(list) if list.is_empty() => "an empty list",
+        Value::Array(_) => "a list",
+        Value::Table(_) => "a table",
     }
 }
 

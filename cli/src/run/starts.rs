@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::mem;
+use std::ops::Range;
 
 use symplectic::State;
 use symplectic::nalgebra::DVector;
@@ -12,11 +13,12 @@ use symplectic_compiler::formula::{Layout, System};
 use toml::{Spanned, Value};
 
 use super::counted;
+use super::derived::{Derived, Given};
 use super::keys::misplaced;
 use super::memory;
 use super::parameters::{self, Varied};
 use super::random;
-use super::setup::{File, Grid, MOST, Setup, Starts};
+use super::setup::{self, File, Grid, MOST, Setup, Starts};
 use super::spec::Spec;
 
 /// The names of all components of the position and the momentum, and of the parameters that vary between trajectories.
@@ -79,6 +81,9 @@ pub(super) struct Start {
     pub(super) parameters: Vec<f64>,
 }
 
+/// The index of a coordinate with its values, its name, and its place in the file.
+type Axis = (usize, Spec, String, Range<usize>);
+
 /// Reads the starts of a system, whose number of bodies is not yet known.
 pub(super) struct Reader<'a> {
     pub(super) file: &'a File<'a>,
@@ -88,8 +93,8 @@ pub(super) struct Reader<'a> {
 
 impl Reader<'_> {
     /// The coordinates and the starts.
-    pub(super) fn read(&self) -> Result<(Coordinates, Vec<Start>), Error> {
-        let rows = match self.setup.starts.get_ref() {
+    pub(super) fn read(&self) -> Result<(Coordinates, Vec<Given>), Error> {
+        match self.setup.starts.get_ref() {
             Starts::File(name) => {
                 self.refuse_needless_random(false)?;
                 if let Some(varied) = parameters::varied(self.setup).first() {
@@ -106,22 +111,18 @@ impl Reader<'_> {
                     );
                     return Err(self.file.error(varied.span.clone(), message));
                 }
-                self.of_table(&self.file.beside(name))?
+                let table = self.of_table(&self.file.beside(name));
+                let (coordinates, rows) =
+                    table.map_err(|error| self.file.placed(self.setup.starts.span(), error))?;
+                let given = Given {
+                    rows,
+                    derived: Vec::new(),
+                    has_velocities: false,
+                };
+                Ok((coordinates, vec![given]))
             }
-            Starts::Grids(grids) => self.of_grids(grids)?,
-        };
-        let (coordinates, rows) = rows;
-        let half = coordinates.dimension();
-        let time = self.setup.start();
-        let start = |row: Vec<f64>| Start {
-            state: State::new(
-                time,
-                DVector::from_column_slice(&row[..half]),
-                DVector::from_column_slice(&row[half..2 * half]),
-            ),
-            parameters: row[2 * half..].to_vec(),
-        };
-        Ok((coordinates, rows.into_iter().map(start).collect()))
+            Starts::Grids(grids) => self.of_grids(grids),
+        }
     }
 
     fn refuse_needless_random(&self, any: bool) -> Result<(), Error> {
@@ -164,7 +165,11 @@ impl Reader<'_> {
         Ok(bodies)
     }
 
-    fn of_grids(&self, grids: &[Grid]) -> Result<(Coordinates, Vec<Vec<f64>>), Error> {
+    fn of_grids(&self, grids: &[Grid]) -> Result<(Coordinates, Vec<Given>), Error> {
+        if grids.is_empty() {
+            let message = "the list of starts is empty: give at least one table with a value for each coordinate";
+            return Err(self.file.error(self.setup.starts.span(), message));
+        }
         let first = grids.first().and_then(|grid| grid.get("q"));
         let listed = first
             .and_then(|list| list.get_ref().as_array())
@@ -179,32 +184,58 @@ impl Reader<'_> {
                 .map_err(|message| self.file.error(span.clone(), message))?;
             parameter_axes.push((coordinate_count + k, spec));
         }
-        let mut rows = Vec::new();
-        let mut draws = 0;
+        let (mut all, mut count_before, mut draws) = (Vec::new(), 0, 0);
         let mut any_random = false;
         for grid in grids {
-            let axes = [parameter_axes.clone(), self.axes(grid, &coordinates)?].concat();
+            let (own, has_velocities) = self.axes(grid, &coordinates)?;
+            let mut axes = parameter_axes.clone();
+            let mut derived = Vec::new();
+            for (place, spec, name, span) in own {
+                match spec {
+                    Spec::Derived(rule) => {
+                        derived.push(Derived {
+                            place,
+                            name,
+                            rule,
+                            span,
+                        });
+                    }
+                    spec => axes.push((place, spec)),
+                }
+            }
             let is_random = axes.iter().any(|(_, spec)| spec.is_random());
             any_random |= is_random;
             let count = match &self.setup.random {
                 Some(random) if is_random => random.get_ref().count,
                 _ => 1,
             };
-            self.product(&axes, count, &mut draws, &mut rows)?;
+            let width = axes.len() + derived.len();
+            let rows = self.product(&axes, width, count, &mut draws, count_before)?;
+            count_before += rows.len();
+            all.push(Given {
+                rows,
+                derived,
+                has_velocities,
+            });
         }
         self.refuse_needless_random(any_random)?;
-        Ok((coordinates, rows))
+        Ok((coordinates, all))
     }
 
-    /// The indices of all coordinates with their start values, in the order of the file.
-    fn axes(&self, grid: &Grid, coordinates: &Coordinates) -> Result<Vec<(usize, Spec)>, Error> {
+    /// The indices of all coordinates with their start values, in the order of the file, and whether these are velocities.
+    fn axes(&self, grid: &Grid, coordinates: &Coordinates) -> Result<(Vec<Axis>, bool), Error> {
         let mut entries: Vec<(&String, &Spanned<Value>)> = grid.iter().collect();
         entries.sort_by_key(|(_, value)| value.span().start);
         let place = |(place, name)| (String::as_str(name), place);
-        let named: HashMap<&str, usize> = coordinates.all().enumerate().map(place).collect();
-        let mut is_given = vec![false; named.len()];
+        let mut named: HashMap<&str, usize> = coordinates.all().enumerate().map(place).collect();
+        let velocities = self.velocities(coordinates);
+        let half = coordinates.dimension();
+        named.extend((half..).zip(velocities).map(place));
+        let mut is_given = vec![false; 2 * half];
+        let mut kinds = [false; 2];
         let mut axes = Vec::new();
         for (name, value) in entries {
+            let is_velocity = name == "v" || velocities.contains(name);
             let own = |&place| Ok(vec![(place, name.clone(), value.get_ref())]);
             let leaves = match (named.get(name.as_str()), self.half(name)) {
                 (Some(place), _) => own(place),
@@ -220,13 +251,22 @@ impl Reader<'_> {
             };
             let leaves = leaves.map_err(|message| self.file.error(value.span(), message))?;
             for (place, name, leaf) in leaves {
-                let spec = Spec::read(leaf, &name)
+                let spec = Spec::of_coordinate(leaf, &name)
                     .map_err(|message| self.file.error(value.span(), message))?;
+                if place >= half {
+                    kinds[usize::from(is_velocity)] = true;
+                }
+                if kinds == [true, true] {
+                    let message = format!(
+                        "`{name}`: there are momenta and velocities: give either all momenta or all velocities"
+                    );
+                    return Err(self.file.error(value.span(), message));
+                }
                 if mem::replace(&mut is_given[place], true) {
                     let message = format!("`{name}` is given twice: leave out one of the two");
                     return Err(self.file.error(value.span(), message));
                 }
-                axes.push((place, spec));
+                axes.push((place, spec, name, value.span()));
             }
         }
         let mut missing = coordinates.all().zip(&is_given);
@@ -237,7 +277,16 @@ impl Reader<'_> {
             );
             return Err(self.file.error(self.setup.starts.span(), message));
         }
-        Ok(axes)
+        Ok((axes, kinds[1]))
+    }
+
+    /// The names of the velocities, of which starts of a Lagrangian may consist.
+    fn velocities<'v>(&'v self, coordinates: &Coordinates) -> &'v [String] {
+        let names = &self.system.velocities;
+        match self.system.lagrangian.is_some() && names.len() == coordinates.dimension() {
+            true => names,
+            false => &[],
+        }
     }
 
     /// The half of which a key is the whole list.
@@ -245,6 +294,7 @@ impl Reader<'_> {
         match (key, &self.system.layout) {
             ("q", Layout::Numbered(..)) => Some(Half::Q),
             ("p", Layout::Numbered(..)) => Some(Half::P),
+            ("v", Layout::Numbered(..)) if self.system.lagrangian.is_some() => Some(Half::V),
             _ => None,
         }
     }
@@ -259,12 +309,17 @@ impl Reader<'_> {
     ) -> Result<Vec<(usize, String, &'v Value)>, String> {
         let half = coordinates.dimension();
         let offset = match list_of {
-            Half::P => half,
-            _ => 0,
+            Half::P | Half::V => half,
+            Half::Q => 0,
         };
         let mut found = Vec::new();
         let nested = matches!(self.system.layout, Layout::Numbered(_, Some(_)));
-        let list = value.as_array().map(Vec::as_slice).unwrap_or_default();
+        let Some(list) = value.as_array() else {
+            return Err(format!(
+                "`{key}`: found {}, expected a list with a value for each coordinate",
+                setup::found(value)
+            ));
+        };
         let components = self.system.layout.components();
         for entry in list {
             match (nested, entry.as_array()) {
@@ -291,25 +346,26 @@ impl Reader<'_> {
             .collect())
     }
 
-    /// Appends all combinations, the last coordinate fastest, with `count` draws of each.
+    /// All combinations, the last coordinate fastest, with `count` draws of each; rows have `width` numbers, and there are others before.
     fn product(
         &self,
         axes: &[(usize, Spec)],
+        width: usize,
         count: usize,
         draws: &mut u64,
-        rows: &mut Vec<Vec<f64>>,
-    ) -> Result<(), Error> {
+        before: usize,
+    ) -> Result<Vec<Vec<f64>>, Error> {
         let lengths = axes.iter().map(|(_, spec)| match spec {
             Spec::Values(values) => values.len(),
-            Spec::Uniform(_) | Spec::Normal(_) => 1,
+            Spec::Uniform(_) | Spec::Normal(_) | Spec::Derived(_) => 1,
         });
         let lengths: Vec<usize> = lengths.collect();
         let total = lengths
             .iter()
             .try_fold(count, |total: usize, length| total.checked_mul(*length))
-            .and_then(|total| total.checked_add(rows.len()));
+            .and_then(|total| total.checked_add(before));
         let fault = match total.filter(|total| *total <= MOST) {
-            Some(total) => memory::fault_of_starts(total, axes.len()),
+            Some(total) => memory::fault_of_starts(total, width),
             None => Some(format!(
                 "more than {MOST} starts: split the run into several files"
             )),
@@ -320,9 +376,10 @@ impl Reader<'_> {
         let random = self.setup.random.as_ref();
         let seed = random.map_or(0, |random| random.get_ref().seed);
         let points = lengths.iter().product::<usize>();
+        let mut rows = Vec::with_capacity(points * count);
         for point in 0..points {
             for _ in 0..count {
-                let mut row = vec![0.0; axes.len()];
+                let mut row = vec![0.0; width];
                 let mut rest = point;
                 for ((place, spec), length) in axes.iter().zip(&lengths).rev() {
                     let choice = rest % length;
@@ -337,12 +394,14 @@ impl Reader<'_> {
                         Spec::Normal([mean, deviation]) => {
                             mean + deviation * random::normal(seed, draw)
                         }
+                        // Follows later.
+                        Spec::Derived(_) => f64::NAN,
                     };
                 }
                 *draws += 1;
                 rows.push(row);
             }
         }
-        Ok(())
+        Ok(rows)
     }
 }

@@ -12,7 +12,8 @@ use symplectic_compiler::formula::derivative::gradient;
 use symplectic_compiler::formula::graph::{Half, integer};
 use symplectic_compiler::formula::{Structure, System};
 
-use super::tape::{At, Parameters, Tape};
+use super::progress::Meter;
+use super::tape::{At, Input, Parameters, Tape};
 use super::unroll::{Refusal, Unrolled};
 use super::values::Values;
 
@@ -57,6 +58,24 @@ impl Tapes {
         })
     }
 
+    /// Whether H changes with time along trajectories without any error.
+    pub(super) fn energy_depends_on_time(&self) -> bool {
+        self.energy.inputs.contains(&Input::Time)
+    }
+
+    /// The tape of H.
+    pub(super) fn energy(&self) -> &Tape {
+        &self.energy
+    }
+
+    /// The velocity at a point.
+    pub(super) fn velocity_at(&self, point: At<'_, f64>) -> Vec<f64> {
+        let mut velocity = vec![0.0; point.q.len()];
+        self.velocity
+            .run(1, |_| point, |_, k, value| velocity[k] = value);
+        velocity
+    }
+
     /// H at a point.
     pub(super) fn energy_at<T: Scalar>(&self, point: At<'_, T>) -> T {
         self.energy.value(point)
@@ -99,6 +118,9 @@ fn fill<'a: 'p, 'p, T: Scalar>(
 pub(super) struct Formula<C> {
     tapes: Arc<Tapes>,
     parameters: Parameters,
+    /// The number of trajectories.
+    count: usize,
+    meter: Option<Arc<Meter>>,
     class: PhantomData<fn() -> C>,
 }
 
@@ -107,7 +129,22 @@ impl<C> Formula<C> {
         Formula {
             tapes,
             parameters,
+            count: 1,
+            meter: None,
             class: PhantomData,
+        }
+    }
+
+    /// The same system, which notes its evaluations.
+    pub(super) fn noting(self, meter: Option<Arc<Meter>>) -> Self {
+        Formula { meter, ..self }
+    }
+
+    #[inline(always)]
+    fn note<T: Scalar>(&self, time: T) {
+        if let Some(meter) = &self.meter {
+            let elapsed = time - T::from_f64(meter.start());
+            meter.note(elapsed.magnitude(), self.count);
         }
     }
 
@@ -119,7 +156,13 @@ impl<C> Formula<C> {
 
 impl<C> Clone for Formula<C> {
     fn clone(&self) -> Self {
-        Self::new(Arc::clone(&self.tapes), self.parameters.clone())
+        Formula {
+            tapes: Arc::clone(&self.tapes),
+            parameters: self.parameters.clone(),
+            count: self.count,
+            meter: self.meter.clone(),
+            class: PhantomData,
+        }
     }
 }
 
@@ -135,9 +178,12 @@ impl<C: Class> Hamiltonian for Formula<C> {
     {
         work.run::<DVector<L>, Self>(|systems| {
             let mut systems = systems.peekable();
-            let tapes = Arc::clone(&systems.peek()?.tapes);
-            let parameters = Parameters::join(systems.map(|system| &system.parameters))?;
-            Some(Self::new(tapes, parameters))
+            let mut joined = (*systems.peek()?).clone();
+            let mut count = 0;
+            let all = systems.inspect(|_| count += 1);
+            joined.parameters = Parameters::join(all.map(|system| &system.parameters))?;
+            joined.count = count;
+            Some(joined)
         })
     }
 
@@ -158,6 +204,9 @@ impl<C: Class> Hamiltonian for Formula<C> {
     }
 
     fn forces<'a, T: Scalar>(&self, at: impl Fn(usize) -> Point<'a, T>, out: &mut [DVector<T>]) {
+        if !out.is_empty() {
+            self.note(at(0).0);
+        }
         fill((&self.tapes.force, &self.parameters), at, out);
     }
 
@@ -168,6 +217,7 @@ impl<C: Class> Hamiltonian for Formula<C> {
         p: &DVector<T>,
         (velocity, force): (&mut DVector<T>, &mut DVector<T>),
     ) {
+        self.note(time);
         let (velocity, force) = (velocity.as_mut_slice(), force.as_mut_slice());
         let count = velocity.len();
         let write = |_, k: usize, value| {

@@ -13,9 +13,10 @@ use symplectic::ensemble::{Parquet, ParquetColumn};
 use symplectic_compiler::formula::{Parameter, Shape};
 use symplectic_compiler::{Error, ErrorKind};
 
-use super::output::{Fact, Point, Results, Seen, Trajectory, points};
+use super::output::{Fact, Point, Results, Seen, points};
 use super::setup::MOST;
 use super::starts::{Coordinates, Reader};
+use super::trajectory::Trajectory;
 
 /// Lines that are written to a Parquet file at once, if they are not wide.
 const GROUP: usize = 1 << 16;
@@ -44,7 +45,7 @@ impl Results<'_> {
     fn lines(&self) -> impl Iterator<Item = Line<'_>> {
         let rows = self.rows.iter().zip(self.starts).zip(self.energy_errors());
         rows.flat_map(move |((row, start), errors)| {
-            let failure = row.outcome.as_ref().err().map(ToString::to_string);
+            let failure = row.failure.as_ref().map(|failure| failure.message.clone());
             let line = move |number, state, energy_error, failure| Line {
                 row,
                 number,
@@ -78,7 +79,7 @@ impl Results<'_> {
         for line in self.lines() {
             let numbers = |state| coordinates(state).map(|x| cell(*x));
             let energy_error = line.energy_error.map(|error| format!("{error:e}"));
-            let mut cells = vec![line.row.trajectory.to_string()];
+            let mut cells = vec![line.row.number.to_string()];
             cells.extend(numbers(line.start));
             cells.extend(line.parameters.iter().map(|x| cell(*x)));
             cells.extend(is_section.then(|| line.number.to_string()));
@@ -162,7 +163,7 @@ fn columns(lines: &[Line<'_>], names: &Coordinates, is_section: bool) -> Vec<Par
     let coordinate = |of: for<'l> fn(&'l Line<'_>) -> Point<'l>, k: usize| {
         doubles(&|line| coordinates(of(line)).nth(k).copied().unwrap_or(f64::NAN))
     };
-    let mut columns = vec![integers(|line| line.row.trajectory as u64)];
+    let mut columns = vec![integers(|line| line.row.number as u64)];
     columns.extend((0..count).map(|k| coordinate(|line| line.start, k)));
     let parameters = 0..names.parameters.len();
     columns.extend(parameters.map(|k| doubles(&|line| line.parameters[k])));

@@ -12,7 +12,6 @@ use super::output::Results;
 pub(super) struct Target {
     path: PathBuf,
     part: PathBuf,
-    file: File,
     format: Format,
     /// Whether the temporary file remains where it is not renamed, because it contains results.
     is_kept: bool,
@@ -54,7 +53,9 @@ impl Target {
         let mut name = name.to_owned();
         name.push(format!(".{}.part", std::process::id()));
         let part = path.with_file_name(name);
-        let file = File::create(&part).map_err(|error| {
+        // It would remain, empty, if the run is killed.
+        let tried = File::create(&part).and_then(|_| fs::remove_file(&part));
+        tried.map_err(|error| {
             let message = format!(
                 "cannot write `{}`: {error}; nothing was computed",
                 part.display()
@@ -64,7 +65,6 @@ impl Target {
         Ok(Target {
             path,
             part,
-            file,
             format,
             is_kept: false,
         })
@@ -75,31 +75,50 @@ impl Target {
         &self.path
     }
 
-    /// Writes the results and renames the file.
-    pub(super) fn write(self, results: &Results<'_>) -> Result<(), Error> {
+    /// Writes the results and renames the file. `advice` says where the results are if they cannot be written.
+    pub(super) fn write(
+        self,
+        results: &Results<'_>,
+        advice: impl FnOnce() -> Option<String>,
+    ) -> Result<(), Error> {
         let format = self.format;
-        self.fill(|out| match format {
+        let write = |out: &mut BufWriter<Lines<'_>>| match format {
             Format::Csv => results.write_csv(out),
             Format::Npz => results.write_npz(out),
             Format::Parquet => results.write_parquet(out),
-        })
+        };
+        self.fill(write, advice)
     }
 
     /// Writes the file by `write` and renames it. What can be read of a file that is not complete is kept.
     fn fill(
         mut self,
         write: impl FnOnce(&mut BufWriter<Lines<'_>>) -> io::Result<()>,
+        advice: impl FnOnce() -> Option<String>,
     ) -> Result<(), Error> {
         let (path, part) = (self.path.display(), self.part.display());
-        let mut out = BufWriter::new(Lines::new(&self.file));
+        let lost = |error: io::Error, advice: Option<String>| {
+            let advice = advice.unwrap_or_else(|| {
+                "the results of this run are lost: make room and run parts with `--shard`"
+                    .to_owned()
+            });
+            let message = format!(
+                "cannot write `{path}`: {error}; {advice}; an existing file `{path}` is unchanged"
+            );
+            Error::from(ErrorKind::Document { message })
+        };
+        let file = match File::create(&self.part) {
+            Ok(file) => file,
+            Err(error) => return Err(lost(error, advice())),
+        };
+        let mut out = BufWriter::new(Lines::new(&file));
         let written = write(&mut out).and_then(|()| out.flush());
         // Without what is still in the buffer.
         let (lines, _) = out.into_parts();
         let rows = lines.count.saturating_sub(1);
         let message = match written {
             Ok(()) => {
-                let renamed = self
-                    .file
+                let renamed = file
                     .sync_all()
                     .and_then(|()| fs::rename(&self.part, &self.path));
                 self.is_kept = true;
@@ -110,13 +129,18 @@ impl Target {
             }
             Err(error) if self.format == Format::Csv && rows > 0 => {
                 // If this fails, an incomplete row remains at the end.
-                let _ = self.file.set_len(lines.whole);
+                let _ = file.set_len(lines.whole);
                 self.is_kept = true;
-                format!("cannot write `{path}`: {error}; the first {rows} rows are in `{part}`")
+                let advice = advice().map_or(String::new(), |advice| format!("; {advice}"));
+                format!(
+                    "cannot write `{path}`: {error}; the first {rows} rows are in `{part}`{advice}"
+                )
             }
-            Err(error) => format!(
-                "cannot write `{path}`: {error}; the results of this run are lost: make room and run parts with `--shard`"
-            ),
+            Err(error) => {
+                // Makes room.
+                let _ = fs::remove_file(&self.part);
+                return Err(lost(error, advice()));
+            }
         };
         let message = format!("{message}; an existing file `{path}` is unchanged");
         Err(ErrorKind::Document { message }.into())
@@ -185,7 +209,7 @@ impl Drop for Target {
 #[cfg(test)]
 mod tests {
     use std::fs;
-    use std::io::{self, Write};
+    use std::io::{self, BufWriter, Write};
 
     use super::{Lines, Target};
 
@@ -200,7 +224,7 @@ mod tests {
         let part = target.part.clone();
         fs::create_dir(&path).expect("a folder");
         let error = target
-            .fill(|out| out.write_all(b"all"))
+            .fill(|out| out.write_all(b"all"), || None)
             .expect_err("a folder");
         assert_eq!(fs::read(&part).expect("the part"), b"all");
         let told = format!("the results are in `{}`", part.display());
@@ -217,12 +241,13 @@ mod tests {
         for (text, kept) in [("x\n1\n2\n3", Some("x\n1\n2\n")), ("x\n1", None)] {
             let target = Target::open(folder.join("out.csv")).expect("a file");
             let part = target.part.clone();
-            let error = target.fill(|out| {
+            let write = |out: &mut BufWriter<Lines<'_>>| {
                 out.write_all(text.as_bytes())?;
                 out.flush()?;
                 out.write_all(b"4\n5\n")?;
                 Err(io::ErrorKind::StorageFull.into())
-            });
+            };
+            let error = target.fill(write, || None);
             let error = error.expect_err("no room").to_string();
             assert_eq!(fs::read_to_string(&part).ok().as_deref(), kept);
             assert_eq!(error.contains("the first 2 rows are in"), kept.is_some());

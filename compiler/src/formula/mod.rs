@@ -61,7 +61,7 @@ pub use system::{
 };
 
 use self::graph::Id;
-use self::syntax::Definition;
+use self::syntax::{Definition, Name, ParameterKind};
 use crate::error::Error;
 use crate::expression::Input;
 
@@ -84,8 +84,8 @@ impl System {
         Self::of_definition(input, &definition)
     }
 
-    /// Reads the definition of a system, and an expression with its names; returns the components of the expression in the graph.
-    /// The definition is one that [`read_as`](Self::read_as) accepts.
+    /// Reads the definition of a system, and an expression with its names and with `numbers`, the names of further parameters; returns the
+    /// components of the expression in the graph. The definition is one that [`read_as`](Self::read_as) accepts.
     ///
     /// ```
     /// use symplectic_compiler::expression::Input;
@@ -93,10 +93,10 @@ impl System {
     ///
     /// let pendulum = "Pendulum { g: 9.81 } q: [a], p: [pa]; H = pa^2/2 - g cos(a)";
     /// let section = Input { name: "section", text: "pa - g sin(t)" };
-    /// let (_, parts) = System::read_with(Form::Hamiltonian, pendulum, section)?;
+    /// let (_, parts) = System::read_with(Form::Hamiltonian, pendulum, &[], section)?;
     /// assert_eq!(parts.len(), 1);
     /// let wrong = Input { name: "section", text: "pa) + (b" };
-    /// let error = System::read_with(Form::Hamiltonian, pendulum, wrong).unwrap_err();
+    /// let error = System::read_with(Form::Hamiltonian, pendulum, &[], wrong).unwrap_err();
     /// assert_eq!(error.place.unwrap().span, 2..3);
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
@@ -106,6 +106,7 @@ impl System {
     pub fn read_with(
         form: Form,
         text: &str,
+        numbers: &[String],
         expression: Input<'_>,
     ) -> Result<(Self, Vec<Id>), Error> {
         let before = format!("{text}\n");
@@ -121,7 +122,15 @@ impl System {
                 .map(|place| expression.place(within(place.span.start)..within(place.span.end)));
             error
         };
-        let definition = parse::parse_with(input, form, before.len()).map_err(placed)?;
+        let mut definition = parse::parse_with(input, form, before.len()).map_err(placed)?;
+        let parameters = numbers.iter().map(|text| syntax::Parameter {
+            name: Name {
+                text: text.clone(),
+                span: before.len()..whole.len(),
+            },
+            kind: ParameterKind::Number(None),
+        });
+        definition.parameters.extend(parameters);
         let mut system = Self::of_definition(input, &definition).map_err(placed)?;
         let parts = system.invariants.pop().map(|last| last.parts);
         Ok((system, parts.unwrap_or_default()))

@@ -151,7 +151,7 @@ fn tables_are_the_same_as_parquet_and_as_csv() {
     assert!(count > 11 && count == lines.len(), "{count}");
 }
 
-/// A file has no key for Newton's iteration: neither the message nor a file of results advises the call.
+/// Neither the message nor a file of results advises a call: they name the keys.
 #[test]
 fn an_iteration_that_diverges_has_advice_for_files() {
     let folder = folder("diverges");
@@ -162,7 +162,7 @@ fn an_iteration_that_diverges_has_advice_for_files() {
         let said = String::from_utf8_lossy(&output.stdout);
         assert!(said.contains("did not converge"), "{said}");
         assert!(
-            said.contains("; take a smaller step\nnote: the key is `step_size`"),
+            said.contains("; take a smaller step (the key `step_size`), or `solver = \"newton\"` for a stiff system"),
             "{said}"
         );
         let file = fs::read(folder.join(name)).expect("the results");

@@ -44,7 +44,10 @@ fn complete_rows_remain_if_the_disk_is_full() {
     let limited = |setup: &str| {
         fs::write(folder.join("setup.toml"), setup).expect("a file");
         std::process::Command::new("sh")
-            .args(["-c", "trap '' XFSZ; ulimit -f 20; exec \"$0\" run \"$1\""])
+            .args([
+                "-c",
+                "trap '' XFSZ; ulimit -f 20; exec \"$0\" run \"$1\" --save-every 1000000",
+            ])
             .arg(env!("CARGO_BIN_EXE_symplectic"))
             .arg(folder.join("setup.toml"))
             .output()

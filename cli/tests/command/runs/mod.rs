@@ -1,12 +1,16 @@
 //! `symplectic run`: trajectories beside those of the macros, starts, numbers, parameters, files, and what is refused.
 
+mod derived;
 mod files;
 mod kept;
+mod newton;
 mod numbers;
 mod parameters;
 mod refused;
+mod resume;
 mod section;
 mod starts;
+mod summary;
 mod systems;
 
 use std::fs;

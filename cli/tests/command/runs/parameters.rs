@@ -137,7 +137,7 @@ fn wrong_parameters_are_refused_at_their_place() {
         (
             PENDULUM.replace("g = 4", "g = { from = 1, to = 2 }"),
             "6:",
-            "`g`: expected a number, { from, to, count }",
+            "`g`: the key `count` is missing: expected a number, { from, to, count }",
         ),
         (
             PENDULUM.replace("g = 4", "g = { uniform = [1, 2] }"),

@@ -345,3 +345,201 @@ fn nothing_is_lost_and_nothing_is_endless() {
     let kept = fs::read_to_string(folder.join("starts.csv")).expect("the starts");
     assert_eq!(kept, "a,pa\n1,0\n");
 }
+
+/// Text where numbers are meant, empty lists, tables with wrong keys.
+#[test]
+fn wrong_values_are_named_with_what_is_expected() {
+    let folder = folder("values");
+    let chain = "system = 'Chain { m: [3], w: [2, 2] } q: [3], p: [3]; H = sum(i: p[i]^2/m[i]/2 + w[0, 1] q[i]^2/2)'
+        method = 'forest-ruth-1990'
+        step_size = 0.05
+        end = 1.0
+        parameters.m = [1, 1, 1]
+        parameters.w = [[1, 1], [1, 1]]
+        starts = { q = [1, 0, 0], p = [0, 0, 0] }
+        output.file = 'out.csv'";
+    let range = "{ from = -1, to = 1, count = 11 }";
+    let replaced = |setup: &str, from: &str, to: &str| {
+        assert!(setup.contains(from), "{from}");
+        setup.replacen(from, to, 1)
+    };
+    for (setup, from, to, place, message) in [
+        (
+            PENDULUM,
+            range,
+            "[]",
+            "8:9",
+            "`a`: found an empty list, expected a number, {",
+        ),
+        (
+            PENDULUM,
+            range,
+            "true",
+            "8:9",
+            "`a`: found a boolean, expected a number, {",
+        ),
+        (
+            PENDULUM,
+            range,
+            "{}",
+            "8:9",
+            "`a`: found an empty table, expected a number, {",
+        ),
+        (
+            PENDULUM,
+            range,
+            "{ from = 0, to = 1 }",
+            "8:9",
+            "`a`: the key `count` is missing: expected",
+        ),
+        (
+            PENDULUM,
+            range,
+            "{ from = '0', to = 1, count = 2 }",
+            "8:9",
+            "`a`: `from` and `to` need numbers, and `count` a whole number",
+        ),
+        (
+            PENDULUM,
+            range,
+            "{ form = 0, to = 1, count = 2 }",
+            "8:9",
+            "`a`: there is no key `form` beside `from`",
+        ),
+        (
+            PENDULUM,
+            range,
+            "{ fro = 0 }",
+            "8:9",
+            "`a`: there is no key `fro` here, expected a number",
+        ),
+        (
+            PENDULUM,
+            range,
+            "{ values = ['0.1'] }",
+            "8:9",
+            "`a`: `values` needs a list of numbers, such as [0.1, 0.2]",
+        ),
+        (
+            PENDULUM,
+            range,
+            "{ uniform = [1] }",
+            "8:9",
+            "`a`: `uniform` has 1 number, and needs 2",
+        ),
+        (PENDULUM, range, "''", "8:9", "the expression ends"),
+        (
+            PENDULUM,
+            "g = 4",
+            "g = '4'",
+            "6:20",
+            "`g`: found a string, expected a finite number",
+        ),
+        (
+            PENDULUM,
+            "g = 4",
+            "g = inf",
+            "6:20",
+            "`g`: found inf, expected a finite number",
+        ),
+        (
+            PENDULUM,
+            "g = 4",
+            "g = []",
+            "6:20",
+            "`g`: found an empty list, expected a finite number",
+        ),
+        (
+            PENDULUM,
+            "end = 10.0",
+            "end = 10.0\n    end = 11.0",
+            "6:5",
+            "the key `end` is given twice",
+        ),
+        (
+            PENDULUM,
+            "end = 10.0",
+            "end = 10.0\n    random = []",
+            "6:14",
+            "`random`: found a list, expected a table such as",
+        ),
+        (
+            PENDULUM,
+            "[output]\n    file = \"out.csv\"",
+            "[[output]]",
+            "10:5",
+            "expected a table with the key `file`",
+        ),
+        (
+            PENDULUM,
+            "out.csv",
+            "",
+            "11:12",
+            "must end in .npz, .parquet or .csv",
+        ),
+        (
+            chain,
+            "[1, 1, 1]",
+            "[]",
+            "5:24",
+            "`m` has 0 entries; it needs 3",
+        ),
+        (
+            chain,
+            "[1, 1, 1]",
+            "[1, '1', 1]",
+            "5:24",
+            "`m[1]`: found a string, expected a finite number",
+        ),
+        (
+            chain,
+            "[1, 1, 1]",
+            "1",
+            "5:24",
+            "`m`: found a number, expected a list of finite numbers",
+        ),
+        (
+            chain,
+            "[1, 1], [1, 1]",
+            "[1, 1], 1",
+            "6:24",
+            "`w[1]`: found a number, expected a list of finite numbers",
+        ),
+        (
+            chain,
+            "[1, 1], [1, 1]",
+            "[1, 1], [1, nan]",
+            "6:24",
+            "`w[1][1]`: found NaN, expected a finite number",
+        ),
+        (
+            chain,
+            "q = [1, 0, 0]",
+            "q = 1",
+            "7:24",
+            "`q`: found a number, expected a list with a value for each coordinate",
+        ),
+        (
+            chain,
+            "{ q = [1, 0, 0], p = [0, 0, 0] }",
+            "[]",
+            "7:18",
+            "the list of starts is empty: give at least one table",
+        ),
+        (
+            chain,
+            "{ q = [1, 0, 0], p = [0, 0, 0] }",
+            "'none.csv'",
+            "7:18",
+            "none.csv: No such file",
+        ),
+    ] {
+        let output = call(&folder, &replaced(setup, from, to), &[]);
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}: {error}");
+        assert!(
+            error.contains(message) && error.contains(&format!("setup.toml:{place}")),
+            "{place} {message}: {error}"
+        );
+    }
+}
