@@ -7,12 +7,11 @@ use core::ops::ControlFlow;
 use super::group::{Attempt, Group, Member, Task};
 use crate::error::Error;
 use crate::integrator::CoupledLanes;
-use crate::integrator::explicit_in_lanes::evaluations;
 use crate::method::{Method, Solver};
 use crate::number::{Lanes, Summation, Vector};
 use crate::output::at_times::{self, Output};
 use crate::state::State;
-use crate::system::{Join, System};
+use crate::system::System;
 
 /// Number of steps between checks whether the run is stopped.
 const BLOCK: u64 = 1 << 10;
@@ -31,7 +30,7 @@ where
 {
     group: &'g mut Group<'a, M, S, V, R, N, L, A>,
     see: &'g F,
-    lanes: CoupledLanes<M, S, V, R, N, W, J>,
+    lanes: &'g mut CoupledLanes<M, S, V, R, N, W, J>,
     /// The lanes whose trajectory has not failed.
     live: u32,
     /// The lanes whose trajectory takes the next step in its lane.
@@ -54,36 +53,22 @@ where
     W: Vector<Scalar: Lanes>,
     J: System<W, Class = <S as System<V>>::Class>,
 {
-    /// Loads the trajectories into lanes; `None` if the system or its lanes do not allow it.
+    /// Trajectories in lanes with this system; `None` if their velocities are not of one kind, or the lanes round differently.
     pub(super) fn new(
         group: &'g mut Group<'a, M, S, V, R, N, L, A>,
         see: &'g F,
-        join: Join<S, J>,
-        zeros: &W,
+        lanes: &'g mut CoupledLanes<M, S, V, R, N, W, J>,
     ) -> Option<Self> {
+        group.leave_lanes();
         let count = group.members.len();
         // Unused lanes hold copies: zeros might be a singular point.
-        let system = group.system(join, (0..W::Scalar::WIDTH).map(|lane| lane % count))?;
-        let first = group.members.first_mut()?;
-        let mut lanes = CoupledLanes::like(&mut first.run, system, zeros);
-        if !group.members.iter().all(|member| lanes.takes(&member.run)) {
+        let first = group.members.first()?;
+        lanes.begin(&first.run, |lane| group.start(lane % count));
+        let are_alike = group.members.iter().all(|member| lanes.takes(&member.run));
+        if !are_alike || !group.evaluates_like(&lanes.evaluations()) {
             return None;
         }
-        for lane in 0..W::Scalar::WIDTH {
-            let run = &mut group.members[lane % count].run;
-            let size = run.step_size();
-            lanes.load(lane, run, size);
-        }
-        let in_lanes = evaluations(lanes.system(), &lanes.state());
-        let alike = |(lane, member): (usize, &Member<M, S, V, R, N, A>)| {
-            let alone = evaluations(member.run.system(), member.run.state());
-            let in_lane = in_lanes.iter().skip(lane).step_by(W::Scalar::WIDTH);
-            in_lane.eq(&alone)
-        };
-        if !group.members.iter().enumerate().all(alike) {
-            return None;
-        }
-        let live = (1 << group.members.len()) - 1;
+        let live = (1 << count) - 1;
         Some(Self {
             group,
             see,
@@ -96,20 +81,21 @@ where
     }
 
     /// Runs all trajectories.
-    pub(super) fn run(mut self, task: &Task<'_>) -> Attempt {
-        let attempt = match *task {
+    pub(super) fn run(mut self, task: Task<'_>) -> Attempt {
+        let attempt = match task {
             Task::To(_) | Task::Steps(_) => self.take_remaining(task),
             Task::At(times) => self.see_at(times),
         };
         for lane in bits(self.ready) {
-            self.lanes.store(lane, &mut self.group.members[lane].run);
+            let run = &mut self.group.members[lane].run;
+            self.lanes.store_state(lane, run);
         }
         attempt
     }
 
-    fn take_remaining(&mut self, task: &Task<'_>) -> Attempt {
+    fn take_remaining(&mut self, task: Task<'_>) -> Attempt {
         let run = &self.group.members[0].run;
-        let remaining = match *task {
+        let remaining = match task {
             Task::To(end) => run.steps_to_time(end),
             Task::Steps(count) => Ok(run.steps_left(count)),
             Task::At(_) => return Attempt::Refused,

@@ -3,25 +3,21 @@
 use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
-use super::coupled::Coupled;
+use super::explicit::SideBySide;
 use super::registers::{may_be_found, width};
 use super::run::Way;
 use super::{Ensemble, Row};
 use crate::error::Error;
-use crate::integrator::Integrator;
+use crate::integrator::explicit_in_lanes::{evaluations, is_same};
+use crate::integrator::{Integrator, Statistics};
 use crate::method::{Method, Solver};
 use crate::number::registers::Widest;
-use crate::number::vector::same;
-use crate::number::{Lanes, Scalar, Summation, Vector, WideF64x8, WidestF64x16};
-use crate::output::at_times::{self, Output};
-use crate::output::steps::is_after;
+use crate::number::{Lanes, Summation, Vector, WideF64x8, WidestF64x16};
 use crate::state::State;
-use crate::system::{Join, LaneWork, System};
-
-/// Number of steps between checks whether the run is stopped.
-const BLOCK: u64 = 1 << 16;
+use crate::system::{Join, System};
 
 /// The task of every trajectory.
+#[derive(Clone, Copy)]
 pub(super) enum Task<'a> {
     /// Integrate to a time.
     To(f64),
@@ -31,12 +27,29 @@ pub(super) enum Task<'a> {
     At(&'a [f64]),
 }
 
+/// A run of an ensemble.
+pub(super) struct Job<'a, M, S: System<V>, V: Vector, R, N, L, A, F> {
+    pub(super) ensemble: &'a Ensemble<M, S, V, R, N, L>,
+    pub(super) task: Task<'a>,
+    /// Creates the output of a trajectory.
+    pub(super) output: &'a (dyn Fn(usize) -> A + Sync),
+    /// Updates it.
+    pub(super) see: &'a F,
+    pub(super) way: Way,
+    /// The number of trajectories in a full group.
+    pub(super) width: usize,
+}
+
 /// A few trajectories of an ensemble.
 pub(super) struct Group<'a, M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L, A>
 {
     pub(super) ensemble: &'a Ensemble<M, S, V, R, N, L>,
+    /// The indices of the starts.
+    places: Range<usize>,
+    /// The outputs of trajectories without an integrator of their own.
+    outputs: Vec<A>,
+    /// The trajectories, if they have left their lanes.
     pub(super) members: Vec<Member<M, S, V, R, N, A>>,
-    has_one_system: bool,
 }
 
 pub(super) struct Member<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, A> {
@@ -56,6 +69,86 @@ pub(super) enum Attempt {
     Refused,
 }
 
+impl<M, S, V, R, N, L, A, F> Job<'_, M, S, V, R, N, L, A, F>
+where
+    M: Method,
+    S: System<V> + Clone + Send + Sync,
+    V: Vector + Send + Sync,
+    R: Summation,
+    N: Solver<V, S>,
+    L: Lanes,
+    A: Send,
+    F: Fn(&mut A, &State<V>),
+{
+    /// Runs the trajectories whose starts have the indices `places` and appends their rows; those after a stop have none.
+    pub(super) fn run(&self, mut places: Range<usize>, rows: &mut Vec<Row<V, A>>) {
+        rows.reserve(places.len());
+        if self.way == Way::Alone {
+            // Without a row for all of them the run ends.
+            let _ = Group::new(self, places).run_alone(self, rows);
+            return;
+        }
+        let mut outcome = ControlFlow::Continue(());
+        while places.start < places.end && outcome.is_continue() {
+            let group = self.group_of(&places);
+            let before = places.start;
+            if self.is_enough(group.len()) {
+                outcome = self.run_in_lanes(&mut places, rows);
+            }
+            if places.start == before && outcome.is_continue() {
+                places.start = group.end;
+                outcome = Group::new(self, group).run_alone(self, rows);
+            }
+        }
+    }
+
+    /// The first group of these trajectories.
+    pub(super) fn group_of(&self, places: &Range<usize>) -> Range<usize> {
+        let end = self.ensemble.end_of_group(places.start, self.width);
+        places.start..end.min(places.end)
+    }
+
+    /// Whether lanes are faster for this number of trajectories.
+    pub(super) fn is_enough(&self, count: usize) -> bool {
+        // A sweep takes the same time in a few lanes as in all: with fewer than half of them, single runs are as fast.
+        match self.way {
+            Way::Alone => false,
+            Way::Explicit => count > 1,
+            Way::Coupled => 2 * count >= width::<L>(self.ensemble.registers),
+        }
+    }
+
+    /// Runs the first of these trajectories in lanes, group after group, and removes them from the range. It removes none if lanes are not
+    /// possible.
+    fn run_in_lanes(
+        &self,
+        places: &mut Range<usize>,
+        rows: &mut Vec<Row<V, A>>,
+    ) -> ControlFlow<()> {
+        macro_rules! lanes {
+            ($lanes:ty) => {
+                S::over_lanes::<$lanes, _>(SideBySide {
+                    job: self,
+                    has_one_system: self.ensemble.has_one_system(&self.group_of(places)),
+                    places,
+                    rows,
+                })
+            };
+        }
+        // Constant conditions: other ensembles compile without this code.
+        let outcome = if const { may_be_found::<V, S>() } {
+            match self.ensemble.registers {
+                Widest::Build => lanes!(L),
+                Widest::Avx2(_) => lanes!(WideF64x8),
+                Widest::Avx512(_) => lanes!(WidestF64x16),
+            }
+        } else {
+            lanes!(L)
+        };
+        outcome.unwrap_or(ControlFlow::Continue(()))
+    }
+}
+
 impl<'a, M, S, V, R, N, L, A> Group<'a, M, S, V, R, N, L, A>
 where
     M: Method,
@@ -67,403 +160,151 @@ where
     A: Send,
 {
     /// The trajectories whose starts have the indices `places`.
-    pub(super) fn new(
-        ensemble: &'a Ensemble<M, S, V, R, N, L>,
-        places: Range<usize>,
-        output: &impl Fn(usize) -> A,
-    ) -> Self {
-        let member = |place| {
-            let (trajectory, run) = ensemble.integrator(place);
-            Member {
-                trajectory,
-                run,
-                output: output(trajectory),
-                outcome: Ok(()),
-            }
-        };
+    pub(super) fn new<F>(job: &Job<'a, M, S, V, R, N, L, A, F>, places: Range<usize>) -> Self {
+        let outputs = places
+            .clone()
+            .map(|place| (job.output)(job.ensemble.number(place)));
         Self {
-            ensemble,
-            has_one_system: places.end <= ensemble.family_of(places.start).1,
-            members: places.map(member).collect(),
+            ensemble: job.ensemble,
+            outputs: outputs.collect(),
+            places,
+            members: Vec::new(),
         }
     }
 
-    /// Runs all trajectories; returns `Break` if the ensemble was stopped.
-    pub(super) fn run(
-        &mut self,
-        task: &Task<'_>,
-        see: &impl Fn(&mut A, &State<V>),
-    ) -> ControlFlow<()> {
-        let count = self.members.len();
-        // A sweep takes the same time in a few lanes as in all: with fewer than half of them, single runs are as fast.
-        let enough = match self.ensemble.way() {
-            Way::Alone => false,
-            Way::Explicit => count > 1,
-            Way::Coupled => 2 * count >= width::<L>(self.ensemble.registers),
-        };
-        let tried = match enough {
-            true => self.run_in_lanes(task, see),
-            false => None,
-        };
-        match tried {
-            Some(Attempt::Ended) => ControlFlow::Continue(()),
-            Some(Attempt::Stopped) => ControlFlow::Break(()),
-            Some(Attempt::Refused) | None => {
-                for member in &mut self.members {
-                    if self.ensemble.is_stopped() {
-                        return ControlFlow::Break(());
-                    }
-                    member.run_alone(task, see);
-                }
-                ControlFlow::Continue(())
-            }
-        }
+    /// The number of trajectories.
+    pub(super) fn len(&self) -> usize {
+        self.places.len()
     }
 
-    /// Runs all trajectories in lanes; `None` if the system is not defined over lanes.
-    fn run_in_lanes(
-        &mut self,
-        task: &Task<'_>,
-        see: &impl Fn(&mut A, &State<V>),
-    ) -> Option<Attempt> {
-        macro_rules! lanes {
-            ($lanes:ty) => {
-                S::over_lanes::<$lanes, _>(SideBySide {
-                    group: self,
-                    task,
-                    see,
-                })
-            };
-        }
-        // Constant conditions: other ensembles compile without this code.
-        if const { may_be_found::<V, S>() } {
-            match self.ensemble.registers {
-                Widest::Build => lanes!(L),
-                Widest::Avx2(_) => lanes!(WideF64x8),
-                Widest::Avx512(_) => lanes!(WidestF64x16),
-            }
-        } else {
-            lanes!(L)
-        }
+    /// The start of a trajectory of the group.
+    pub(super) fn start(&self, index: usize) -> &'a State<V> {
+        &self.ensemble.starts[self.places.start + index]
     }
 
-    /// The system whose lanes have the parameters of the members with these indices; `None` if there is none.
-    pub(super) fn system<J>(
+    /// The system of a trajectory of the group.
+    fn system(&self, index: usize) -> &'a S {
+        &self.ensemble.family_of(self.places.start + index).0
+    }
+
+    /// The system whose lanes have the parameters of the trajectories with these indices; `None` if there is none.
+    pub(super) fn joined<J>(
         &self,
         join: Join<S, J>,
-        places: impl Iterator<Item = usize>,
+        indices: impl Iterator<Item = usize>,
     ) -> Option<J> {
-        join(&mut places.map(|place| self.members[place].run.system()))
+        join(&mut indices.map(|index| self.system(index)))
     }
 
-    /// The rows of all trajectories.
-    pub(super) fn rows(self) -> Vec<Row<V, A>> {
-        let row = |member: Member<M, S, V, R, N, A>| Row {
-            trajectory: member.trajectory,
-            outcome: member.outcome,
-            statistics: *member.run.statistics(),
-            state: member.run.into_state(),
-            output: member.output,
+    /// An integrator at the start of a trajectory of the group.
+    pub(super) fn integrator(&self, index: usize) -> Integrator<M, S, V, R, N> {
+        self.ensemble.integrator(self.places.start + index).1
+    }
+
+    /// Makes an integrator for every trajectory, at its start.
+    pub(super) fn leave_lanes(&mut self) {
+        let outputs = self.places.clone().zip(self.outputs.drain(..));
+        let member = |(place, output)| Member::new(self.ensemble, place, output);
+        self.members.extend(outputs.map(member));
+    }
+
+    /// Whether velocity and force have the same bits in lanes and as doubles: at all starts of the first group of a run, and at one start
+    /// of every other group.
+    pub(super) fn evaluates_like<W: Vector<Scalar: Lanes>>(&self, in_lanes: &[W; 2]) -> bool {
+        let (first, count) = (self.places.start, self.len());
+        let mut compared = match first == self.ensemble.first {
+            true => 0..count,
+            false => first / count % count..first / count % count + 1,
         };
-        self.members.into_iter().map(row).collect()
+        compared.all(|index| {
+            let alone = evaluations(self.system(index), self.start(index));
+            is_same(in_lanes, index, &alone)
+        })
+    }
+
+    /// Runs all trajectories one at a time and appends their rows.
+    pub(super) fn run_alone<F: Fn(&mut A, &State<V>)>(
+        self,
+        job: &Job<'a, M, S, V, R, N, L, A, F>,
+        rows: &mut Vec<Row<V, A>>,
+    ) -> ControlFlow<()> {
+        let ensemble = self.ensemble;
+        // One exists at a time, unless they are there already.
+        let others = self.places.zip(self.outputs);
+        let others = others.map(|(place, output)| Member::new(ensemble, place, output));
+        for mut member in self.members.into_iter().chain(others) {
+            if ensemble.is_stopped() {
+                return ControlFlow::Break(());
+            }
+            member.run_alone(job.task, job.see);
+            rows.push(member.row());
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// The output of a trajectory of the group.
+    pub(super) fn output(&mut self, index: usize) -> Option<&mut A> {
+        match self.members.get_mut(index) {
+            Some(member) => Some(&mut member.output),
+            None => self.outputs.get_mut(index),
+        }
+    }
+
+    /// Appends rows of all trajectories with these statistics; the states are those at the start.
+    pub(super) fn write_starts(&mut self, statistics: Statistics, rows: &mut Vec<Row<V, A>>) {
+        let ensemble = self.ensemble;
+        let row = |(place, output): (usize, A)| Row {
+            trajectory: ensemble.number(place),
+            outcome: Ok(()),
+            state: ensemble.starts[place].clone(),
+            statistics,
+            output,
+        };
+        rows.extend(self.places.clone().zip(self.outputs.drain(..)).map(row));
+    }
+
+    /// Appends the rows of trajectories that have left their lanes.
+    pub(super) fn write(self, rows: &mut Vec<Row<V, A>>) {
+        rows.extend(self.members.into_iter().map(Member::row));
     }
 }
 
-impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, A>
-    Member<M, S, V, R, N, A>
+impl<M, S, V, R, N, A> Member<M, S, V, R, N, A>
+where
+    M: Method,
+    S: System<V> + Clone + Send + Sync,
+    V: Vector + Send + Sync,
+    R: Summation,
+    N: Solver<V, S>,
 {
-    fn run_alone(&mut self, task: &Task<'_>, see: &impl Fn(&mut A, &State<V>)) {
+    /// A trajectory at its start.
+    fn new<L: Lanes>(ensemble: &Ensemble<M, S, V, R, N, L>, place: usize, output: A) -> Self {
+        let (trajectory, run) = ensemble.integrator(place);
+        Self {
+            trajectory,
+            run,
+            output,
+            outcome: Ok(()),
+        }
+    }
+
+    pub(super) fn run_alone(&mut self, task: Task<'_>, see: &impl Fn(&mut A, &State<V>)) {
         let Self { run, output, .. } = self;
-        let outcome = match *task {
+        let outcome = match task {
             Task::To(end) => run.integrate_to(end),
             Task::Steps(count) => run.take_steps(count),
             Task::At(times) => run.integrate_at(times, |state| see(output, state)),
         };
         self.outcome = outcome.map(|_| ());
     }
-}
 
-/// The trajectories of a group, in lanes.
-struct SideBySide<
-    'g,
-    'a,
-    't,
-    M: Method,
-    S: System<V>,
-    V: Vector,
-    R: Summation,
-    N: Solver<V, S>,
-    L,
-    A,
-    F,
-> {
-    group: &'g mut Group<'a, M, S, V, R, N, L, A>,
-    task: &'g Task<'t>,
-    see: &'g F,
-}
-
-/// The integrator whose lanes hold the trajectories.
-type InLanes<M, J, W, R> = Integrator<M, J, W, R, <J as System<W>>::Solver>;
-
-impl<M, S, V, R, N, L, K, A, F> LaneWork<V, S, K> for SideBySide<'_, '_, '_, M, S, V, R, N, L, A, F>
-where
-    M: Method,
-    S: System<V> + Clone + Send + Sync,
-    V: Vector + Send + Sync,
-    R: Summation,
-    N: Solver<V, S>,
-    L: Lanes,
-    K: Lanes,
-    A: Send,
-    F: Fn(&mut A, &State<V>),
-{
-    type Output = Attempt;
-
-    fn has_one_system(&self) -> bool {
-        self.group.has_one_system
-    }
-
-    fn run<W, J>(mut self, join: Join<S, J>) -> Attempt
-    where
-        W: Vector<Scalar = K>,
-        J: System<W, Class = <S as System<V>>::Class>,
-    {
-        let first = &self.group.members[0].run;
-        let like = first.state().q.zeros_with::<K>();
-        let Some(zeros) = same::<_, W>(&like) else {
-            return Attempt::Refused;
-        };
-        if self.group.ensemble.way() == Way::Coupled {
-            let coupled = Coupled::new(self.group, self.see, join, zeros);
-            return coupled.map_or(Attempt::Refused, |coupled| coupled.run(self.task));
+    fn row(self) -> Row<V, A> {
+        Row {
+            trajectory: self.trajectory,
+            outcome: self.outcome,
+            statistics: *self.run.statistics(),
+            state: self.run.into_state(),
+            output: self.output,
         }
-        // A constant condition: other methods compile without the code below.
-        if !Integrator::<M, S, V, R, N>::LANEWISE {
-            return Attempt::Refused;
-        }
-        let mut live: Vec<usize> = (0..self.group.members.len()).collect();
-        let Some(system) = self.group.system(join, cycle::<K>(&live)) else {
-            return Attempt::Refused;
-        };
-        let mut lanes: InLanes<M, J, W, R> = first.over_lanes(system, zeros);
-        self.put_in_lanes(&mut lanes, &live);
-        let alike = |&place: &usize| lanes.evaluates_like(place, &self.group.members[place].run);
-        if !live.iter().all(alike) {
-            return Attempt::Refused;
-        }
-        match *self.task {
-            Task::To(_) | Task::Steps(_) => self.take_remaining(&mut lanes, join, &mut live),
-            Task::At(times) => self.see_at(times, &mut lanes, &live),
-        }
-    }
-}
-
-impl<M, S, V, R, N, L, A, F> SideBySide<'_, '_, '_, M, S, V, R, N, L, A, F>
-where
-    M: Method,
-    S: System<V> + Clone + Send + Sync,
-    V: Vector + Send + Sync,
-    R: Summation,
-    N: Solver<V, S>,
-    L: Lanes,
-    A: Send,
-    F: Fn(&mut A, &State<V>),
-{
-    /// Copies the live trajectories into the lanes.
-    fn put_in_lanes<W, J>(&self, lanes: &mut InLanes<M, J, W, R>, live: &[usize])
-    where
-        W: Vector<Scalar: Lanes>,
-        J: System<W>,
-    {
-        for (lane, place) in cycle::<W::Scalar>(live).enumerate() {
-            lanes.set_lane(lane, &self.group.members[place].run);
-        }
-    }
-
-    /// Copies the lanes back to the live trajectories.
-    fn take_from_lanes<W, J>(&mut self, lanes: &InLanes<M, J, W, R>, live: &[usize])
-    where
-        W: Vector<Scalar: Lanes>,
-        J: System<W>,
-    {
-        for (lane, &place) in live.iter().enumerate() {
-            lanes.get_lane(lane, &mut self.group.members[place].run);
-        }
-    }
-
-    /// Takes the remaining steps. If a step fails in a lane, every trajectory repeats the current block of steps alone;
-    /// those that succeed continue in lanes.
-    fn take_remaining<W, J>(
-        &mut self,
-        lanes: &mut InLanes<M, J, W, R>,
-        join: Join<S, J>,
-        live: &mut Vec<usize>,
-    ) -> Attempt
-    where
-        W: Vector<Scalar: Lanes>,
-        J: System<W>,
-    {
-        let remaining = match *self.task {
-            Task::To(end) => lanes.steps_to_time(end),
-            Task::Steps(count) => Ok(lanes.steps_left(count)),
-            Task::At(_) => return Attempt::Refused,
-        };
-        let Ok(mut remaining) = remaining else {
-            return Attempt::Refused;
-        };
-        while remaining.left > 0 {
-            if self.group.ensemble.is_stopped() {
-                return Attempt::Stopped;
-            }
-            let (saved, begun) = (lanes.saved(), remaining);
-            let block = lanes.block_of(&remaining);
-            if lanes.take_block_together(block, &mut remaining) {
-                continue;
-            }
-            lanes.return_to(saved);
-            self.take_from_lanes(lanes, live);
-            let mut first = None;
-            live.retain(|&place| {
-                let member = &mut self.group.members[place];
-                let mut own = begun;
-                member.outcome = member.run.take_block(block, &mut own);
-                let statistics = *member.run.statistics();
-                if member.outcome.is_ok() && *first.get_or_insert(statistics) != statistics {
-                    // A retry changed its steps, so it no longer runs in lockstep with the others.
-                    member.outcome = member.run.take_remaining(&mut own);
-                    return false;
-                }
-                if member.outcome.is_ok() {
-                    remaining = own;
-                }
-                member.outcome.is_ok()
-            });
-            let Some(system) = self.group.system(join, cycle::<W::Scalar>(live)) else {
-                for &place in live.iter() {
-                    if self.group.ensemble.is_stopped() {
-                        return Attempt::Stopped;
-                    }
-                    let member = &mut self.group.members[place];
-                    member.outcome = member.run.take_remaining(&mut remaining.clone());
-                }
-                return Attempt::Ended;
-            };
-            lanes.set_system(system);
-            self.put_in_lanes(lanes, live);
-        }
-        self.take_from_lanes(lanes, live);
-        Attempt::Ended
-    }
-
-    /// Observes the trajectories at given times. If anything fails in a lane, all trajectories continue alone from the
-    /// last observed time.
-    fn see_at<W, J>(
-        &mut self,
-        times: &[f64],
-        lanes: &mut InLanes<M, J, W, R>,
-        live: &[usize],
-    ) -> Attempt
-    where
-        W: Vector<Scalar: Lanes>,
-        J: System<W>,
-    {
-        if at_times::check(lanes, times).is_err() {
-            return Attempt::Refused;
-        }
-        let present = lanes.state().time;
-        let direction = lanes.step_size();
-        let seen = times
-            .iter()
-            .take_while(|&&time| !is_after(direction, time, present));
-        let mut rest = &times[seen.count()..];
-        for member in &mut self.group.members {
-            for _ in rest.len()..times.len() {
-                (self.see)(&mut member.output, member.run.state());
-            }
-        }
-        let mut output = Output::new(lanes, direction);
-        let mut shown = self.group.members[0].run.state().clone();
-        while !rest.is_empty() {
-            if self.group.ensemble.is_stopped() {
-                return Attempt::Stopped;
-            }
-            let saved = lanes.saved();
-            let Some(seen) = self.see_next(rest, lanes, live, (&mut output, &mut shown)) else {
-                lanes.return_to(saved);
-                self.take_from_lanes(lanes, live);
-                for &place in live {
-                    if self.group.ensemble.is_stopped() {
-                        return Attempt::Stopped;
-                    }
-                    self.group.members[place].run_alone(&Task::At(rest), self.see);
-                }
-                return Attempt::Ended;
-            };
-            rest = &rest[seen..];
-        }
-        self.take_from_lanes(lanes, live);
-        Attempt::Ended
-    }
-
-    /// Steps past the first of the times, observes the states at all times in the last step, and returns their number: zero if the run was
-    /// stopped, `None` if a lane failed.
-    fn see_next<W, J>(
-        &mut self,
-        times: &[f64],
-        lanes: &mut InLanes<M, J, W, R>,
-        live: &[usize],
-        (output, shown): (&mut Output<W>, &mut State<V>),
-    ) -> Option<usize>
-    where
-        W: Vector<Scalar: Lanes>,
-        J: System<W>,
-    {
-        let direction = lanes.step_size();
-        let mut steps = 0_u64;
-        while is_after(direction, times[0], lanes.state().time) {
-            if !lanes.step_together() {
-                return None;
-            }
-            output.evaluated = false;
-            steps += 1;
-            if steps.is_multiple_of(BLOCK) && self.group.ensemble.is_stopped() {
-                return Some(0);
-            }
-        }
-        let present = lanes.state();
-        let mut count = 0;
-        for &time in times {
-            if is_after(direction, time, present.time) {
-                break;
-            }
-            let state = match time == present.time {
-                // A zero time has the same sign as in a run of one trajectory.
-                true => present,
-                false => {
-                    output.look_together(lanes, time).ok()?;
-                    &output.state
-                }
-            };
-            shown.time = state.time;
-            for (lane, &place) in live.iter().enumerate() {
-                copy_lane(lane, &state.q, &mut shown.q);
-                copy_lane(lane, &state.p, &mut shown.p);
-                (self.see)(&mut self.group.members[place].output, shown);
-            }
-            count += 1;
-        }
-        Some(count)
-    }
-}
-
-/// A live trajectory for each lane, cyclically, so that no lane is empty.
-fn cycle<L: Lanes>(live: &[usize]) -> impl Iterator<Item = usize> {
-    live.iter().copied().cycle().take(L::WIDTH)
-}
-
-/// Copies the vector of a lane.
-fn copy_lane<V: Vector, W: Vector<Scalar: Lanes>>(lane: usize, from: &W, to: &mut V) {
-    for (to, from) in to.as_mut_slice().iter_mut().zip(from.as_slice()) {
-        *to = V::Scalar::from_f64(from.get(lane));
     }
 }

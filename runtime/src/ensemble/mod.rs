@@ -33,20 +33,21 @@
 //! [different systems](Ensemble::of_families), if these are written by hand, or are formulas with friction or applied forces.
 //!
 //! A system rounds differently in lanes if it depends on the number type, such as products of large matrices in nalgebra. So velocity
-//! and force are compared at every start, and trajectories run one at a time if they differ. A system for every scalar must not
-//! [branch on a value](crate::Scalar), such as a magnitude: in lanes the branch would apply to all trajectories, and only the starts are
-//! compared.
+//! and force are compared with those of doubles, at the first starts of a run and at one start in each set of lanes. Trajectories run one
+//! at a time if they differ. A system for every scalar must not [branch on a value](crate::Scalar), such as a magnitude: in lanes the
+//! branch would apply to all trajectories, and few states are compared.
 //!
 //! # Threads
 //!
 //! With the feature `parallel` the threads of `rayon` share the trajectories. Without it there is one thread; the bits
-//! are the same.
+//! are the same. A thread runs many short trajectories before their rows are shown, and the next ones run meanwhile.
 
 #[cfg(feature = "serde")]
 mod as_bits;
 mod checkpoint;
 mod coupled;
 mod error;
+mod explicit;
 #[cfg(any(feature = "npz", feature = "parquet"))]
 mod facts;
 mod group;

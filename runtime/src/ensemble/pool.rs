@@ -1,8 +1,7 @@
 //! Distribution of trajectories over threads.
 
-#[cfg(feature = "parallel")]
-use alloc::boxed::Box;
 use alloc::vec::Vec;
+use core::ops::{ControlFlow, Range};
 
 /// Number of threads that run trajectories.
 pub(super) fn threads() -> usize {
@@ -12,85 +11,150 @@ pub(super) fn threads() -> usize {
     return 1;
 }
 
-/// Number of groups of trajectories to run before their rows are passed on; adapted so that a batch takes about a second.
-#[cfg(feature = "parallel")]
-pub(super) struct Batch {
-    groups: usize,
+/// Calls `fill` with shares of at most `share` places, on one thread, and `show` with the rows of each share.
+///
+/// `fill` appends a row for each place to the list; fewer rows end the run. So does `show`, which returns the number of rows shown.
+#[cfg(not(feature = "parallel"))]
+pub(super) fn in_order<T>(
+    places: Range<usize>,
+    share: usize,
+    fill: impl Fn(Range<usize>, &mut Vec<T>),
+    mut show: impl FnMut(&mut Vec<T>) -> ControlFlow<()>,
+) {
+    let mut rows = Vec::new();
+    let mut next = places.start;
+    while next < places.end {
+        let end = places.end.min(next.saturating_add(share));
+        fill(next..end, &mut rows);
+        let count = rows.len();
+        if show(&mut rows).is_break() || count < end - next {
+            return;
+        }
+        next = end;
+    }
 }
 
 #[cfg(feature = "parallel")]
-impl Batch {
-    /// Largest number of groups per thread.
-    const MOST: usize = 1 << 6;
-    /// Intended duration of a batch, in seconds.
-    const SECONDS: f64 = 1.0;
+pub(super) use by_threads::in_order;
 
-    /// Starts with one group per thread.
-    pub(super) fn new() -> Self {
-        Self {
-            groups: rayon::current_num_threads(),
+#[cfg(feature = "parallel")]
+mod by_threads {
+    use core::sync::atomic::{AtomicBool, Ordering};
+    use std::sync::{Mutex, PoisonError};
+    use std::time::{Duration, Instant};
+
+    use super::*;
+
+    /// Intended duration of a batch.
+    const BATCH: Duration = Duration::from_secs(1);
+    /// Duration up to which the next batch runs while rows are shown: if these end the run, it is wasted.
+    const SHORT: Duration = Duration::from_millis(100);
+    /// Largest number of places in a batch, for each thread; one share is always allowed.
+    const MOST_PLACES: usize = 1 << 12;
+    /// Largest number of shares in a batch, for each thread.
+    const MOST_SHARES: usize = 1 << 6;
+
+    /// Shares that run at the same time, in order; the lists are reused.
+    struct Batch<T> {
+        shares: Vec<(Range<usize>, Mutex<Vec<T>>)>,
+        /// The number of shares in use.
+        count: usize,
+    }
+
+    impl<T> Batch<T> {
+        /// Takes shares from the beginning of the places.
+        fn take(&mut self, places: &mut Range<usize>, share: usize, most: usize) {
+            self.count = 0;
+            while places.start < places.end && self.count < most {
+                let end = places.end.min(places.start.saturating_add(share));
+                let own = places.start..end;
+                places.start = end;
+                match self.shares.get_mut(self.count) {
+                    Some((place, _)) => *place = own,
+                    None => self.shares.push((own, Mutex::default())),
+                }
+                self.count += 1;
+            }
         }
     }
 
-    /// The number of groups.
-    pub(super) const fn groups(&self) -> usize {
-        self.groups
-    }
-
-    /// Applies `work` to the items on the threads of `rayon`, in order, and adapts the size of the next batch.
-    pub(super) fn map<T: Send, U: Send>(
-        &mut self,
-        items: Vec<T>,
-        work: impl Fn(T) -> U + Sync,
-    ) -> Vec<U> {
-        let began = std::time::Instant::now();
-        let mut all: Vec<Option<U>> = items.iter().map(|_| None).collect();
-        let work = &work;
-        let jobs = items.into_iter().zip(&mut all);
-        let jobs = jobs.map(|(item, done)| -> Job<'_> { Box::new(|| *done = Some(work(item))) });
-        do_all(jobs.collect());
-        let all = all.into_iter().flatten().collect();
+    /// Calls `fill` with shares of at most `share` places, on the threads of `rayon`, and `show` with the rows of each share in order, on
+    /// this thread.
+    ///
+    /// `fill` appends a row for each place to the list; fewer rows end the run. So does `show`.
+    pub(in crate::ensemble) fn in_order<T: Send>(
+        mut places: Range<usize>,
+        share: usize,
+        fill: impl Fn(Range<usize>, &mut Vec<T>) + Sync,
+        mut show: impl FnMut(&mut Vec<T>) -> ControlFlow<()>,
+    ) {
         let threads = rayon::current_num_threads();
-        self.groups = match began.elapsed().as_secs_f64() < Self::SECONDS {
-            true => (2 * self.groups).min(Self::MOST * threads),
-            false => (self.groups / 2).max(threads),
+        let largest = threads * (MOST_PLACES / share.max(1)).clamp(1, MOST_SHARES);
+        let ended = AtomicBool::new(false);
+        let mut show_batch = |batch: &mut Batch<T>| {
+            for (own, rows) in &mut batch.shares[..batch.count] {
+                let rows = rows.get_mut().unwrap_or_else(PoisonError::into_inner);
+                let count = rows.len();
+                if show(rows).is_break() || count < own.len() {
+                    return ControlFlow::Break(());
+                }
+            }
+            ControlFlow::Continue(())
         };
-        all
+        let run = |batch: &Batch<T>, meanwhile: &mut dyn FnMut()| {
+            let job = |number: usize| {
+                let (own, rows) = &batch.shares[number];
+                if !ended.load(Ordering::Relaxed) {
+                    let mut rows = rows.lock().unwrap_or_else(PoisonError::into_inner);
+                    fill(own.clone(), &mut rows);
+                }
+            };
+            do_all(batch.count, &job, meanwhile);
+        };
+        let batch = || Batch {
+            shares: Vec::new(),
+            count: 0,
+        };
+        let (mut shown, mut next) = (batch(), batch());
+        let mut most = threads.min(largest);
+        let mut is_short = false;
+        loop {
+            next.take(&mut places, share, most);
+            if (!is_short || next.count == 0) && show_batch(&mut shown).is_break()
+                || next.count == 0
+            {
+                return;
+            }
+            let began = Instant::now();
+            run(&next, &mut || {
+                if is_short && show_batch(&mut shown).is_break() {
+                    ended.store(true, Ordering::Relaxed);
+                }
+            });
+            if ended.load(Ordering::Relaxed) {
+                return;
+            }
+            let time = began.elapsed();
+            is_short = time < SHORT;
+            most = match time {
+                // Few batches are needed to find the right size.
+                _ if time < BATCH / 1000 => (8 * most).min(largest),
+                _ if time < BATCH => (2 * most).min(largest),
+                _ => (most / 2).max(threads),
+            };
+            core::mem::swap(&mut shown, &mut next);
+        }
     }
-}
 
-#[cfg(feature = "parallel")]
-type Job<'a> = Box<dyn FnOnce() + Send + 'a>;
-
-/// Runs all jobs on the threads of `rayon`. Independent of the types of the jobs, so it is compiled only once.
-#[cfg(feature = "parallel")]
-#[inline(never)]
-fn do_all(jobs: Vec<Job<'_>>) {
-    use rayon::iter::{IntoParallelIterator, ParallelIterator};
-    jobs.into_par_iter().for_each(|job| job());
-}
-
-/// Runs one group after another.
-#[cfg(not(feature = "parallel"))]
-pub(super) struct Batch;
-
-#[cfg(not(feature = "parallel"))]
-impl Batch {
-    pub(super) const fn new() -> Self {
-        Self
-    }
-
-    /// The number of groups.
-    pub(super) const fn groups(&self) -> usize {
-        1
-    }
-
-    /// Applies `work` to the items, in order.
-    pub(super) fn map<T: Send, U: Send>(
-        &mut self,
-        items: Vec<T>,
-        work: impl Fn(T) -> U + Sync,
-    ) -> Vec<U> {
-        items.into_iter().map(work).collect()
+    /// Runs jobs with the numbers below `count` on the threads of `rayon`, and `meanwhile` on this one. Independent of the types of the
+    /// rows, so it is compiled only once.
+    #[inline(never)]
+    fn do_all(count: usize, job: &(dyn Fn(usize) + Sync), meanwhile: &mut dyn FnMut()) {
+        rayon::in_place_scope(|scope| {
+            for number in 0..count {
+                scope.spawn(move |_| job(number));
+            }
+            meanwhile();
+        });
     }
 }

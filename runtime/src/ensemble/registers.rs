@@ -179,7 +179,14 @@ mod tests {
 
     /// H = p²/2 + q²/2; counts the evaluations of the force by the size of the number type.
     #[derive(Clone, Copy)]
-    struct Counting<'a>(&'a [AtomicUsize; 129]);
+    struct Counting<'a>(&'a Counts);
+
+    /// The number of forces, by the size of their numbers.
+    type Counts = [AtomicUsize; 257];
+
+    fn counts() -> Counts {
+        core::array::from_fn(|_| AtomicUsize::new(0))
+    }
 
     impl SeparableHamiltonian for Counting<'_> {
         type Vector<T: Scalar> = nalgebra::SVector<T, 2>;
@@ -206,7 +213,7 @@ mod tests {
 
     /// The force evaluations in eight and in sixteen lanes, for 32 trajectories of 50 steps.
     fn forces<M: Method + ProvedFor<Separable>>(method: M, avx2: bool) -> [usize; 2] {
-        let counts = core::array::from_fn(|_| AtomicUsize::new(0));
+        let counts = counts();
         let ensemble = Ensemble::plain(method, Counting(&counts), starts(32), 0.1);
         let mut ensemble = ensemble.expect("starts");
         if avx2 {
@@ -214,6 +221,18 @@ mod tests {
         }
         ensemble.take_steps(50, |_| ControlFlow::Continue(()));
         [64, 128].map(|size| counts[size].load(Ordering::Relaxed))
+    }
+
+    #[test]
+    fn a_group_is_compared_with_doubles_at_one_start_after_the_first_group() {
+        let counts = counts();
+        let ensemble = Ensemble::plain(Verlet, Counting(&counts), starts(320), 0.1);
+        let ensemble = ensemble.expect("starts");
+        let before = counts[8].load(Ordering::Relaxed);
+        ensemble.take_steps(5, |_| ControlFlow::Continue(()));
+        let width = width::<crate::number::DefaultLanes>(ensemble.registers);
+        let compared = counts[8].load(Ordering::Relaxed) - before;
+        assert_eq!((before, compared), (0, width + 320 / width - 1));
     }
 
     #[test]

@@ -1,10 +1,9 @@
 //! Runs of an ensemble.
 
-use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
-use super::group::{Group, Task};
+use super::group::{Job, Task};
 use super::pool::{self, threads};
 use super::registers::width;
 use super::{Ensemble, Row, Run, Wanted};
@@ -15,6 +14,11 @@ use crate::number::registers::Widest;
 use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::state::State;
 use crate::system::{Join, LaneWork, System};
+
+/// Number of steps after which a thread reports, roughly.
+const SHARE: f64 = (1_u64 << 16) as f64;
+/// The largest number of groups that a thread runs before it reports.
+const MOST_GROUPS: usize = 1 << 5;
 
 /// How trajectories run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,13 +90,13 @@ where
     /// returns `Break`. Returns the number of the first trajectory without a row, which is the end of [`trajectories`](Self::trajectories)
     /// unless the run was stopped.
     pub fn integrate_to(&self, end: f64, show: impl FnMut(Row<V>) -> ControlFlow<()>) -> usize {
-        self.run(&Task::To(end), |_| (), |(), _| (), show)
+        self.run(Task::To(end), |_| (), |(), _| (), show)
     }
 
     /// Takes `count` steps of every trajectory, like [`Integrator::take_steps`]. `show` and the result are as for
     /// [`integrate_to`](Self::integrate_to).
     pub fn take_steps(&self, count: u64, show: impl FnMut(Row<V>) -> ControlFlow<()>) -> usize {
-        self.run(&Task::Steps(count), |_| (), |(), _| (), show)
+        self.run(Task::Steps(count), |_| (), |(), _| (), show)
     }
 
     /// Steps every trajectory past the last of `times`, like [`Integrator::integrate_at`].
@@ -129,7 +133,7 @@ where
         see: impl Fn(&mut A, &State<V>) + Sync,
         show: impl FnMut(Row<V, A>) -> ControlFlow<()>,
     ) -> usize {
-        self.run(&Task::At(times), output, see, show)
+        self.run(Task::At(times), output, see, show)
     }
 
     /// Calls `work` with the integrator of every trajectory: to find events, observe invariants, take steps.
@@ -254,18 +258,22 @@ where
                 output,
             }
         };
-        let rows = |places: Range<usize>| places.map(row).collect();
-        self.show_all(1, rows, show)
+        let fill = |places: Range<usize>, rows: &mut Vec<Row<V, A>>| {
+            let going_on = |_: &usize| !self.is_stopped();
+            rows.extend(places.take_while(going_on).map(row));
+        };
+        self.show_all(1, fill, show)
     }
 
     fn run<A: Send>(
         &self,
-        task: &Task<'_>,
+        task: Task<'_>,
         output: impl Fn(usize) -> A + Sync,
         see: impl Fn(&mut A, &State<V>) + Sync,
         show: impl FnMut(Row<V, A>) -> ControlFlow<()>,
     ) -> usize {
-        let width = match self.way() {
+        let way = self.way();
+        let width = match way {
             Way::Alone => 1,
             Way::Explicit => width::<L>(self.registers),
             // All threads take precedence over all lanes.
@@ -276,14 +284,32 @@ where
                     .clamp(1, width::<L>(self.registers))
             }
         };
-        let rows = |place: Range<usize>| {
-            let mut group = Group::new(self, place, &output);
-            match group.run(task, &see) {
-                ControlFlow::Continue(()) => group.rows(),
-                ControlFlow::Break(()) => Vec::new(),
+        let job = Job {
+            ensemble: self,
+            task,
+            output: &output,
+            see: &see,
+            way,
+            width,
+        };
+        let share = width * (self.trajectories_of_share(task) / width).clamp(1, MOST_GROUPS);
+        self.show_all(share, |places, rows| job.run(places, rows), show)
+    }
+
+    /// The number of trajectories that one thread runs before it reports: many if they are short.
+    fn trajectories_of_share(&self, task: Task<'_>) -> usize {
+        let start = self.starts.get(self.first).map_or(0.0, |start| start.time);
+        let steps = match task {
+            Task::Steps(count) => count as f64,
+            Task::To(end) => ((end - start) / self.step_size).abs(),
+            Task::At(times) => {
+                let last = times.last().map_or(start, |last| *last);
+                ((last - start) / self.step_size)
+                    .abs()
+                    .max(times.len() as f64)
             }
         };
-        self.show_all(width, rows, show)
+        (SHARE / steps.max(1.0)) as usize
     }
 
     /// How trajectories run.
@@ -307,39 +333,20 @@ where
         }
     }
 
-    /// Runs all groups of at most `width` trajectories and passes their rows to `show`; a stopped group has no rows.
+    /// Runs shares of at most `share` trajectories and passes their rows to `show`.
     fn show_all<A: Send>(
         &self,
-        width: usize,
-        rows: impl Fn(Range<usize>) -> Vec<Row<V, A>> + Sync,
+        share: usize,
+        fill: impl Fn(Range<usize>, &mut Vec<Row<V, A>>) + Sync,
         mut show: impl FnMut(Row<V, A>) -> ControlFlow<()>,
     ) -> usize {
-        let mut next = self.first;
         let mut shown = self.first;
-        let mut batch = pool::Batch::new();
-        'all: while next < self.starts.len() {
-            let mut groups = Vec::new();
-            while next < self.starts.len() && groups.len() < batch.groups() {
-                let end = self.end_of_group(next, width);
-                groups.push(next..end);
-                next = end;
-            }
-            let rows = batch.map(groups, |group| match self.is_stopped() {
-                true => vec![],
-                false => rows(group),
-            });
-            for rows in rows {
-                if rows.is_empty() {
-                    break 'all;
-                }
-                for row in rows {
-                    shown += 1;
-                    if show(row).is_break() {
-                        break 'all;
-                    }
-                }
-            }
-        }
+        pool::in_order(self.first..self.starts.len(), share, fill, |rows| {
+            rows.drain(..).try_for_each(|row| {
+                shown += 1;
+                show(row)
+            })
+        });
         self.offset + shown
     }
 
@@ -349,7 +356,7 @@ where
 
     /// The end of a group of at most `width` trajectories with the same start time and, unless systems [join](System::JOINS), the same
     /// system.
-    fn end_of_group(&self, first: usize, width: usize) -> usize {
+    pub(super) fn end_of_group(&self, first: usize, width: usize) -> usize {
         let time = self.starts[first].time.to_bits();
         let most = (first + width).min(self.starts.len());
         let others = first + 1..most;
@@ -364,6 +371,16 @@ where
         };
         let last = families().take(joined.unwrap_or(1)).last();
         last.map_or(end, |(_, last)| end.min(*last))
+    }
+
+    /// Whether all these starts have the same system.
+    pub(super) fn has_one_system(&self, places: &Range<usize>) -> bool {
+        places.end <= self.family_of(places.start).1
+    }
+
+    /// The number of the trajectory from a start.
+    pub(super) const fn number(&self, place: usize) -> usize {
+        self.offset + place
     }
 
     /// The systems of a range of starts, each with the end of its own range.

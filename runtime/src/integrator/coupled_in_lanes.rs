@@ -10,6 +10,7 @@ use core::mem;
 
 use num_traits::Zero;
 
+use super::explicit_in_lanes::{evaluations, fill};
 use super::{Integrator, PlanOf};
 use crate::method::{
     LaneMemory, LaneOutcome, Method, Outcome, Plan, Solver, Step, StepInLanes, Stopping, WarmStart,
@@ -85,6 +86,39 @@ where
         }
     }
 
+    /// Begins runs at other states of the same time: each lane at the state that `start` returns for it. A run has to be
+    /// [loaded](Self::load) before its first step in a lane.
+    pub(crate) fn begin<'s>(
+        &mut self,
+        first: &Integrator<M, S, V, R, N>,
+        start: impl Fn(usize) -> &'s State<V>,
+    ) where
+        V: 's,
+    {
+        let [q, p, q_low, p_low] = &mut *self.states.now;
+        fill(q, |lane| start(lane).q.as_slice());
+        fill(p, |lane| start(lane).p.as_slice());
+        for low in [q_low, p_low] {
+            low.as_mut_slice().fill(W::Scalar::zero());
+        }
+        self.linear_velocity = first.step_memory.linear_velocity;
+        self.taken = None;
+        (self.time, self.last_time, self.last_size) = (start(0).time, start(0).time, 0.0);
+        self.since.fill(self.steps);
+        (self.sweeps, self.most) = (W::Scalar::zero(), W::Scalar::zero());
+    }
+
+    /// Sets the system, with the parameters of the run in each lane.
+    pub(crate) fn set_system(&mut self, system: J) {
+        self.system = system;
+    }
+
+    /// Velocity and force in all lanes.
+    pub(crate) fn evaluations(&self) -> [W; 2] {
+        let [q, p, ..] = &*self.states.now;
+        evaluations(&self.system, &State::new(self.time, q.clone(), p.clone()))
+    }
+
     /// Whether a run can be in these lanes.
     pub(crate) fn takes(&self, run: &Integrator<M, S, V, R, N>) -> bool {
         // The last allowed sweep of a step is left to the run.
@@ -94,17 +128,6 @@ where
     /// Time of all runs in lanes.
     pub(crate) const fn time(&self) -> f64 {
         self.time
-    }
-
-    /// The states of the runs in lanes.
-    pub(crate) fn state(&self) -> State<W> {
-        let [q, p, ..] = &*self.states.now;
-        State::new(self.time, q.clone(), p.clone())
-    }
-
-    /// The system of the runs.
-    pub(crate) const fn system(&self) -> &J {
-        &self.system
     }
 
     /// Copies a run into a lane; returns whether its next step, of this size, can be taken there.
@@ -134,6 +157,17 @@ where
 
     /// Copies a lane into its run.
     pub(crate) fn store(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>) {
+        self.store_state(lane, run);
+        self.memory.store(lane, &mut run.step_memory.memory);
+        run.step_memory.kept = WarmStart {
+            evaluation: true,
+            stages: true,
+            scales: self.memory.scales.map(|scale| scale.get(lane)),
+        };
+    }
+
+    /// Copies the state of a lane, and its statistics, into its run, but not the stages: the run has ended.
+    pub(crate) fn store_state(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>) {
         let step_memory = &mut run.step_memory;
         let StatesInLanes { now, other } = &self.states;
         let lanes = now.iter().chain(other.iter());
@@ -143,7 +177,7 @@ where
                 *number = lanes.get(lane);
             }
         }
-        self.memory.store(lane, &mut step_memory.memory);
+        step_memory.kept = WarmStart::default();
         let steps = self.steps - self.since[lane];
         if steps > 0 {
             let counts = self.taken.map(|taken| taken.counts);
@@ -161,11 +195,6 @@ where
         step_memory.state.time = self.time;
         step_memory.last_time = self.last_time;
         step_memory.last_size = self.last_size;
-        step_memory.kept = WarmStart {
-            evaluation: true,
-            stages: true,
-            scales: self.memory.scales.map(|scale| scale.get(lane)),
-        };
         self.count_from_here(lane);
     }
 

@@ -6,12 +6,14 @@
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
+use num_traits::Zero;
+
 use super::{Integrator, MemoryOf, PlanOf, StepMemory};
-use crate::integrator::Retry;
 use crate::integrator::clock::{Clock, RemainingSteps};
-use crate::method::{Method, Plan, Solver, StageStorage};
+use crate::integrator::{Retry, Statistics};
+use crate::method::{Method, Plan, Solver, StageStorage, WarmStart};
 use crate::number::registers::Work;
-use crate::number::{Lanes, Scalar, Summation, Vector, vector_words};
+use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::state::State;
 use crate::system::System;
 
@@ -52,7 +54,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 
     /// An integrator for runs like this one, with the system of their lanes, in vectors like `zeros`; every lane still has to be
-    /// [set](Self::set_lane).
+    /// [begun](Self::begin_together).
     pub(crate) fn over_lanes<W: Vector<Scalar: Lanes>, J: System<W>>(
         &self,
         system: J,
@@ -134,31 +136,92 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
         self.system = system;
     }
 
-    /// Copies a run into a lane. The run has to be at the same step as the runs in the other lanes.
-    pub(crate) fn set_lane<S: System<V>, V: Vector, O: Solver<V, S>>(
+    /// Begins runs at other states of the same time: each lane at the state that `start` returns for it.
+    pub(crate) fn begin_together<'s, V: Vector + 's>(
         &mut self,
-        lane: usize,
-        run: &Integrator<M, S, V, R, O>,
+        start: impl Fn(usize) -> &'s State<V>,
     ) {
-        let words = words_of(&mut run.step_memory.clone());
-        let mut number = 0;
-        self.step_memory.scalar_words(&mut |word| {
-            if number % <W::Scalar as Lanes>::WIDTH == lane {
-                *word = words[number / <W::Scalar as Lanes>::WIDTH];
-            }
-            number += 1;
-        });
-        self.step_memory.same_place(&run.step_memory);
-        self.clock = run.clock;
+        let StepMemory {
+            state,
+            low,
+            kept,
+            last_size,
+            last_time,
+            statistics,
+            ..
+        } = &mut self.step_memory;
+        state.time = start(0).time;
+        fill(&mut state.q, |lane| start(lane).q.as_slice());
+        fill(&mut state.p, |lane| start(lane).p.as_slice());
+        for low in [&mut low.0, &mut low.1] {
+            low.as_mut_slice().fill(W::Scalar::zero());
+        }
+        // Without these nothing else is read that an earlier run has left.
+        (*kept, *last_size) = (WarmStart::default(), 0.0);
+        (*last_time, *statistics) = (state.time, Statistics::default());
+        self.clock = Clock::new(state.time, self.step_size);
     }
 
-    /// Copies a lane into a run.
+    /// Velocity and force in all lanes.
+    pub(crate) fn evaluations_together(&self) -> [W; 2] {
+        evaluations(&self.system, &self.step_memory.state)
+    }
+
+    /// Writes the state of each lane, from the first on, to the `state` of an item.
+    pub(crate) fn write_lanes<V: Vector, T>(
+        &self,
+        items: &mut [T],
+        state: impl Fn(&mut T) -> &mut State<V>,
+    ) {
+        let own = &self.step_memory.state;
+        for item in &mut *items {
+            state(item).time = own.time;
+        }
+        let mut write = |from: &W, to: fn(&mut State<V>) -> &mut V| {
+            for (number, lanes) in from.as_slice().iter().enumerate() {
+                let lanes = lanes.to_array();
+                for (&double, item) in lanes.as_ref().iter().zip(&mut *items) {
+                    to(state(item)).as_mut_slice()[number] = V::Scalar::from_f64(double);
+                }
+            }
+        };
+        write(&own.q, |state| &mut state.q);
+        write(&own.p, |state| &mut state.p);
+    }
+
+    /// Copies a run into each lane. The runs have to be at the same step.
+    pub(crate) fn set_lanes<'r, S, V, O>(
+        &mut self,
+        run: impl Fn(usize) -> &'r Integrator<M, S, V, R, O>,
+    ) where
+        S: System<V> + 'r,
+        V: Vector + 'r,
+        O: Solver<V, S> + 'r,
+    {
+        let width = <W::Scalar as Lanes>::WIDTH;
+        let words = |lane| words_of(&mut run(lane).step_memory.clone());
+        let words: Vec<Vec<u64>> = (0..width).map(words).collect();
+        let mut number = 0;
+        self.step_memory.scalar_words(&mut |word| {
+            *word = words[number % width][number / width];
+            number += 1;
+        });
+        self.step_memory.same_place(&run(0).step_memory);
+        self.clock = run(0).clock;
+    }
+
+    /// The words of all lanes, for [`get_lane`](Self::get_lane).
+    pub(crate) fn words(&self) -> Vec<u64> {
+        words_of(&mut self.step_memory.clone())
+    }
+
+    /// Copies a lane into a run, from the [words](Self::words) of all lanes.
     pub(crate) fn get_lane<S: System<V>, V: Vector, O: Solver<V, S>>(
         &self,
+        words: &[u64],
         lane: usize,
         run: &mut Integrator<M, S, V, R, O>,
     ) {
-        let words = words_of(&mut self.step_memory.clone());
         let mut number = lane;
         run.step_memory.scalar_words(&mut |word| {
             *word = words[number];
@@ -167,17 +230,38 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
         run.step_memory.same_place(&self.step_memory);
         run.clock = self.clock;
     }
+}
 
-    /// Whether the system gives a lane the same bits as the run of doubles.
-    pub(crate) fn evaluates_like<S: System<V>, V: Vector, O: Solver<V, S>>(
-        &self,
-        lane: usize,
-        run: &Integrator<M, S, V, R, O>,
-    ) -> bool {
-        let lanes = evaluations(&self.system, &self.step_memory.state);
-        let alone = evaluations(&run.system, &run.step_memory.state);
-        let in_lane = lanes.iter().skip(lane).step_by(<W::Scalar as Lanes>::WIDTH);
-        in_lane.eq(&alone)
+/// The velocity and the force of a system at a state.
+pub(crate) fn evaluations<V: Vector, S: System<V>>(system: &S, state: &State<V>) -> [V; 2] {
+    V::Scalar::in_registers(Evaluate { system, state })
+}
+
+/// Whether velocity and force have the same bits in a lane and as doubles.
+pub(crate) fn is_same<W, V>(in_lanes: &[W; 2], lane: usize, alone: &[V; 2]) -> bool
+where
+    W: Vector<Scalar: Lanes>,
+    V: Vector,
+{
+    in_lanes.iter().zip(alone).all(|(in_lanes, alone)| {
+        let (in_lanes, alone) = (in_lanes.as_slice(), V::Scalar::doubles(alone.as_slice()));
+        let alone = alone.unwrap_or(&[]);
+        let mut pairs = in_lanes.iter().zip(alone);
+        in_lanes.len() == alone.len()
+            && pairs.all(|(in_lanes, alone)| in_lanes.get(lane).to_bits() == alone.to_bits())
+    })
+}
+
+/// Sets every lane of a vector to the doubles of another one.
+pub(super) fn fill<'v, W: Vector<Scalar: Lanes>, T: Scalar>(
+    vector: &mut W,
+    lane: impl Fn(usize) -> &'v [T],
+) {
+    for (number, component) in vector.as_mut_slice().iter_mut().enumerate() {
+        *component = Lanes::from_fn(|place| {
+            let doubles = T::doubles(lane(place)).unwrap_or(&[]);
+            doubles.get(number).copied().unwrap_or_default()
+        });
     }
 }
 
@@ -242,14 +326,6 @@ where
 fn words_of<V: Vector, T: StageStorage<V>>(step_memory: &mut StepMemory<V, T>) -> Vec<u64> {
     let mut words = Vec::new();
     step_memory.scalar_words(&mut |word| words.push(*word));
-    words
-}
-
-/// The words of velocity and force at a state.
-pub(crate) fn evaluations<V: Vector, S: System<V>>(system: &S, state: &State<V>) -> Vec<u64> {
-    let mut found = V::Scalar::in_registers(Evaluate { system, state });
-    let mut words = Vec::new();
-    vector_words(&mut found, &mut |word| words.push(*word));
     words
 }
 

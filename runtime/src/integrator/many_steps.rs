@@ -46,6 +46,20 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         Ok(())
     }
 
+    /// Takes remaining steps until `left` are left.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn take_until(
+        &mut self,
+        left: u64,
+        remaining: &mut RemainingSteps,
+    ) -> Result<(), Error> {
+        while remaining.left > left {
+            let block = self.block_of(remaining).min(remaining.left - left);
+            self.take_block(block, remaining)?;
+        }
+        Ok(())
+    }
+
     /// Number of the remaining steps to take next: one, to provide an evaluation to continue from, or many in place.
     #[inline]
     pub(crate) fn block_of(&self, remaining: &RemainingSteps) -> u64 {

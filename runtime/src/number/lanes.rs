@@ -48,12 +48,8 @@ pub trait Lanes: Scalar {
         self.to_array().as_ref()[lane]
     }
 
-    /// Sets the number of a lane.
-    #[inline]
-    fn set(&mut self, lane: usize, number: f64) {
-        let old = self.to_array();
-        *self = Self::from_fn(|k| if k == lane { number } else { old.as_ref()[k] });
-    }
+    /// Sets the number of a lane, if there is such a lane.
+    fn set(&mut self, lane: usize, number: f64);
 
     /// The larger of two numbers in each lane; either of them if one is NaN.
     fn larger(self, other: Self) -> Self;
@@ -381,6 +377,14 @@ macro_rules! lanes {
             #[cfg_attr(not(debug_assertions), inline(always))]
             fn to_array(self) -> [f64; $width] {
                 self.0.to_array()
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn set(&mut self, lane: usize, number: f64) {
+                let lanes: &mut [f64; $width] = bytemuck::cast_mut(&mut self.0);
+                if let Some(place) = lanes.get_mut(lane) {
+                    *place = number;
+                }
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]

@@ -128,6 +128,13 @@ macro_rules! sixteen {
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
+            fn set(&mut self, lane: usize, number: f64) {
+                if let Some(half) = self.0.get_mut(lane / 8) {
+                    half.set(lane % 8, number);
+                }
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn larger(self, other: Self) -> Self {
                 let (Self([a, b]), Self([c, d])) = (self, other);
                 Self([a.larger(c), b.larger(d)])

@@ -1,5 +1,7 @@
 //! The bits of a trajectory are those that it has alone, whatever the lanes, the parts and the order.
 
+use std::ops::ControlFlow;
+
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::simd::{F64x2, F64x4, F64x8, F64x16};
@@ -14,7 +16,7 @@ use crate::common::methods::{
     Weighted, Yoshida6,
 };
 use crate::common::systems::Product;
-use crate::systems::{Bits, HenonHeiles, Pendulums, alone, keep, starts};
+use crate::systems::{Bits, HenonHeiles, Pendulums, alone, keep, on_threads, starts};
 
 /// The runs of an ensemble made by `make`, of all lanes, by `$call`.
 macro_rules! in_all_lanes {
@@ -116,6 +118,36 @@ fn splittings() {
     check_sums(ForestRuth, SYSTEM, &starts, -0.1);
     check_sums(McLachlanAtela, SYSTEM, &starts, 0.1);
     check_sums(Yoshida6, SYSTEM, &starts, 0.1);
+}
+
+/// Threads take shares of many trajectories, and their rows are shown while the next shares run.
+#[test]
+fn short_runs_on_any_number_of_threads() {
+    let mut starts = starts(3000, 5000);
+    // Groups end where the time changes.
+    starts[1111..1300]
+        .iter_mut()
+        .for_each(|start| start.time = 0.75);
+    let make = |start| Integrator::new(StoermerVerlet, SYSTEM, start, 0.1);
+    let expected = alone(&starts, make, |run| (run.take_steps(3).map(|_| ()), ()));
+    let ensemble = Ensemble::new(StoermerVerlet, SYSTEM, starts, 0.1).expect("starts");
+    for threads in 1..=3 {
+        let mut rows = Vec::new();
+        on_threads(threads, || ensemble.take_steps(3, keep(&mut rows, 0)));
+        assert!(rows == expected, "{threads} threads");
+        // The run ends in the middle of a share.
+        let mut count = 0;
+        let next = on_threads(threads, || {
+            ensemble.take_steps(3, |_| {
+                count += 1;
+                match count < 1777 {
+                    true => ControlFlow::Continue(()),
+                    false => ControlFlow::Break(()),
+                }
+            })
+        });
+        assert_eq!((next, count), (1777, 1777), "{threads} threads");
+    }
 }
 
 /// Two registers of AVX-512: they are the lanes of a build for it.

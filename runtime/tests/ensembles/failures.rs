@@ -69,6 +69,24 @@ fn neighbours_go_on_to_the_bit() {
     check(ForestRuth, 4, 0.1, Retry::Split { halvings: 3 });
 }
 
+/// The steps before the failure are fewer than those after which a group is saved.
+#[test]
+fn neighbours_of_early_failures_go_on_to_the_bit() {
+    let mut starts = starts(23, 100);
+    for start in starts.iter_mut().skip(3).step_by(7) {
+        start.p *= 12.0;
+    }
+    let make = |start| Integrator::new(ForestRuth, SYSTEM, start, 0.1);
+    let ensemble = Ensemble::new(ForestRuth, SYSTEM, starts.clone(), 0.1).expect("starts");
+    for steps in [2, 30, 100, 700] {
+        let expected = alone(&starts, make, |run| (run.take_steps(steps).map(|_| ()), ()));
+        assert_eq!(failed(&expected).len(), if steps > 2 { 3 } else { 0 });
+        let mut rows = Vec::new();
+        ensemble.take_steps(steps, keep(&mut rows, 0));
+        assert_eq!(rows, expected, "{steps} steps");
+    }
+}
+
 #[test]
 fn the_error_says_when() {
     let ensemble = Ensemble::new(StoermerVerlet, SYSTEM, starts(8, 4), 0.1).expect("starts");
