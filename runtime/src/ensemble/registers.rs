@@ -41,6 +41,7 @@ mod tests {
     use crate::number::{Compensated, Plain, Scalar, Summation};
     use crate::state::State;
     use crate::system::{Masses, Separable, SeparableHamiltonian};
+    use crate::tangent::Tangent;
 
     symplectic::tableau! {
         Verlet { base: velocity-verlet }
@@ -62,6 +63,12 @@ mod tests {
         Turning
         q: [x, y], p: [px, py];
         H = (px^2 + py^2)/(2 + x^2) + y^2 - cos(x) + 0.1 px sin(y)
+    }
+
+    symplectic::hamiltonian! {
+        Driven { rate }
+        q: [x], p: [px];
+        H = px^2/2 - cos(x) + exp(-x^2)/(1 + x^2) + 0.02 x cos(rate t)
     }
 
     type Point = nalgebra::Vector2<f64>;
@@ -165,6 +172,14 @@ mod tests {
     }
 
     #[test]
+    fn tangents_have_the_same_bits_in_all_registers() {
+        let growing = [(Tangent::new(Driven { rate: 2.0 }), starts(37))];
+        check::<_, _, Plain>(Verlet, &growing);
+        check::<_, _, Compensated>(Verlet, &growing);
+        check::<_, _, Compensated>(Gauss4, &growing);
+    }
+
+    #[test]
     fn run_time_tableaux_have_the_same_bits_in_all_registers() {
         fn tableau<M: Method>(_method: M) -> RunTimeTableau {
             let coefficients = M::COEFFICIENTS.into();
@@ -233,6 +248,26 @@ mod tests {
         let width = width::<crate::number::DefaultLanes>(ensemble.registers);
         let compared = counts[8].load(Ordering::Relaxed) - before;
         assert_eq!((before, compared), (0, width + 320 / width - 1));
+    }
+
+    #[test]
+    fn tangents_run_in_the_registers_that_are_found() {
+        if !may_be_found::<Point, Escaping>() || Avx512::detect().is_none() {
+            return;
+        }
+        let counts = counts();
+        let system = Tangent::new(Counting(&counts));
+        let start =
+            |k: usize| State::from_arrays(0.0, [0.1, 0.2, 1.0, 0.0], [0.0, k as f64, 0.1, 0.2]);
+        let starts: Vec<State<nalgebra::Vector4<f64>>> = (0..32).map(start).collect();
+        let ensemble = Ensemble::plain(Verlet, system, starts, 0.1).expect("starts");
+        ensemble.take_steps(50, |_| ControlFlow::Continue(()));
+        // Dual numbers of doubles, and of sixteen lanes.
+        let [alone, together] = [16, 256].map(|size| counts[size].load(Ordering::Relaxed));
+        assert!(
+            matches!((alone, together), (0..=32, 100..150)),
+            "{alone} {together}"
+        );
     }
 
     #[test]

@@ -75,7 +75,7 @@ impl HyperDual {
 
 impl<T: Scalar> Dual<T> {
     /// A constant.
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn constant(value: T) -> Self {
         Self {
             value,
@@ -84,7 +84,7 @@ impl<T: Scalar> Dual<T> {
     }
 
     /// A function of this number, from its value and its derivative there.
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn chain(self, value: T, slope: T) -> Self {
         Self {
             value,
@@ -95,7 +95,7 @@ impl<T: Scalar> Dual<T> {
 
 impl<T: Scalar> Add for Dual<T> {
     type Output = Self;
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(self, other: Self) -> Self {
         Self {
             value: self.value + other.value,
@@ -106,7 +106,7 @@ impl<T: Scalar> Add for Dual<T> {
 
 impl<T: Scalar> Neg for Dual<T> {
     type Output = Self;
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn neg(self) -> Self {
         Self {
             value: -self.value,
@@ -117,7 +117,7 @@ impl<T: Scalar> Neg for Dual<T> {
 
 impl<T: Scalar> Sub for Dual<T> {
     type Output = Self;
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sub(self, other: Self) -> Self {
         Self {
             value: self.value - other.value,
@@ -128,7 +128,7 @@ impl<T: Scalar> Sub for Dual<T> {
 
 impl<T: Scalar> Mul for Dual<T> {
     type Output = Self;
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mul(self, other: Self) -> Self {
         Self {
             value: self.value * other.value,
@@ -139,7 +139,7 @@ impl<T: Scalar> Mul for Dual<T> {
 
 impl<T: Scalar> Div for Dual<T> {
     type Output = Self;
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn div(self, other: Self) -> Self {
         let value = self.value / other.value;
         Self {
@@ -152,7 +152,7 @@ impl<T: Scalar> Div for Dual<T> {
 macro_rules! assign {
     ($($name:ident $function:ident $operator:tt;)*) => {$(
         impl<T: Scalar> $name for Dual<T> {
-            #[inline]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $function(&mut self, other: Self) {
                 *self = *self $operator other;
             }
@@ -168,16 +168,19 @@ assign! {
 }
 
 impl<T: Scalar> Zero for Dual<T> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn zero() -> Self {
         Self::constant(T::zero())
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_zero(&self) -> bool {
         *self == Self::zero()
     }
 }
 
 impl<T: Scalar> One for Dual<T> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn one() -> Self {
         Self::constant(T::one())
     }
@@ -186,22 +189,22 @@ impl<T: Scalar> One for Dual<T> {
 impl<T: Scalar> Scalar for Dual<T> {
     const EPSILON: f64 = T::EPSILON;
 
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_f64(value: f64) -> Self {
         Self::constant(T::from_f64(value))
     }
 
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_coefficient(coefficient: Coefficient) -> Self {
         Self::constant(T::from_coefficient(coefficient))
     }
 
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn weight(step_size: f64, coefficient: Coefficient) -> Self {
         Self::constant(T::weight(step_size, coefficient))
     }
 
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn fused(self, factor: Self, term: Self) -> Self {
         let slope = self.value.fused(factor.slope, term.slope);
         Self {
@@ -210,79 +213,85 @@ impl<T: Scalar> Scalar for Dual<T> {
         }
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn magnitude(self) -> f64 {
         larger_or_nan(self.value.magnitude(), self.slope.magnitude())
     }
 
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
         self.chain(root, T::from_f64(0.5) / root)
     }
 
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn recip(self) -> Self {
         let inverse = self.value.recip();
         self.chain(inverse, -(inverse * inverse))
     }
 
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sign(self) -> Self {
         Self::constant(self.value.sign())
     }
 
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn abs(self) -> Self {
         self.chain(self.value.abs(), self.value.sign())
     }
 
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn exp(self) -> Self {
         let value = self.value.exp();
         self.chain(value, value)
     }
 
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn ln(self) -> Self {
         self.chain(self.value.ln(), self.value.recip())
     }
 
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sin(self) -> Self {
         self.sin_cos().0
     }
 
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn cos(self) -> Self {
         self.sin_cos().1
     }
 
-    #[inline]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sin_cos(self) -> (Self, Self) {
         let (sine, cosine) = self.value.sin_cos();
         (self.chain(sine, cosine), self.chain(cosine, -sine))
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn tan(self) -> Self {
         let tangent = self.value.tan();
         self.chain(tangent, T::one() + tangent * tangent)
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn asin(self) -> Self {
         let square = T::one() - self.value * self.value;
         self.chain(self.value.asin(), square.sqrt().recip())
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn acos(self) -> Self {
         let square = T::one() - self.value * self.value;
         self.chain(self.value.acos(), -square.sqrt().recip())
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn atan(self) -> Self {
         let square = T::one() + self.value * self.value;
         self.chain(self.value.atan(), square.recip())
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn atan2(self, x: Self) -> Self {
         let square = self.value * self.value + x.value * x.value;
         Self {
@@ -291,14 +300,17 @@ impl<T: Scalar> Scalar for Dual<T> {
         }
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sinh(self) -> Self {
         self.chain(self.value.sinh(), self.value.cosh())
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn cosh(self) -> Self {
         self.chain(self.value.cosh(), self.value.sinh())
     }
 
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn tanh(self) -> Self {
         let inverse = self.value.cosh().recip();
         self.chain(self.value.tanh(), inverse * inverse)

@@ -35,7 +35,10 @@ pub(super) fn joined<T: Copy, V: Vector<Scalar = Dual<T>>>(
     values: &[T],
     slopes: &[T],
 ) -> Option<V> {
-    let mut duals: V = zeros(values.len()).filter(|_| values.len() == slopes.len())?;
+    if values.len() != slopes.len() {
+        return None;
+    }
+    let mut duals: V = zeros(values.len())?;
     let parts = values.iter().zip(slopes);
     for (dual, (&value, &slope)) in duals.as_mut_slice().iter_mut().zip(parts) {
         *dual = Dual { value, slope };

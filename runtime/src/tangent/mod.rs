@@ -214,6 +214,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Vector> System<W> for Tangent<S> {
     const FORCED: bool = S::FORCED;
     const WELL_DECLARED: bool = S::WELL_DECLARED;
     const DISPLACED: bool = true;
+    const INLINED: bool = S::INLINED;
 
     fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
         self.0.check_dimension(dimension / 2)
