@@ -15,7 +15,9 @@ pub(super) fn message(mut error: Error) -> String {
             format!("{error} (the key `step_size`){newton}")
         }
         Error::Stagnation { .. } => {
-            format!("{error}; the keys are `step_size` and `sums`, a tolerance needs a program with the macros")
+            format!(
+                "{error}; the keys are `step_size` and `sums`, a tolerance needs a program with the macros"
+            )
         }
         _ => error.to_string(),
     }

@@ -1,9 +1,10 @@
 //! A trajectory as it is kept: in memory, and in the file from which an interrupted run continues.
 
-use super::advice;
 use symplectic::ensemble::Row;
 use symplectic::nalgebra::DVector;
 use symplectic::{Error, State, Statistics};
+
+use super::advice;
 
 /// The result of a trajectory, with its states at the output times or in a section: for each of them the time, the positions and
 /// the momenta, without an allocation of their own.

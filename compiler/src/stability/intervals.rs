@@ -60,7 +60,9 @@ pub(crate) fn distinguished(
             ends[last].1 = digits;
         }
     }
-    ends.chunks_exact(2).map(|ends| [ends[0], ends[1]]).collect()
+    ends.chunks_exact(2)
+        .map(|ends| [ends[0], ends[1]])
+        .collect()
 }
 
 /// `(0, 2*sqrt(2)) ∪ (2*sqrt(3), 2*sqrt(6))`, with brackets at closed ends, and enough digits to distinguish the ends.

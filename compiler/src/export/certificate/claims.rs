@@ -207,6 +207,9 @@ fn stability(tableau: &Tableau, lower_triangular: Option<LowerTriangular>) -> Op
             members.push(("chain", chain(stages, numerator, denominator)?));
         }
     }
-    members.push(("intervals", List(intervals.iter().zip(ends).map(interval).collect())));
+    members.push((
+        "intervals",
+        List(intervals.iter().zip(ends).map(interval).collect()),
+    ));
     Some(Table(members))
 }
