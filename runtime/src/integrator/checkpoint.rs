@@ -3,7 +3,6 @@
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use core::fmt::Write as _;
 
 use crate::integrator::clock::Clock;
 use crate::integrator::fingerprint::system_fingerprint;
@@ -22,7 +21,7 @@ use crate::system::System;
 /// contains the matrices of Newton's iteration, clock, step size, tolerance and statistics.
 ///
 /// With the feature `serde` it can be written in any format. All numbers are in `words`: sixteen hexadecimal digits for each word of
-/// 64 bits. A word is the bits of an IEEE 754 double, of a single in its lower half, or of an integer. The order of the words belongs to
+/// 64 bits, or eight bytes in a binary format. A word is the bits of an IEEE 754 double, of a single in its lower half, or of an integer. The order of the words belongs to
 /// this version of the library; other versions reject the checkpoint.
 ///
 /// ```
@@ -51,22 +50,21 @@ use crate::system::System;
 /// # }
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Checkpoint {
     /// The version of this library.
-    version: String,
+    pub(super) version: String,
     /// Name and definition of the method.
-    method: String,
-    definition: String,
+    pub(super) method: String,
+    pub(super) definition: String,
     /// The type of the numbers.
-    scalar: String,
-    sums: String,
-    solver: String,
-    dimension: usize,
-    words: String,
-    /// Checksum of all fields before it.
-    checksum: String,
+    pub(super) scalar: String,
+    pub(super) sums: String,
+    pub(super) solver: String,
+    pub(super) dimension: usize,
+    /// The words, each as eight bytes, the lowest first.
+    pub(super) words: Vec<u8>,
+    /// What was wrong when it was read.
+    pub(super) damage: Option<&'static str>,
 }
 
 crate::error::debug::debug_by_message!(CheckpointError);
@@ -107,8 +105,6 @@ pub enum CheckpointError {
     },
 }
 
-const DAMAGED: fn(&'static str) -> CheckpointError = |reason| CheckpointError::Damaged { reason };
-
 impl Checkpoint {
     /// An empty checkpoint of a flow. `carried` is the number of words of the flow's own memory; flows with another number are told apart.
     pub(crate) fn of_flow(dimension: usize, carried: usize) -> Self {
@@ -120,19 +116,15 @@ impl Checkpoint {
             sums: "plain".to_string(),
             solver: String::new(),
             dimension,
-            words: String::new(),
-            checksum: String::new(),
+            words: Vec::new(),
+            damage: None,
         }
     }
 
     /// Fills a checkpoint with the words that `show` shows.
     pub(crate) fn filled(mut self, show: impl FnOnce(&mut Visit<'_>)) -> Self {
         let words = &mut self.words;
-        show(&mut |word| {
-            // Writing to a string does not fail.
-            let _ = write!(words, "{word:016x}");
-        });
-        self.checksum = self.sum();
+        show(&mut |word| words.extend_from_slice(&word.to_le_bytes()));
         self
     }
 
@@ -151,19 +143,24 @@ impl Checkpoint {
                 });
             }
         }
-        let (mut words, mut missing) = (self.decoded()?.into_iter(), false);
+        if let Some(reason) = self.damage {
+            return Err(CheckpointError::Damaged { reason });
+        }
+        let (words, rest) = self.words.as_chunks();
+        let (mut words, mut missing) = (words.iter(), !rest.is_empty());
         take(&mut |word| match words.next() {
-            Some(found) => *word = found,
+            Some(found) => *word = u64::from_le_bytes(*found),
             None => missing = true,
         });
         if missing || words.next().is_some() {
-            return Err(DAMAGED("it has more or fewer words than this run"));
+            let reason = "it has more or fewer words than this run";
+            return Err(CheckpointError::Damaged { reason });
         }
         Ok(())
     }
 
-    /// All fields except the words and the checksum, with their names.
-    fn header(&self) -> [(&'static str, String); 7] {
+    /// All fields except the words, with their names.
+    pub(super) fn header(&self) -> [(&'static str, String); 7] {
         [
             ("version", self.version.clone()),
             ("method", self.method.clone()),
@@ -173,37 +170,6 @@ impl Checkpoint {
             ("solver", self.solver.clone()),
             ("dimension", self.dimension.to_string()),
         ]
-    }
-
-    /// FNV-1a hash of all fields before the checksum.
-    fn sum(&self) -> String {
-        let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-        let mut add = |text: &str| {
-            // A byte that does not occur in text terminates each text.
-            for byte in text.bytes().chain([0xff]) {
-                hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-            }
-        };
-        for (_, text) in self.header() {
-            add(&text);
-        }
-        add(&self.words);
-        format!("{hash:016x}")
-    }
-
-    /// The words, if the checksum matches.
-    fn decoded(&self) -> Result<Vec<u64>, CheckpointError> {
-        if self.checksum != self.sum() {
-            return Err(DAMAGED("its checksum does not match its contents"));
-        }
-        let digits = self.words.as_bytes();
-        let words = digits.chunks(16).map(|word| {
-            let word = core::str::from_utf8(word).ok()?;
-            (word.len() == 16).then_some(u64::from_str_radix(word, 16).ok()?)
-        });
-        words
-            .collect::<Option<Vec<u64>>>()
-            .ok_or(DAMAGED("a word is not sixteen hexadecimal digits"))
     }
 }
 
@@ -290,8 +256,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             sums: sums.to_string(),
             solver: N::name(),
             dimension: self.step_memory.state.q.dimension(),
-            words: String::new(),
-            checksum: String::new(),
+            words: Vec::new(),
+            damage: None,
         })
     }
 

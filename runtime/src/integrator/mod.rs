@@ -34,6 +34,8 @@ use crate::system::{Class, System};
 
 #[cfg(feature = "alloc")]
 pub(crate) mod checkpoint;
+#[cfg(feature = "serde")]
+mod checkpoint_format;
 #[cfg(feature = "alloc")]
 mod coupled_in_lanes;
 #[cfg(feature = "alloc")]

@@ -322,4 +322,85 @@ mod files {
         }
         Ok(())
     }
+
+    /// A text has digits and a checksum of its characters: files of earlier builds are read, and new ones are the same.
+    #[test]
+    fn a_text_has_sixteen_digits_for_each_word() -> Result<(), Error> {
+        let mut run = Integrator::new(Gauss3, HeavyKepler { mass: 1.0 }, kepler(), 0.1)?;
+        run.take_steps(7)?;
+        let checkpoint = run.checkpoint().expect("doubles");
+        let text = serde_json::to_value(&checkpoint).expect("a checkpoint");
+        let names = [
+            "version",
+            "method",
+            "definition",
+            "scalar",
+            "sums",
+            "solver",
+        ];
+        let mut fields: Vec<String> = (names.iter())
+            .map(|&name| text[name].as_str().expect("a text").to_owned())
+            .collect();
+        fields.push(text["dimension"].to_string());
+        let words = text["words"].as_str().expect("digits");
+        fields.push(words.to_owned());
+        // FNV-1a, with a byte after each field that is in no text.
+        let bytes = fields.iter().flat_map(|field| field.bytes().chain([0xff]));
+        let sum = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+        });
+        assert_eq!(text["checksum"], format!("{sum:016x}"));
+        // The time, the step size, the position.
+        let word = |x: f64| format!("{:016x}", x.to_bits());
+        let state = run.state();
+        let start = [state.time, 0.1, state.q[0], state.q[1]].map(word).concat();
+        assert!(words.starts_with(&start) && words.len().is_multiple_of(16));
+        assert_eq!(text.as_object().map(serde_json::Map::len), Some(9));
+        Ok(())
+    }
+
+    /// Half the size of the digits; refused where one byte is another one, or where it ends too early.
+    #[test]
+    fn a_binary_file_has_eight_bytes_for_each_word() -> Result<(), Error> {
+        let made = || Integrator::new(Gauss3, HeavyKepler { mass: 1.0 }, kepler(), 0.1);
+        let mut whole = made()?;
+        whole.take_steps(7)?;
+        let checkpoint = whole.checkpoint().expect("doubles");
+        let text = serde_json::to_value(&checkpoint).expect("a checkpoint");
+        let digits = text["words"].as_str().expect("digits").len();
+        let file = postcard::to_allocvec(&checkpoint).expect("a checkpoint");
+        let others: usize = [
+            "version",
+            "method",
+            "definition",
+            "scalar",
+            "sums",
+            "solver",
+        ]
+        .map(|name| text[name].as_str().map_or(0, str::len))
+        .iter()
+        .sum();
+        // Beside the other texts, sixteen digits of the checksum, and lengths of at most two bytes.
+        assert!(
+            file.len() <= digits / 2 + others + 16 + 2 * 9,
+            "{}",
+            file.len()
+        );
+        let read: Checkpoint = postcard::from_bytes(&file).expect("the same checkpoint");
+        assert_eq!(read, checkpoint);
+        let mut resumed = made()?;
+        resumed.restore(&read).expect("the same run");
+        assert_eq!(resumed.take_steps(50)?, whole.take_steps(50)?);
+        for place in 0..file.len() {
+            let mut changed = file.clone();
+            changed[place] ^= 1;
+            if let Ok(read) = postcard::from_bytes::<Checkpoint>(&changed) {
+                let before = resumed.checkpoint();
+                assert!(resumed.restore(&read).is_err(), "{place}");
+                assert_eq!(resumed.checkpoint(), before);
+            }
+            assert!(postcard::from_bytes::<Checkpoint>(&file[..place]).is_err());
+        }
+        Ok(())
+    }
 }
