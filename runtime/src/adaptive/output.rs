@@ -212,6 +212,11 @@ where
         Ok(())
     }
 
+    /// Every step has its own size.
+    fn steps_before(&mut self, _time: f64) -> Result<(), Error> {
+        Ok(())
+    }
+
     fn step_in_sight(
         &mut self,
         mut see: impl FnMut(&Integrator<M, S, V, R, N>) -> Result<(), Error>,

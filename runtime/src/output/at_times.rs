@@ -63,7 +63,8 @@ pub(crate) fn integrate_at<M: Method, S: System<V>, V: Vector, R: Summation, N: 
     let mut rest = times;
     let mut output = Output::new(steps.integrator(), direction);
     output.show(steps.integrator(), &mut rest, observe)?;
-    while !rest.is_empty() {
+    while let Some(&time) = rest.first() {
+        steps.steps_before(time)?;
         steps.step_in_sight(|integrator| output.show(integrator, &mut rest, observe))?;
     }
     Ok(())

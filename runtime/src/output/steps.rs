@@ -50,6 +50,9 @@ where
     /// Checks that the number of steps to `end` is small enough to count.
     fn check_count(&self, end: f64) -> Result<(), Error>;
 
+    /// Takes most of the steps that end before `time`.
+    fn steps_before(&mut self, time: f64) -> Result<(), Error>;
+
     /// Takes one step and calls `see` after each part of it.
     fn step_in_sight(
         &mut self,
@@ -91,6 +94,10 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Steps<M,
 
     fn check_count(&self, end: f64) -> Result<(), Error> {
         check_count(self.state().time, end, self.step_size())
+    }
+
+    fn steps_before(&mut self, time: f64) -> Result<(), Error> {
+        self.take_most_before(time)
     }
 
     fn step_in_sight(&mut self, see: impl FnMut(&Self) -> Result<(), Error>) -> Result<(), Error> {

@@ -5,10 +5,12 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use crate::common::distance;
-use crate::common::methods::{Gauss2, Gauss8, StoermerVerlet};
+use crate::common::methods::{Gauss2, Gauss4, Gauss8, StoermerVerlet};
 use crate::common::systems::{Kepler, perihelion};
-use symplectic::nalgebra::{Vector1, Vector2};
-use symplectic::{Error, Event, Integrator, Invariant, Retry, SeparableHamiltonian, State};
+use symplectic::nalgebra::{DVector, Vector1, Vector2};
+use symplectic::{
+    Error, Event, Integrator, Invariant, Method, Retry, SeparableHamiltonian, State, acceleration,
+};
 
 type Point = State<Vector2<f64>>;
 
@@ -63,6 +65,43 @@ fn output_goes_backward() -> Result<(), Error> {
     })?;
     assert_eq!(number, 3);
     Ok(())
+}
+
+/// Steps between output times far apart are taken in blocks, with the same bits.
+#[test]
+fn output_far_apart_has_the_bits_of_output_in_every_step() -> Result<(), Error> {
+    fn check<M: Method>(method: M, size: f64) -> Result<(), Error> {
+        let run = || {
+            let kepler = acceleration::<DVector<f64>, _>(|_, q: &DVector<f64>, acceleration| {
+                acceleration.copy_from(&(q * -q.norm().powi(-3)));
+            });
+            let start = State::new(
+                0.0,
+                DVector::from_vec(vec![0.4, 0.0]),
+                DVector::from_vec(vec![0.0, 2.0]),
+            );
+            Integrator::new(method, kepler, start, size)
+        };
+        let rare: Vec<f64> = (1..8)
+            .map(|k| 3.333 * f64::from(k) * size.signum())
+            .collect();
+        let mut all: Vec<f64> = (1..560).map(|k| size * (f64::from(k) - 0.25)).collect();
+        all.extend(&rare);
+        all.sort_by(|a, b| (a * size).total_cmp(&(b * size)));
+        let (mut a_few, mut each) = (run()?, run()?);
+        let (mut few, mut many) = (Vec::new(), Vec::new());
+        a_few.integrate_at(&rare, |state| few.push(state.clone()))?;
+        each.integrate_at(&all, |state| {
+            if rare.contains(&state.time) {
+                many.push(state.clone());
+            }
+        })?;
+        assert_eq!(few, many);
+        assert_eq!(a_few.steps() as f64, (rare[6] / size).ceil());
+        Ok(())
+    }
+    check(StoermerVerlet, 0.05)?;
+    check(Gauss4, -0.05)
 }
 
 #[test]
