@@ -7,6 +7,7 @@ mod asynchronous;
 mod corrector;
 mod in_time;
 mod kepler;
+mod kepler_digits;
 mod methods;
 mod mollified;
 mod output;

@@ -4,6 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
+use super::free::Free;
 use super::groups::{gather, scatter};
 use super::in_lanes::changes;
 use super::orbit::{NoEnd, Orbit};
@@ -47,10 +48,9 @@ use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector};
 /// ```
 #[derive(Clone, Debug)]
 pub struct KeplerDrift<L = F64x8> {
-    /// The mass of a body that moves freely and comes before the others.
-    free: Option<f64>,
-    masses: Vec<f64>,
-    /// `1/m`
+    /// A body that moves freely and comes before the others.
+    free: Option<Free>,
+    /// 1/m
     lighter: Vec<f64>,
     mus: Vec<f64>,
     /// Positions and momenta at the end.
@@ -81,15 +81,14 @@ impl KeplerDrift {
 
     /// Bodies that follow a free body of mass `free`.
     pub(super) fn of_checked(free: f64, masses: Vec<f64>, mus: Vec<f64>) -> Self {
-        Self::with(Some(free), masses, mus)
+        Self::with(Some(Free::new(free)), masses, mus)
     }
 
-    fn with(free: Option<f64>, masses: Vec<f64>, mus: Vec<f64>) -> Self {
+    fn with(free: Option<Free>, masses: Vec<f64>, mus: Vec<f64>) -> Self {
         Self {
             free,
             ends: [0; 2].map(|_| vec![0.0; 3 * masses.len()]),
             lighter: masses.iter().map(|mass| mass.recip()).collect(),
-            masses,
             mus,
             lanes: PhantomData,
         }
@@ -109,7 +108,6 @@ impl<L: Lanes> KeplerDrift<L> {
     pub fn in_lanes<W: Lanes>(self) -> KeplerDrift<W> {
         KeplerDrift {
             free: self.free,
-            masses: self.masses,
             lighter: self.lighter,
             mus: self.mus,
             ends: self.ends,
@@ -130,10 +128,9 @@ impl<L: Lanes> KeplerDrift<L> {
             lanes
         };
         let [q, p] = [q, p].map(|list| gather::<W, 3>(&list.as_chunks().0[first..]));
-        let mass = [of(&self.masses), of(&self.lighter)];
-        let orbit = Orbit::new(of(&self.mus), mass, q, p);
+        let orbit = Orbit::new(of(&self.mus), of(&self.lighter), q, p);
         let [a, b, c, d] = changes(&orbit, h).map_err(|(lane, why)| {
-            let body = (first + lane).min(self.masses.len() - 1);
+            let body = (first + lane).min(self.mus.len() - 1);
             let body = body + usize::from(self.free.is_some());
             match why {
                 NoEnd::AtCentre => FlowError::AtCentre { body },
@@ -152,7 +149,7 @@ impl<L: Lanes> KeplerDrift<L> {
 
 impl<V: Vector<Scalar = f64>, L: Lanes> Flow<V> for KeplerDrift<L> {
     fn flow(&mut self, span: Span, q: &mut V, p: &mut V) -> Result<(), FlowError> {
-        let (count, h) = (self.masses.len(), span.size);
+        let (count, h) = (self.mus.len(), span.size);
         let free = 3 * usize::from(self.free.is_some());
         check_dimension(3 * count + free, q)?;
         check_dimension(3 * count + free, p)?;
@@ -169,10 +166,18 @@ impl<V: Vector<Scalar = f64>, L: Lanes> Flow<V> for KeplerDrift<L> {
         }
         q.copy_from_slice(&self.ends[0]);
         p.copy_from_slice(&self.ends[1]);
-        let mass = self.free.unwrap_or(1.0);
-        for (q, p) in free_q.iter_mut().zip(free_p) {
-            *q += h * *p / mass;
+        let places = (free_q.first_chunk_mut(), free_p.first_chunk());
+        if let (Some(free), (Some(q), Some(p))) = (&mut self.free, places) {
+            free.move_on(h, q, p);
         }
         Ok(())
+    }
+
+    fn memory(&mut self, visit: &mut dyn FnMut(&mut u64)) {
+        for low in self.free.iter_mut().flat_map(|free| &mut free.low) {
+            let mut word = low.to_bits();
+            visit(&mut word);
+            *low = f64::from_bits(word);
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! The ends of several Kepler orbits at once.
 
-use super::orbit::{Change, NoEnd, Orbit, g_functions};
+use super::orbit::{Change, LARGEST_CANCELLATION, NoEnd, Orbit};
+use super::path::g_functions;
 use super::stumpff;
 use crate::number::Lanes;
 
@@ -71,7 +72,7 @@ pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (
     let g1 = s - beta * g3;
     let g2 = g1 * g1 / (two - beta * g2_near);
 
-    let (end, least) = orbit.at_end(radial, [g1, g2]);
+    let [end, end_terms] = orbit.at_end([g1, g2]);
     let changes = orbit.change([g1, g2], end, step - mu * g3);
     let terms = [distance * s, radial * g2, zeta * g3];
     let late = terms[0] + (terms[1] + terms[2]) - step;
@@ -79,7 +80,8 @@ pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (
     let excess = [
         unsettled,
         late.abs() - sizes * of(RESIDUAL),
-        least - end,
+        end_terms - end * of(LARGEST_CANCELLATION),
+        sizes - step.abs() * of(LARGEST_CANCELLATION),
         (beta * s * s).abs() - of(LARGEST_PSI),
         mu * s * s * inverse - of(LARGEST_ARC),
     ];
@@ -120,7 +122,7 @@ fn one_by_one<L: Lanes>(
     orbit: &Orbit<L>,
     h: f64,
     mut changes: Change<L>,
-    excess: [L; 5],
+    excess: [L; 6],
 ) -> Result<Change<L>, (usize, NoEnd)> {
     let excess = excess.map(L::to_array);
     for lane in 0..L::WIDTH {
@@ -140,12 +142,14 @@ impl<L: Lanes> Orbit<L> {
     fn lane(&self, lane: usize) -> Orbit<f64> {
         let one = |lanes: L| lanes.get(lane);
         Orbit {
+            place: self.place.map(one),
+            velocity: self.velocity.map(one),
             distance: one(self.distance),
             inverse: one(self.inverse),
             radial: one(self.radial),
             beta: one(self.beta),
             mu: one(self.mu),
-            mass: self.mass.map(one),
+            lighter: one(self.lighter),
         }
     }
 }

@@ -17,9 +17,12 @@
 //!
 //! The universal anomaly is always accurate to the last bits. Steps shorter than a third of a period and than a few radii go in lanes,
 //! others one at a time. Relative to their largest terms, energy and angular momentum have errors of about ten ε. Over many steps shorter
-//! than a seventh of a period these have no common sign: their mean is below ε/100, for eccentricities up to 0.3. If a hyperbola passes its
-//! pericentre in one flow they are larger, up to about `ε(r/a)²` for a fast fall to the centre from the distance r. If half of the digits
-//! are lost, the error is [`FlowError::NoOrbit`](super::FlowError::NoOrbit). Over k periods the error of the phase is `kε`; from 2²⁶
+//! than a seventh of a period these have no common sign: their mean is below ε/100, for eccentricities up to 0.3 and all masses. The centre
+//! of mass moves without a drift.
+//!
+//! Position and velocity at the end have the errors that ten changes of the start by ε would cause, each of the largest component: also if
+//! a hyperbola passes its pericentre in one flow. If half of the digits are lost, as of the direction after a fast fall through the centre,
+//! the error is [`FlowError::NoOrbit`](super::FlowError::NoOrbit). Over k periods the error of the phase is `kε`; from 2²⁶
 //! periods in one flow on, the error is [`FlowError::Periods`](super::FlowError::Periods). Every body has the same bits for every lane
 //! width.
 //!
@@ -48,11 +51,13 @@
 mod attraction;
 mod bodies;
 mod drift;
+mod free;
 mod groups;
 mod heliocentric;
 mod in_lanes;
 mod jacobi;
 mod orbit;
+mod path;
 mod stumpff;
 
 pub use drift::KeplerDrift;

@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use num_traits::Float;
 
-use super::stumpff;
+use super::path::{self, Functions, Path};
 use crate::number::Scalar;
 
 /// Why the end of an orbit is not known.
@@ -21,38 +21,44 @@ pub(super) enum NoEnd {
 /// `[a, b, c, d]`: position and momentum change from `(q, p)` to `(q + a q + b p, p + c q + d p)`.
 pub(super) type Change<T> = [T; 4];
 
-/// Periods after which half of the digits of the phase are lost.
+/// Periods after which half of the digits of the phase are lost; likewise the ratio of the terms of a sum to the sum.
 const MOST_PERIODS: f64 = (1_u64 << 26) as f64;
 
-/// The maximum number of iterations: each halves the previous change, and this exceeds the number of bits and exponents.
-const MOST: u32 = 1200;
+/// The ratio of the terms of a sum to the sum, up to which the sum has its digits.
+pub(super) const LARGEST_CANCELLATION: f64 = 6.0;
 
-/// An orbit: distance and its reciprocal, `q·v`, `2μ/r − v²`, μ, and the mass with its reciprocal.
+/// From this `|βs²|` on, `(s − G1)/β` does not cancel.
+const LONG_ARC: f64 = 4.0;
+
+/// An orbit: position and velocity, distance and its reciprocal, `q·v`, `2μ/r − v²`, μ, and 1/m.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Orbit<T> {
+    pub(super) place: [T; 3],
+    pub(super) velocity: [T; 3],
     pub(super) distance: T,
     pub(super) inverse: T,
     pub(super) radial: T,
     pub(super) beta: T,
     pub(super) mu: T,
-    pub(super) mass: [T; 2],
+    pub(super) lighter: T,
 }
 
 impl<T: Scalar> Orbit<T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn new(mu: T, mass: [T; 2], q: [T; 3], p: [T; 3]) -> Self {
+    pub(super) fn new(mu: T, lighter: T, q: [T; 3], p: [T; 3]) -> Self {
         let dot = |a: [T; 3], b: [T; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let distance = dot(q, q).sqrt();
         let inverse = distance.recip();
-        let lighter = mass[1];
         let v = [p[0] * lighter, p[1] * lighter, p[2] * lighter];
         Self {
+            place: q,
+            velocity: v,
             distance,
             inverse,
             radial: dot(q, v),
             beta: (mu + mu) * inverse - dot(v, v),
             mu,
-            mass,
+            lighter,
         }
     }
 
@@ -62,47 +68,46 @@ impl<T: Scalar> Orbit<T> {
         self.mu - self.beta * self.distance
     }
 
-    /// The distance at the end, and the distance below which cancellation has lost half of its digits.
+    /// The distance at the end, and the sum of its terms.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn at_end(&self, radial: T, [g1, g2]: [T; 2]) -> (T, T) {
-        let (first, second) = (radial * g1, self.zeta() * g2);
+    pub(super) fn at_end(&self, [g1, g2]: [T; 2]) -> [T; 2] {
+        let (first, second) = (self.radial * g1, self.zeta() * g2);
         let terms = self.distance + first.abs() + second.abs();
-        let end = self.distance + (first + second);
-        (end, terms * T::from_f64(MOST_PERIODS.recip()))
+        [self.distance + (first + second), terms]
     }
 
     /// The change, from the functions `G1` and `G2`, the distance at the end, and g.
+    ///
+    /// The mass occurs by its reciprocal only: two numbers whose product is not 1 would change areas in all steps alike.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn change(&self, [g1, g2]: [T; 2], end: T, g: T) -> Change<T> {
-        let Self { inverse, mu, .. } = *self;
-        let [mass, lighter] = self.mass;
-        let at_end = end.recip();
+        let Self {
+            inverse,
+            mu,
+            lighter,
+            ..
+        } = *self;
+        let heavier_at_end = (end * lighter).recip();
         let pull = -mu * g2;
         [
             pull * inverse,
             g * lighter,
-            -(mass * mu) * (g1 * inverse) * at_end,
-            pull * at_end,
+            -mu * (g1 * inverse) * heavier_at_end,
+            pull * (heavier_at_end * lighter),
         ]
     }
-}
-
-/// `G1`, `G2`, `G3` at `s`, from `c_2` and `c_3` at `ψ = βs²`.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn g_functions<T: Scalar>(s: T, psi: T, (c2, c3): (T, T)) -> [T; 3] {
-    let square = s * s;
-    [s * (T::one() - psi * c3), square * c2, square * s * c3]
 }
 
 impl Orbit<f64> {
     /// The change in the time `h`, for every orbit: ellipse, parabola, hyperbola and line.
     ///
-    /// The universal anomaly s, `t' = r`, is the zero of a monotone function. Newton's iteration is safeguarded by bisection.
+    /// By the arc from the start if its terms do not cancel, else from the pericentre.
     pub(super) fn end(&self, h: f64) -> Result<Change<f64>, NoEnd> {
         let Self {
             distance,
             radial,
             beta,
+            mu,
             ..
         } = *self;
         if distance == 0.0 {
@@ -117,58 +122,107 @@ impl Orbit<f64> {
         }
         // Backward is forward with the opposite velocity.
         let (time, radial, sign) = (h.abs(), radial * h.signum(), h.signum());
-        let zeta = self.zeta();
-        let at = |s: f64| {
-            let psi = beta * s * s;
-            let [g1, g2, g3] = g_functions(s, psi, stumpff::any(psi));
-            let value = distance * s + (radial * g2 + zeta * g3) - time;
-            // A function that overflows does so above the zero, whatever the sum of infinities.
-            let value = if value.is_finite() {
-                value
-            } else {
-                f64::INFINITY
-            };
-            (value, self.at_end(radial, [g1, g2]), [g1, g2])
+        let from_start = Path {
+            distance,
+            slope: radial,
+            bend: self.zeta(),
+            beta,
         };
-        let (mut low, mut high) = (0.0, time / distance);
-        while at(high).0 < 0.0 {
-            (low, high) = (high, 2.0 * high);
-        }
-        let mut s = low + (high - low) / 2.0;
-        let mut before = high - low;
-        for _ in 0..MOST {
-            let (value, (slope, _), _) = at(s);
-            if value < 0.0 {
-                low = s;
-            } else {
-                high = s;
+        let arc = from_start.arc(time, time / distance);
+        let (functions, end) = match arc {
+            Some((s, of)) if from_start.cancellation(s, &of) < LARGEST_CANCELLATION => {
+                (of, from_start.distance(&of))
             }
-            let newton = s - value / slope;
-            let inside = newton > low && newton < high;
-            let next = if value == 0.0 {
-                s
-            } else if inside && (2.0 * (newton - s)).abs() <= before {
-                newton
-            } else {
-                low + (high - low) / 2.0
-            };
-            before = (next - s).abs();
-            s = next;
-            if before <= f64::EPSILON * s {
-                let (_, (end, least), [g1, g2]) = at(s);
-                if end <= 0.0 {
-                    return Err(NoEnd::AtCentre);
-                }
-                if end < least {
-                    return Err(NoEnd::NotFound);
-                }
-                let g = distance * g1 + radial * g2;
-                let change = self.change([sign * g1, g2], end, sign * g);
-                let finite = change.iter().all(|x| x.is_finite());
-                return finite.then_some(change).ok_or(NoEnd::NotFound);
-            }
+            _ => self.by_pericentre(time, radial)?,
+        };
+        let [_, g1, g2, g3] = functions;
+        // Of two sums for g, that of smaller terms.
+        let sums = [[time, -mu * g3], [distance * g1, radial * g2]];
+        let [size, other] = sums.map(|[a, b]| a.abs() + b.abs());
+        let [a, b] = if size < other { sums[0] } else { sums[1] };
+        let g = sign * (a + b);
+        let change = self.change([sign * g1, g2], end, g);
+        let [x, y, z] = self.velocity;
+        let terms =
+            distance * (1.0 + change[0].abs()) + g.abs() * libm::hypot(libm::hypot(x, y), z);
+        // The position at the end has half of its digits, and all is finite.
+        let found = terms < end * MOST_PERIODS && change.iter().all(|x| x.is_finite());
+        found.then_some(change).ok_or(NoEnd::NotFound)
+    }
+
+    /// The functions of the arc that takes this time, and the distance at its end; `radial` is `q·v` in the direction of the time.
+    ///
+    /// All terms of time and distance from the pericentre are positive.
+    #[cold]
+    fn by_pericentre(&self, time: f64, radial: f64) -> Result<(Functions, f64), NoEnd> {
+        let Self {
+            distance, beta, mu, ..
+        } = *self;
+        let (zeta, rate) = (self.zeta(), Scalar::sqrt(beta.abs()));
+        let momentum = self.angular_momentum();
+        // μ times the eccentricity.
+        let bend = match beta > 0.0 {
+            true => libm::hypot(zeta, radial * rate),
+            false => libm::hypot(mu, momentum * rate),
+        };
+        let pericentre = Path {
+            distance: momentum * momentum / (mu + bend),
+            slope: 0.0,
+            bend,
+            beta,
+        };
+        // The arc from the start to the pericentre, negative if the body moves away from it.
+        let to_pericentre = |s: f64| {
+            let [.., by_series] = path::functions(s, beta);
+            let g1 = -radial / bend;
+            let long = (beta * s * s).abs() > LONG_ARC;
+            let g3 = if long { (s - g1) / beta } else { by_series };
+            let functions = [zeta / bend, g1, (distance - pericentre.distance) / bend, g3];
+            (s, functions, pericentre.time(s, &functions))
+        };
+        let angle = -radial * rate;
+        let (mut first, mut of_first, mut sooner) = to_pericentre(if beta > 0.0 {
+            libm::atan2(angle, zeta) / rate
+        } else if beta < 0.0 {
+            libm::asinh(angle / bend) / rate
+        } else {
+            -radial / bend
+        });
+        if beta > 0.0 && time - sooner > self.period() / 2.0 {
+            (first, of_first, sooner) = to_pericentre(first + TAU / rate);
         }
-        Err(NoEnd::NotFound)
+        // The arc from the pericentre to the end.
+        let rest = time - sooner;
+        let by_cube = libm::cbrt(6.0 * rest.abs() / bend);
+        let high = by_cube.min(rest.abs() / pericentre.distance);
+        let (second, of_second) = pericentre.arc(rest.abs(), high).ok_or(NoEnd::NotFound)?;
+        let end = pericentre.distance(&of_second);
+        if end <= 0.0 {
+            return Err(NoEnd::AtCentre);
+        }
+        let functions = match first > 0.0 && rest > 0.0 {
+            true => path::sum(of_first, of_second, beta),
+            false => path::functions(first + second.copysign(rest), beta),
+        };
+        Ok((functions, end))
+    }
+
+    /// `|q × v|`
+    fn angular_momentum(&self) -> f64 {
+        let (q, v) = (&self.place, &self.velocity);
+        let component = |i: usize, j: usize| {
+            // Kahan's: without the rounding errors of the products.
+            let product = q[j] * v[i];
+            libm::fma(q[i], v[j], -product) - libm::fma(q[j], v[i], -product)
+        };
+        libm::hypot(
+            libm::hypot(component(0, 1), component(1, 2)),
+            component(2, 0),
+        )
+    }
+
+    fn period(&self) -> f64 {
+        TAU * self.mu / (self.beta * Scalar::sqrt(self.beta))
     }
 
     /// The time without whole periods.
@@ -176,7 +230,7 @@ impl Orbit<f64> {
         if self.beta <= 0.0 {
             return Ok(h);
         }
-        let period = TAU * self.mu / (self.beta * Scalar::sqrt(self.beta));
+        let period = self.period();
         let periods = Float::round(h / period);
         if periods.abs() >= MOST_PERIODS {
             return Err(NoEnd::Periods(periods.abs()));
