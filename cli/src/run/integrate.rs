@@ -11,11 +11,12 @@ use symplectic::nalgebra::DVector;
 use symplectic::output::Interpolation;
 use symplectic::system::Conservative;
 use symplectic::{
-    AtRunTime, Class, Compensated, Error as RunError, Hamiltonian, Plain, State, Summation,
+    AtRunTime, Class, Compensated, Error as RunError, Hamiltonian, Plain, State, Summation, System,
 };
 use symplectic_compiler::Error;
 use toml::Spanned;
 
+use super::chaos;
 use super::memory;
 use super::output::{Facts, Results, Seen, append};
 use super::progress::{Meter, Progress};
@@ -30,8 +31,11 @@ use super::{Run, Shard, counted, document};
 use crate::output::print;
 use crate::report;
 
-type Vector = DVector<f64>;
-type States = Vec<State<Vector>>;
+pub(super) type Vector = DVector<f64>;
+pub(super) type States = Vec<State<Vector>>;
+type Made<S, R> = Ensemble<AtRunTime, S, Vector, R>;
+/// Keeps a finished trajectory.
+pub(super) type Keep<'k> = &'k mut dyn FnMut(Trajectory) -> ControlFlow<()>;
 
 impl Run<'_> {
     pub(super) fn with_class<C: Class + Conservative>(
@@ -65,10 +69,11 @@ impl Run<'_> {
             let bits = |x: &f64| x.to_bits();
             a.iter().map(bits).eq(b.iter().map(bits))
         };
+        let is_long = starts.len() > MANY;
         for start in starts {
             let before = parameters.last();
             // The meter counts the systems side by side in lanes.
-            let is_of_family = progress.meter().is_none()
+            let is_of_family = (is_long || progress.meter().is_none())
                 && before.is_some_and(|before| same_bits(before, &start.parameters));
             match families.last_mut() {
                 Some((_, family)) if is_of_family => {
@@ -83,29 +88,47 @@ impl Run<'_> {
             }
             parameters.push(start.parameters);
         }
-        let made: Result<Ensemble<AtRunTime, _, Vector, R>, _> =
-            Ensemble::families_at_run_time(&self.method.tableau, families, size);
-        let ensemble = made.map_err(|error| self.refused(&error))?;
-        match self.setup.solver.as_ref().map(Spanned::get_ref) {
-            None | Some(Iteration::FixedPoint) => self.run(ensemble, &parameters, &progress),
-            Some(Iteration::Newton) => self.run(ensemble.by_newton(), &parameters, &progress),
+        let tableau = &self.method.tableau;
+        let newton = self.setup.solver.as_ref().map(Spanned::get_ref) == Some(&Iteration::Newton);
+        if self.has_chaos() {
+            let tangents = families
+                .into_iter()
+                .map(|(system, starts)| self.tangents(system, starts));
+            let ensemble = Made::<_, R>::families_at_run_time(tableau, tangents, size)
+                .map_err(|error| self.refused(&error))?;
+            return match newton {
+                false => self.run(ensemble, &parameters, &progress, Self::chaos),
+                true => self.run(ensemble.by_newton(), &parameters, &progress, Self::chaos),
+            };
+        }
+        let ensemble = Made::<_, R>::families_at_run_time(tableau, families, size)
+            .map_err(|error| self.refused(&error))?;
+        match newton {
+            false => self.run(ensemble, &parameters, &progress, Self::states),
+            true => self.run(ensemble.by_newton(), &parameters, &progress, Self::states),
         }
     }
 
-    fn run<C: Class + Conservative, R: Summation, N: Solver<Vector, Formula<C>>>(
+    /// Runs an ensemble by `task`, and writes the results.
+    fn run<S, R: Summation, N: Solver<Vector, S>>(
         self,
-        mut ensemble: Ensemble<AtRunTime, Formula<C>, Vector, R, N>,
+        mut ensemble: Ensemble<AtRunTime, S, Vector, R, N>,
         parameters: &[Vec<f64>],
         progress: &Progress,
+        task: fn(&Self, &mut Ensemble<AtRunTime, S, Vector, R, N>, Keep<'_>),
     ) -> Result<ExitCode, Error>
     where
-        Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>,
+        S: System<Vector> + Clone + Send + Sync,
     {
         if let Some(Shard { part, count }) = self.arguments.shard {
             ensemble = ensemble
                 .shard(part, count)
                 .map_err(|error| self.refused(&error))?;
         }
+        let own = self.has_chaos().then(|| {
+            let starts = ensemble.starts().iter();
+            starts.map(chaos::original).collect::<Vec<_>>()
+        });
         let (mut resume, mut rows) = self.resume(ensemble.starts(), parameters)?;
         let (all, before) = (ensemble.trajectories().len(), rows.len());
         if before > 0 {
@@ -118,8 +141,8 @@ impl Run<'_> {
         if let Some(section) = &self.section {
             section.count(&rows);
         }
-        rows.reserve(all - before);
-        let (end, began) = (self.end(), Instant::now());
+        rows.reserve(all.saturating_sub(before));
+        let began = Instant::now();
         let shown = progress.show(all, before);
         let mut keep = |row: Trajectory| {
             rows.push(row);
@@ -127,27 +150,15 @@ impl Run<'_> {
             resume.save(&rows);
             ControlFlow::Continue(())
         };
-        match (&self.times, &self.section) {
-            (None, Some(section)) => {
-                ensemble.stop_if(section.is_full());
-                let see = |seen: &mut Vec<f64>, run: &mut _| section.see(seen, run, end);
-                ensemble.each(|_| Vec::new(), see, |row| keep(row.into()));
-                if section.is_full()() {
-                    drop(shown);
-                    resume.remove();
-                    let fault = memory::fault_of_section(section.most(), all);
-                    let given = self.setup.section.as_ref().map_or(0..0, Spanned::span);
-                    return Err(self.file.error(given, fault));
-                }
-            }
-            (Some(times), _) => {
-                let numbers = times.len() * (1 + 2 * self.coordinates.dimension());
-                let output = |_| Vec::with_capacity(numbers);
-                ensemble.integrate_at(times, output, append, |row| keep(row.into()));
-            }
-            (None, None) => {
-                ensemble.integrate_to(end, |row| keep(row.into()));
-            }
+        task(&self, &mut ensemble, &mut keep);
+        if let Some(section) = &self.section
+            && section.is_full()()
+        {
+            drop(shown);
+            resume.remove();
+            let fault = memory::fault_of_section(section.most(), all);
+            let given = self.setup.section.as_ref().map_or(0..0, Spanned::span);
+            return Err(self.file.error(given, fault));
         }
         drop(shown);
         let seconds = began.elapsed().as_secs_f64();
@@ -168,7 +179,8 @@ impl Run<'_> {
             },
             tapes: &self.tapes,
             rows: &rows,
-            starts: ensemble.starts(),
+            starts: own.as_deref().unwrap_or(ensemble.starts()),
+            has_chaos: self.has_chaos(),
             parameters,
             seen: match (&self.times, &self.section) {
                 (Some(times), _) => Seen::Times(times),
@@ -186,7 +198,7 @@ impl Run<'_> {
             counted(rows.len(), "trajectory", "trajectories"),
             self.target.path().display()
         );
-        message.extend(self.note_on_times(C::SEPARABLE));
+        message.extend(self.note_on_times(S::Class::SEPARABLE));
         self.target.write(&results, || resume.advice(&rows))?;
         let fault = resume.fault();
         resume.remove();
@@ -199,8 +211,34 @@ impl Run<'_> {
         })
     }
 
+    /// Integrates to the end, at the output times, or to the states of the section.
+    fn states<C: Class + Conservative, R: Summation, N: Solver<Vector, Formula<C>>>(
+        &self,
+        ensemble: &mut Ensemble<AtRunTime, Formula<C>, Vector, R, N>,
+        keep: Keep<'_>,
+    ) where
+        Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>,
+    {
+        let end = self.end();
+        match (&self.times, &self.section) {
+            (None, Some(section)) => {
+                ensemble.stop_if(section.is_full());
+                let see = |seen: &mut Vec<f64>, run: &mut _| section.see(seen, run, end);
+                ensemble.each(|_| Vec::new(), see, |row| keep(row.into()));
+            }
+            (Some(times), _) => {
+                let numbers = times.len() * (1 + 2 * self.coordinates.dimension());
+                let output = |_| Vec::with_capacity(numbers);
+                ensemble.integrate_at(times, output, append, |row| keep(row.into()));
+            }
+            (None, None) => {
+                ensemble.integrate_to(end, |row| keep(row.into()));
+            }
+        }
+    }
+
     /// The end time, if it is given.
-    fn end(&self) -> f64 {
+    pub(super) fn end(&self) -> f64 {
         let end = self.setup.end.as_ref();
         end.map_or(self.setup.start(), |end| *end.get_ref())
     }
@@ -214,14 +252,13 @@ impl Run<'_> {
         let states = starts.iter().map(State::as_slices);
         let numbers = states.flat_map(|(q, p)| q.iter().chain(p));
         let numbers = numbers.chain(parameters.iter().flatten());
-        let bytes: Vec<u8> = numbers.flat_map(|x| x.to_bits().to_le_bytes()).collect();
         let origin = Origin {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             formula: self.setup.system.get_ref().clone(),
             method: self.method.definition.clone(),
             setup: self.file.text.to_owned(),
             part: self.arguments.shard.map(|shard| [shard.part, shard.count]),
-            starts: checksum(&bytes),
+            starts: checksum(numbers.flat_map(|x| x.to_bits().to_le_bytes())),
         };
         let interval = Duration::from_secs(self.arguments.save_every.into());
         Resume::open(self.target.path(), origin, interval, self.arguments.resume)
@@ -274,6 +311,9 @@ impl Run<'_> {
         }
     }
 }
+
+/// With more trajectories the finished ones show the progress.
+const MANY: usize = 100_000;
 
 /// The |energy error| above which a run warns, unless the file gives another.
 const ENERGY_ERROR: f64 = 0.01;

@@ -22,7 +22,7 @@ pub(super) fn key_of(text: &str, span: &Range<usize>) -> Option<Range<usize>> {
 }
 
 /// The keys of a file that are not tables.
-const OF_FILE: [&str; 13] = [
+const OF_FILE: [&str; 14] = [
     "system",
     "method",
     "step_size",
@@ -31,6 +31,7 @@ const OF_FILE: [&str; 13] = [
     "times",
     "section",
     "sums",
+    "megno",
     "solver",
     "accept_lower_order",
     "skip_impossible_starts",
@@ -172,10 +173,6 @@ fn in_words(expected: &str) -> &str {
         "a boolean" => "`true` or `false`",
         "a sequence" => "a list",
         "a map" => "a table",
-        output if output.starts_with("struct Output") => "a table with the key `file`",
-        random if random.starts_with("struct Random") => {
-            "a table such as `{ seed = 1, count = 1000 }`"
-        }
         other => other,
     }
 }

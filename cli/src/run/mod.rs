@@ -1,6 +1,7 @@
 //! `symplectic run`
 
 mod advice;
+mod chaos;
 mod derived;
 mod expression;
 mod integrate;
@@ -116,6 +117,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let (mut system, structure) = read_system(&file, &setup)?;
     let method = Method::read(&file, &setup, arguments.max_stages)?;
     let times = times(&file, &setup)?;
+    if let Some(megno) = &setup.megno
+        && (times.is_some() || setup.section.is_some())
+    {
+        let message = "MEGNO is computed at the end only: give `end` without `times` and `section`";
+        return Err(file.error(megno.span(), message));
+    }
     if let Some(solver) = &setup.solver
         && structure.split.is_ok()
         && method.tableau.is_explicit()
@@ -230,7 +237,7 @@ fn refuse_twins(
     output: &Path,
 ) -> Result<(), Error> {
     let is_table = (output.extension()).is_some_and(|extension| extension != "npz");
-    match table::twin(coordinates, setup.section.is_some()) {
+    match table::twin(coordinates, setup.section.is_some(), setup.megno.is_some()) {
         Some(name) if is_table => {
             let message = format!(
                 "two columns of the table would have the name `{name}`: give the coordinate or the parameter another name, or write a `.npz` file"

@@ -94,7 +94,12 @@ pub(super) struct Results<'a> {
     /// The values of the parameters that vary, for each trajectory of the whole run.
     pub(super) parameters: &'a [Vec<f64>],
     pub(super) seen: Seen<'a>,
+    /// Whether the outputs are indicators of chaos.
+    pub(super) has_chaos: bool,
 }
+
+/// The names of the indicators of chaos.
+pub(super) const CHAOS: [&str; 2] = ["megno", "lyapunov_exponent"];
 
 /// The states of a trajectory that are written.
 #[derive(Clone, Copy)]
@@ -192,6 +197,10 @@ impl Results<'_> {
             Seen::Times(times) => times,
             Seen::End => {
                 file.doubles("energy_error", &[count], &errors.concat())?;
+                for (k, name) in CHAOS.into_iter().enumerate().filter(|_| self.has_chaos) {
+                    let values = self.rows.iter().map(|row| indicator(row, k));
+                    file.doubles(name, &[count], &of_length(count, values))?;
+                }
                 return file.finish().map(|_| ());
             }
             Seen::Section => {
@@ -272,6 +281,11 @@ impl Results<'_> {
         }
         Ok(())
     }
+}
+
+/// An indicator of chaos; NaN for a trajectory that could not start.
+pub(super) fn indicator(row: &Trajectory, k: usize) -> f64 {
+    row.output.get(k).copied().unwrap_or(f64::NAN)
 }
 
 /// The values of an iterator that does not know its length, without growing.

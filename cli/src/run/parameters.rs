@@ -178,8 +178,9 @@ pub(super) fn further(
             Some(place) => Some(Entry::Varied(place)),
             None => number(value.get_ref()).map(Entry::Number),
         };
-        if coordinates.all().any(|known| known == name) {
-            let message = format!("`{name}` is a coordinate: give the parameter another name");
+        let is_taken = ["t", "pi", "q", "p", "v", "H", "L"].contains(&name.as_str());
+        if is_taken || coordinates.all().any(|known| known == name) {
+            let message = format!("`{name}` has another meaning: give the parameter another name");
             return Err(file.error_at_key(value.span(), message));
         }
         let entry =

@@ -77,6 +77,8 @@ pub(super) struct Resume {
     file: Option<File>,
     /// Number of trajectories in the file.
     saved: usize,
+    /// The length of the file with these.
+    length: u64,
     interval: Duration,
     last: Instant,
     fault: Option<io::Error>,
@@ -97,6 +99,7 @@ impl Resume {
             origin,
             file: None,
             saved: 0,
+            length: 0,
             interval,
             last: Instant::now(),
             fault: None,
@@ -110,24 +113,27 @@ impl Resume {
         Ok((resume, rows))
     }
 
-    fn read(&mut self, mut file: File, continues: bool) -> Result<Vec<Trajectory>, Error> {
+    fn read(&mut self, file: File, continues: bool) -> Result<Vec<Trajectory>, Error> {
         // A file system without locks has none.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(self.refused("is being written by another run".to_owned()));
         }
         let unread = |error: io::Error| self.refused(format!("cannot be read: {error}"));
         let mut reader = BufReader::new(&file);
-        let mut lines = [String::new(), String::new()];
+        let mut lines = [Vec::new(), Vec::new()];
         for line in &mut lines {
             // Not more than a run file may have.
-            (&mut reader)
-                .take(1 << 28)
-                .read_line(line)
-                .map_err(unread)?;
+            let mut limited = (&mut reader).take(1 << 28);
+            limited.read_until(b'\n', line).map_err(unread)?;
         }
-        let [format, origin] = lines;
-        let mut length = (format.len() + origin.len()) as u64;
-        if format.trim_end() != FORMAT {
+        let mut length = lines.iter().map(Vec::len).sum::<usize>() as u64;
+        let [format, origin] = lines.map(|line| String::from_utf8_lossy(&line).into_owned());
+        let own = format!("{FORMAT}\n");
+        if !origin.ends_with('\n') && own.starts_with(&format) {
+            // Killed while it wrote the first lines.
+            return self.begin(file);
+        }
+        if format != own {
             let message = "was written by another version of `symplectic`, or is no file of finished trajectories".to_owned();
             return Err(self.refused(message));
         }
@@ -137,6 +143,9 @@ impl Resume {
         while let Some((row, bytes)) = record(&mut reader).map_err(unread)? {
             length += bytes;
             rows.push(row);
+        }
+        if rows.is_empty() {
+            return self.begin(file);
         }
         if !continues {
             let message = format!(
@@ -149,11 +158,27 @@ impl Resume {
             let message = format!("{difference}: continue that run, or delete the file");
             return Err(self.refused(message));
         }
-        file.set_len(length)
-            .and_then(|()| file.seek(SeekFrom::End(0)))
-            .map_err(|error| self.refused(format!("cannot be written: {error}")))?;
-        (self.file, self.saved) = (Some(file), rows.len());
+        (self.file, self.saved, self.length) = (Some(file), rows.len(), length);
         Ok(rows)
+    }
+
+    /// Begins a file in the place of one without trajectories.
+    fn begin(&mut self, mut file: File) -> Result<Vec<Trajectory>, Error> {
+        self.length = file
+            .set_len(0)
+            .and_then(|()| file.rewind())
+            .and_then(|()| self.write_origin(&mut file))
+            .map_err(|error| self.refused(format!("cannot be written: {error}")))?;
+        self.file = Some(file);
+        Ok(Vec::new())
+    }
+
+    /// Writes the first lines; returns their length.
+    fn write_origin(&self, file: &mut File) -> io::Result<u64> {
+        let origin = serde_json::to_string(&self.origin)?;
+        let lines = format!("{FORMAT}\n{origin}\n");
+        file.write_all(lines.as_bytes())?;
+        Ok(lines.len() as u64)
     }
 
     fn refused(&self, what: String) -> Error {
@@ -171,29 +196,30 @@ impl Resume {
     }
 
     fn append(&mut self, rows: &[Trajectory]) -> io::Result<()> {
-        let file = match &self.file {
-            Some(file) => file,
-            None => {
-                let mut file = File::options()
-                    .write(true)
-                    .create_new(true)
-                    .open(&self.path)?;
-                let _ = file.try_lock();
-                let origin = serde_json::to_string(&self.origin)?;
-                writeln!(file, "{FORMAT}\n{origin}")?;
-                self.file.insert(file)
-            }
+        if self.file.is_none() {
+            let mut options = File::options();
+            let mut file = options.write(true).create_new(true).open(&self.path)?;
+            let _ = file.try_lock();
+            self.length = self.write_origin(&mut file)?;
+            self.file = Some(file);
+        }
+        let Some(mut file) = self.file.as_ref() else {
+            return Ok(());
         };
+        // Over what an error may have left.
+        file.set_len(self.length)?;
+        file.seek(SeekFrom::Start(self.length))?;
         let mut out = BufWriter::new(file);
         for row in &rows[self.saved..] {
             let bytes = encoded(row);
             out.write_all(&(bytes.len() as u64).to_le_bytes())?;
-            out.write_all(&checksum(&bytes).to_le_bytes())?;
+            out.write_all(&checksum(bytes.iter().copied()).to_le_bytes())?;
             out.write_all(&bytes)?;
         }
         out.flush()?;
         drop(out);
         file.sync_data()?;
+        self.length = file.stream_position()?;
         self.saved = rows.len();
         Ok(())
     }
@@ -226,9 +252,9 @@ impl Resume {
 }
 
 /// FNV-1a.
-pub(super) fn checksum(bytes: &[u8]) -> u64 {
-    let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, step)
+pub(super) fn checksum(bytes: impl IntoIterator<Item = u8>) -> u64 {
+    let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    bytes.into_iter().fold(0xcbf2_9ce4_8422_2325, step)
 }
 
 fn encoded(row: &Trajectory) -> Vec<u8> {
@@ -274,7 +300,7 @@ fn record(file: &mut impl Read) -> io::Result<Option<(Trajectory, u64)>> {
     };
     let mut bytes = Vec::new();
     file.take(length).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 != length || checksum(&bytes) != sum {
+    if bytes.len() as u64 != length || checksum(bytes.iter().copied()) != sum {
         return Ok(None);
     }
     Ok(decoded(Words(&bytes)).map(|row| (row, 16 + length)))
@@ -376,7 +402,7 @@ mod tests {
         for row in &rows {
             let own = encoded(row);
             bytes.extend((own.len() as u64).to_le_bytes());
-            bytes.extend(checksum(&own).to_le_bytes());
+            bytes.extend(checksum(own.iter().copied()).to_le_bytes());
             bytes.extend(own);
             ends.push(bytes.len());
         }

@@ -28,6 +28,9 @@ pub(super) struct Setup {
     pub(super) section: Option<Spanned<Section>>,
     #[serde(default)]
     pub(super) sums: Sums,
+    /// `true` to compute MEGNO and the largest Lyapunov exponent.
+    #[serde(default, deserialize_with = "if_true")]
+    pub(super) megno: Option<Spanned<bool>>,
     pub(super) solver: Option<Spanned<Iteration>>,
     #[serde(default)]
     pub(super) accept_lower_order: bool,
@@ -41,6 +44,12 @@ pub(super) struct Setup {
     pub(super) starts: Spanned<Starts>,
     pub(super) random: Option<Spanned<Random>>,
     pub(super) output: Output,
+}
+
+/// A switch, if it is on.
+fn if_true<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Spanned<bool>>, D::Error> {
+    let value = Spanned::<bool>::deserialize(deserializer)?;
+    Ok(Some(value).filter(|value| *value.get_ref()))
 }
 
 /// The method as given.
@@ -140,37 +149,13 @@ pub(super) struct Evenly {
 }
 
 /// The zeros of an expression at which states are written.
-#[derive(Debug)]
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields)]
 pub(super) struct Section {
     /// An expression of the formula language.
     pub(super) of: Spanned<String>,
+    #[serde(default)]
     pub(super) direction: Direction,
-}
-
-impl<'de> Deserialize<'de> for Section {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        #[derive(Deserialize)]
-        #[serde(deny_unknown_fields)]
-        struct Keys {
-            of: Spanned<String>,
-            #[serde(default)]
-            direction: Direction,
-        }
-        struct Any;
-        impl<'de> Visitor<'de> for Any {
-            type Value = Section;
-
-            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                formatter.write_str("one table, such as `section = { of = \"x\" }`")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Section, A::Error> {
-                let Keys { of, direction } = Keys::deserialize(MapAccessDeserializer::new(map))?;
-                Ok(Section { of, direction })
-            }
-        }
-        deserializer.deserialize_any(Any)
-    }
 }
 
 /// The sign changes of a section, in the direction of the steps.
@@ -200,7 +185,7 @@ impl TryFrom<String> for Direction {
 
 /// The number of random starts at each point of the grid of the other coordinates.
 #[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(remote = "Self", deny_unknown_fields)]
 pub(super) struct Random {
     pub(super) seed: u64,
     pub(super) count: usize,
@@ -208,10 +193,42 @@ pub(super) struct Random {
 
 /// The destination of the results.
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(remote = "Self", deny_unknown_fields)]
 pub(super) struct Output {
     /// A file named `.npz`, `.parquet` or `.csv`.
     pub(super) file: Spanned<PathBuf>,
+}
+
+/// Reads tables as tables only: by itself `serde` also accepts a list of the values, without their names.
+macro_rules! tables {
+    ($($table:ident: $expected:literal;)*) => {
+        $(impl<'de> Deserialize<'de> for $table {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                struct Any;
+                impl<'de> Visitor<'de> for Any {
+                    type Value = $table;
+
+                    fn expecting(
+                        &self,
+                        formatter: &mut std::fmt::Formatter<'_>,
+                    ) -> std::fmt::Result {
+                        formatter.write_str($expected)
+                    }
+
+                    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<$table, A::Error> {
+                        $table::deserialize(MapAccessDeserializer::new(map))
+                    }
+                }
+                deserializer.deserialize_any(Any)
+            }
+        })*
+    };
+}
+
+tables! {
+    Section: "one table, such as `section = { of = \"x\" }`";
+    Random: "a table such as `{ seed = 1, count = 1000 }`";
+    Output: "a table with the key `file`";
 }
 
 /// Start values by coordinate.

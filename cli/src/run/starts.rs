@@ -66,11 +66,16 @@ impl Coordinates {
 
     /// The list of names, truncated if there are many.
     pub(super) fn listed(&self) -> String {
-        let mut names = self.all().map(String::as_str);
-        let first: Vec<&str> = names.by_ref().take(20).collect();
-        let rest = if names.next().is_some() { ", …" } else { "" };
-        first.join(", ") + rest
+        listed(self.all())
     }
+}
+
+/// A list of names, truncated if there are many.
+pub(super) fn listed<'n>(names: impl IntoIterator<Item = &'n String>) -> String {
+    let mut names = names.into_iter().map(String::as_str);
+    let first: Vec<&str> = names.by_ref().take(20).collect();
+    let rest = if names.next().is_some() { ", …" } else { "" };
+    first.join(", ") + rest
 }
 
 /// The start of a trajectory, with any number of bodies.
@@ -112,12 +117,12 @@ impl Reader<'_> {
                     return Err(self.file.error(varied.span.clone(), message));
                 }
                 let table = self.of_table(&self.file.beside(name));
-                let (coordinates, rows) =
+                let (coordinates, rows, has_velocities) =
                     table.map_err(|error| self.file.placed(self.setup.starts.span(), error))?;
                 let given = Given {
                     rows,
                     derived: Vec::new(),
-                    has_velocities: false,
+                    has_velocities,
                 };
                 Ok((coordinates, vec![given]))
             }
@@ -230,7 +235,7 @@ impl Reader<'_> {
         let mut named: HashMap<&str, usize> = coordinates.all().enumerate().map(place).collect();
         let velocities = self.velocities(coordinates);
         let half = coordinates.dimension();
-        named.extend((half..).zip(velocities).map(place));
+        named.extend((half..).zip(&velocities).map(place));
         let mut is_given = vec![false; 2 * half];
         let mut kinds = [false; 2];
         let mut axes = Vec::new();
@@ -280,12 +285,13 @@ impl Reader<'_> {
         Ok((axes, kinds[1]))
     }
 
-    /// The names of the velocities, of which starts of a Lagrangian may consist.
-    fn velocities<'v>(&'v self, coordinates: &Coordinates) -> &'v [String] {
-        let names = &self.system.velocities;
-        match self.system.lagrangian.is_some() && names.len() == coordinates.dimension() {
-            true => names,
-            false => &[],
+    /// The names of the velocities of a Lagrangian.
+    pub(super) fn velocities(&self, coordinates: &Coordinates) -> Vec<String> {
+        let of_list = |name: &String| name.replacen('p', "v", 1);
+        match (&self.system.lagrangian, &self.system.layout) {
+            (None, _) => Vec::new(),
+            (Some(_), Layout::Named(_)) => self.system.velocities.clone(),
+            (Some(_), Layout::Numbered(..)) => coordinates.halves[1].iter().map(of_list).collect(),
         }
     }
 

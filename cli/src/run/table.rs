@@ -13,9 +13,9 @@ use symplectic::ensemble::{Parquet, ParquetColumn};
 use symplectic_compiler::formula::{Parameter, Shape};
 use symplectic_compiler::{Error, ErrorKind};
 
-use super::output::{Fact, Point, Results, Seen, points};
+use super::output::{CHAOS, Fact, Point, Results, Seen, indicator, points};
 use super::setup::MOST;
-use super::starts::{Coordinates, Reader};
+use super::starts::{Coordinates, Reader, listed};
 use super::trajectory::Trajectory;
 
 /// Lines that are written to a Parquet file at once, if they are not wide.
@@ -72,10 +72,18 @@ impl Results<'_> {
         })
     }
 
+    fn header(&self) -> Vec<String> {
+        header(
+            self.coordinates,
+            matches!(self.seen, Seen::Section),
+            self.has_chaos,
+        )
+    }
+
     pub(super) fn write_csv(&self, out: &mut impl Write) -> io::Result<()> {
         let mut file = csv::Writer::from_writer(out);
         let is_section = matches!(self.seen, Seen::Section);
-        file.write_record(header(self.coordinates, is_section))?;
+        file.write_record(self.header())?;
         for line in self.lines() {
             let numbers = |state| coordinates(state).map(|x| cell(*x));
             let energy_error = line.energy_error.map(|error| format!("{error:e}"));
@@ -86,6 +94,8 @@ impl Results<'_> {
             cells.push(cell(line.state.time));
             cells.extend(numbers(line.state));
             cells.push(energy_error.unwrap_or_default());
+            let indicators = (0..CHAOS.len()).filter(|_| self.has_chaos);
+            cells.extend(indicators.map(|k| cell(indicator(line.row, k))));
             cells.push(line.row.statistics.steps.to_string());
             cells.push(line.failure.unwrap_or_default());
             file.write_record(cells)?;
@@ -104,12 +114,12 @@ impl Results<'_> {
             }
         }
         let is_section = matches!(self.seen, Seen::Section);
-        let names = header(self.coordinates, is_section);
+        let names = self.header();
         let mut lines = self.lines();
         let most = (CELLS / names.len()).clamp(1, GROUP);
         loop {
             let group: Vec<Line<'_>> = lines.by_ref().take(most).collect();
-            let columns = columns(&group, self.coordinates, is_section);
+            let columns = columns(&group, self.coordinates, is_section, self.has_chaos);
             let columns: Vec<_> = names.iter().map(String::as_str).zip(columns).collect();
             file.group(&columns)?;
             if group.len() < most {
@@ -133,7 +143,7 @@ fn coordinates(state: Point<'_>) -> impl Iterator<Item = &f64> {
 }
 
 /// The names of the columns; coordinates are at the start and at the time of the line. States of a section have numbers.
-fn header(coordinates: &Coordinates, is_section: bool) -> Vec<String> {
+fn header(coordinates: &Coordinates, is_section: bool, has_chaos: bool) -> Vec<String> {
     let starts = coordinates.all().map(|name| format!("{name}_start"));
     let own = |name: &str| [name.to_owned()].into_iter();
     own("trajectory")
@@ -142,19 +152,26 @@ fn header(coordinates: &Coordinates, is_section: bool) -> Vec<String> {
         .chain(is_section.then(|| "number".to_owned()))
         .chain(own("time"))
         .chain(coordinates.all().cloned())
-        .chain(["energy_error", "steps", "error"].map(str::to_owned))
+        .chain(own("energy_error"))
+        .chain(CHAOS.into_iter().filter(|_| has_chaos).map(str::to_owned))
+        .chain(["steps", "error"].map(str::to_owned))
         .collect()
 }
 
 /// A name that two columns of a table would have, as with a coordinate `time`.
-pub(super) fn twin(coordinates: &Coordinates, is_section: bool) -> Option<String> {
+pub(super) fn twin(coordinates: &Coordinates, is_section: bool, has_chaos: bool) -> Option<String> {
     let mut known = HashSet::new();
-    let mut names = header(coordinates, is_section).into_iter();
+    let mut names = header(coordinates, is_section, has_chaos).into_iter();
     names.find(|name| !known.insert(name.clone()))
 }
 
 /// The columns of lines, in the order of the [`header`].
-fn columns(lines: &[Line<'_>], names: &Coordinates, is_section: bool) -> Vec<ParquetColumn> {
+fn columns(
+    lines: &[Line<'_>],
+    names: &Coordinates,
+    is_section: bool,
+    has_chaos: bool,
+) -> Vec<ParquetColumn> {
     let count = names.all().count();
     let integers =
         |of: fn(&Line<'_>) -> u64| ParquetColumn::Integers(lines.iter().map(of).collect());
@@ -171,14 +188,22 @@ fn columns(lines: &[Line<'_>], names: &Coordinates, is_section: bool) -> Vec<Par
     columns.push(doubles(&|line| line.state.time));
     columns.extend((0..count).map(|k| coordinate(|line| line.state, k)));
     columns.push(doubles(&|line| line.energy_error.unwrap_or(f64::NAN)));
+    let indicators = (0..CHAOS.len()).filter(|_| has_chaos);
+    columns.extend(indicators.map(|k| doubles(&|line| indicator(line.row, k))));
     columns.push(integers(|line| line.row.statistics.steps));
     let failures = lines.iter().map(|line| line.failure.clone()).collect();
     columns.push(ParquetColumn::Texts(failures));
     columns
 }
 
-/// The coordinates of a system, and a value for each of them in each row.
-type Rows = (Coordinates, Vec<Vec<f64>>);
+/// The coordinates of a system, a value for each of them in each row, and whether these are velocities in the place of momenta.
+type Rows = (Coordinates, Vec<Vec<f64>>, bool);
+
+/// The columns that a file of starts must have.
+struct Columns {
+    names: Vec<String>,
+    has_velocities: bool,
+}
 
 impl Reader<'_> {
     /// The rows of a file whose columns have the names of the coordinates.
@@ -217,7 +242,8 @@ impl Reader<'_> {
         let header = header.clone();
         let names: Vec<&str> = header.iter().collect();
         let coordinates = self.coordinates(&names)?;
-        let places = places(&coordinates, &names)
+        let columns = self.columns(&coordinates, &names);
+        let places = places(&columns, &names)
             .map_err(|message| refused(path, format!("line 1: {message}")))?;
         let mut rows = Vec::new();
         for (number, record) in reader.records().enumerate() {
@@ -231,7 +257,8 @@ impl Reader<'_> {
             let row = row(number, &places, &names, cells);
             rows.push(row.map_err(|message| refused(path, message))?);
         }
-        Ok((coordinates, rows))
+        let has_velocities = columns.has_velocities;
+        Ok((coordinates, rows, has_velocities))
     }
 
     fn of_parquet(&self, path: &Path) -> Result<Rows, Error> {
@@ -244,7 +271,8 @@ impl Reader<'_> {
         let fields = about.schema().get_fields();
         let names: Vec<&str> = fields.iter().map(|field| field.name()).collect();
         let coordinates = self.coordinates(&names)?;
-        let places = places(&coordinates, &names).map_err(|message| refused(path, message))?;
+        let columns = self.columns(&coordinates, &names);
+        let places = places(&columns, &names).map_err(|message| refused(path, message))?;
         let unread = |error| {
             refused(
                 path,
@@ -265,7 +293,25 @@ impl Reader<'_> {
             let row = row(number, &places, &names, cells);
             rows.push(row.map_err(|message| refused(path, message))?);
         }
-        Ok((coordinates, rows))
+        let has_velocities = columns.has_velocities;
+        Ok((coordinates, rows, has_velocities))
+    }
+
+    /// The columns of a file with some names; of a Lagrangian it has momenta or velocities.
+    fn columns(&self, coordinates: &Coordinates, names: &[&str]) -> Columns {
+        let velocities = self.velocities(coordinates);
+        let is_velocity = |name: &&str| velocities.iter().any(|velocity| velocity == name);
+        let has_velocities = names.iter().any(is_velocity);
+        let [positions, momenta] = &coordinates.halves;
+        let second = if has_velocities { &velocities } else { momenta };
+        let all = positions
+            .iter()
+            .chain(second)
+            .chain(&coordinates.parameters);
+        Columns {
+            names: all.cloned().collect(),
+            has_velocities,
+        }
     }
 
     /// The coordinates, as many as a table has if the formula does not say it.
@@ -295,22 +341,25 @@ fn refused(path: &Path, message: impl Display) -> Error {
     ErrorKind::Document { message }.into()
 }
 
-/// The place of each column among the coordinates.
-fn places(coordinates: &Coordinates, names: &[&str]) -> Result<Vec<usize>, String> {
-    let known = coordinates.with_parameters().enumerate();
+/// The place of each of the named columns.
+fn places(columns: &Columns, names: &[&str]) -> Result<Vec<usize>, String> {
+    let known = columns.names.iter().enumerate();
     let mut left: HashMap<&str, usize> = known.map(|(k, name)| (name.as_str(), k)).collect();
     let mut places = Vec::new();
     for name in names {
         let place = left.remove(name).ok_or_else(|| {
             format!(
                 "the column `{name}` is neither a coordinate nor a parameter that is a number, or it occurs twice; the coordinates are {}",
-                coordinates.listed()
+                listed(&columns.names)
             )
         })?;
         places.push(place);
     }
-    let mut all = coordinates.with_parameters();
-    match all.find(|name| left.contains_key(name.as_str())) {
+    match columns
+        .names
+        .iter()
+        .find(|name| left.contains_key(name.as_str()))
+    {
         Some(name) => Err(format!("the column `{name}` is missing")),
         None => Ok(places),
     }

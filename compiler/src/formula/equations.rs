@@ -187,7 +187,8 @@ impl System {
         match self.layout.length() {
             Length::Fixed(n) if parts.iter().all(single) => {
                 let every = parts.len() == n * self.layout.components();
-                (n <= MOST_LISTED || every).then_some(n)
+                let is_named = matches!(self.layout, Layout::Named(_));
+                (n <= MOST_LISTED || every || is_named).then_some(n)
             }
             _ => None,
         }

@@ -10,15 +10,19 @@ use super::system::System;
 pub const FACT: &str = "not quadratic in the velocities, so there is no formula of H: steps are those of \
                         `symplectic::variational::LagrangianIntegrator`, by L and its derivatives";
 
-/// `d/dt p = ∂L/∂q + f`, a line for each part; `None` if there is H.
+/// `q' = v` and `p' = ∂L/∂q + f`, a line for each part; `None` if there is H.
 pub fn equations(system: &System, notation: Notation) -> Option<Vec<String>> {
     let lagrangian = system.without_hamiltonian()?;
     let mut copy = system.clone();
     let of = lagrangian.formula;
     let mut parts: Vec<Scatter> = gradient(&mut copy.graph, of, &[], integer(1), Half::Q);
     copy.add_applied(&mut parts);
-    let parts = copy.completed(parts);
-    Some(copy.equations(&[(Half::P, parts)], notation))
+    let force = copy.completed(parts);
+    let mut velocity = copy.completed(Vec::new());
+    for part in &mut velocity {
+        part.value = copy.graph.coordinate(part.target.of(Half::V));
+    }
+    Some(copy.equations(&[(Half::Q, velocity), (Half::P, force)], notation))
 }
 
 /// The documentation of the type of such a system; `None` if there is H.

@@ -481,8 +481,8 @@ fn a_constant_trace_leaves_the_points_where_the_matrix_is_scalar() {
 fn ends_of_neighbouring_intervals_are_shown_with_the_digits_that_distinguish_them() {
     let definition = "first: drift, symmetric: true, kick: [0.1916678, 0.3083322], \
          drift: [0.071353913450279725904, 0.268548791161230105820, 0.320194590776980336552]";
-    let definition = crate::Definition::parse(definition).expect("a definition");
-    let tableau = definition.derive(&crate::Limits::default());
+    let definition = Definition::parse(definition).expect("a definition");
+    let tableau = definition.derive(&Limits::default());
     let stability = tableau.expect("derived").stability();
     let shown = "(0, 3.04299999999999999998351…) ∪ (3.04300000000000000001533…, 5.35371767219…) ∪ ";
     assert!(stability.intervals_text().starts_with(shown), "{stability}");

@@ -8,6 +8,7 @@ use proptest::prelude::*;
 use quote::{format_ident, quote};
 use symplectic_compiler::emit::{Header, system};
 use symplectic_compiler::formula::derivative::gradient;
+use symplectic_compiler::formula::display::Notation;
 use symplectic_compiler::formula::evaluate::{Evaluator, Point};
 use symplectic_compiler::formula::graph::{Half, integer};
 use symplectic_compiler::formula::hessian::MomentumHessian;
@@ -355,6 +356,24 @@ fn a_forced_system() {
     expect_file!["emitted/formula_forced.rs"].assert_eq(&formula::code(&read, &structure));
     expect_file!["data/forced.txt"].assert_eq(&description::text(&read, &structure));
     expect_file!["data/forced.latex"].assert_eq(&description::latex(&read, &structure));
+}
+
+/// Of a hundred names or numbers, with a force on one of them.
+#[test]
+fn every_coordinate_has_an_equation() {
+    let names = |letter: &str, sign: &str| {
+        let names = (0..100).map(|k| format!("{letter}{k}"));
+        names.collect::<Vec<_>>().join(sign)
+    };
+    let (q, p) = (names("x", ", "), names("y", ", "));
+    let squares = names("y", "^2 + ");
+    let (named, _) = read(&format!("S q: [{q}], p: [{p}]; H = {squares}^2 + x7"));
+    let lines = named.equations_of_motion(Notation::Text);
+    assert_eq!(lines.len(), 200);
+    assert_eq!((&*lines[107], &*lines[108]), ("y7' = −1", "y8' = 0"));
+    let (numbered, _) = read("S q: [100], p: [100]; H = sum(i: p[i]^2/2) + q[7]");
+    let lines = numbered.equations_of_motion(Notation::Text);
+    assert_eq!(lines[1..], ["p'[i] += 0    (0 ≤ i < 100)", "p'[7] += −1"]);
 }
 
 #[test]

@@ -163,6 +163,8 @@ fn lagrangians_without_a_hamiltonian() {
           py = vy ((m c²/√(1 − (vx² + vy²)/c²))/c²)
 
         equations of motion
+          x' = vx
+          y' = vy
           px' = −x − vx drag
           py' = −y − vy drag
 
@@ -174,6 +176,8 @@ fn lagrangians_without_a_hamiltonian() {
           L &= -m\,{c}^{2}\,\sqrt{1 - \frac{\left({\mathrm{vx}}^{2} + {\mathrm{vy}}^{2}\right)}{{c}^{2}}} - \tfrac{1}{2}\,\left({x}^{2} + {y}^{2}\right) \\
           \mathrm{px} &= \mathrm{vx}\,\left(\frac{\left(\frac{m\,{c}^{2}}{\sqrt{1 - \frac{\left({\mathrm{vx}}^{2} + {\mathrm{vy}}^{2}\right)}{{c}^{2}}}}\right)}{{c}^{2}}\right) \\
           \mathrm{py} &= \mathrm{vy}\,\left(\frac{\left(\frac{m\,{c}^{2}}{\sqrt{1 - \frac{\left({\mathrm{vx}}^{2} + {\mathrm{vy}}^{2}\right)}{{c}^{2}}}}\right)}{{c}^{2}}\right) \\
+          \dot{x} &= \mathrm{vx} \\
+          \dot{y} &= \mathrm{vy} \\
           \dot{\mathrm{px}} &= -x - \mathrm{vx}\,\mathrm{drag} \\
           \dot{\mathrm{py}} &= -y - \mathrm{vy}\,\mathrm{drag}
         \end{aligned}

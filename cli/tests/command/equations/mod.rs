@@ -64,6 +64,10 @@ system!(hamiltonian, SKATE: Skate { g: 0.5 } q: [x, y, a], p: [px, py, pa], v: [
 system!(lagrangian, ROLLING: Rolling { r: 0.5 } q: [x, y, a, b], v: [vx, vy, va, vb];
     L = (vx^2 + vy^2)/2 + va^2/4 + vb^2/8
     nonholonomic: { along = vx - r va cos(b), across = vy - r va sin(b) });
+system!(hamiltonian, CARS: Cars<N> { m: [N] } q: [N; 3], p: [N; 3], v: [N; 3]; H = sum(i: |p[i]|^2/(2 m[i]))
+    nonholonomic: { edge(i in 0..N) = v[i][0] sin(q[i][2]) - v[i][1] cos(q[i][2]) });
+system!(lagrangian, RUBBED_LAGRANGIAN: RubbedLagrangian { c: 0.1 } q: [q], v: [v]; L = v^2 - q^4 cos(t)
+    friction: c);
 system!(lagrangian, RELATIVE: Relative { k: 2, c: 0.1 } q: [x, y], v: [vx, vy];
     L = -sqrt(1 - vx^2 - vy^2) - k x^2/2 force: { x = -c vx });
 
@@ -279,12 +283,16 @@ impl Case {
 
     /// The derivatives by name.
     fn derivatives(&self, [velocity, force]: [&[f64]; 2]) -> Values {
-        let dotted = |name: &String| match name.split_once('[') {
-            Some((head, rest)) => format!("{head}'[{rest}"),
-            None => format!("{name}'"),
-        };
-        let names = self.names.iter().flatten().map(dotted);
+        let names = self.names.iter().flatten().map(|name| dotted(name));
         names.zip(velocity.iter().chain(force).copied()).collect()
+    }
+}
+
+/// The name of the derivative of a coordinate.
+fn dotted(name: &str) -> String {
+    match name.split_once('[') {
+        Some((head, rest)) => format!("{head}'[{rest}"),
+        None => format!("{name}'"),
     }
 }
 
@@ -451,6 +459,13 @@ fn printed_equations_with_friction_and_forces_are_those_that_integrate() {
         RUBBED_BODIES,
         case,
     );
+    let case = Case::named(&["q"], &["p"]).number("c", 0.1);
+    compare(
+        &RubbedLagrangian::default(),
+        "rubbed-lagrangian",
+        RUBBED_LAGRANGIAN,
+        case,
+    );
     let rates = [0.3, 7.0, 0.2];
     let case = Case::numbered(3, 0).array("c", &rates);
     compare(&RubbedThree::new(rates), "rubbed-three", RUBBED_THREE, case);
@@ -542,7 +557,7 @@ fn compare_nonholonomic<S: Hamiltonian>(
         let mut rows: Vec<Vec<f64>> = (0..count)
             .map(|k| {
                 let found = at(k);
-                let names = case.names[1].iter().map(|name| format!("{name}'"));
+                let names = case.names[1].iter().map(|name| dotted(name));
                 names.map(|name| found[&name] - expected[&name]).collect()
             })
             .collect();
@@ -564,7 +579,7 @@ fn compare_nonholonomic<S: Hamiltonian>(
             found.iter().all(|(_, value)| value.abs() < ROUNDING),
             "{form}: {found:?}"
         );
-        let moved = (0..size).map(|k| (format!("{}'", case.names[0][k]), before[k]));
+        let moved = (0..size).map(|k| (dotted(&case.names[0][k]), before[k]));
         world.values.extend(moved);
         let found = constraints(&lines, &world);
         assert!(
@@ -603,6 +618,13 @@ fn printed_equations_with_nonholonomic_constraints_are_those_that_integrate() {
     compare_nonholonomic(&skate, project, "skate", SKATE, case.multipliers(&["λ"]));
     let case = Case::named(&["x", "y", "a", "b"], &["px", "py", "pa", "pb"]).number("r", 0.5);
     let case = case.multipliers(&["λ_along", "λ_across"]);
+    let masses = [1.0, 0.5];
+    let cars = Cars::new(masses);
+    let project = |state| consistent_momentum(&cars, state);
+    let twice = Case::numbered(2, 3)
+        .array("m", &masses)
+        .multipliers(&["λ[0]", "λ[1]"]);
+    compare_nonholonomic(&cars, project, "cars", CARS, twice);
     let wheel = Rolling::default();
     let project = |state| consistent_momentum(&wheel, state);
     compare_nonholonomic(&wheel, project, "rolling", ROLLING, case);
@@ -624,11 +646,10 @@ fn printed_equations_of_a_lagrangian_without_h_are_those_that_integrate() {
     let [mut by_velocity, mut by_position, mut force] = [SVector::<f64, 2>::zeros(); 3];
     assert!(relative.gradient(case.time, &q, &v, &mut by_velocity, &mut by_position));
     relative.force(case.time, &q, &v, &mut force);
-    let names = ["px'", "py'"].map(str::to_owned);
-    let expected: Values = names
-        .into_iter()
-        .zip((by_position + force).iter().copied())
-        .collect();
+    let names = ["x'", "y'", "px'", "py'"].map(str::to_owned);
+    let force = by_position + force;
+    let values = v.iter().chain(&force).copied();
+    let expected: Values = names.into_iter().zip(values).collect();
     for Printed {
         form,
         equations,

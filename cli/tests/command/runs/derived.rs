@@ -150,8 +150,22 @@ fn velocities_of_a_lagrangian_are_starts() {
         starts = { q = [0, 0, 0], v = [1, { values = [2, -2] }, 3] }
         output.file = 'out.csv'";
     let names = ["p[0]_start", "p[1]_start", "p[2]_start"];
-    let rows = columns(&csv(&folder("velocity-list"), numbered), &names);
+    let folder = folder("velocity-list");
+    let rows = columns(&csv(&folder, numbered), &names);
     assert_eq!(rows, [[1.0, 4.0, 9.0], [1.0, -4.0, 9.0]]);
+    // The same in a file.
+    let table = "v[0],q[0],v[1],q[1],v[2],q[2]\n1,0,2,0,3,0\n1,0,-2,0,3,0\n";
+    std::fs::write(folder.join("starts.csv"), table).expect("a file");
+    let starts = "{ q = [0, 0, 0], v = [1, { values = [2, -2] }, 3] }";
+    let of_file = numbered.replace(starts, "'starts.csv'");
+    assert_eq!(columns(&csv(&folder, &of_file), &names), rows);
+    std::fs::write(folder.join("starts.csv"), table.replace("v[0]", "p[0]")).expect("a file");
+    let output = call(&folder, &of_file, &[]);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        error.contains("the column `p[0]` is neither a coordinate"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -160,6 +174,11 @@ fn wrong_rules_are_refused_at_their_place() {
     let px = "\"sqrt(2 E - py^2 - y^2 + 2 y^3/3)\"";
     let py = "\"0.01 trajectory\"";
     for (setup, place, told) in [
+        (
+            HENON.replace("parameters.E", "parameters.y"),
+            "7:",
+            "`y` has another meaning: give the parameter another name",
+        ),
         (
             HENON.replace(px, "\"sqrt(2 E + F)\""),
             "9:",

@@ -1,5 +1,6 @@
 //! `symplectic run`: trajectories beside those of the macros, starts, numbers, parameters, files, and what is refused.
 
+mod chaos;
 mod derived;
 mod files;
 mod kept;

@@ -468,7 +468,7 @@ fn wrong_values_are_named_with_what_is_expected() {
             "[output]\n    file = \"out.csv\"",
             "[[output]]",
             "10:5",
-            "expected a table with the key `file`",
+            "`output`: found a list, expected a table with the key `file`",
         ),
         (
             PENDULUM,

@@ -4,6 +4,8 @@
 L = −m c² √(1 − (vx² + vy²)/c²) − (1/2) (x² + y²)
 px = vx ((m c²/√(1 − (vx² + vy²)/c²))/c²)
 py = vy ((m c²/√(1 − (vx² + vy²)/c²))/c²)
+x' = vx
+y' = vy
 px' = −x − vx drag
 py' = −y − vy drag
 ```
@@ -11,6 +13,8 @@ py' = −y − vy drag
 $$L = -m\\,{c}^{2}\\,\\sqrt{1 - \\frac{\\left({\\mathrm{vx}}^{2} + {\\mathrm{vy}}^{2}\\right)}{{c}^{2}}} - \\tfrac{1}{2}\\,\\left({x}^{2} + {y}^{2}\\right)$$
 $$\\mathrm{px} = \\mathrm{vx}\\,\\left(\\frac{\\left(\\frac{m\\,{c}^{2}}{\\sqrt{1 - \\frac{\\left({\\mathrm{vx}}^{2} + {\\mathrm{vy}}^{2}\\right)}{{c}^{2}}}}\\right)}{{c}^{2}}\\right)$$
 $$\\mathrm{py} = \\mathrm{vy}\\,\\left(\\frac{\\left(\\frac{m\\,{c}^{2}}{\\sqrt{1 - \\frac{\\left({\\mathrm{vx}}^{2} + {\\mathrm{vy}}^{2}\\right)}{{c}^{2}}}}\\right)}{{c}^{2}}\\right)$$
+$$\\dot{x} = \\mathrm{vx}$$
+$$\\dot{y} = \\mathrm{vy}$$
 $$\\dot{\\mathrm{px}} = -x - \\mathrm{vx}\\,\\mathrm{drag}$$
 $$\\dot{\\mathrm{py}} = -y - \\mathrm{vy}\\,\\mathrm{drag}$$
 
