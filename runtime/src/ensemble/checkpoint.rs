@@ -160,7 +160,11 @@ where
             same("step size", size(mine.step_size()), size(self.step_size))?;
         }
         same("starts", checkpoint.starts.clone(), own.starts.clone())?;
-        if checkpoint.run != own.run {
+        let is_same = match (&checkpoint.run, &own.run) {
+            (Some(run), Some(own)) => run.is_same_run(own),
+            (run, own) => run == own,
+        };
+        if !is_same {
             return Err(CheckpointError::OtherRun {
                 what: "tolerance, bound on the sweeps or retry",
                 found: "other".to_string(),

@@ -21,8 +21,9 @@ use crate::system::System;
 /// contains the matrices of Newton's iteration, clock, step size, tolerance and statistics.
 ///
 /// With the feature `serde` it can be written in any format. All numbers are in `words`: sixteen hexadecimal digits for each word of
-/// 64 bits, or eight bytes in a binary format. A word is the bits of an IEEE 754 double, of a single in its lower half, or of an integer. The order of the words belongs to
-/// this version of the library; other versions reject the checkpoint.
+/// 64 bits, or eight bytes in a binary format. A word is the bits of an IEEE 754 double, of a single in its lower half, or of an integer.
+/// The order of the words belongs to the number `format`. Versions of the library with the same number read each other's checkpoints; the
+/// run then continues with the arithmetic of the version that reads.
 ///
 /// ```
 /// use symplectic::nalgebra::Vector1;
@@ -51,7 +52,9 @@ use crate::system::System;
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checkpoint {
-    /// The version of this library.
+    /// Number of the order of the words.
+    pub(super) format: u32,
+    /// The version of the library that wrote it.
     pub(super) version: String,
     /// Name and definition of the method.
     pub(super) method: String,
@@ -77,12 +80,25 @@ pub enum CheckpointError {
     #[error("numbers of this type cannot be saved: only f64 and f32 can")]
     Scalar,
 
+    /// The checkpoint has the words in an order that this version does not read.
+    #[error(
+        "the checkpoint has format {format} and was written by version {version} of this library; this version reads format {own}: continue \
+         with version {version}, or begin a new run from a state",
+        own = Checkpoint::FORMAT
+    )]
+    OtherFormat {
+        /// The number of its format.
+        format: u32,
+        /// The version that wrote it.
+        version: String,
+    },
+
     /// The checkpoint belongs to another run.
     #[error(
         "the {what} of the checkpoint is `{found}`, that of this integrator `{expected}`: construct the integrator with the same {what}"
     )]
     OtherRun {
-        /// Version, method, definition, scalar, sums, solver or dimension.
+        /// Method, definition, scalar, sums, solver or dimension.
         what: &'static str,
         /// Its value in the checkpoint.
         found: String,
@@ -106,9 +122,23 @@ pub enum CheckpointError {
 }
 
 impl Checkpoint {
+    /// The format of this version: a new number for every change of the order of the words.
+    pub(super) const FORMAT: u32 = 1;
+
+    /// Whether it is the same except for the version that wrote it.
+    pub(crate) fn is_same_run(&self, other: &Self) -> bool {
+        let version = self.version.clone();
+        *self
+            == Self {
+                version,
+                ..other.clone()
+            }
+    }
+
     /// An empty checkpoint of a flow. `carried` is the number of words of the flow's own memory; flows with another number are told apart.
     pub(crate) fn of_flow(dimension: usize, carried: usize) -> Self {
         Self {
+            format: Self::FORMAT,
             version: env!("CARGO_PKG_VERSION").to_string(),
             method: "steps of a flow".to_string(),
             definition: format!("words carried: {carried}"),
@@ -134,6 +164,12 @@ impl Checkpoint {
         own: &Self,
         take: impl FnOnce(&mut Visit<'_>),
     ) -> Result<(), CheckpointError> {
+        if self.format != Self::FORMAT {
+            return Err(CheckpointError::OtherFormat {
+                format: self.format,
+                version: self.version.clone(),
+            });
+        }
         for ((what, found), (_, expected)) in self.header().into_iter().zip(own.header()) {
             if found != expected {
                 return Err(CheckpointError::OtherRun {
@@ -159,10 +195,9 @@ impl Checkpoint {
         Ok(())
     }
 
-    /// All fields except the words, with their names.
-    pub(super) fn header(&self) -> [(&'static str, String); 7] {
+    /// The fields that are the same for the same run, with their names.
+    pub(super) fn header(&self) -> [(&'static str, String); 6] {
         [
-            ("version", self.version.clone()),
             ("method", self.method.clone()),
             ("definition", self.definition.clone()),
             ("scalar", self.scalar.clone()),
@@ -241,6 +276,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             "plain"
         };
         Ok(Checkpoint {
+            format: Checkpoint::FORMAT,
             version: env!("CARGO_PKG_VERSION").to_string(),
             method: match kind {
                 "" => M::NAME.to_string(),

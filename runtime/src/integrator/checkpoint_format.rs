@@ -15,6 +15,9 @@ use super::Checkpoint;
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename = "Checkpoint")]
 struct Record<'a> {
+    /// The first files did not have it.
+    #[serde(default = "first")]
+    format: u32,
     version: String,
     method: String,
     definition: String,
@@ -25,6 +28,11 @@ struct Record<'a> {
     words: Stored<'a>,
     /// Checksum of all fields before it.
     checksum: String,
+}
+
+/// The format of files without a number.
+fn first() -> u32 {
+    1
 }
 
 /// The words in a file.
@@ -42,6 +50,7 @@ impl Serialize for Checkpoint {
             false => Stored::Bytes(Cow::Borrowed(&self.words)),
         };
         let record = Record {
+            format: self.format,
             version: self.version.clone(),
             method: self.method.clone(),
             definition: self.definition.clone(),
@@ -60,6 +69,7 @@ impl<'de> Deserialize<'de> for Checkpoint {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let record = Record::deserialize(deserializer)?;
         let mut checkpoint = Self {
+            format: record.format,
             version: record.version,
             method: record.method,
             definition: record.definition,
@@ -87,7 +97,7 @@ impl<'de> Deserialize<'de> for Checkpoint {
 }
 
 impl Checkpoint {
-    /// FNV-1a hash of all fields and the words: of the bytes of a text, of the words of bytes.
+    /// FNV-1a hash of all fields except the format, and the words: of the bytes of a text, of the words of bytes.
     fn sum(&self, words: &Stored<'_>) -> String {
         let mut hash = 0xcbf2_9ce4_8422_2325;
         let mut add = |text: &str| {
@@ -96,6 +106,7 @@ impl Checkpoint {
                 (hash ^ u64::from(byte)).wrapping_mul(FACTOR)
             });
         };
+        add(&self.version);
         for (_, text) in self.header() {
             add(&text);
         }

@@ -330,6 +330,19 @@ mod files {
         run.take_steps(7)?;
         let checkpoint = run.checkpoint().expect("doubles");
         let text = serde_json::to_value(&checkpoint).expect("a checkpoint");
+        assert_eq!(text["checksum"], checksum(&text));
+        let words = text["words"].as_str().expect("digits");
+        // The time, the step size, the position.
+        let word = |x: f64| format!("{:016x}", x.to_bits());
+        let state = run.state();
+        let start = [state.time, 0.1, state.q[0], state.q[1]].map(word).concat();
+        assert!(words.starts_with(&start) && words.len().is_multiple_of(16));
+        assert_eq!(text.as_object().map(serde_json::Map::len), Some(10));
+        Ok(())
+    }
+
+    /// The checksum of a text: FNV-1a, with a byte after each field that is in no text.
+    fn checksum(text: &serde_json::Value) -> String {
         let names = [
             "version",
             "method",
@@ -342,20 +355,40 @@ mod files {
             .map(|&name| text[name].as_str().expect("a text").to_owned())
             .collect();
         fields.push(text["dimension"].to_string());
-        let words = text["words"].as_str().expect("digits");
-        fields.push(words.to_owned());
-        // FNV-1a, with a byte after each field that is in no text.
+        fields.push(text["words"].as_str().expect("digits").to_owned());
         let bytes = fields.iter().flat_map(|field| field.bytes().chain([0xff]));
         let sum = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
         });
-        assert_eq!(text["checksum"], format!("{sum:016x}"));
-        // The time, the step size, the position.
-        let word = |x: f64| format!("{:016x}", x.to_bits());
-        let state = run.state();
-        let start = [state.time, 0.1, state.q[0], state.q[1]].map(word).concat();
-        assert!(words.starts_with(&start) && words.len().is_multiple_of(16));
-        assert_eq!(text.as_object().map(serde_json::Map::len), Some(9));
+        format!("{sum:016x}")
+    }
+
+    #[test]
+    fn checkpoints_of_other_versions_are_read_if_they_have_the_same_format() -> Result<(), Error> {
+        let made = || Integrator::new(Gauss3, HeavyKepler { mass: 1.0 }, kepler(), 0.1);
+        let mut whole = made()?;
+        whole.take_steps(7)?;
+        let checkpoint = whole.checkpoint().expect("doubles");
+        let mut text = serde_json::to_value(&checkpoint).expect("a checkpoint");
+        let read = |text: &serde_json::Value| -> Result<_, Error> {
+            let read: Checkpoint = serde_json::from_value(text.clone()).expect("a checkpoint");
+            let mut resumed = made()?;
+            let restored = resumed.restore(&read);
+            Ok(restored.map(|()| resumed))
+        };
+        text["version"] = "0.0.9".into();
+        text["checksum"] = checksum(&text).into();
+        let resumed = read(&text)?.expect("the same format");
+        assert_eq!(resumed.state(), whole.state());
+        // The first files have no number.
+        text.as_object_mut().expect("fields").remove("format");
+        assert!(read(&text)?.is_ok());
+        text["format"] = 2.into();
+        let error = read(&text)?.err().expect("a later format").to_string();
+        assert!(
+            error.starts_with("the checkpoint has format 2 and was written by version 0.0.9"),
+            "{error}"
+        );
         Ok(())
     }
 
@@ -380,9 +413,9 @@ mod files {
         .map(|name| text[name].as_str().map_or(0, str::len))
         .iter()
         .sum();
-        // Beside the other texts, sixteen digits of the checksum, and lengths of at most two bytes.
+        // Beside the other texts, sixteen digits of the checksum, the format, and lengths of at most two bytes.
         assert!(
-            file.len() <= digits / 2 + others + 16 + 2 * 9,
+            file.len() <= digits / 2 + others + 16 + 1 + 2 * 9,
             "{}",
             file.len()
         );
