@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::integrator::Integrator;
 use crate::integrator::last_step::LastEvent;
 use crate::integrator::partial_step::PartialSteps;
+use crate::integrator::sight::Sight;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 use crate::output::at_times::integrate_at;
@@ -228,11 +229,11 @@ where
     fn steps_in_sight<B>(
         &mut self,
         end: f64,
-        mut see: impl FnMut(&Integrator<M, S, V, R, N>) -> Result<ControlFlow<B>, Error>,
+        sight: &mut impl Sight<M, S, V, R, N, B>,
     ) -> Result<ControlFlow<B>, Error> {
         while self.is_after(end, self.state().time) {
             self.advance()?;
-            let seen = see(&self.integrator)?;
+            let seen = sight.see_or_pass(&self.integrator)?;
             if seen.is_break() {
                 return Ok(seen);
             }

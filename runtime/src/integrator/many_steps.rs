@@ -1,13 +1,17 @@
 //! Many steps of one size, in place if possible.
 
 use core::mem;
+use core::ops::ControlFlow;
 
-use super::{Integrator, MemoryOf, PlanOf, StepMemory};
+use super::{Integrator, MemoryOf, PlanOf, Statistics, StepMemory};
 use crate::error::Error;
 use crate::integrator::clock::RemainingSteps;
+use crate::integrator::memory::Failed;
+use crate::integrator::sight::Sight;
 use crate::method::{Method, Plan, Solver, Span, StageStorage, WarmStart};
 use crate::number::vector::{LIGHT, is_in_place};
 use crate::number::{Summation, Vector};
+use crate::state::State;
 use crate::system::System;
 
 /// Number of steps of vectors of this dimension that are taken in place before the result is checked. The cost of the check is negligible
@@ -37,9 +41,19 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     pub(crate) fn take_remaining(&mut self, remaining: &mut RemainingSteps) -> Result<(), Error> {
         while remaining.left > 0 {
             let coupled = PlanOf::<M, S, V>::EVALUATIONS_IN_PLACE.is_none();
-            let apart = coupled && remaining.left > 1 && self.is_light();
-            if apart && self.advance_apart(remaining)? {
-                continue;
+            if coupled && remaining.left > 1 && self.is_light() {
+                let left = remaining.left;
+                if let Apart::Failed(failed, time) = self.advance_apart(remaining, |_, _| true) {
+                    let size = remaining.size;
+                    match self.prepare_as_first(size, failed) {
+                        Ok(work) => self.step_memory.accept::<R>(size, time, work),
+                        Err(error) => self.take_again(size, time, error).map(|_| ())?,
+                    }
+                    remaining.tick();
+                }
+                if remaining.left < left {
+                    continue;
+                }
             }
             self.take_block(self.block_of(remaining), remaining)?;
         }
@@ -58,6 +72,64 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             self.take_block(block, remaining)?;
         }
         Ok(())
+    }
+
+    /// [`integrate_to`](Self::integrate_to) in sight of `sight`, until it breaks.
+    pub(crate) fn integrate_in_sight<B>(
+        &mut self,
+        end: f64,
+        sight: &mut impl Sight<M, S, V, R, N, B>,
+    ) -> Result<ControlFlow<B>, Error> {
+        let mut remaining = self.steps_to_time(end)?;
+        let outcome = self.take_in_sight(&mut remaining, sight);
+        self.restart_clock();
+        outcome
+    }
+
+    /// Takes the remaining steps in sight of `sight`, until it breaks.
+    fn take_in_sight<B>(
+        &mut self,
+        remaining: &mut RemainingSteps,
+        sight: &mut impl Sight<M, S, V, R, N, B>,
+    ) -> Result<ControlFlow<B>, Error> {
+        let mut seen = ControlFlow::Continue(());
+        // After a step that does not pass, the next one is tried alone.
+        let (light, mut passed) = (self.is_light(), true);
+        while remaining.left > 0 && seen.is_continue() {
+            let (size, left) = (remaining.size, remaining.left);
+            if light && passed && left > 1 {
+                let passes =
+                    |state: &_, statistics: &Statistics| sight.passes(state, statistics.iterations);
+                match self.advance_apart(remaining, passes) {
+                    Apart::Taken => passed = remaining.left < left,
+                    Apart::Seen => (passed, seen) = (false, sight.see(self)?),
+                    Apart::Failed(failed, time) => {
+                        seen = match self.prepare_as_first(size, failed) {
+                            Ok(work) => {
+                                self.step_memory.accept::<R>(size, time, work);
+                                sight.see_or_pass(self)?
+                            }
+                            Err(error) => {
+                                let mut see = |integrator: &_| sight.see_or_pass(integrator);
+                                self.take_again_in_sight(size, time, error, &mut see)?
+                            }
+                        };
+                        remaining.tick();
+                    }
+                }
+                continue;
+            }
+            let time = remaining.next_time();
+            seen = self.advance_in_sight(size, time, &mut |integrator| {
+                passed = sight.passes(integrator.state(), integrator.iterations());
+                match passed {
+                    true => Ok(ControlFlow::Continue(())),
+                    false => sight.see(integrator),
+                }
+            })?;
+            remaining.tick();
+        }
+        Ok(seen)
     }
 
     /// Number of the remaining steps to take next: one, to provide an evaluation to continue from, or many in place.
@@ -142,18 +214,22 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         !at_run_time && is_in_place(&self.step_memory.state.q) && bytes <= LIGHT
     }
 
-    /// Takes steps until one fails; returns whether any was taken. None is taken if the first one does not change the time.
+    /// Takes steps until one fails or does not pass. None is taken if the first one does not change the time.
     ///
     /// The memory of the steps is moved out of the integrator, so that it can stay in registers from step to step. If the system panics,
     /// the state is that before the steps.
     #[inline]
-    fn advance_apart(&mut self, remaining: &mut RemainingSteps) -> Result<bool, Error> {
+    fn advance_apart(
+        &mut self,
+        remaining: &mut RemainingSteps,
+        mut passes: impl FnMut(&State<V>, &Statistics) -> bool,
+    ) -> Apart {
         let mut steps = *remaining;
         let size = steps.size;
         let before = self.step_memory.anew();
         let mut step_memory = mem::replace(&mut self.step_memory, before);
-        let mut failed = None;
-        while steps.left > 0 && failed.is_none() {
+        let mut ended = Apart::Taken;
+        while steps.left > 0 && matches!(ended, Apart::Taken) {
             let time = steps.next_time();
             if time == step_memory.state.time {
                 break;
@@ -164,19 +240,25 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
                 Ok(work) => {
                     step_memory.accept::<R>(size, time, work);
                     steps.tick();
+                    if !passes(&step_memory.state, &step_memory.statistics) {
+                        ended = Apart::Seen;
+                    }
                 }
-                Err(failure) => failed = Some((failure, time)),
+                Err(failed) => ended = Apart::Failed(failed, time),
             }
         }
         self.step_memory = step_memory;
-        let before = mem::replace(remaining, steps);
-        if let Some((failure, time)) = failed {
-            match self.prepare_as_first(size, failure) {
-                Ok(work) => self.step_memory.accept::<R>(size, time, work),
-                Err(error) => self.take_again(size, time, error).map(|_| ())?,
-            }
-            remaining.tick();
-        }
-        Ok(remaining.left < before.left)
+        *remaining = steps;
+        ended
     }
+}
+
+/// How several steps ended.
+enum Apart {
+    /// All are taken, up to one that does not change the time.
+    Taken,
+    /// The last one does not pass.
+    Seen,
+    /// The next one, to this time, failed.
+    Failed(Failed, f64),
 }

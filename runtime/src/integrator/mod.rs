@@ -5,6 +5,7 @@ pub(crate) mod first_step;
 pub(crate) mod last_step;
 pub(crate) mod partial_step;
 pub(crate) mod retry;
+pub(crate) mod sight;
 pub(crate) mod statistics;
 pub(crate) mod step_clock;
 

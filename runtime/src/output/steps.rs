@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::integrator::Integrator;
 use crate::integrator::clock::check_count;
 use crate::integrator::last_step::LastEvent;
+use crate::integrator::sight::Sight;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 use crate::state::State;
@@ -59,11 +60,11 @@ where
         see: impl FnMut(&Integrator<M, S, V, R, N>) -> Result<(), Error>,
     ) -> Result<(), Error>;
 
-    /// Steps to `end` and calls `see` after each part of a step, until `see` breaks.
+    /// Steps to `end` in sight of `sight`, until it breaks.
     fn steps_in_sight<B>(
         &mut self,
         end: f64,
-        see: impl FnMut(&Integrator<M, S, V, R, N>) -> Result<ControlFlow<B>, Error>,
+        sight: &mut impl Sight<M, S, V, R, N, B>,
     ) -> Result<ControlFlow<B>, Error>;
 
     /// Replaces the present state, without an allocation.
@@ -107,11 +108,9 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Steps<M,
     fn steps_in_sight<B>(
         &mut self,
         end: f64,
-        mut see: impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
+        sight: &mut impl Sight<M, S, V, R, N, B>,
     ) -> Result<ControlFlow<B>, Error> {
-        self.steps_to(end, |integrator, size, time| {
-            integrator.advance_in_sight(size, time, &mut see)
-        })
+        self.integrate_in_sight(end, sight)
     }
 
     fn replace_state(&mut self, state: &State<V>) -> Result<(), Error> {

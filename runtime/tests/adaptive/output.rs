@@ -85,6 +85,27 @@ fn events_are_found_and_change_nothing() -> Result<(), Error> {
     Ok(())
 }
 
+/// At each apocentre the orbit exceeds a distance by a little, for less than a step: both crossings are found.
+#[test]
+fn shallow_crossings_within_steps_are_found() -> Result<(), Error> {
+    for depth in [1e-3, 1e-5, 1e-7] {
+        let mut run = gauss()?;
+        let event = Event::crossing(|state: &Orbit| state.q.norm() - 1.9 * (1.0 - depth));
+        let mut times = Vec::new();
+        run.integrate_with_events(10.0 * TAU, &event, |state| {
+            times.push(state.time);
+            ControlFlow::<()>::Continue(())
+        })?;
+        assert_eq!(times.len(), 20, "{depth}: {times:?}");
+        for (number, pair) in (0..).zip(times.chunks(2)) {
+            // In the middle of them is the apocentre; the orbit has an error of 1e-8.
+            let apocentre = PI + TAU * f64::from(number);
+            assert!((0.5 * (pair[0] + pair[1]) - apocentre).abs() < 1e-6);
+        }
+    }
+    Ok(())
+}
+
 #[test]
 fn events_are_missed_by_no_run_that_goes_on() -> Result<(), Error> {
     let mut run = gauss()?;

@@ -10,6 +10,7 @@ mod errors;
 mod event_lists;
 mod event_zeros;
 mod events;
+mod excursions;
 mod generating_function;
 mod impacts;
 mod newton;

@@ -43,6 +43,35 @@ fn zeros(first: f64, distance: f64) -> impl Fn(f64) -> Vec<f64> {
     }
 }
 
+/// x = cos t is above a level for a short time in each period, less than the error of the interpolation.
+#[test]
+fn shallow_crossings_in_large_steps_are_all_found() {
+    let folder = folder("shallow-section");
+    for (step_size, level) in [(1.0, 0.999), (0.5, 0.9999), (0.25, 0.99999)] {
+        let file = format!(
+            r#"
+            system = "Osc q: [x], p: [px]; H = px^2/2 + x^2/2"
+            method = "gauss-4"
+            step_size = {step_size:?}
+            end = 200.0
+            starts = {{ x = 1, px = 0 }}
+            section = {{ of = "x - {level}", direction = "both" }}
+            output.file = "out.csv"
+            "#
+        );
+        let half = f64::acos(level);
+        let times = (0..32).flat_map(|k| [-half, half].map(|by| TAU * f64::from(k) + by));
+        let expected = times.filter(|time| (0.0..200.0).contains(time));
+        let found = columns(&csv(&folder, &file), &["time", "x"]);
+        assert_eq!(found.len(), 63, "{step_size} {level}");
+        for (line, time) in found.iter().zip(expected) {
+            // The error of the phase of the method, and of the level by it.
+            assert!((line[0] - time).abs() < 1e-3, "{line:?} {time}");
+            assert!((line[1] - level).abs() < 1e-12, "{line:?} {level}");
+        }
+    }
+}
+
 #[test]
 fn zeros_are_those_of_the_solution() {
     let folder = folder("section");

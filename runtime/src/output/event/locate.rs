@@ -2,7 +2,7 @@
 
 use super::list::EventList;
 use super::search::Search;
-use super::track::{Crossing, Track};
+use super::track::{Crossing, DEEPEST, Track};
 use crate::error::Error;
 use crate::integrator::Integrator;
 use crate::integrator::partial_step::PartialSteps;
@@ -17,11 +17,8 @@ const HALVINGS: u32 = 60;
 /// Distance from the end of a panel at which the slope there is estimated, relative to the panel.
 const BESIDE: f64 = 1.0 / 65_536.0;
 
-/// Largest assumed distance of an extremum from the values in a panel, in units of their largest difference.
-const DEEPEST: f64 = 4.0;
-
 /// Increment of the difference quotient for the derivative along the flow, relative to the step.
-const SMALL: f64 = 1.0 / 16_384.0;
+pub(super) const SMALL: f64 = 1.0 / 16_384.0;
 
 impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, S>>
     Search<'_, E, M, S, V, N>
@@ -72,7 +69,8 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
         if smallest >= DEEPEST * (first.max(second).max(third) - smallest) {
             return Ok(());
         }
-        let mut value = |time| Ok(side * self.value_at(integrator, index, time, false)?);
+        let by_steps = self.by_steps;
+        let mut value = |time| Ok(side * self.value_at(integrator, index, time, by_steps)?);
         // A single extremum lies next to the smallest of the three values.
         let between = if second <= third && second <= first {
             (start, end)
@@ -109,10 +107,11 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
         let kind = self.events.kind(index);
         if kind.matches(track.side) {
             let side = track.side;
-            let found = self.locate(integrator, index, track, between, kind.by_steps)?;
+            let by_steps = kind.by_steps || self.by_steps;
+            let found = self.locate(integrator, index, track, between, by_steps)?;
             let time = found.unwrap_or(between.0);
             let unseen = track.stays && {
-                self.look_at(integrator, time, kind.by_steps)?;
+                self.look_at(integrator, time, by_steps)?;
                 self.shown.copy_from(&self.output.state);
                 let step = between.1 - between.0;
                 time == between.0 || side * self.slope(integrator, index, step) >= 0.0
@@ -210,7 +209,10 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
             let partial = self
                 .partial
                 .get_or_insert_with(|| PartialSteps::of(integrator));
-            return partial.take(integrator, time, &mut self.output.state);
+            let taken = partial.take(integrator, time, &mut self.output.state);
+            if taken.is_ok() || self.needs_steps {
+                return taken;
+            }
         }
         self.output.look_at(integrator, time)
     }
@@ -229,7 +231,7 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
         let time = V::Scalar::from_f64(state.time);
         let system = integrator.system();
         system.velocity(time, &state.q, &state.p, velocity);
-        system.force(time, &state.q, &state.p, force);
+        integrator.momentum_rate(state.time, &state.q, &state.p, force);
         let [before, after] = [-SMALL * step, SMALL * step].map(|size| {
             self.output.state.time = state.time + size;
             add(&mut self.output.state.q, &state.q, size, velocity);

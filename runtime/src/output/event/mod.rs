@@ -5,6 +5,7 @@ use crate::state::State;
 mod list;
 mod locate;
 pub(crate) mod run;
+mod scan;
 mod search;
 mod track;
 
@@ -14,22 +15,31 @@ pub use list::Events;
 ///
 /// # Which zeros are found
 ///
-/// A step is divided into panels, four unless [`samples`](Self::samples) sets another number. g is evaluated on the
-/// [dense output](crate::Integrator::dense) at the start, the middle and the end of each panel. A sign change between
-/// neighbouring points is an event, located by Brent's method to rounding.
+/// g is evaluated after every step. If its sign is another one than before the step, the step has an event.
 ///
-/// If the three signs agree, the three values and the slope at the end with the smallest value may indicate an extremum nearer to zero.
-/// That extremum is then located; if g has the other sign there, the zeros on both sides are events. So no zero is missed in a panel in
-/// which g has at most one extremum. The only condition is that the extremum differs from the three values by at most four times their
-/// largest difference.
+/// 1. A step is passed over if g at both of its ends exceeds four times its largest change in this step and in the one before.
+/// 2. Otherwise g is evaluated on the [dense output](crate::Integrator::dense) at 2, 4 and 8 points. The step is passed over as soon as all
+///    values exceed four times the largest change between neighbouring points.
+/// 3. Otherwise the derivatives of g along the flow and the values show where g may turn. If it may turn within twice that change from
+///    zero, or if the values change sign more than once, steps of the method decide: from the start of the step to each point.
+///
+/// In a search by steps, a step consists of four panels. g is evaluated at the start, the middle and the end of each. If the three signs
+/// agree but g may have an extremum nearer to zero, the extremum is located by Brent's method; if g has the other sign there, the zeros on
+/// both sides are events.
+///
+/// So two zeros about an extremum are found however close they are, up to the accuracy of the method. There are three conditions: g has at
+/// most one extremum in a panel; it deviates from the values at neighbouring points by less than four times their largest change; and a
+/// step is shorter than half the period of every oscillation of g. A step whose stages need more than eight sweeps is evaluated at 8 points
+/// in any case, since it may contain a whole oscillation. So is the first step.
 ///
 /// The search can miss
 ///
-/// * two zeros, or any even number, in a panel in which g has several extrema or a sharp extremum;
+/// * two zeros, or any even number, of a g that varies much faster than the motion: give [`samples`](Self::samples);
 /// * two zeros closer than about 1e-5 of a panel;
 /// * a zero without a sign change.
 ///
-/// Of three zeros between neighbouring points one is found. More samples miss fewer zeros.
+/// Zeros are located by Brent's method to rounding: on the dense output, or by steps of the method where these decide, and for an event
+/// [`by_steps`](Self::by_steps).
 ///
 /// # The state at an event
 ///
@@ -87,7 +97,8 @@ pub struct Event<G> {
 pub struct Kind {
     /// Whether a change from minus to plus is an event, and a change from plus to minus.
     directions: [bool; 2],
-    samples: u32,
+    /// Number of points at which every step is sampled, if given.
+    samples: Option<u32>,
     by_steps: bool,
     wall: bool,
 }
@@ -96,7 +107,7 @@ impl Kind {
     const fn new(directions: [bool; 2]) -> Self {
         Self {
             directions,
-            samples: 8,
+            samples: None,
             by_steps: false,
             wall: false,
         }
@@ -165,12 +176,12 @@ impl<G> Event<G> {
         event.by_steps()
     }
 
-    /// Number of points at which each step is sampled, including its end; the default is eight. Two points make a
-    /// panel, so an odd number counts as the next even number. 0 counts as 1; 1 samples the end only, for sign changes.
-    /// Of several events in one search the largest number applies to all.
+    /// Evaluates g in every step at this number of points, including its end. By default it is evaluated at eight points, in steps near
+    /// events only. Two points make a panel, so an odd number counts as the next even number. 0 counts as 1; 1 samples the end only, for
+    /// sign changes. Of several events in one search the largest number applies to all.
     #[must_use]
     pub fn samples(mut self, samples: u32) -> Self {
-        self.kind.samples = samples.max(1);
+        self.kind.samples = Some(samples.max(1));
         self
     }
 

@@ -7,6 +7,7 @@ use super::search::{Search, Stop};
 use super::{Event, Moment};
 use crate::error::Error;
 use crate::integrator::Integrator;
+use crate::integrator::sight::Sight;
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 use crate::output::at_times::check_times;
@@ -126,6 +127,43 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 }
 
+/// A search during the steps of a run.
+struct Searching<'a, 'e, E, M, S, V, N, F>
+where
+    E: Events<V> + ?Sized,
+    M: Method,
+    S: System<V>,
+    V: Vector,
+    N: Solver<V, S>,
+{
+    search: &'a mut Search<'e, E, M, S, V, N>,
+    handle: &'a mut F,
+}
+
+impl<E, M, S, V, R, N, F, B> Sight<M, S, V, R, N, Stop<B>> for Searching<'_, '_, E, M, S, V, N, F>
+where
+    E: Events<V> + ?Sized,
+    M: Method,
+    S: System<V>,
+    V: Vector,
+    R: Summation,
+    N: Solver<V, S>,
+    F: FnMut(Moment<'_, V>) -> ControlFlow<B>,
+{
+    #[inline]
+    fn passes(&mut self, state: &State<V>, iterations: u64) -> bool {
+        self.search.passes(state, iterations)
+    }
+
+    fn see(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+    ) -> Result<ControlFlow<Stop<B>>, Error> {
+        let seen = self.search.step(integrator, self.handle);
+        Ok(seen.unwrap_or_else(|error| self.search.fail(integrator, error)))
+    }
+}
+
 /// [`Integrator::integrate_through`] for constant and variable step sizes.
 pub(crate) fn integrate_through<M, S, V, R, N, E, B>(
     steps: &mut impl Steps<M, S, V, R, N>,
@@ -156,10 +194,10 @@ where
     loop {
         let stepped = match ended {
             ControlFlow::Break(stop) => Ok(ControlFlow::Break(stop)),
-            ControlFlow::Continue(()) => steps.steps_in_sight(end, |integrator| {
-                let seen = search.step(integrator, handle);
-                Ok(seen.unwrap_or_else(|error| search.fail(integrator, error)))
-            }),
+            ControlFlow::Continue(()) => {
+                let search = &mut search;
+                steps.steps_in_sight(end, &mut Searching { search, handle })
+            }
         };
         steps.keep_last_event(search.last);
         let ControlFlow::Break(stop) = stepped? else {

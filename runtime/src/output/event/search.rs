@@ -21,6 +21,21 @@ const MOST_IN_A_ROW: u32 = 1000;
 /// A flight shorter than this, relative to the step, does not end a row of events.
 const SHORTEST: f64 = 1.0 / 16_384.0;
 
+/// Number of sample points in a step, unless an event sets another one.
+const SAMPLES: u32 = 8;
+
+/// A step whose stages converge in more sweeps than this may contain a whole oscillation.
+const FEW_SWEEPS: u64 = 8;
+
+/// Point `number` of `count` points in a step.
+pub(super) fn place((start, end): (f64, f64), number: u32, count: u32) -> f64 {
+    if number == count {
+        end
+    } else {
+        start + (end - start) * (f64::from(number) / f64::from(count))
+    }
+}
+
 /// A search for the events of a list.
 pub(super) struct Search<'e, E, M, S, V, N>
 where
@@ -34,8 +49,18 @@ where
     pub(super) tracks: E::Tracks,
     /// Remaining output times.
     pub(super) times: &'e [f64],
-    /// Number of sample points per step.
-    samples: u32,
+    /// Number of sample points in a step that is sampled.
+    pub(super) samples: u32,
+    /// Whether every step is sampled.
+    pub(super) samples_all: bool,
+    /// Whether the last step is examined by steps of the method.
+    pub(super) by_steps: bool,
+    /// Whether an event is located by steps of the method in any case.
+    pub(super) needs_steps: bool,
+    /// Number of sweeps up to the last step that was seen.
+    iterations: u64,
+    /// Whether the last step took few sweeps.
+    pub(super) resolved: bool,
     /// The state under examination.
     pub(super) output: Output<V>,
     pub(super) partial: Option<PartialSteps<M, S, V, N>>,
@@ -80,9 +105,14 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
             tracks,
             times,
             samples: (0..count)
-                .map(|k| events.kind(k).samples)
+                .map(|k| events.kind(k).samples.unwrap_or(SAMPLES))
                 .max()
                 .unwrap_or(1),
+            samples_all: (0..count).any(|k| events.kind(k).samples.is_some()),
+            by_steps: false,
+            needs_steps: (0..count).any(|k| events.kind(k).by_steps),
+            iterations: integrator.iterations(),
+            resolved: false,
             output: Output::new(integrator, direction),
             partial: None,
             slopes: None,
@@ -119,6 +149,7 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
         let mut track = Track {
             side: sign(value),
             value,
+            change: f64::INFINITY,
             ..Track::default()
         };
         let wall = self.events.kind(index).wall;
@@ -140,6 +171,35 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
         track
     }
 
+    /// Whether the step to `state` has no output and, for certain, no event. `iterations` is the number of sweeps so far.
+    #[inline]
+    pub(super) fn passes(&mut self, state: &State<V>, iterations: u64) -> bool {
+        let sweeps = iterations.checked_sub(self.iterations);
+        self.resolved = sweeps.is_some_and(|sweeps| sweeps <= FEW_SWEEPS);
+        self.iterations = iterations;
+        let output = self.times.first();
+        if output.is_some_and(|&time| !self.output.is_after(time, state.time)) {
+            return false;
+        }
+        let all = self.tracks.as_mut();
+        if !all.is_empty() && (self.samples_all || !self.resolved) {
+            return false;
+        }
+        for (index, track) in all.iter_mut().enumerate() {
+            track.ahead[1] = self.events.value(index, state);
+            if !track.passes(track.ahead[1]) {
+                return false;
+            }
+        }
+        for track in all {
+            track.begin_step();
+            track.go_on(track.ahead[1]);
+            track.end_step();
+        }
+        self.last = None;
+        true
+    }
+
     /// Passes the output and the events in the last step to the handler.
     pub(super) fn step<R: Summation, B>(
         &mut self,
@@ -149,40 +209,60 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
         let last = integrator.last_step().ok_or(Error::NoStep)?;
         let (start, end) = (last.start, last.end);
         self.output.evaluated = false;
-        let halves = if self.samples == 1 { 1 } else { 2 };
-        let panels = self.samples.div_ceil(halves);
-        let place = |number: u32| {
-            if number == panels * halves {
-                end
-            } else {
-                start + (end - start) * (f64::from(number) / f64::from(panels * halves))
-            }
+        self.by_steps = self.is_open(integrator, (start, end))?;
+        // Otherwise the sign changes at most once, as at the ends.
+        let (panels, halves) = match self.by_steps {
+            true => (self.samples.div_ceil(2), 2),
+            false => (1, 1),
         };
+        for track in self.tracks.as_mut() {
+            track.begin_step();
+        }
         for panel in 0..panels {
-            let from = place(panel * halves);
-            let middle = (halves == 2).then(|| place(panel * halves + 1));
-            let to = place((panel + 1) * halves);
+            let point = |number| place((start, end), number, panels * halves);
+            let from = point(panel * halves);
+            let middle = (halves == 2).then(|| point(panel * halves + 1));
+            let to = point((panel + 1) * halves);
             if let Some(middle) = middle {
-                self.look_at(integrator, middle, false)?;
+                self.look_at(integrator, middle, self.by_steps)?;
                 self.look_ahead(0)?;
             }
-            if to == end {
-                self.output.state.copy_from(integrator.state());
-            } else {
-                self.look_at(integrator, to, false)?;
-            }
+            self.look_at_point(integrator, to, self.by_steps)?;
             self.look_ahead(1)?;
             for index in 0..self.tracks.as_ref().len() {
-                self.detect(integrator, index, from, [middle, Some(to)])?;
+                let (mut from, mut until) = (from, to);
+                if !self.by_steps {
+                    let [before, after, points] = self.tracks.as_mut()[index].go_to_change();
+                    from = place((start, end), before, points);
+                    until = place((start, end), after, points);
+                }
+                self.detect(integrator, index, from, [middle, Some(until)])?;
             }
             let seen = self.show(integrator, to, handle)?;
             if seen.is_break() {
                 return Ok(seen);
             }
         }
+        for track in self.tracks.as_mut() {
+            track.end_step();
+        }
         // An event before the end of the step is no longer the start of another search.
         self.last = self.last.filter(|last| last.time == end);
         Ok(ControlFlow::Continue(()))
+    }
+
+    /// [`look_at`](Self::look_at), or the present state at the end of the step.
+    pub(super) fn look_at_point<R: Summation>(
+        &mut self,
+        integrator: &Integrator<M, S, V, R, N>,
+        time: f64,
+        by_steps: bool,
+    ) -> Result<(), Error> {
+        if time == integrator.state().time {
+            self.output.state.copy_from(integrator.state());
+            return Ok(());
+        }
+        self.look_at(integrator, time, by_steps)
     }
 
     /// Ends the search with an error. The state returns to the start of the last step, because its end may lie behind a
@@ -219,7 +299,7 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
             if shown.is_break() {
                 return Ok(shown);
             }
-            let by_steps = self.events.kind(index).by_steps;
+            let by_steps = self.events.kind(index).by_steps || self.by_steps;
             self.look_at(integrator, time, by_steps)?;
             self.shown.copy_from(&self.output.state);
             let step = integrator

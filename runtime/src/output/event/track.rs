@@ -1,5 +1,10 @@
 //! Search state of an event function.
 
+use super::scan::Scan;
+
+/// Largest assumed distance of an extremum from the values beside it, in units of their largest difference.
+pub(super) const DEEPEST: f64 = 4.0;
+
 /// The sign of an event function at the current point, and its events in the present panel.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Track {
@@ -13,6 +18,12 @@ pub struct Track {
     pub(super) stays: bool,
     /// Value at the current point.
     pub(super) value: f64,
+    /// Value at the start of the present step.
+    pub(super) start: f64,
+    /// Change of the value in the last step; infinite if unknown.
+    pub(super) change: f64,
+    /// The values in the present step, as far as they are known.
+    pub(super) scan: Scan,
     /// Values in the middle and at the end of the panel.
     pub(super) ahead: [f64; 2],
     /// Events in the panel that the handler has not received, in order of time.
@@ -32,6 +43,25 @@ pub(super) struct Crossing {
 }
 
 impl Track {
+    /// Whether the next step, with this value at its end, has no event for certain: the value at both ends is far from zero, compared with
+    /// its change in this step and in the one before.
+    pub(super) fn passes(&self, value: f64) -> bool {
+        let same = self.side * value > 0.0 && self.side * self.value > 0.0;
+        let nearest = value.abs().min(self.value.abs());
+        let change = (value - self.value).abs().max(self.change);
+        !self.on_zero && (same && nearest > DEEPEST * change || nearest == 0.0 && change == 0.0)
+    }
+
+    /// Begins a step at the current point.
+    pub(super) const fn begin_step(&mut self) {
+        self.start = self.value;
+    }
+
+    /// Ends the step at the current point.
+    pub(super) const fn end_step(&mut self) {
+        self.change = (self.value - self.start).abs();
+    }
+
     /// Whether the sign changes before the next point, where the function has this value.
     pub(super) fn changes(&self, value: f64) -> bool {
         let zero = value == 0.0 && !self.on_zero;
