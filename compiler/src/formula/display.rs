@@ -206,7 +206,13 @@ impl System {
             }
         };
         match self.graph.node(id) {
-            Node::Constant(value) => number(value, notation),
+            Node::Constant(value) => {
+                let (text, strength) = number(value, notation);
+                match notation {
+                    Notation::Text => (text.replace('-', "−"), strength),
+                    Notation::Latex => (text, strength),
+                }
+            }
             Node::Pi => (
                 if notation == Notation::Text {
                     "π"
