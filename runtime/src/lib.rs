@@ -112,7 +112,8 @@ pub use method::{AtRunTime, RunTimeCoefficients, RunTimeTableau, TableauError};
 #[cfg(feature = "alloc")]
 pub use method::{ConstraintForce, consistent, consistent_momentum, constraint_force};
 pub use method::{
-    LowerOrder, Method, Orders, ProvedFor, composition, friction_growth, splitting, tableau,
+    LowerOrder, Method, Orders, ProvedFor, Splits, StoermerVerletSteps, SymmetricFor, composition,
+    friction_growth, splitting, tableau,
 };
 pub use nalgebra;
 pub use num_traits;

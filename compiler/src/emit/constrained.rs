@@ -36,6 +36,26 @@ pub(super) fn code(
     Some(steps("CONSTRAINED", &tableaux, Some(&list(substeps))))
 }
 
+/// Whether the constrained steps are steps of Störmer–Verlet, Lobatto IIIA–IIIB with two stages: nodes 0 and 1 and weights 1/2 determine
+/// the rest.
+pub(super) fn are_of_stoermer_verlet(
+    tableau: &Tableau,
+    numbers: &Coefficients<Number<'_>>,
+    (methods, substeps): (&[Tableau], &[Substep]),
+) -> bool {
+    let is_one = |numbers: &Coefficients<Number<'_>>| {
+        let [weights, nodes] = [&numbers.b, &numbers.c]
+            .map(|vector| vector.iter().map(Number::to_f64).collect::<Vec<_>>());
+        weights == [0.5; 2] && nodes == [0.0, 1.0]
+    };
+    let qualifies = |tableau: &Tableau| tableau.properties().constrained.holds;
+    if qualifies(tableau) {
+        return is_one(numbers);
+    }
+    let is_part = |method: &Tableau| qualifies(method) && is_one(&method.numbers());
+    !substeps.is_empty() && methods.iter().all(is_part)
+}
+
 /// Symplectic Euler, whose stage is at the start, with the end of the step as a second stage of weight 0; or its adjoint, whose stage is at
 /// the end, with the start as a first stage of weight 0. With one stage, the property `constrained` admits no other coefficients.
 fn with_an_end(at_start: bool) -> TokenStream {

@@ -113,7 +113,12 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
         tableau,
         name,
         [&constrained, &nonholonomic].map(Option::is_some),
+        plans[1].splits,
+        matrices.is_none(),
     );
+    let verlet = constrained::are_of_stoermer_verlet(tableau, &numbers, parts);
+    let verlet = verlet.then(|| quote!(impl emitted::StoermerVerletSteps for #name {}));
+    let symmetric = symmetric(tableau, name);
     let [general, separable] = [&plans[0].name, &plans[1].name];
     let code = plans.iter().map(|plan| &plan.code);
     Ok(quote! {
@@ -147,6 +152,8 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
             }
 
             #proved
+            #symmetric
+            #verlet
 
             #(#code)*
         };
@@ -314,29 +321,69 @@ fn symmetry(tableau: &Tableau) -> Option<TokenStream> {
     })
 }
 
+/// The classes of systems on which the method is its own adjoint.
+fn symmetric(tableau: &Tableau, name: &Ident) -> Option<TokenStream> {
+    if tableau.properties().symmetric.holds {
+        return Some(quote!(impl<C> emitted::SymmetricFor<C> for #name {}));
+    }
+    let separable = tableau.separable_properties().symmetric.holds;
+    separable.then(|| quote!(impl<C: emitted::SplitClass> emitted::SymmetricFor<C> for #name {}))
+}
+
 /// The classes of systems on which the method keeps the order of narrower classes. Systems with holonomic constraints are included if
-/// the method is `constrained`, and those with non-holonomic constraints if it is `nonholonomic`.
-fn proved(tableau: &Tableau, name: &Ident, steps: [bool; 2]) -> TokenStream {
-    if tableau.keeps_its_order_in_general() {
-        let bound = match steps {
-            [true, true] => return quote!(impl<C> emitted::ProvedFor<C> for #name {}),
-            [true, false] => "Holonomic",
-            [false, true] => "FreePositions",
-            [false, false] => "Unconstrained",
+/// the method is `constrained`, those with non-holonomic constraints if it is `nonholonomic`, those with friction if it `splits`, and
+/// general ones if it has a plan for these.
+fn proved(
+    tableau: &Tableau,
+    name: &Ident,
+    steps: [bool; 2],
+    splits: bool,
+    has_general_plan: bool,
+) -> TokenStream {
+    let kicks = splits.then(|| quote!(impl emitted::Splits for #name {}));
+    let keeps = tableau.keeps_its_order_in_general();
+    if keeps && has_general_plan {
+        let bound = match (steps, splits) {
+            ([true, true], true) => None,
+            ([true, true], false) => Some("Frictionless"),
+            ([true, false], true) => Some("HolonomicOrDamped"),
+            ([true, false], false) => Some("Holonomic"),
+            ([false, true], true) => Some("FreePositionsOrDamped"),
+            ([false, true], false) => Some("FreePositions"),
+            ([false, false], true) => Some("UnconstrainedOrDamped"),
+            ([false, false], false) => Some("Unconstrained"),
         };
-        let bound = format_ident!("{bound}");
+        let bound = bound.map(|bound| {
+            let bound = format_ident!("{bound}");
+            quote!(: emitted::#bound)
+        });
         return quote! {
-            impl<C: emitted::#bound> emitted::ProvedFor<C> for #name {}
+            impl<C #bound> emitted::ProvedFor<C> for #name {}
+            #kicks
         };
     }
     // The second class keeps the compiler from inferring the class from the method.
     let mut classes = vec![quote!(emitted::Separable), quote!(())];
     let orders = tableau.orders();
     // With friction, kicks depend on the momenta: an order that needs quadratic kinetic energy does not hold.
-    if orders.separable.order >= orders.nystrom.order {
+    if splits && orders.separable.order >= orders.nystrom.order {
         classes.push(quote!(emitted::Damped));
     }
-    quote!(#(impl emitted::ProvedFor<#classes> for #name {})*)
+    let constraints = steps.into_iter().zip(["Constrained", "Nonholonomic"]);
+    let constraints = constraints.filter(|(has_steps, _)| keeps && *has_steps);
+    let constraints = constraints.map(|(_, class)| {
+        let class = format_ident!("{class}");
+        quote! {
+            emitted::if_alloc! {
+                impl<C> emitted::ProvedFor<emitted::#class<C>> for #name {}
+            }
+        }
+    });
+    quote! {
+        #(impl emitted::ProvedFor<#classes> for #name {})*
+        #(#constraints)*
+        #kicks
+    }
 }
 
 /// The tableau and what is proved about it, for the page of the type.

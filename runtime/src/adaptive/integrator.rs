@@ -6,7 +6,7 @@ use super::monitor::{Monitor, Slopes, seen, value_at};
 use crate::error::Error;
 use crate::integrator::validation::{check_state, check_step_size};
 use crate::integrator::{Integrator, Retry};
-use crate::method::{Method, ProvedFor, Solver};
+use crate::method::{Method, ProvedFor, Solver, SymmetricFor};
 use crate::number::summation::{fast_two_sum, two_sum};
 use crate::number::{Compensated, Summation, Vector};
 use crate::output::DenseOutput;
@@ -68,7 +68,7 @@ use crate::system::System;
 ///
 /// A method that is not symmetric does not compile:
 ///
-/// ```compile_fail,E0080
+/// ```compile_fail,E0277
 /// use symplectic::adaptive::DistancePower;
 /// use symplectic::{Error, Integrator, State};
 ///
@@ -141,7 +141,7 @@ impl<M: Method, S: System<V>, V: Vector<Scalar = f64>> Integrator<M, S, V> {
         epsilon: f64,
     ) -> Result<Adaptive<M, S, W, V>, Error>
     where
-        M: ProvedFor<S::Class>,
+        M: ProvedFor<S::Class> + SymmetricFor<S::Class>,
     {
         Adaptive::new(Self::new(method, system, start, 1.0)?, monitor, epsilon)
     }
@@ -186,14 +186,10 @@ where
         mut integrator: Integrator<M, S, V, R, N>,
         monitor: W,
         epsilon: f64,
-    ) -> Result<Self, Error> {
-        const {
-            assert!(
-                M::SYMMETRY.of::<S::Class>(),
-                "variable steps are reversible only for a symmetric method: \
-                 take `velocity-verlet`, a symmetric splitting, or `basis: polynomial(s)` with `nodes: gauss(s)` or `lobatto(s)`"
-            );
-        }
+    ) -> Result<Self, Error>
+    where
+        M: SymmetricFor<S::Class>,
+    {
         check_step_size(epsilon)?;
         let State { time, q, .. } = integrator.state();
         let value = value_at(&monitor, seen::<S, V>(q)).map_err(Error::monitor_at(*time))?;

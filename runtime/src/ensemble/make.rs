@@ -6,8 +6,8 @@ use core::marker::PhantomData;
 use super::registers::widest;
 use super::{Ensemble, EnsembleError, Wanted};
 use crate::integrator::validation::{check_quadratic_kinetic, check_step_size};
-use crate::integrator::{Integrator, PlanOf, Retry};
-use crate::method::{AtRunTime, Method, Plan, ProvedFor, RunTimeTableau, Stopping};
+use crate::integrator::{Integrator, Retry};
+use crate::method::{AtRunTime, Method, ProvedFor, RunTimeTableau, Stopping};
 use crate::number::{Plain, Summation, Vector};
 use crate::state::State;
 use crate::system::System;
@@ -42,8 +42,6 @@ impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V> {
     where
         M: ProvedFor<S::Class>,
     {
-        // Here, so that the compiler points at the caller.
-        const { <PlanOf<M, S, V> as Plan>::POSSIBLE };
         Self::of_families(method, [(system, starts)], step_size)
     }
 
@@ -80,7 +78,6 @@ impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V> {
     where
         M: ProvedFor<S::Class>,
     {
-        const { <PlanOf<M, S, V> as Plan>::POSSIBLE };
         Self::with_summation(method, families, step_size)
     }
 }
@@ -100,7 +97,6 @@ impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V, Plain> {
     where
         M: ProvedFor<S::Class>,
     {
-        const { <PlanOf<M, S, V> as Plan>::POSSIBLE };
         Self::with_summation(method, [(system, starts)], step_size)
     }
 }

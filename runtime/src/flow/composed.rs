@@ -1,7 +1,7 @@
 //! Compositions of symmetric steps of order 2: methods of higher order.
 
 use super::{Flow, FlowError, Span};
-use crate::method::Method;
+use crate::method::StoermerVerletSteps;
 use crate::method::symmetric_steps::SymmetricSteps;
 use crate::number::Vector;
 
@@ -30,7 +30,7 @@ pub struct Composed<F> {
 
 impl<F> Composed<F> {
     /// The composition of steps of `step` with the fractions `γ_i` of the method.
-    pub fn new<M: Method>(_method: M, step: F) -> Self {
+    pub fn new<M: StoermerVerletSteps>(_method: M, step: F) -> Self {
         Self {
             steps: SymmetricSteps::of::<M>(),
             step,

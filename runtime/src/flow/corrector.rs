@@ -7,10 +7,10 @@ use super::integrator::{check_end, failed};
 use super::{Flow, FlowError, Span, Splitting};
 use crate::error::Error;
 use crate::integrator::validation::{check_state, check_step_size};
-use crate::method::Method;
+use crate::method::{ProvedFor, Splits, SymmetricFor};
 use crate::number::Vector;
 use crate::state::State;
-use crate::system::Separable;
+use crate::system::{Damped, Separable};
 
 /// A symplectic corrector for a symmetric [`Splitting`] K of `H = A + B` with a small `B = O(ε)` (Wisdom, Holman & Touma, *Fields Inst.
 /// Commun.* 10, 217, 1996). It is a change of variables C that reduces the error of the steps from `O(εh²)` to `O(εh^{2m+2} + ε²h²)`.
@@ -65,7 +65,7 @@ use crate::system::Separable;
 ///
 /// A method that is not symmetric has other error terms, and does not compile:
 ///
-/// ```compile_fail,E0080
+/// ```compile_fail,E0277
 /// use symplectic::flow::Corrector;
 ///
 /// symplectic::tableau! { SymplecticEuler { basis: polynomial(1), nodes: [0] } }
@@ -93,13 +93,10 @@ impl<A, B> Corrector<A, B> {
     /// # Errors
     ///
     /// [`Error::FlowParameter`] for 0 pairs or more than 8.
-    pub fn new<M: Method>(method: M, drift: A, kick: B, pairs: u32) -> Result<Self, Error> {
-        const {
-            assert!(
-                M::SYMMETRY.of::<Separable>(),
-                "a corrector is for a symmetric method, such as `velocity-verlet`, `position-verlet` or `saba-3`"
-            );
-        }
+    pub fn new<M>(method: M, drift: A, kick: B, pairs: u32) -> Result<Self, Error>
+    where
+        M: Splits + SymmetricFor<Separable> + ProvedFor<Damped>,
+    {
         if !(1..=MOST).contains(&pairs) {
             return Err(Error::FlowParameter {
                 what: "number of pairs of a corrector",
@@ -201,7 +198,7 @@ const fn way(time: f64, size: f64) -> Span {
 }
 
 /// The kicks `(w_j, c_j)` of a method in a step of size 1.
-fn kicks<M: Method>(method: M) -> Vec<(f64, f64)> {
+fn kicks<M: Splits + ProvedFor<Damped>>(method: M) -> Vec<(f64, f64)> {
     struct Still;
     struct Kicks(Vec<(f64, f64)>);
     type Place = nalgebra::Vector1<f64>;

@@ -5,10 +5,10 @@ use core::marker::PhantomData;
 use nalgebra::Vector1;
 
 use super::{Flow, FlowError, Span};
-use crate::method::{KickDrift, Method, Outcome, Plan, StageStorage};
+use crate::method::{KickDrift, Method, Outcome, Plan, ProvedFor, Splits, StageStorage};
 use crate::number::{Coefficient, Plain, Summation, Vector};
 use crate::solver::FixedPoint;
-use crate::system::{Separable, System};
+use crate::system::{Damped, Separable, System};
 
 /// A step of a splitting method with the flow of `A` in place of the drift and the flow of `B` in place of the kick.
 ///
@@ -20,14 +20,14 @@ use crate::system::{Separable, System};
 /// Methods without kicks and drifts do not compile. Nor do Runge–Kutta–Nyström methods: their order holds only if `A` is quadratic in the
 /// momenta and `B` depends on positions only, so that `[B, [B, [B, A]]] = 0`. With `method.accept_lower_order()` they compile.
 ///
-/// ```compile_fail,E0080
+/// ```compile_fail,E0277
 /// use symplectic::flow::Splitting;
 ///
 /// symplectic::tableau! { Nystrom { base: mclachlan-atela-1992-order-4-optimal } }
 /// let step = Splitting::new(Nystrom, (), ());
 /// ```
 ///
-/// ```compile_fail,E0080
+/// ```compile_fail,E0277
 /// use symplectic::flow::Splitting;
 ///
 /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
@@ -44,18 +44,10 @@ pub struct Splitting<M, A, B> {
 
 impl<M: Method, A, B> Splitting<M, A, B> {
     /// The step of this method with these flows.
-    pub fn new(_method: M, drift: A, kick: B) -> Self {
-        const {
-            assert!(
-                <M::Separable as Plan>::EVALUATIONS_IN_PLACE.is_some(),
-                "flows take a method that consists of kicks and drifts, such as `velocity-verlet`, `forest-ruth-1990` or `saba-3`"
-            );
-            assert!(
-                !M::NEEDS_QUADRATIC_KINETIC,
-                "the order of this method holds for H = pᵀM⁻¹p/2 + U(q) only (Runge–Kutta–Nyström), not for the flows of any two parts: \
-                 take one of class `separable` or `perturbed`, or `method.accept_lower_order()` for the order M::ORDERS.separable"
-            );
-        }
+    pub fn new(_method: M, drift: A, kick: B) -> Self
+    where
+        M: Splits + ProvedFor<Damped>,
+    {
         Self {
             method: PhantomData,
             drift,

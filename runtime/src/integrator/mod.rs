@@ -127,8 +127,6 @@ impl<M: Method, S: System<V>, V: Vector> Integrator<M, S, V> {
     where
         M: ProvedFor<S::Class>,
     {
-        // Here, so that the compiler points at the caller.
-        const { <PlanOf<M, S, V> as Plan>::POSSIBLE };
         Self::with_summation(method, system, state, step_size)
     }
 }
@@ -158,7 +156,6 @@ impl<M: Method, S: System<V>, V: Vector> Integrator<M, S, V, Plain> {
     where
         M: ProvedFor<S::Class>,
     {
-        const { <PlanOf<M, S, V> as Plan>::POSSIBLE };
         Self::with_summation(method, system, state, step_size)
     }
 }

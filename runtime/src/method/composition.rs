@@ -6,8 +6,8 @@ use crate::error::Quantity;
 use crate::method::diagnosis::{FirstFault, culprit};
 use crate::method::storage::is_finite;
 use crate::method::{
-    EvaluationObserver, Failure, Outcome, Plan, Solver, StageStorage, Step, StepStatistics,
-    Stopping, WarmStart,
+    EvaluationObserver, Failure, Outcome, Plan, Possible, Solver, StageStorage, Step,
+    StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Coefficient, Summation, Vector, Visit, vector_words};
 use crate::system::{Class, System};
@@ -104,6 +104,8 @@ impl<V: Vector, T: StageStorage<V>> StageStorage<V> for CompositionMemory<V, T> 
         self.plans.mismatch(dimension)
     }
 }
+
+impl<L: Substeps> Possible for Composition<L> {}
 
 impl<L: Substeps> Plan for Composition<L> {
     type Class = L::Class;

@@ -7,8 +7,8 @@ use crate::method::LaneStep;
 #[cfg(feature = "alloc")]
 use crate::method::tableau::eliminates;
 use crate::method::{
-    Failure, Inside, Interpolation, Outcome, Plan, Solver, StageTableau, Step, StepStatistics,
-    Stopping, WarmStart,
+    Failure, Inside, Interpolation, Outcome, Plan, Possible, Solver, StageTableau, Step,
+    StepStatistics, Stopping, WarmStart,
 };
 #[cfg(feature = "alloc")]
 use crate::number::Lanes;
@@ -18,6 +18,8 @@ use crate::system::System;
 /// The plan of a step with stages that depend on each other: a [`Solver`] finds them.
 #[derive(Clone, Copy, Debug)]
 pub struct Coupled<P>(PhantomData<P>);
+
+impl<P: StageTableau> Possible for Coupled<P> {}
 
 impl<P: StageTableau> Plan for Coupled<P> {
     type Class = P::Class;

@@ -190,10 +190,6 @@ impl<M: Method> Plan for DampedPlan<M> {
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = DampedMemory<V>;
 
     const LANEWISE: bool = true;
-    const POSSIBLE: () = assert!(
-        M::Separable::SPLITS,
-        "a system of class `Damped` is stepped by splittings, such as `velocity-verlet` or `forest-ruth-1990`; for this method make the friction part of the force: `force: {{ x = -gamma px }}` in a formula, `type Class = General` in a system of your own"
-    );
 
     fn check<V, S>(system: &S, _time: f64, _q: &V, _p: &V) -> Result<(), Error>
     where
@@ -212,7 +208,6 @@ impl<M: Method> Plan for DampedPlan<M> {
         _stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure> {
-        const { Self::POSSIBLE };
         let DampedMemory {
             evaluations,
             change,

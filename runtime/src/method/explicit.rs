@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use crate::method::{
-    EvaluationObserver, Failure, Outcome, Plan, Solver, StagePlan, StageStorage, Step,
+    EvaluationObserver, Failure, Outcome, Plan, Possible, Solver, StagePlan, StageStorage, Step,
     StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Summation, Vector};
@@ -12,6 +12,8 @@ use crate::system::System;
 /// The plan of a step in which every stage is computed from the previous ones. Its code contains no solver.
 #[derive(Clone, Copy, Debug)]
 pub struct Explicit<P>(PhantomData<P>);
+
+impl<P: StagePlan> Possible for Explicit<P> {}
 
 impl<P: StagePlan> Plan for Explicit<P> {
     type Class = P::Class;

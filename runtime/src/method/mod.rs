@@ -48,7 +48,9 @@ pub use lane_stages::{
 };
 #[cfg(feature = "alloc")]
 pub use nonholonomic::{NonholonomicPlan, NonholonomicStages, consistent_momentum};
-pub use proved::{LowerOrder, Orders, ProvedFor, Symmetry};
+pub use proved::{
+    LowerOrder, Orders, Possible, ProvedFor, Splits, StoermerVerletSteps, SymmetricFor, Symmetry,
+};
 #[cfg(feature = "alloc")]
 pub use run_time::{
     AtRunTime, RunTimeCoefficients, RunTimePlan, RunTimeStages, RunTimeTableau, TableauError,
@@ -150,12 +152,6 @@ pub trait Plan {
     /// Its memory besides the state, allocated once and used for every step.
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>>: StageStorage<V>;
 
-    /// Whether a step is kicks and drifts, which [`take_by`](Self::take_by) takes in another form.
-    const SPLITS: bool = false;
-
-    /// A constant of every integrator with this plan: it fails, with the reason, if the plan has no steps.
-    const POSSIBLE: () = ();
-
     /// Number of evaluations in a step [in place](Self::take_in_place); `None` if the plan takes no steps in place.
     const EVALUATIONS_IN_PLACE: Option<u32> = None;
 
@@ -254,7 +250,7 @@ pub trait Plan {
     }
 
     /// Takes `step` of a splitting with the kicks and drifts of `kick_drift`, and shows its evaluations to `observer`. Only for a plan that
-    /// [splits](Self::SPLITS).
+    /// [splits](Splits).
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take_by<R, V, S, K, W>(
         _step: &Step<'_, V>,

@@ -1,8 +1,8 @@
 //! The classes of systems for which a method is proved to keep its order and symplecticity.
 
-use crate::method::Method;
+use crate::method::{Method, Plan};
 use crate::number::Coefficients;
-use crate::system::{Class, Unconstrained};
+use crate::system::{Damped, General, Separable};
 
 /// A method that keeps its order and its symplecticity on all systems of class `C`.
 ///
@@ -39,10 +39,47 @@ use crate::system::{Class, Unconstrained};
     note = "otherwise take a method for general Hamiltonians, such as `basis: polynomial(s), nodes: gauss(s)` or `lobatto(s)`",
     note = "for holonomic constraints, class `Constrained`, take a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, or a composition of these methods",
     note = "for non-holonomic constraints, class `Nonholonomic`, take a method that is `nonholonomic`: `basis: polynomial(1), nodes: gauss(1)`, or a composition of it",
-    note = "for friction, class `Damped`, take a splitting whose order holds for every separable Hamiltonian, such as `velocity-verlet` or `forest-ruth-1990`",
+    note = "for friction, class `Damped`, and for flows of two parts, take a splitting whose order holds for every separable Hamiltonian, such as `velocity-verlet` or `forest-ruth-1990`",
     note = "without constraints, to go on knowingly with a lower order, write `.accept_lower_order()` after the method"
 )]
 pub trait ProvedFor<C> {}
+
+/// A method that consists of kicks and drifts on separable systems. The macros implement it.
+///
+/// Kicks and drifts can be replaced: by the flow of [friction](Damped), or by [flows](crate::flow) of any two parts.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not consist of kicks and drifts",
+    label = "not a splitting",
+    note = "take a splitting, such as `velocity-verlet`, `forest-ruth-1990` or `saba-3`"
+)]
+pub trait Splits: Method {}
+
+/// A plan that has steps: any but that of a splitting with more than 36 stages for general Hamiltonians.
+#[diagnostic::on_unimplemented(
+    message = "a splitting of more than 36 stages has no steps for systems of class `General`",
+    label = "steps separable Hamiltonians only",
+    note = "implement the system as a separable one, or take a method for general Hamiltonians"
+)]
+pub trait Possible: Plan {}
+
+/// A method that is symmetric, its own adjoint, on systems of class `C`. The macros implement it: see [`Symmetry`].
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not symmetric on systems of class `{C}`",
+    label = "not symmetric",
+    note = "variable steps are reversible, and a corrector exists, only for a symmetric method: take `velocity-verlet`, a symmetric splitting, or `basis: polynomial(s)` with `nodes: gauss(s)` or `lobatto(s)`",
+    note = "generic code needs the bound `M: SymmetricFor<S::Class>`"
+)]
+pub trait SymmetricFor<C>: Method {}
+
+/// A method whose steps are Störmer–Verlet, or a composition of it. The macros implement it.
+///
+/// The fractions of such a composition apply to every symmetric step of order 2.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a composition of Störmer–Verlet steps",
+    label = "not a composition of Störmer–Verlet steps",
+    note = "`composition! {{ Name {{ base: stormer-verlet, weights: suzuki(4) }} }}` makes one"
+)]
+pub trait StoermerVerletSteps: Method {}
 
 /// The order of a method for each class of Hamiltonians, as the compiler found it. The documentation of the method says how each
 /// order is known.
@@ -72,11 +109,6 @@ impl Symmetry {
         general: false,
         separable: false,
     };
-
-    /// Whether the method is symmetric for systems of class `C`.
-    pub(crate) const fn of<C: Class>(self) -> bool {
-        self.general || C::SEPARABLE && self.separable
-    }
 }
 
 /// The result of [`Method::accept_lower_order`]: a method on systems for which it has a lower order, or is not symplectic.
@@ -96,5 +128,15 @@ impl<M: Method> Method for LowerOrder<M> {
     type Separable = M::Separable;
 }
 
-// With constraints there is no lower order to accept: a method either has constrained steps or it has none.
-impl<M: Method, C: Unconstrained> ProvedFor<C> for LowerOrder<M> {}
+// With constraints or friction there is no lower order to accept for a method without such steps.
+impl<M: Method<General: Possible>> ProvedFor<General> for LowerOrder<M> {}
+
+impl<M: Method> ProvedFor<Separable> for LowerOrder<M> {}
+
+impl<M: Method> ProvedFor<()> for LowerOrder<M> {}
+
+impl<M: Splits> ProvedFor<Damped> for LowerOrder<M> {}
+
+impl<M: Splits> Splits for LowerOrder<M> {}
+
+impl<M: SymmetricFor<C>, C> SymmetricFor<C> for LowerOrder<M> {}

@@ -4,8 +4,8 @@ use core::marker::PhantomData;
 
 use crate::error::Quantity;
 use crate::method::{
-    EvaluationObserver, Evaluations, Failure, Outcome, Plan, Solver, Span, StageStorage, Step,
-    StepStatistics, Stopping, WarmStart,
+    EvaluationObserver, Evaluations, Failure, Outcome, Plan, Possible, Solver, Span, StageStorage,
+    Step, StepStatistics, Stopping, WarmStart,
 };
 use crate::number::{Coefficient, Summation, Vector, advance};
 use crate::system::{Class, System};
@@ -151,6 +151,8 @@ where
 #[derive(Clone, Copy, Debug)]
 pub struct Splitting<P>(PhantomData<P>);
 
+impl<P: SplittingPlan> Possible for Splitting<P> {}
+
 impl<P: SplittingPlan> Plan for Splitting<P> {
     type Class = P::Class;
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = Evaluations<V>;
@@ -158,7 +160,6 @@ impl<P: SplittingPlan> Plan for Splitting<P> {
     const EVALUATIONS_IN_PLACE: Option<u32> = Some(P::EVALUATIONS - P::CARRIED);
 
     const LANEWISE: bool = true;
-    const SPLITS: bool = true;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<R: Summation, V: Vector, S: System<V, Class = P::Class>, N: Solver<V, S>>(

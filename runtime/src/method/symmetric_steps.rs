@@ -1,6 +1,6 @@
 //! The steps of a composition of Störmer–Verlet, taken with another symmetric method of order 2.
 
-use crate::method::{ConstrainedStep, Method};
+use crate::method::{ConstrainedStep, StoermerVerletSteps};
 
 /// The fractions `γ_1, …, γ_m` of a composition of Störmer–Verlet steps.
 ///
@@ -22,15 +22,8 @@ impl SymmetricSteps {
     /// A single step, not a composition.
     pub(crate) const ONE: Self = Self(&[]);
 
-    /// The steps of `M`. Does not compile unless `M` is a composition of Störmer–Verlet steps.
-    pub(crate) fn of<M: Method>() -> Self {
-        const {
-            assert!(
-                is_stoermer_verlet(M::CONSTRAINED),
-                "a composition for this base consists of Störmer–Verlet steps: \
-                 `composition! {{ Name {{ base: stormer-verlet, weights: suzuki(4) }} }}`"
-            );
-        }
+    /// The steps of `M`.
+    pub(crate) fn of<M: StoermerVerletSteps>() -> Self {
         Self(M::CONSTRAINED)
     }
 
@@ -53,22 +46,4 @@ impl SymmetricSteps {
             end: at(number + 1, start(number + 1)),
         })
     }
-}
-
-/// Whether there are steps and each is Lobatto IIIA–IIIB with two stages: nodes 0 and 1 and weights 1/2 determine the rest.
-const fn is_stoermer_verlet(mut steps: &[ConstrainedStep]) -> bool {
-    if steps.is_empty() {
-        return false;
-    }
-    while let [step, rest @ ..] = steps {
-        let ([first, second], [b1, b2]) = (step.tableau.nodes, step.tableau.weights) else {
-            return false;
-        };
-        let nodes = first.double() == 0.0 && second.double() == 1.0;
-        if !nodes || b1.double() != 0.5 || b2.double() != 0.5 {
-            return false;
-        }
-        steps = rest;
-    }
-    true
 }

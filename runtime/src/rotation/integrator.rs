@@ -9,7 +9,7 @@ use super::state::RotationState;
 use crate::error::{Error, Quantity};
 use crate::integrator::StepMap;
 use crate::integrator::step_clock::{StepClock, Stepper};
-use crate::method::Method;
+use crate::method::StoermerVerletSteps;
 use crate::method::symmetric_steps::{Part, SymmetricSteps};
 
 /// Integrates a [`RigidBody`] by the symplectic method on SO(3) described in [`rotation`](crate::rotation). A step
@@ -86,7 +86,7 @@ impl<B: RigidBody> RotationIntegrator<B> {
     ///
     /// Those of [`new`](Self::new). Other methods do not compile:
     ///
-    /// ```compile_fail,E0080
+    /// ```compile_fail,E0277
     /// symplectic::composition! { Sixth { base: lobatto-3, weights: triple_jump(6) } }
     /// use symplectic::nalgebra::{UnitQuaternion, Vector3};
     /// use symplectic::rotation::{FreeBody, RotationIntegrator, RotationState};
@@ -94,7 +94,7 @@ impl<B: RigidBody> RotationIntegrator<B> {
     /// let start = RotationState::new(0.0, UnitQuaternion::identity(), Vector3::z());
     /// RotationIntegrator::composed(Sixth, FreeBody::new(1.0, 2.0, 3.0), start, 0.1).unwrap();
     /// ```
-    pub fn composed<M: Method>(
+    pub fn composed<M: StoermerVerletSteps>(
         _method: M,
         body: B,
         state: RotationState,

@@ -35,17 +35,18 @@ pub trait Class: sealed::Sealed + Clone + 'static {
     const CONSTRAINED: bool = false;
 }
 
-/// A class without constraints: [`General`], [`Separable`] or [`Damped`].
+/// A class without constraints and friction: [`General`] or [`Separable`].
 ///
-/// A method that is proved for general Hamiltonians is proved for each of them. Generic code that uses such a method needs the bound
+/// A method that is proved for general Hamiltonians is proved for both. Generic code that uses such a method needs the bound
 /// `S::Class: Unconstrained`.
 #[diagnostic::on_unimplemented(
     message = "this method has no steps for systems of class `{Self}`",
-    label = "no steps for these constraints",
+    label = "no steps for this class",
+    note = "class `Damped`, with friction, needs a splitting, such as `velocity-verlet` or `forest-ruth-1990`; for any other method make the friction part of the force: `force: {{ x = -gamma px }}` in a formula, `type Class = General` in a system of your own",
     note = "class `Constrained`, with holonomic constraints, needs a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, which with two stages is RATTLE, or a composition of these methods",
     note = "class `Nonholonomic` needs a method that is `nonholonomic`: `basis: polynomial(1), nodes: gauss(1)`, or a composition of it",
     note = "`require: [constrained]` or `require: [nonholonomic]` in `tableau!` checks that a method has constrained or non-holonomic steps",
-    note = "with a method for systems without constraints, generic code needs the bound `S::Class: Unconstrained`"
+    note = "with a method for systems without constraints and friction, generic code needs the bound `S::Class: Unconstrained`"
 )]
 pub trait Unconstrained {}
 
@@ -53,14 +54,13 @@ impl Unconstrained for General {}
 
 impl Unconstrained for Separable {}
 
-impl Unconstrained for Damped {}
-
 impl Unconstrained for () {}
 
 /// A class without non-holonomic constraints: an [`Unconstrained`] class, or [`Constrained`].
 #[diagnostic::on_unimplemented(
     message = "this method has no steps for systems of class `{Self}`",
-    label = "no steps for non-holonomic constraints",
+    label = "no steps for this class",
+    note = "class `Damped`, with friction, needs a splitting, such as `velocity-verlet` or `forest-ruth-1990`; for any other method make the friction part of the force: `force: {{ x = -gamma px }}` in a formula",
     note = "class `Nonholonomic` needs a method that is `nonholonomic`: `basis: polynomial(1), nodes: gauss(1)`, or a composition of it",
     note = "a method of higher order would lose it: only compositions of symmetric steps keep theirs"
 )]
@@ -69,20 +69,85 @@ pub trait Holonomic {}
 /// A class without holonomic constraints: an [`Unconstrained`] class, or [`Nonholonomic`].
 #[diagnostic::on_unimplemented(
     message = "this method has no steps for systems of class `{Self}`",
-    label = "no steps for holonomic constraints",
+    label = "no steps for this class",
+    note = "class `Damped`, with friction, needs a splitting, such as `velocity-verlet` or `forest-ruth-1990`; for any other method make the friction part of the force: `force: {{ x = -gamma px }}` in a formula",
     note = "class `Constrained` needs a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, which with two stages is RATTLE, or a composition of these methods"
 )]
 pub trait FreePositions {}
 
-impl<C: Unconstrained> Holonomic for C {}
+/// A class whose velocity depends on the momentum only, and whose force, without friction, depends on the position only:
+/// [`Class::SEPARABLE`].
+#[diagnostic::on_unimplemented(
+    message = "systems of class `{Self}` are not separable",
+    label = "not separable",
+    note = "this method is symmetric for H = T(p) + U(q) only: for a general H take `basis: polynomial(s)` with `nodes: gauss(s)` or `lobatto(s)`"
+)]
+pub trait SplitClass {}
 
-impl<C: Unconstrained> FreePositions for C {}
+impl SplitClass for Separable {}
+
+impl SplitClass for Damped {}
+
+#[cfg(feature = "alloc")]
+impl<C: SplitClass> SplitClass for Constrained<C> {}
+
+#[cfg(feature = "alloc")]
+impl<C: SplitClass> SplitClass for Nonholonomic<C> {}
+
+/// A class without friction: any but [`Damped`].
+#[diagnostic::on_unimplemented(
+    message = "this method has no steps for systems of class `{Self}`",
+    label = "no steps with friction",
+    note = "class `Damped`, with friction, needs a splitting, such as `velocity-verlet` or `forest-ruth-1990`; for any other method make the friction part of the force: `force: {{ x = -gamma px }}` in a formula, `type Class = General` in a system of your own"
+)]
+pub trait Frictionless {}
+
+macro_rules! implement {
+    ($($class:ident: $($with:ident),*;)*) => {$($(
+        impl<C: $class> $with for C {}
+    )*)*};
+}
+
+implement! {
+    Unconstrained: Holonomic, FreePositions, Frictionless, UnconstrainedOrDamped;
+    Holonomic: HolonomicOrDamped;
+    FreePositions: FreePositionsOrDamped;
+}
 
 #[cfg(feature = "alloc")]
 impl<C> Holonomic for Constrained<C> {}
 
 #[cfg(feature = "alloc")]
 impl<C> FreePositions for Nonholonomic<C> {}
+
+#[cfg(feature = "alloc")]
+impl<C> Frictionless for Constrained<C> {}
+
+#[cfg(feature = "alloc")]
+impl<C> Frictionless for Nonholonomic<C> {}
+
+macro_rules! or_damped {
+    ($($class:ident or $with:ident, without $without:literal, $needs:literal;)*) => {$(
+        #[doc = concat!("A class that is [`", stringify!($class), "`], or [`Damped`]: the classes of a splitting that has no steps with ", $without, ".")]
+        #[diagnostic::on_unimplemented(
+            message = "this method has no steps for systems of class `{Self}`",
+            label = "no steps for these constraints",
+            note = $needs
+        )]
+        pub trait $with {}
+
+        impl $with for Damped {}
+    )*};
+}
+
+or_damped! {
+    Unconstrained or UnconstrainedOrDamped, without "constraints",
+    "class `Constrained` needs a method that is `constrained`, such as `basis: polynomial(2), nodes: lobatto(2)`; class `Nonholonomic` one that is `nonholonomic`, such as `basis: polynomial(1), nodes: gauss(1)`";
+    Holonomic or HolonomicOrDamped, without "non-holonomic constraints",
+    "class `Nonholonomic` needs a method that is `nonholonomic`: `basis: polynomial(1), nodes: gauss(1)`, or a composition of it";
+    FreePositions or FreePositionsOrDamped, without "holonomic constraints",
+    "class `Constrained` needs a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, or a composition of these methods";
+}
 
 /// A class without friction and constraints: [`General`] or [`Separable`]. Generating functions, tangent systems and tableaux at run time
 /// are for these classes.
@@ -119,7 +184,7 @@ pub struct Separable;
 /// method whose kicks are positive. For any other method [`Integrator::new`](crate::Integrator::new) does not compile; there any friction
 /// can be part of [`Hamiltonian::force`](crate::Hamiltonian::force) of a system of class [`General`].
 ///
-/// ```compile_fail,E0080
+/// ```compile_fail,E0277
 /// use symplectic::{Integrator, State};
 ///
 /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
@@ -158,9 +223,9 @@ impl Class for Separable {
 /// such systems. They are Lobatto IIIA–IIIB (with two stages RATTLE), other pairs with stages at both ends, symplectic Euler and its
 /// adjoint, and compositions. For any other method [`Integrator::new`](crate::Integrator::new) does not compile.
 ///
-/// `Constrained<Damped>` does not compile: friction is part of the force of a system of class `Constrained<General>`.
+/// `Constrained<Damped>` is not a class: friction is part of the force of a system of class `Constrained<General>`.
 ///
-/// ```compile_fail,E0080
+/// ```compile_fail,E0277
 /// use symplectic::{Class, Constrained, Damped};
 ///
 /// const SEPARABLE: bool = <Constrained<Damped> as Class>::SEPARABLE;
@@ -174,13 +239,7 @@ pub struct Constrained<C>(PhantomData<C>);
 impl<C: Class + Unconstrained> Class for Constrained<C> {
     type Plan<M: Method> = ConstrainedPlan<M, C>;
     const CONSTRAINED: bool = true;
-    const SEPARABLE: bool = {
-        assert!(
-            !C::FRICTION,
-            "`Constrained<Damped>` is not possible: add the friction to the force of a system of class `Constrained<General>`"
-        );
-        C::SEPARABLE
-    };
+    const SEPARABLE: bool = C::SEPARABLE;
 }
 
 /// `H` of class `C`, [`Separable`] or [`General`], with non-holonomic constraints `w(q)·q' = 0`, linear in the velocities:
@@ -221,7 +280,7 @@ impl<C: Class + Unconstrained> Class for Constrained<C> {
 /// }
 /// ```
 ///
-/// `Nonholonomic<Damped>` does not compile: friction is part of the force of a system of class `Nonholonomic<General>`.
+/// `Nonholonomic<Damped>` is not a class: friction is part of the force of a system of class `Nonholonomic<General>`.
 #[cfg(feature = "alloc")]
 #[derive(Clone, Copy, Debug)]
 pub struct Nonholonomic<C>(PhantomData<C>);
@@ -230,11 +289,5 @@ pub struct Nonholonomic<C>(PhantomData<C>);
 impl<C: Class + Unconstrained> Class for Nonholonomic<C> {
     type Plan<M: Method> = NonholonomicPlan<M, C>;
     const CONSTRAINED: bool = true;
-    const SEPARABLE: bool = {
-        assert!(
-            !C::FRICTION,
-            "`Nonholonomic<Damped>` is not possible: add the friction to the force of a system of class `Nonholonomic<General>`"
-        );
-        C::SEPARABLE
-    };
+    const SEPARABLE: bool = C::SEPARABLE;
 }

@@ -19,7 +19,8 @@ pub(crate) mod masses;
 mod over_vectors;
 
 pub use class::{
-    Class, Conservative, Damped, FreePositions, General, Holonomic, Separable, Unconstrained,
+    Class, Conservative, Damped, FreePositions, FreePositionsOrDamped, Frictionless, General,
+    Holonomic, HolonomicOrDamped, Separable, SplitClass, Unconstrained, UnconstrainedOrDamped,
 };
 #[cfg(feature = "alloc")]
 pub use class::{Constrained, Nonholonomic};

@@ -9,7 +9,7 @@ use crate::error::{Error, Quantity};
 use crate::integrator::StepMap;
 use crate::integrator::step_clock::{StepClock, Stepper};
 use crate::integrator::validation::check_state;
-use crate::method::Method;
+use crate::method::StoermerVerletSteps;
 use crate::method::symmetric_steps::{Part, SymmetricSteps};
 use crate::number::Vector;
 use crate::number::vector::beside;
@@ -98,7 +98,7 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
     ///
     /// As for [`new`](Self::new); [`Error::NotSelfAdjoint`] if the [defect](super::DiscretePath::self_adjoint_defect) of a path from the start
     /// is not a rounding error. Does not compile with another method.
-    pub fn composed<M: Method>(
+    pub fn composed<M: StoermerVerletSteps>(
         _method: M,
         lagrangian: L,
         state: State<L::Vector<f64>>,

@@ -7,7 +7,7 @@ use symplectic::nalgebra::{SVector, Vector1, Vector2};
 use symplectic::system::Gradients;
 use symplectic::{
     Constrained, Error, General, Hamiltonian, Integrator, Masses, Method, ProvedFor, Scalar,
-    Separable, State, acceleration,
+    Separable, State, SymmetricFor, acceleration,
 };
 
 use super::kepler::{
@@ -99,7 +99,7 @@ fn the_energy_does_not_drift_and_with_steps_by_the_state_before_it_does() -> Res
 fn the_order_in_epsilon_is_that_of_the_method() -> Result<(), Error> {
     fn errors<M>(method: M, epsilon: f64) -> Result<Vec<f64>, Error>
     where
-        M: Method + ProvedFor<Separable>,
+        M: ProvedFor<Separable> + SymmetricFor<Separable>,
     {
         let halved = [1.0, 0.5, 0.25].map(|part| part * epsilon);
         let errors = halved.into_iter().map(|epsilon| {

@@ -3,7 +3,9 @@
 use symplectic::adaptive::{Adaptive, DistancePower};
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::Vector2;
-use symplectic::{CheckpointError, Error, Event, Integrator, Method, ProvedFor, Separable, State};
+use symplectic::{
+    CheckpointError, Error, Event, Integrator, Method, ProvedFor, Separable, State, SymmetricFor,
+};
 
 use crate::common::methods::{Gauss2, StoermerVerlet};
 use crate::systems::{Bits, bits, keep, on_threads, words};
@@ -54,7 +56,7 @@ fn work<M: Method>(
 }
 
 /// The rows of the trajectories alone.
-fn alone<M: Method + ProvedFor<Separable> + Copy>(method: M, epsilon: f64) -> Vec<Kept> {
+fn alone<M: ProvedFor<Separable> + SymmetricFor<Separable>>(method: M, epsilon: f64) -> Vec<Kept> {
     let one = |start: State<Vector>| {
         let mut seen = Vec::new();
         match Integrator::adaptive(method, Kepler, MONITOR, start.clone(), epsilon) {
@@ -76,7 +78,11 @@ fn ensemble<M: Method + ProvedFor<Separable>>(method: M, epsilon: f64) -> Runs<M
 }
 
 /// The rows of an ensemble on a number of threads, with the power of its monitor.
-fn rows<M: Method + Sync>(runs: &Runs<M>, threads: usize, power: f64) -> Vec<Kept> {
+fn rows<M: SymmetricFor<Separable> + Sync>(
+    runs: &Runs<M>,
+    threads: usize,
+    power: f64,
+) -> Vec<Kept> {
     let mut rows = Vec::new();
     let first = runs.trajectories().start;
     let next = on_threads(threads, || {
@@ -90,7 +96,7 @@ fn rows<M: Method + Sync>(runs: &Runs<M>, threads: usize, power: f64) -> Vec<Kep
     rows.into_iter().map(|(row, seen)| (seen, row)).collect()
 }
 
-fn check<M: Method + ProvedFor<Separable> + Copy + Sync>(method: M, epsilon: f64) {
+fn check<M: ProvedFor<Separable> + SymmetricFor<Separable> + Sync>(method: M, epsilon: f64) {
     let expected = alone(method, epsilon);
     for threads in [1, 4] {
         let found = rows(&ensemble(method, epsilon), threads, MONITOR.0);

@@ -3,7 +3,7 @@
 use symplectic::flow::kepler::Jacobi;
 use symplectic::flow::{Corrector, FlowError, FlowIntegrator, OrnsteinUhlenbeck, Splitting};
 use symplectic::nalgebra::Vector1;
-use symplectic::{Error, Method, State};
+use symplectic::{Damped, Error, ProvedFor, Separable, Splits, State, SymmetricFor};
 
 use super::methods::{Leapfrog, Saba3};
 use super::planets::{self, Bodies, N};
@@ -12,7 +12,10 @@ use crate::common::distance;
 use crate::common::methods::StoermerVerlet;
 
 /// The errors that are odd and even in ε, with this many pairs, or without a corrector.
-fn by_powers<M: Method>(method: M, pairs: u32, small: f64, steps: u32) -> Result<[f64; 2], Error> {
+fn by_powers<M>(method: M, pairs: u32, small: f64, steps: u32) -> Result<[f64; 2], Error>
+where
+    M: Splits + SymmetricFor<Separable> + ProvedFor<Damped>,
+{
     let errors = [small, -small].map(|small| {
         let step = Splitting::new(method, Rotation, Quartic(small));
         let size = END / f64::from(steps);
@@ -40,7 +43,10 @@ fn by_powers<M: Method>(method: M, pairs: u32, small: f64, steps: u32) -> Result
 
 #[test]
 fn the_order_in_the_small_part_is_raised() -> Result<(), Error> {
-    fn slope<M: Method>(method: M, pairs: u32, power: usize, steps: u32) -> Result<f64, Error> {
+    fn slope<M>(method: M, pairs: u32, power: usize, steps: u32) -> Result<f64, Error>
+    where
+        M: Splits + SymmetricFor<Separable> + ProvedFor<Damped>,
+    {
         let small = [1e-4, 1e-2][power];
         let error = |steps| Ok::<_, Error>(by_powers(method, pairs, small, steps)?[power]);
         let fine = error(2 * steps)?;

@@ -3,7 +3,9 @@
 use symplectic::flow::kepler::{Heliocentric, Jacobi};
 use symplectic::flow::{Flow, FlowError, FlowIntegrator, Span, Splitting, Substeps};
 use symplectic::nalgebra::{DVector, SMatrix, Vector3};
-use symplectic::{Error, Integrator, Method, Separable, State, System, separable};
+use symplectic::{
+    Damped, Error, Integrator, ProvedFor, Separable, Splits, State, System, separable,
+};
 
 use crate::common::distance;
 use crate::common::methods::{Gauss8, StoermerVerlet};
@@ -78,7 +80,7 @@ enum Coordinates {
     Pairs,
 }
 
-fn error<M: Method>(
+fn error<M: Splits + ProvedFor<Damped>>(
     method: M,
     coordinates: Coordinates,
     masses: [f64; N],

@@ -6,7 +6,7 @@ use symplectic::flow::{
     Composed, Drift, Flow, FlowError, FlowIntegrator, Kick, Palindrome, Span, Splitting, Substeps,
 };
 use symplectic::nalgebra::Vector1;
-use symplectic::{Error, Method, Quantity, State, acceleration};
+use symplectic::{Damped, Error, Method, ProvedFor, Quantity, Splits, State, acceleration};
 
 use crate::common::methods::{ForestRuth, Gauss8, McLachlanAtela, PositionJump, StoermerVerlet};
 use crate::common::systems::{Driven, Pendulum, point};
@@ -113,7 +113,7 @@ fn the_order_is_that_for_separable_systems() {
 }
 
 /// The errors that are odd and even in ε, ε and ε².
-fn by_powers<M: Method>(method: M, small: f64, steps: u32) -> [f64; 2] {
+fn by_powers<M: Splits + ProvedFor<Damped>>(method: M, small: f64, steps: u32) -> [f64; 2] {
     let [plus, minus] = [small, -small].map(|small| {
         let (found, exact) = (
             end(Splitting::new(method, Rotation, Quartic(small)), steps),
@@ -130,7 +130,10 @@ fn by_powers<M: Method>(method: M, small: f64, steps: u32) -> [f64; 2] {
 /// The error is O(εh^s1) + O(ε²h^s2) + O(ε³h^s3). That of ABA(10, 6, 4) with ε is below rounding where the step is small.
 #[test]
 fn perturbed_systems_have_two_orders() {
-    fn slopes<M: Method>(method: M, small: [f64; 2], steps: [u32; 2]) -> [f64; 2] {
+    fn slopes<M>(method: M, small: [f64; 2], steps: [u32; 2]) -> [f64; 2]
+    where
+        M: Splits + ProvedFor<Damped>,
+    {
         [0, 1].map(|power| {
             let (small, steps) = (small[power], steps[power]);
             let [coarse, fine] =

@@ -3,7 +3,10 @@
 use crate::methods::{Gauss6, Lobatto3, StoermerVerlet};
 use symplectic::nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector3};
 use symplectic::rotation::{FreeBody, HeavyTop, RigidBody, RotationIntegrator, RotationState};
-use symplectic::{Constrained, Error, Integrator, Method, ProvedFor, Quantity, Separable, State};
+use symplectic::{
+    Constrained, Error, Integrator, Method, ProvedFor, Quantity, Separable, State,
+    StoermerVerletSteps,
+};
 
 symplectic::composition! {
     pub Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] }
@@ -125,7 +128,7 @@ where
     (*q, velocity.component_mul(&inertia))
 }
 
-fn on_the_group<M: Method, B: RigidBody>(method: M, body: B, steps: u32) -> Numbers {
+fn on_the_group<M: StoermerVerletSteps, B: RigidBody>(method: M, body: B, steps: u32) -> Numbers {
     let size = 1.0 / f64::from(steps);
     let mut run = RotationIntegrator::composed(method, body, start(), size).expect("a run");
     numbers(run.integrate_to(1.0).expect("steps"))

@@ -12,7 +12,7 @@ use cpu_time::ThreadTime;
 use symplectic::flow::kepler::{Heliocentric, Jacobi};
 use symplectic::flow::{Corrector, Flow, FlowIntegrator, Span, Splitting, Substeps};
 use symplectic::nalgebra::{DVector, Rotation3, Vector3};
-use symplectic::{Error, Method, State};
+use symplectic::{Damped, Error, ProvedFor, Separable, Splits, State, SymmetricFor};
 use symplectic_tests::scenes::outer_solar_system::{BODIES_AT_START, GRAVITATIONAL_CONSTANT};
 
 symplectic::tableau! {
@@ -190,7 +190,7 @@ fn eight_planets() -> Result<(), Error> {
 }
 
 /// Prints run time and largest energy error over a million years of outer planets.
-fn million_years<M: Method + Copy>(
+fn million_years<M: Splits + SymmetricFor<Separable> + ProvedFor<Damped>>(
     name: &str,
     method: M,
     size: f64,

@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use symplectic::adaptive::{DistancePower, Logarithmic};
 use symplectic::nalgebra::{Vector2, Vector3};
-use symplectic::{Error, Event, Integrator, Method, ProvedFor, Separable, State};
+use symplectic::{Error, Event, Integrator, Method, ProvedFor, Separable, State, SymmetricFor};
 use symplectic_tests::methods::{BlanesMoanS10, Gauss8, KahanLi8, KahanLi8Drift};
 use symplectic_tests::peers::{Equations, dop853};
 
@@ -84,7 +84,7 @@ fn logarithmic<M: Method + ProvedFor<Separable> + Copy>(
     })
 }
 
-fn reversible<M: Method + ProvedFor<Separable> + Copy>(
+fn reversible<M: ProvedFor<Separable> + SymmetricFor<Separable>>(
     method: M,
     epsilon: f64,
     energies: bool,

@@ -27,6 +27,7 @@ impl Composed<'_> {
         Plan {
             name: quote!(emitted::Composition<#name>),
             code: quote!(pub struct #name; #substeps),
+            splits: false,
         }
     }
 

@@ -51,6 +51,8 @@ pub(super) struct Plan {
     pub(super) name: TokenStream,
     /// The code that defines the type.
     pub(super) code: TokenStream,
+    /// Whether it consists of kicks and drifts.
+    pub(super) splits: bool,
 }
 
 /// The plans of a method, under these names; one plan for both classes has the name `shared`. A composition of at least two substeps with
@@ -98,6 +100,7 @@ pub(super) fn plans(
             return Plan {
                 name: quote!(emitted::SeparableOnly),
                 code: TokenStream::new(),
+                splits: false,
             };
         };
         if !is_composed(&graph) {
@@ -129,6 +132,7 @@ fn parts_of_both(
         Some(Plan {
             code: of_both(&step, &name, None),
             name: quote!(emitted::Coupled<#name<K>>),
+            splits: false,
         })
     };
     numbered(name, methods.len())
@@ -170,6 +174,7 @@ fn of_stages(
     Plan {
         name: quote!(emitted::#coupling<#name>),
         code: quote!(pub struct #name; #plan #matrices),
+        splits: false,
     }
 }
 
@@ -201,6 +206,7 @@ fn for_each_class(code: TokenStream, kind: &TokenStream, name: &Ident) -> [Plan;
         Plan {
             name: quote!(emitted::#kind<#name<emitted::#class>>),
             code,
+            splits: false,
         }
     })
 }

@@ -55,6 +55,7 @@ impl<'g, 'a> Chain<'g, 'a> {
         Plan {
             name: quote!(emitted::Splitting<#name>),
             code,
+            splits: true,
         }
     }
 

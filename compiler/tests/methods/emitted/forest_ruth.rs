@@ -192,6 +192,8 @@ const _: () = {
     impl emitted::ProvedFor<emitted::Separable> for ForestRuth {}
     impl emitted::ProvedFor<()> for ForestRuth {}
     impl emitted::ProvedFor<emitted::Damped> for ForestRuth {}
+    impl emitted::Splits for ForestRuth {}
+    impl<C: emitted::SplitClass> emitted::SymmetricFor<C> for ForestRuth {}
     pub struct ForestRuthGeneral;
     impl ForestRuthGeneral {
         const C: [emitted::Coefficient; 4] = [

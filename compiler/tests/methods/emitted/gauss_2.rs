@@ -94,6 +94,7 @@ const _: () = {
         type Separable = emitted::Coupled<Gauss2Plan<emitted::Separable>>;
     }
     impl<C: emitted::Unconstrained> emitted::ProvedFor<C> for Gauss2 {}
+    impl<C> emitted::SymmetricFor<C> for Gauss2 {}
     pub struct Gauss2Plan<K>(::core::marker::PhantomData<K>);
     impl<K: emitted::Class> Gauss2Plan<K> {
         const C: [emitted::Coefficient; 2] = [

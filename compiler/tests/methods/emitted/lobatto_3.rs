@@ -166,6 +166,7 @@ const _: () = {
         type Separable = emitted::Coupled<Lobatto3Separable>;
     }
     impl<C: emitted::Holonomic> emitted::ProvedFor<C> for Lobatto3 {}
+    impl<C> emitted::SymmetricFor<C> for Lobatto3 {}
     pub struct Lobatto3General;
     impl Lobatto3General {
         const C: [emitted::Coefficient; 3] = [

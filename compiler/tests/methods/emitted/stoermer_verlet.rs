@@ -137,6 +137,9 @@ const _: () = {
         type Separable = emitted::Splitting<StoermerVerletSeparable>;
     }
     impl<C> emitted::ProvedFor<C> for StoermerVerlet {}
+    impl emitted::Splits for StoermerVerlet {}
+    impl<C> emitted::SymmetricFor<C> for StoermerVerlet {}
+    impl emitted::StoermerVerletSteps for StoermerVerlet {}
     pub struct StoermerVerletGeneral;
     impl StoermerVerletGeneral {
         const C: [emitted::Coefficient; 2] = [emitted::exact(0.0), emitted::exact(1.0)];

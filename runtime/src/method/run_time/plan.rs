@@ -8,7 +8,8 @@ use crate::error::Quantity;
 use crate::method::storage::{first_mismatch, first_non_finite};
 use crate::method::{
     EvaluationObserver, Evaluations, Failure, Inside, Interpolation, LaneStep, Outcome, Plan,
-    Solver, StagePart, StageStorage, StageVisit, Step, StepStatistics, Stopping, WarmStart,
+    Possible, Solver, StagePart, StageStorage, StageVisit, Step, StepStatistics, Stopping,
+    WarmStart,
 };
 use crate::number::{
     Coefficient, Lanes, Scalar, Summation, Vector, Visit, advance, copy, vector_words,
@@ -170,6 +171,8 @@ impl<V: Vector, C: Class> StageStorage<V> for RunTimeStages<V, C> {
 
 /// Set by [`Integrator::at_run_time`](crate::Integrator::at_run_time), which is the only way to make such an integrator.
 const TABLEAU: &str = "the memory of a step at run time has its tableau";
+
+impl<C: Class> Possible for RunTimePlan<C> {}
 
 impl<C: Class> Plan for RunTimePlan<C> {
     type Class = C;

@@ -10,7 +10,7 @@ use crate::integrator::StepMap;
 use crate::integrator::first_step::or_as_first_step;
 use crate::integrator::step_clock::{StepClock, Stepper};
 use crate::integrator::validation::check_state;
-use crate::method::Method;
+use crate::method::StoermerVerletSteps;
 use crate::method::symmetric_steps::SymmetricSteps;
 use crate::number::Vector;
 use crate::state::State;
@@ -135,7 +135,7 @@ impl<L: DiracSystem> DiracIntegrator<L> {
     /// # Errors
     ///
     /// As for [`new`](Self::new). Does not compile with another method.
-    pub fn composed<M: Method>(
+    pub fn composed<M: StoermerVerletSteps>(
         _method: M,
         rule: DiracRule,
         system: L,

@@ -3,7 +3,7 @@
 use symplectic::nalgebra::{Matrix3, SVector};
 use symplectic::rotation::RotationIntegrator;
 use symplectic::variational::{DiracIntegrator, DiracRule};
-use symplectic::{Error, Integrator, Method};
+use symplectic::{Error, Integrator, StoermerVerletSteps};
 use symplectic_report::{Finish, Ladder, Observe, Problem, Reference, Study};
 use symplectic_tests::methods::{
     Gauss6, Gauss8, Lobatto5, Midpoint, Rattle6, StoermerVerlet, Suzuki4,
@@ -269,7 +269,7 @@ pub fn heavy_top(study: Study) -> Result<Study, Error> {
     Ok(study.problem(problem))
 }
 
-fn top_run<M: Method>(
+fn top_run<M: StoermerVerletSteps>(
     method: M,
     end: f64,
     size: f64,
