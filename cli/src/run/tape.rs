@@ -33,6 +33,8 @@ pub(super) enum Code {
     Root,
     /// `|a|`
     Absolute,
+    /// `a`, or 0 if b is 0
+    OrZero,
     /// eᵃ
     Exp,
     /// The natural logarithm.
@@ -324,6 +326,7 @@ fn dispatch<T: Scalar, U: Use<T>>(code: Code, to: U) -> U::Output {
         Code::Reciprocal => to.with(|a, _, _| a.recip()),
         Code::Root => to.with(|a, _, _| a.sqrt()),
         Code::Absolute => to.with(|a, _, _| a.abs()),
+        Code::OrZero => to.with(|a, b, _| a.or_zero(b)),
         Code::Exp => to.with(|a, _, _| a.exp()),
         Code::Ln => to.with(|a, _, _| a.ln()),
         Code::Sin => to.with(|a, _, _| a.sin()),

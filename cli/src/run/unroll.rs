@@ -293,6 +293,7 @@ impl<'a> Unrolled<'a> {
             Operation::Reciprocal(_) => Code::Reciprocal,
             Operation::Root(_) => Code::Root,
             Operation::Absolute(_) => Code::Absolute,
+            Operation::OrZero(..) => Code::OrZero,
             Operation::Elementary(function, _) => elementary(function),
             Operation::Atan2(..) => Code::Atan2,
         };
@@ -426,7 +427,9 @@ fn join_products(list: &mut [Value], results: &[Number]) -> Vec<usize> {
 fn arity(code: Code) -> usize {
     match code {
         Code::MultiplyAdd | Code::MultiplySubtract | Code::SubtractProduct => 3,
-        Code::Add | Code::Subtract | Code::Multiply | Code::Divide | Code::Atan2 => 2,
+        Code::Add | Code::Subtract | Code::Multiply | Code::Divide | Code::OrZero | Code::Atan2 => {
+            2
+        }
         _ => 1,
     }
 }

@@ -29,6 +29,8 @@ system!(MOLECULE: Molecule<N> { m: [N], springs: pairs, stiffness: [springs], le
         - sum(i < j: G m[i] m[j] / |q[i] - q[j]|));
 system!(FIELD: Field<N> { g: 1 } q: [N; 2], p: [N; 2]; H = sum(i: |p[i]|^2/2 + g q[i][1]));
 system!(PENDULUM: Pendulum { g: 9.81 } q: [a], p: [pa]; H = pa^2/2 - g cos(a) + exp(-t) sin(a)/8);
+system!(KINKED: Kinked { a: 1/2 } q: [x, y], p: [px, py];
+    H = (px^2 + py^2)/2 + |x|^3 + |[x, y]|^3 + max(x - y, 0)^(5/2) + a y^2 |y| + |px|^3);
 
 symplectic::tableau! { Verlet { base: stormer-verlet } }
 symplectic::tableau! { Forest { base: forest-ruth-1990 } }
@@ -186,6 +188,19 @@ fn pendulum() -> Case {
     }
 }
 
+/// From a point where all functions with kinks are zero.
+fn kinked() -> Case {
+    Case {
+        method: "forest-ruth-1990",
+        formula: KINKED,
+        kind: "Kinked",
+        values: vec![("a", Number(0.5))],
+        start: [vec![0.0, 0.0], vec![0.0, 0.4]],
+        h: 0.01,
+        steps: 1000,
+    }
+}
+
 #[test]
 fn forms_of_systems() {
     for (case, name, language, end) in [
@@ -237,6 +252,9 @@ fn splittings_have_the_bits_of_the_runtime() {
         &runtime!(case, Forest, system, SMatrix<f64, 2, 2>),
         0.0,
     );
+    let case = kinked();
+    let system = Kinked { a: 0.5 };
+    agree(&case, &runtime!(case, Forest, system, SVector<f64, 2>), 0.0);
     let case = driven();
     let system = Driven { k: 0.3 };
     agree(&case, &runtime!(case, Forest, system, SVector<f64, 1>), 0.0);

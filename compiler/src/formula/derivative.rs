@@ -83,8 +83,8 @@ pub fn gradient(
                 Node::Product(factors) => {
                     for k in 0..factors.len() {
                         if graph.depends(factors[k].0).on(half) {
-                            let value = by_factor(graph, &factors, k, adjoint);
-                            send(graph, &mut open, factors[k].0, loops.clone(), value);
+                            let (to, value) = by_factor(graph, &factors, k, |_| adjoint);
+                            send(graph, &mut open, to, loops.clone(), value);
                         }
                     }
                 }
@@ -143,14 +143,20 @@ fn apart(graph: &mut Graph, loops: &[LoopId], over: LoopId, body: Id) -> (LoopId
     }
 }
 
-/// `value·∂(Π xᵉ)/∂x_k`
-fn by_factor(graph: &mut Graph, factors: &[(Id, Number)], k: usize, value: Id) -> Id {
-    let (x, exponent) = &factors[k];
+/// The node x in factor k of a product, its base or a function in the base, and `value(x)·∂(Π yᵉ)/∂x`.
+fn by_factor(
+    graph: &mut Graph,
+    factors: &[(Id, Number)],
+    k: usize,
+    value: impl FnOnce(Id) -> Id,
+) -> (Id, Id) {
+    let (base, exponent) = &factors[k];
+    let (x, factor, slope) = graph.slope_of_power(*base, exponent);
     let others = factors.iter().enumerate().filter(|&(other, _)| other != k);
     let mut parts: Vec<(Id, Number)> = others.map(|(_, part)| part.clone()).collect();
-    parts.push((*x, exponent - Number::one()));
-    parts.push((value, Number::one()));
-    graph.product(exponent.clone(), parts)
+    parts.extend(slope);
+    parts.push((value(x), Number::one()));
+    (x, graph.product(factor, parts))
 }
 
 /// The derivative of `atan2(y, x)` with respect to its first or second argument.
@@ -226,9 +232,9 @@ pub fn directional(
             Node::Product(factors) => {
                 let mut terms = Vec::new();
                 for k in 0..factors.len() {
-                    let speed = of(&factors[k].0);
-                    if !graph.is_zero(speed) {
-                        terms.push((Number::one(), by_factor(graph, &factors, k, speed)));
+                    if !graph.is_zero(of(&factors[k].0)) {
+                        let (_, term) = by_factor(graph, &factors, k, |x| of(&x));
+                        terms.push((Number::one(), term));
                     }
                 }
                 graph.sum(terms)

@@ -84,15 +84,25 @@ pub enum FormulaError {
         /// The coordinate or momentum.
         coordinate: String,
     },
-    /// A function with a kink or a jump.
+    /// A function with jumps.
     #[error(
-        "{function} has {defect}: a formula must be twice continuously differentiable; {instead}"
+        "`{function}` has jumps: a formula must be continuously differentiable; use a smooth function, or `x |x|` for `sign(x) x^2`"
     )]
-    NotSmooth {
+    Jumps {
         /// The function.
         function: String,
-        /// The defect: a kink or a jump.
-        defect: &'static str,
+    },
+    /// A formula with too few continuous derivatives.
+    #[error(
+        "{formula} must be {times}continuously differentiable, and is not at the kink of `{function}`: {instead}"
+    )]
+    Kink {
+        /// The function with a kink.
+        function: String,
+        /// The formula in which it is.
+        formula: &'static str,
+        /// The number of derivatives, with a space, or nothing.
+        times: &'static str,
         /// The remedy.
         instead: &'static str,
     },

@@ -4,7 +4,7 @@
 //! are collected, equal terms and equal factors are joined, and terms and factors are put in the order in which they first appeared in the
 //! formula. Nothing is expanded: a sum in parentheses stays a term, a product in parentheses a factor.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -19,6 +19,13 @@ pub type Number = BigRational;
 /// A node of a [`Graph`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Id(u32);
+
+impl Id {
+    /// The number of the node: operands have smaller ones.
+    pub(super) fn number(self) -> u64 {
+        self.0.into()
+    }
+}
 
 /// Positions, momenta or velocities.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -221,6 +228,8 @@ pub struct Graph {
     loops: Vec<Loop>,
     /// Whether a derivative needed more loops than allowed.
     overflowed: bool,
+    /// Bases of powers at whose zeros the formulas are smooth.
+    smooth: HashSet<Id>,
 }
 
 impl Graph {
@@ -465,8 +474,9 @@ impl Graph {
         if let Node::Product(inner) = self.node(x)
             && let [(base, power)] = inner.as_slice()
         {
-            let even = (power.numer() % BigInt::from(2)).is_zero();
-            if exponent.is_integer() || !even {
+            let even = |power: &Number| (power.numer() % BigInt::from(2)).is_zero();
+            let whole = power * &exponent;
+            if exponent.is_integer() || !even(power) || whole.is_integer() && even(&whole) {
                 return list.push((*base, power * exponent));
             }
         }
@@ -503,6 +513,85 @@ impl Graph {
     /// `xᵉ`
     pub fn power(&mut self, x: Id, exponent: Number) -> Id {
         self.product(Number::one(), [(x, exponent)])
+    }
+
+    /// `|x|`, which is `(x²)^(1/2)`.
+    pub fn absolute(&mut self, x: Id) -> Id {
+        let (factor, x) = self.scaled(x);
+        if let Some(value) = self.value(x) {
+            let value = value.abs();
+            return self.constant(factor.abs() * value);
+        }
+        let square = self.power(x, integer(2));
+        let root = self.power(square, Number::new(1.into(), 2.into()));
+        self.scale(factor.abs(), root)
+    }
+
+    /// The larger one of two numbers.
+    pub fn larger(&mut self, a: Id, b: Id) -> Id {
+        let difference = self.sum([(integer(1), a), (integer(-1), b)]);
+        let size = self.absolute(difference);
+        let positive = self.sum([(integer(1), difference), (integer(1), size)]);
+        self.sum([(Number::new(1.into(), 2.into()), positive), (integer(1), b)])
+    }
+
+    /// The function x and the exponent e of `(x²)ᵉ`, if the node is a power that is not whole.
+    fn absolute_power(&self, base: Id, exponent: &Number) -> Option<Id> {
+        match self.node(base) {
+            Node::Product(factors) if !exponent.is_integer() => match factors.as_slice() {
+                [(x, power)] if *power == integer(2) => Some(*x),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// For a node `c(x + |x|)` or `c(x − |x|)`, which is zero on one side of `x = 0`: the derivative with respect to x on the other, and x.
+    pub fn positive_part(&self, id: Id) -> Option<(Number, Id)> {
+        let (scale, id) = self.scaled(id);
+        let Node::Sum(terms, constant) = self.node(id) else {
+            return None;
+        };
+        let [(factor, x), (other, size)] = terms.as_slice() else {
+            return None;
+        };
+        let Node::Product(root) = self.node(*size) else {
+            return None;
+        };
+        let [(square, exponent)] = root.as_slice() else {
+            return None;
+        };
+        let is_size = *exponent == Number::new(1.into(), 2.into())
+            && self.absolute_power(*square, exponent) == Some(*x);
+        let same = constant.is_zero() && factor.abs() == other.abs();
+        (is_size && same).then(|| (scale * factor * integer(2), *x))
+    }
+
+    /// The derivative of `baseᵉ`: with respect to which node, its factor, and its other factors. It is that with respect to the base,
+    /// except if the base is the square of x, `(x²)ᵉ = |x|²ᵉ`, or zero on one side of `x = 0`: then it is that with respect to x.
+    pub(super) fn slope_of_power(
+        &self,
+        base: Id,
+        exponent: &Number,
+    ) -> (Id, Number, Vec<(Id, Number)>) {
+        let lower = (base, exponent - Number::one());
+        if let Some(x) = self.absolute_power(base, exponent) {
+            return (x, exponent * integer(2), vec![lower, (x, Number::one())]);
+        }
+        match self.positive_part(base) {
+            Some((slope, x)) if *exponent > Number::one() => (x, exponent * slope, vec![lower]),
+            _ => (base, exponent.clone(), vec![lower]),
+        }
+    }
+
+    /// Declares that the formulas are smooth where the base of a power is zero.
+    pub(super) fn set_smooth(&mut self, base: Id) {
+        self.smooth.insert(base);
+    }
+
+    /// Whether the formulas are smooth where the base of a power is zero.
+    pub fn is_smooth(&self, base: Id) -> bool {
+        self.smooth.contains(&base)
     }
 
     /// The product of two nodes.
@@ -703,7 +792,11 @@ impl Graph {
 
     /// Rebuilds a node with other operands.
     pub fn rebuild(&mut self, id: Id, part: impl FnMut(Id) -> Id) -> Id {
-        self.make(self.node(id).clone(), part)
+        let new = self.make(self.node(id).clone(), part);
+        if self.is_smooth(id) {
+            self.smooth.insert(new);
+        }
+        new
     }
 
     /// Makes a copy of a node, from this graph or another one with the same loops, with other operands.

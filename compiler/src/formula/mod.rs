@@ -19,6 +19,7 @@
 //! | from L to H | [`legendre`] |
 //! | whether a formula vanishes | [`modular`] |
 //! | class, kinetic energy, symmetries | [`structure`] |
+//! | whether a formula is smooth where `|x|` in it has a kink | `smooth` |
 //! | the degree of a polynomial, a singular `∂²H/∂p²` | [`degree`], [`hessian`] |
 //! | the equations of motion | [`System::equations_of_motion`] |
 //! | as text, LaTeX and JSON | [`description`], [`display`] |
@@ -46,6 +47,7 @@ pub mod modular;
 pub mod operations;
 pub mod parse;
 mod rewrite;
+mod smooth;
 pub mod statements;
 pub mod structure;
 pub mod syntax;
@@ -137,11 +139,12 @@ impl System {
     }
 
     fn of_definition(input: Input<'_>, definition: &Definition) -> Result<Self, Error> {
-        let system = elaborate::elaborate(input, definition)?;
-        match definition.form {
-            Form::Hamiltonian => Ok(system),
-            Form::Lagrangian => legendre::transform(system, definition, input),
+        let mut system = elaborate::elaborate(input, definition)?;
+        if definition.form == Form::Lagrangian {
+            system = legendre::transform(system, definition, input)?;
         }
+        system.find_smooth_powers();
+        Ok(system)
     }
 }
 

@@ -42,6 +42,8 @@ pub enum Operation {
     Root(Op),
     /// `|a|`
     Absolute(Op),
+    /// `a`, or 0 if b is 0.
+    OrZero(Op, Op),
     /// An elementary function.
     Elementary(Elementary, Op),
     /// The angle of the point (second, first).
@@ -66,6 +68,7 @@ impl Operation {
             Operation::Add(a, b)
             | Operation::Subtract(a, b)
             | Operation::Multiply(a, b)
+            | Operation::OrZero(a, b)
             | Operation::Atan2(a, b) => vec![a, b],
             Operation::Constant(_)
             | Operation::Pi
@@ -330,6 +333,9 @@ impl<'a> Operations<'a> {
                 let reciprocal = self.add(Operation::Reciprocal(base));
                 let power = self.power(reciprocal, &-exponent, *x);
                 parts[fixed][0].push(power);
+            } else if !exponent.is_integer() && graph.is_smooth(*x) {
+                let power = self.smooth_power(base, exponent, *x);
+                parts[fixed][0].push(power);
             } else {
                 let power = self.power(base, &exponent.abs(), *x);
                 parts[fixed][usize::from(exponent.is_negative())].push(power);
@@ -365,29 +371,53 @@ impl<'a> Operations<'a> {
     fn power(&mut self, base: Op, exponent: &Number, node: Id) -> Op {
         let whole = exponent.floor();
         let rest = exponent - &whole;
-        let mut power = whole
+        let power = whole
             .to_u32()
             .filter(|&n| n > 0)
             .map(|n| self.whole_power(base, n));
-        if !rest.is_zero() {
-            let part = match *rest.denom() == 2.into() {
-                true => match self.square_root_of_square(node) {
-                    Some(op) => self.add(Operation::Absolute(op)),
-                    None => self.add(Operation::Root(base)),
-                },
-                false => {
-                    let logarithm = self.add(Operation::Elementary(Elementary::Ln, base));
-                    let rest = self.constant(&rest);
-                    let product = self.add(Operation::Multiply(rest, logarithm));
-                    self.add(Operation::Elementary(Elementary::Exp, product))
-                }
-            };
-            power = Some(match power {
-                Some(whole) => self.add(Operation::Multiply(whole, part)),
-                None => part,
-            });
+        if rest.is_zero() {
+            return power.unwrap_or_else(|| self.constant(&Number::one()));
         }
-        power.unwrap_or_else(|| self.constant(&Number::one()))
+        let part = match *rest.denom() == 2.into() {
+            true => match self.square_root_of_square(node) {
+                Some(op) => self.add(Operation::Absolute(op)),
+                None => self.add(Operation::Root(base)),
+            },
+            false => {
+                let logarithm = self.add(Operation::Elementary(Elementary::Ln, base));
+                let rest = self.constant(&rest);
+                let product = self.add(Operation::Multiply(rest, logarithm));
+                self.add(Operation::Elementary(Elementary::Exp, product))
+            }
+        };
+        match power {
+            Some(whole) => self.add(Operation::Multiply(whole, part)),
+            None => part,
+        }
+    }
+
+    /// `baseᵉ` for an exponent that is not whole, at whose zeros the formulas are [smooth](Graph::is_smooth): 0 there. A derivative is the
+    /// limit 0 where one of its factors is infinite: in `x·x/|x|` the last one.
+    fn smooth_power(&mut self, base: Op, exponent: &Number, node: Id) -> Op {
+        let size = match *exponent.denom() == 2.into() {
+            true => self.square_root_of_square(node),
+            false => None,
+        };
+        let (base, power) = match size {
+            // |x| has a derivative on either side.
+            Some(_) if exponent.is_positive() => return self.power(base, exponent, node),
+            Some(x) => {
+                let size = self.add(Operation::Absolute(x));
+                let times = exponent.numer().magnitude().to_u32().unwrap_or(1);
+                (size, self.whole_power(size, times))
+            }
+            None => (base, self.power(base, &exponent.abs(), node)),
+        };
+        let power = match exponent.is_negative() {
+            true => self.add(Operation::Reciprocal(power)),
+            false => power,
+        };
+        self.add(Operation::OrZero(power, base))
     }
 
     fn square_root_of_square(&self, node: Id) -> Option<Op> {

@@ -1,9 +1,10 @@
 //! A Hamiltonian system as a graph.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::derivative::Scatter;
 use super::graph::{Coordinate, Graph, Half, Id, LoopId, Number, integer};
+use super::smooth::{Smoothness, kinks};
 use super::syntax::{Ends, Length, Name, Span};
 
 /// A Hamiltonian system that was read from a formula.
@@ -200,6 +201,35 @@ impl System {
             }
         }
         (!terms.is_empty()).then(|| self.graph.sum(terms))
+    }
+
+    /// Finds the powers at whose zeros all formulas are as smooth as they have to be, so that the limits of their derivatives exist.
+    pub(super) fn find_smooth_powers(&mut self) {
+        let mut roots = vec![(self.energy, 2)];
+        roots.extend(self.bonds.iter().map(|bonds| (bonds.potential, 2)));
+        roots.extend(self.applied.iter().map(|part| (part.value, 1)));
+        let parts = |all: &[Constraint]| all.iter().flat_map(|all| all.parts.clone()).collect();
+        let [holonomic, others]: [Vec<Id>; 2] =
+            [parts(&self.constraints), parts(&self.nonholonomic)];
+        roots.extend(holonomic.into_iter().map(|part| (part, 2)));
+        roots.extend(others.into_iter().map(|part| (part, 1)));
+        if let Some(lagrangian) = &self.lagrangian {
+            roots.push((lagrangian.formula, 2));
+            roots.extend(lagrangian.applied.iter().map(|part| (part.value, 1)));
+        }
+        roots.sort_unstable();
+        roots.dedup();
+        let mut bases: BTreeMap<Id, bool> = BTreeMap::new();
+        for (root, order) in roots {
+            for (kink, smoothness) in kinks(&self.graph, root, order, |_| true) {
+                for base in kink.bases {
+                    *bases.entry(base).or_insert(true) &= smoothness == Smoothness::Smooth;
+                }
+            }
+        }
+        for (base, _) in bases.into_iter().filter(|(_, is_smooth)| *is_smooth) {
+            self.graph.set_smooth(base);
+        }
     }
 
     /// Where a node, or the node that it is a multiple of, was first read.

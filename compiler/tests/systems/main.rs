@@ -4,5 +4,6 @@
 
 mod formula;
 mod formulas;
+mod kinks;
 mod lagrangians;
 mod names;

@@ -236,6 +236,14 @@ impl<T: Scalar> Scalar for Dual<T> {
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
+    fn or_zero(self, base: Self) -> Self {
+        Self {
+            value: self.value.or_zero(base.value),
+            slope: self.slope.or_zero(base.value),
+        }
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn abs(self) -> Self {
         self.chain(self.value.abs(), self.value.sign())
     }

@@ -317,6 +317,12 @@ macro_rules! lanes {
                 Self::from_fn(|lane| lanes[lane].sign())
             }
 
+            #[cfg_attr(not(debug_assertions), inline(always))]
+            fn or_zero(self, base: Self) -> Self {
+                let (lanes, base) = (self.to_array(), base.to_array());
+                Self::from_fn(|lane| lanes[lane].or_zero(base[lane]))
+            }
+
             elementary! { exp -> Self, ln -> Self, sin -> Self, cos -> Self, sin_cos -> (Self, Self) }
 
             lane_by_lane! { tan asin acos atan sinh cosh tanh }

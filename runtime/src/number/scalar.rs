@@ -176,6 +176,13 @@ pub trait Scalar:
     fn sign(self) -> Self {
         self.abs() / self
     }
+    /// The number, or 0 with all its derivatives if the value of `base` is 0. Emitted code applies it to a power of `base` where the formula
+    /// is smooth, so that a product that is 0·∞ there is 0, as its limit is.
+    #[doc(hidden)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn or_zero(self, base: Self) -> Self {
+        if base.is_zero() { Self::zero() } else { self }
+    }
     /// Exponential function.
     fn exp(self) -> Self;
     /// Natural logarithm.

@@ -86,6 +86,12 @@ macro_rules! sixteen {
             by_halves! { sqrt recip abs sign exp ln sin cos tan asin acos atan sinh cosh tanh }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
+            fn or_zero(self, base: Self) -> Self {
+                let (Self([a, b]), Self([c, d])) = (self, base);
+                Self([a.or_zero(c), b.or_zero(d)])
+            }
+
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn atan2(self, x: Self) -> Self {
                 let (Self([a, b]), Self([c, d])) = (self, x);
                 Self([a.atan2(c), b.atan2(d)])

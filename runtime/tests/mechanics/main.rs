@@ -22,6 +22,7 @@ mod galerkin;
 mod given_ends;
 mod hamilton_jacobi;
 mod holonomic;
+mod kinks;
 mod lagrangians;
 mod methods;
 mod multipliers;

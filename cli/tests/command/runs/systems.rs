@@ -199,6 +199,31 @@ fn what_is_accepted_of_lower_order_runs() {
     assert_eq!(csv(&folder("lower"), &setup).lines().count(), 12);
 }
 
+/// Spheres that touch, at rest where all functions with kinks are zero: beside a system of the macro.
+#[test]
+fn kinks_are_those_of_the_macro() {
+    ::symplectic::hamiltonian! {
+        Contact q: [x, y], p: [px, py];
+        H = (px^2 + py^2)/2 + max(x - y, 0)^(5/2) + max(-x, 0)^2.2 + |y - 1|^3 + |[x, y]|^2.5
+    }
+    let setup = r#"
+        system = "Contact q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + max(x - y, 0)^(5/2) + max(-x, 0)^2.2 + |y - 1|^3 + |[x, y]|^2.5"
+        method = "gauss-2"
+        step_size = 0.1
+        end = 1.0
+        starts = { x = 0, y = 0, px = { from = 0, to = 0.5, count = 3 }, py = 0 }
+        output.file = "out.csv"
+    "#;
+    let found = columns(&csv(&folder("contact"), setup), &["x", "y", "px", "py"]);
+    let starts = [0.0, 0.25, 0.5].map(|px| State::from_arrays(0.0, [0.0; 2], [px, 0.0]));
+    // Iterations stop within some units of rounding.
+    assert_near(
+        &found,
+        &ends(Gauss2, Contact, starts.to_vec(), 0.1, 1.0),
+        1e-13,
+    );
+}
+
 /// Every function, in steps of size 0.01: beside a system of the macro.
 #[test]
 fn every_function_is_that_of_the_macro() {

@@ -167,6 +167,11 @@ impl Writer<'_> {
             }
             Operation::Root(a) => self.call(names, a, "sqrt", fixed),
             Operation::Absolute(a) => self.call(names, a, "abs", fixed),
+            Operation::OrZero(a, b) => {
+                let [a, b] = both(a, b);
+                let (a, b) = (atom(&a), b.tokens);
+                (quote!(#a.or_zero(#b)), Strength::Atom)
+            }
             Operation::Elementary(function, a) => self.call(names, a, function.name(), fixed),
             Operation::Atan2(a, b) => {
                 let [y, x] = both(a, b);

@@ -9,7 +9,7 @@ use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
 use crate::formula::function::{Elementary, Function};
 use crate::formula::graph::{Id, Node, Number, integer};
-use crate::formula::parse::{NOT_SMOOTH, constant, unknown_function};
+use crate::formula::parse::{JUMPS, constant, unknown_function};
 use crate::formula::syntax::{Expression, Kind, Name};
 
 impl Elaborator<'_> {
@@ -172,19 +172,24 @@ impl Elaborator<'_> {
 
     pub(super) fn power(&mut self, base: &Expression, exponent: &Expression) -> Result<Id, Error> {
         let number = constant(exponent);
-        // Even powers of a length have no root, and higher ones of |x| are smooth.
+        // Even powers of a length have no root.
         if let (Kind::Bars(inner), Some(number)) = (&base.kind, &number) {
             let value = self.value(inner)?;
-            let even = (number / integer(2)).is_integer();
-            let square = match self.whole(value) {
-                Value::Vector(parts) => Some(self.dot(&parts, &parts)),
-                Value::Scalar(id) if even || *number > integer(2) => {
-                    Some(self.graph.power(id, integer(2)))
+            let half = number / integer(2);
+            match self.whole(value) {
+                Value::Vector(parts) => {
+                    let square = self.dot(&parts, &parts);
+                    return self.number_power(square, half, base);
                 }
-                _ => None,
-            };
-            if let Some(square) = square {
-                return self.number_power(square, number / integer(2), base);
+                Value::Scalar(id) if self.graph.value(id).is_none() => {
+                    let (factor, x) = self.graph.scaled(id);
+                    let square = self.graph.power(x, integer(2));
+                    let power = self.number_power(square, half, base)?;
+                    let factor = self.graph.constant(factor.abs());
+                    let factor = self.number_power(factor, number.clone(), base)?;
+                    return Ok(self.graph.multiply(factor, power));
+                }
+                _ => {}
             }
         }
         let value = self.value(base)?;
@@ -205,7 +210,6 @@ impl Elaborator<'_> {
                     };
                     return self.error(exponent, kind);
                 }
-                self.no_kink(x, &number, &(base.span.start..exponent.span.end))?;
                 self.number_power(x, number, base)
             }
             None => {
@@ -261,15 +265,14 @@ impl Elaborator<'_> {
         at: &Expression,
     ) -> Result<Value, Error> {
         let name = function.text.as_str();
-        if NOT_SMOOTH.contains(&name) {
-            return Err(self
-                .input
-                .error(&function.span, kink(&format!("`{name}`")).into()));
+        if JUMPS.contains(&name) {
+            let function = name.to_owned();
+            return Err((self.input).error(&at.span, FormulaError::Jumps { function }.into()));
         }
         if let Some(Value::Abbreviation(k)) = self.names.get(name).cloned() {
             return self.expand(k, arguments, at);
         }
-        let two = matches!(name, "dot" | "cross" | "hypot" | "atan2");
+        let two = matches!(name, "dot" | "cross" | "hypot" | "atan2" | "max" | "min");
         if arguments.len() != 1 + usize::from(two) {
             let kind = ErrorKind::Arguments {
                 function: name.to_owned(),
@@ -285,10 +288,7 @@ impl Elaborator<'_> {
         if let Some(function) = Function::find(name) {
             let x = self.scalar(&arguments[0])?;
             return Ok(Value::Scalar(match function {
-                Function::Sqrt => {
-                    self.no_kink(x, &Number::new(1.into(), 2.into()), &at.span)?;
-                    self.root(x, &arguments[0])?
-                }
+                Function::Sqrt => self.root(x, &arguments[0])?,
                 Function::Elementary(function) => self.elementary(function, x, at)?,
             }));
         }
@@ -338,6 +338,24 @@ impl Elaborator<'_> {
                     }
                 }
             }
+            "abs" => {
+                let x = self.scalar(&arguments[0])?;
+                Value::Scalar(self.graph.absolute(x))
+            }
+            // min(a, b) = −max(−a, −b)
+            "max" | "min" => {
+                let sign = integer(if name == "max" { 1 } else { -1 });
+                let side = |this: &mut Self, k: usize| {
+                    let x = this.scalar(&arguments[k])?;
+                    Ok::<_, Error>(this.graph.scale(sign.clone(), x))
+                };
+                let [a, b] = [side(self, 0)?, side(self, 1)?];
+                let difference = self.graph.sum([(integer(1), a), (integer(-1), b)]);
+                let size = self.graph.absolute(difference);
+                self.keep_power(size, &at.span);
+                let larger = self.graph.larger(a, b);
+                Value::Scalar(self.graph.scale(sign, larger))
+            }
             "hypot" | "atan2" => {
                 let [a, b] = [self.scalar(&arguments[0])?, self.scalar(&arguments[1])?];
                 Value::Scalar(match name {
@@ -352,21 +370,5 @@ impl Elaborator<'_> {
                 return Err(unknown_function(self.input, function));
             }
         })
-    }
-}
-
-/// The error of a function that is not smooth.
-pub(super) fn kink(function: &str) -> FormulaError {
-    let (defect, instead) = match function {
-        "`floor`" | "`ceil`" | "`round`" | "`mod`" | "`sign`" => ("jumps", "use a smooth function"),
-        _ => (
-            "a kink",
-            "use a square, a power above 2 as in `|x|^3`, or `sqrt(x^2 + a^2)`",
-        ),
-    };
-    FormulaError::NotSmooth {
-        function: function.to_owned(),
-        defect,
-        instead,
     }
 }

@@ -1,16 +1,15 @@
-//! Constants without a finite value, and kinks that are written as powers.
+//! Constants without a finite value.
 
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Signed};
 
 use super::Elaborator;
-use super::arithmetic::kink;
 use crate::arithmetic::rounding::to_f64;
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
 use crate::formula::evaluate::{Evaluator, Point};
 use crate::formula::function::Elementary;
-use crate::formula::graph::{Dependence, Graph, Id, Node, Number, integer};
-use crate::formula::syntax::{Expression, Span};
+use crate::formula::graph::{Dependence, Graph, Id, Node, Number};
+use crate::formula::syntax::Expression;
 
 impl Elaborator<'_> {
     /// Refuses a constant that is infinite or NaN in double precision, as the generated code computes it.
@@ -69,34 +68,6 @@ impl Elaborator<'_> {
             None => Ok(self.graph.elementary(function, x)),
         }
     }
-
-    /// Refuses `(x²)ᵉ` where it is `|x|²ᵉ` with a kink: `sqrt(x^2)` is `|x|`.
-    pub(super) fn no_kink(&self, x: Id, exponent: &Number, at: &Span) -> Result<(), Error> {
-        let (_, inner) = self.graph.scaled(x);
-        let Node::Product(factors) = self.graph.node(inner) else {
-            return Ok(());
-        };
-        let two = integer(2);
-        let is_even = |number: &Number| (number / &two).is_integer();
-        let has_kink = |(base, power): &(Id, Number)| {
-            let whole = power * exponent;
-            let depends = self.graph.depends(*base);
-            is_even(power)
-                && whole.is_positive()
-                && whole <= two
-                && !is_even(&whole)
-                && (depends.q || depends.p || depends.v)
-                && !has_one_sign(&self.graph, *base)
-        };
-        match !exponent.is_integer() && factors.iter().any(has_kink) {
-            true => {
-                let written = &self.input.text[at.clone()];
-                let function = format!("`{written}`, a power of an absolute value,");
-                Err(self.input.error(at, kink(&function).into()))
-            }
-            false => Ok(()),
-        }
-    }
 }
 
 /// The value of a node without names, other than a number, in double precision.
@@ -115,26 +86,4 @@ fn constant_value(graph: &Graph, id: Id) -> Option<f64> {
         pairs: Vec::new(),
     };
     Evaluator::new(graph, &nowhere).value(id)
-}
-
-/// Whether a value is visibly never negative.
-fn has_one_sign(graph: &Graph, id: Id) -> bool {
-    match graph.node(id) {
-        Node::Constant(value) => !value.is_negative(),
-        Node::Pi => true,
-        Node::Sum(terms, constant) => {
-            let mut terms = terms.iter();
-            !constant.is_negative()
-                && terms.all(|(factor, x)| factor.is_positive() && has_one_sign(graph, *x))
-        }
-        // An even power, or one whose denominator is even.
-        Node::Product(factors) => factors.iter().all(|(x, exponent)| {
-            let [above, below] =
-                [exponent.numer(), exponent.denom()].map(|part| (part % 2_u32).is_zero());
-            above || below || has_one_sign(graph, *x)
-        }),
-        Node::Elementary(Elementary::Exp | Elementary::Cosh | Elementary::Acos, _) => true,
-        Node::Total(_, body) => has_one_sign(graph, *body),
-        _ => false,
-    }
 }

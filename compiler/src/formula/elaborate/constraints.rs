@@ -1,5 +1,6 @@
 //! Holonomic constraints.
 
+use super::smooth::Role;
 use super::{Elaborator, Value};
 use crate::error::Error;
 use crate::formula::error::FormulaError;
@@ -90,6 +91,9 @@ impl Elaborator<'_> {
                 instead: "a holonomic constraint is a function of the positions that is zero",
             };
             return self.error(written, kind);
+        }
+        for &part in &parts {
+            self.check_smooth(part, Role::Constraint, written)?;
         }
         Ok(parts)
     }

@@ -1,5 +1,6 @@
 //! Applied forces and friction.
 
+use super::smooth::Role;
 use super::values::counted;
 use super::{Elaborator, Momenta, Value};
 use crate::error::{Error, ErrorKind};
@@ -77,6 +78,9 @@ impl Elaborator<'_> {
             for &part in &parts {
                 self.no_velocity(part, value)?;
             }
+        }
+        for &part in &parts {
+            self.check_smooth(part, Role::Force, value)?;
         }
         if parts.len() != coordinates.len() {
             let kind = ErrorKind::Type {

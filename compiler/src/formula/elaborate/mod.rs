@@ -7,12 +7,14 @@ mod declarations;
 mod forces;
 mod indices;
 mod nonholonomic;
+mod smooth;
 mod totals;
 mod values;
 
 use std::collections::HashMap;
 
 use self::declarations::{check_names, coordinate, layout, parameters};
+use self::smooth::Role;
 pub use self::totals::STRETCH;
 use super::error::FormulaError;
 use super::graph::{Base, Coordinate, Graph, Half, Id, Index, LoopId, Node};
@@ -83,6 +85,7 @@ pub fn elaborate(input: Input<'_>, definition: &Definition) -> Result<System, Er
         bonds: Vec::new(),
         least: 0,
         places: HashMap::new(),
+        powers: HashMap::new(),
     };
     elaborator.run()
 }
@@ -111,6 +114,8 @@ struct Elaborator<'a> {
     least: usize,
     /// Where a node was first read.
     places: HashMap<Id, Span>,
+    /// Where the base of a power that is not whole was first read.
+    powers: HashMap<Id, Span>,
 }
 
 impl Elaborator<'_> {
@@ -176,6 +181,7 @@ impl Elaborator<'_> {
         if definition.form == Form::Hamiltonian {
             self.no_velocity(energy, written)?;
         }
+        self.check_smooth(energy, Role::Function, written)?;
         self.momenta = Momenta::Known;
         let constraints = self.constraints()?;
         let applied = self.forces()?;
@@ -217,6 +223,9 @@ impl Elaborator<'_> {
                     instead: "write it with the momenta: `p`, or `pa` for the coordinate `a`",
                 };
                 return self.error(written, kind);
+            }
+            for &part in &parts {
+                self.check_smooth(part, Role::Quantity, written)?;
             }
             invariants.push(Invariant {
                 name: name.text.clone(),

@@ -3,6 +3,7 @@
 use num_traits::One;
 
 use super::Elaborator;
+use super::smooth::Role;
 use crate::error::Error;
 use crate::formula::derivative::gradient;
 use crate::formula::error::FormulaError;
@@ -57,6 +58,7 @@ impl Elaborator<'_> {
         let parts = self.one_or_more(written)?;
         for &part in &parts {
             self.form(part, written)?;
+            self.check_smooth(part, Role::Form, written)?;
         }
         Ok(parts)
     }

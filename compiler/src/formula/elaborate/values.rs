@@ -1,6 +1,5 @@
 //! Values with their shapes, names, and errors about them.
 
-use super::arithmetic::kink;
 use super::{Elaborator, MOST_COMPONENTS, MOST_NODES, Momenta, Value};
 use crate::error::{Error, ErrorKind};
 use crate::formula::error::FormulaError;
@@ -155,6 +154,7 @@ impl Elaborator<'_> {
         let value = self.value_of(written)?;
         if let Value::Scalar(id) = value {
             self.check_finite(id, written)?;
+            self.keep_power(id, &written.span);
             self.places
                 .entry(id)
                 .or_insert_with(|| written.span.clone());
@@ -174,7 +174,7 @@ impl Elaborator<'_> {
             Kind::Bars(inner) => {
                 let value = self.value(inner)?;
                 match self.whole(value) {
-                    Value::Scalar(_) => return self.error(written, kink("`|…|` of a number")),
+                    Value::Scalar(id) => Value::Scalar(self.graph.absolute(id)),
                     Value::Vector(parts) => {
                         let square = self.dot(&parts, &parts);
                         Value::Scalar(self.root(square, inner)?)

@@ -577,14 +577,16 @@ impl<'a> Parser<'a> {
 }
 
 fn is_function(name: &str) -> bool {
-    Function::find(name).is_some() || VECTOR_FUNCTIONS.contains(&name) || NOT_SMOOTH.contains(&name)
+    Function::find(name).is_some() || VECTOR_FUNCTIONS.contains(&name) || JUMPS.contains(&name)
 }
 
 /// The functions of vectors, and of several numbers.
-pub const VECTOR_FUNCTIONS: [&str; 5] = ["norm", "dot", "cross", "hypot", "atan2"];
+pub const VECTOR_FUNCTIONS: [&str; 8] = [
+    "norm", "dot", "cross", "hypot", "atan2", "abs", "max", "min",
+];
 
 /// Functions that are recognised, and rejected with a reason.
-pub const NOT_SMOOTH: [&str; 8] = ["abs", "min", "max", "sign", "floor", "ceil", "round", "mod"];
+pub const JUMPS: [&str; 5] = ["sign", "floor", "ceil", "round", "mod"];
 
 /// The value of a numeric expression.
 pub fn constant(expression: &Expression) -> Option<BigRational> {

@@ -71,10 +71,11 @@ const _: () = {
             let q = &q.data.0[0];
             let p = &p.data.0[0];
             let force = &mut force.data.0[0];
-            let x1 = (p[0] * p[0] + p[1] * p[1]).sqrt();
-            force[1] = -(T::from_f64(self.c) * p[1] * x1 + T::from_f64(self.g));
-            let x2 = time.sin();
-            force[0] = x2 - T::from_f64(self.c) * p[0] * x1;
+            let x1 = p[0] * p[0] + p[1] * p[1];
+            let x2 = x1.sqrt().or_zero(x1);
+            force[1] = -(T::from_f64(self.c) * p[1] * x2 + T::from_f64(self.g));
+            let x3 = time.sin();
+            force[0] = x3 - T::from_f64(self.c) * p[0] * x2;
         }
         #[inline(always)]
         fn slopes<T: Scalar>(
@@ -96,10 +97,11 @@ const _: () = {
             let force = &mut force.data.0[0];
             velocity[0] = p[0];
             velocity[1] = p[1];
-            let x1 = (p[0] * p[0] + p[1] * p[1]).sqrt();
-            force[1] = -(T::from_f64(self.c) * p[1] * x1 + T::from_f64(self.g));
-            let x2 = time.sin();
-            force[0] = x2 - T::from_f64(self.c) * p[0] * x1;
+            let x1 = p[0] * p[0] + p[1] * p[1];
+            let x2 = x1.sqrt().or_zero(x1);
+            force[1] = -(T::from_f64(self.c) * p[1] * x2 + T::from_f64(self.g));
+            let x3 = time.sin();
+            force[0] = x3 - T::from_f64(self.c) * p[0] * x2;
         }
         fn energy<T: Scalar>(
             &self,
@@ -124,10 +126,11 @@ const _: () = {
             let q = &q.data.0[0];
             let p = &p.data.0[0];
             let applied = &mut applied.data.0[0];
-            let x1 = (p[0] * p[0] + p[1] * p[1]).sqrt();
-            applied[1] = -T::from_f64(self.c) * p[1] * x1;
-            let x2 = time.sin();
-            applied[0] = x2 - T::from_f64(self.c) * p[0] * x1;
+            let x1 = p[0] * p[0] + p[1] * p[1];
+            let x2 = x1.sqrt().or_zero(x1);
+            applied[1] = -T::from_f64(self.c) * p[1] * x2;
+            let x3 = time.sin();
+            applied[0] = x3 - T::from_f64(self.c) * p[0] * x2;
         }
         ::symplectic::emitted::if_alloc! {
             fn second_derivatives < T : Scalar > (& self, time : T, q : &
@@ -135,13 +138,14 @@ const _: () = {
             ::symplectic::nalgebra::SVector < T, 2 >, jacobian : & mut
             ::symplectic::system::Jacobian < T >) -> bool { let q = & q.data.0[0]; let p
             = & p.data.0[0]; jacobian.velocity_by_momentum.add(0, 0, T::one()); jacobian
-            .velocity_by_momentum.add(1, 1, T::one()); let x1 = (p[0] * p[0] + p[1] *
-            p[1]).sqrt(); let x2 = x1.recip(); let x3 = T::from_f64(self.c) * p[1] * x2;
-            jacobian.applied_force_by_momentum.add(1, 0, - p[0] * x3); let x4 =
-            T::from_f64(self.c) * x1; jacobian.applied_force_by_momentum.add(1, 1, - (x4
-            + p[1] * x3)); let x5 = T::from_f64(self.c) * p[0] * x2; jacobian
-            .applied_force_by_momentum.add(0, 0, - (x4 + p[0] * x5)); jacobian
-            .applied_force_by_momentum.add(0, 1, - p[1] * x5); true }
+            .velocity_by_momentum.add(1, 1, T::one()); let x1 = p[0] * p[0] + p[1] *
+            p[1]; let x2 = x1.sqrt(); let x3 = x2.recip().or_zero(x1); let x4 =
+            T::from_f64(self.c) * p[1] * x3; jacobian.applied_force_by_momentum.add(1, 0,
+            - p[0] * x4); let x5 = T::from_f64(self.c) * x2.or_zero(x1); jacobian
+            .applied_force_by_momentum.add(1, 1, - (x5 + p[1] * x4)); let x6 =
+            T::from_f64(self.c) * p[0] * x3; jacobian.applied_force_by_momentum.add(0, 0,
+            - (x5 + p[0] * x6)); jacobian.applied_force_by_momentum.add(0, 1, - p[1] *
+            x6); true }
         }
         #[allow(non_snake_case, clippy::all)]
         fn half_bandwidth(&self) -> usize {

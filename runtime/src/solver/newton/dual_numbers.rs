@@ -51,6 +51,11 @@ impl Scalar for Dual64 {
     }
 
     #[inline]
+    fn or_zero(self, base: Self) -> Self {
+        Self::new(self.re.or_zero(base.re), self.eps.or_zero(base.re))
+    }
+
+    #[inline]
     fn atan2(self, x: Self) -> Self {
         DualNum::atan2(&self, x)
     }

@@ -80,6 +80,8 @@ pub(in super::super) struct Functions {
     pub root: &'static str,
     /// The absolute value.
     pub absolute: &'static str,
+    /// The number `a`, or 0 if `b` is 0.
+    pub or_zero: &'static str,
     /// The natural logarithm.
     pub logarithm: &'static str,
     /// The angle of a point.

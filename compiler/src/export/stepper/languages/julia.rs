@@ -65,6 +65,7 @@ pub(super) const FORMULAS: Formulas = Formulas {
     functions: Functions {
         root: "sqrt",
         absolute: "abs",
+        or_zero: "ifelse(@b@ == 0.0, 0.0, @a@)",
         logarithm: "log",
         angle: "atan",
         prefix: "",

@@ -301,6 +301,11 @@ impl Writer<'_> {
             }
             Operation::Root(a) => call(functions.root, a),
             Operation::Absolute(a) => call(functions.absolute, a),
+            Operation::OrZero(a, b) => {
+                let [a, b] = [a, b].map(|op| at_least(op, Strength::Atom));
+                let values = [("a", &a[..]), ("b", &b)];
+                (fill(functions.or_zero, &values), Strength::Atom)
+            }
             Operation::Elementary(Elementary::Ln, a) => call(functions.logarithm, a),
             Operation::Elementary(function, a) => {
                 call(&format!("{}{}", functions.prefix, function.name()), a)
