@@ -49,7 +49,8 @@ impl Names<'_> {
             if system.graph.overflowed() {
                 return Err(Refusal::TooLong);
             }
-            let unrolled = Unrolled::new(&system, &values, &[part])?;
+            let start = Some(self.setup.start());
+            let unrolled = Unrolled::new(&system, &values, &[part], start)?;
             unrolled.tape(&[unrolled.of(part)?])
         };
         tape().map_err(|refusal| {

@@ -34,10 +34,12 @@ use crate::report;
 pub(super) type Vector = DVector<f64>;
 pub(super) type States = Vec<State<Vector>>;
 type Made<S, R> = Ensemble<AtRunTime, S, Vector, R>;
+/// Runs the trajectories of an ensemble.
+type Task<'a, S, R, N> = fn(&Run<'a>, &mut Ensemble<AtRunTime, S, Vector, R, N>, Keep<'_>);
 /// Keeps a finished trajectory.
 pub(super) type Keep<'k> = &'k mut dyn FnMut(Trajectory) -> ControlFlow<()>;
 
-impl Run<'_> {
+impl<'a> Run<'a> {
     pub(super) fn with_class<C: Class + Conservative>(
         self,
         starts: Vec<Start>,
@@ -88,6 +90,20 @@ impl Run<'_> {
             }
             parameters.push(start.parameters);
         }
+        for own in parameters.iter().filter(|_| self.tapes.has_friction()) {
+            let own = Parameters::Own(own.as_slice().into());
+            let last = *last.unwrap_or(&end);
+            let factors = self.tapes.factors(&own, last).unwrap_or_default();
+            if factors
+                .iter()
+                .any(|factor| !(1e-250..1e250).contains(factor))
+            {
+                let message = format!(
+                    "the friction changes momenta by more than a factor of 1e250 until the time {last}: give an earlier end"
+                );
+                return Err(self.file.error(self.setup.system.span(), message));
+            }
+        }
         let tableau = &self.method.tableau;
         let newton = self.setup.solver.as_ref().map(Spanned::get_ref) == Some(&Iteration::Newton);
         if self.has_chaos() {
@@ -115,7 +131,7 @@ impl Run<'_> {
         mut ensemble: Ensemble<AtRunTime, S, Vector, R, N>,
         parameters: &[Vec<f64>],
         progress: &Progress,
-        task: fn(&Self, &mut Ensemble<AtRunTime, S, Vector, R, N>, Keep<'_>),
+        task: Task<'a, S, R, N>,
     ) -> Result<ExitCode, Error>
     where
         S: System<Vector> + Clone + Send + Sync,
@@ -144,7 +160,8 @@ impl Run<'_> {
         rows.reserve(all.saturating_sub(before));
         let began = Instant::now();
         let shown = progress.show(all, before);
-        let mut keep = |row: Trajectory| {
+        let mut keep = |mut row: Trajectory| {
+            self.damp(&mut row, parameters);
             rows.push(row);
             progress.finished();
             resume.save(&rows);
@@ -234,6 +251,26 @@ impl Run<'_> {
             (None, None) => {
                 ensemble.integrate_to(end, |row| keep(row.into()));
             }
+        }
+    }
+
+    /// With friction, the momenta of a trajectory from those of the integrator, which have factors.
+    fn damp(&self, row: &mut Trajectory, parameters: &[Vec<f64>]) {
+        if !self.tapes.has_friction() {
+            return;
+        }
+        let own = parameters.get(row.number).map_or(&[][..], Vec::as_slice);
+        let own = Parameters::Own(own.into());
+        let damp = |time: f64, momenta: &mut [f64]| {
+            let factors = self.tapes.factors(&own, time).unwrap_or_default();
+            for (momentum, factor) in momenta.iter_mut().zip(factors) {
+                *momentum *= factor;
+            }
+        };
+        let dimension = row.state.q.len();
+        damp(row.state.time, row.state.p.as_mut_slice());
+        for numbers in row.output.chunks_exact_mut(1 + 2 * dimension) {
+            damp(numbers[0], &mut numbers[1 + dimension..]);
         }
     }
 

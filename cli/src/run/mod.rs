@@ -123,6 +123,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         let message = "MEGNO is computed at the end only: give `end` without `times` and `section`";
         return Err(file.error(megno.span(), message));
     }
+    refuse_with_friction(&file, &setup, &system, &method)?;
     if let Some(solver) = &setup.solver
         && structure.split.is_ok()
         && method.tableau.is_explicit()
@@ -134,7 +135,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         return Err(file.error(solver.span(), message));
     }
     if let Some(bound) = &setup.warn_energy_error
-        && !(*bound.get_ref() >= 0.0)
+        && (bound.get_ref().is_nan() || *bound.get_ref() < 0.0)
     {
         let message = format!(
             "`warn_energy_error` is {}: it must be a number from 0, or `inf` for no warning",
@@ -151,7 +152,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let (coordinates, given) = reader.read()?;
     let bodies = coordinates.dimension() / system.layout.components().max(1);
     let values = parameters::read(&file, &setup, &system, bodies, &coordinates.parameters)?;
-    let tapes = Tapes::new(&mut system, &structure, &values).map_err(|refusal| {
+    let tapes = Tapes::new(&mut system, &structure, &values, setup.start()).map_err(|refusal| {
         let message = match refusal {
             Refusal::TooLong => format!(
                 "with its sums written out, the formula has more than {MOST_STEPS} operations: take fewer bodies, or write a program with the macro `hamiltonian!`"
@@ -214,6 +215,33 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     }
 }
 
+/// Refuses what is not defined with friction.
+fn refuse_with_friction(
+    file: &File<'_>,
+    setup: &Setup,
+    system: &System,
+    method: &Method,
+) -> Result<(), Error> {
+    if system.friction.is_empty() {
+        return Ok(());
+    }
+    if let Some(megno) = &setup.megno {
+        let message = "MEGNO is computed without friction only";
+        return Err(file.error(megno.span(), message));
+    }
+    let orders = method.tableau.orders();
+    if orders.nystrom > orders.separable && !setup.accept_lower_order {
+        let message = format!(
+            "`{}` has order {} without friction, but only {} with it: take another method, or write `accept_lower_order = true`",
+            method.tableau.name(),
+            orders.nystrom,
+            orders.separable
+        );
+        return Err(file.error(setup.method.span(), message));
+    }
+    Ok(())
+}
+
 /// Refuses an output that would overwrite the starts.
 fn refuse_overwriting(file: &File<'_>, setup: &Setup, output: &Path) -> Result<(), Error> {
     let Starts::File(name) = setup.starts.get_ref() else {
@@ -261,7 +289,7 @@ fn named(path: PathBuf, shard: Option<Shard>) -> PathBuf {
     }
 }
 
-/// The system of the formula, which must have no constraints, friction or applied forces.
+/// The system of the formula, which must have no constraints or applied forces.
 fn read_system(file: &File<'_>, setup: &Setup) -> Result<(System, Structure), Error> {
     let (span, text) = (setup.system.span(), setup.system.get_ref());
     let name = format!("`system` in {}", file.path.display());
@@ -273,8 +301,8 @@ fn read_system(file: &File<'_>, setup: &Setup) -> Result<(System, Structure), Er
         Some("a Lagrangian that is not quadratic in the velocities")
     } else if !system.functions.is_empty() {
         Some("functions that are written in Rust")
-    } else if !system.is_free() {
-        Some("constraints, friction and applied forces")
+    } else if system.is_constrained() || !system.applied.is_empty() {
+        Some("constraints and applied forces")
     } else {
         None
     };

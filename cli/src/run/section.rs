@@ -141,7 +141,7 @@ mod tests {
             bodies: 1,
             ..Values::default()
         };
-        let tapes = Arc::new(Tapes::new(&mut system, &structure, &values).expect("tapes"));
+        let tapes = Arc::new(Tapes::new(&mut system, &structure, &values, 0.0).expect("tapes"));
         let section = Section {
             tape: Tape {
                 inputs: vec![Input::Position(0)],

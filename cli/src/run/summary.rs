@@ -34,8 +34,7 @@ fn energy<'a>(results: &'a Results<'_>, bound: f64) -> Energy<'a> {
         let times = seen.chain([row.state.time]);
         let mut is_above = false;
         for (error, time) in errors.into_iter().map(f64::abs).zip(times) {
-            // NaN is not at most the bound.
-            is_above |= !(error <= bound);
+            is_above |= error > bound || error.is_nan();
             let is_larger = |largest: f64| error > largest || error.is_nan() && !largest.is_nan();
             if energy
                 .largest
@@ -78,7 +77,7 @@ pub(super) fn summary(
         let first = format!("{count}: trajectory {}: {message}", first.number);
         lines.push([format!("failed, {kind}"), first]);
     }
-    let is_conserved = !results.tapes.energy_depends_on_time();
+    let is_conserved = results.tapes.energy_is_conserved();
     let energy = energy(results, bound);
     let whose = energy
         .largest

@@ -25,7 +25,7 @@ pub(super) fn outer_root(
     // A double root halves the distance only.
     for _ in 0..5000 {
         let next = x - value / slope;
-        if !(next < x) {
+        if next >= x || next.is_nan() {
             break;
         }
         let [next_value, next_slope] = at(next);

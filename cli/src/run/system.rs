@@ -25,6 +25,8 @@ pub(super) struct Tapes {
     /// Velocity followed by force.
     slopes: Tape,
     energy: Tape,
+    /// With friction, the factors of the momenta in the states of integrators.
+    factors: Option<Tape>,
 }
 
 impl Tapes {
@@ -33,6 +35,7 @@ impl Tapes {
         system: &mut System,
         structure: &Structure,
         values: &Values,
+        start: f64,
     ) -> Result<Self, Refusal> {
         let energy = system.energy;
         let (kinetic, potential) = match structure.split {
@@ -46,21 +49,43 @@ impl Tapes {
             return Err(Refusal::TooLong);
         }
         let parts = velocity.iter().chain(&force).map(|part| part.value);
-        let mut unrolled = Unrolled::new(system, values, &parts.collect::<Vec<_>>())?;
+        let mut unrolled = Unrolled::new(system, values, &parts.collect::<Vec<_>>(), Some(start))?;
         let velocity = unrolled.gradient(&velocity)?;
         let force = unrolled.gradient(&force)?;
-        let of_energy = Unrolled::new(system, values, &[energy])?;
+        let force = unrolled.undamped(force)?;
+        let factors = unrolled.factors()?;
+        let of_energy = Unrolled::new(system, values, &[energy], None)?;
         Ok(Tapes {
             slopes: unrolled.tape(&[velocity.as_slice(), &force].concat())?,
             velocity: unrolled.tape(&velocity)?,
             force: unrolled.tape(&force)?,
+            factors: factors.map(|factors| unrolled.tape(&factors)).transpose()?,
             energy: of_energy.tape(&[of_energy.of(energy)?])?,
         })
     }
 
-    /// Whether H changes with time along trajectories without any error.
-    pub(super) fn energy_depends_on_time(&self) -> bool {
-        self.energy.inputs.contains(&Input::Time)
+    /// Whether H is conserved along trajectories without any error.
+    pub(super) fn energy_is_conserved(&self) -> bool {
+        !self.energy.inputs.contains(&Input::Time) && self.factors.is_none()
+    }
+
+    /// Whether momenta have friction.
+    pub(super) fn has_friction(&self) -> bool {
+        self.factors.is_some()
+    }
+
+    /// The factors of the momenta in the states of integrators at a time, if there is friction.
+    pub(super) fn factors(&self, parameters: &Parameters, time: f64) -> Option<Vec<f64>> {
+        let tape = self.factors.as_ref()?;
+        let at = At {
+            parameters,
+            time,
+            q: &[],
+            p: &[],
+        };
+        let mut factors = vec![1.0; tape.results.len()];
+        tape.run(1, |_| at, |_, k, value| factors[k] = value);
+        Some(factors)
     }
 
     /// The tape of H.
@@ -234,6 +259,8 @@ impl<C: Class> Hamiltonian for Formula<C> {
     }
 
     fn energy<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>) -> Option<T> {
-        Some(self.tapes.energy_at(at(&self.parameters, (time, q, p))))
+        // With friction the momenta of the states have factors, and the energy is not conserved.
+        let energy = || self.tapes.energy_at(at(&self.parameters, (time, q, p)));
+        self.tapes.factors.is_none().then(energy)
     }
 }

@@ -59,6 +59,15 @@ pub(super) struct Unrolled<'a> {
     list: Vec<Value>,
     numbers: HashMap<Value, Number>,
     looked_at: usize,
+    damping: Option<Damping>,
+}
+
+/// Friction −γp of trajectories from a time t₀. A tape reads the momenta e^{γ(t − t₀)} p: without the Hamiltonian these do not change.
+#[derive(Debug, Clone)]
+struct Damping {
+    start: f64,
+    /// The rates γ, of which component k of the momentum has the one with the index k modulo their number.
+    rates: Vec<Number>,
 }
 
 impl<'a> Unrolled<'a> {
@@ -67,8 +76,10 @@ impl<'a> Unrolled<'a> {
         system: &'a System,
         values: &'a Values,
         roots: &[Id],
+        start: Option<f64>,
     ) -> Result<Self, Refusal> {
-        let operations = Operations::new(&system.graph, roots);
+        let rates = start.map_or(&[][..], |_| &system.friction);
+        let operations = Operations::new(&system.graph, &[roots, rates].concat());
         let mut unrolled = Unrolled {
             system,
             values,
@@ -81,6 +92,7 @@ impl<'a> Unrolled<'a> {
             list: Vec::new(),
             numbers: HashMap::new(),
             looked_at: 0,
+            damping: None,
         };
         let all: Vec<Op> = unrolled.operations.all().collect();
         for k in 0..system.graph.count_loops() {
@@ -88,8 +100,62 @@ impl<'a> Unrolled<'a> {
             let changing = all.iter().filter(changes).copied().collect();
             unrolled.changing.insert(LoopId(k), changing);
         }
+        if let Some(start) = start.filter(|_| !rates.is_empty()) {
+            // Rates depend on parameters only.
+            let below = unrolled.below(rates);
+            let below: Vec<Op> = all
+                .iter()
+                .copied()
+                .filter(|op| below.contains(op))
+                .collect();
+            unrolled.compute_all(&below)?;
+            let rates = rates.iter().map(|rate| unrolled.of(*rate));
+            let rates = rates.collect::<Result<_, _>>()?;
+            unrolled.damping = Some(Damping { start, rates });
+        }
         unrolled.compute_all(&all)?;
         Ok(unrolled)
+    }
+
+    /// The operations of some nodes, and those below.
+    fn below(&self, nodes: &[Id]) -> HashSet<Op> {
+        let mut open: Vec<Op> = nodes.iter().map(|id| self.operations.of(*id)).collect();
+        let mut below: HashSet<Op> = open.iter().copied().collect();
+        while let Some(op) = open.pop() {
+            let operands = self.operations.get(op).operands();
+            open.extend(operands.into_iter().filter(|op| below.insert(*op)));
+        }
+        below
+    }
+
+    /// e^{−γ(t − t₀)} for a component of the momentum, or e^{γ(t − t₀)}; `None` without friction.
+    fn damping(&mut self, place: usize, grows: bool) -> Result<Option<Number>, Refusal> {
+        let Some(Damping { start, rates }) = self.damping.clone() else {
+            return Ok(None);
+        };
+        let time = self.add(Value::Time)?;
+        let start = self.constant(start)?;
+        let elapsed = self.step(Code::Subtract, &[time, start])?;
+        let mut exponent = self.step(Code::Multiply, &[rates[place % rates.len()], elapsed])?;
+        if !grows {
+            exponent = self.step(Code::Negative, &[exponent])?;
+        }
+        self.step(Code::Exp, &[exponent]).map(Some)
+    }
+
+    /// The force on the momenta that a tape reads.
+    pub(super) fn undamped(&mut self, force: Vec<Number>) -> Result<Vec<Number>, Refusal> {
+        let each = |(place, force)| match self.damping(place, true)? {
+            Some(growth) => self.step(Code::Multiply, &[growth, force]),
+            None => Ok(force),
+        };
+        force.into_iter().enumerate().map(each).collect()
+    }
+
+    /// The factors of the momenta that a tape reads; `None` without friction.
+    pub(super) fn factors(&mut self) -> Result<Option<Vec<Number>>, Refusal> {
+        let count = self.values.bodies * self.system.layout.components();
+        (0..count).map(|place| self.damping(place, false)).collect()
     }
 
     /// The value of a node outside of loops.
@@ -261,12 +327,14 @@ impl<'a> Unrolled<'a> {
                     return Ok(None);
                 };
                 let place = index * self.system.layout.components() + coordinate.component;
-                return self
-                    .add(match coordinate.half {
-                        Half::Q => Value::Position(place),
-                        Half::P | Half::V => Value::Momentum(place),
-                    })
-                    .map(Some);
+                if let Half::Q = coordinate.half {
+                    return self.add(Value::Position(place)).map(Some);
+                }
+                let momentum = self.add(Value::Momentum(place))?;
+                return match self.damping(place, false)? {
+                    Some(factor) => self.step(Code::Multiply, &[factor, momentum]).map(Some),
+                    None => Ok(Some(momentum)),
+                };
             }
             Operation::Total(over, body) => {
                 return match self.total(over, body) {

@@ -3,6 +3,7 @@
 mod chaos;
 mod derived;
 mod files;
+mod friction;
 mod kept;
 mod newton;
 mod numbers;
