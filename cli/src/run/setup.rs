@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor, value::MapAccessDeserializer};
 use symplectic_compiler::{Error, ErrorKind, Place};
-use toml::{Spanned, Value};
+use toml::{Spanned, Table, Value};
 
 use super::keys;
 
@@ -130,13 +130,34 @@ impl TryFrom<String> for Iteration {
 
 /// The output times.
 #[derive(Debug, Clone, Deserialize)]
-#[serde(
-    untagged,
-    expecting = "expected a list of times, or { from, to, count }"
-)]
+#[serde(try_from = "Value")]
 pub(super) enum Times {
     List(Vec<f64>),
     Range(Evenly),
+}
+
+impl TryFrom<Value> for Times {
+    type Error = String;
+
+    fn try_from(value: Value) -> Result<Self, String> {
+        let found = match &value {
+            Value::Array(list) => {
+                let wrong = list.iter().position(|entry| number(entry).is_none());
+                let Some(wrong) = wrong else {
+                    return Ok(Times::List(list.iter().filter_map(number).collect()));
+                };
+                format!("entry {wrong} is {}", found(&list[wrong]))
+            }
+            Value::Table(table) => match Evenly::of(table) {
+                Ok(range) => return Ok(Times::Range(range)),
+                Err(message) => message,
+            },
+            other => format!("found {}", found(other)),
+        };
+        Err(format!(
+            "expected a list of times, or {{ from, to, count }}; {found}"
+        ))
+    }
 }
 
 /// Equidistant numbers, including both ends.
@@ -303,6 +324,19 @@ impl Setup {
 }
 
 impl Evenly {
+    /// Reads a table; the error is a message.
+    pub(super) fn of(table: &Table) -> Result<Self, String> {
+        let keys = ["from", "to", "count"];
+        if let Some(other) = table.keys().find(|key| !keys.contains(&key.as_str())) {
+            return Err(format!("there is no key `{other}` beside `from`"));
+        }
+        if let Some(missing) = keys.iter().find(|key| !table.contains_key(**key)) {
+            return Err(format!("the key `{missing}` is missing"));
+        }
+        let range = Value::Table(table.clone()).try_into::<Self>();
+        range.map_err(|_| "`from` and `to` need numbers, and `count` a whole number".to_owned())
+    }
+
     /// The numbers; the error is a message.
     pub(super) fn numbers(self) -> Result<Vec<f64>, String> {
         let Evenly { from, to, count } = self;

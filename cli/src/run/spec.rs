@@ -110,13 +110,8 @@ impl Spec {
             "uniform" => pair(kind).map(Spec::Uniform),
             "normal" => pair(kind).map(Spec::Normal),
             _ => {
-                if let Some(missing) = keys.iter().find(|key| !table.contains_key(**key)) {
-                    return Err(format!("the key `{missing}` is missing: {EXPECTED}"));
-                }
-                let range = value.clone().try_into::<Evenly>();
-                let range = range.map_err(|_| {
-                    "`from` and `to` need numbers, and `count` a whole number".to_owned()
-                })?;
+                let range = Evenly::of(table);
+                let range = range.map_err(|message| format!("{message}: {EXPECTED}"))?;
                 range.numbers().map(Spec::Values)
             }
         }

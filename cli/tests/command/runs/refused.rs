@@ -363,6 +363,29 @@ fn wrong_values_are_named_with_what_is_expected() {
         assert!(setup.contains(from), "{from}");
         setup.replacen(from, to, 1)
     };
+    let times = "`times`: expected a list of times, or { from, to, count }; ";
+    for (to, what) in [
+        ("['1']", "entry 0 is a string"),
+        ("'1'", "found a string"),
+        ("{ from = 0, to = 1 }", "the key `count` is missing"),
+        (
+            "{ from = 0, to = 1, cout = 2 }",
+            "there is no key `cout` beside `from`",
+        ),
+        (
+            "{ from = 0, to = '1', count = 2 }",
+            "`from` and `to` need numbers",
+        ),
+    ] {
+        let setup = replaced(PENDULUM, "end = 10.0", &format!("times = {to}"));
+        let error = call(&folder, &setup, &[]).stderr;
+        let error = String::from_utf8_lossy(&error);
+        let told = format!("{times}{what}");
+        assert!(
+            error.contains(&told) && error.contains("setup.toml:5:13"),
+            "{told}: {error}"
+        );
+    }
     for (setup, from, to, place, message) in [
         (
             PENDULUM,
