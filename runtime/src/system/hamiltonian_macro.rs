@@ -39,11 +39,13 @@
 /// | written | coordinates | vectors |
 /// |---|---|---|
 /// | `q: [a, b], p: [pa, pb];` | with names | `SVector<T, 2>` |
+/// | `q: [q], p: [p];` | a single one, with its letter as its name | `SVector<T, 1>` |
 /// | `q: [4], p: [4];` | `q[0]` … `q[3]` | `SVector<T, 4>` |
 /// | `Name<N>`, a capital letter, and `q: [N; 3], p: [N; 3];` | `N` bodies in space, `q[i]` is a vector | `SMatrix<T, 3, N>`, a column each |
 /// | `q: [..], p: [..];`, `q: [..; 3], p: [..; 3];` | numbers or vectors, whose count is known at run time only | `DVector<T>`, one body after the other: `x0, y0, z0, x1, …` |
 ///
-/// Indices begin at 0.
+/// Indices begin at 0. A name has one meaning: a parameter, a coordinate, an abbreviation, a function and the index of a sum need different
+/// names.
 ///
 /// # Parameters
 ///
@@ -66,15 +68,19 @@
 /// Juxtaposition is multiplication: `2 a b`. A product after `/` needs parentheses. A formula may contain
 ///
 /// * `+ - * / ^`, `pi`, and the time `t`;
+/// * what formulas are printed with: `x²`, `√(1 + x²)`, `π` (in files; the macros read Rust's own characters);
 /// * `sqrt exp ln sin cos tan asin acos atan sinh cosh tanh atan2 hypot abs max min`;
-/// * vectors `[x, y, z]` with `|v|`, `dot(v, w)` and `cross(v, w)`, and a matrix times a vector.
+/// * vectors `[x, y, z]` with `|v|`, `dot(v, w)` and `cross(v, w)`, and a matrix times a vector. A vector of one component is a number where
+///   a number is meant.
 ///
 /// | written | sum over |
 /// |---|---|
-/// | `sum(i: p[i]^2)`, `sum(i in 0..N: …)` | an index |
+/// | `sum(i: p[i]^2)`, `sum(i in 0..N: …)` | an index; `0..N` ends before `N` |
 /// | `sum(i < j: …)` | all pairs |
 /// | `sum((i, j) in springs: …)`, `sum(s = (i, j) in springs: stiffness[s] …)` | the pairs of a parameter; `s` is the number of the pair |
 /// | `bonds: walls;` and `sum(bonds d: d^2/2)` | the bonds of a chain between `walls`, with `free` ends, or in a `ring`; `d` is the stretch |
+///
+/// The number of coordinates is the length `N`, or `sum(i: 1)` for `[..]`.
 ///
 /// `let d = a - b;` is an abbreviation; `let s(i, j) = sigma^2/|q[i] - q[j]|^2;` has arguments. `extern fn V with dV, d2V;` names functions
 /// in scope: `fn V<T: Scalar>(x: T) -> T` and its two derivatives. They must be generic, even if they depend on a parameter only. H must be

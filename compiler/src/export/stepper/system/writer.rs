@@ -302,7 +302,7 @@ impl Writer<'_> {
             Operation::Root(a) => call(functions.root, a),
             Operation::Absolute(a) => call(functions.absolute, a),
             Operation::OrZero(a, b) => {
-                let [a, b] = [a, b].map(|op| at_least(op, Strength::Atom));
+                let [a, b] = [a, b].map(|op| self.written(known, op).0);
                 let values = [("a", &a[..]), ("b", &b)];
                 (fill(functions.or_zero, &values), Strength::Atom)
             }
