@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
 
+use crate::did_you_mean;
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Input, shown};
 use crate::symbolic::Constant;
@@ -241,22 +242,25 @@ pub(crate) fn read_parts(
     input: Input<'_>,
     ranges: impl IntoIterator<Item = Range<usize>>,
 ) -> Result<Vec<(Key, Range<usize>)>, Error> {
-    let error = |range: &Range<usize>, found: String| {
+    let error = |range: &Range<usize>, found: String, meant: &str| {
         let expected = Key::ALL.map(|key| format!("`{}:`", key.name())).join(", ");
         let kind = ErrorKind::Syntax {
             found,
-            expected: format!("one of {expected}, each once"),
+            expected: format!("one of {expected}, each once{meant}"),
         };
         input.error(range, kind)
     };
     let mut parts: Vec<(Key, Range<usize>)> = Vec::new();
     for range in ranges {
         let part = &input.text[range.clone()];
-        let missing = || error(&range, format!("`{}`", shown(part.trim())));
-        let (name, _) = part.split_once(':').ok_or_else(missing)?;
-        let key = Key::find(name.trim()).ok_or_else(missing)?;
+        let unknown = |meant: &str| error(&range, format!("`{}`", shown(part.trim())), meant);
+        let (name, _) = part.split_once(':').ok_or_else(|| unknown(""))?;
+        let key = Key::find(name.trim()).ok_or_else(|| {
+            let known = Key::ALL.iter().map(|key| key.name());
+            unknown(&did_you_mean(name, known))
+        })?;
         if parts.iter().any(|(known, _)| *known == key) {
-            return Err(error(&range, format!("a second `{}`", key.name())));
+            return Err(error(&range, format!("a second `{}`", key.name()), ""));
         }
         let value = range.start + name.len() + 1..range.end;
         parts.push((key, trimmed(input.text, value)));

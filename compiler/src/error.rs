@@ -81,8 +81,11 @@ pub enum ErrorKind {
         /// The missing character.
         partner: char,
     },
-    /// A function or a name that does not exist here.
-    #[error("unknown {what} `{name}`; known here: {known}")]
+    /// A function or a name that does not exist here. The message names the known one that is near.
+    #[error(
+        "unknown {what} `{name}`; known here: {known}{}",
+        crate::suggestion::among(name, known)
+    )]
     Unknown {
         /// `function`, `name`, `method`, …
         what: &'static str,

@@ -65,6 +65,7 @@ mod refine;
 mod requirement;
 pub mod schedule;
 pub mod stability;
+mod suggestion;
 pub mod symbolic;
 mod tableau;
 
@@ -82,5 +83,6 @@ pub use limits::Limits;
 pub use properties::{Properties, Property, SeparableProperties};
 pub use quadrature::{FAMILIES, Family, Nodes, QuadratureRule};
 pub use refine::{RefinedTable, Refinement, refine, refine_table};
-pub use requirement::{Requirement, require};
+pub use requirement::{Requirement, failed_assertion, require};
+pub use suggestion::{did_you_mean, suggestion, with_suggestion};
 pub use tableau::{Provenance, Tableau};

@@ -6,7 +6,7 @@ use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{ToTokens, quote, quote_spanned};
 use symplectic_compiler::emit::{Header, method};
 use symplectic_compiler::export::read_text;
-use symplectic_compiler::{Key, Limits, Requirement, Tableau, check};
+use symplectic_compiler::{Key, Limits, Requirement, Tableau, check, did_you_mean};
 use syn::parse::{Parse, ParseStream, Parser};
 use syn::punctuated::Punctuated;
 use syn::{LitInt, LitStr, Token, bracketed, parenthesized};
@@ -51,8 +51,12 @@ fn expand_one(definition: &Definition, form: Form) -> syn::Result<TokenStream> {
             let part = Key::find(&key.to_string()).is_some();
             let taken = part || Form::Tableau.others().iter().any(|other| key == other);
             let hint = if taken { "; `tableau!` takes it" } else { "" };
+            let meant = match hint {
+                "" => did_you_mean(&key.to_string(), known.iter().copied()),
+                hint => hint.to_owned(),
+            };
             let message = format!(
-                "unknown key `{key}`; known here: {}{hint}",
+                "unknown key `{key}`; known here: {}{meant}",
                 known.join(", ")
             );
             errors.note::<()>(Err(syn::Error::new(key.span(), message)));

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use symplectic_compiler::did_you_mean;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -40,10 +41,18 @@ const OF_FILE: [&str; 14] = [
 ];
 
 /// What to do with an unknown key in a table if it is one of the file: in TOML every key below `[name]` is in that table.
-pub(super) fn misplaced(name: &str) -> &'static str {
+fn misplaced(name: &str) -> &'static str {
     match OF_FILE.contains(&name) {
         true => "; this key is one of the file: write it above the first `[…]`",
         false => "",
+    }
+}
+
+/// What was probably meant by an unknown key: one of the file, or the nearest of the known ones.
+pub(super) fn advice<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    match misplaced(name) {
+        "" => did_you_mean(name, known),
+        misplaced => misplaced.to_owned(),
     }
 }
 
@@ -55,8 +64,8 @@ pub(super) fn explained(text: &str, span: &Range<usize>, message: &str) -> Strin
         return match known {
             Some(known) => {
                 let known = known.replace("` or `", "`, `");
-                let misplaced = misplaced(name);
-                format!("there is no key `{name}`; known here: {known}{misplaced}")
+                let advice = advice(name, known.split('`').skip(1).step_by(2));
+                format!("there is no key `{name}`; known here: {known}{advice}")
             }
             None => format!("there is no key `{name}`"),
         };

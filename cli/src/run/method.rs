@@ -6,7 +6,7 @@ use std::path::Path;
 use symplectic::{Orders, RunTimeCoefficients, RunTimeTableau};
 use symplectic_compiler::export::read_text;
 use symplectic_compiler::order::HamiltonianClass;
-use symplectic_compiler::{Definition, Error, Key, Tableau, catalogue, check};
+use symplectic_compiler::{Definition, Error, Key, Tableau, catalogue, check, did_you_mean};
 use toml::{Spanned, Value};
 
 use super::setup::{File, Setup, Wanted};
@@ -75,8 +75,9 @@ fn derive(file: &File<'_>, method: &Wanted, max_stages: Option<u16>) -> Result<T
                 let key = Key::find(name).ok_or_else(|| {
                     let known: Vec<&str> = Key::ALL.iter().map(|key| key.name()).collect();
                     let message = format!(
-                        "a method has no key `{name}`; its keys are {}",
-                        known.join(", ")
+                        "a method has no key `{name}`; its keys are {}{}",
+                        known.join(", "),
+                        did_you_mean(name, known.iter().copied())
                     );
                     file.error_at_key(value.span(), message)
                 })?;

@@ -9,7 +9,7 @@ use symplectic_compiler::formula::{Parameter, Shape, System};
 use toml::Value;
 
 use super::counted;
-use super::keys::misplaced;
+use super::keys::advice;
 use super::setup::{self, File, Setup};
 use super::starts::Coordinates;
 use super::values::{Entry, Values};
@@ -61,8 +61,8 @@ pub(super) fn check_names(file: &File<'_>, setup: &Setup, system: &System) -> Re
         [] => "the formula has none".to_owned(),
         names => format!("the parameters are {}", names.join(", ")),
     };
-    let misplaced = misplaced(name);
-    let message = format!("there is no parameter `{name}`; {there}{misplaced}");
+    let advice = advice(name, names.iter().copied());
+    let message = format!("there is no parameter `{name}`; {there}{advice}");
     Err(file.error_at_key(value.span(), message))
 }
 

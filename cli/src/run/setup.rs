@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor, value::MapAccessDeserializer};
-use symplectic_compiler::{Error, ErrorKind, Place};
+use symplectic_compiler::{Error, ErrorKind, Place, did_you_mean};
 use toml::{Spanned, Table, Value};
 
 use super::keys;
@@ -100,7 +100,8 @@ impl TryFrom<String> for Sums {
             "compensated" => Ok(Sums::Compensated),
             "plain" => Ok(Sums::Plain),
             _ => Err(format!(
-                "unknown sums `{name}`, expected `compensated` or `plain`"
+                "unknown sums `{name}`, expected `compensated` or `plain`{}",
+                did_you_mean(&name, ["compensated", "plain"])
             )),
         }
     }
@@ -122,7 +123,8 @@ impl TryFrom<String> for Iteration {
             "fixed-point" => Ok(Iteration::FixedPoint),
             "newton" => Ok(Iteration::Newton),
             _ => Err(format!(
-                "unknown solver `{name}`, expected `fixed-point` or `newton`"
+                "unknown solver `{name}`, expected `fixed-point` or `newton`{}",
+                did_you_mean(&name, ["fixed-point", "newton"])
             )),
         }
     }
@@ -198,7 +200,8 @@ impl TryFrom<String> for Direction {
             "falling" => Ok(Direction::Falling),
             "both" => Ok(Direction::Both),
             _ => Err(format!(
-                "unknown direction `{name}`, expected `rising`, `falling` or `both`"
+                "unknown direction `{name}`, expected `rising`, `falling` or `both`{}",
+                did_you_mean(&name, ["rising", "falling", "both"])
             )),
         }
     }

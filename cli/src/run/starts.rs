@@ -14,7 +14,7 @@ use toml::{Spanned, Value};
 
 use super::counted;
 use super::derived::{Derived, Given};
-use super::keys::misplaced;
+use super::keys::advice;
 use super::memory;
 use super::parameters::{self, Varied};
 use super::random;
@@ -249,7 +249,7 @@ impl Reader<'_> {
                     let message = format!(
                         "there is no coordinate `{name}`; the coordinates are {}{}",
                         coordinates.listed(),
-                        misplaced(name)
+                        advice(name, named.keys().copied())
                     );
                     return Err(self.file.error_at_key(value.span(), message));
                 }

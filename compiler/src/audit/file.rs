@@ -14,6 +14,7 @@ use crate::import::{Numbers, Value, half, value_of};
 use crate::library::{Library, Notation};
 use crate::limits::Limits;
 use crate::order::HamiltonianClass;
+use crate::with_suggestion;
 
 type List = Spanned<Vec<Spanned<String>>>;
 
@@ -40,7 +41,7 @@ struct TableKeys {
 /// The rows of a file.
 pub(super) fn rows(file: Input<'_>, limits: &Limits) -> Result<Vec<Row>, Error> {
     let keys: Keys = toml::from_str(file.text).map_err(|error| {
-        let message = format!("not a file of tables: {}", error.message());
+        let message = format!("not a file of tables: {}", with_suggestion(error.message()));
         wrong(file, error.span().unwrap_or(0..0), message)
     })?;
     let Some(convention) = &keys.convention else {

@@ -12,6 +12,7 @@ use crate::certify::{
 use crate::error::{Error, ErrorKind};
 use crate::export::first_line;
 use crate::expression::{Input, shown};
+use crate::with_suggestion;
 
 type List = Spanned<Vec<Spanned<String>>>;
 
@@ -55,7 +56,10 @@ struct Entry {
 
 pub(super) fn refine(file: Input<'_>) -> Result<Refinement, Error> {
     let keys: Keys = toml::from_str(file.text).map_err(|error| {
-        let message = format!("not a file of printed coefficients: {}", error.message());
+        let message = format!(
+            "not a file of printed coefficients: {}",
+            with_suggestion(error.message())
+        );
         wrong_file(file, error.span().unwrap_or(0..0), message)
     })?;
     let lists = keys.printed.get_ref().lists();

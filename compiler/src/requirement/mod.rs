@@ -382,6 +382,27 @@ pub fn require(
     Ok(tableau.require(&Requirement::parse(requirement)?, accepted)?)
 }
 
+/// The message of an [`assert_order!`](crate::assert_order) that fails: its error, and for what is only verified the assertion that accepts
+/// this.
+///
+/// ```
+/// use symplectic_compiler::{ErrorKind, failed_assertion};
+///
+/// let kind = ErrorKind::NotProved { requirement: "order(general) == 2".to_owned(), bits: 2048 };
+/// assert!(failed_assertion("Waves", "general == 2", &kind.into()).ends_with(
+///     "takes that for enough: `assert_order!(Waves, general == 2, accept: verified(2048 bits))`"
+/// ));
+/// ```
+pub fn failed_assertion(method: &str, assertion: &str, error: &Error) -> String {
+    let accepted = match &*error.kind {
+        ErrorKind::NotProved { bits, .. } => {
+            format!(": `assert_order!({method}, {assertion}, accept: verified({bits} bits))`")
+        }
+        _ => String::new(),
+    };
+    format!("{method}: {error}{accepted}")
+}
+
 /// Asserts the order of a method of `symplectic::tableau!` for a class of Hamiltonians, proved from its exact
 /// coefficients: `assert_order!(Lobatto3, general == 4)`, `assert_order!(Lobatto3, nystrom >= 4)`. For a method
 /// that is only known by enclosures:
@@ -418,12 +439,17 @@ macro_rules! assert_order {
             accepted,
             &limits,
         ) {
-            ::core::panic!("{}: {error}", ::core::stringify!($method));
+            let assertion =
+                ::core::concat!(::core::stringify!($class), " ", $sign, " ", ::core::stringify!($order));
+            ::core::panic!(
+                "{}",
+                $crate::failed_assertion(::core::stringify!($method), assertion, &error)
+            );
         }
     }};
     ($($other:tt)*) => {
         ::core::compile_error!(
-            "expected `assert_order!(Method, general == 4)`: a class, `==` or `>=`, and a whole number"
+            "expected `assert_order!(Method, general == 4)`: a class, `==` or `>=`, and a whole number; behind it `accept: verified(100 bits)` may follow"
         )
     };
 }
@@ -450,6 +476,17 @@ mod tests {
             ),
             ("stable_to(1 +)", "require, column 14: "),
             ("stable_t(1)", "unknown property `stable_t(1)`"),
+            ("stable_t(1)", "; did you mean `stable_to(2)`?"),
+            ("simplectic", "; did you mean `symplectic`?"),
+            ("constraint", "; did you mean `constrained`?"),
+            (
+                "symetric(separable)",
+                "; did you mean `symmetric(separable)`?",
+            ),
+            (
+                "order(seperable) >= 4",
+                "; did you mean `order(separable)`?",
+            ),
             (
                 "order(perturbed) >= (4, 8)",
                 "require, column 20: found (4, 8), expected an order in each power of ε, none above the one before, as in (8, 4)",

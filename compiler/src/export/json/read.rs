@@ -20,6 +20,7 @@ use crate::expression::Input;
 use crate::limits::Limits;
 use crate::properties::Properties;
 use crate::tableau::Tableau;
+use crate::with_suggestion;
 
 /// Reads a tableau from JSON.
 ///
@@ -264,6 +265,7 @@ impl<'a> Document<'a> {
             let message = message
                 .rsplit_once(" at line ")
                 .map_or(message.as_str(), |(message, _)| message);
+            let message = with_suggestion(message);
             let message = format!("not a JSON export of a tableau: {message}");
             file.error(&(start..end), ErrorKind::Document { message })
         };

@@ -19,6 +19,7 @@ use crate::expression::Input;
 use crate::limits::Limits;
 use crate::properties::Properties;
 use crate::tableau::Tableau;
+use crate::with_suggestion;
 
 pub(super) type List = Spanned<Vec<Spanned<String>>>;
 pub(super) type Matrix = Spanned<Vec<List>>;
@@ -188,7 +189,10 @@ impl Document {
     pub fn parse(file: Input<'_>, limits: &Limits) -> Result<Self, Error> {
         let refused = |error: toml::de::Error| {
             let span = error.span().unwrap_or(0..0);
-            let message = format!("not a TOML file of a tableau: {}", error.message());
+            let message = format!(
+                "not a TOML file of a tableau: {}",
+                with_suggestion(error.message())
+            );
             document_error(file, span, message)
         };
         // A later format may have other keys.

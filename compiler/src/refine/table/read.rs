@@ -14,6 +14,7 @@ use crate::error::{Error, ErrorKind};
 use crate::export::first_line;
 use crate::expression::{Input, shown};
 use crate::order::HamiltonianClass;
+use crate::with_suggestion;
 
 type List = Spanned<Vec<Spanned<String>>>;
 type Matrix = Spanned<Vec<List>>;
@@ -141,7 +142,10 @@ pub(super) fn read(file: Input<'_>) -> Result<Option<Table>, Error> {
         return Ok(None);
     }
     let keys: Keys = toml::from_str(file.text).map_err(|error| {
-        let message = format!("not a file of Butcher arrays: {}", error.message());
+        let message = format!(
+            "not a file of Butcher arrays: {}",
+            with_suggestion(error.message())
+        );
         wrong_file(file, error.span().unwrap_or(0..0), message)
     })?;
     let claim = keys.claim.get_ref();
