@@ -4,13 +4,14 @@ use std::sync::OnceLock;
 
 use crate::algebra::{Number, StageAlgebra};
 use crate::coefficients::Coefficients;
-use crate::definition::Definition;
+use crate::definition::{Definition, Key};
+use crate::derive::parts;
 use crate::error::Error;
 use crate::evidence::Evidence;
 use crate::exact::{Exact, Tier, over_algebra};
 use crate::order::{GivenOrder, OrderOptions, OrderReport, PerturbedOrder};
 use crate::partitioned::LowerTriangular;
-use crate::properties::{Properties, SeparableProperties};
+use crate::properties::{Properties, SeparableProperties, composed};
 use crate::stability::{Stability, StabilityInterval};
 
 /// The matrices of splittings with more stages are left out of files and of code: they have nothing but the weights, again
@@ -47,6 +48,8 @@ pub struct Tableau {
     pub(crate) given: Option<GivenOrder>,
     pub(crate) wrong_digits: Vec<Error>,
     properties: OnceLock<Properties>,
+    /// The properties that follow from the coefficients alone.
+    own_properties: OnceLock<Properties>,
     separable: OnceLock<SeparableProperties>,
     orders: OnceLock<OrderReport>,
     pub(crate) perturbed: OnceLock<Option<PerturbedOrder>>,
@@ -80,6 +83,7 @@ impl Tableau {
             given: None,
             wrong_digits: Vec::new(),
             properties: OnceLock::new(),
+            own_properties: OnceLock::new(),
             separable: OnceLock::new(),
             orders: OnceLock::new(),
             perturbed: OnceLock::new(),
@@ -122,6 +126,34 @@ impl Tableau {
     /// ```
     pub fn properties(&self) -> Properties {
         let decided = || {
+            let mut properties = self.own_properties();
+            let definition = &self.provenance.definition;
+            // A composition of constrained steps, which may be none itself.
+            let composes = [Key::Base, Key::Compose].map(|key| definition.get(key).is_some());
+            if !composes.contains(&true) {
+                return properties;
+            }
+            let Ok(parts) = parts(definition) else {
+                return properties;
+            };
+            if !properties.constrained.holds
+                && let Some(found) = composed::constrained(&parts)
+            {
+                properties.constrained = found;
+            }
+            if !properties.nonholonomic.holds
+                && let Some(found) = composed::nonholonomic(self, &parts)
+            {
+                properties.nonholonomic = found;
+            }
+            properties
+        };
+        self.properties.get_or_init(decided).clone()
+    }
+
+    /// The properties that follow from the coefficients, whatever the method is composed of.
+    pub(crate) fn own_properties(&self) -> Properties {
+        let decided = || {
             let mut properties = over_algebra!(self, pair => Properties::of_pair(pair));
             // A method of order 1 is consistent.
             if let (Some(given), Evidence::Verified { .. }) =
@@ -131,7 +163,7 @@ impl Tableau {
             }
             properties
         };
-        self.properties.get_or_init(decided).clone()
+        self.own_properties.get_or_init(decided).clone()
     }
 
     /// The properties for separable Hamiltonians `H = T(p) + U(q)`, which may be more than those for all Hamiltonians.

@@ -33,6 +33,14 @@ impl Alphabet {
         }
     }
 
+    /// Letters `E1, E2, …` of these degrees.
+    pub(crate) fn of_degrees(degrees: Vec<usize>) -> Self {
+        Alphabet {
+            names: (1..=degrees.len()).map(|n| format!("E{n}")).collect(),
+            degrees,
+        }
+    }
+
     /// The degree of a letter.
     pub fn degree_of(&self, letter: u8) -> usize {
         self.degrees[usize::from(letter)]

@@ -8,32 +8,36 @@ use super::literal;
 use super::symplectic_rounding::complements;
 use crate::algebra::{Field, Number, Real, Reals};
 use crate::coefficients::Coefficients;
-use crate::derive::Substep;
-use crate::properties::multiplier_matrix;
+use crate::derive::{Parts, Substep};
+use crate::properties::{composed, multiplier_matrix};
 use crate::tableau::Tableau;
 
 /// The `CONSTRAINED` constant of a `Method`; empty for a method that does not qualify.
 ///
-/// A composition qualifies if all its methods do: it composes their constrained steps.
+/// A composition of constrained methods composes their steps, unless its own coefficients make one.
 pub(super) fn code(
     tableau: &Tableau,
     numbers: &Coefficients<Number<'_>>,
-    (methods, substeps): (&[Tableau], &[Substep]),
+    parts: &Parts,
 ) -> Option<TokenStream> {
-    let qualifies = |tableau: &Tableau| tableau.properties().constrained.holds;
     let tableau_of = |numbers: &Coefficients<Number<'_>>| match numbers.b.len() {
         1 => Some(with_an_end(numbers.a[0][0].is_zero())),
         _ => constants(numbers, &multiplier_matrix(numbers)?),
     };
-    if qualifies(tableau) {
+    if tableau.own_properties().constrained.holds {
         return Some(steps("CONSTRAINED", &[tableau_of(numbers)?], None));
     }
-    if substeps.is_empty() || !methods.iter().all(qualifies) {
-        return None;
-    }
-    let tableaux = methods.iter().map(|method| tableau_of(&method.numbers()));
+    composed::constrained(parts)?;
+    let tableaux = parts
+        .methods
+        .iter()
+        .map(|method| tableau_of(&method.numbers()));
     let tableaux = tableaux.collect::<Option<Vec<_>>>()?;
-    Some(steps("CONSTRAINED", &tableaux, Some(&list(substeps))))
+    Some(steps(
+        "CONSTRAINED",
+        &tableaux,
+        Some(&list(&parts.substeps)),
+    ))
 }
 
 /// Whether the constrained steps are steps of Störmer–Verlet, Lobatto IIIA–IIIB with two stages: nodes 0 and 1 and weights 1/2 determine

@@ -27,7 +27,7 @@ use quote::{format_ident, quote};
 
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
-use crate::derive::{Parts, parts};
+use crate::derive::parts;
 use crate::error::ErrorKind;
 use crate::formula::FormulaError;
 use crate::partitioned::LowerTriangular;
@@ -96,19 +96,15 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
     ];
     let orders = orders(tableau);
     let symmetry = symmetry(tableau);
-    let Parts {
-        methods,
-        substeps,
-        functions,
-    } = parts(&provenance.definition)?;
-    let parts = (&methods[..], &substeps[..]);
-    let plans = plan::plans(tableau, &numbers, parts, names, &plan);
-    let functions = functions.map(|count| {
+    let parts = parts(&provenance.definition)?;
+    let both = (&parts.methods[..], &parts.substeps[..]);
+    let plans = plan::plans(tableau, &numbers, both, names, &plan);
+    let functions = parts.functions.map(|count| {
         let count = literal::count(count);
         quote!(const FUNCTIONS: usize = #count;)
     });
-    let constrained = constrained::code(tableau, &numbers, parts);
-    let nonholonomic = nonholonomic::code(tableau, &numbers, parts);
+    let constrained = constrained::code(tableau, &numbers, &parts);
+    let nonholonomic = nonholonomic::code(tableau, &numbers, &parts);
     let proved = proved(
         tableau,
         name,

@@ -28,6 +28,7 @@
 //! Splittings also have an order for perturbed systems, a [`PerturbedOrder`], from words instead of trees.
 
 mod class;
+pub(crate) mod composition;
 mod enumeration;
 mod error_constant;
 mod exponential_words;
@@ -38,7 +39,6 @@ mod perturbed;
 mod plan;
 mod report;
 mod simplifying;
-pub(crate) mod symmetric_composition;
 mod symplecticity;
 mod tree;
 mod unrooted;

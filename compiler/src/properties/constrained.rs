@@ -240,12 +240,42 @@ mod tests {
                 "basis: polynomial(3), nodes: lobatto(3), exchange: true",
                 "a_11 = ",
             ),
-            ("base: lobatto-2, weights: triple_jump(4)", "Q_2 = Q_3"),
+            // A part does not qualify.
+            (
+                "compose: [[1/2, basis: polynomial(2), nodes: lobatto(2)], [1/2, basis: polynomial(1), nodes: gauss(1)]]",
+                "b_3 − a_33 = ",
+            ),
         ] {
             let found = property(definition);
             assert!(!found.holds, "{definition}");
             let text = found.to_string();
             assert!(text.contains(witness), "{definition}: {text}");
+        }
+    }
+
+    /// Stages of neighbouring steps coincide, so that the coefficients alone do not qualify.
+    #[test]
+    fn compositions_of_methods_that_qualify_do() {
+        for (definition, steps) in [
+            ("base: lobatto-2, weights: triple_jump(4)", 3),
+            ("base: lobatto-3, weights: suzuki(6)", 5),
+            (
+                "compose: [[1/3, basis: polynomial(2), nodes: lobatto(2)], [2/3, basis: polynomial(3), nodes: lobatto(3)]]",
+                2,
+            ),
+            // A composition of a composition, and one whose weights are not rational.
+            (
+                "compose: [[1/2, base: lobatto-2, weights: triple_jump(4)], [1/2, base: lobatto-2, weights: suzuki(4)]]",
+                8,
+            ),
+            (
+                "base: lobatto-2, weights: [1/(2 - cbrt(2)), -cbrt(2)/(2 - cbrt(2)), 1/(2 - cbrt(2))]",
+                3,
+            ),
+        ] {
+            let found = property(definition);
+            let text = format!("yes, proved: each of its {steps} steps is");
+            assert_eq!(found.to_string(), text, "{definition}");
         }
     }
 

@@ -3,6 +3,7 @@
 //! One property a file; each decides itself from the exact coefficients and trusts nothing about how
 //! they were derived.
 
+pub(crate) mod composed;
 mod consistent;
 mod constrained;
 mod end_stages;
@@ -130,15 +131,15 @@ properties! {
     /// `b_i > 0` and `b̃_i > 0`.
     positive_weights: positive_weights::decide;
     /// Steps systems with holonomic constraints: `b_i = b̃_i ≠ 0`, symplectic, `a_1j = 0`, `a_sj = b_j` and
-    /// `det (A Ã) ≠ 0` for the rows 2..s and the columns 1..s−1 (MW 3.5.6).
+    /// `det (A Ã) ≠ 0` for the rows 2..s and the columns 1..s−1 (MW 3.5.6); or a composition of such methods.
     constrained: constrained::decide;
     /// Steps systems with non-holonomic constraints without loss of order: `b_i = b̃_i ≠ 0`, symplectic, and symmetric of order 2, or of
-    /// order 1.
+    /// order 1; or a composition of such methods.
     nonholonomic: nonholonomic::decide;
 }
 
 impl Properties {
-    /// Decides all properties of a pair.
+    /// Decides all properties of a pair by its coefficients.
     pub(crate) fn of_pair<A: Symmetry>(pair: &Partitioned<A>) -> Self {
         let numbers = &pair.numbers();
         Properties::decide(&Examined { pair, numbers })

@@ -123,6 +123,33 @@ mod tests {
     }
 
     #[test]
+    fn compositions_of_methods_that_qualify_do() {
+        let cubic =
+            "base: gauss-1, weights: [1/(2 - cbrt(2)), -cbrt(2)/(2 - cbrt(2)), 1/(2 - cbrt(2))]";
+        for (definition, text) in [
+            (
+                "base: gauss-1, weights: triple_jump(4)",
+                "yes, proved: order 4: each of its 3 steps is",
+            ),
+            (
+                "base: gauss-1, weights: suzuki(6)",
+                "yes, proved: order 6: each of its 25 steps is",
+            ),
+            (
+                cubic,
+                "yes, verified to 2^-512: order 4: each of its 3 steps is",
+            ),
+            // Different methods of order 2.
+            (
+                "compose: [[1/3, basis: polynomial(1), nodes: gauss(1)], [2/3, basis: polynomial(2), nodes: lobatto(2)]]",
+                "yes, proved: order 2: each of its 2 steps is",
+            ),
+        ] {
+            assert_eq!(property(definition).to_string(), text, "{definition}");
+        }
+    }
+
+    #[test]
     fn what_would_lose_its_order_is_refused() {
         for (definition, witness) in [
             ("basis: polynomial(2), nodes: gauss(2)", "order 2 at most"),
@@ -131,7 +158,11 @@ mod tests {
                 "order 2 at most",
             ),
             ("basis: polynomial(3), nodes: [0, 1/4, 1]", "not symmetric"),
-            ("base: gauss-1, weights: triple_jump(4)", "order 2 at most"),
+            // Of order 4 on other systems: its parts have order 2.
+            (
+                "compose: [[1/2, basis: polynomial(2), nodes: gauss(2)], [1/2, basis: polynomial(2), nodes: gauss(2)]]",
+                "order 2 at most",
+            ),
             ("kick: [1/2, 1/2], drift: [1, 0]", "b_2 = 0"),
             ("kick: [1/3, 2/3], drift: [1/2, 1/2]", "b_1 − b̃_1 = 1/6"),
         ] {

@@ -1,7 +1,7 @@
 //! Every property has a tableau of which it is proved and one of which it is refuted, with the witness.
 
-use symplectic_compiler::export::toml;
-use symplectic_compiler::{Evidence, Limits, Properties, Tableau, derive};
+use symplectic_compiler::export::{json, toml};
+use symplectic_compiler::{Definition, Evidence, Limits, Properties, Requirement, Tableau, derive};
 
 /// The tableau of an edited file; reading does not derive it anew.
 fn edited(tableau: &Tableau, from: &str, to: &str) -> Tableau {
@@ -118,6 +118,26 @@ fn every_property_is_proved_of_one_method_and_refuted_of_another() {
             name,
             witness,
         );
+    }
+}
+
+/// The methods that the guides name for systems with constraints, with the requirement that they name.
+#[test]
+fn compositions_of_methods_that_qualify_can_be_required_to() {
+    for (definition, requirement) in [
+        ("base: lobatto-2, weights: triple_jump(4)", "constrained"),
+        ("base: gauss-1, weights: suzuki(6)", "nonholonomic"),
+        ("base: gauss-1, weights: suzuki(4)", "nonholonomic"),
+    ] {
+        let parsed = Definition::parse(definition).expect(definition);
+        let tableau = parsed.derive(&Limits::default()).expect("derived");
+        let required = Requirement::parse(requirement).expect(requirement);
+        assert_eq!(tableau.require(&required, None), Ok(()), "{definition}");
+        let json = json::write(&tableau, 20);
+        let json: serde_json::Value = serde_json::from_str(&json).expect("valid");
+        let property = &json["properties"][requirement];
+        assert_eq!(property["holds"], true, "{property}");
+        assert_eq!(property["evidence"], "proved", "{property}");
     }
 }
 

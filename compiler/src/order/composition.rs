@@ -1,0 +1,225 @@
+//! The order of a composition of any methods, for all systems on which they have steps.
+//!
+//! The logarithm of a method's step is `hE₁ + h²E₂ + h³E₃ + ⋯`, with the same `E₁` for all methods. The even terms vanish for a symmetric
+//! method, and have the opposite sign for its adjoint. So a composition with the fractions `γ_1, …, γ_m` is
+//! `∏ exp(γ_i hE₁ ± γ_i²h²E₂ + γ_i³h³E₃ ± ⋯)`, with the terms of each method. It has order p iff the coefficients of all Lyndon words over
+//! these letters up to the degree p are those of `exp(hE₁)`: see [`Conditions`](crate::certify::Conditions).
+
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use crate::arithmetic::interval::Interval;
+use crate::arithmetic::rational::ratio;
+use crate::certify::Alphabet;
+use crate::evidence::Evidence;
+use crate::symbolic::Constant;
+
+/// Binary places of the enclosures in which the conditions for fractions that are not rational are verified.
+const BITS: u32 = 512;
+
+/// The largest number of letters. Words of more would take long.
+const MOST_LETTERS: usize = 32;
+
+/// A step of a composition.
+pub(crate) struct Step<'a> {
+    /// The fraction `γ` of the whole step.
+    pub fraction: &'a Constant,
+    /// The number of the method.
+    pub method: usize,
+    /// Whether it is a step of the adjoint of this method.
+    pub adjoint: bool,
+}
+
+/// How it is known that the composition has this order with any methods of order 1, of which some are symmetric; `None` if it is not.
+pub(crate) fn has_order(steps: &[Step<'_>], symmetric: &[bool], order: usize) -> Option<Evidence> {
+    let letters = letters(symmetric, order);
+    if letters.len() > MOST_LETTERS {
+        return None;
+    }
+    let methods: Vec<(usize, bool)> = steps.iter().map(|s| (s.method, s.adjoint)).collect();
+    let rational = steps
+        .iter()
+        .map(|step| step.fraction.as_rational().cloned());
+    if let Some(fractions) = rational.collect::<Option<Vec<BigRational>>>() {
+        let holds = all_hold(&methods, &fractions, &letters, order, |x, wanted| {
+            x == wanted
+        });
+        return holds.then_some(Evidence::Proved);
+    }
+    let enclosed = steps.iter().map(|step| step.fraction.enclose(BITS));
+    let fractions = enclosed.collect::<Option<Vec<Interval>>>()?;
+    let holds = all_hold(&methods, &fractions, &letters, order, Interval::contains);
+    holds.then_some(Evidence::Verified { bits: BITS })
+}
+
+/// A term `E_k` of the logarithm of a step.
+#[derive(Clone, Copy)]
+struct Letter {
+    degree: usize,
+    /// The method; `None` for the term of degree 1, which is that of all.
+    method: Option<usize>,
+}
+
+/// The terms up to an order of the logarithms of methods, of which some are symmetric.
+fn letters(symmetric: &[bool], order: usize) -> Vec<Letter> {
+    let mut letters = vec![Letter {
+        degree: 1,
+        method: None,
+    }];
+    for (method, &symmetric) in symmetric.iter().enumerate() {
+        let degrees = (2..=order).filter(|degree| !symmetric || degree % 2 == 1);
+        letters.extend(degrees.map(|degree| Letter {
+            degree,
+            method: Some(method),
+        }));
+    }
+    letters
+}
+
+/// Numbers with which the conditions are evaluated.
+trait Scalar: Clone {
+    fn of(value: &BigRational) -> Self;
+    fn plus(&self, other: &Self) -> Self;
+    fn times(&self, other: &Self) -> Self;
+}
+
+impl Scalar for BigRational {
+    fn of(value: &BigRational) -> Self {
+        value.clone()
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        self + other
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
+}
+
+impl Scalar for Interval {
+    fn of(value: &BigRational) -> Self {
+        Interval::enclosing(value, BITS)
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        self.add(other)
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        self.multiply(other)
+    }
+}
+
+fn all_hold<T: Scalar>(
+    methods: &[(usize, bool)],
+    fractions: &[T],
+    letters: &[Letter],
+    order: usize,
+    is: impl Fn(&T, &BigRational) -> bool,
+) -> bool {
+    let alphabet = Alphabet::of_degrees(letters.iter().map(|letter| letter.degree).collect());
+    let mut words = (1..=order).flat_map(|degree| alphabet.lyndon(degree));
+    words.all(|word| {
+        let word: Vec<Letter> = word.iter().map(|&l| letters[usize::from(l)]).collect();
+        let is_first = word.len() == 1 && word[0].degree == 1;
+        let wanted = ratio(i64::from(is_first), 1);
+        is(&coefficient(&word, methods, fractions), &wanted)
+    })
+}
+
+/// The coefficient of a word in a product of steps of methods or, where that is true, of their adjoints.
+fn coefficient<T: Scalar>(word: &[Letter], methods: &[(usize, bool)], fractions: &[T]) -> T {
+    let zero = T::of(&BigRational::zero());
+    // The coefficients of the word's prefixes in the product of the factors so far.
+    let mut known = vec![zero; word.len() + 1];
+    known[0] = T::of(&BigRational::one());
+    for (&(own, adjoint), fraction) in methods.iter().zip(fractions) {
+        for end in (1..=word.len()).rev() {
+            // The coefficient of the letters from `start` in the factor.
+            let mut factor = T::of(&BigRational::one());
+            for start in (0..end).rev() {
+                let Letter { degree, method } = word[start];
+                if method.is_some_and(|method| method != own) {
+                    break;
+                }
+                for _ in 0..degree {
+                    factor = factor.times(fraction);
+                }
+                let sign = if adjoint && degree.is_multiple_of(2) {
+                    -1
+                } else {
+                    1
+                };
+                let count = i64::try_from(end - start).unwrap_or(i64::MAX);
+                factor = factor.times(&T::of(&ratio(sign, count)));
+                known[end] = known[end].plus(&known[start].times(&factor));
+            }
+        }
+    }
+    known.swap_remove(word.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::definition::Definition;
+    use crate::derive::parts;
+
+    /// The orders up to 9 with these methods, the first of which may be symmetric, and the second its adjoint.
+    fn orders(definition: &str, symmetric: bool) -> Vec<usize> {
+        let definition = Definition::parse(definition).expect(definition);
+        let substeps = parts(&definition).expect("steps").substeps;
+        let steps: Vec<Step<'_>> = substeps
+            .iter()
+            .map(|step| Step {
+                fraction: &step.fraction,
+                method: 0,
+                adjoint: step.method == 1,
+            })
+            .collect();
+        (1..=9)
+            .filter(|&order| has_order(&steps, &[symmetric], order).is_some())
+            .collect()
+    }
+
+    #[test]
+    fn orders_are_those_of_the_books_and_no_higher() {
+        for (definition, symmetric, order) in [
+            ("base: gauss-1, weights: triple_jump(4)", true, 4),
+            ("base: gauss-1, weights: suzuki(4)", true, 4),
+            ("base: gauss-1, weights: triple_jump(6)", true, 6),
+            ("base: lobatto-2, weights: triple_jump(8)", true, 8),
+            // Two equal steps, and two whose fractions do not sum to 1.
+            (
+                "compose: [[1/2, basis: polynomial(1), nodes: gauss(1)], [1/2, basis: polynomial(1), nodes: gauss(1)]]",
+                true,
+                2,
+            ),
+            (
+                "compose: [[1/2, basis: polynomial(1), nodes: gauss(1)], [1/3, basis: polynomial(1), nodes: gauss(1)]]",
+                true,
+                0,
+            ),
+            // A method that is not symmetric, alone, and with its adjoint.
+            ("base: gauss-1, weights: triple_jump(4)", false, 1),
+            ("base: [basis: 1, nodes: 0], weights: [1/2, 1/2]", false, 1),
+            (
+                "base: [basis: 1, nodes: 0], weights: [1/2, adjoint(1/2)]",
+                false,
+                2,
+            ),
+            (
+                "base: [basis: 1, nodes: 0], weights: [adjoint(1/4), 1/4, adjoint(1/4), 1/4]",
+                false,
+                2,
+            ),
+        ] {
+            assert_eq!(
+                orders(definition, symmetric),
+                (1..=order).collect::<Vec<_>>(),
+                "{definition}"
+            );
+        }
+    }
+}
