@@ -215,7 +215,6 @@ fn stability(found: &Stability, digits: usize) -> Vec<(&'static str, Fact)> {
     let exact = |end: &EndPoint| Fact::optional(end.exact());
     let decimal = |end: &EndPoint| Text(end.decimal(digits));
     let closed = |closed: bool| Literal(closed.to_string());
-    let ends = found.decimal_ends(digits).into_iter();
     let pairs = |each: &dyn Fn(&crate::stability::StabilityInterval) -> [Fact; 2]| {
         let intervals = found.intervals.iter();
         List(intervals.map(|i| List(each(i).into())).collect())
@@ -226,10 +225,7 @@ fn stability(found: &Stability, digits: usize) -> Vec<(&'static str, Fact)> {
         ("trace", Text(found.trace.to_string())),
         ("determinant", Text(found.determinant.to_string())),
         ("intervals", pairs(&|i| [exact(&i.low), exact(&i.high)])),
-        (
-            "decimal",
-            List(ends.map(|ends| List(ends.map(Text).into())).collect()),
-        ),
+        ("decimal", pairs(&|i| [decimal(&i.low), decimal(&i.high)])),
         (
             "closed",
             pairs(&|i| [closed(i.low_closed), closed(i.high_closed)]),

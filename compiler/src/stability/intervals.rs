@@ -40,41 +40,36 @@ pub(super) const SHOWN_DIGITS: usize = 12;
 /// How often the digits are doubled to distinguish two ends.
 const MOST_DOUBLINGS: u32 = 7;
 
-/// The ends of ascending intervals, each with enough digits, at least `fewest`, to distinguish it from the ends beside it.
+/// The digits with which the ends of ascending intervals are shown: enough to distinguish each from the ends beside it.
 ///
 /// Equal ends, as those of a single point, have the fewest digits.
-pub(crate) fn distinguished(
-    intervals: &[StabilityInterval],
-    fewest: usize,
-) -> Vec<[(&EndPoint, usize); 2]> {
-    let ends = intervals.iter().flat_map(|i| [&i.low, &i.high]);
-    let mut ends: Vec<(&EndPoint, usize)> = ends.map(|end| (end, fewest)).collect();
+fn distinguishing_digits(intervals: &[StabilityInterval]) -> Vec<usize> {
+    let ends: Vec<&EndPoint> = intervals.iter().flat_map(|i| [&i.low, &i.high]).collect();
+    let mut digits = vec![SHOWN_DIGITS; ends.len()];
     for last in 1..ends.len() {
-        let (low, high) = (ends[last - 1].0, ends[last].0);
+        let (low, high) = (ends[last - 1], ends[last]);
         if low.exact().is_some() && low.exact() == high.exact() {
             continue;
         }
-        let mut digits = (0..=MOST_DOUBLINGS).map(|n| fewest << n);
-        if let Some(digits) = digits.find(|&digits| low.decimal(digits) != high.decimal(digits)) {
-            ends[last - 1].1 = ends[last - 1].1.max(digits);
-            ends[last].1 = digits;
+        let mut enough = (0..=MOST_DOUBLINGS).map(|n| SHOWN_DIGITS << n);
+        if let Some(enough) = enough.find(|&n| low.decimal(n) != high.decimal(n)) {
+            digits[last - 1] = digits[last - 1].max(enough);
+            digits[last] = enough;
         }
     }
-    ends.chunks_exact(2)
-        .map(|ends| [ends[0], ends[1]])
-        .collect()
+    digits
 }
 
 /// `(0, 2*sqrt(2)) ∪ (2*sqrt(3), 2*sqrt(6))`, with brackets at closed ends, and enough digits to distinguish the ends.
 pub(super) fn union(intervals: &[StabilityInterval]) -> String {
-    let ends = distinguished(intervals, SHOWN_DIGITS);
-    let text = |(interval, ends): (&StabilityInterval, [(&EndPoint, usize); 2])| {
+    let digits = distinguishing_digits(intervals);
+    let text = |(interval, digits): (&StabilityInterval, &[usize])| {
         let open = if interval.low_closed { '[' } else { '(' };
         let close = if interval.high_closed { ']' } else { ')' };
-        let [low, high] = ends.map(|(end, digits)| end.text(digits));
+        let (low, high) = (interval.low.text(digits[0]), interval.high.text(digits[1]));
         format!("{open}{low}, {high}{close}")
     };
-    let texts: Vec<String> = intervals.iter().zip(ends).map(text).collect();
+    let texts: Vec<String> = intervals.iter().zip(digits.chunks(2)).map(text).collect();
     texts.join(" ∪ ")
 }
 

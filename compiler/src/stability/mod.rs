@@ -267,19 +267,6 @@ impl Stability {
         intervals::union(&self.intervals)
     }
 
-    /// The ends of the intervals as decimals with this many significant digits, or as many as distinguish them.
-    ///
-    /// ```
-    /// let lobatto = symplectic_compiler::derive("polynomial(3)", "lobatto(3)")?;
-    /// assert_eq!(lobatto.stability().decimal_ends(5), [["0", "2.8284"], ["3.4641", "4.8990"]]);
-    /// # Ok::<(), symplectic_compiler::Error>(())
-    /// ```
-    pub fn decimal_ends(&self, digits: usize) -> Vec<[String; 2]> {
-        let ends = intervals::distinguished(&self.intervals, digits).into_iter();
-        ends.map(|ends| ends.map(|(end, digits)| end.decimal(digits)))
-            .collect()
-    }
-
     /// Everything as plain data, with numbers to this many significant digits.
     pub fn summary(&self, digits: usize) -> StabilitySummary {
         let exact = |end: &EndPoint| end.exact().map(str::to_owned);
@@ -291,7 +278,10 @@ impl Stability {
                 .clone()
                 .map(|i| [exact(&i.low), exact(&i.high)])
                 .collect(),
-            decimal: self.decimal_ends(digits),
+            decimal: intervals
+                .clone()
+                .map(|i| [i.low.decimal(digits), i.high.decimal(digits)])
+                .collect(),
             closed: intervals.map(|i| [i.low_closed, i.high_closed]).collect(),
             p_stable: self.p_stable,
             evidence: evidence_text(self.evidence),

@@ -186,11 +186,10 @@ fn stability(tableau: &Tableau, lower_triangular: Option<LowerTriangular>) -> Op
         return None;
     }
     let list = |texts: Vec<BigRational>| List(texts.iter().map(|x| Text(x.to_string())).collect());
-    let ends = found.decimal_ends(DIGITS).into_iter();
-    let interval = |(i, [low, high]): (&StabilityInterval, [String; 2])| {
+    let interval = |i: &StabilityInterval| {
         List(vec![
-            Text(low),
-            Text(high),
+            Text(i.low.decimal(DIGITS)),
+            Text(i.high.decimal(DIGITS)),
             Literal(i.low_closed.to_string()),
             Literal(i.high_closed.to_string()),
         ])
@@ -207,9 +206,6 @@ fn stability(tableau: &Tableau, lower_triangular: Option<LowerTriangular>) -> Op
             members.push(("chain", chain(stages, numerator, denominator)?));
         }
     }
-    members.push((
-        "intervals",
-        List(intervals.iter().zip(ends).map(interval).collect()),
-    ));
+    members.push(("intervals", List(intervals.iter().map(interval).collect())));
     Some(Table(members))
 }
