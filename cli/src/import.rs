@@ -40,13 +40,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let (mut tableau, origin) = import_with_origin(library, &file, &text, &limits)?;
     match origin {
         ImportOrigin::Exact => {}
-        ImportOrigin::NearDecimals { distance } => {
+        ImportOrigin::NearDecimals {
+            forced_by,
+            distance,
+        } => {
+            let forced_by = forced_by.map(|condition| {
+                format!("as they are written, the decimals do not have {condition}; ")
+            });
             let distance = distance.map(|distance| {
                 format!(", from which the decimals differ by at most {distance:.1e}")
             });
             let distance = distance.unwrap_or_default();
             report::warning(&format!(
-                "the result is the exact method near the decimals{distance}"
+                "{}the result is the exact method near the decimals{distance}",
+                forced_by.unwrap_or_default()
             ));
         }
         ImportOrigin::Decimals { separable, nystrom } => {

@@ -73,3 +73,66 @@ fn the_command_imports() {
     "#]]
     .assert_eq(&message);
 }
+
+/// A file in the folder of the tests, with this text.
+fn file(name: &str, text: &str) -> String {
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::write(&path, text).expect("written");
+    path.to_str().expect("text").to_owned()
+}
+
+/// The same table in two spellings; `audit` has the stable steps of the numbers in the table, too.
+#[test]
+fn a_table_that_satisfies_its_order_as_written_is_not_changed() {
+    for (name, text, drift) in [
+        (
+            "smallest.py",
+            "x = 0.1234567\na = [x, 1-x]\nb = [1, 0]\n",
+            "drift = \"1234567/10000000, 8765433/10000000\"",
+        ),
+        (
+            "symmetric.py",
+            "x = 0.2345678\na = [x, 1-2*x, x]\nb = [0.5, 0.5, 0]\n",
+            "drift = \"1172839/5000000, 1327161/2500000, 1172839/5000000\"",
+        ),
+    ] {
+        let path = file(name, text);
+        let output = symplectic(&["import", "--from", "odeint", &path, "--format", "toml"]);
+        assert!(output.stderr.is_empty(), "{output:?}");
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert!(text.contains(drift), "{text}");
+    }
+    let tables = "library = \"x\"\nversion = \"1\"\nsource = \"x\"\nconvention = \"odeint\"\n\
+                  [[table]]\nname = \"symmetric\"\norder = 2\nclass = \"separable\"\n\
+                  [table.numbers]\na = [\"0.2345678\", \"1 - 2*0.2345678\", \"0.2345678\"]\nb = [\"0.5\", \"0.5\", \"0\"]\n";
+    let (path, json) = (file("symmetric.toml", tables), file("symmetric.json", ""));
+    let kick = "0.5, 0.5, 0";
+    let drift = "0.2345678, 0.5308644, 0.2345678";
+    let derived = stdout(&[
+        "derive", "--first", "drift", "--kick", kick, "--drift", drift,
+    ]);
+    std::fs::remove_file(&json).expect("removed");
+    stdout(&["audit", &path, "--json", &json]);
+    let audited = std::fs::read_to_string(&json).expect("written");
+    let audited: serde_json::Value = serde_json::from_str(&audited).expect("valid");
+    let row = &audited["rows"][0];
+    assert_eq!((&row["numbers"], &row["right_places"]), (&"exact".into(), &serde_json::Value::Null));
+    let stable = row["stable"].as_str().expect("text");
+    assert!(derived.contains(&format!("stable for ν in {stable}")), "{stable}\n{derived}");
+}
+
+#[test]
+fn a_table_that_is_changed_says_what_forces_it() {
+    let path = file(
+        "forced.py",
+        "x = 0.2345678\ny = 0.5308643\na = [x, y, 1-x-y]\nb = [0.5, 0.5, 0]\n",
+    );
+    let output = symplectic(&["import", "--from", "odeint", &path]);
+    let remark = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(
+        remark,
+        "warning: as they are written, the decimals do not have order 2 for nystrom H: p[q] has the weight 0.499999950000… instead of \
+         1/2, a difference of -5.00000000000e-8…; the result is the exact method near the decimals, from which the decimals differ by at \
+         most 5.0e-8\n"
+    );
+}

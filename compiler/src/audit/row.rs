@@ -93,7 +93,7 @@ pub struct Row {
     pub note: Option<String>,
     /// The number of stages.
     pub stages: usize,
-    /// The kind of the numbers: exact, decimals of an exact method, or decimals near which no exact method was found.
+    /// The kind of the numbers: exact (also decimals that satisfy their order conditions as they are written), decimals of an exact method, or decimals near which no exact method was found.
     pub numbers: String,
     /// For every Hamiltonian.
     pub general: ProvedOrder,
@@ -139,7 +139,7 @@ impl Row {
         // The conditions violated by the printed numbers, rather than those that the exact method near them violates by less.
         let within = match &read.origin {
             Origin::Exact => None,
-            Origin::Refined(within) | Origin::Decimals(within) => Some(within),
+            Origin::Refined(within, _) | Origin::Decimals(within) => Some(within),
         };
         let mut agree = true;
         for (found, (order, violated)) in proved.iter_mut().zip(within.into_iter().flatten()) {
@@ -168,7 +168,7 @@ impl Row {
             HamiltonianClass::Nystrom => nystrom.order,
         };
         let separable_properties = tableau.separable_properties();
-        let refined = matches!(read.origin, Origin::Refined(_));
+        let refined = matches!(read.origin, Origin::Refined(..));
         let right_places = match numbers.distance(tableau) {
             Some(distance) if refined => {
                 let printed = numbers.all().into_iter().filter(|value| !value.is_exact());
@@ -192,7 +192,7 @@ impl Row {
             stages: tableau.stages(),
             numbers: match read.origin {
                 Origin::Exact => "exact",
-                Origin::Refined(_) => "decimals of an exact method that is proved to exist",
+                Origin::Refined(..) => "decimals of an exact method that is proved to exist",
                 Origin::Decimals(_) => "decimals near which no exact method was found",
             }
             .to_owned(),

@@ -62,6 +62,7 @@ pub use lyndon::{Alphabet, Word};
 pub(crate) use lyndon::{DRIFT, KICK, split_lyndon};
 pub(crate) use minimax::{Best, Row, minimax};
 pub(crate) use newton::{Equations, Square};
+pub(crate) use printed::decimal_text;
 pub use printed::{MAX_DIGITS, Printed};
 pub(crate) use proof::Proof;
 pub(crate) use search::PROOF_BITS;

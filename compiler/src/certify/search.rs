@@ -123,6 +123,10 @@ fn first_certified(
     tolerance: &BigRational,
     bits: u32,
 ) -> Result<Certificate, CertifyError> {
+    // Nothing is moved if the numbers satisfy the conditions as they are printed.
+    if let Some(found) = readings.iter().find_map(|r| as_printed(r, claim, bits)) {
+        return Ok(found);
+    }
     let mut worst: Option<CertifyError> = None;
     // The first certificate near the digits, unless another one has all printed digits.
     let mut near: Option<Certificate> = None;
@@ -182,6 +186,71 @@ fn is_more_informative(error: &CertifyError, known: &CertifyError) -> bool {
     }
 }
 
+/// The claim whose conditions are solved for a reading.
+fn solved(reading: &Reading, claim: &Claim) -> Claim {
+    // A proof for compositions of any symmetric method holds for Störmer–Verlet and each class.
+    if reading.structure.composition() {
+        Claim::SymmetricBase(claim.order())
+    } else {
+        claim.clone()
+    }
+}
+
+/// The certificate of a method that is found for a reading.
+fn certificate(
+    reading: &Reading,
+    claim: &Claim,
+    conditions: usize,
+    digit_bits: u32,
+    (fixed, uniqueness, solution): (Vec<Fixed>, Option<Uniqueness>, Solution),
+    (digits, suspects): (Digits, Vec<Coefficient>),
+) -> Certificate {
+    Certificate::new(Facts {
+        claim: claim.clone(),
+        structure: reading.structure,
+        conditions,
+        unknowns: reading.unknowns.len(),
+        fixed,
+        targets: reading.targets.clone(),
+        sharp: sharp(reading, claim, &solution),
+        distance: distance(&reading.targets, &solution, digit_bits),
+        digit_bits,
+        digits,
+        suspects,
+        uniqueness,
+        solution,
+    })
+}
+
+/// The certificate of the printed numbers themselves, if they satisfy all conditions exactly.
+fn as_printed(reading: &Reading, claim: &Claim, digit_bits: u32) -> Option<Certificate> {
+    /// The degrees that are looked at first: most decimals violate one of these conditions.
+    const FIRST: usize = 3;
+    let values: Vec<BigRational> = reading.unknowns.iter().map(|x| x.start.clone()).collect();
+    let solution = Solution::Exact(values.clone());
+    let printed = |target: &Target| target.rational(&solution).as_ref() == Some(&target.printed);
+    let holds = |conditions: Conditions| {
+        let steps = reading.steps.clone();
+        let count = conditions.conditions().len();
+        let system = System { steps, conditions };
+        system.holds_exactly(&values).then_some(count)
+    };
+    let solved = solved(reading, claim);
+    if !reading.targets.iter().all(printed) {
+        return None;
+    }
+    holds(Conditions::of_degrees(
+        &solved,
+        1..=FIRST.min(claim.order()),
+    ))?;
+    let count = holds(Conditions::new(&solved, reading.structure.symmetric()).ok()?)?;
+    let found = (Vec::new(), None, solution);
+    let digits = (Digits::All, Vec::new());
+    Some(certificate(
+        reading, claim, count, digit_bits, found, digits,
+    ))
+}
+
 /// The certificate of a reading, at any distance from the digits.
 fn certified(
     reading: &Reading,
@@ -189,54 +258,42 @@ fn certified(
     digit_bits: u32,
 ) -> Result<Certificate, CertifyError> {
     let structure = reading.structure;
-    // A proof for compositions of any symmetric method holds for Störmer–Verlet and each class.
-    let solved = if structure.composition() {
-        Claim::SymmetricBase(claim.order())
-    } else {
-        claim.clone()
-    };
-    let conditions = Conditions::new(&solved, structure.symmetric())?;
+    let conditions = Conditions::new(&solved(reading, claim), structure.symmetric())?;
     let system = System {
         steps: reading.steps.clone(),
         conditions,
     };
     let counts = (system.conditions.conditions().len(), reading.unknowns.len());
-    let certificate = |fixed, uniqueness, solution, digits, suspects| {
-        let sharp = sharp(reading, claim, &solution);
-        Certificate::new(Facts {
-            claim: claim.clone(),
-            structure,
-            conditions: counts.0,
-            unknowns: counts.1,
-            fixed,
-            targets: reading.targets.clone(),
-            sharp,
-            distance: distance(&reading.targets, &solution, digit_bits),
-            digit_bits,
-            digits,
-            suspects,
-            uniqueness,
-            solution,
-        })
+    let with = |found, digits, suspects| {
+        let digits = (digits, suspects);
+        certificate(reading, claim, counts.0, digit_bits, found, digits)
+    };
+    let right = |solution: &Solution| {
+        let distances = distances(&reading.targets, solution, digit_bits).into_iter();
+        let mut pairs = reading.targets.iter().zip(distances);
+        pairs.all(|(target, distance)| distance.at_least <= target.half)
     };
     let printed: Vec<BigRational> = reading.unknowns.iter().map(|x| x.start.clone()).collect();
     let simple = reading
         .unknowns
         .iter()
         .map(|x| x.simple.clone().unwrap_or(x.start.clone()));
+    // An exact solution that does not round to all prints.
+    let mut other = None;
     for values in [printed.clone(), simple.collect()] {
         if short(&values) && system.holds_exactly(&values) {
             let solution = Solution::Exact(values);
-            return Ok(certificate(
-                Vec::new(),
-                None,
-                solution,
-                Digits::All,
-                Vec::new(),
-            ));
+            if right(&solution) {
+                return Ok(with((Vec::new(), None, solution), Digits::All, Vec::new()));
+            }
+            other.get_or_insert(solution);
         }
     }
     if counts.0 > counts.1 {
+        if let Some(solution) = other {
+            let found = (Vec::new(), None, solution);
+            return Ok(with(found, Digits::NotFound, Vec::new()));
+        }
         return Err(CertifyError::TooFewCoefficients {
             claim: claim.clone(),
             structure,
@@ -288,16 +345,8 @@ fn certified(
         Some((fixed, uniqueness, solution))
     };
     let first = solved(square.clone()).ok_or_else(|| not_found(&square.system))?;
-    let right = |solution: &Solution| {
-        let distances = distances(&reading.targets, solution, digit_bits).into_iter();
-        let mut pairs = reading.targets.iter().zip(distances);
-        pairs.all(|(target, distance)| distance.at_least <= target.half)
-    };
-    let with = |(fixed, uniqueness, solution), digits, suspects| {
-        Ok(certificate(fixed, uniqueness, solution, digits, suspects))
-    };
     if right(&first.2) {
-        return with(first, Digits::All, Vec::new());
+        return Ok(with(first, Digits::All, Vec::new()));
     }
     let again = |values: Vec<Option<BigRational>>| {
         let mut moved = square.clone();
@@ -312,8 +361,8 @@ fn certified(
         PROOF_BITS,
     ) {
         Settled::All(values) => match again(values) {
-            Some(moved) if right(&moved.2) => with(moved, Digits::All, Vec::new()),
-            _ => with(first, Digits::NotFound, Vec::new()),
+            Some(moved) if right(&moved.2) => Ok(with(moved, Digits::All, Vec::new())),
+            _ => Ok(with(first, Digits::NotFound, Vec::new())),
         },
         Settled::Wrong { excluded, suspects } => {
             let mut names = suspects.iter().map(|suspect| suspect.coefficient);
@@ -325,7 +374,7 @@ fn certified(
                 false => Digits::NotFound,
             };
             let found = best.and_then(|suspect| again(suspect.fixed));
-            with(found.unwrap_or(first), digits, names)
+            Ok(with(found.unwrap_or(first), digits, names))
         }
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! A file holds the numbers of one table, in the language of the library: Julia's `1//2` and `big"0.5"`, C's `0x1.8p-1`, Fortran's
 //! `1.0d0` and `0.5_real64`, Mathematica's `` 1.5`20 ``, Python's `Fraction(1, 2)`, Matlab's `[1 2; 3 4]`. Numbers are exact: a
-//! decimal is a rational number, `sqrt(2)` is a root. If decimals are rounded, the table is that of the exact method that is
+//! decimal is a rational number, `sqrt(2)` is a root, and an expression of other numbers is exact given these. Decimals that satisfy the
+//! conditions of their order as they are written are kept. Otherwise they are rounded, and the table is that of the exact method that is
 //! [proved](crate::certify) to be near them.
 
 mod constructors;
@@ -64,14 +65,17 @@ pub fn import(
 }
 
 /// The origin of the exact coefficients of an imported table.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum ImportOrigin {
-    /// The numbers of the table are exact.
+    /// The numbers of the table are exact, or they are decimals that satisfy the conditions of their order exactly as they are written. They
+    /// are kept to the digit.
     Exact,
     /// The numbers are decimals; the coefficients are those of the exact method near them.
     NearDecimals {
         /// The largest distance of a coefficient from its decimal; `None` if the stages are in a different order.
         distance: Option<f64>,
+        /// The order, and the condition that the decimals violate as they are written; `None` if none was found.
+        forced_by: Option<String>,
     },
     /// The decimals themselves, because no exact method was found near them.
     Decimals {
@@ -106,7 +110,8 @@ pub fn import_with_origin(
     let read = numbers.derive(limits)?;
     let origin = match read.origin {
         Origin::Exact => ImportOrigin::Exact,
-        Origin::Refined(_) => ImportOrigin::NearDecimals {
+        Origin::Refined(_, forced) => ImportOrigin::NearDecimals {
+            forced_by: forced.map(|forced| forced.to_string()),
             distance: numbers.largest_error(&read.tableau).map(|x| to_f64(&x)),
         },
         Origin::Decimals([_, (separable, _), (nystrom, _)]) => {

@@ -1,11 +1,13 @@
 //! From the numbers of a table to its tableau.
 
+use std::fmt;
+
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::source::zero;
-use super::value::Value;
+use super::value::{PLACES, Value};
 use crate::algebra::{Dense, Number, Rationals};
 use crate::arithmetic::rational::ratio;
 use crate::arithmetic::rounding::to_f64;
@@ -42,10 +44,10 @@ pub(crate) enum Numbers {
 /// The origin of the exact coefficients of a tableau.
 #[derive(Debug, Clone)]
 pub(crate) enum Origin {
-    /// The numbers are exact.
+    /// The numbers are exact, or satisfy their order conditions exactly as they are written.
     Exact,
-    /// The exact method that is proved to be near the decimals.
-    Refined(Within),
+    /// The exact method that is proved to be near the decimals, and the condition that the decimals violate as they are written.
+    Refined(Within, Option<Forced>),
     /// The decimals themselves, because no exact method was found near them.
     Decimals(Within),
 }
@@ -55,6 +57,25 @@ pub(crate) enum Origin {
 pub(crate) type Within = [(usize, Option<ViolatedCondition>); 3];
 
 /// An imported table.
+/// The reason for which decimals are moved: an order that they have up to their rounding, and a condition of this order.
+#[derive(Debug, Clone)]
+pub(crate) struct Forced {
+    class: HamiltonianClass,
+    order: usize,
+    violated: ViolatedCondition,
+}
+
+impl fmt::Display for Forced {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Forced {
+            class,
+            order,
+            violated,
+        } = self;
+        write!(f, "order {order} for {class} H: {violated}")
+    }
+}
+
 pub(crate) struct Read {
     pub tableau: Tableau,
     pub origin: Origin,
@@ -161,7 +182,8 @@ impl Numbers {
         self.all().into_iter().all(Value::is_exact)
     }
 
-    /// The tableau of the numbers if they are exact, otherwise of the exact method near them.
+    /// The tableau of the numbers if they are exact or satisfy their order conditions as they are written, otherwise of the exact method
+    /// near them.
     ///
     /// # Errors
     /// Numbers that are too long.
@@ -180,7 +202,7 @@ impl Numbers {
         let skipped = usize::from(nystrom <= separable);
         for (class, order) in claims.into_iter().skip(skipped) {
             if let Some(tableau) = self.refined(class, order, limits)? {
-                let origin = Origin::Refined(within);
+                let origin = Origin::Refined(within, forced);
                 return Ok(Read { tableau, origin });
             }
         }
@@ -196,6 +218,13 @@ impl Numbers {
         const MOST_GENERAL: usize = 7;
         let all = self.all();
         let error = all.iter().map(|value| &value.error).max();
+        let forced = self.forced(&within);
+        if forced.is_none()
+            && let Some(tableau) = self.as_written(&within, limits)
+        {
+            let origin = Origin::Exact;
+            return Ok(Read { tableau, origin });
+        }
         let error = error.cloned().unwrap_or_default() * ratio(UNITS, 1);
         let least = BigRational::new(BigInt::one(), BigInt::from(10).pow(10));
         let tolerance = error.max(least);
@@ -235,6 +264,38 @@ impl Numbers {
                 let mut pair =
                     Partitioned::equal(algebra.into(), matrix(&positions.0), list(&positions.1));
                 if let Some((rows, weights)) = momenta {
+    /// The first condition of the orders up to rounding that the numbers violate as they are written.
+    fn forced(&self, within: &Within) -> Option<Forced> {
+        let least = BigRational::new(BigInt::one(), BigInt::from(10).pow(PLACES));
+        let pair = self.rational_pair();
+        let classes = HamiltonianClass::ALL.into_iter().zip(within).rev();
+        // Those for every H are not looked for by any refinement.
+        let classes = classes.filter(|(class, _)| *class != HamiltonianClass::General);
+        let mut found = classes.filter_map(|(class, &(order, _))| {
+            let (_, violated) = order_within(&pair, class, &least, order);
+            violated.map(|violated| Forced {
+                class,
+                order,
+                violated,
+            })
+        });
+        found.next()
+    }
+
+    /// The tableau of the numbers as they are written, if it is proved to have the orders that they have up to rounding.
+    fn as_written(&self, within: &Within, limits: &Limits) -> Option<Tableau> {
+        let [_, (separable, _), (nystrom, _)] = within;
+        let tableau = self.as_they_stand(limits).ok()?;
+        let report = tableau.order(&OrderOptions {
+            limit: *separable.max(nystrom),
+            ..OrderOptions::default()
+        });
+        let kept = *nystrom > 0
+            && report.separable.order >= *separable
+            && report.nystrom.order >= *nystrom;
+        kept.then_some(tableau)
+    }
+
                     (pair.a_tilde, pair.b_tilde) = (matrix(rows), list(weights));
                 }
                 pair

@@ -15,7 +15,7 @@ const EXACT_DIGITS: usize = 6;
 /// Doubles with at most this many binary digits are exact: `0x1.8p-1`.
 const EXACT_BITS: u64 = 20;
 /// The decimal places of irrational exact values when others are decimals.
-const PLACES: u32 = 50;
+pub(super) const PLACES: u32 = 50;
 
 /// A number of a table.
 #[derive(Debug, Clone)]
@@ -124,24 +124,26 @@ impl Value {
         }
     }
 
-    /// The number as a paper would print it: the text as written, a fraction if it is exact, else a decimal with the certain places.
+    /// The number as a paper would print it: the text as written, a fraction if it is exact, else its value with its error. A computed
+    /// number is not rounded again: it is exact, given the numbers from which it is computed.
     pub fn printed(&self) -> Result<Printed, ErrorKind> {
-        let text = match (&self.text, self.constant.as_rational()) {
-            (Some(text), _) => text.clone(),
-            (None, Some(value)) if self.is_exact() => value.to_string(),
-            _ => {
-                // A tenth of half a unit of the next place is left for the rounding.
-                let (mut places, mut half) = (0, ratio(1, 200));
-                while places < PLACES && half >= self.error {
-                    places += 1;
-                    half /= BigRational::from_integer(10.into());
-                }
-                fixed_point(&self.rational(), places)
-            }
+        let parsed = |text: &str| {
+            Printed::parse(text).map_err(|error| ErrorKind::Document {
+                message: error.to_string(),
+            })
         };
-        Printed::parse(&text).map_err(|error| ErrorKind::Document {
-            message: error.to_string(),
-        })
+        match (&self.text, self.constant.as_rational()) {
+            (Some(text), _) => parsed(text),
+            (None, Some(value)) if self.is_exact() => parsed(&value.to_string()),
+            (None, Some(value)) => Ok(Printed::computed(value, &self.error)),
+            (None, None) => {
+                let printed = parsed(&fixed_point(&self.rational(), PLACES))?;
+                Ok(match printed.half_unit() < self.error {
+                    true => Printed::computed(printed.value(), &self.error),
+                    false => printed,
+                })
+            }
+        }
     }
 
     pub fn negate(&self) -> Result<Self, ErrorKind> {
@@ -187,8 +189,11 @@ impl Value {
         let error = (&self.error + quotient * &other.error) / divisor;
         Ok(Value {
             constant,
-            // The first-order error, doubled to cover the rest.
-            error: error * ratio(2, 1),
+            // The first-order error is doubled to cover the rest, if there is one.
+            error: match other.is_exact() {
+                true => error,
+                false => error * ratio(2, 1),
+            },
             text: None,
             whole: false,
         })
@@ -268,7 +273,14 @@ mod tests {
         );
         let sum = value("0.1234567").add(&value("0.25")).expect("a sum");
         assert_eq!(sum.rational(), ratio(3734567, 10_000_000));
-        assert_eq!(sum.printed().expect("printed").text(), "0.373457");
+        assert_eq!(sum.printed().expect("printed").text(), "0.3734567");
+        let computed = value("1")
+            .subtract(&sum.add(&sum).expect("a sum"))
+            .expect("a difference");
+        assert_eq!(
+            computed.printed().expect("printed").text(),
+            "0.2530866 ± 1e-7"
+        );
         let half = value("0.12345678901").divide(&value("2")).expect("half");
         assert!(half.error >= ratio(1, 400_000_000_000));
         let tenth = Value::binary(0x1999999999999a_i64.into(), -56).expect("a double");

@@ -1,14 +1,12 @@
 //! The facts about a refined method, as text and as data.
 
-use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::Signed;
 use serde::Serialize;
 
 use super::Refinement;
 use crate::arithmetic::rational::ratio;
 use crate::arithmetic::rounding::Decimal;
-use crate::certify::{CertifyError, Coefficient, Digits};
+use crate::certify::{CertifyError, Coefficient, Digits, decimal_text};
 use crate::error::{Error, ErrorKind};
 
 /// Longer exact values are not shown next to decimals.
@@ -284,34 +282,9 @@ fn fixed(refinement: &Refinement, report: &Report) -> Vec<String> {
 /// The value of a coefficient that was moved, as a decimal.
 fn moved(fixed: &FixedEntry) -> String {
     let value = fixed.value.parse::<BigRational>();
-    let decimal = value.map(|value| terminating(&value));
+    let decimal = value.map(|value| decimal_text(&value));
     decimal
         .ok()
         .flatten()
         .unwrap_or_else(|| fixed.value.clone())
-}
-
-/// A number as a decimal with all its places; `None` if it does not terminate.
-fn terminating(value: &BigRational) -> Option<String> {
-    // A denominator below 2ⁿ has at most n factors 2 or 5.
-    let places = u32::try_from(value.denom().bits()).ok()?;
-    let scale = BigInt::from(10).pow(places);
-    let digits = value * BigRational::from_integer(scale);
-    if !digits.is_integer() {
-        return None;
-    }
-    let text = format!(
-        "{:0>width$}",
-        digits.numer().abs(),
-        width = places as usize + 1
-    );
-    let (whole, fraction) = text.split_at(text.len() - places as usize);
-    let sign = if value.is_negative() { "-" } else { "" };
-    let decimal = format!("{sign}{whole}.{fraction}");
-    Some(
-        decimal
-            .trim_end_matches('0')
-            .trim_end_matches('.')
-            .to_owned(),
-    )
 }

@@ -10,6 +10,7 @@ mod extreme;
 mod extreme_definitions;
 mod golden;
 mod imports;
+mod kept_as_written;
 mod observed_order;
 mod older_files;
 mod perturbed;

@@ -12,14 +12,20 @@ use crate::expression::Input;
 use crate::limits::Limits;
 use crate::tableau::Tableau;
 
-/// The table that the digits round; `None` if the digits are not those of fractions and surds with one root.
-///
-/// # Errors
-/// A claim that does not hold for this table.
-pub(super) fn by_numbers(file: Input<'_>, table: &Table) -> Option<Result<RefinedTable, Error>> {
-    let texts = recognised(table)?;
+/// The printed numbers themselves, if they satisfy the claim exactly and every printed `c` is the rounded sum of its row.
+pub(super) fn as_printed(file: Input<'_>, table: &Table) -> Option<RefinedTable> {
+    let texts = table.cells.iter();
+    let texts: Vec<String> = texts.map(|x| format!("({})", x.printed.value())).collect();
     let tableau = tableau(table, &texts)?;
-    Some(facts(file, table, &tableau).map(|facts| RefinedTable {
+    let facts = facts(file, table, &tableau).ok()?;
+    let method = "the numbers as they are printed, which satisfy the claim exactly";
+    let kept = derived(table, tableau, method, facts);
+    kept.wrong_digits().is_empty().then_some(kept)
+}
+
+/// A table of which the printed stages are the stages.
+fn derived(table: &Table, tableau: Tableau, method: &str, facts: Vec<String>) -> RefinedTable {
+    RefinedTable {
         name: table.name.clone(),
         source: table.source.clone(),
         cells: table.cells.clone(),
@@ -27,12 +33,24 @@ pub(super) fn by_numbers(file: Input<'_>, table: &Table) -> Option<Result<Refine
             stages: (0..table.stages).collect(),
             tableau: Box::new(tableau),
         },
-        method: "the fractions and surds that the digits are the roundings of".to_owned(),
+        method: method.to_owned(),
         facts,
         notes: Vec::new(),
         only_one: false,
         are_wrong: true,
-    }))
+    }
+}
+
+/// The table that the digits round; `None` if the digits are not those of fractions and surds with one root.
+///
+/// # Errors
+/// A claim that does not hold for this table.
+pub(super) fn by_numbers(file: Input<'_>, table: &Table) -> Option<Result<RefinedTable, Error>> {
+    let texts = recognised(table)?;
+    let tableau = tableau(table, &texts)?;
+    let method = "the fractions and surds that the digits are the roundings of";
+    let facts = facts(file, table, &tableau);
+    Some(facts.map(|facts| derived(table, tableau, method, facts)))
 }
 
 /// The same method in exact numbers, if the numbers that were found are fractions and surds.

@@ -5,7 +5,7 @@ use num_traits::Signed;
 
 use super::RefinedTable;
 use super::composed::{explicit_pair, is_explicit, is_steps_of_midpoint, steps_of_midpoint};
-use super::exact::{by_numbers, in_exact_numbers};
+use super::exact::{as_printed, by_numbers, in_exact_numbers};
 use super::general::by_equations;
 use super::nodes::{by_nodes, collocation_of};
 use super::read::{Claimed, OffSum, Table, not_certified, off_sums};
@@ -25,7 +25,14 @@ pub(super) fn close(x: &BigRational, y: &BigRational) -> bool {
 pub(super) fn refine(file: Input<'_>, table: Table) -> Result<RefinedTable, Error> {
     let off = off_sums(&table);
     let fault = |off: &OffSum| not_certified(file, off.cell.span.clone(), off.message.clone());
-    let mut found = find(file, &table).map_err(|error| off.first().map_or(error, fault))?;
+    let found = find(file, &table);
+    // Nothing is moved if the numbers satisfy the claim as they are printed.
+    let kept = match &found {
+        Ok(found) if found.is_as_printed() => None,
+        _ => as_printed(file, &table),
+    };
+    let found = kept.map_or(found, Ok);
+    let mut found = found.map_err(|error| off.first().map_or(error, fault))?;
     let wrong = found.wrong_digits();
     let is_wrong = |off: &&OffSum| wrong.iter().any(|(name, _)| *name == off.cell.name());
     match off.iter().find(is_wrong) {

@@ -241,6 +241,24 @@ impl RefinedTable {
     /// The derived table, if the method is a collocation method or consists of fractions and surds.
     pub fn tableau(&self) -> Option<&Tableau> {
         match &self.exact {
+    /// Whether the weights and the matrices are the printed numbers, as far as enclosures tell.
+    fn is_as_printed(&self) -> bool {
+        /// The places behind those of the print that are compared; enclosures have 192 more.
+        const PLACES: u32 = 150;
+        let sums = [Array::C, Array::CTilde];
+        let mut pairs = self.cells.iter().zip(self.distances());
+        pairs.all(|(cell, distance)| {
+            let half = cell.printed.half_unit();
+            let unit = if half.is_positive() {
+                half
+            } else {
+                BigRational::one()
+            };
+            let least = unit / BigRational::from_integer(BigInt::one() << PLACES);
+            sums.contains(&cell.array) || distance.at_most <= least
+        })
+    }
+
             Exact::Derived { tableau, .. } => Some(tableau),
             Exact::Certified { .. } | Exact::Solved(_) => None,
         }
