@@ -241,7 +241,7 @@ fn wrong_options_and_names_are_refused() {
     bad_input(
         &["show", "gaus-3"],
         expect![[r#"
-        error: unknown method `gaus-3`; known here: gauss-3, gauss-1, gauss-2, …
+        error: unknown method `gaus-3`; known here: gauss-3, gauss-1, gauss-2, …; did you mean `gauss-3`?
     "#]],
     );
     bad_input(
