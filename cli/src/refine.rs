@@ -5,7 +5,9 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use symplectic_compiler::export::{self, DEFAULT_DIGITS};
-use symplectic_compiler::{Error, refine, refine_table};
+use symplectic_compiler::{
+    Error, refine, refine_table, refine_table_to_nearest, refine_to_nearest,
+};
 
 use crate::output;
 
@@ -37,6 +39,9 @@ pub(crate) struct Arguments {
     /// Format of the output.
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
+    /// Print the solution that was found, however far it is from the digits.
+    #[arg(long)]
+    nearest: bool,
 }
 
 /// Formats of a refined method.
@@ -52,13 +57,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let path = &arguments.file;
     let (name, text) = (path.display().to_string(), export::read_text(path)?);
     let digits = arguments.digits.unwrap_or(DEFAULT_DIGITS);
-    if let Some(table) = refine_table(&name, &text)? {
+    let table = match arguments.nearest {
+        true => refine_table_to_nearest(&name, &text)?,
+        false => refine_table(&name, &text)?,
+    };
+    if let Some(table) = table {
         return output::print(&match arguments.format {
             Format::Text => table.text(digits)?,
             Format::Json => table.json(digits)?,
         });
     }
-    let refinement = refine(&name, &text)?;
+    let refinement = match arguments.nearest {
+        true => refine_to_nearest(&name, &text)?,
+        false => refine(&name, &text)?,
+    };
     output::print(&match arguments.format {
         Format::Text => refinement.text(digits)?,
         Format::Json => refinement.json(digits)?,

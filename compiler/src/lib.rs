@@ -77,12 +77,14 @@ pub use derive::{derive, derive_from, derive_within};
 pub use error::{Error, ErrorKind, Place};
 pub use evidence::Evidence;
 pub use exact::Tier;
-pub use import::{ImportOrigin, import, import_with_origin};
+pub use import::{ImportOrigin, OwnNames, import, import_own, import_with_origin};
 pub use library::{Library, Stepping};
 pub use limits::Limits;
 pub use properties::{Properties, Property, SeparableProperties};
 pub use quadrature::{FAMILIES, Family, Nodes, QuadratureRule};
-pub use refine::{RefinedTable, Refinement, refine, refine_table};
+pub use refine::{
+    RefinedTable, Refinement, refine, refine_table, refine_table_to_nearest, refine_to_nearest,
+};
 pub use requirement::{Requirement, failed_assertion, require};
 pub use suggestion::{did_you_mean, suggestion, with_suggestion};
 pub use tableau::{Provenance, Tableau};

@@ -509,8 +509,8 @@ fn wrong_files_are_refused_at_their_place() {
         (
             "convention = \"sundials\"",
             claim,
-            "a = [\"1\"]\nahat = [\"1\", \"0\"]",
-            "1 drifts `a` and 2 kicks `ahat`",
+            "a = [\"1\"]\nahat = [\"1\", \"0\", \"0\"]",
+            "1 drifts `a` and 3 kicks `ahat`",
         ),
         (
             "convention = \"sundials\"",

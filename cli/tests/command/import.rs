@@ -116,9 +116,15 @@ fn a_table_that_satisfies_its_order_as_written_is_not_changed() {
     let audited = std::fs::read_to_string(&json).expect("written");
     let audited: serde_json::Value = serde_json::from_str(&audited).expect("valid");
     let row = &audited["rows"][0];
-    assert_eq!((&row["numbers"], &row["right_places"]), (&"exact".into(), &serde_json::Value::Null));
+    assert_eq!(
+        (&row["numbers"], &row["right_places"]),
+        (&"exact".into(), &serde_json::Value::Null)
+    );
     let stable = row["stable"].as_str().expect("text");
-    assert!(derived.contains(&format!("stable for ν in {stable}")), "{stable}\n{derived}");
+    assert!(
+        derived.contains(&format!("stable for ν in {stable}")),
+        "{stable}\n{derived}"
+    );
 }
 
 #[test]
@@ -135,4 +141,50 @@ fn a_table_that_is_changed_says_what_forces_it() {
          1/2, a difference of -5.00000000000e-8…; the result is the exact method near the decimals, from which the decimals differ by at \
          most 5.0e-8\n"
     );
+}
+
+#[test]
+fn a_table_is_read_by_its_own_names() {
+    let path = file("own.py", "version = 1.2.3\nc = [0.5, 0.5]\nd = [1]\n");
+    let text = stdout(&[
+        "import", "--drift", "c", "--kick", "d", "--first", "drift", &path,
+    ]);
+    assert!(
+        text.starts_with("2 stages, kick 1, 0, drift 1/2, 1/2, first drift\n"),
+        "{text}"
+    );
+    let path = file("half.py", "w = [1/6, 1/3]\n");
+    let text = stdout(&["import", "--weights", "w", "--symmetric", &path]);
+    assert!(
+        text.contains("base velocity-verlet, weights 1/6, 1/3, 1/3, 1/6"),
+        "{text}"
+    );
+    let text = stdout(&[
+        "import",
+        "--weights",
+        "w",
+        "--symmetric",
+        "--base",
+        "gauss-1",
+        &path,
+    ]);
+    assert!(text.starts_with("4 stages, base gauss-1, "), "{text}");
+    for (arguments, message) in [
+        (
+            vec!["--drift", "w", "--kick", "w"],
+            "which of them come first must be stated",
+        ),
+        (vec!["--drift", "w"], "--kick <NAME>"),
+        (vec![], "--from <LIBRARY>"),
+        (
+            vec!["--from", "sciml", "--symmetric"],
+            "`--symmetric` is for tables that are read with",
+        ),
+        (vec!["--weights", "v"], "the list `v` is missing"),
+    ] {
+        let mut all = vec!["import", &path];
+        all.extend(arguments);
+        let (status, found) = failure(&all);
+        assert!(status == Some(2) && found.contains(message), "{found}");
+    }
 }

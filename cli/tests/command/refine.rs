@@ -408,7 +408,7 @@ fn what_is_no_such_file_is_told() {
     "#]]
     .assert_eq(&told("missing", "kick = [\"0.5\", \"0.5\"]\n", ""));
     expect![[r#"
-        error: not a file of printed coefficients: unknown field `kicks`, expected one of `kick`, `drift`, `weights`
+        error: not a file of printed coefficients: unknown field `kicks`, expected one of `kick`, `drift`, `weights`; did you mean `kick`?
          --> unknown.toml:6:1
           |
         6 | kicks = ["0.5", "0.5"]
@@ -585,4 +585,38 @@ fn fractions_are_exact() {
     let near = fraction.replace("7/10", "700000000000001/1000000000000000");
     let found = refined("near-fraction", &near);
     assert!(!wrong(&found).0.is_empty(), "{found}");
+}
+
+/// Verlet with kicks that are off by a tenth, as a splitting, as weights, and as an array: the solution is printed with its distance.
+#[test]
+fn the_nearest_solution_is_printed_however_far_it_is() {
+    for (name, text, first, number) in [
+        (
+            "far.toml",
+            "[claim]\nclass = \"separable\"\norder = 2\n[printed]\nkick = [\"0.4\", \"0.6\"]\ndrift = [\"1\", \"0\"]\n",
+            "certified: an exact method of order 2 for separable H exists within 0.10 of the printed digits",
+            "kick[0]   0.50000000000000000000",
+        ),
+        (
+            "far-weights.toml",
+            "[claim]\norder = 4\n[printed]\nweights = [\"1.3\", \"-1.6\", \"1.3\"]\n",
+            "certified: an exact method of order 4 with any symmetric basic method exists within 0.11 of the printed digits",
+            "weight[0]   1.3512071919596576340",
+        ),
+        (
+            "far-array.toml",
+            "[claim]\nclass = \"general\"\norder = 2\n[printed]\na = [[\"0.501\"]]\nb = [\"1.001\"]\n",
+            "proved: an exact method is within 0.0011 of the printed digits",
+            "a[0][0]   0.50000000000000000000",
+        ),
+    ] {
+        let path = written(name, text);
+        let (status, message) = failure(&["refine", &path]);
+        assert!(status == Some(1), "{message}");
+        let found = stdout(&["refine", &path, "--nearest", "--digits", "20"]);
+        assert!(
+            found.starts_with(first) && found.contains(number),
+            "{found}"
+        );
+    }
 }

@@ -138,7 +138,7 @@ fn bad_input_is_refused_with_a_caret() {
     ]);
     assert_eq!(status, Some(2));
     expect![[r#"
-        error: unknown method `stromer-verlet`; known here: stormer-verlet, …
+        error: unknown method `stromer-verlet`; known here: stormer-verlet, …; did you mean `stormer-verlet`?
          --> base:1:1
           |
         1 | stromer-verlet

@@ -10,7 +10,7 @@ use super::row::{Claim, Row, Source};
 use crate::error::{Error, ErrorKind};
 use crate::export::first_line;
 use crate::expression::{Input, shown};
-use crate::import::{Numbers, Value, half, value_of};
+use crate::import::{Flows, Numbers, Value, half, value_of};
 use crate::library::{Library, Notation};
 use crate::limits::Limits;
 use crate::order::HamiltonianClass;
@@ -146,7 +146,7 @@ fn numbers(
     }
     if let Some(stepping) = library.stepping() {
         let (drifts, kicks) = (list(stepping.drift)?, list(stepping.kick)?);
-        return Numbers::splitting(&stepping, drifts, kicks, limits).map_err(at_name);
+        return Numbers::splitting(&Flows::from(&stepping), drifts, kicks, limits).map_err(at_name);
     }
     let halves = |a: &str, b: &str| -> Result<_, Error> {
         let matrix = list(a)?;

@@ -126,3 +126,20 @@ pub enum CertifyError {
         limit: usize,
     },
 }
+
+impl CertifyError {
+    /// The certificate of the nearest solution that was found, however far it is.
+    ///
+    /// # Errors
+    /// The error itself, if there is none.
+    pub fn into_nearest(self) -> Result<Certificate, CertifyError> {
+        match self {
+            CertifyError::DifferentSolution { certificate, .. }
+            | CertifyError::WeightSum {
+                nearest: Some(certificate),
+                ..
+            } => Ok(*certificate),
+            other => Err(other),
+        }
+    }
+}

@@ -9,13 +9,15 @@
 mod constructors;
 mod fortran;
 mod numbers;
+mod own;
 mod parser;
 mod source;
 mod tokens;
 mod tsv;
 mod value;
 
-pub(crate) use numbers::{Numbers, Origin, half};
+pub(crate) use numbers::{Flows, Numbers, Origin, half};
+pub use own::{OwnNames, import_own};
 pub(crate) use value::Value;
 
 use std::ops::Range;
@@ -72,10 +74,10 @@ pub enum ImportOrigin {
     Exact,
     /// The numbers are decimals; the coefficients are those of the exact method near them.
     NearDecimals {
-        /// The largest distance of a coefficient from its decimal; `None` if the stages are in a different order.
-        distance: Option<f64>,
         /// The order, and the condition that the decimals violate as they are written; `None` if none was found.
         forced_by: Option<String>,
+        /// The largest distance of a coefficient from its decimal; `None` if the stages are in a different order.
+        distance: Option<f64>,
     },
     /// The decimals themselves, because no exact method was found near them.
     Decimals {
@@ -106,7 +108,11 @@ pub fn import_with_origin(
     limits: &Limits,
 ) -> Result<(Tableau, ImportOrigin), Error> {
     let input = Input::of_file(file_name, text);
-    let numbers = read(library, input, limits)?;
+    outcome(&read(library, input, limits)?, limits)
+}
+
+/// The tableau of numbers, and the origin of its coefficients.
+fn outcome(numbers: &Numbers, limits: &Limits) -> Result<(Tableau, ImportOrigin), Error> {
     let read = numbers.derive(limits)?;
     let origin = match read.origin {
         Origin::Exact => ImportOrigin::Exact,
@@ -160,7 +166,7 @@ fn read(library: Library, input: Input<'_>, limits: &Limits) -> Result<Numbers, 
     {
         let (drifts, kicks) = (list(stepping.drift)?, list(stepping.kick)?);
         let place = source.place(stepping.kick);
-        return Numbers::splitting(&stepping, drifts, kicks, limits)
+        return Numbers::splitting(&Flows::from(&stepping), drifts, kicks, limits)
             .map_err(|kind| input.error(&place, kind));
     }
     let a = if found("A") { "A" } else { "a" };

@@ -14,6 +14,7 @@ use crate::arithmetic::rounding::to_f64;
 use crate::definition::{Definition, Key};
 use crate::error::{Error, ErrorKind};
 use crate::exact::over_algebra;
+use crate::expression::shown;
 use crate::library::Stepping;
 use crate::limits::Limits;
 use crate::order::{HamiltonianClass, OrderOptions, ViolatedCondition, order_within};
@@ -56,7 +57,6 @@ pub(crate) enum Origin {
 /// [`HamiltonianClass::ALL`].
 pub(crate) type Within = [(usize, Option<ViolatedCondition>); 3];
 
-/// An imported table.
 /// The reason for which decimals are moved: an order that they have up to their rounding, and a condition of this order.
 #[derive(Debug, Clone)]
 pub(crate) struct Forced {
@@ -76,9 +76,30 @@ impl fmt::Display for Forced {
     }
 }
 
+/// An imported table.
 pub(crate) struct Read {
     pub tableau: Tableau,
     pub origin: Origin,
+}
+
+/// The names of the drifts and kicks of a table, and their order.
+pub(crate) struct Flows<'a> {
+    pub drift: &'a str,
+    pub kick: &'a str,
+    pub drifts_first: bool,
+    /// Whether the lists are the first half of a step that is the same from both ends.
+    pub mirrored: bool,
+}
+
+impl From<&Stepping> for Flows<'_> {
+    fn from(stepping: &Stepping) -> Self {
+        Flows {
+            drift: stepping.drift,
+            kick: stepping.kick,
+            drifts_first: stepping.drifts_first,
+            mirrored: stepping.mirrored,
+        }
+    }
 }
 
 /// A half of a Runge–Kutta table, with the matrix row by row and optionally the nodes.
@@ -126,27 +147,27 @@ fn sum(values: &[Value]) -> Result<Value, ErrorKind> {
 impl Numbers {
     /// The lists of a splitting in the order in which a library steps them.
     pub fn splitting(
-        stepping: &Stepping,
+        flows: &Flows<'_>,
         mut drifts: Vec<Value>,
         mut kicks: Vec<Value>,
         limits: &Limits,
     ) -> Result<Self, ErrorKind> {
-        let (first, second) = match stepping.drifts_first {
+        let (first, second) = match flows.drifts_first {
             true => (&mut drifts, &mut kicks),
             false => (&mut kicks, &mut drifts),
         };
         let (n, m) = (first.len(), second.len());
-        if n == 0 || n != m && !(stepping.mirrored && n == m + 1) {
+        if n == 0 || n != m && n != m + 1 {
             let message = format!(
-                "{} drifts `{}` and {} kicks `{}`: a table has as many of both",
+                "{} drifts `{}` and {} kicks `{}`: a table has as many of both, or one more of what comes first",
                 drifts.len(),
-                stepping.drift,
+                shown(flows.drift),
                 kicks.len(),
-                stepping.kick
+                shown(flows.kick)
             );
             return Err(ErrorKind::Document { message });
         }
-        if stepping.mirrored {
+        if flows.mirrored {
             // The flow written last is in the middle, once; the others alternate towards both ends.
             let reversed = |list: &[Value], skipped: usize| -> Vec<Value> {
                 list.iter().rev().skip(skipped).cloned().collect()
@@ -154,13 +175,14 @@ impl Numbers {
             let (back, other) = (reversed(first, n - m), reversed(second, 1 - (n - m)));
             first.extend(back);
             second.extend(other);
-            second.resize_with(first.len(), zero);
         }
+        // The step ends as it begins.
+        second.resize_with(first.len(), zero);
         check_stages(&drifts.len().into(), limits)?;
         Ok(Numbers::Splitting {
             drifts,
             kicks,
-            drifts_first: stepping.drifts_first,
+            drifts_first: flows.drifts_first,
         })
     }
 
@@ -196,6 +218,13 @@ impl Numbers {
             });
         }
         let within = self.orders_within();
+        let forced = self.forced(&within);
+        if forced.is_none()
+            && let Some(tableau) = self.as_written(&within, limits)
+        {
+            let origin = Origin::Exact;
+            return Ok(Read { tableau, origin });
+        }
         let (separable, nystrom) = (within[1].0, within[2].0);
         let claims = [("nystrom", nystrom), ("separable", separable)];
         // The order for separable H is at most the order for quadratic T.
@@ -218,13 +247,6 @@ impl Numbers {
         const MOST_GENERAL: usize = 7;
         let all = self.all();
         let error = all.iter().map(|value| &value.error).max();
-        let forced = self.forced(&within);
-        if forced.is_none()
-            && let Some(tableau) = self.as_written(&within, limits)
-        {
-            let origin = Origin::Exact;
-            return Ok(Read { tableau, origin });
-        }
         let error = error.cloned().unwrap_or_default() * ratio(UNITS, 1);
         let least = BigRational::new(BigInt::one(), BigInt::from(10).pow(10));
         let tolerance = error.max(least);
@@ -242,28 +264,6 @@ impl Numbers {
         [general, separable, nystrom]
     }
 
-    fn rational_pair(&self) -> Partitioned<Dense<Rationals>> {
-        let list =
-            |values: &[Value]| -> Vec<BigRational> { values.iter().map(Value::rational).collect() };
-        match self {
-            Numbers::Splitting {
-                drifts,
-                kicks,
-                drifts_first,
-            } => {
-                let lower_triangular = match drifts_first {
-                    true => LowerTriangular::DriftsFirst,
-                    false => LowerTriangular::KicksFirst,
-                };
-                Partitioned::of_splitting(Rationals, lower_triangular, list(drifts), list(kicks))
-            }
-            Numbers::RungeKutta { positions, momenta } => {
-                let matrix =
-                    |rows: &[Vec<Value>]| rows.iter().map(|row| list(row)).collect::<Vec<_>>();
-                let algebra = Dense::new(Rationals, positions.1.len());
-                let mut pair =
-                    Partitioned::equal(algebra.into(), matrix(&positions.0), list(&positions.1));
-                if let Some((rows, weights)) = momenta {
     /// The first condition of the orders up to rounding that the numbers violate as they are written.
     fn forced(&self, within: &Within) -> Option<Forced> {
         let least = BigRational::new(BigInt::one(), BigInt::from(10).pow(PLACES));
@@ -296,6 +296,28 @@ impl Numbers {
         kept.then_some(tableau)
     }
 
+    fn rational_pair(&self) -> Partitioned<Dense<Rationals>> {
+        let list =
+            |values: &[Value]| -> Vec<BigRational> { values.iter().map(Value::rational).collect() };
+        match self {
+            Numbers::Splitting {
+                drifts,
+                kicks,
+                drifts_first,
+            } => {
+                let lower_triangular = match drifts_first {
+                    true => LowerTriangular::DriftsFirst,
+                    false => LowerTriangular::KicksFirst,
+                };
+                Partitioned::of_splitting(Rationals, lower_triangular, list(drifts), list(kicks))
+            }
+            Numbers::RungeKutta { positions, momenta } => {
+                let matrix =
+                    |rows: &[Vec<Value>]| rows.iter().map(|row| list(row)).collect::<Vec<_>>();
+                let algebra = Dense::new(Rationals, positions.1.len());
+                let mut pair =
+                    Partitioned::equal(algebra.into(), matrix(&positions.0), list(&positions.1));
+                if let Some((rows, weights)) = momenta {
                     (pair.a_tilde, pair.b_tilde) = (matrix(rows), list(weights));
                 }
                 pair

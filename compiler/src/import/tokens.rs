@@ -24,6 +24,8 @@ pub(super) enum Token {
     Symbol(char),
     /// The end of a line.
     Line,
+    /// What is wrong with a part that is not a token. It is an error only where a value is read.
+    Wrong(ErrorKind),
 }
 
 /// A token and its place.
@@ -279,9 +281,10 @@ impl<'a> Reader<'a> {
             self.skip(first.len_utf8());
             return Ok(None);
         }
+        let wrong = |error: Error| Token::Wrong(*error.kind);
         let digit_follows = rest.chars().nth(1).is_some_and(|c| c.is_ascii_digit());
         if first.is_ascii_digit() || first == '.' && digit_follows {
-            return self.number().map(|value| Some(Token::Number(value)));
+            return Ok(Some(self.number().map_or_else(wrong, Token::Number)));
         }
         // `'` directly after a matrix transposes it.
         let transposed = self.notation == Notation::Julia
@@ -291,10 +294,10 @@ impl<'a> Reader<'a> {
             && last.is_some_and(|last| match last.token {
                 Token::Symbol(c) => matches!(c, ')' | ']' | '}' | '.' | '\''),
                 Token::Name(_) | Token::Number(_) => true,
-                Token::Text(_) | Token::Line => false,
+                Token::Text(_) | Token::Line | Token::Wrong(_) => false,
             });
         if first == '"' || first == '\'' && !transposed {
-            return self.text(first).map(Some);
+            return Ok(Some(self.text(first).unwrap_or_else(wrong)));
         }
         if first.is_alphabetic() || first == '_' {
             loop {

@@ -6,11 +6,11 @@
 //! these letters up to the degree p are those of `exp(hE₁)`: see [`Conditions`](crate::certify::Conditions).
 
 use num_rational::BigRational;
-use num_traits::{One, Zero};
+use num_traits::{One, Signed, Zero};
 
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::rational::ratio;
-use crate::certify::Alphabet;
+use crate::certify::{Alphabet, MAX_ORDER};
 use crate::evidence::Evidence;
 use crate::symbolic::Constant;
 
@@ -50,6 +50,17 @@ pub(crate) fn has_order(steps: &[Step<'_>], symmetric: &[bool], order: usize) ->
     let fractions = enclosed.collect::<Option<Vec<Interval>>>()?;
     let holds = all_hold(&methods, &fractions, &letters, order, Interval::contains);
     holds.then_some(Evidence::Verified { bits: BITS })
+}
+
+/// The order of a composition of any symmetric method with these fractions, as far as conditions of at most this residual tell.
+pub(crate) fn order_within(fractions: &[BigRational], tolerance: &BigRational) -> usize {
+    let steps = vec![(0, false); fractions.len()];
+    let near = |x: &BigRational, wanted: &BigRational| (x - wanted).abs() <= *tolerance;
+    let holds = |order: &usize| {
+        let letters = letters(&[true], *order);
+        all_hold(&steps, fractions, &letters, *order, near)
+    };
+    (1..=MAX_ORDER).take_while(holds).last().unwrap_or(0)
 }
 
 /// A term `E_k` of the logarithm of a step.

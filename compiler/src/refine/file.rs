@@ -54,7 +54,8 @@ struct Entry {
     span: Range<usize>,
 }
 
-pub(super) fn refine(file: Input<'_>) -> Result<Refinement, Error> {
+/// The method of a file. With `nearest` it may be far from the digits.
+pub(super) fn refine(file: Input<'_>, nearest: bool) -> Result<Refinement, Error> {
     let keys: Keys = toml::from_str(file.text).map_err(|error| {
         let message = format!(
             "not a file of printed coefficients: {}",
@@ -72,6 +73,10 @@ pub(super) fn refine(file: Input<'_>) -> Result<Refinement, Error> {
             let weights: Vec<Printed> = entries.iter().map(|e| e.printed.clone()).collect();
             certify_composition(&weights, claim.order())
         }
+    };
+    let certificate = match nearest {
+        true => certificate.or_else(CertifyError::into_nearest),
+        false => certificate,
     };
     let printed = |entry: &Entry| (entry.name, entry.printed.clone());
     Ok(Refinement {

@@ -20,12 +20,13 @@ mod file;
 mod table;
 mod write;
 
-pub use table::{RefinedTable, refine_table};
+pub use table::{RefinedTable, refine_table, refine_table_to_nearest};
 
 use serde::Serialize as _;
 
 use crate::certify::{Certificate, Coefficient, Printed};
 use crate::error::Error;
+use crate::expression::Input;
 
 /// An exact method behind printed digits.
 #[derive(Debug, Clone)]
@@ -63,7 +64,31 @@ pub struct Refinement {
 /// the digits are not those of a method with the claimed order: they do not sum to 1, are too few, or no solution is near
 /// them. The error gives the distance of the nearest solution that was found. Each with its place in the file.
 pub fn refine(file_name: &str, text: &str) -> Result<Refinement, Error> {
-    file::refine(crate::expression::Input::of_file(file_name, text))
+    file::refine(Input::of_file(file_name, text), false)
+}
+
+/// The same with the solution that was found, however far it is from the digits.
+///
+/// ```
+/// let text = r#"
+/// [claim]
+/// class = "separable"
+/// order = 2
+///
+/// [printed]
+/// kick = ["0.4", "0.6"]
+/// drift = ["1", "0"]
+/// "#;
+/// assert!(symplectic_compiler::refine("verlet.toml", text).is_err());
+/// let verlet = symplectic_compiler::refine_to_nearest("verlet.toml", text)?;
+/// assert_eq!(verlet.certificate().distance_text(), "0.10");
+/// # Ok::<(), symplectic_compiler::Error>(())
+/// ```
+///
+/// # Errors
+/// Those of [`refine()`], except for digits that are too far from the solution.
+pub fn refine_to_nearest(file_name: &str, text: &str) -> Result<Refinement, Error> {
+    file::refine(Input::of_file(file_name, text), true)
 }
 
 impl Refinement {

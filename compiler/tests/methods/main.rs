@@ -13,6 +13,7 @@ mod imports;
 mod kept_as_written;
 mod observed_order;
 mod older_files;
+mod own_names;
 mod perturbed;
 mod properties;
 mod refused_files;

@@ -82,6 +82,9 @@ impl Parser<'_, '_> {
     /// The error for an unexpected next token.
     pub fn unexpected(&self, expected: &str) -> Error {
         let span = self.span();
+        if let Some(Token::Wrong(kind)) = self.peek() {
+            return self.source.input.error(&span, kind.clone());
+        }
         let found = match self.peek() {
             None => "the input ends".to_owned(),
             Some(Token::Line) => "the line ends".to_owned(),

@@ -8,7 +8,8 @@ use super::read::{Claimed, Table, not_certified};
 use super::{Array, Cell, Exact, RefinedTable, Terms};
 use crate::arithmetic::rational::ratio;
 use crate::certify::{
-    Certificate, Claim, Coefficient, Digits, Printed, Splitting, certify, certify_composition,
+    Certificate, CertifyError, Claim, Coefficient, Digits, Printed, Splitting, certify,
+    certify_composition,
 };
 use crate::error::Error;
 use crate::expression::Input;
@@ -31,9 +32,13 @@ pub(super) fn is_steps_of_midpoint(table: &Table) -> bool {
     table.cells.iter().all(fits)
 }
 
-pub(super) fn steps_of_midpoint(file: Input<'_>, table: &Table) -> Result<RefinedTable, Error> {
+pub(super) fn steps_of_midpoint(
+    file: Input<'_>,
+    table: &Table,
+    nearest: bool,
+) -> Result<RefinedTable, Error> {
     let weights = printed(table, Array::B);
-    let certificate = certify_composition(&weights, table.order)
+    let certificate = or_nearest(certify_composition(&weights, table.order), nearest)
         .map_err(|error| not_certified(file, table.order_span.clone(), error.to_string()))?;
     let weight = |index: usize, factor: BigRational| (Coefficient::Weight(index), factor);
     let terms = |cell: &Cell| -> Terms {
@@ -86,6 +91,7 @@ pub(super) fn explicit_pair(
     file: Input<'_>,
     table: &Table,
     kicks_first: bool,
+    nearest: bool,
 ) -> Result<RefinedTable, Error> {
     let refused = |message: String| not_certified(file, table.order_span.clone(), message);
     let Some(claim) = Claim::of(table.class, table.order) else {
@@ -97,7 +103,7 @@ pub(super) fn explicit_pair(
         kick.insert(0, Printed::zero());
         drift.push(Printed::zero());
     }
-    let certificate = certify(&Splitting { kick, drift }, &claim);
+    let certificate = or_nearest(certify(&Splitting { kick, drift }, &claim), nearest);
     let certificate = certificate.map_err(|error| refused(error.to_string()))?;
     let shift = usize::from(!kicks_first);
     let terms = |cell: &Cell| -> Terms {
@@ -130,6 +136,17 @@ pub(super) fn explicit_pair(
         format!("explicit pair, {order}"),
         terms,
     )
+}
+
+/// A certificate, or with `nearest` the one of the nearest solution that was found.
+fn or_nearest(
+    found: Result<Certificate, CertifyError>,
+    nearest: bool,
+) -> Result<Certificate, CertifyError> {
+    match nearest {
+        true => found.or_else(CertifyError::into_nearest),
+        false => found,
+    }
 }
 
 fn printed(table: &Table, array: Array) -> Vec<Printed> {

@@ -22,10 +22,11 @@ pub(super) fn close(x: &BigRational, y: &BigRational) -> bool {
 /// The exact method behind a table.
 ///
 /// A `c` that is not a row sum is an error, unless `c` is right and the error is in the row.
-pub(super) fn refine(file: Input<'_>, table: Table) -> Result<RefinedTable, Error> {
+/// With `nearest` it is a note, and the method may be far from the digits.
+pub(super) fn refine(file: Input<'_>, table: Table, nearest: bool) -> Result<RefinedTable, Error> {
     let off = off_sums(&table);
     let fault = |off: &OffSum| not_certified(file, off.cell.span.clone(), off.message.clone());
-    let found = find(file, &table);
+    let found = find(file, &table, nearest);
     // Nothing is moved if the numbers satisfy the claim as they are printed.
     let kept = match &found {
         Ok(found) if found.is_as_printed() => None,
@@ -35,7 +36,7 @@ pub(super) fn refine(file: Input<'_>, table: Table) -> Result<RefinedTable, Erro
     let mut found = found.map_err(|error| off.first().map_or(error, fault))?;
     let wrong = found.wrong_digits();
     let is_wrong = |off: &&OffSum| wrong.iter().any(|(name, _)| *name == off.cell.name());
-    match off.iter().find(is_wrong) {
+    match off.iter().find(is_wrong).filter(|_| !nearest) {
         Some(off) => Err(fault(off)),
         None => {
             found.notes.extend(off.into_iter().map(|off| off.message));
@@ -44,7 +45,7 @@ pub(super) fn refine(file: Input<'_>, table: Table) -> Result<RefinedTable, Erro
     }
 }
 
-fn find(file: Input<'_>, table: &Table) -> Result<RefinedTable, Error> {
+fn find(file: Input<'_>, table: &Table, nearest: bool) -> Result<RefinedTable, Error> {
     let explicit = [true, false]
         .into_iter()
         .find(|&kicks_first| is_explicit(table, kicks_first));
@@ -56,9 +57,9 @@ fn find(file: Input<'_>, table: &Table) -> Result<RefinedTable, Error> {
         let message = "these are not the arrays of a collocation method with polynomials, Σ_j a_ij c_j^k = c_i^(k+1)/(k+1), nor its symplectic partner, within 0.001; leave `collocation` out of the claim".to_owned();
         Err(not_certified(file, span, message))
     } else if is_steps_of_midpoint(table) {
-        steps_of_midpoint(file, table)
+        steps_of_midpoint(file, table, nearest)
     } else if let Some(kicks_first) = explicit {
-        explicit_pair(file, table, kicks_first)
+        explicit_pair(file, table, kicks_first, nearest)
     } else {
         match by_numbers(file, table) {
             Some(Ok(found)) => Ok(found),
@@ -71,7 +72,9 @@ fn find(file: Input<'_>, table: &Table) -> Result<RefinedTable, Error> {
             }
         }
     }?;
-    check_distance(file, table, &found)?;
+    if !nearest {
+        check_distance(file, table, &found)?;
+    }
     Ok(found)
 }
 

@@ -180,6 +180,18 @@ pub struct RefinedTable {
 /// [`ErrorKind::NotCertified`](crate::ErrorKind::NotCertified) if a `c` is not a row sum, if no exact method is found,
 /// if a claim does not hold, or if the nearest method is too far away. Each with its place.
 pub fn refine_table(file_name: &str, text: &str) -> Result<Option<RefinedTable>, Error> {
+    refined(file_name, text, false)
+}
+
+/// The same with the method that was found, however far it is from the digits.
+///
+/// # Errors
+/// Those of [`refine_table`], except for digits that are too far from the method.
+pub fn refine_table_to_nearest(file_name: &str, text: &str) -> Result<Option<RefinedTable>, Error> {
+    refined(file_name, text, true)
+}
+
+fn refined(file_name: &str, text: &str, nearest: bool) -> Result<Option<RefinedTable>, Error> {
     let file = Input {
         name: file_name,
         text,
@@ -187,7 +199,7 @@ pub fn refine_table(file_name: &str, text: &str) -> Result<Option<RefinedTable>,
     let Some(table) = read::read(file)? else {
         return Ok(None);
     };
-    kinds::refine(file, table).map(Some)
+    kinds::refine(file, table, nearest).map(Some)
 }
 
 /// Bounds on the distance of a number from its print.
@@ -229,18 +241,6 @@ impl RefinedTable {
             .collect()
     }
 
-    /// Whether a method of this kind that satisfies the claims has all printed digits.
-    pub fn digits(&self) -> Digits {
-        match (self.wrong_digits().is_empty(), self.only_one) {
-            (true, _) => Digits::All,
-            (false, true) => Digits::Excluded,
-            (false, false) => Digits::NotFound,
-        }
-    }
-
-    /// The derived table, if the method is a collocation method or consists of fractions and surds.
-    pub fn tableau(&self) -> Option<&Tableau> {
-        match &self.exact {
     /// Whether the weights and the matrices are the printed numbers, as far as enclosures tell.
     fn is_as_printed(&self) -> bool {
         /// The places behind those of the print that are compared; enclosures have 192 more.
@@ -259,6 +259,18 @@ impl RefinedTable {
         })
     }
 
+    /// Whether a method of this kind that satisfies the claims has all printed digits.
+    pub fn digits(&self) -> Digits {
+        match (self.wrong_digits().is_empty(), self.only_one) {
+            (true, _) => Digits::All,
+            (false, true) => Digits::Excluded,
+            (false, false) => Digits::NotFound,
+        }
+    }
+
+    /// The derived table, if the method is a collocation method or consists of fractions and surds.
+    pub fn tableau(&self) -> Option<&Tableau> {
+        match &self.exact {
             Exact::Derived { tableau, .. } => Some(tableau),
             Exact::Certified { .. } | Exact::Solved(_) => None,
         }

@@ -1,0 +1,203 @@
+//! Tables with their own names and their own order.
+
+use symplectic_compiler::{
+    Definition, Error, ImportOrigin, Library, Limits, OwnNames, Tableau, import, import_own,
+};
+
+fn derived(definition: &str) -> Tableau {
+    let definition = Definition::parse(definition).expect(definition);
+    definition.derive(&Limits::default()).expect("derived")
+}
+
+fn splitting(drift: &str, kick: &str, drifts_first: Option<bool>, symmetric: bool) -> OwnNames {
+    OwnNames::Splitting {
+        drift: drift.to_owned(),
+        kick: kick.to_owned(),
+        drifts_first,
+        symmetric,
+    }
+}
+
+fn composition(base: &str, symmetric: bool) -> OwnNames {
+    OwnNames::Composition {
+        base: base.to_owned(),
+        weights: "gamma".to_owned(),
+        symmetric,
+    }
+}
+
+fn read(names: &OwnNames, file: &str, text: &str) -> Result<(Tableau, ImportOrigin), Error> {
+    import_own(names, None, file, text, &Limits::default())
+}
+
+#[test]
+fn a_splitting_is_read_by_its_own_names_and_order() {
+    for (names, file, text, expected) in [
+        (
+            splitting("c", "d", Some(true), false),
+            "table.py",
+            "c = [0.25, 0.75]\nd = [1/3, 2/3]\n",
+            "first: drift, drift: [1/4, 3/4], kick: [1/3, 2/3]",
+        ),
+        (
+            splitting("c", "d", Some(false), false),
+            "table.jl",
+            "c = [0.25, 0.75]\nd = [1//3, 2//3]\n",
+            "drift: [1/4, 3/4], kick: [1/3, 2/3]",
+        ),
+        // One drift more than kicks, one kick more than drifts: the longer list begins and ends the step.
+        (
+            splitting("x_coeff", "v_coeff", None, false),
+            "table.c",
+            "double x_coeff[3] = {0.25, 0.5, 0.25}; double v_coeff[2] = {0.5, 0.5};",
+            "first: drift, drift: [1/4, 1/2, 1/4], kick: [1/2, 1/2, 0]",
+        ),
+        (
+            splitting("D", "K", None, false),
+            "table.f90",
+            "real(8) :: k(2) = [0.5d0, 0.5d0], d(1) = [1.0d0]\n",
+            "kick: [1/2, 1/2], drift: [1, 0]",
+        ),
+        // Half of a step.
+        (
+            splitting("c", "d", Some(true), true),
+            "table.m",
+            "c = [0.25 0.5]; d = [0.5];",
+            "first: drift, drift: [1/4, 1/2, 1/4], kick: [1/2, 1/2, 0]",
+        ),
+    ] {
+        let (tableau, origin) = read(&names, file, text).expect(text);
+        assert_eq!(origin, ImportOrigin::Exact, "{text}");
+        let expected = derived(expected);
+        assert_eq!(tableau.exact_forms(), expected.exact_forms(), "{text}");
+    }
+    // The tables of libraries may have one more of what comes first, too.
+    let text = "a = {1.0}; ahat = {0.5, 0.5};";
+    let verlet = import(Library::Sundials, "verlet.c", text, &Limits::default());
+    let expected = derived("kick: [1/2, 1/2], drift: [1, 0]");
+    assert_eq!(
+        verlet.expect("Verlet").exact_forms(),
+        expected.exact_forms()
+    );
+}
+
+/// Yoshida's solution A of order 6 (1990, table 1), with the weight in the middle last, first, missing, and all weights.
+#[test]
+fn the_weights_of_a_composition_are_read_whole_or_half() {
+    let [w1, w2, w3] = [
+        "-1.17767998417887",
+        "0.235573213359357",
+        "0.784513610477560",
+    ];
+    let middle = format!("1 - 2*(({w1}) + {w2} + {w3})");
+    let expected = derived(&format!(
+        "base: velocity-verlet, weights: [{w3}, {w2}, {w1}, 1.31518632068391], symmetric: true, claim: separable(6)"
+    ));
+    for (symmetric, list) in [
+        (true, format!("[{w3}, {w2}, {w1}, {middle}]")),
+        (true, format!("[{middle}, {w1}, {w2}, {w3}]")),
+        (
+            false,
+            format!("[{w3}, {w2}, {w1}, {middle}, {w1}, {w2}, {w3}]"),
+        ),
+    ] {
+        let text = format!("gamma = {list}\n");
+        let names = composition("velocity-verlet", symmetric);
+        let (tableau, origin) = read(&names, "yoshida.py", &text).expect(&text);
+        let ImportOrigin::NearDecimals {
+            forced_by: Some(forced_by),
+            distance: Some(distance),
+        } = origin
+        else {
+            panic!("{text}: {origin:?}")
+        };
+        assert_eq!(forced_by, "order 6 with any symmetric basic method");
+        // Each weight is rounded to 14 or 15 places.
+        assert!(distance <= 1e-14, "{distance}");
+        assert_eq!(tableau.to_f64(), expected.to_f64(), "{text}");
+        assert_eq!(tableau.orders().separable.order, 6);
+    }
+    // Without a weight in the middle; decimals that satisfy the order as they are written are kept; another base.
+    for (base, symmetric, list, weights) in [
+        ("gauss-1", true, "[1/6, 1/3]", "[1/6, 1/3, 1/3, 1/6]"),
+        (
+            "lobatto-2",
+            false,
+            "[0.1234567, 0.8765433]",
+            "[1234567/10^7, 8765433/10^7]",
+        ),
+        ("[kick: [1], drift: [1]]", false, "[0.5, 0.5]", "[1/2, 1/2]"),
+    ] {
+        let text = format!("gamma = {list}\n");
+        let (tableau, origin) = read(&composition(base, symmetric), "w.py", &text).expect(&text);
+        assert_eq!(origin, ImportOrigin::Exact, "{text}");
+        let expected = derived(&format!("base: {base}, weights: {weights}"));
+        assert_eq!(tableau.exact_forms(), expected.exact_forms(), "{text}");
+    }
+}
+
+#[test]
+fn what_is_unclear_is_refused_with_what_to_do() {
+    for (names, text, message) in [
+        (
+            splitting("c", "d", None, false),
+            "c = [0.5, 0.5]\nd = [1, 0]\n",
+            "line 2, column 1: as many drifts as kicks: which of them come first must be stated",
+        ),
+        (
+            splitting("c", "d", Some(false), false),
+            "c = [0.5, 0.5]\nd = [1]\n",
+            "2 drifts `c` and 1 kicks `d`: a table has as many of both, or one more of what comes first",
+        ),
+        (
+            splitting("drfit", "kick", Some(false), false),
+            "drift = [0.5, 0.5]\nkick = [1, 0]\n",
+            "the list `drfit` is missing; did you mean `drift`?",
+        ),
+        (
+            composition("velocity-verlet", false),
+            "gamma = [1.3512071919596578, -1.7024143839193153]\n",
+            "the weights sum to -0.35120719195965750, not to 1; half of a palindrome is read with `--symmetric`",
+        ),
+        (
+            composition("velocity-verlet", true),
+            "gamma = [1.3, -1.8]\n",
+            "whether the one in the middle is the last, the first or missing",
+        ),
+        (
+            composition("velocity-verle", true),
+            "gamma = [0.25, 0.5]\n",
+            "unknown method `velocity-verle`",
+        ),
+        (
+            composition("velocity-verlet", true),
+            "gamma = []\n",
+            "the weights sum to 0",
+        ),
+    ] {
+        let error = read(&names, "table.py", text).expect_err(text).to_string();
+        assert!(error.contains(message), "{text}: {error}");
+    }
+}
+
+/// Only the lists of the table have to be numbers.
+#[test]
+fn lines_that_are_not_needed_are_ignored() {
+    let expected = derived("kick: [7/24, 3/4, -1/24], drift: [2/3, -2/3, 1]");
+    for text in [
+        "version = 1.2.3\na = [2/3, -2/3, 1]\nahat = [7/24, 3/4, -1/24]\n",
+        "# made on 2024-01-01\nmask = 0b1010\nname = f\"it's {name}\na = [2/3, -2/3, 1]\nahat = [7/24, 3/4, -1/24]\n",
+        "don't panic\na = [2/3, -2/3, 1]\nahat = [7/24, 3/4, -1/24]\nn = 123_456\nother = [nan, 1e]\nc = 12abc\n",
+    ] {
+        let names = splitting("a", "ahat", Some(false), false);
+        let (tableau, _) = read(&names, "ruth.py", text).expect(text);
+        assert_eq!(tableau.exact_forms(), expected.exact_forms(), "{text}");
+    }
+    // Where it is needed, it is still wrong at its place.
+    let names = splitting("a", "ahat", Some(false), false);
+    let error = read(&names, "ruth.py", "a = [1, 1.2.3]\nahat = [1, 0]\n").unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "ruth.py, column 9: found `1.2.3`, expected a number"
+    );
+}
