@@ -228,11 +228,12 @@ impl<V: Vector<Scalar = f64>> Flow<V> for JacobiKick {
         // The force on the bodies before a planet is opposite to the force on the others.
         let (mut rest, mut finite) = ([0.0; 3], true);
         for i in (0..count).rev() {
-            let [own, before] = bodies.shares[i + 1];
+            let [own, _] = bodies.shares[i + 1];
             for axis in 0..3 {
                 let force = attraction.forces[axis][i];
+                // The shares have the exact sum 1, as in the positions: a torque of their rounding errors would be the same in all steps.
+                let relative = (force + own * rest[axis]) + falls[axis][i];
                 rest[axis] += force;
-                let relative = (before * force + own * rest[axis]) + falls[axis][i];
                 falls[axis][i] = relative;
                 finite &= relative.is_finite();
             }
