@@ -68,7 +68,7 @@
 //! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and Newton's iteration takes derivatives by dual numbers; implies `std`.
 //! * `fma`: products in sums are rounded once, everywhere; very slow without the instruction.
 //! * `parallel`: the trajectories of an [`ensemble`] are shared among threads; implies `std`.
-//! * `npz`: ensembles are written to files for NumPy; implies `std`.
+//! * `npz`: ensembles and [recordings](files) are written to files for NumPy; implies `std`.
 //! * `parquet`: ensembles are written to tables of Apache Parquet; implies `std`.
 //! * neither `std` nor `alloc`: `no_std` without an allocator; static vectors, the functions named under `std` from `libm`.
 
@@ -90,6 +90,8 @@ mod state;
 pub mod adaptive;
 #[cfg(feature = "alloc")]
 pub mod ensemble;
+#[cfg(feature = "std")]
+pub mod files;
 pub mod flow;
 mod integrator;
 mod method;

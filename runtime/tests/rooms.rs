@@ -15,6 +15,7 @@ const ROOMS: &[&[&str]] = &[
     &["output", "rotation", "tangent", "variational"],
     &["adaptive", "flow"],
     &["ensemble"],
+    &["files"],
 ];
 
 /// The imports that run up. A system chooses how it is stepped: its class the plan of a method, and its type the solver.
