@@ -6,6 +6,7 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIter
 use symplectic::State;
 use symplectic::ensemble::Npz;
 use symplectic::nalgebra::DVector;
+use symplectic::output::unit_of;
 
 use super::starts::Coordinates;
 use super::system::Tapes;
@@ -113,7 +114,7 @@ pub(super) enum Seen<'a> {
 }
 
 impl Results<'_> {
-    /// `(H − H₀)/|H₀|`, or `H − H₀` if the energy at the start is zero.
+    /// `(H − H₀)/|H₀|`; if H₀ is nothing but rounding, relative to [its terms](unit_of).
     pub(super) fn energy_errors(&self) -> Vec<Vec<f64>> {
         let pairs = self.rows.par_iter().zip(self.starts);
         let errors = pairs.map(|(row, start)| {
@@ -132,7 +133,7 @@ impl Results<'_> {
                 self.tapes.energy_at(at)
             };
             let first = energy_at(start.into());
-            let scale = if first == 0.0 { 1.0 } else { first.abs() };
+            let scale = unit_of(|state| energy_at(state.into()), start);
             let error = |energy: f64| (energy - first) / scale;
             match self.seen {
                 Seen::End => vec![error(energy_at((&row.state).into()))],

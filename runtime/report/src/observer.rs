@@ -1,6 +1,7 @@
 //! Observation of the energy and of invariants along a run.
 
 use super::Trace;
+use symplectic::output::unit_of;
 use symplectic::{State, Vector};
 
 /// Number of time intervals in a [`Trace`].
@@ -27,12 +28,11 @@ pub(super) struct Deviation {
 }
 
 impl Deviation {
-    /// Deviations relative to an initial value, absolute if it is zero.
-    pub fn new(initial: f64) -> Self {
-        let unit = if initial == 0.0 { 1.0 } else { initial.abs() };
+    /// Deviations from the value at the start, relative to [it or its terms](unit_of).
+    pub fn new<V: Vector>(function: impl Fn(&State<V>) -> f64, start: &State<V>) -> Self {
         Self {
-            initial,
-            unit,
+            initial: function(start),
+            unit: unit_of(function, start),
             largest: 0.0,
         }
     }
@@ -62,7 +62,7 @@ impl<'a, V: Vector> Observer<'a, V> {
         end: f64,
     ) -> Self {
         let with_deviation =
-            |function: &'a Function<'a, V>| (function, Deviation::new(function(start)));
+            |function: &'a Function<'a, V>| (function, Deviation::new(function, start));
         Self {
             energy: energy.map(with_deviation),
             invariants: invariants.map(with_deviation).collect(),
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn deviations_are_relative_and_absolute_where_the_first_value_is_zero() {
+    fn deviations_are_relative_to_the_first_value_and_to_its_terms_where_it_is_zero() {
         let energy = |state: &State<Vector1<f64>>| state.q[0];
         let shifted = |state: &State<Vector1<f64>>| state.q[0] - 2.0;
         let functions: [&Function<'_, _>; 1] = [&shifted];
@@ -139,7 +139,8 @@ mod tests {
             observer.observe(&state(time, q));
         }
         assert_eq!(observer.energy_error(), Some(0.25));
-        assert_eq!(observer.drifts(), [Some(0.5)]);
+        // An eighth of q is a quarter.
+        assert_eq!(observer.drifts(), [Some(0.5 / 0.25)]);
         let trace = observer.trace(0.5).expect("states on the way");
         assert_eq!(trace.ranges[0], Some((-0.25, -0.25)));
         assert_eq!(trace.ranges[119], Some((0.125, 0.125)));
@@ -157,5 +158,18 @@ mod tests {
         }
         assert_eq!(observer.energy_error(), None);
         assert!(observer.trace(1.0).is_none());
+    }
+
+    /// An energy of two terms that cancel but for a rounding error.
+    #[test]
+    fn deviations_of_an_energy_that_is_rounding_are_relative_to_its_terms() {
+        let energy = |state: &State<Vector1<f64>>| state.q[0] * state.q[0] - 2.0;
+        let start = state(0.0, 2.0_f64.sqrt());
+        assert!(energy(&start) != 0.0 && energy(&start).abs() < 1e-15);
+        let mut observer = Observer::new(Some(&energy), [].into_iter(), &start, 1.0);
+        observer.observe(&state(0.5, 1.5));
+        // 0.25 by a quarter of the term 2, which is what an eighth of q changes.
+        let error = observer.energy_error().expect("an error");
+        assert!((0.1..1.0).contains(&error), "{error}");
     }
 }

@@ -100,10 +100,14 @@ impl Verdict {
             Ok(integrator) => integrator,
             Err(error) => return Self::stopped(&error),
         };
-        let Some(initial) = integrator.energy() else {
+        if integrator.energy().is_none() {
             return Self::stopped(&Error::NoEnergy);
+        }
+        let energy_of = |state: &State<V>| {
+            let energy = integrator.system().energy(state.time, &state.q, &state.p);
+            energy.unwrap_or(f64::NAN)
         };
-        let mut energy = Deviation::new(initial);
+        let mut energy = Deviation::new(energy_of, integrator.state());
         for count in 1..=steps {
             if let Err(error) = integrator.step() {
                 return Self::stopped(&error);

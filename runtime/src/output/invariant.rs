@@ -1,6 +1,8 @@
 //! Observers of conserved quantities.
 
-use crate::number::{Vector, larger_or_nan};
+use num_traits::One;
+
+use crate::number::{Scalar, Vector, larger_or_nan};
 use crate::state::State;
 use crate::system::System;
 
@@ -42,6 +44,8 @@ pub struct Invariant<F> {
     initial: f64,
     last: f64,
     largest: f64,
+    /// What relative deviations are relative to.
+    unit: f64,
 }
 
 impl<F> Invariant<F> {
@@ -51,11 +55,25 @@ impl<F> Invariant<F> {
         F: Fn(&T) -> f64,
     {
         let initial = function(start);
+        let unit = if initial == 0.0 { 1.0 } else { initial.abs() };
         Self {
             function,
             initial,
             last: initial,
             largest: 0.0,
+            unit,
+        }
+    }
+
+    /// As [`new`](Self::new), but if the first value is nothing but rounding, deviations are relative to its terms: see [`unit_of`].
+    pub fn of_state<V: Vector>(function: F, start: &State<V>) -> Self
+    where
+        F: Fn(&State<V>) -> f64,
+    {
+        let unit = unit_of(&function, start);
+        Self {
+            unit,
+            ..Self::new(function, start)
         }
     }
 
@@ -84,7 +102,8 @@ impl<F> Invariant<F> {
         self.largest
     }
 
-    /// [`deviation`](Self::deviation), relative to the first value; the deviation itself if the first value is 0.
+    /// [`deviation`](Self::deviation), relative to the first value; the deviation itself if the first value is 0. Of functions of the
+    /// [state](Self::of_state), relative to the terms of the first value if that is nothing but rounding.
     ///
     /// ```
     /// use symplectic::Invariant;
@@ -96,25 +115,57 @@ impl<F> Invariant<F> {
     /// assert_eq!(momentum.relative_deviation(), 0.25);
     /// ```
     pub fn relative_deviation(&self) -> f64 {
-        self.largest / self.unit()
+        self.largest / self.unit
     }
 
     /// The latest value minus the first one, relative to the first one; the difference itself if the first value is 0.
     pub fn relative_error(&self) -> f64 {
-        (self.last - self.initial) / self.unit()
+        (self.last - self.initial) / self.unit
     }
+}
 
-    /// The size of the first value, or 1 if it is 0.
-    fn unit(&self) -> f64 {
-        match self.initial == 0.0 {
-            true => 1.0,
-            false => self.initial.abs(),
+/// What the deviations of a function of the state are relative to: the size of its value at the start, or the size of its terms if that
+/// value consists of their rounding errors, as on a separatrix or a parabolic orbit; 1 if both are 0.
+///
+/// The size of the terms is not known from the value. It is estimated by how much the value changes if the positions, or the momenta,
+/// change by an eighth and less, each component by another part so that opposite terms do not cancel. A value is rounding if it is below
+/// 64 ε of this; else it is the unit, whatever its terms.
+///
+/// ```
+/// use symplectic::State;
+/// use symplectic::nalgebra::Vector1;
+/// use symplectic::output::unit_of;
+///
+/// let energy = |state: &State<Vector1<f64>>| state.p[0] * state.p[0] / 2.0 - 1.0 / state.q[0];
+/// let escape = 2.0_f64.sqrt();
+/// let parabola = State::from_arrays(0.0, [1.0], [escape]);
+/// assert!(energy(&parabola).abs() < 1e-15);
+/// assert!((0.1..1.0).contains(&unit_of(energy, &parabola)));
+/// let ellipse = State::from_arrays(0.0, [1.0], [1.0]);
+/// assert_eq!(unit_of(energy, &ellipse), 0.5);
+/// ```
+pub fn unit_of<V: Vector>(function: impl Fn(&State<V>) -> f64, start: &State<V>) -> f64 {
+    let value = function(start);
+    let change = |half: fn(&mut State<V>) -> &mut V| {
+        let mut near = start.clone();
+        for (i, x) in half(&mut near).as_mut_slice().iter_mut().enumerate() {
+            let part = 0.125 / (1 + i % 3) as f64;
+            *x *= V::Scalar::one() - V::Scalar::from_f64(part);
         }
+        let change = (function(&near) - value).abs();
+        if change.is_finite() { change } else { 0.0 }
+    };
+    let terms = change(|state| &mut state.q) + change(|state| &mut state.p);
+    match value.abs() {
+        value if value == 0.0 && terms == 0.0 => 1.0,
+        value if value <= 64.0 * f64::EPSILON * terms => terms,
+        value => value,
     }
 }
 
 impl Invariant<()> {
-    /// An observer of the energy of `system`, in double precision; NaN if the system does not implement it.
+    /// An observer of the energy of `system`, in double precision; NaN if the system does not implement it. If the first value is nothing
+    /// but rounding, deviations are relative to its terms: see [`unit_of`].
     pub fn energy<V: Vector<Scalar = f64>, S: System<V>>(
         system: S,
         start: &State<V>,
@@ -123,7 +174,7 @@ impl Invariant<()> {
             let energy = system.energy(state.time, &state.q, &state.p);
             energy.unwrap_or(f64::NAN)
         };
-        Invariant::new(energy, start)
+        Invariant::of_state(energy, start)
     }
 }
 
@@ -134,7 +185,7 @@ type Named<F> = (&'static str, Invariant<F>);
 ///
 /// The method `invariants` of a system from a formula returns them.
 #[doc(hidden)]
-pub fn invariants<S: Clone, V, const COUNT: usize>(
+pub fn invariants<S: Clone, V: Vector, const COUNT: usize>(
     names: [&'static str; COUNT],
     system: &S,
     value: fn(&S, usize, &State<V>) -> f64,
@@ -144,6 +195,54 @@ pub fn invariants<S: Clone, V, const COUNT: usize>(
     names.map(|name| {
         let (system, number) = (system.clone(), numbers.next().unwrap_or(COUNT));
         let function = move |state: &State<V>| value(&system, number, state);
-        (name, Invariant::new(function, start))
+        (name, Invariant::of_state(function, start))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector2;
+
+    use super::*;
+
+    type Pair = State<Vector2<f64>>;
+
+    fn state(q: [f64; 2], p: [f64; 2]) -> Pair {
+        State::from_arrays(0.0, q, p)
+    }
+
+    /// Energies that are 0 except for rounding, and the size of their terms.
+    #[test]
+    fn a_value_that_is_rounding_has_the_unit_of_its_terms() {
+        let kepler = |s: &Pair| s.p.norm_squared() / 2.0 - 1.0 / s.q.norm();
+        let pendulum = |s: &Pair| s.p[0] * s.p[0] / 2.0 - s.q[0].cos() - 1.0;
+        let light = |s: &Pair| (s.p[1] * s.p[1] - s.p[0] * s.p[0]) / 2.0;
+        let momentum = |s: &Pair| s.q.perp(&s.p);
+        let third = 1.0_f64 / 3.0;
+        let escape = (2.0 / 0.7_f64).sqrt();
+        let top = std::f64::consts::PI;
+        let cases: [(&dyn Fn(&Pair) -> f64, Pair); 4] = [
+            (&kepler, state([0.42, 0.56], [-0.8 * escape, 0.6 * escape])),
+            (&pendulum, state([top, 0.0], [0.0, 0.0])),
+            (&light, state([1.0, 2.0], [1.0, 1.0])),
+            (&momentum, state([0.1, 0.3], [third, 1.0])),
+        ];
+        for (number, (function, start)) in cases.iter().enumerate() {
+            let unit = unit_of(function, start);
+            assert!(function(start).abs() < 1e-15, "{number}");
+            assert!((0.01..3.0).contains(&unit), "{number}: {unit}");
+        }
+    }
+
+    #[test]
+    fn a_value_above_its_rounding_is_its_own_unit() {
+        let energy = |s: &Pair| s.p.norm_squared() / 2.0 - 1.0 / s.q.norm();
+        for p in [0.0, 1.0, 1.414_213_5, 1.5, 1e3] {
+            let start = state([1.0, 0.0], [0.0, p]);
+            assert_eq!(unit_of(energy, &start), energy(&start).abs());
+        }
+        // At an equilibrium nothing is known of the terms.
+        let rest = state([0.0; 2], [0.0; 2]);
+        assert_eq!(unit_of(|s: &Pair| s.q.norm_squared(), &rest), 1.0);
+    }
 }

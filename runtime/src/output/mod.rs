@@ -15,6 +15,6 @@ pub use crate::method::{Inside, Interpolation};
 pub use balance::Balance;
 pub use dense::DenseOutput;
 pub use event::{Event, Events, Moment};
-pub use invariant::{Invariant, invariants};
+pub use invariant::{Invariant, invariants, unit_of};
 pub use progress::Progress;
 pub use states::States;

@@ -73,6 +73,21 @@ fn a_pendulum_ends_where_the_emitted_method_does() {
     );
 }
 
+/// On a separatrix H is 0 except for rounding; its terms are 1. The state at the end has |H| of about 10⁻¹⁰, by the error of the method.
+#[test]
+fn energy_errors_on_a_separatrix_are_relative_to_the_terms() {
+    let setup = r#"
+system = "Well q: [x], p: [px]; H = px^2/2 - x^2/2 + x^4/4"
+method = "gauss-3"
+step_size = 0.1
+end = 100
+starts = { x = 1.4142135623730951, px = 0 }
+output = { file = "out.csv" }
+"#;
+    let errors = columns(&csv(&folder("separatrix"), setup), &["energy_error"]);
+    assert!(errors[0][0].abs() < 1e-8, "{errors:?}");
+}
+
 #[test]
 fn orbits_close() {
     let folder = folder("kepler");
