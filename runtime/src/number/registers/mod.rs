@@ -64,6 +64,18 @@ pub(crate) const UNKNOWN: bool = cfg!(all(
     not(feature = "fma"),
 ));
 
+/// Whether long loops run in functions of their own, in the widest registers of the processor. So they also do in a build for AVX-512, where
+/// the compiler otherwise joins them with the code around.
+pub(crate) const APART: bool = UNKNOWN
+    || cfg!(all(
+        target_arch = "x86_64",
+        feature = "std",
+        target_feature = "avx512f",
+        target_feature = "avx512dq",
+        target_feature = "avx512vl",
+        not(feature = "fma"),
+    ));
+
 /// The widest registers of a processor.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Widest {
@@ -79,7 +91,7 @@ impl Widest {
     /// Those of this processor.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn find() -> Self {
-        if !UNKNOWN {
+        if !APART {
             Self::Build
         } else if let Some(avx512) = Avx512::detect() {
             Self::Avx512(avx512)
@@ -99,7 +111,7 @@ pub(crate) const LONG: usize = 32;
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn in_widest<T: Scalar, W: Work>(count: usize, work: W) -> W::Output {
     // Constant conditions first: other numbers compile without this code.
-    if UNKNOWN && T::IS_DOUBLE && count >= LONG {
+    if APART && T::IS_DOUBLE && count >= LONG {
         match Widest::find() {
             Widest::Build => work.run(),
             Widest::Avx2(avx2) => avx2.run(work),

@@ -281,7 +281,7 @@ impl<B: Bonds> Chain<B> {
     #[inline]
     fn forces_on_doubles(&self, time: f64, q: &[f64], force: &mut [f64]) {
         // A constant condition: other bonds compile without this code.
-        if registers::UNKNOWN && B::INLINED && q.len() >= <Eight as Row<f64>>::WIDTH {
+        if registers::APART && B::INLINED && q.len() >= <Eight as Row<f64>>::WIDTH {
             match Widest::find() {
                 Widest::Build => self.forces::<f64, Eight>(time, q, force),
                 Widest::Avx2(avx2) => {
