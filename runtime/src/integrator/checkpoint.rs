@@ -151,6 +151,15 @@ impl Checkpoint {
         }
     }
 
+    /// An empty checkpoint of values that are computed beside a run.
+    pub(crate) fn of_values(name: &str) -> Self {
+        Self {
+            method: name.to_string(),
+            definition: String::new(),
+            ..Self::of_flow(0, 0)
+        }
+    }
+
     /// Fills a checkpoint with the words that `show` shows.
     pub(crate) fn filled(mut self, show: impl FnOnce(&mut Visit<'_>)) -> Self {
         let words = &mut self.words;

@@ -4,6 +4,8 @@ use super::check_even;
 use super::dual_vector::halves;
 use crate::error::Error;
 use crate::integrator::validation::check_state;
+use crate::integrator::{Checkpoint, CheckpointError};
+use crate::number::words::{Visit, Words, words};
 use crate::number::{Scalar, Vector};
 use crate::state::State;
 
@@ -25,8 +27,39 @@ use crate::state::State;
 ///
 /// Source: Cincotta, Giordano & Simó, Physica D 182 (2003) 151; the second form of Y follows by partial integration.
 ///
-/// See [`Tangent`](super::Tangent) for an example.
+/// See [`Tangent`](super::Tangent) for an example. An indicator is saved as a [`Checkpoint`], next to that of the run, and resumes with the
+/// same bits. With the feature `serde` it is written as this checkpoint.
+///
+/// ```
+/// use symplectic::nalgebra::{Vector1, Vector2};
+/// use symplectic::tangent::{Megno, Tangent};
+/// use symplectic::{Checkpoint, Integrator, State};
+///
+/// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
+/// symplectic::hamiltonian! { Pendulum q: [a], p: [pa]; H = pa^2/2 - cos(a) }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let system = Tangent::new(Pendulum);
+/// let displacement = (&Vector1::new(1.0), &Vector1::new(0.0));
+/// let start: State<Vector2<f64>> = system.start(&State::from_arrays(0.0, [3.0], [0.0]), displacement)?;
+/// let (mut megno, mut run) = (Megno::new(&start)?, Integrator::new(VelocityVerlet, system, start, 0.1)?);
+/// for _ in 0..100 {
+///     megno.see(run.step()?);
+/// }
+/// let saved = [run.checkpoint()?, Checkpoint::from(megno)];
+///
+/// // In another process, after `run` is made again.
+/// run.restore(&saved[0])?;
+/// let mut resumed = Megno::try_from(&saved[1])?;
+/// resumed.see(run.step()?);
+/// # megno.see(run.state());
+/// # assert_eq!(megno, resumed);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(into = "Checkpoint", try_from = "Checkpoint"))]
 pub struct Megno {
     begin: f64,
     /// Time since `begin`; negative in a backward run.
@@ -107,6 +140,47 @@ impl Megno {
             0.0 => 0.0,
             time => quantity / time,
         }
+    }
+}
+
+impl Words for Megno {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        words!(visit: self.begin, self.elapsed, self.first, self.growth, self.area, self.value, self.sum);
+    }
+}
+
+/// The name of its checkpoints.
+const NAME: &str = "MEGNO";
+
+impl From<Megno> for Checkpoint {
+    fn from(mut megno: Megno) -> Self {
+        Self::of_values(NAME).filled(|visit| megno.words(visit))
+    }
+}
+
+impl TryFrom<&Checkpoint> for Megno {
+    type Error = CheckpointError;
+
+    fn try_from(checkpoint: &Checkpoint) -> Result<Self, CheckpointError> {
+        let mut megno = Self {
+            begin: 0.0,
+            elapsed: 0.0,
+            first: 0.0,
+            growth: 0.0,
+            area: 0.0,
+            value: 0.0,
+            sum: 0.0,
+        };
+        checkpoint.read(&Checkpoint::of_values(NAME), |visit| megno.words(visit))?;
+        Ok(megno)
+    }
+}
+
+impl TryFrom<Checkpoint> for Megno {
+    type Error = CheckpointError;
+
+    fn try_from(checkpoint: Checkpoint) -> Result<Self, CheckpointError> {
+        Self::try_from(&checkpoint)
     }
 }
 

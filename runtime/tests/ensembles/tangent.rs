@@ -3,11 +3,16 @@
 use std::ops::ControlFlow;
 
 use symplectic::ensemble::Ensemble;
+#[cfg(feature = "serde")]
+use symplectic::ensemble::EnsembleCheckpoint;
 use symplectic::nalgebra::{DVector, Matrix2, SVector, Vector1, Vector2};
 use symplectic::num_traits::Zero;
 use symplectic::tangent::{Megno, Tangent};
 use symplectic::variational::generating_function;
-use symplectic::{Compensated, Error, Integrator, Method, ProvedFor, Separable, State, System};
+use symplectic::{
+    Checkpoint, CheckpointError, Compensated, Error, Integrator, Method, ProvedFor, Separable,
+    State, System,
+};
 
 use crate::common::dual::{Dual, dual};
 use crate::common::methods::{ForestRuth, Gauss4, StoermerVerlet};
@@ -388,6 +393,105 @@ fn in_ensembles() -> Result<(), Box<dyn std::error::Error>> {
         "{sea:?}"
     );
     assert!(island.iter().all(|mean| *mean < 2.5), "{island:?}");
+    Ok(())
+}
+
+/// The indicator and the run are saved in the middle, one as text.
+#[test]
+fn an_indicator_resumes_with_the_same_bits() -> Result<(), Box<dyn std::error::Error>> {
+    let system = Tangent::new(STILL);
+    let displacement = (&Vector2::new(0.6, 0.3), &Vector2::new(-0.2, 0.7));
+    let start: State<Four> = system.start(&henon_heiles(-0.16, 0.0, 0.125), displacement)?;
+    let make = || Integrator::new(ForestRuth, system, start.clone(), 0.1);
+    let (mut megno, mut run) = (Megno::new(&start)?, make()?);
+    let steps = |megno: &mut Megno, run: &mut Integrator<_, _, Four>| {
+        (0..200).try_for_each(|_| run.step().map(|state| megno.see(state)))
+    };
+    steps(&mut megno, &mut run)?;
+    let saved = (run.checkpoint()?, Checkpoint::from(megno));
+    steps(&mut megno, &mut run)?;
+
+    let mut again = make()?;
+    again.restore(&saved.0)?;
+    let mut resumed = Megno::try_from(&saved.1)?;
+    steps(&mut resumed, &mut again)?;
+    assert_eq!(Checkpoint::from(resumed), Checkpoint::from(megno));
+    assert_eq!(words(again.state()), words(run.state()));
+    // A checkpoint of another kind.
+    let other = Megno::try_from(&saved.0);
+    assert!(matches!(
+        other,
+        Err(CheckpointError::OtherRun { what: "method", .. })
+    ));
+    Ok(())
+}
+
+/// A chaos map that is interrupted after some rows, and one whose orbits go on from where they were.
+#[cfg(feature = "serde")]
+#[test]
+fn indicators_of_an_ensemble_resume_with_the_same_bits() -> Result<(), Box<dyn std::error::Error>> {
+    let system = Tangent::new(STILL);
+    let displacement = (&Vector2::new(0.6, 0.3), &Vector2::new(-0.2, 0.7));
+    let begins = (0..20).map(|k| henon_heiles(-0.25 + 0.025 * f64::from(k), 0.0, 0.125));
+    let starts: Vec<State<Four>> = begins
+        .map(|begin| system.start(&begin, displacement))
+        .collect::<Result<_, _>>()?;
+    let make = || Ensemble::new(ForestRuth, system, starts.clone(), 0.1);
+    let output = |trajectory: usize| Megno::new(&starts[trajectory]).expect("a displacement");
+    let times: Vec<f64> = (0..=50).map(|k| 0.5 * f64::from(k)).collect();
+    let map = |ensemble: &Ensemble<_, _, Four>, found: &mut Vec<Megno>, most: usize| {
+        ensemble.integrate_at(&times, output, Megno::see, |row| {
+            found.push(row.output);
+            match found.len() < most {
+                true => ControlFlow::Continue(()),
+                false => ControlFlow::Break(()),
+            }
+        })
+    };
+    let mut whole = Vec::new();
+    map(&make()?, &mut whole, 20);
+    let mut found = Vec::new();
+    let next = map(&make()?, &mut found, 7);
+    let text = serde_json::to_string(&(make()?.checkpoint(next)?, &found))?;
+
+    let (checkpoint, mut found): (EnsembleCheckpoint, Vec<Megno>) = serde_json::from_str(&text)?;
+    let mut resumed = make()?;
+    resumed.restore(&checkpoint)?;
+    map(&resumed, &mut found, 20);
+    let checkpoints = |found: &[Megno]| {
+        found
+            .iter()
+            .map(|&megno| megno.into())
+            .collect::<Vec<Checkpoint>>()
+    };
+    assert_eq!(checkpoints(&found), checkpoints(&whole));
+    let damaged = text.replacen("\"MEGNO\"", "\"MEGNo\"", 1);
+    serde_json::from_str::<(EnsembleCheckpoint, Vec<Megno>)>(&damaged).expect_err("a change");
+
+    // Every orbit is saved at half of its steps.
+    type Saved = (Megno, Option<Checkpoint>);
+    let steps = |count: u32| {
+        move |(megno, saved): &mut Saved, run: &mut Integrator<_, _, Four>| {
+            if let Some(saved) = saved {
+                run.restore(saved).expect("a checkpoint of this run");
+            }
+            (0..count).try_for_each(|_| run.step().map(|state| megno.see(state)))?;
+            *saved = Some(run.checkpoint().expect("doubles"));
+            Ok(())
+        }
+    };
+    let each = |count: u32, output: &(dyn Fn(usize) -> Saved + Sync)| {
+        let mut found = Vec::new();
+        make().expect("starts").each(output, steps(count), |row| {
+            found.push(row.output);
+            ControlFlow::Continue(())
+        });
+        found
+    };
+    let whole = each(100, &|k| (output(k), None));
+    let text = serde_json::to_string(&each(50, &|k| (output(k), None)))?;
+    let half: Vec<Saved> = serde_json::from_str(&text)?;
+    assert_eq!(each(50, &|k| half[k].clone()), whole);
     Ok(())
 }
 
