@@ -45,19 +45,19 @@ pub(super) fn code(
 pub(super) fn are_of_stoermer_verlet(
     tableau: &Tableau,
     numbers: &Coefficients<Number<'_>>,
-    (methods, substeps): (&[Tableau], &[Substep]),
+    parts: &Parts,
 ) -> bool {
     let is_one = |numbers: &Coefficients<Number<'_>>| {
         let [weights, nodes] = [&numbers.b, &numbers.c]
             .map(|vector| vector.iter().map(Number::to_f64).collect::<Vec<_>>());
         weights == [0.5; 2] && nodes == [0.0, 1.0]
     };
-    let qualifies = |tableau: &Tableau| tableau.properties().constrained.holds;
+    let qualifies = |tableau: &Tableau| tableau.own_properties().constrained.holds;
     if qualifies(tableau) {
         return is_one(numbers);
     }
     let is_part = |method: &Tableau| qualifies(method) && is_one(&method.numbers());
-    !substeps.is_empty() && methods.iter().all(is_part)
+    !parts.substeps.is_empty() && parts.methods.iter().all(is_part)
 }
 
 /// Symplectic Euler, whose stage is at the start, with the end of the step as a second stage of weight 0; or its adjoint, whose stage is at

@@ -112,7 +112,7 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
         plans[1].splits,
         matrices.is_none(),
     );
-    let verlet = constrained::are_of_stoermer_verlet(tableau, &numbers, parts);
+    let verlet = constrained::are_of_stoermer_verlet(tableau, &numbers, &parts);
     let verlet = verlet.then(|| quote!(impl emitted::StoermerVerletSteps for #name {}));
     let symmetric = symmetric(tableau, name);
     let [general, separable] = [&plans[0].name, &plans[1].name];

@@ -82,8 +82,8 @@ pub enum CheckpointError {
 
     /// The checkpoint has the words in an order that this version does not read.
     #[error(
-        "the checkpoint has format {format} and was written by version {version} of this library; this version reads format {own}: continue \
-         with version {version}, or begin a new run from a state",
+        "the checkpoint has format {format} and was written by version {version} of this library; this version continues such runs from \
+         format {own}: continue with version {version}, or begin a new run from a state",
         own = Checkpoint::FORMAT
     )]
     OtherFormat {
@@ -122,8 +122,9 @@ pub enum CheckpointError {
 }
 
 impl Checkpoint {
-    /// The format of this version: a new number for every change of the order of the words.
-    pub(super) const FORMAT: u32 = 1;
+    /// The format of this version: a new number for every change of the order of the words of any run. Format 2: planets carry the
+    /// round-off of their centre of mass.
+    pub(super) const FORMAT: u32 = 2;
 
     /// Whether it is the same except for the version that wrote it.
     pub(crate) fn is_same_run(&self, other: &Self) -> bool {
@@ -173,13 +174,19 @@ impl Checkpoint {
         own: &Self,
         take: impl FnOnce(&mut Visit<'_>),
     ) -> Result<(), CheckpointError> {
-        if self.format != Self::FORMAT {
-            return Err(CheckpointError::OtherFormat {
-                format: self.format,
-                version: self.version.clone(),
-            });
+        let other_format = CheckpointError::OtherFormat {
+            format: self.format,
+            version: self.version.clone(),
+        };
+        if !(1..=Self::FORMAT).contains(&self.format) {
+            return Err(other_format);
         }
+        // In an older format, the words of most runs are in the present order.
+        let is_older = self.format < Self::FORMAT;
         for ((what, found), (_, expected)) in self.header().into_iter().zip(own.header()) {
+            if is_older && what == "definition" && found != expected {
+                return Err(other_format);
+            }
             if found != expected {
                 return Err(CheckpointError::OtherRun {
                     what,
@@ -197,6 +204,9 @@ impl Checkpoint {
             Some(found) => *word = u64::from_le_bytes(*found),
             None => missing = true,
         });
+        if (missing || words.next().is_some()) && is_older {
+            return Err(other_format);
+        }
         if missing || words.next().is_some() {
             let reason = "it has more or fewer words than this run";
             return Err(CheckpointError::Damaged { reason });

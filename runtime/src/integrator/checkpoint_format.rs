@@ -97,7 +97,7 @@ impl<'de> Deserialize<'de> for Checkpoint {
 }
 
 impl Checkpoint {
-    /// FNV-1a hash of all fields except the format, and the words: of the bytes of a text, of the words of bytes.
+    /// FNV-1a hash of all fields and the words: of the bytes of a text, of the words of bytes.
     fn sum(&self, words: &Stored<'_>) -> String {
         let mut hash = 0xcbf2_9ce4_8422_2325;
         let mut add = |text: &str| {
@@ -106,6 +106,10 @@ impl Checkpoint {
                 (hash ^ u64::from(byte)).wrapping_mul(FACTOR)
             });
         };
+        // The first files had no format.
+        if self.format > 1 {
+            add(&format!("{}", self.format));
+        }
         add(&self.version);
         for (_, text) in self.header() {
             add(&text);

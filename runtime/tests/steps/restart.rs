@@ -351,9 +351,15 @@ mod files {
             "sums",
             "solver",
         ];
-        let mut fields: Vec<String> = (names.iter())
-            .map(|&name| text[name].as_str().expect("a text").to_owned())
+        let mut fields: Vec<String> = text["format"]
+            .as_u64()
+            .map(|format| format.to_string())
+            .into_iter()
             .collect();
+        let texts = names
+            .iter()
+            .map(|&name| text[name].as_str().expect("a text"));
+        fields.extend(texts.map(str::to_owned));
         fields.push(text["dimension"].to_string());
         fields.push(text["words"].as_str().expect("digits").to_owned());
         let bytes = fields.iter().flat_map(|field| field.bytes().chain([0xff]));
@@ -382,11 +388,13 @@ mod files {
         assert_eq!(resumed.state(), whole.state());
         // The first files have no number.
         text.as_object_mut().expect("fields").remove("format");
+        text["checksum"] = checksum(&text).into();
         assert!(read(&text)?.is_ok());
-        text["format"] = 2.into();
+        text["format"] = 3.into();
+        text["checksum"] = checksum(&text).into();
         let error = read(&text)?.err().expect("a later format").to_string();
         assert!(
-            error.starts_with("the checkpoint has format 2 and was written by version 0.0.9"),
+            error.starts_with("the checkpoint has format 3 and was written by version 0.0.9"),
             "{error}"
         );
         Ok(())

@@ -108,7 +108,7 @@ fn candidates(graph: &Graph, below: &[Id]) -> Vec<Kink> {
                 .iter()
                 .filter(|&&id| matches!(graph.node(id), Node::Coordinate(_)));
             let in_total = !graph.totals(inner).is_empty();
-            let is_crossed = leaves.count() == 1 && !in_total;
+            let is_crossed = leaves.count() == 1 && !in_total && vanish_together(graph, &zeros);
             add(*base, zeros, is_crossed);
         }
         for zero in crossed {
@@ -118,6 +118,38 @@ fn candidates(graph: &Graph, below: &[Id]) -> Vec<Kink> {
         }
     }
     kinks.into_values().collect()
+}
+
+/// Whether functions of one coordinate have a common zero: `x` and `sin(x)`, but not `x` and `x - 1` or `sin(x)` and `cos(x)`. Two
+/// functions of which none is linear count as having none; where they do, a step returns an error.
+fn vanish_together(graph: &Graph, zeros: &[Id]) -> bool {
+    let line = ([1, 0], true);
+    let values = |at: f64| {
+        let mut values: HashMap<Id, Value> = HashMap::new();
+        for id in graph.below(zeros.iter().copied()) {
+            let value = match graph.node(id) {
+                Node::Coordinate(_) => Value::line(at, 1.0),
+                _ => compute(graph, id, line, |x| &values[&x]),
+            };
+            values.insert(id, value);
+        }
+        values
+    };
+    let here = values(0.0);
+    let roots = zeros.iter().filter_map(|zero| match &here[zero] {
+        Value::Series(series) => series.root(),
+        _ => None,
+    });
+    let is_zero = |value: &Value| match value {
+        Value::Series(series) => series.vanishes(),
+        _ => false,
+    };
+    let mut roots = roots.take(1);
+    zeros.len() == 1
+        || roots.any(|root| {
+            let values = values(root);
+            zeros.iter().all(|zero| is_zero(&values[zero]))
+        })
 }
 
 fn is_variable(graph: &Graph, id: Id) -> bool {

@@ -98,6 +98,23 @@ impl Series {
         self.terms.keys().next().or(self.order.as_ref())
     }
 
+    /// The τ where it is zero, if it is linear.
+    pub(super) fn root(&self) -> Option<f64> {
+        let is_linear = self.order.is_none()
+            && self
+                .terms
+                .keys()
+                .all(|e| *e == integer(0) || *e == integer(1));
+        let slope = self.coefficient(1).value;
+        (is_linear && slope != 0.0).then(|| -self.coefficient(0).value / slope)
+    }
+
+    /// Whether it is zero at τ = 0, except for rounding.
+    pub(super) fn vanishes(&self) -> bool {
+        let next = self.least();
+        next.is_none_or(Signed::is_positive)
+    }
+
     /// Whether it is infinite for τ → 0.
     pub(super) fn has_pole(&self) -> bool {
         self.terms.keys().next().is_some_and(Signed::is_negative)
