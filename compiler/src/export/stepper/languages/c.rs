@@ -70,7 +70,7 @@ pub(super) const FORMULAS: Formulas = Formulas {
     functions: Functions {
         root: "sqrt",
         absolute: "fabs",
-        or_zero: "(@b@ == 0.0 ? 0.0 : @a@)",
+        or_zero: "@b@ == 0.0 ? 0.0 : @a@",
         logarithm: "log",
         angle: "atan2",
         prefix: "",

@@ -65,7 +65,7 @@ pub(super) const FORMULAS: Formulas = Formulas {
     functions: Functions {
         root: "math.sqrt",
         absolute: "abs",
-        or_zero: "(@a@ if @b@ != 0.0 else 0.0)",
+        or_zero: "@a@ if @b@ != 0.0 else 0.0",
         logarithm: "math.log",
         angle: "math.atan2",
         prefix: "math.",

@@ -66,7 +66,7 @@ pub(super) const FORMULAS: Formulas = Formulas {
     functions: Functions {
         root: "f64::sqrt",
         absolute: "f64::abs",
-        or_zero: "(if @b@ == 0.0 { 0.0 } else { @a@ })",
+        or_zero: "if @b@ == 0.0 { 0.0 } else { @a@ }",
         logarithm: "f64::ln",
         angle: "f64::atan2",
         prefix: "f64::",

@@ -29,6 +29,7 @@ pub(super) struct Writer<'a> {
 /// How tightly an expression is bound.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Strength {
+    Choice,
     Sum,
     Product,
     Sign,
@@ -304,7 +305,7 @@ impl Writer<'_> {
             Operation::OrZero(a, b) => {
                 let [a, b] = [a, b].map(|op| self.written(known, op).0);
                 let values = [("a", &a[..]), ("b", &b)];
-                (fill(functions.or_zero, &values), Strength::Atom)
+                (fill(functions.or_zero, &values), Strength::Choice)
             }
             Operation::Elementary(Elementary::Ln, a) => call(functions.logarithm, a),
             Operation::Elementary(function, a) => {
