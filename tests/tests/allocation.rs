@@ -7,19 +7,23 @@
 )]
 
 use std::alloc::System;
+use std::ops::ControlFlow;
 
-use nalgebra::DVector;
+use nalgebra::{DVector, SVector};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
+use symplectic::ensemble::Ensemble;
+use symplectic::simd::{F64x8, Lanes};
 use symplectic::solver::{
-    Banded, Dense, Differences, FixedPoint, FixedPointThenNewton, Newton, Solver,
+    Automatic, Banded, Dense, Differences, FixedPoint, FixedPointThenNewton, Newton, Solver,
 };
 use symplectic::system::{Conservative, Gradients};
 use symplectic::variational::{DiracIntegrator, DiracRule, DiracSystem, LagrangianIntegrator};
 use symplectic::{
-    Compensated, Error, Integrator, Lagrangian, Method, ProvedFor, Scalar, State, hamiltonian,
-    separable,
+    Compensated, Error, Integrator, Lagrangian, Method, ProvedFor, Scalar, Separable, State,
+    hamiltonian, separable,
 };
 use symplectic_tests::at_run_time::tableau;
+use symplectic_tests::formulas::Kepler;
 use symplectic_tests::methods::{Gauss4, Lobatto3, StoermerVerlet};
 
 symplectic::composition! {
@@ -88,6 +92,26 @@ fn counted_in(action: impl FnOnce() -> Result<(), Error>) -> Result<usize, Error
     action()?;
     let change = region.change();
     Ok(change.allocations + change.reallocations)
+}
+
+/// Allocations in an ensemble of short runs, for each of the last 8192 of 9216 trajectories.
+fn of_a_trajectory<M: Method + ProvedFor<Separable>, L: Lanes>(
+    method: M,
+    lanes: impl Fn(
+        Ensemble<M, Kepler, SVector<f64, 2>>,
+    ) -> Ensemble<M, Kepler, SVector<f64, 2>, Compensated, Automatic, L>,
+) -> Result<f64, Error> {
+    let count = |trajectories: u32| {
+        let start = |k| State::from_arrays(0.0, [1.0, 0.0], [0.0, 1.0 + 1e-5 * f64::from(k)]);
+        let starts = (0..trajectories).map(start).collect();
+        let ensemble = lanes(Ensemble::new(method, Kepler, starts, 0.1).expect("starts"));
+        counted_in(|| {
+            ensemble.take_steps(5, |_| ControlFlow::Continue(()));
+            Ok(())
+        })
+    };
+    let [few, many] = [count(1024)?, count(9216)?];
+    Ok((many as f64 - few as f64) / 8192.0)
 }
 
 symplectic::lagrangian! {
@@ -187,6 +211,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     assert_eq!(counted_in(|| run.integrate_to(2.0).map(|_| ()))?, 0);
     let mut run = DiracIntegrator::new(DiracRule::Trapezoid, Stopped, start(), 0.1)?;
     assert_eq!(counted_in(|| run.integrate_to(2.0).map(|_| ()))?, 0);
+
+    // A group of eight trajectories may have one allocation.
+    assert!(of_a_trajectory(StoermerVerlet, Ensemble::in_lanes::<F64x8>)? < 0.2);
+    assert!(of_a_trajectory(StoermerVerlet, Ensemble::one_by_one)? < 0.2);
+    assert!(of_a_trajectory(Gauss4, Ensemble::in_lanes::<F64x8>)? < 0.2);
+    assert!(of_a_trajectory(Gauss4, Ensemble::one_by_one)? < 0.2);
 
     // The count sees what a system allocates itself.
     let wasteful = separable::<DVector<f64>, _, _>(

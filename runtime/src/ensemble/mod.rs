@@ -29,7 +29,8 @@
 //! eight with AVX2. Other systems use the lanes of the build.
 //!
 //! All other trajectories run one at a time: with another solver, with constraints or with a composition of implicit methods; of
-//! closures and chains; of [`each`](Ensemble::each) and [`each_as`](Ensemble::each_as). So do trajectories with
+//! closures and chains; of [tangent systems](crate::tangent::Tangent) with coupled stages; in fewer than four steps with coupled stages; of
+//! [`each`](Ensemble::each) and [`each_as`](Ensemble::each_as). So do trajectories with
 //! [different systems](Ensemble::of_families), if these are written by hand, or are formulas with friction or applied forces.
 //!
 //! A system rounds differently in lanes if it depends on the number type, such as products of large matrices in nalgebra. So velocity

@@ -15,6 +15,8 @@ use crate::number::{Lanes, Scalar, Summation, Vector};
 use crate::state::State;
 use crate::system::{Join, LaneWork, System};
 
+/// Number of steps below which lanes are slower with coupled stages.
+const FEW_STEPS: f64 = 4.0;
 /// Number of steps after which a thread reports, roughly.
 const SHARE: f64 = (1_u64 << 16) as f64;
 /// The largest number of groups that a thread runs before it reports.
@@ -272,7 +274,12 @@ where
         see: impl Fn(&mut A, &State<V>) + Sync,
         show: impl FnMut(Row<V, A>) -> ControlFlow<()>,
     ) -> usize {
-        let way = self.way();
+        let steps = self.steps_of(task);
+        let way = match self.way() {
+            // The first step of each trajectory is taken alone.
+            Way::Coupled if steps < FEW_STEPS => Way::Alone,
+            way => way,
+        };
         let width = match way {
             Way::Alone => 1,
             Way::Explicit => width::<L>(self.registers),
@@ -292,14 +299,15 @@ where
             way,
             width,
         };
-        let share = width * (self.trajectories_of_share(task) / width).clamp(1, MOST_GROUPS);
+        // A thread reports after a number of steps.
+        let share = width * ((SHARE / steps.max(1.0)) as usize / width).clamp(1, MOST_GROUPS);
         self.show_all(share, |places, rows| job.run(places, rows), show)
     }
 
-    /// The number of trajectories that one thread runs before it reports: many if they are short.
-    fn trajectories_of_share(&self, task: Task<'_>) -> usize {
+    /// The number of steps of a trajectory, roughly.
+    fn steps_of(&self, task: Task<'_>) -> f64 {
         let start = self.starts.get(self.first).map_or(0.0, |start| start.time);
-        let steps = match task {
+        match task {
             Task::Steps(count) => count as f64,
             Task::To(end) => ((end - start) / self.step_size).abs(),
             Task::At(times) => {
@@ -308,8 +316,7 @@ where
                     .abs()
                     .max(times.len() as f64)
             }
-        };
-        (SHARE / steps.max(1.0)) as usize
+        }
     }
 
     /// How trajectories run.
@@ -317,10 +324,10 @@ where
         let possible = self.lanes != Wanted::No
             && V::Scalar::IS_DOUBLE
             && S::over_lanes::<L, _>(Known).is_some();
-        // A compiled method already has its coupled stages in lanes.
-        let faster = self.tableau.is_some()
-            || cfg!(target_feature = "avx512f")
-            || matches!(self.registers, Widest::Avx512(_));
+        let is_wide =
+            cfg!(target_feature = "avx512f") || matches!(self.registers, Widest::Avx512(_));
+        // A compiled method already has its coupled stages in lanes. Twice as many components do not fit into registers.
+        let faster = self.tableau.is_some() || is_wide && !S::DISPLACED;
         let coupled = faster || self.lanes == Wanted::Yes;
         let explicit = self
             .tableau
