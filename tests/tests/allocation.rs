@@ -212,11 +212,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut run = DiracIntegrator::new(DiracRule::Trapezoid, Stopped, start(), 0.1)?;
     assert_eq!(counted_in(|| run.integrate_to(2.0).map(|_| ()))?, 0);
 
-    // A group of eight trajectories may have one allocation.
-    assert!(of_a_trajectory(StoermerVerlet, Ensemble::in_lanes::<F64x8>)? < 0.2);
-    assert!(of_a_trajectory(StoermerVerlet, Ensemble::one_by_one)? < 0.2);
-    assert!(of_a_trajectory(Gauss4, Ensemble::in_lanes::<F64x8>)? < 0.2);
-    assert!(of_a_trajectory(Gauss4, Ensemble::one_by_one)? < 0.2);
+    // Of a trajectory there is none: one list for a group of eight, and lanes for each share of 256 with about thirty vectors of stages.
+    assert!(of_a_trajectory(StoermerVerlet, Ensemble::in_lanes::<F64x8>)? < 0.5);
+    assert!(of_a_trajectory(StoermerVerlet, Ensemble::one_by_one)? < 0.5);
+    assert!(of_a_trajectory(Gauss4, Ensemble::in_lanes::<F64x8>)? < 0.5);
+    assert!(of_a_trajectory(Gauss4, Ensemble::one_by_one)? < 0.5);
 
     // The count sees what a system allocates itself.
     let wasteful = separable::<DVector<f64>, _, _>(
