@@ -13,7 +13,7 @@ use crate::expression::Input;
 /// | format | change |
 /// |--:|---|
 /// | 1 | the first; a file may lack facts that were not written then |
-/// | 2 | the file has its format; it has every property, the orders and the stability |
+/// | 2 | the file has its format, every property, the orders and the stability; a composition qualifies if its methods do |
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Format(u64);
 

@@ -3,7 +3,7 @@
 use symplectic_compiler::{Limits, check, check_and_list, derive, export};
 
 /// A file, its text, and the properties that it does not state.
-const FILES: [(&str, &str, &[&str]); 7] = [
+const FILES: [(&str, &str, &[&str]); 8] = [
     // Neither tier, orders nor stability.
     (
         "lobatto-3.toml",
@@ -32,6 +32,12 @@ const FILES: [(&str, &str, &[&str]); 7] = [
         "blanes-moan-2002-s6.toml",
         include_str!("older_files/blanes-moan-2002-s6-evidence.toml"),
         &["constrained", "nonholonomic"],
+    ),
+    // A composition of methods that qualify, which then did not.
+    (
+        "suzuki-4.toml",
+        include_str!("older_files/suzuki-4-constrained.toml"),
+        &[],
     ),
     // With a byte order mark.
     (
