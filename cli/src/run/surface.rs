@@ -12,16 +12,8 @@ pub(super) fn outer_root(
         let [value, slope] = at(side * x);
         [value - energy, side * slope]
     };
-    let mut x = 1.0;
+    let mut x = outside(&at)?;
     let [mut value, mut slope] = at(x);
-    // Until H is above the energy and grows outward.
-    while !(value >= 0.0 && slope > 0.0) {
-        x *= 2.0;
-        [value, slope] = at(x);
-        if ![x, value, slope].iter().all(|x| x.is_finite()) {
-            return None;
-        }
-    }
     // A double root halves the distance only.
     for _ in 0..5000 {
         let next = x - value / slope;
@@ -34,12 +26,38 @@ pub(super) fn outer_root(
         }
         if !(next_slope > 0.0 && next_value < value) {
             // The least H is above the energy, or the energy except for rounding.
-            let noise = 16.0 * f64::EPSILON * (energy.abs() + (value + energy).abs());
-            return (value <= noise).then_some(side * x);
+            break;
         }
         (x, value, slope) = (next, next_value, next_slope);
     }
-    Some(side * x)
+    let noise = 16.0 * f64::EPSILON * (energy.abs() + (value + energy).abs());
+    let is_near = value <= noise || value <= 4.0 * f64::EPSILON * x * slope;
+    is_near.then_some(side * x)
+}
+
+/// A point where the function is finite, not negative, and grows outward. A function that is not defined far out, such as
+/// `-√(1 - p²)`, is followed to its end.
+fn outside(at: &impl Fn(f64) -> [f64; 2]) -> Option<f64> {
+    let (mut inner, mut end) = (0.0, None);
+    let mut x = 1.0;
+    loop {
+        let [value, slope] = at(x);
+        let next = match value.is_finite() && slope.is_finite() {
+            true if value >= 0.0 && slope > 0.0 => return Some(x),
+            true => {
+                inner = x;
+                end.map_or(2.0 * x, |end| 0.5 * (x + end))
+            }
+            false => {
+                end = Some(x);
+                0.5 * (inner + x)
+            }
+        };
+        if !next.is_finite() || next <= inner || end.is_some_and(|end| next >= end) {
+            return None;
+        }
+        x = next;
+    }
 }
 
 /// The point where a sign changes, of the two neighbours the one with the smaller value.
@@ -95,5 +113,22 @@ mod tests {
             None
         );
         assert_eq!(outer_root(|_| [1.0, 0.0], 0.5, true), None);
+        // Not defined beyond a momentum.
+        for largest in [1.0, 1.5, 0.01, 40.0] {
+            let beam = |p: f64| {
+                let root = (largest * largest - p * p).sqrt();
+                [-root, p / root]
+            };
+            for part in [0.9, 0.5, 1e-3] {
+                let energy = -part * largest;
+                let expected = largest * (1.0 - part * part).sqrt();
+                let found = outer_root(beam, energy, true).expect("a root");
+                assert!((found / expected - 1.0).abs() < 1e-14, "{found} {expected}");
+                assert_eq!(outer_root(beam, energy, false), Some(-found));
+            }
+            for energy in [0.5, -2.0 * largest] {
+                assert_eq!(outer_root(beam, energy, true), None);
+            }
+        }
     }
 }

@@ -174,7 +174,8 @@ impl<V: Vector<Scalar = f64>, L: Lanes> Flow<V> for KeplerDrift<L> {
     }
 
     fn memory(&mut self, visit: &mut dyn FnMut(&mut u64)) {
-        for low in self.free.iter_mut().flat_map(|free| &mut free.low) {
+        let free = self.free.iter_mut();
+        for low in free.flat_map(|free| free.low.iter_mut().chain(&mut free.place)) {
             let mut word = low.to_bits();
             visit(&mut word);
             *low = f64::from_bits(word);

@@ -2,13 +2,15 @@
 
 use crate::number::summation::{fast_two_sum, two_sum};
 
-/// A free body. Its way is the same in all steps, and so would be the rounding errors: way and position are numbers of two doubles.
+/// A free body. Its displacement is the same in all steps, and so would be the rounding errors: displacement and position are sums of two
+/// doubles.
 #[derive(Clone, Debug)]
 pub(super) struct Free {
     mass: f64,
-    /// What rounding has left of the position.
+    /// What rounding has left of the last position.
     pub(super) low: [f64; 3],
-    /// The last time and momentum, and their way.
+    pub(super) place: [f64; 3],
+    /// The last time and momentum, and their displacement.
     size: f64,
     momentum: [f64; 3],
     way: [[f64; 2]; 3],
@@ -19,6 +21,7 @@ impl Free {
         Self {
             mass,
             low: [0.0; 3],
+            place: [0.0; 3],
             size: 0.0,
             momentum: [0.0; 3],
             way: [[0.0; 2]; 3],
@@ -33,15 +36,20 @@ impl Free {
                 let (product, rest) = exact_product(h, p);
                 let way = product / self.mass;
                 let (found, error) = exact_product(way, self.mass);
-                [way, ((product - found) - error + rest) / self.mass]
+                let rest = ((product - found) - error + rest) / self.mass;
+                // The halves of huge numbers overflow.
+                [way, if rest.is_finite() { rest } else { 0.0 }]
             });
         }
-        for ((q, low), [way, rest]) in q.iter_mut().zip(&mut self.low).zip(self.way) {
-            // What is left belongs to this position only.
-            let kept = if *q + *low == *q { *low } else { 0.0 };
-            let (sum, left) = two_sum(*q, way);
-            (*q, *low) = fast_two_sum(sum, left + (kept + rest));
+        // What is left belongs to the last position only.
+        if *q != self.place {
+            self.low = [0.0; 3];
         }
+        for ((q, low), [way, rest]) in q.iter_mut().zip(&mut self.low).zip(self.way) {
+            let (sum, left) = two_sum(*q, way);
+            (*q, *low) = fast_two_sum(sum, left + (*low + rest));
+        }
+        self.place = *q;
     }
 }
 

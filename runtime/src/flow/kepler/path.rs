@@ -85,7 +85,8 @@ impl Path {
             };
             (late, self.distance(&functions), functions)
         };
-        let (mut low, mut high) = (0.0, high);
+        // A first guess that underflows to 0 would not grow.
+        let (mut low, mut high) = (0.0, high.max(f64::MIN_POSITIVE));
         while at(high).0 < 0.0 {
             (low, high) = (high, 2.0 * high);
         }
