@@ -60,7 +60,7 @@
 //!
 //! # Features
 //!
-//! * `std` (default): `tan`, inverse and hyperbolic functions, and all functions of singles, from the standard library; implies `alloc`.
+//! * `std` (default): `tan`, inverse and hyperbolic functions, and all functions of singles, from the standard library, [`files`]; implies `alloc`.
 //! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), constraints, Newton's iteration, tableaux at run time, checkpoints, ensembles,
 //!   tangent maps, variational integrators and generating functions; of `adaptive` and `flow` also [`adaptive::Logarithmic`],
 //!   [`adaptive::Poincare`], Kepler orbits, linear, mollified and asynchronous flows, and correctors.

@@ -36,7 +36,11 @@ impl Run<'_> {
                 true => largest,
                 false => 1.0,
             };
-            let length = if is_explicit { SMALL * length } else { length };
+            let length = match is_explicit {
+                // Not subnormal.
+                true => (SMALL * length).max(1e-290),
+                false => length,
+            };
             // A direction without any symmetry, the same in every run.
             let direction = |from: usize| {
                 let part = |k: usize, _| random::normal(0, (from + k) as u64);

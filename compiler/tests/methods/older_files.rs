@@ -7,47 +7,47 @@ const FILES: [(&str, &str, &[&str]); 8] = [
     // Neither tier, orders nor stability.
     (
         "lobatto-3.toml",
-        include_str!("older_files/lobatto-3-first.toml"),
+        include_str!("older/lobatto-3-first.toml"),
         &["constrained", "nonholonomic"],
     ),
     // Neither orders nor stability.
     (
         "gauss-2.toml",
-        include_str!("older_files/gauss-2-tier.toml"),
+        include_str!("older/gauss-2-tier.toml"),
         &["constrained", "nonholonomic"],
     ),
     (
         "forest-ruth-1990.toml",
-        include_str!("older_files/forest-ruth-1990-orders.toml"),
+        include_str!("older/forest-ruth-1990-orders.toml"),
         &["constrained", "nonholonomic"],
     ),
     // Witnesses in other words.
     (
         "chebyshev-2.toml",
-        include_str!("older_files/chebyshev-2-witness.toml"),
+        include_str!("older/chebyshev-2-witness.toml"),
         &["constrained", "nonholonomic"],
     ),
     // What is proved now was only verified then.
     (
         "blanes-moan-2002-s6.toml",
-        include_str!("older_files/blanes-moan-2002-s6-evidence.toml"),
+        include_str!("older/blanes-moan-2002-s6-evidence.toml"),
         &["constrained", "nonholonomic"],
     ),
     // A composition of methods that qualify, which then did not.
     (
         "suzuki-4.toml",
-        include_str!("older_files/suzuki-4-constrained.toml"),
+        include_str!("older/suzuki-4-constrained.toml"),
         &[],
     ),
     // With a byte order mark.
     (
         "gauss-1.toml",
-        include_str!("older_files/gauss-1-bom.toml"),
+        include_str!("older/gauss-1-bom.toml"),
         &["constrained", "nonholonomic"],
     ),
     (
         "gauss-1.json",
-        include_str!("older_files/gauss-1.json"),
+        include_str!("older/gauss-1.json"),
         &["constrained", "nonholonomic"],
     ),
 ];

@@ -79,7 +79,7 @@ impl Recording {
         Ok(table)
     }
 
-    /// Appends a state. Of another number of components, it is left out, and the table cannot be written.
+    /// Appends a state. A state with another number of components is left out, and the table can then not be written.
     pub fn record<V: Vector<Scalar = f64>>(&mut self, state: &State<V>) {
         let (q, p) = (state.q.as_slice(), state.p.as_slice());
         let components = q.len() + p.len();

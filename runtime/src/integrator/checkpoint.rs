@@ -3,6 +3,7 @@
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+use core::fmt;
 
 use crate::integrator::clock::Clock;
 use crate::integrator::fingerprint::system_fingerprint;
@@ -22,8 +23,9 @@ use crate::system::System;
 ///
 /// With the feature `serde` it can be written in any format. All numbers are in `words`: sixteen hexadecimal digits for each word of
 /// 64 bits, or eight bytes in a binary format. A word is the bits of an IEEE 754 double, of a single in its lower half, or of an integer.
-/// The order of the words belongs to the number `format`. Versions of the library with the same number read each other's checkpoints; the
-/// run then continues with the arithmetic of the version that reads.
+/// The order of the words belongs to the number `format`. Versions of the library with the same number read each other's checkpoints, and
+/// those of older formats if the words of the run have not changed; the run then continues with the arithmetic of the version that reads.
+/// Binary files that were written before format 2 contained digits; they are not read.
 ///
 /// ```
 /// use symplectic::nalgebra::Vector1;
@@ -50,7 +52,7 @@ use crate::system::System;
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct Checkpoint {
     /// Number of the order of the words.
     pub(super) format: u32,
@@ -68,6 +70,23 @@ pub struct Checkpoint {
     pub(super) words: Vec<u8>,
     /// What was wrong when it was read.
     pub(super) damage: Option<&'static str>,
+}
+
+impl fmt::Debug for Checkpoint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut shown = f.debug_struct("Checkpoint");
+        shown.field("format", &self.format);
+        shown.field("version", &self.version);
+        for (name, value) in self.header() {
+            shown.field(name, &value);
+        }
+        let words: String = self
+            .words
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect();
+        shown.field("words", &words).finish_non_exhaustive()
+    }
 }
 
 crate::error::debug::debug_by_message!(CheckpointError);
@@ -126,6 +145,9 @@ impl Checkpoint {
     /// round-off of their centre of mass.
     pub(super) const FORMAT: u32 = 2;
 
+    /// The method of a flow.
+    const OF_FLOW: &str = "steps of a flow";
+
     /// Whether it is the same except for the version that wrote it.
     pub(crate) fn is_same_run(&self, other: &Self) -> bool {
         let version = self.version.clone();
@@ -141,7 +163,7 @@ impl Checkpoint {
         Self {
             format: Self::FORMAT,
             version: env!("CARGO_PKG_VERSION").to_string(),
-            method: "steps of a flow".to_string(),
+            method: Self::OF_FLOW.to_string(),
             definition: format!("words carried: {carried}"),
             scalar: f64::SAVED_AS.unwrap_or_default().to_string(),
             sums: "plain".to_string(),
@@ -181,8 +203,8 @@ impl Checkpoint {
         if !(1..=Self::FORMAT).contains(&self.format) {
             return Err(other_format);
         }
-        // In an older format, the words of most runs are in the present order.
-        let is_older = self.format < Self::FORMAT;
+        // Only flows had other words in an older format.
+        let is_older = self.format < Self::FORMAT && self.method == Self::OF_FLOW;
         for ((what, found), (_, expected)) in self.header().into_iter().zip(own.header()) {
             if is_older && what == "definition" && found != expected {
                 return Err(other_format);

@@ -102,8 +102,8 @@ impl<F> Invariant<F> {
         self.largest
     }
 
-    /// [`deviation`](Self::deviation), relative to the first value; the deviation itself if the first value is 0. Of functions of the
-    /// [state](Self::of_state), relative to the terms of the first value if that is nothing but rounding.
+    /// [`deviation`](Self::deviation), relative to the first value; the deviation itself if the first value is 0. For a function of
+    /// the [state](Self::of_state), relative to the terms of the first value if that is nothing but rounding.
     ///
     /// ```
     /// use symplectic::Invariant;

@@ -14,6 +14,8 @@ pub const WIDTH: f64 = 820.0;
 const HEIGHT: f64 = 470.0;
 /// The height of a line of the key.
 const LINE: f64 = 17.0;
+/// Between entries of the key.
+const SEPARATOR: &str = "  ·  ";
 
 /// The area of the curves.
 const INNER: Area = Area {
@@ -81,8 +83,10 @@ impl Chart {
         for (index, curve) in self.pale().into_iter().enumerate() {
             let entry = format!("{} {}", index + 1, curve.name);
             match lines.last_mut() {
-                Some(line) if labels::width(line) + labels::width(&entry) < WIDTH - INNER.left => {
-                    line.push_str("  ·  ");
+                Some(line)
+                    if labels::width(&[line, SEPARATOR, &entry].concat()) < WIDTH - INNER.left =>
+                {
+                    line.push_str(SEPARATOR);
                     line.push_str(&entry);
                 }
                 _ => lines.push(entry),

@@ -15,7 +15,7 @@ pub use list::Events;
 ///
 /// # Which zeros are found
 ///
-/// g is evaluated after every step. If its sign is another one than before the step, the step has an event.
+/// g is evaluated after every step. If its sign has changed, the step has an event.
 ///
 /// 1. A step is passed over if g at both of its ends exceeds four times its largest change in this step and in the one before.
 /// 2. Otherwise g is evaluated on the [dense output](crate::Integrator::dense) at 2, 4 and 8 points. The step is passed over as soon as all
@@ -27,10 +27,11 @@ pub use list::Events;
 /// agree but g may have an extremum nearer to zero, the extremum is located by Brent's method; if g has the other sign there, the zeros on
 /// both sides are events.
 ///
-/// So two zeros about an extremum are found however close they are, up to the accuracy of the method. There are three conditions: g has at
-/// most one extremum in a panel; it deviates from the values at neighbouring points by less than four times their largest change; and a
+/// So two zeros about an extremum are found down to a distance of about 1e-5 of a panel, up to the accuracy of the method. There are three
+/// conditions: g has at most one extremum in a panel; it deviates from the values at neighbouring points by less than four times their largest change; and a
 /// step is shorter than half the period of every oscillation of g. A step whose stages need more than eight sweeps is evaluated at 8 points
-/// in any case, since it may contain a whole oscillation. So is the first step.
+/// in any case, since it may contain a whole oscillation. So is the first step. Explicit methods and Newton's iteration have no such sign of
+/// long steps: give [`samples`](Self::samples) if steps are longer.
 ///
 /// The search can miss
 ///
@@ -177,11 +178,11 @@ impl<G> Event<G> {
     }
 
     /// Evaluates g in every step at this number of points, including its end. By default it is evaluated at eight points, in steps near
-    /// events only. Two points make a panel, so an odd number counts as the next even number. 0 counts as 1; 1 samples the end only, for
-    /// sign changes. Of several events in one search the largest number applies to all.
+    /// events only. Two points make a panel, so an odd number counts as the next even number. 0 counts as 1, and more than 2²⁰ as 2²⁰; 1
+    /// samples the end only, for sign changes. Of several events in one search the largest number applies to all.
     #[must_use]
     pub fn samples(mut self, samples: u32) -> Self {
-        self.kind.samples = Some(samples.max(1));
+        self.kind.samples = Some(samples.clamp(1, 1 << 20));
         self
     }
 

@@ -49,7 +49,9 @@ impl Track {
         let same = self.side * value > 0.0 && self.side * self.value > 0.0;
         let nearest = value.abs().min(self.value.abs());
         let change = (value - self.value).abs().max(self.change);
-        !self.on_zero && (same && nearest > DEEPEST * change || nearest == 0.0 && change == 0.0)
+        // `min` and `max` ignore NaN.
+        let at_rest = value == 0.0 && self.value == 0.0 && self.change == 0.0;
+        !self.on_zero && (same && nearest > DEEPEST * change || at_rest)
     }
 
     /// Begins a step at the current point.
