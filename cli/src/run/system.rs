@@ -203,14 +203,9 @@ impl<C: Class> Hamiltonian for Formula<C> {
     {
         work.run::<DVector<L>, Self>(|systems| {
             let mut systems = systems.peekable();
-            let first = *systems.peek()?;
-            let mut joined = first.clone();
-            // Lanes without a trajectory repeat the systems from the first on.
-            let (mut count, mut repeats) = (0, false);
-            let all = systems.inspect(|system| {
-                repeats |= count > 0 && std::ptr::eq(*system, first);
-                count += usize::from(!repeats);
-            });
+            let mut joined = (*systems.peek()?).clone();
+            let mut count = 0;
+            let all = systems.inspect(|_| count += 1);
             joined.parameters = Parameters::join(all.map(|system| &system.parameters))?;
             joined.count = count;
             Some(joined)
