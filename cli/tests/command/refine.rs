@@ -235,7 +235,6 @@ fn json_is_for_programs() {
     let path = written("suzuki", WEIGHTS);
     expect![[r#"
         {
-          "format": 2,
           "name": null,
           "source": null,
           "claim": "order 4 with any symmetric basic method",

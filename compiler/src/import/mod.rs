@@ -171,6 +171,12 @@ fn read(library: Library, input: Input<'_>, limits: &Limits) -> Result<Numbers, 
     }
     let a = if found("A") { "A" } else { "a" };
     if !found(a) || !found("b") {
+        // A value that cannot be read may have swallowed the other one.
+        let stepping = library.stepping();
+        let names = stepping.iter().flat_map(|names| [names.drift, names.kick]);
+        for name in names.chain([a, "b"]).filter(|name| found(name)) {
+            source.list(name)?;
+        }
         return Err(missing(input, library, ""));
     }
     let table = |a: &str, b: &str, c: &str| -> Result<_, Error> {
