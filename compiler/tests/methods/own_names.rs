@@ -195,7 +195,7 @@ fn lines_that_are_not_needed_are_ignored() {
     }
     // Where it is needed, it is still wrong at its place.
     let names = splitting("a", "ahat", Some(false), false);
-    let error = read(&names, "ruth.py", "a = [1, 1.2.3]\nahat = [1, 0]\n").unwrap_err();
+    let error = read(&names, "ruth.py", "a = [1, 1.2.3]\nahat = [1, 0]\n").expect_err("wrong");
     assert_eq!(
         error.to_string(),
         "ruth.py, column 9: found `1.2.3`, expected a number"

@@ -120,9 +120,12 @@ mod by_threads {
         let mut is_short = false;
         loop {
             next.take(&mut places, share, most);
-            if (!is_short || next.count == 0) && show_batch(&mut shown).is_break()
-                || next.count == 0
-            {
+            let is_last = next.count == 0;
+            let is_shown_now = !is_short || is_last;
+            if is_shown_now && show_batch(&mut shown).is_break() {
+                return;
+            }
+            if is_last {
                 return;
             }
             let began = Instant::now();
