@@ -392,7 +392,10 @@ mod files {
         assert!(read(&text)?.is_ok());
         text["format"] = 3.into();
         text["checksum"] = checksum(&text).into();
-        let error = read(&text)?.err().expect("a later format").to_string();
+        let Err(error) = read(&text)? else {
+            panic!("a later format");
+        };
+        let error = error.to_string();
         assert!(
             error.starts_with("the checkpoint has format 3 and was written by version 0.0.9"),
             "{error}"
