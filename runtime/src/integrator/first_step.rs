@@ -21,7 +21,13 @@ pub(crate) fn or_as_first_step<I, T>(
         )
     };
     match taken {
-        Err(error) if !is_of_the_system(&error) && forget(run) => take(run),
+        Err(error) if !is_of_the_system(&error) && forget(run) => take(run).map_err(|second| {
+            // No convergence is the reason, whatever the other attempt looks like.
+            match error {
+                Error::NoConvergence { .. } => error,
+                _ => second,
+            }
+        }),
         taken => taken,
     }
 }
