@@ -130,7 +130,8 @@
 /// # Conserved quantities
 ///
 /// A symmetry that is visible in the formula gives a conserved momentum and a method for it. Translation symmetry gives `total_momentum`,
-/// rotation symmetry `angular_momentum`.
+/// rotation symmetry `angular_momentum`. The methods return the conserved components only; the documentation of the type names them:
+/// `total_momentum` in x and y, `angular_momentum` about z.
 ///
 /// `invariants: { name = …, }` adds methods for your own invariants. An invariant that follows from a symmetry is proved. For any other the
 /// Poisson bracket with H is evaluated at three states and must vanish; otherwise the definition does not compile. The documentation of the
