@@ -5,10 +5,11 @@ use crate::derive::Parts;
 use crate::order::composition::{self, Step};
 use crate::tableau::Tableau;
 
-/// `constrained`, if each method of a composition is; `None` if not.
+/// `constrained`, if each method of a composition is; `None` if not. It says nothing about the order with constraints.
 pub(crate) fn constrained(parts: &Parts) -> Option<Property> {
     let evidence = each(parts, |properties| &properties.constrained)?;
-    Some(Property::holding(evidence, Some(steps(parts))))
+    let witness = steps(parts, "constrained");
+    Some(Property::holding(evidence, Some(witness)))
 }
 
 /// `nonholonomic`, if each method of a composition is and the composition has its order with any such steps; `None` if not.
@@ -59,10 +60,8 @@ pub(crate) fn nonholonomic(tableau: &Tableau, parts: &Parts) -> Option<Property>
         Some(given) => given.evidence,
         None => composition::has_order(&list, &flags, order)?,
     });
-    Some(Property::holding(
-        evidence,
-        Some(format!("order {order}: {}", steps(parts))),
-    ))
+    let witness = format!("order {order}: {}", steps(parts, "non-holonomic"));
+    Some(Property::holding(evidence, Some(witness)))
 }
 
 /// The evidence that each method of a composition has a property.
@@ -81,6 +80,6 @@ fn each(parts: &Parts, property: impl Fn(&Properties) -> &Property) -> Option<Ev
         })
 }
 
-fn steps(parts: &Parts) -> String {
-    format!("each of its {} steps is", parts.substeps.len())
+fn steps(parts: &Parts, what: &str) -> String {
+    format!("each of its {} steps is {what}", parts.substeps.len())
 }

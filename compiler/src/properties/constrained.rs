@@ -274,7 +274,7 @@ mod tests {
             ),
         ] {
             let found = property(definition);
-            let text = format!("yes, proved: each of its {steps} steps is");
+            let text = format!("yes, proved: each of its {steps} steps is constrained");
             assert_eq!(found.to_string(), text, "{definition}");
         }
     }

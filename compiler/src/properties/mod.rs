@@ -131,10 +131,11 @@ properties! {
     /// `b_i > 0` and `b̃_i > 0`.
     positive_weights: positive_weights::decide;
     /// Steps systems with holonomic constraints: `b_i = b̃_i ≠ 0`, symplectic, `a_1j = 0`, `a_sj = b_j` and
-    /// `det (A Ã) ≠ 0` for the rows 2..s and the columns 1..s−1 (MW 3.5.6); or a composition of such methods.
+    /// `det (A Ã) ≠ 0` for the rows 2..s and the columns 1..s−1 (MW 3.5.6); or a composition of such methods. The order with constraints
+    /// is no part of this property.
     constrained: constrained::decide;
     /// Steps systems with non-holonomic constraints without loss of order: `b_i = b̃_i ≠ 0`, symplectic, and symmetric of order 2, or of
-    /// order 1; or a composition of such methods.
+    /// order 1; or a composition of such methods that has its order with any steps of their order.
     nonholonomic: nonholonomic::decide;
 }
 

@@ -129,20 +129,20 @@ mod tests {
         for (definition, text) in [
             (
                 "base: gauss-1, weights: triple_jump(4)",
-                "yes, proved: order 4: each of its 3 steps is",
+                "yes, proved: order 4: each of its 3 steps is non-holonomic",
             ),
             (
                 "base: gauss-1, weights: suzuki(6)",
-                "yes, proved: order 6: each of its 25 steps is",
+                "yes, proved: order 6: each of its 25 steps is non-holonomic",
             ),
             (
                 cubic,
-                "yes, verified to 2^-512: order 4: each of its 3 steps is",
+                "yes, verified to 2^-512: order 4: each of its 3 steps is non-holonomic",
             ),
             // Different methods of order 2.
             (
                 "compose: [[1/3, basis: polynomial(1), nodes: gauss(1)], [2/3, basis: polynomial(2), nodes: lobatto(2)]]",
-                "yes, proved: order 2: each of its 2 steps is",
+                "yes, proved: order 2: each of its 2 steps is non-holonomic",
             ),
         ] {
             assert_eq!(property(definition).to_string(), text, "{definition}");
