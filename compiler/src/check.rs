@@ -91,6 +91,7 @@ fn check_toml(
     compare(
         file,
         document.format,
+        &tableau,
         document.entries(),
         expected.entries(),
     )?;

@@ -52,6 +52,9 @@ impl Printed {
             return Err(wrong());
         }
         if let Some((value, bound)) = text.split_once('±') {
+            if bound.contains('±') {
+                return Err(wrong());
+            }
             let [value, bound] = [value, bound].map(Printed::parse);
             let (
                 Ok(Printed {
@@ -309,8 +312,10 @@ mod tests {
             assert_eq!(printed(text).places(), places, "{text}");
         }
         let long = "1".repeat(MAX_DIGITS + 1);
+        // Refused at the second one: the third of ten thousand is not read.
+        let bounds = "1±".repeat(MAX_DIGITS / 3);
         for text in [
-            "", ".", "-", "1/0", "a", "1.2.3", "1e", "1e99999", "--1", "0x1", &long,
+            "", ".", "-", "1/0", "a", "1.2.3", "1e", "1e99999", "--1", "0x1", &long, &bounds,
         ] {
             assert!(Printed::parse(text).is_err(), "{text}");
         }

@@ -289,12 +289,16 @@ fn certified(
             other.get_or_insert(solution);
         }
     }
-    if counts.0 > counts.1 {
-        if let Some(solution) = other {
+    // Without another solution it is the result.
+    let failed = |error| match other {
+        Some(solution) => {
             let found = (Vec::new(), None, solution);
-            return Ok(with(found, Digits::NotFound, Vec::new()));
+            Ok(with(found, Digits::NotFound, Vec::new()))
         }
-        return Err(CertifyError::TooFewCoefficients {
+        None => Err(error),
+    };
+    if counts.0 > counts.1 {
+        return failed(CertifyError::TooFewCoefficients {
             claim: claim.clone(),
             structure,
             conditions: counts.0,
@@ -316,12 +320,17 @@ fn certified(
             degree: largest.1,
         }
     };
-    let free = free_unknowns(&system, reading).map_err(|rank| CertifyError::Dependent {
-        claim: claim.clone(),
-        structure,
-        conditions: counts.0,
-        rank,
-    })?;
+    let free = match free_unknowns(&system, reading) {
+        Ok(free) => free,
+        Err(rank) => {
+            return failed(CertifyError::Dependent {
+                claim: claim.clone(),
+                structure,
+                conditions: counts.0,
+                rank,
+            });
+        }
+    };
     let values = reading.unknowns.iter().enumerate().map(|(index, unknown)| {
         let value = || unknown.simple.clone().unwrap_or(unknown.start.clone());
         (!free.contains(&index)).then(value)
@@ -344,7 +353,9 @@ fn certified(
         };
         Some((fixed, uniqueness, solution))
     };
-    let first = solved(square.clone()).ok_or_else(|| not_found(&square.system))?;
+    let Some(first) = solved(square.clone()) else {
+        return failed(not_found(&square.system));
+    };
     if right(&first.2) {
         return Ok(with(first, Digits::All, Vec::new()));
     }
@@ -465,4 +476,53 @@ pub(super) fn expanded(
         steps,
         sorted.into_iter().map(|(_, _, value)| value).collect(),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arithmetic::rational::ratio;
+    use crate::certify::structure::{Structure, Unknown};
+
+    /// Störmer–Verlet as three conditions for its kick, its drift and a number that is not used: they are dependent. The second kick is
+    /// printed with a wrong digit, unlike the first.
+    #[test]
+    fn an_exact_solution_is_the_result_if_there_is_no_other() {
+        let names = [
+            Coefficient::Kick(0),
+            Coefficient::Drift(0),
+            Coefficient::Kick(2),
+        ];
+        let starts = [ratio(1, 2), ratio(1, 1), ratio(0, 1)];
+        let unknowns = names.iter().zip(&starts).map(|(&name, start)| Unknown {
+            name,
+            start: start.clone(),
+            simple: None,
+            exact: false,
+        });
+        let step = |letter, argument| Step {
+            kind: Kind::Letter(letter),
+            argument,
+        };
+        let target = |name, printed, argument| Target {
+            name,
+            printed,
+            half: ratio(1, 2_000_000),
+            terms: vec![(argument, ratio(1, 1))],
+        };
+        let reading = Reading {
+            structure: Structure::Splitting,
+            unknowns: unknowns.collect(),
+            steps: vec![step(KICK, 0), step(DRIFT, 1), step(KICK, 0)],
+            targets: vec![
+                target(names[0], ratio(1, 2), 0),
+                target(names[1], ratio(1, 1), 1),
+                target(Coefficient::Kick(1), ratio(500_003, 1_000_000), 0),
+            ],
+        };
+        let found = certified(&reading, &Claim::Separable(2), 192).expect("a certificate");
+        assert_eq!((found.conditions(), found.unknowns()), (3, 3));
+        assert_eq!(found.digits(), Digits::NotFound);
+        assert_eq!(*found.distance(), ratio(3, 1_000_000));
+    }
 }

@@ -12,6 +12,7 @@ use toml::de::DeValue;
 use crate::error::{Error, ErrorKind};
 use crate::export::format::Format;
 use crate::expression::Input;
+use crate::tableau::Tableau;
 
 /// One entry of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -52,21 +53,22 @@ pub(crate) struct Entries {
 pub(crate) fn compare(
     file: Input<'_>,
     format: Format,
+    tableau: &Tableau,
     mut found: Entries,
     mut derived: Entries,
 ) -> Result<(), Error> {
     if format.is_older() {
         let explains = |entry: &Entry| EXPLAINS.iter().any(|end| entry.name.ends_with(end));
-        // In format 1 a composition did not qualify even if its methods did.
-        let widened: Vec<&str> = ["constrained", "nonholonomic"]
-            .into_iter()
-            .filter(|name| {
-                let is_refused = |entry: &Entry| {
-                    entry.name == format!("{name} (holds)") && entry.value == "false"
-                };
-                found.facts.iter().any(is_refused)
-            })
-            .collect();
+        // In format 1 a composition did not qualify by its methods, but only by its own coefficients.
+        let own = tableau.own_properties();
+        let properties = tableau.properties();
+        let widened = properties.all().into_iter().filter(|(name, property)| {
+            let by_steps = property.holds && own.get(name).is_some_and(|own| !own.holds);
+            let name = format!("{name} (holds)");
+            let mut facts = found.facts.iter();
+            by_steps && facts.any(|entry| entry.name == name && entry.value == "false")
+        });
+        let widened: Vec<&str> = widened.map(|(name, _)| name).collect();
         let is_widened = |entry: &Entry| widened.iter().any(|name| entry.name.starts_with(name));
         for facts in [&mut found.facts, &mut derived.facts] {
             facts.retain(|entry| !explains(entry) && !is_widened(entry));

@@ -145,10 +145,8 @@ fn notation_of(file_name: &str) -> Notation {
 /// All weights of a composition.
 fn whole(values: Vec<Value>, symmetric: bool) -> Result<Vec<Value>, ErrorKind> {
     let sum = |values: &[Value]| values.iter().map(Value::rational).sum::<BigRational>();
-    let is_one = |values: &Vec<Value>| {
-        let error: BigRational = values.iter().map(|value| &value.error).sum();
-        (sum(values) - BigRational::one()).abs() <= tolerance(&error)
-    };
+    let is_one =
+        |values: &Vec<Value>| (sum(values) - BigRational::one()).abs() <= tolerance(values);
     let mirrored = |first: &[Value], middle: &[Value]| {
         let back = first.iter().rev();
         first.iter().chain(middle).chain(back).cloned().collect()
@@ -179,13 +177,16 @@ fn whole(values: Vec<Value>, symmetric: bool) -> Result<Vec<Value>, ErrorKind> {
     })
 }
 
-/// The largest residual that rounding explains.
-fn tolerance(error: &BigRational) -> BigRational {
+/// The largest residual of a condition that the rounding of the weights explains.
+fn tolerance(values: &[Value]) -> BigRational {
     let least = BigRational::new(1.into(), num_bigint::BigInt::from(10).pow(10));
+    let error: BigRational = values.iter().map(|value| &value.error).sum();
     (error * ratio(50, 1)).max(least)
 }
 
 /// The composition of a method with these weights: those written, or near them.
+///
+/// The conditions are those for the steps of the base, which are more if it is not symmetric.
 fn composed(
     base: &str,
     values: &[Value],
@@ -205,10 +206,14 @@ fn composed(
         return Ok((exact()?, ImportOrigin::Exact));
     }
     let fractions: Vec<BigRational> = values.iter().map(Value::rational).collect();
-    let error = values.iter().map(|value| value.error.clone());
-    let error = error.max().unwrap_or_default();
-    let order = composition::order_within(&fractions, &tolerance(&error));
-    if composition::order_within(&fractions, &BigRational::zero()) >= order {
+    let base = Definition::new([(Key::Base, base.to_owned())]).derive(limits)?;
+    let symmetric = base.separable_properties().symmetric.holds;
+    let within = |tolerance: &BigRational| match base.own_properties().consistent.holds {
+        true => composition::order_within(&fractions, symmetric, tolerance),
+        false => 0,
+    };
+    let order = within(&tolerance(values));
+    if within(&BigRational::zero()) >= order {
         return Ok((exact()?, ImportOrigin::Exact));
     }
     let printed: Result<Vec<Printed>, ErrorKind> = values.iter().map(Value::printed).collect();

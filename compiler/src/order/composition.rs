@@ -52,12 +52,17 @@ pub(crate) fn has_order(steps: &[Step<'_>], symmetric: &[bool], order: usize) ->
     holds.then_some(Evidence::Verified { bits: BITS })
 }
 
-/// The order of a composition of any symmetric method with these fractions, as far as conditions of at most this residual tell.
-pub(crate) fn order_within(fractions: &[BigRational], tolerance: &BigRational) -> usize {
+/// The order of a composition of any method of order 1, or of any symmetric one, with these fractions, as far as conditions of at most this
+/// residual tell.
+pub(crate) fn order_within(
+    fractions: &[BigRational],
+    symmetric: bool,
+    tolerance: &BigRational,
+) -> usize {
     let steps = vec![(0, false); fractions.len()];
     let near = |x: &BigRational, wanted: &BigRational| (x - wanted).abs() <= *tolerance;
     let holds = |order: &usize| {
-        let letters = letters(&[true], *order);
+        let letters = letters(&[symmetric], *order);
         all_hold(&steps, fractions, &letters, *order, near)
     };
     (1..=MAX_ORDER).take_while(holds).last().unwrap_or(0)

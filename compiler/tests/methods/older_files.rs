@@ -127,6 +127,41 @@ fn an_older_file_with_a_wrong_entry_is_refused_at_this_entry() {
     }
 }
 
+/// Only a composition may have become one since: other methods have always qualified by their coefficients.
+#[test]
+fn an_older_file_that_denies_a_property_of_the_coefficients_is_refused() {
+    const LAST: &str = "positive_weights   = { holds = true, evidence = \"proved\" }";
+    const LAST_OF_JSON: &str = "\"positive_weights\": {\"holds\": true, \"evidence\": \"proved\", \"bits\": null, \"witness\": null}";
+    let json = LAST_OF_JSON.replace("positive_weights", "nonholonomic");
+    let json = format!("{LAST_OF_JSON},\n{}", json.replace("true", "false"));
+    let refuted = "{ holds = false, evidence = \"refuted\" }";
+    for (name, property, last, edited) in [
+        (
+            "lobatto-3.toml",
+            "constrained",
+            LAST,
+            format!("{LAST}\nconstrained = {refuted}"),
+        ),
+        (
+            "gauss-1.toml",
+            "nonholonomic",
+            LAST,
+            format!("{LAST}\nnonholonomic = {refuted}"),
+        ),
+        ("gauss-1.json", "nonholonomic", LAST_OF_JSON, json),
+    ] {
+        let (_, text, _) = FILES
+            .into_iter()
+            .find(|(known, ..)| *known == name)
+            .expect(name);
+        assert!(text.contains(last), "{name}");
+        let edited = without_mark(text).replacen(last, &edited, 1);
+        let error = check(name, &edited, &Limits::default()).expect_err(name);
+        let wanted = format!("`{property} (holds)` does not fit");
+        assert!(error.to_string().contains(&wanted), "{name}: {error}");
+    }
+}
+
 #[test]
 fn a_file_of_the_current_format_states_everything() {
     let gauss = derive("polynomial(2)", "gauss(2)").expect("Gauss");

@@ -136,6 +136,51 @@ fn the_weights_of_a_composition_are_read_whole_or_half() {
     }
 }
 
+/// The triple jump of Yoshida in decimals whose sum is exactly 1: of order 4 only with a symmetric base.
+const JUMP: &str = "gamma = [1.3512071919596578, -1.7024143839193156, 1.3512071919596578]\n";
+
+#[test]
+fn weights_for_a_base_that_is_not_symmetric_are_kept_and_no_higher_order_is_stated() {
+    for base in ["symplectic-euler", "[kick: [1, 0], drift: [2/3, 1/3]]"] {
+        let (tableau, origin) = read(&composition(base, false), "w.py", JUMP).expect(base);
+        assert_eq!(origin, ImportOrigin::Exact, "{base}");
+        assert_eq!(tableau.orders().separable.order, 1, "{base}");
+    }
+    // Nor for a base that is no method: it is symmetric, and has order 0.
+    let base = "[a: [[1/4]], b: [1/2], a_tilde: [[1/4]], b_tilde: [1/2]]";
+    let (tableau, origin) = read(&composition(base, false), "w.py", JUMP).expect(base);
+    assert_eq!(origin, ImportOrigin::Exact);
+    assert_eq!(tableau.orders().separable.order, 0);
+    // With a symmetric base they are those of order 4.
+    let names = composition("velocity-verlet", false);
+    let (tableau, origin) = read(&names, "w.py", JUMP).expect("the triple jump");
+    assert!(
+        matches!(origin, ImportOrigin::NearDecimals { .. }),
+        "{origin:?}"
+    );
+    assert_eq!(tableau.orders().separable.order, 4);
+}
+
+/// 63 times 1/63, rounded to eight places: the sum is off by 52 half units of the last place.
+#[test]
+fn many_weights_whose_errors_add_up_are_read() {
+    let text = format!("gamma = [{}]\n", ["0.01587302"; 63].join(", "));
+    let names = composition("velocity-verlet", false);
+    let limits = Limits { stages: 64 };
+    let read = import_own(&names, None, "w.py", &text, &limits);
+    let (tableau, origin) = read.expect("63 weights");
+    assert!(
+        matches!(origin, ImportOrigin::NearDecimals { .. }),
+        "{origin:?}"
+    );
+    let expected = format!(
+        "base: velocity-verlet, weights: [{}]",
+        ["1/63"; 63].join(", ")
+    );
+    let expected = Definition::parse(&expected).and_then(|definition| definition.derive(&limits));
+    assert_eq!(tableau.to_f64(), expected.expect("63 steps").to_f64());
+}
+
 #[test]
 fn what_is_unclear_is_refused_with_what_to_do() {
     for (names, text, message) in [

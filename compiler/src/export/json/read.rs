@@ -65,7 +65,8 @@ pub(crate) fn read_and_compare(
         text: &fresh,
     };
     let (_, derived) = Document::parse(expected)?;
-    compare(file, format, found, derived.entries(expected, limits)?)?;
+    let derived = derived.entries(expected, limits)?;
+    compare(file, format, &tableau, found, derived)?;
     Ok((tableau, document.properties.missing()))
 }
 
@@ -274,23 +275,24 @@ impl<'a> Document<'a> {
         let stated = format.map(|leaf| (leaf.span(file.text), leaf.value().as_u64()));
         let format = Format::read(file, stated)?;
         let document: Self = serde_json::from_str(file.text).map_err(refused)?;
-        let sections = [
-            ("order", document.order.is_some()),
-            ("stability", document.stability.is_some()),
-            (
-                "symplecticity_order",
-                document.symplecticity_order.is_some(),
-            ),
-        ];
-        let sections = sections.into_iter().filter(|(_, stated)| !stated);
-        let mut missing = sections
-            .map(|(name, _)| name)
-            .chain(document.properties.missing());
-        if let Some(missing) = missing.next().filter(|_| !format.is_older()) {
+        if !format.is_older()
+            && let Some(missing) = document.missing()
+        {
             return Err(refused(serde::de::Error::missing_field(missing)));
         }
-        drop(missing);
         Ok((format, document))
+    }
+
+    /// The first section or property that is not stated.
+    fn missing(&self) -> Option<&'static str> {
+        let sections = [
+            ("order", self.order.is_some()),
+            ("stability", self.stability.is_some()),
+            ("symplecticity_order", self.symplecticity_order.is_some()),
+        ];
+        let mut sections = sections.into_iter().filter(|(_, stated)| !stated);
+        let section = sections.next().map(|(name, _)| name);
+        section.or_else(|| self.properties.missing().first().copied())
     }
 
     fn origin(&self, file: Input<'_>) -> Result<Origin, Error> {
