@@ -726,7 +726,7 @@ fn what_may_mean_something_else_is_refused() {
         (
             Sciml,
             "a, b = [1], [1]",
-            "table, column 1: a table of `sciml` has",
+            "table, column 4: `b` gets its value together",
         ),
         (
             Sciml,
