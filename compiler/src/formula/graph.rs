@@ -4,7 +4,7 @@
 //! are collected, equal terms and equal factors are joined, and terms and factors are put in the order in which they first appeared in the
 //! formula. Nothing is expanded: a sum in parentheses stays a term, a product in parentheses a factor.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -224,6 +224,8 @@ pub const MOST_LOOPS: usize = 64;
 pub struct Graph {
     nodes: Vec<Node>,
     depends: Vec<Dependence>,
+    /// Whether the value of each node is visibly never negative.
+    one_sign: Vec<bool>,
     ids: HashMap<Node, Id>,
     loops: Vec<Loop>,
     /// Whether a derivative needed more loops than allowed.
@@ -296,11 +298,39 @@ impl Graph {
             depends.loops &= !(1 << id.0);
             depends.loops |= self.range_loops(id);
         }
+        let one_sign = self.is_never_negative(&node);
         let id = Id(self.nodes.len() as u32);
         self.nodes.push(node.clone());
         self.depends.push(depends);
+        self.one_sign.push(one_sign);
         self.ids.insert(node, id);
         id
+    }
+
+    fn is_never_negative(&self, node: &Node) -> bool {
+        match node {
+            Node::Constant(value) => !value.is_negative(),
+            Node::Pi => true,
+            Node::Sum(terms, constant) => {
+                let mut terms = terms.iter();
+                !constant.is_negative()
+                    && terms.all(|(factor, x)| factor.is_positive() && self.has_one_sign(*x))
+            }
+            // An even power, or one whose denominator is even.
+            Node::Product(factors) => factors.iter().all(|(x, exponent)| {
+                let [above, below] =
+                    [exponent.numer(), exponent.denom()].map(|part| (part % 2_u32).is_zero());
+                above || below || self.has_one_sign(*x)
+            }),
+            Node::Elementary(Elementary::Exp | Elementary::Cosh | Elementary::Acos, _) => true,
+            Node::Total(_, body) => self.has_one_sign(*body),
+            _ => false,
+        }
+    }
+
+    /// Whether a value is visibly never negative.
+    pub fn has_one_sign(&self, id: Id) -> bool {
+        self.one_sign[id.0 as usize]
     }
 
     /// A number.
@@ -421,6 +451,8 @@ impl Graph {
                     }
                 }
                 _ => {
+                    let (powers, x) = self.even_powers(x, &exponent);
+                    list.extend(powers);
                     let whole = self.scale(scale, x);
                     self.factor(&mut list, whole, exponent);
                 }
@@ -469,18 +501,77 @@ impl Graph {
         self.product_of(parts)
     }
 
-    /// Adds a factor; a power of a power becomes one power if the two are equal.
+    /// Adds a factor; a power of a power becomes one power if the two are equal: `(x²)^(1/2) = |x|` is `x` if x is never negative.
     fn factor(&self, list: &mut Vec<(Id, Number)>, x: Id, exponent: Number) {
         if let Node::Product(inner) = self.node(x)
             && let [(base, power)] = inner.as_slice()
         {
             let even = |power: &Number| (power.numer() % BigInt::from(2)).is_zero();
             let whole = power * &exponent;
-            if exponent.is_integer() || !even(power) || whole.is_integer() && even(&whole) {
+            let same = exponent.is_integer() || !even(power) || self.has_one_sign(*base);
+            if same || whole.is_integer() && even(&whole) {
                 return list.push((*base, power * exponent));
             }
         }
         list.push((x, exponent));
+    }
+
+    /// `(x⁴ a + x⁴ b)^(1/2) = x² (a + b)^(1/2)`: for a power of a product, or of a sum of products, the even powers that leave it, and the base
+    /// that remains.
+    fn even_powers(&mut self, id: Id, exponent: &Number) -> (Vec<(Id, Number)>, Id) {
+        let terms = match self.node(id) {
+            Node::Sum(terms, constant) if constant.is_zero() => terms.clone(),
+            Node::Product(factors) if factors.len() > 1 => vec![(Number::one(), id)],
+            _ => return (Vec::new(), id),
+        };
+        let terms: Vec<(Number, Vec<(Id, Number)>)> = terms
+            .into_iter()
+            .map(|(factor, term)| (factor, self.flat_factors(term)))
+            .collect();
+        // The even powers of which also the power is even.
+        let step = integer(2) * Number::from_integer(exponent.denom().clone());
+        let common = |base: Id| {
+            let powers = terms.iter().map(|(_, factors)| {
+                let (_, power) = factors.iter().find(|(x, _)| *x == base)?;
+                Some((power / &step).floor() * &step)
+            });
+            let powers: Option<Vec<Number>> = powers.collect();
+            powers?.into_iter().min().filter(Signed::is_positive)
+        };
+        let first = terms.first().into_iter().flat_map(|(_, factors)| factors);
+        let bases: BTreeSet<Id> = first.map(|(base, _)| *base).collect();
+        let common: Vec<(Id, Number)> = bases
+            .into_iter()
+            .filter_map(|base| Some((base, common(base)?)))
+            .collect();
+        if common.is_empty() {
+            return (common, id);
+        }
+        let divisors: Vec<_> = common.iter().map(|(x, power)| (*x, -power)).collect();
+        let rest = terms.into_iter().map(|(factor, factors)| {
+            let divided = factors.into_iter().chain(divisors.iter().cloned());
+            (factor, self.product(Number::one(), divided))
+        });
+        let rest: Vec<_> = rest.collect();
+        let powers = common.into_iter().map(|(x, power)| (x, power * exponent));
+        (powers.collect(), self.sum(rest))
+    }
+
+    /// The factors of a product and of the products in it that have whole exponents.
+    fn flat_factors(&self, id: Id) -> Vec<(Id, Number)> {
+        let factors = |id: Id| match self.node(id) {
+            Node::Product(factors) => factors.clone(),
+            _ => vec![(id, Number::one())],
+        };
+        let all = factors(id).into_iter().flat_map(|(x, exponent)| {
+            let inner = match exponent.is_integer() {
+                true => factors(x),
+                false => vec![(x, Number::one())],
+            };
+            let powers = inner.into_iter();
+            powers.map(move |(y, power)| (y, power * &exponent))
+        });
+        all.collect()
     }
 
     /// `x²·(x²)ᵉ = (x²)ᵉ⁺¹`, which is defined at zero even if the left side is not.
@@ -522,6 +613,9 @@ impl Graph {
             let value = value.abs();
             return self.constant(factor.abs() * value);
         }
+        if self.has_one_sign(x) {
+            return self.scale(factor.abs(), x);
+        }
         let square = self.power(x, integer(2));
         let root = self.power(square, Number::new(1.into(), 2.into()));
         self.scale(factor.abs(), root)
@@ -535,13 +629,26 @@ impl Graph {
         self.sum([(Number::new(1.into(), 2.into()), positive), (integer(1), b)])
     }
 
-    /// The function x and the exponent e of `(x²)ᵉ`, if the node is a power that is not whole.
+    /// The function x of a power `(x²)ᵉ` whose exponent is not whole.
     fn absolute_power(&self, base: Id, exponent: &Number) -> Option<Id> {
         match self.node(base) {
             Node::Product(factors) if !exponent.is_integer() => match factors.as_slice() {
                 [(x, power)] if *power == integer(2) => Some(*x),
                 _ => None,
             },
+            _ => None,
+        }
+    }
+
+    /// The function x of `|x|`.
+    fn absolute_of(&self, id: Id) -> Option<Id> {
+        let Node::Product(factors) = self.node(id) else {
+            return None;
+        };
+        match factors.as_slice() {
+            [(square, exponent)] if *exponent == Number::new(1.into(), 2.into()) => {
+                self.absolute_power(*square, exponent)
+            }
             _ => None,
         }
     }
@@ -555,14 +662,7 @@ impl Graph {
         let [(factor, x), (other, size)] = terms.as_slice() else {
             return None;
         };
-        let Node::Product(root) = self.node(*size) else {
-            return None;
-        };
-        let [(square, exponent)] = root.as_slice() else {
-            return None;
-        };
-        let is_size = *exponent == Number::new(1.into(), 2.into())
-            && self.absolute_power(*square, exponent) == Some(*x);
+        let is_size = self.absolute_of(*size) == Some(*x);
         let same = constant.is_zero() && factor.abs() == other.abs();
         (is_size && same).then(|| (scale * factor * integer(2), *x))
     }
@@ -584,12 +684,12 @@ impl Graph {
         }
     }
 
-    /// Declares that the formulas are smooth where the base of a power is zero.
+    /// Declares that the formulas are smooth where the base of a power is zero, and have the same derivatives there with 0 for the power.
     pub(super) fn set_smooth(&mut self, base: Id) {
         self.smooth.insert(base);
     }
 
-    /// Whether the formulas are smooth where the base of a power is zero.
+    /// Whether the formulas are smooth where the base of a power is zero, and have the same derivatives there with 0 for the power.
     pub fn is_smooth(&self, base: Id) -> bool {
         self.smooth.contains(&base)
     }
@@ -617,6 +717,13 @@ impl Graph {
             return self.integer(value);
         }
         let (scale, inner) = self.scaled(x);
+        // An even function of |x| is that of x.
+        if matches!(function, Cos | Cosh)
+            && let Some(side) = self.absolute_of(inner)
+        {
+            let argument = self.scale(scale, side);
+            return self.elementary(function, argument);
+        }
         if scale.is_negative() {
             let positive = self.scale(-scale, inner);
             match function {
@@ -665,7 +772,7 @@ impl Graph {
 
     /// The roots and all nodes below them, in an order in which they can be computed.
     pub fn below(&self, roots: impl IntoIterator<Item = Id>) -> Vec<Id> {
-        let mut found = std::collections::BTreeSet::new();
+        let mut found = BTreeSet::new();
         let mut open: Vec<Id> = roots.into_iter().collect();
         while let Some(id) = open.pop() {
             if found.insert(id) {

@@ -396,8 +396,8 @@ impl<'a> Operations<'a> {
         }
     }
 
-    /// `baseᵉ` for an exponent that is not whole, at whose zeros the formulas are [smooth](Graph::is_smooth): 0 there. A derivative is the
-    /// limit 0 where one of its factors is infinite: in `x·x/|x|` the last one.
+    /// `baseᵉ` for an exponent that is not whole, at whose zeros the formulas are [smooth](Graph::is_smooth): 0 there, even if the exponent
+    /// is negative, as of the last factor of `x·x/|x|`. The formulas have the same derivatives there whatever the power is multiplied by.
     fn smooth_power(&mut self, base: Op, exponent: &Number, node: Id) -> Op {
         let size = match *exponent.denom() == 2.into() {
             true => self.square_root_of_square(node),

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::derivative::Scatter;
 use super::graph::{Coordinate, Graph, Half, Id, LoopId, Number, integer};
-use super::smooth::{Smoothness, kinks};
+use super::smooth::{Powers, Smoothness, kinks};
 use super::syntax::{Ends, Length, Name, Span};
 
 /// A Hamiltonian system that was read from a formula.
@@ -203,7 +203,8 @@ impl System {
         (!terms.is_empty()).then(|| self.graph.sum(terms))
     }
 
-    /// Finds the powers at whose zeros all formulas are as smooth as they have to be, so that the limits of their derivatives exist.
+    /// Finds the powers at whose zeros all formulas are as smooth as they have to be, whatever [factors](Powers::Free) the powers have: the
+    /// limits of their derivatives are those with 0 in place of the powers.
     pub(super) fn find_smooth_powers(&mut self) {
         let mut roots = vec![(self.energy, 2)];
         roots.extend(self.bonds.iter().map(|bonds| (bonds.potential, 2)));
@@ -217,11 +218,13 @@ impl System {
             roots.push((lagrangian.formula, 2));
             roots.extend(lagrangian.applied.iter().map(|part| (part.value, 1)));
         }
+        let invariants = self.invariants.iter().flat_map(|all| &all.parts);
+        roots.extend(invariants.map(|part| (*part, 0)));
         roots.sort_unstable();
         roots.dedup();
         let mut bases: BTreeMap<Id, bool> = BTreeMap::new();
         for (root, order) in roots {
-            for (kink, smoothness) in kinks(&self.graph, root, order, |_| true) {
+            for (kink, smoothness) in kinks(&self.graph, root, order, Powers::Free, |_| true) {
                 for base in kink.bases {
                     *bases.entry(base).or_insert(true) &= smoothness == Smoothness::Smooth;
                 }

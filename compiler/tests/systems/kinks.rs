@@ -1,6 +1,9 @@
 //! Functions with kinks: accepted where the whole is smooth enough, refused at their place where it is not.
 
+use std::collections::BTreeSet;
+
 use expect_test::expect_file;
+use symplectic_compiler::formula::graph::Node;
 use symplectic_compiler::formula::{Form, System};
 
 use crate::formula::refused;
@@ -59,6 +62,8 @@ const TERMS: [(&[&str], u32); 3] = [
             "hypot(x, 0)^3 + norm([x])^3",
             "|[x, y]|^3 + |[x, y]| + 1/|[x, y]|",
             "max(x^2 + 1, 0) + |x^2 + y^2|",
+            "sqrt(x^4 - x^6) + sqrt(x^5 + x^7)",
+            "asin(|x|^3/3) + acos(exp(-y^2) + |x|^3)",
             "sqrt(sin(t)^2) x^2",
         ],
         2,
@@ -108,6 +113,12 @@ const TERMS: [(&[&str], u32); 3] = [
             "hypot(x, 2 x)",
             "hypot(x, sin(x))",
             "hypot(x y, x px)",
+            "sqrt(x^2 - x^4)",
+            "sqrt(x^4 + 2 x^2 y)",
+            "sqrt(x^3 + x^2 y)",
+            "sqrt((x - y)^2 (1 + a) - (x - y)^4)",
+            "asin(1 - |x|^3)",
+            "acos(|x|^3 - 1)",
             "|[x]|",
             "norm([x])",
             "|x|^a",
@@ -190,6 +201,98 @@ fn what_is_not_smooth_enough_is_refused_at_its_place() {
     expect_file!["data/kinks_refused.txt"].assert_eq(&(all.join("\n\n") + "\n"));
 }
 
+/// The number of bases of powers that are not whole, and how many of them are replaced by 0 at a kink.
+fn replaced(text: &str) -> [usize; 2] {
+    let graph = System::read("test", text).expect(text).graph;
+    let bases: BTreeSet<_> = graph
+        .ids()
+        .filter_map(|id| match graph.node(id) {
+            Node::Product(factors) => Some(factors),
+            _ => None,
+        })
+        .flatten()
+        .filter(|(base, exponent)| !exponent.is_integer() && !graph.depends(*base).is_fixed())
+        .map(|(base, _)| *base)
+        .collect();
+    let smooth = bases.iter().filter(|base| graph.is_smooth(**base)).count();
+    [bases.len(), smooth]
+}
+
+/// With 0 for `|x|` and `x/|x|`, `|x| sin(|x|)` has the second derivative 0 at x = 0, and not 2.
+#[test]
+fn a_power_is_replaced_by_zero_only_where_the_derivatives_stay_the_same() {
+    for term in [
+        "|x|^3",
+        "|x|^2.3",
+        "x^2 |x| + |x| - sin(|x|)",
+        "max(x, 0)^(5/2)",
+        "|[x, y]|^3",
+    ] {
+        let [all, smooth] = replaced(&energy(term));
+        assert!(all == smooth && all > 0, "{term}");
+    }
+    for term in [
+        "sqrt(x^4 + (x^2 y)^2 + x^6)",
+        "|x|/sqrt(x^2 + x^4)",
+        "(|x|^3 + |x|)/|x|",
+        "sin(|x|)/|x|",
+        "|x| sin(|x|)",
+        "exp(|x|) + exp(-|x|)",
+        "cos(|[x, y]|)",
+        "max(x, 0)^2 + min(x, 0)^2",
+    ] {
+        assert_eq!(replaced(&energy(term))[1], 0, "{term}");
+    }
+    // An even function of |x| has no kink, nor has the root of a fourth power.
+    for term in [
+        "cos(|x|) + cosh(2 |x - y|)",
+        "hypot(x^2, x^2 y) + sqrt(x^4 + x^6) + sqrt(2 x^8 (1 + y^2))",
+    ] {
+        assert_eq!(replaced(&energy(term))[1], 0, "{term}");
+        assert!(is_read(&energy(term)), "{term}");
+    }
+    let of_force = |term: &str| replaced(&force(term))[1];
+    assert_eq!([of_force("x |x|"), of_force("x |x|/sqrt(1 + |x|)")], [1, 1]);
+}
+
+#[test]
+fn a_conserved_quantity_is_infinite_where_a_length_in_it_is_a_divisor() {
+    let with = |quantity: &str| {
+        let text = energy("|x|^3") + &format!(" invariants: {{ size = {quantity} }}");
+        replaced(&text)[1]
+    };
+    assert_eq!([with("|x|"), with("1/|x|"), with("x/|x|^3 + y")], [1, 0, 0]);
+}
+
+/// What is never negative is its absolute value: `(x² + y²)/|x² + y²|` would be 0/0 at the origin.
+#[test]
+fn a_size_of_a_sum_of_squares_has_no_kink() {
+    for term in [
+        "|x^2 + y^2|",
+        "max(x^2 + y^2, 0)",
+        "min(0, x^2 + y^2)",
+        "sqrt((x^2 + y^2)^2)",
+        "|exp(x)| + |x^4|",
+    ] {
+        assert_eq!(replaced(&energy(term)), [0, 0], "{term}");
+    }
+}
+
+/// Sums that contain each other twice are as many as they are written.
+#[test]
+fn a_root_of_sums_in_sums_is_examined_once_for_each_sum() {
+    for (first, step) in [("exp(x)", "1"), ("x^2", "y^2"), ("x^2 y", "x^2")] {
+        let lets: Vec<String> = (2..=60)
+            .map(|k| format!("a{k} = a{} + 2 (a{} + {step})", k - 1, k - 1))
+            .collect();
+        let lets = lets.join("; let ");
+        let text = format!(
+            "P q: [x, y], p: [px, py]; let a1 = {first}; let {lets}; H = px^2/2 + py^2/2 + sqrt(a60)"
+        );
+        assert_eq!(is_read(&text), first != "x^2 y", "{first}");
+    }
+}
+
 /// Thousands of kinks, each in a term of its own or each in the next: the answer comes, whatever it is.
 #[test]
 fn many_kinks_are_examined_in_bounded_time() {
@@ -197,4 +300,8 @@ fn many_kinks_are_examined_in_bounded_time() {
     assert!(is_read(&energy(&terms.join(" + "))));
     let nested = (0..60).fold("x".to_owned(), |inner, k| format!("|{inner} - {k}|"));
     assert!(!is_read(&energy(&nested)));
+    let lets = (1..2000).map(|k| format!("let c{k} = cos(c{} + |x - {k}|^3);", k - 1));
+    let lets: String = lets.collect();
+    let text = format!("P q: [x], p: [px]; let c0 = x; {lets} H = px^2/2 + c1999");
+    assert!(!is_read(&text));
 }

@@ -176,8 +176,8 @@ pub trait Scalar:
     fn sign(self) -> Self {
         self.abs() / self
     }
-    /// The number, or 0 with all its derivatives if the value of `base` is 0. Emitted code applies it to a power of `base` where the formula
-    /// is smooth, so that a product that is 0·∞ there is 0, as its limit is.
+    /// The number, or 0 with all its derivatives if the value of `base` is 0. Emitted code applies it to a power of `base`, if the
+    /// compiler finds that the formula and the derivatives that are needed have the same limits with 0 for the power. So 0·∞ does not occur.
     #[doc(hidden)]
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn or_zero(self, base: Self) -> Self {

@@ -2,6 +2,7 @@
 
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::simd::{F64x8, Lanes};
+use symplectic::system::Jacobian;
 use symplectic::tangent::Tangent;
 use symplectic::{Error, Hamiltonian, Integrator, Scalar, State};
 
@@ -103,6 +104,44 @@ fn tangent_maps_are_finite_at_a_kink() -> Result<(), Error> {
         assert_eq!((end.q.sum(), end.p.sum()), (3.0, 2.0));
     }
     Ok(())
+}
+
+symplectic::hamiltonian! { RootOfFour q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + sqrt(x^4 (1 + y^2)) }
+symplectic::hamiltonian! { Hypot q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + hypot(x^2, x^2 y) }
+symplectic::hamiltonian! { Hidden q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + sqrt(x^4 + (x^2 y)^2 + x^6) }
+symplectic::hamiltonian! { Even q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + x^2/2 + 4 - 2 cos(|x|) + y sin(|y|) sin(|y|) }
+symplectic::hamiltonian! { Sizes q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + |x| sin(|x|) }
+symplectic::hamiltonian! { Ball q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + 2 - 2 cos(|[x, y]|) }
+symplectic::hamiltonian! { Sides q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + max(x, 0)^2 + min(x, 0)^2 }
+symplectic::hamiltonian! { Squares q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + |x^2 + y^2| + max(x^2 + y^2, 0)/2 }
+symplectic::hamiltonian! { Quotient q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + x^3/sqrt(x^4 + x^6) }
+
+/// A derivative whose emitted form has no value at a kink is no number there, never a wrong one.
+#[test]
+fn second_derivatives_at_a_kink_are_their_limits_or_no_numbers() {
+    macro_rules! second {
+        ($system:expr) => {{
+            let mut jacobian = Jacobian::<f64>::new(2, usize::MAX);
+            let zero = Vector2::<f64>::zeros();
+            assert!($system.second_derivatives(0.0, &zero, &zero, &mut jacobian));
+            -jacobian.force_by_position.get(0, 0)
+        }};
+    }
+    assert_eq!([second!(RootOfFour), second!(Hypot)], [2.0, 2.0]);
+    assert_eq!([second!(Even), second!(Squares)], [3.0, 3.0]);
+    let others: [f64; 4] = [
+        second!(Hidden),
+        second!(Sizes),
+        second!(Ball),
+        second!(Sides),
+    ];
+    for found in others {
+        assert!(found == 2.0 || found.is_nan(), "{found}");
+    }
+    assert_eq!(second!(Length), 0.0);
+    let mut force = Vector2::<f64>::zeros();
+    Quotient.force(0.0, &Vector2::zeros(), &Vector2::zeros(), &mut force);
+    assert!(force[0] == -1.0 || force[0].is_nan(), "{force}");
 }
 
 /// The velocity and the force at a point.

@@ -4,7 +4,7 @@ use super::Elaborator;
 use crate::error::Error;
 use crate::formula::error::FormulaError;
 use crate::formula::graph::{Id, Node};
-use crate::formula::smooth::{Smoothness, kinks};
+use crate::formula::smooth::{Powers, Smoothness, kinks};
 use crate::formula::syntax::{Expression, Form, Span};
 
 /// What a formula is, and so how smooth it has to be.
@@ -53,7 +53,9 @@ impl Elaborator<'_> {
             Role::Form => ("a non-holonomic constraint", 1),
             Role::Quantity => ("a quantity", 0),
         };
-        for (kink, smoothness) in kinks(&self.graph, id, order, |kink| kink.is_crossed) {
+        for (kink, smoothness) in kinks(&self.graph, id, order, Powers::Given, |kink| {
+            kink.is_crossed
+        }) {
             if matches!(smoothness, Smoothness::Smooth | Smoothness::Infinite) {
                 continue;
             }

@@ -11,15 +11,15 @@ mod series;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
-use num_traits::{Signed, Zero};
+use num_traits::{Signed, ToPrimitive, Zero};
 
-use self::series::{Coefficient, Series, Value};
+use self::series::{Coefficient, MOST_POWERS, Series, Value};
 use super::function::Elementary;
 use super::graph::{Graph, Id, Node, Number, integer};
 use crate::arithmetic::rounding::to_f64;
 
-/// The largest number of values that are computed for one formula.
-const MOST_VALUES: usize = 2_000_000;
+/// The largest number of products of two terms of series for one formula.
+const MOST_PRODUCTS: usize = 10_000_000;
 
 /// Where a formula may be less smooth than its parts.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -47,21 +47,34 @@ pub(super) enum Smoothness {
     TooLong,
 }
 
+/// The powers that are zero or infinite at a kink.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Powers {
+    /// As they are.
+    Given,
+    /// Each with a random factor of its own, another one on every line and side. A formula that is still smooth, as `|x|³` is, but not
+    /// `|x| sin(|x|)`, has the same derivatives at the kink whatever the factors are: those with 0 in place of the powers.
+    Free,
+}
+
 /// The kinks of a formula that are wanted, each with its smoothness: whether the formula has `order` continuous derivatives there.
 pub(super) fn kinks(
     graph: &Graph,
     root: Id,
     order: u32,
+    powers: Powers,
     wanted: impl Fn(&Kink) -> bool,
 ) -> Vec<(Kink, Smoothness)> {
     let below = graph.below([root]);
-    let kinks = candidates(graph, &below).into_iter().filter(wanted);
+    let mut work = 0;
+    let all = candidates(graph, &below, &mut work);
+    let kinks = all.into_iter().filter(wanted);
     let mut lines: Option<Lines<'_>> = None;
     let examined = kinks.map(|kink| {
         let smoothness = match kink.is_divisor {
             true => Smoothness::Infinite,
             false => lines
-                .get_or_insert_with(|| Lines::new(graph, root, &below))
+                .get_or_insert_with(|| Lines::new(graph, root, powers, &below, work))
                 .smoothness(&kink, order),
         };
         (kink, smoothness)
@@ -70,7 +83,7 @@ pub(super) fn kinks(
 }
 
 /// The places where powers in a formula have no derivative.
-fn candidates(graph: &Graph, below: &[Id]) -> Vec<Kink> {
+fn candidates(graph: &Graph, below: &[Id], work: &mut usize) -> Vec<Kink> {
     let mut kinks: BTreeMap<Vec<Id>, Kink> = BTreeMap::new();
     let powers = below.iter().filter_map(|&id| match graph.node(id) {
         Node::Product(factors) => Some(factors),
@@ -79,6 +92,9 @@ fn candidates(graph: &Graph, below: &[Id]) -> Vec<Kink> {
     let powers: Vec<&(Id, Number)> = powers.flatten().collect();
     let negative = powers.iter().filter(|(_, exponent)| exponent.is_negative());
     let negative: HashSet<Id> = negative.map(|(base, _)| *base).collect();
+    let rough = powers.iter().filter(|(_, power)| !power.is_integer());
+    let rough: BTreeSet<Id> = rough.map(|(base, _)| graph.scaled(*base).1).collect();
+    let factors = Factors::of(graph, rough);
     let mut add = |base: Id, zeros: Vec<Id>, is_crossed: bool| {
         let kink = kinks.entry(zeros.clone()).or_insert_with(|| Kink {
             bases: BTreeSet::new(),
@@ -98,9 +114,9 @@ fn candidates(graph: &Graph, below: &[Id]) -> Vec<Kink> {
             add(*base, vec![x], true);
             continue;
         }
-        let crossed = common_squares(graph, inner);
+        let crossed = factors.even(inner);
         if crossed.is_empty()
-            && let Some(zeros) = squares(graph, inner)
+            && let Some(zeros) = factors.squares.get(&inner).cloned()
             && zeros.iter().all(|&zero| is_variable(graph, zero))
         {
             let leaves = graph.below(zeros.iter().copied());
@@ -108,11 +124,12 @@ fn candidates(graph: &Graph, below: &[Id]) -> Vec<Kink> {
                 .iter()
                 .filter(|&&id| matches!(graph.node(id), Node::Coordinate(_)));
             let in_total = !graph.totals(inner).is_empty();
-            let is_crossed = leaves.count() == 1 && !in_total && vanish_together(graph, &zeros);
+            let is_crossed =
+                leaves.count() == 1 && !in_total && vanish_together(graph, &zeros, work);
             add(*base, zeros, is_crossed);
         }
         for zero in crossed {
-            if is_variable(graph, zero) && !has_one_sign(graph, zero) {
+            if is_variable(graph, zero) && !graph.has_one_sign(zero) {
                 add(*base, vec![zero], true);
             }
         }
@@ -121,35 +138,40 @@ fn candidates(graph: &Graph, below: &[Id]) -> Vec<Kink> {
 }
 
 /// Whether functions of one coordinate have a common zero: `x` and `sin(x)`, but not `x` and `x - 1` or `sin(x)` and `cos(x)`. Two
-/// functions of which none is linear count as having none; where they do, a step returns an error.
-fn vanish_together(graph: &Graph, zeros: &[Id]) -> bool {
+/// functions of which none is linear count as having none; where they do, a step returns an error. What is too long counts as a zero.
+fn vanish_together(graph: &Graph, zeros: &[Id], work: &mut usize) -> bool {
+    if zeros.len() == 1 {
+        return true;
+    }
     let line = ([1, 0], true);
-    let values = |at: f64| {
+    let mut values = |at: f64| {
         let mut values: HashMap<Id, Value> = HashMap::new();
         for id in graph.below(zeros.iter().copied()) {
             let value = match graph.node(id) {
                 Node::Coordinate(_) => Value::line(at, 1.0),
-                _ => compute(graph, id, line, |x| &values[&x]),
+                _ if *work > MOST_PRODUCTS => Value::Unknown,
+                _ => {
+                    let of = |x| &values[&x];
+                    let value = compute(graph, id, line, Powers::Given, of);
+                    *work += products(graph, id, &value, of);
+                    value
+                }
             };
             values.insert(id, value);
         }
         values
     };
     let here = values(0.0);
-    let roots = zeros.iter().filter_map(|zero| match &here[zero] {
+    let mut roots = zeros.iter().filter_map(|zero| match &here[zero] {
         Value::Series(series) => series.root(),
         _ => None,
     });
-    let is_zero = |value: &Value| match value {
-        Value::Series(series) => series.vanishes(),
-        _ => false,
-    };
-    let mut roots = roots.take(1);
-    zeros.len() == 1
-        || roots.any(|root| {
-            let values = values(root);
-            zeros.iter().all(|zero| is_zero(&values[zero]))
-        })
+    let first = roots.next();
+    let vanish = first.is_some_and(|root| {
+        let values = values(root);
+        zeros.iter().all(|zero| values[zero].vanishes())
+    });
+    vanish || *work > MOST_PRODUCTS
 }
 
 fn is_variable(graph: &Graph, id: Id) -> bool {
@@ -161,91 +183,92 @@ fn is_even(number: &Number) -> bool {
     (number / integer(2)).is_integer()
 }
 
-/// The functions whose even powers are factors of a product, or of all terms of a sum of terms that are not negative.
-fn common_squares(graph: &Graph, id: Id) -> Vec<Id> {
-    match graph.node(id) {
-        Node::Product(factors) => {
-            let even = factors.iter().filter(|(_, power)| is_even(power));
-            factors_of(graph, even.map(|(x, _)| *x).collect())
-        }
-        Node::Sum(terms, constant) if constant.is_zero() => {
-            let signs = [Signed::is_positive, Signed::is_negative];
-            let same = signs
-                .iter()
-                .any(|sign: &fn(&Number) -> bool| terms.iter().all(|(factor, _)| sign(factor)));
-            let whole = terms.iter().all(|(_, x)| has_one_sign(graph, *x));
-            let Some(((_, first), rest)) = terms.split_first().filter(|_| same && whole) else {
-                return Vec::new();
-            };
-            let mut common = common_squares(graph, *first);
-            for (_, x) in rest {
-                let others = common_squares(graph, *x);
-                common.retain(|x| others.contains(x));
-            }
-            common
-        }
-        _ => Vec::new(),
-    }
+/// The factors of the functions that powers are taken of.
+struct Factors {
+    /// The powers that are factors: of a sum, of all its terms.
+    powers: HashMap<Id, BTreeMap<Id, Number>>,
+    /// The functions whose even powers a sum consists of.
+    squares: HashMap<Id, Vec<Id>>,
 }
 
-/// The factors of products.
-fn factors_of(graph: &Graph, mut open: Vec<Id>) -> Vec<Id> {
-    let mut all = BTreeSet::new();
-    while let Some(id) = open.pop() {
+impl Factors {
+    fn of(graph: &Graph, bases: BTreeSet<Id>) -> Self {
+        let mut below = BTreeSet::new();
+        let mut open: Vec<Id> = bases.into_iter().collect();
+        while let Some(id) = open.pop() {
+            if below.insert(id)
+                && let Node::Sum(..) | Node::Product(_) | Node::Total(..) = graph.node(id)
+            {
+                open.extend(graph.children(id));
+            }
+        }
+        let mut all = Factors {
+            powers: HashMap::new(),
+            squares: HashMap::new(),
+        };
+        for id in below {
+            let powers = all.powers_of(graph, id);
+            all.powers.insert(id, powers);
+            if let Some(squares) = all.squares_of(graph, id) {
+                all.squares.insert(id, squares);
+            }
+        }
+        all
+    }
+
+    /// The functions whose even powers are factors.
+    fn even(&self, id: Id) -> Vec<Id> {
+        let powers = self.powers.get(&id).into_iter().flatten();
+        let even = powers.filter(|(_, power)| is_even(power) && !power.is_zero());
+        even.map(|(x, _)| *x).collect()
+    }
+
+    fn powers_of(&self, graph: &Graph, id: Id) -> BTreeMap<Id, Number> {
+        let mut all = BTreeMap::new();
         match graph.node(id) {
-            Node::Product(factors) => open.extend(factors.iter().map(|(x, _)| *x)),
-            _ => {
-                all.insert(id);
+            Node::Product(factors) => {
+                for (x, exponent) in factors {
+                    for (y, power) in &self.powers[x] {
+                        *all.entry(*y).or_insert_with(Number::zero) += power * exponent;
+                    }
+                }
+                return all;
             }
+            Node::Sum(terms, constant) if constant.is_zero() => {
+                let mut terms = terms.iter().map(|(_, x)| &self.powers[x]);
+                all = terms.next().cloned().unwrap_or_default();
+                for powers in terms {
+                    all.retain(|x, power| match powers.get(x) {
+                        Some(other) => {
+                            *power = (&*power).min(other).clone();
+                            true
+                        }
+                        None => false,
+                    });
+                }
+            }
+            _ => {}
         }
+        all.insert(id, integer(1));
+        all
     }
-    all.into_iter().collect()
-}
 
-/// The functions whose even powers a sum consists of.
-fn squares(graph: &Graph, id: Id) -> Option<Vec<Id>> {
-    let (factor, id) = graph.scaled(id);
-    if factor.is_negative() {
-        return None;
-    }
-    match graph.node(id) {
-        Node::Product(factors) => match factors.as_slice() {
-            [(x, power)] if is_even(power) && power.is_positive() => Some(vec![*x]),
+    fn squares_of(&self, graph: &Graph, id: Id) -> Option<Vec<Id>> {
+        match graph.node(id) {
+            Node::Product(factors) => match factors.as_slice() {
+                [(x, power)] if is_even(power) && power.is_positive() => Some(vec![*x]),
+                _ => None,
+            },
+            Node::Sum(terms, constant) if constant.is_zero() => {
+                let mut all = BTreeSet::new();
+                for (factor, x) in terms {
+                    all.extend(self.squares.get(x).filter(|_| factor.is_positive())?);
+                }
+                Some(all.into_iter().collect())
+            }
+            Node::Total(_, body) => self.squares.get(body).cloned(),
             _ => None,
-        },
-        Node::Sum(terms, constant) if constant.is_zero() => {
-            let mut all = Vec::new();
-            for (factor, x) in terms {
-                all.extend(squares(graph, *x).filter(|_| factor.is_positive())?);
-            }
-            all.sort_unstable();
-            all.dedup();
-            Some(all)
         }
-        Node::Total(_, body) => squares(graph, *body),
-        _ => None,
-    }
-}
-
-/// Whether a value is visibly never negative.
-pub(super) fn has_one_sign(graph: &Graph, id: Id) -> bool {
-    match graph.node(id) {
-        Node::Constant(value) => !value.is_negative(),
-        Node::Pi => true,
-        Node::Sum(terms, constant) => {
-            let mut terms = terms.iter();
-            !constant.is_negative()
-                && terms.all(|(factor, x)| factor.is_positive() && has_one_sign(graph, *x))
-        }
-        // An even power, or one whose denominator is even.
-        Node::Product(factors) => factors.iter().all(|(x, exponent)| {
-            let [above, below] =
-                [exponent.numer(), exponent.denom()].map(|part| (part % 2_u32).is_zero());
-            above || below || has_one_sign(graph, *x)
-        }),
-        Node::Elementary(Elementary::Exp | Elementary::Cosh | Elementary::Acos, _) => true,
-        Node::Total(_, body) => has_one_sign(graph, *body),
-        _ => false,
     }
 }
 
@@ -256,17 +279,18 @@ type Line = ([i8; 2], bool);
 struct Lines<'a> {
     graph: &'a Graph,
     root: Id,
+    powers: Powers,
     parents: HashMap<Id, Vec<Id>>,
     /// The terms of the formula, if it is a sum.
     terms: Option<HashMap<Id, Number>>,
     /// The values of nodes that no kink has changed.
     plain: HashMap<Line, HashMap<Id, Value>>,
-    /// The number of computed values.
-    computed: usize,
+    /// The number of products of two terms so far.
+    work: usize,
 }
 
 impl<'a> Lines<'a> {
-    fn new(graph: &'a Graph, root: Id, below: &[Id]) -> Self {
+    fn new(graph: &'a Graph, root: Id, powers: Powers, below: &[Id], work: usize) -> Self {
         let mut parents: HashMap<Id, Vec<Id>> = HashMap::new();
         for &id in below {
             for child in graph.children(id) {
@@ -280,14 +304,18 @@ impl<'a> Lines<'a> {
         Lines {
             graph,
             root,
+            powers,
             parents,
             terms: terms.map(Iterator::collect),
             plain: HashMap::new(),
-            computed: 0,
+            work,
         }
     }
 
     fn smoothness(&mut self, kink: &Kink, order: u32) -> Smoothness {
+        if self.work > MOST_PRODUCTS {
+            return Smoothness::TooLong;
+        }
         let mut changed: BTreeSet<Id> = BTreeSet::new();
         let mut open = kink.zeros.clone();
         while let Some(id) = open.pop() {
@@ -302,7 +330,7 @@ impl<'a> Lines<'a> {
         let mut along = Vec::new();
         for &direction in directions {
             let sides = [true, false].map(|side| self.value(kink, &changed, (direction, side)));
-            if self.computed > MOST_VALUES {
+            if self.work > MOST_PRODUCTS {
                 return Smoothness::TooLong;
             }
             let [Value::Series(right), Value::Series(left)] = sides else {
@@ -354,31 +382,32 @@ impl<'a> Lines<'a> {
             }
         }
         for id in needed {
-            let value = compute(self.graph, id, line, |x| &plain[&x]);
+            let of = |x| &plain[&x];
+            let value = compute(self.graph, id, line, Powers::Given, of);
+            self.work += products(self.graph, id, &value, of);
             plain.insert(id, value);
-            self.computed += 1;
+            if self.work > MOST_PRODUCTS {
+                return Value::Unknown;
+            }
         }
         let mut new: HashMap<Id, Value> = HashMap::new();
         for &id in changed {
-            let value = match kink.zeros.contains(&id) {
-                true => Value::line(0.0, slope(id, line)),
-                false => {
-                    let of = |x: Id| new.get(&x).unwrap_or_else(|| &plain[&x]);
-                    match &self.terms {
-                        // The terms that the kink does not change are smooth.
-                        Some(terms) if id == self.root => {
-                            let terms = changed.iter().filter_map(|x| Some((terms.get(x)?, *x)));
-                            total(terms, of)
-                        }
-                        _ => compute(self.graph, id, line, of),
-                    }
+            let of = |x: Id| new.get(&x).unwrap_or_else(|| &plain[&x]);
+            let value = match &self.terms {
+                _ if kink.zeros.contains(&id) => Value::line(0.0, slope(id, line)),
+                // The terms that the kink does not change are smooth.
+                Some(terms) if id == self.root => {
+                    let terms = changed.iter().filter_map(|x| Some((terms.get(x)?, *x)));
+                    self.work += changed.len();
+                    total(terms, of)
+                }
+                _ => {
+                    let value = compute(self.graph, id, line, self.powers, of);
+                    self.work += products(self.graph, id, &value, of);
+                    value
                 }
             };
-            self.computed += 1 + match id == self.root {
-                true => changed.len(),
-                false => self.graph.children(id).len(),
-            };
-            if self.computed > MOST_VALUES {
+            if self.work > MOST_PRODUCTS {
                 return Value::Unknown;
             }
             new.insert(id, value);
@@ -412,8 +441,32 @@ fn total<'t, 'v>(
     })
 }
 
+/// A bound of the number of products of two terms in the computation of a value.
+fn products<'v>(graph: &Graph, id: Id, value: &Value, of: impl Fn(Id) -> &'v Value) -> usize {
+    let operands = graph.children(id).into_iter().map(|x| of(x).size());
+    let terms: usize = operands.sum();
+    match graph.node(id) {
+        Node::Sum(..) | Node::Total(..) => 1 + terms,
+        _ => 1 + terms * value.size() * MOST_POWERS,
+    }
+}
+
+/// The factor of a [free](Powers::Free) power.
+fn free_factor(base: Id, exponent: &Number, ([a, b], side): Line) -> f64 {
+    let bits = exponent.to_f64().unwrap_or_default().to_bits();
+    let power = bits.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 45;
+    let line = 9 * u64::from(side) + (3 * (a + 1) + b + 1) as u64;
+    random(base, (power << 5) + 3 + line)
+}
+
 /// The value of a node from those of its operands.
-fn compute<'v>(graph: &Graph, id: Id, line: Line, of: impl Fn(Id) -> &'v Value) -> Value {
+fn compute<'v>(
+    graph: &Graph,
+    id: Id,
+    line: Line,
+    powers: Powers,
+    of: impl Fn(Id) -> &'v Value,
+) -> Value {
     match graph.node(id) {
         Node::Constant(value) => Value::line(to_f64(value), 0.0),
         Node::Pi => Value::line(std::f64::consts::PI, 0.0),
@@ -424,8 +477,15 @@ fn compute<'v>(graph: &Graph, id: Id, line: Line, of: impl Fn(Id) -> &'v Value) 
             sum.add(&Value::line(to_f64(constant), 0.0))
         }
         Node::Product(factors) => {
-            let powers = factors.iter().map(|(x, exponent)| of(*x).power(exponent));
-            powers.fold(Value::line(1.0, 0.0), |product, power| {
+            let factors = factors.iter().map(|(x, exponent)| {
+                let power = of(*x).power(exponent);
+                let is_free = powers == Powers::Free && !exponent.is_integer();
+                match is_free && of(*x).vanishes() {
+                    true => power.times(free_factor(*x, exponent, line)),
+                    false => power,
+                }
+            });
+            factors.fold(Value::line(1.0, 0.0), |product, power| {
                 product.multiply(&power)
             })
         }

@@ -12,7 +12,7 @@ const LAST: i64 = 8;
 /// The largest number of terms.
 const MOST_TERMS: usize = 40;
 /// The largest number of terms of the series of a function.
-const MOST_POWERS: usize = 16;
+pub(super) const MOST_POWERS: usize = 16;
 /// A coefficient below this, relative to the terms that it is the sum of, counts as zero.
 const ROUNDING: f64 = 1e-13;
 
@@ -110,7 +110,7 @@ impl Series {
     }
 
     /// Whether it is zero at τ = 0, except for rounding.
-    pub(super) fn vanishes(&self) -> bool {
+    fn vanishes(&self) -> bool {
         let next = self.least();
         next.is_none_or(Signed::is_positive)
     }
@@ -124,6 +124,13 @@ impl Series {
     pub(super) fn is_known_to(&self, exponent: u32) -> bool {
         let order = self.order.as_ref();
         order.is_none_or(|order| *order > integer(exponent.into()))
+    }
+
+    /// Whether it is this number at τ = 0 and not constant.
+    fn starts_at(&self, number: f64) -> bool {
+        let at = self.coefficient(0).value;
+        let is_constant = self.terms.len() <= 1 && self.order.is_none();
+        !is_constant && !self.has_pole() && (at - number).abs() <= ROUNDING
     }
 
     /// The exponents with their coefficients.
@@ -200,6 +207,22 @@ impl Series {
 }
 
 impl Value {
+    /// The number of its terms, one more for the unknown ones.
+    pub(super) fn size(&self) -> usize {
+        match self {
+            Value::Series(series) => series.terms.len() + 1,
+            _ => 1,
+        }
+    }
+
+    /// Whether it is zero at τ = 0, except for rounding.
+    pub(super) fn vanishes(&self) -> bool {
+        match self {
+            Value::Series(series) => series.vanishes(),
+            _ => false,
+        }
+    }
+
     pub(super) fn line(c: f64, d: f64) -> Self {
         Value::Series(Series::line(c, d))
     }
@@ -325,7 +348,13 @@ impl Value {
             }
             all
         };
+        // The arcs of sine and cosine begin with a root at ±1.
+        let at_end = match self {
+            Value::Series(series) => series.starts_at(1.0) || series.starts_at(-1.0),
+            _ => false,
+        };
         match function {
+            Asin | Acos if at_end => Value::Unknown,
             Exp => self.function(|x| exponential(x, 0)),
             Cosh => self.function(|x| exponential(x, 1)),
             Sinh => self.function(|x| exponential(x, -1)),
