@@ -85,9 +85,10 @@
 /// `let d = a - b;` is an abbreviation; `let s(i, j) = sigma^2/|q[i] - q[j]|^2;` has arguments. `extern fn V with dV, d2V;` names functions
 /// in scope: `fn V<T: Scalar>(x: T) -> T` and its two derivatives. They must be generic, even if they depend on a parameter only. H must be
 /// twice continuously differentiable, a force once. `|x|`, `abs`, `max`, `min` and `sqrt(x^2)` may be in it where the whole is: in H
-/// `|x|^3`, `x^2 |x|` or `max(x, 0)^(5/2)`, in a force `px |px|` or `max(x, 0)^2`. All derivatives are finite at the kink. The length of a
-/// vector may be in any formula; where it is zero and the formula is not differentiable, a step returns an error. Constants must be finite in
-/// double precision.
+/// `|x|^3`, `x^2 |x|` or `max(x, 0)^(5/2)`, in a force `px |px|` or `max(x, 0)^2`. Their derivatives are finite at the kink. Those of
+/// `|x| sin(|x|)`, whose second derivative contains the square of `x/|x|`, are not computed there: a step from it returns an error. The length
+/// of a vector may be in any formula; where it is zero and the formula is not differentiable, a step returns an error. Constants must be
+/// finite in double precision.
 ///
 /// # Constraints, friction and forces
 ///
