@@ -121,7 +121,7 @@ fn a_table_that_has_to_be_moved_is_the_same_in_both_spellings() {
 
 /// The condition that the numbers violate is part of the origin, and a number that was computed has the error of its ingredients.
 #[test]
-fn what_forces_a_change_is_named() {
+fn a_forced_change_names_its_condition() {
     let text = "x = 0.2345678\ny = 0.5308643\na = [x, y, 1-x-y]\nb = [0.5, 0.5, 0]\n";
     let (tableau, origin) = read(Library::Odeint, text);
     let ImportOrigin::NearDecimals { forced_by, .. } = origin else {

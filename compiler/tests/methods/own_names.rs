@@ -182,7 +182,7 @@ fn many_weights_whose_errors_add_up_are_read() {
 }
 
 #[test]
-fn what_is_unclear_is_refused_with_what_to_do() {
+fn unclear_names_are_refused_with_advice() {
     for (names, text, message) in [
         (
             splitting("c", "d", None, false),

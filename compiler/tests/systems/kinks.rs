@@ -185,7 +185,7 @@ fn other_clauses_are_as_smooth_as_they_have_to_be() {
 }
 
 #[test]
-fn what_is_not_smooth_enough_is_refused_at_its_place() {
+fn formulas_that_are_not_smooth_enough_are_refused_at_their_place() {
     let lagrangian = "P q: [x], v: [vx]; L = vx^2/2 - |x - 1|";
     let all = [
         refused(

@@ -160,7 +160,7 @@ mod tests {
         assert!(observer.trace(1.0).is_none());
     }
 
-    /// An energy of two terms that cancel but for a rounding error.
+    /// An energy of two terms that cancel up to a rounding error.
     #[test]
     fn deviations_of_an_energy_that_is_rounding_are_relative_to_its_terms() {
         let energy = |state: &State<Vector1<f64>>| state.q[0] * state.q[0] - 2.0;

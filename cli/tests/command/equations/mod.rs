@@ -216,7 +216,7 @@ impl Case {
         )
     }
 
-    /// With numbered coordinates of so many components; none if they are numbers.
+    /// With numbered coordinates of this number of components; none if they are numbers.
     fn numbered(count: usize, components: usize) -> Self {
         let names = |letter: &str| {
             let name = |k: usize| match components {

@@ -84,7 +84,7 @@ fn states_at_times_and_in_sections_have_the_momenta_with_friction() {
 }
 
 #[test]
-fn what_friction_does_not_allow_is_refused() {
+fn options_that_friction_excludes_are_refused() {
     let folder = folder("friction-refused");
     let nystrom = "mclachlan-atela-1992-order-4-optimal";
     for (setup, place, told) in [
