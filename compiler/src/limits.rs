@@ -16,3 +16,13 @@ impl Default for Limits {
         Limits { stages: 36 }
     }
 }
+
+impl Limits {
+    /// At most so many stages.
+    #[must_use]
+    pub fn at_most(stages: impl Into<usize>) -> Self {
+        Limits {
+            stages: stages.into(),
+        }
+    }
+}

@@ -1,0 +1,358 @@
+//! The trajectories of a run, and what becomes of them.
+
+use std::ops::ControlFlow;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use symplectic::emitted::Solver;
+use symplectic::ensemble::{Ensemble, EnsembleError};
+use symplectic::nalgebra::DVector;
+use symplectic::output::Interpolation;
+use symplectic::system::Conservative;
+use symplectic::{
+    AtRunTime, Class, Compensated, Error as RunError, Hamiltonian, Plain, State, Summation, System,
+};
+use symplectic_compiler::Error;
+use toml::Spanned;
+
+use crate::chaos;
+use crate::memory;
+use crate::output::{Facts, Results, Seen, append};
+use crate::progress::{Meter, Progress};
+use crate::resume::{Origin, Resume, checksum};
+use crate::setup::{Iteration, Sums};
+use crate::starts::Start;
+use crate::summary::summary;
+use crate::system::Formula;
+use crate::tape::Parameters;
+use crate::trajectory::Trajectory;
+use crate::{Run, Shard, counted, document};
+use symplectic_terminal::{errors, print};
+
+pub(super) type Vector = DVector<f64>;
+pub(super) type States = Vec<State<Vector>>;
+type Made<S, R> = Ensemble<AtRunTime, S, Vector, R>;
+/// Runs the trajectories of an ensemble.
+type Task<'a, S, R, N> = fn(&Run<'a>, &mut Ensemble<AtRunTime, S, Vector, R, N>, Keep<'_>);
+/// Keeps a finished trajectory.
+pub(super) type Keep<'k> = &'k mut dyn FnMut(Trajectory) -> ControlFlow<()>;
+
+impl<'a> Run<'a> {
+    pub(super) fn with_class<C: Class + Conservative>(
+        self,
+        starts: Vec<Start>,
+    ) -> Result<ExitCode, Error>
+    where
+        Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>,
+    {
+        match self.setup.sums {
+            Sums::Compensated => self.integrate::<C, Compensated>(starts),
+            Sums::Plain => self.integrate::<C, Plain>(starts),
+        }
+    }
+
+    fn integrate<C: Class + Conservative, R: Summation>(
+        self,
+        starts: Vec<Start>,
+    ) -> Result<ExitCode, Error>
+    where
+        Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>,
+    {
+        let (start, end) = (self.setup.start(), self.end());
+        let last = self.times.as_ref().and_then(|times| times.last());
+        let size = *self.setup.step_size.get_ref();
+        let meter = Meter::new([start, *last.unwrap_or(&end)], size);
+        let progress = Progress::new(meter, self.arguments.progress);
+        let mut parameters: Vec<Vec<f64>> = Vec::new();
+        let mut families: Vec<(Formula<C>, States)> = Vec::new();
+        let same_bits = |a: &[f64], b: &[f64]| {
+            let bits = |x: &f64| x.to_bits();
+            a.iter().map(bits).eq(b.iter().map(bits))
+        };
+        let is_long = starts.len() > MANY;
+        for start in starts {
+            let before = parameters.last();
+            // The meter counts the systems side by side in lanes.
+            let is_of_family = (is_long || progress.meter().is_none())
+                && before.is_some_and(|before| same_bits(before, &start.parameters));
+            match families.last_mut() {
+                Some((_, family)) if is_of_family => {
+                    family.push(start.state);
+                }
+                _ => {
+                    let own = Parameters::Own(start.parameters.as_slice().into());
+                    let system = Formula::new(Arc::clone(&self.tapes), own);
+                    let system = system.noting(progress.meter());
+                    families.push((system, vec![start.state]));
+                }
+            }
+            parameters.push(start.parameters);
+        }
+        for own in parameters.iter().filter(|_| self.tapes.has_friction()) {
+            let own = Parameters::Own(own.as_slice().into());
+            let last = *last.unwrap_or(&end);
+            let factors = self.tapes.factors(&own, last).unwrap_or_default();
+            if factors
+                .iter()
+                .any(|factor| !(1e-250..1e250).contains(factor))
+            {
+                let message = format!(
+                    "the friction changes momenta by more than a factor of 1e250 until the time {last}: give an earlier end"
+                );
+                return Err(self.file.error(self.setup.system.span(), message));
+            }
+        }
+        let tableau = &self.method.tableau;
+        let newton = self.setup.solver.as_ref().map(Spanned::get_ref) == Some(&Iteration::Newton);
+        if self.has_chaos() {
+            let tangents = families
+                .into_iter()
+                .map(|(system, starts)| self.tangents(system, starts));
+            let ensemble = Made::<_, R>::families_at_run_time(tableau, tangents, size)
+                .map_err(|error| self.refused(&error))?;
+            return match newton {
+                false => self.run(ensemble, &parameters, &progress, Self::chaos),
+                true => self.run(ensemble.by_newton(), &parameters, &progress, Self::chaos),
+            };
+        }
+        let ensemble = Made::<_, R>::families_at_run_time(tableau, families, size)
+            .map_err(|error| self.refused(&error))?;
+        match newton {
+            false => self.run(ensemble, &parameters, &progress, Self::states),
+            true => self.run(ensemble.by_newton(), &parameters, &progress, Self::states),
+        }
+    }
+
+    /// Runs an ensemble by `task`, and writes the results.
+    fn run<S, R: Summation, N: Solver<Vector, S>>(
+        self,
+        mut ensemble: Ensemble<AtRunTime, S, Vector, R, N>,
+        parameters: &[Vec<f64>],
+        progress: &Progress,
+        task: Task<'a, S, R, N>,
+    ) -> Result<ExitCode, Error>
+    where
+        S: System<Vector> + Clone + Send + Sync,
+    {
+        if let Some(Shard { part, count }) = self.arguments.shard {
+            ensemble = ensemble
+                .shard(part, count)
+                .map_err(|error| self.refused(&error))?;
+        }
+        let own = self.has_chaos().then(|| {
+            let starts = ensemble.starts().iter();
+            starts.map(chaos::original).collect::<Vec<_>>()
+        });
+        let (mut resume, mut rows) = self.resume(ensemble.starts(), parameters)?;
+        let (all, before) = (ensemble.trajectories().len(), rows.len());
+        if before > 0 {
+            let next = ensemble.trajectories().start + before;
+            let restored = ensemble
+                .checkpoint(next)
+                .and_then(|checkpoint| ensemble.restore(&checkpoint));
+            restored.map_err(|error| document(error.to_string()))?;
+        }
+        if let Some(section) = &self.section {
+            section.count(&rows);
+        }
+        rows.reserve(all.saturating_sub(before));
+        let began = Instant::now();
+        let shown = progress.show(all, before);
+        let mut keep = |mut row: Trajectory| {
+            self.damp(&mut row, parameters);
+            rows.push(row);
+            progress.finished();
+            resume.save(&rows);
+            ControlFlow::Continue(())
+        };
+        task(&self, &mut ensemble, &mut keep);
+        if let Some(section) = &self.section
+            && section.is_full()()
+        {
+            drop(shown);
+            resume.remove();
+            let fault = memory::fault_of_section(section.most(), all);
+            let given = self.setup.section.as_ref().map_or(0..0, Spanned::span);
+            return Err(self.file.error(given, fault));
+        }
+        drop(shown);
+        let seconds = began.elapsed().as_secs_f64();
+        let orders = self.method.tableau.orders();
+        let results = Results {
+            coordinates: self.coordinates,
+            facts: Facts {
+                method: self.method.tableau.name(),
+                definition: &self.method.definition,
+                orders: [orders.general, orders.separable, orders.nystrom].map(u64::from),
+                step_size: *self.setup.step_size.get_ref(),
+                sums: match self.setup.sums {
+                    Sums::Compensated => "compensated",
+                    Sums::Plain => "plain",
+                },
+                formula: self.setup.system.get_ref(),
+                setup: self.file.text,
+            },
+            tapes: &self.tapes,
+            rows: &rows,
+            starts: own.as_deref().unwrap_or(ensemble.starts()),
+            has_chaos: self.has_chaos(),
+            parameters,
+            seen: match (&self.times, &self.section) {
+                (Some(times), _) => Seen::Times(times),
+                (None, Some(_)) => Seen::Section,
+                (None, None) => Seen::End,
+            },
+        };
+        let failed = rows.iter().filter(|row| row.failure.is_some()).count();
+        let bound = self.setup.warn_energy_error.as_ref();
+        let bound = bound.map_or(ENERGY_ERROR, |bound| *bound.get_ref());
+        let counts = [before, self.skipped];
+        let (lines, warning) = summary(&results, bound, seconds, counts);
+        let mut message = format!(
+            "{}, {failed} failed: {}\n{lines}",
+            counted(rows.len(), "trajectory", "trajectories"),
+            self.target.path().display()
+        );
+        message.extend(self.note_on_times(S::Class::SEPARABLE));
+        self.target.write(&results, || resume.advice(&rows))?;
+        let fault = resume.fault();
+        resume.remove();
+        let printed = print(&message)?;
+        let warnings = warning.into_iter().chain(fault);
+        warnings.for_each(|warning| errors::warning(&warning));
+        Ok(match failed > 0 && failed == rows.len() {
+            true => ExitCode::from(1),
+            false => printed,
+        })
+    }
+
+    /// Integrates to the end, at the output times, or to the states of the section.
+    fn states<C: Class + Conservative, R: Summation, N: Solver<Vector, Formula<C>>>(
+        &self,
+        ensemble: &mut Ensemble<AtRunTime, Formula<C>, Vector, R, N>,
+        keep: Keep<'_>,
+    ) where
+        Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>,
+    {
+        let end = self.end();
+        match (&self.times, &self.section) {
+            (None, Some(section)) => {
+                ensemble.stop_if(section.is_full());
+                let see = |seen: &mut Vec<f64>, run: &mut _| section.see(seen, run, end);
+                ensemble.each(|_| Vec::new(), see, |row| keep(row.into()));
+            }
+            (Some(times), _) => {
+                let numbers = times.len() * (1 + 2 * self.coordinates.dimension());
+                let output = |_| Vec::with_capacity(numbers);
+                ensemble.integrate_at(times, output, append, |row| keep(row.into()));
+            }
+            (None, None) => {
+                ensemble.integrate_to(end, |row| keep(row.into()));
+            }
+        }
+    }
+
+    /// With friction, the momenta of a trajectory from those of the integrator, which have factors.
+    fn damp(&self, row: &mut Trajectory, parameters: &[Vec<f64>]) {
+        if !self.tapes.has_friction() {
+            return;
+        }
+        let own = parameters.get(row.number).map_or(&[][..], Vec::as_slice);
+        let own = Parameters::Own(own.into());
+        let damp = |time: f64, momenta: &mut [f64]| {
+            let factors = self.tapes.factors(&own, time).unwrap_or_default();
+            for (momentum, factor) in momenta.iter_mut().zip(factors) {
+                *momentum *= factor;
+            }
+        };
+        let dimension = row.state.q.len();
+        damp(row.state.time, row.state.p.as_mut_slice());
+        for numbers in row.output.chunks_exact_mut(1 + 2 * dimension) {
+            damp(numbers[0], &mut numbers[1 + dimension..]);
+        }
+    }
+
+    /// The end time, if it is given.
+    pub(super) fn end(&self) -> f64 {
+        let end = self.setup.end.as_ref();
+        end.map_or(self.setup.start(), |end| *end.get_ref())
+    }
+
+    /// The file of the finished trajectories, and those of an interrupted run.
+    fn resume(
+        &self,
+        starts: &[State<Vector>],
+        parameters: &[Vec<f64>],
+    ) -> Result<(Resume, Vec<Trajectory>), Error> {
+        let states = starts.iter().map(State::as_slices);
+        let numbers = states.flat_map(|(q, p)| q.iter().chain(p));
+        let numbers = numbers.chain(parameters.iter().flatten());
+        let origin = Origin {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            formula: self.setup.system.get_ref().clone(),
+            method: self.method.definition.clone(),
+            setup: self.file.text.to_owned(),
+            part: self.arguments.shard.map(|shard| [shard.part, shard.count]),
+            starts: checksum(numbers.flat_map(|x| x.to_bits().to_le_bytes())),
+        };
+        let interval = Duration::from_secs(self.arguments.save_every.into());
+        Resume::open(self.target.path(), origin, interval, self.arguments.resume)
+    }
+
+    /// What to know about output times inside steps, if the method has a higher order than their interpolation.
+    fn note_on_times(&self, is_separable: bool) -> Option<String> {
+        let size = *self.setup.step_size.get_ref();
+        let is_inside = |time: &f64| {
+            let steps = (time - self.setup.start()) / size;
+            (steps - steps.round()).abs() > 1e-9 * steps.abs().max(1.0)
+        };
+        let orders = self.method.tableau.orders();
+        let order = if is_separable {
+            orders.separable
+        } else {
+            orders.general
+        };
+        let inside = self
+            .times
+            .as_ref()?
+            .iter()
+            .filter(|time| is_inside(time))
+            .count();
+        (inside > 0 && order > INTERPOLATION).then(|| {
+            format!(
+                "note: {inside} of the `times` are inside steps, where states are interpolated with order {INTERPOLATION}; the method has order {order} at multiples of `step_size`\n"
+            )
+        })
+    }
+
+    /// Translates an error of the ensemble into the terms of the file.
+    fn refused(&self, error: &EnsembleError) -> Error {
+        let accept = "take another method (`symplectic list --class …`), or write `accept_lower_order = true`";
+        let span = self.setup.method.span();
+        let name = self.method.tableau.name();
+        match error {
+            EnsembleError::Start {
+                error: RunError::NotQuadraticKinetic { order, lower_order, .. },
+                ..
+            } => self.file.error(
+                span,
+                format!("`{name}` has order {order} if the kinetic energy is quadratic in the momenta, but for this H only {lower_order}: {accept}"),
+            ),
+            EnsembleError::All(RunError::SeparableTableau { order, lower_order }) => self.file.error(
+                span,
+                format!("H is not separable: `{name}` has order {order} for separable H only, and for this H it has order {lower_order} or is not symplectic: {accept}"),
+            ),
+            other => self.file.error(self.setup.starts.span(), other.to_string()),
+        }
+    }
+}
+
+/// With more trajectories the finished ones show the progress.
+const MANY: usize = 100_000;
+
+/// The |energy error| above which a run warns, unless the file gives another.
+const ENERGY_ERROR: f64 = 0.01;
+
+/// The order of states inside steps.
+const INTERPOLATION: u32 = Interpolation::Hermite.order();

@@ -1,0 +1,266 @@
+//! A formula as a system for integrators.
+
+use std::marker::PhantomData;
+use std::slice;
+use std::sync::Arc;
+
+use symplectic::emitted::LaneWork;
+use symplectic::nalgebra::DVector;
+use symplectic::simd::Lanes;
+use symplectic::{Class, Hamiltonian, Scalar, Vector};
+use symplectic_compiler::formula::derivative::gradient;
+use symplectic_compiler::formula::graph::{Half, integer};
+use symplectic_compiler::formula::{Structure, System};
+
+use crate::progress::Meter;
+use crate::tape::{At, Input, Parameters, Tape};
+use crate::unroll::{Refusal, Unrolled};
+use crate::values::Values;
+
+/// The tapes of a formula.
+#[derive(Debug)]
+pub(super) struct Tapes {
+    velocity: Tape,
+    force: Tape,
+    /// Velocity followed by force.
+    slopes: Tape,
+    energy: Tape,
+    /// With friction, the factors of the momenta in the states of integrators.
+    factors: Option<Tape>,
+}
+
+impl Tapes {
+    /// Differentiates a system and unrolls its loops.
+    pub(super) fn new(
+        system: &mut System,
+        structure: &Structure,
+        values: &Values,
+        start: f64,
+    ) -> Result<Self, Refusal> {
+        let energy = system.energy;
+        let (kinetic, potential) = match structure.split {
+            Ok(split) => (split.kinetic, split.potential),
+            Err(_) => (energy, energy),
+        };
+        let mut by = |of, sign, half| gradient(&mut system.graph, of, &[], integer(sign), half);
+        let velocity = by(kinetic, 1, Half::P);
+        let force = by(potential, -1, Half::Q);
+        if system.graph.overflowed() {
+            return Err(Refusal::TooLong);
+        }
+        let parts = velocity.iter().chain(&force).map(|part| part.value);
+        let mut unrolled = Unrolled::new(system, values, &parts.collect::<Vec<_>>(), Some(start))?;
+        let velocity = unrolled.gradient(&velocity)?;
+        let force = unrolled.gradient(&force)?;
+        let force = unrolled.undamped(force)?;
+        let factors = unrolled.factors()?;
+        let of_energy = Unrolled::new(system, values, &[energy], None)?;
+        Ok(Tapes {
+            slopes: unrolled.tape(&[velocity.as_slice(), &force].concat())?,
+            velocity: unrolled.tape(&velocity)?,
+            force: unrolled.tape(&force)?,
+            factors: factors.map(|factors| unrolled.tape(&factors)).transpose()?,
+            energy: of_energy.tape(&[of_energy.of(energy)?])?,
+        })
+    }
+
+    /// Whether H is conserved along trajectories without any error.
+    pub(super) fn energy_is_conserved(&self) -> bool {
+        !self.energy.inputs.contains(&Input::Time) && self.factors.is_none()
+    }
+
+    /// Whether momenta have friction.
+    pub(super) fn has_friction(&self) -> bool {
+        self.factors.is_some()
+    }
+
+    /// The factors of the momenta in the states of integrators at a time, if there is friction.
+    pub(super) fn factors(&self, parameters: &Parameters, time: f64) -> Option<Vec<f64>> {
+        let tape = self.factors.as_ref()?;
+        let at = At {
+            parameters,
+            time,
+            q: &[],
+            p: &[],
+        };
+        let mut factors = vec![1.0; tape.results.len()];
+        tape.run(1, |_| at, |_, k, value| factors[k] = value);
+        Some(factors)
+    }
+
+    /// The tape of H.
+    pub(super) fn energy(&self) -> &Tape {
+        &self.energy
+    }
+
+    /// The velocity at a point.
+    pub(super) fn velocity_at(&self, point: At<'_, f64>) -> Vec<f64> {
+        let mut velocity = vec![0.0; point.q.len()];
+        self.velocity
+            .run(1, |_| point, |_, k, value| velocity[k] = value);
+        velocity
+    }
+
+    /// H at a point.
+    pub(super) fn energy_at<T: Scalar>(&self, point: At<'_, T>) -> T {
+        self.energy.value(point)
+    }
+}
+
+/// A time, with the positions and the momenta.
+type Point<'a, T> = (T, &'a DVector<T>, &'a DVector<T>);
+
+#[inline(always)]
+fn at<'a, T: Scalar>(parameters: &'a Parameters, (time, q, p): Point<'a, T>) -> At<'a, T> {
+    At {
+        parameters,
+        time,
+        q: q.as_slice(),
+        p: p.as_slice(),
+    }
+}
+
+/// Writes the results at each point into its vector.
+#[inline(always)]
+fn fill<'a: 'p, 'p, T: Scalar>(
+    (tape, parameters): (&Tape, &'p Parameters),
+    point: impl Fn(usize) -> Point<'a, T>,
+    vectors: &mut [DVector<T>],
+) {
+    tape.run(
+        vectors.len(),
+        |k| at(parameters, point(k)),
+        |vector, k, value| {
+            if let Some(component) = vectors[vector].as_mut_slice().get_mut(k) {
+                *component = value;
+            }
+        },
+    );
+}
+
+/// A system of class `C`. The tapes of a separable system read no momentum for the force, and no position for the velocity.
+#[derive(Debug)]
+pub(super) struct Formula<C> {
+    tapes: Arc<Tapes>,
+    parameters: Parameters,
+    /// The number of trajectories.
+    count: usize,
+    meter: Option<Arc<Meter>>,
+    class: PhantomData<fn() -> C>,
+}
+
+impl<C> Formula<C> {
+    pub(super) fn new(tapes: Arc<Tapes>, parameters: Parameters) -> Self {
+        Formula {
+            tapes,
+            parameters,
+            count: 1,
+            meter: None,
+            class: PhantomData,
+        }
+    }
+
+    /// The same system, which notes its evaluations.
+    pub(super) fn noting(self, meter: Option<Arc<Meter>>) -> Self {
+        Formula { meter, ..self }
+    }
+
+    #[inline(always)]
+    fn note<T: Scalar>(&self, time: T) {
+        if let Some(meter) = &self.meter {
+            let elapsed = time - T::from_f64(meter.start());
+            meter.note(elapsed.magnitude(), self.count);
+        }
+    }
+
+    /// The parameters that vary between trajectories.
+    pub(super) fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+}
+
+impl<C> Clone for Formula<C> {
+    fn clone(&self) -> Self {
+        Formula {
+            tapes: Arc::clone(&self.tapes),
+            parameters: self.parameters.clone(),
+            count: self.count,
+            meter: self.meter.clone(),
+            class: PhantomData,
+        }
+    }
+}
+
+impl<C: Class> Hamiltonian for Formula<C> {
+    type Class = C;
+    type Vector<T: Scalar> = DVector<T>;
+
+    const JOINS: bool = true;
+
+    fn in_lanes<V: Vector, L: Lanes, K: LaneWork<V, Self, L>>(work: K) -> K::Output
+    where
+        Self: symplectic::System<V, Class = C>,
+    {
+        work.run::<DVector<L>, Self>(|systems| {
+            let mut systems = systems.peekable();
+            let mut joined = (*systems.peek()?).clone();
+            let mut count = 0;
+            let all = systems.inspect(|_| count += 1);
+            joined.parameters = Parameters::join(all.map(|system| &system.parameters))?;
+            joined.count = count;
+            Some(joined)
+        })
+    }
+
+    fn velocity<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>, out: &mut DVector<T>) {
+        self.velocities(|_| (time, q, p), slice::from_mut(out));
+    }
+
+    fn force<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>, out: &mut DVector<T>) {
+        self.forces(|_| (time, q, p), slice::from_mut(out));
+    }
+
+    fn velocities<'a, T: Scalar>(
+        &self,
+        at: impl Fn(usize) -> Point<'a, T>,
+        out: &mut [DVector<T>],
+    ) {
+        fill((&self.tapes.velocity, &self.parameters), at, out);
+    }
+
+    fn forces<'a, T: Scalar>(&self, at: impl Fn(usize) -> Point<'a, T>, out: &mut [DVector<T>]) {
+        if !out.is_empty() {
+            self.note(at(0).0);
+        }
+        fill((&self.tapes.force, &self.parameters), at, out);
+    }
+
+    fn slopes<T: Scalar>(
+        &self,
+        time: T,
+        q: &DVector<T>,
+        p: &DVector<T>,
+        (velocity, force): (&mut DVector<T>, &mut DVector<T>),
+    ) {
+        self.note(time);
+        let (velocity, force) = (velocity.as_mut_slice(), force.as_mut_slice());
+        let count = velocity.len();
+        let write = |_, k: usize, value| {
+            let component = match k.checked_sub(count) {
+                None => velocity.get_mut(k),
+                Some(k) => force.get_mut(k),
+            };
+            if let Some(component) = component {
+                *component = value;
+            }
+        };
+        let at = |_| at(&self.parameters, (time, q, p));
+        self.tapes.slopes.run(1, at, write);
+    }
+
+    fn energy<T: Scalar>(&self, time: T, q: &DVector<T>, p: &DVector<T>) -> Option<T> {
+        // With friction the momenta of the states have factors, and the energy is not conserved.
+        let energy = || self.tapes.energy_at(at(&self.parameters, (time, q, p)));
+        self.tapes.factors.is_none().then(energy)
+    }
+}
