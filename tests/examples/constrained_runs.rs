@@ -1,4 +1,4 @@
-//! Rounding errors of constrained steps on a double pendulum with rods: `cargo run --release --example constrained_runs`, some minutes;
+//! Rounding errors of constrained steps on a double pendulum with rods: `cargo run --release -p symplectic-tests --example constrained_runs`, some minutes;
 //! `-- --quick` for fewer steps, some seconds.
 //!
 //! The largest error of the constraints and of their rates over 10⁷ steps, and the mean energy error of 32 orbits over 2²² steps. Fails if

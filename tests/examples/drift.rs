@@ -1,6 +1,6 @@
 //! Whether rounding errors make the energy drift: ensembles of 32 orbits over 4 194 304 steps.
 //!
-//! `cargo run --release --example drift`, some minutes; `-- --quick` for 65 536 steps.
+//! `cargo run --release -p symplectic-tests --example drift`, some minutes; `-- --quick` for 65 536 steps.
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 

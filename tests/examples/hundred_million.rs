@@ -1,6 +1,6 @@
 //! 10⁸ steps of the midpoint rule on the harmonic oscillator, with and without compensated sums.
 //!
-//! `cargo run --release --example hundred_million`, half a minute; `-- --quick` for 10⁶ steps.
+//! `cargo run --release -p symplectic-tests --example hundred_million`, half a minute; `-- --quick` for 10⁶ steps.
 //!
 //! A step of size h turns the state by the angle `2 atan(h/2)`, exactly: where it is after N steps is known from the power
 //! `((2 + ih)/(2 − ih))ᴺ`, in double-double arithmetic. The energy of an ideal run is a random walk of √N rounding errors.

@@ -1,6 +1,6 @@
 //! Kepler's problem with eccentricity 0.6 over twenty periods: what accuracy costs with three methods.
 //!
-//! `cargo run --release --example kepler`
+//! `cargo run --release -p symplectic-tests --example kepler`
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 

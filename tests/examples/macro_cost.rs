@@ -1,6 +1,6 @@
 //! What a use of `tableau!` or `hamiltonian!` adds to the build of a crate outside this workspace, without any profile of its own.
 //!
-//! `cargo run --release --example macro_cost`; needs cargo. The median of some builds after a change of the source, less
+//! `cargo run --release -p symplectic-tests --example macro_cost`; needs cargo. The median of some builds after a change of the source, less
 //! that of an empty program.
 #![allow(clippy::print_stdout, reason = "the table is what this program is for")]
 

@@ -1,6 +1,6 @@
 //! The outer planets over a million years, and how well energy and angular momentum are conserved.
 //!
-//! `cargo run --release --example outer_planets`
+//! `cargo run --release -p symplectic-tests --example outer_planets`
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 

@@ -1,6 +1,6 @@
 //! The outer solar system over 548 years: what accuracy costs with three methods.
 //!
-//! `cargo run --release --example outer_solar_system`
+//! `cargo run --release -p symplectic-tests --example outer_solar_system`
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 

@@ -1,6 +1,6 @@
 //! A Poincaré section of the Hénon–Heiles system: where orbits of energy 1/8 go up through the plane q_1 = 0.
 //!
-//! `cargo run --release --example poincare_section`
+//! `cargo run --release -p symplectic-tests --example poincare_section`
 //!
 //! Points of a regular orbit lie on a curve, those of a chaotic one fill an area.
 

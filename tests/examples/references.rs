@@ -1,6 +1,6 @@
 //! The references of the scenes: recomputed, and written to `tests/data/references.toml` or compared with it.
 //!
-//! `cargo run --release --example references` writes, `-- --check` compares; with the name of a scene behind that, only that
+//! `cargo run --release -p symplectic-tests --example references` writes, `-- --check` compares; with the name of a scene behind that, only that
 //! one. All of them took half an hour of time of one processor, on a machine with much other work.
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
@@ -21,7 +21,7 @@ const STAGES: usize = 16;
 const DIGITS: usize = 70;
 
 const HEADER: &str = "\
-# Reference end states of the scenes, written by `cargo run --release --example references`: by a Gauss method over numbers
+# Reference end states of the scenes, written by `cargo run --release -p symplectic-tests --example references`: by a Gauss method over numbers
 # of 237 bits, in two runs of different step sizes. `agreement` is the larger relative distance of their q and their p, and
 # the digits are those of the finer one.
 ";

@@ -1,6 +1,6 @@
 //! Rounding errors of long runs: a random walk of the energy with compensated sums, a larger one with plain ones.
 //!
-//! `cargo run --release --example drift` does the same over 2048 times as many steps.
+//! `cargo run --release -p symplectic-tests --example drift` does the same over 2048 times as many steps.
 
 use symplectic::nalgebra::Vector2;
 use symplectic::{Error, Integrator, State};

@@ -1,6 +1,6 @@
 //! The hand-written integrators alone: nanoseconds per step, sweeps, nanoseconds per evaluation.
 //!
-//! `RUSTFLAGS="-C target-cpu=native" cargo run --release --example baseline`. A baseline must be fast: compare these
+//! `RUSTFLAGS="-C target-cpu=native" cargo run --release -p symplectic-benchmarks --example baseline`. A baseline must be fast: compare these
 //! numbers with other hand-written loops.
 
 #![allow(clippy::print_stdout, reason = "an example prints")]

@@ -1,6 +1,6 @@
 //! Instructions of an explicit step of the library and of hand-written code, counted by callgrind.
 //!
-//! `cargo run --release --example instructions` runs itself under `valgrind --tool=callgrind`, once for each number of
+//! `cargo run --release -p symplectic-benchmarks --example instructions` runs itself under `valgrind --tool=callgrind`, once for each number of
 //! components, and prints the ratios. Valgrind does not support AVX-512: build for the baseline target.
 //!
 //! The program runs with two numbers of steps. The difference of the counts divided by the difference of the steps

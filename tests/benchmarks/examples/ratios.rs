@@ -1,6 +1,6 @@
 //! The library against hand-written integrators: times per step and their ratio.
 //!
-//! `RUSTFLAGS="-C target-cpu=native" cargo run --release --example ratios`; arguments select rows that contain them.
+//! `RUSTFLAGS="-C target-cpu=native" cargo run --release -p symplectic-benchmarks --example ratios`; arguments select rows that contain them.
 //! Runs of both take turns, so that changes in the speed of the machine affect both alike. A run has the number of
 //! steps of Gauss 8 to the end of the problem, at most 50 milliseconds.
 

@@ -1,6 +1,6 @@
 //! Reference end states of the scenes without a closed form.
 //!
-//! `data/references.toml` contains them with 30 digits; `cargo run --release --example references` recomputes the file.
+//! `data/references.toml` contains them with 30 digits; `cargo run --release -p symplectic-tests --example references` recomputes the file.
 //! Every number in it comes from `recomputations` with 237-bit numbers ([`Wide`]), and each run is made with two
 //! sequences of steps. A reference belongs to the scene with its start and coefficients rounded to doubles.
 

@@ -79,7 +79,7 @@ pub const SCENES: &[Scene] = &[
 fn recorded<V: Vector<Scalar = f64>>(state: Option<State<V>>) -> Reference<V> {
     Reference::known(
         state.expect("a recorded time"),
-        "computed with 70 digits: `cargo run --release --example references`",
+        "computed with 70 digits: `cargo run --release -p symplectic-tests --example references`",
         f64::EPSILON,
     )
 }
