@@ -34,7 +34,6 @@
 //! from certified enclosures, ties decided exactly, so every printed digit and every double is the correct one.
 
 pub mod algebra;
-pub mod arithmetic;
 pub mod audit;
 mod basis;
 pub mod catalogue;
@@ -87,4 +86,5 @@ pub use refine::{
 };
 pub use requirement::{Requirement, failed_assertion, require};
 pub use suggestion::{did_you_mean, suggestion, with_suggestion};
+pub use symplectic_exact as arithmetic;
 pub use tableau::{Provenance, Tableau};

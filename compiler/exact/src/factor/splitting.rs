@@ -1,6 +1,6 @@
 //! Factors over the field of `p` elements (Cantor, Zassenhaus 1981).
 
-use crate::arithmetic::prime_field::PrimeField;
+use crate::prime_field::PrimeField;
 
 /// The linear map `h ↦ hᵖ` on polynomials modulo `modulus`.
 struct Frobenius<'a> {

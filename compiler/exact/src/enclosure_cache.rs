@@ -32,7 +32,7 @@ impl Clone for EnclosureCache {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arithmetic::rational::ratio;
+    use crate::rational::ratio;
 
     #[test]
     fn coarser_enclosures_come_from_the_finest() {

@@ -4,8 +4,8 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-use crate::arithmetic::polynomial::Polynomial;
-use crate::arithmetic::residues::Residues;
+use crate::polynomial::Polynomial;
+use crate::residues::Residues;
 
 /// Largest number of sets of factors modulo `p` to try.
 const MAX_TRIALS: u32 = 1 << 20;

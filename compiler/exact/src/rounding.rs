@@ -227,7 +227,7 @@ pub fn exact(value: f64) -> BigRational {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arithmetic::rational::ratio;
+    use crate::rational::ratio;
     use proptest::prelude::*;
 
     proptest! {

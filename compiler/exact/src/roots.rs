@@ -142,7 +142,7 @@ impl SturmChain {
 }
 
 /// Classifies the only root of a polynomial in `(low, high]·2⁻ᵇⁱᵗˢ` as rational or irrational.
-pub(crate) fn classified(polynomial: &Polynomial, interval: &Interval) -> Root {
+pub fn classified(polynomial: &Polynomial, interval: &Interval) -> Root {
     let Interval { low, high, bits } = interval.clone();
     classify(&polynomial.whole_multiple(), low, high, bits)
 }
@@ -412,7 +412,7 @@ pub fn compare(a: &Interval, b: &Interval) -> Option<Ordering> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arithmetic::rational::ratio;
+    use crate::rational::ratio;
     use proptest::prelude::*;
 
     #[test]

@@ -89,7 +89,7 @@ fn subtract(row: &mut [BigRational], factor: &BigRational, reference: &[BigRatio
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arithmetic::rational::ratio;
+    use crate::rational::ratio;
     use proptest::prelude::*;
 
     proptest! {

@@ -11,7 +11,9 @@ pub const BITS: [u32; 4] = [192, 384, 1024, 4096];
 
 /// The inverse of a matrix, and its determinant.
 pub struct Inverse {
+    /// Enclosures of its entries.
     pub rows: Vec<Vec<Interval>>,
+    /// The determinant of the matrix.
     pub determinant: Interval,
 }
 

@@ -143,7 +143,7 @@ impl Eq for AlgebraicNumber {}
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arithmetic::rational::ratio;
+    use crate::rational::ratio;
 
     #[test]
     fn roots_have_their_irreducible_polynomial() {

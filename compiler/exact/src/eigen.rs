@@ -319,7 +319,7 @@ fn inverse(matrix: &Rows) -> Option<Rows> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arithmetic::rational::ratio;
+    use crate::rational::ratio;
 
     fn matrix(entries: &[&[i64]]) -> Rows {
         let row = |row: &&[i64]| row.iter().map(|&x| Fixed::integer(x)).collect();

@@ -16,14 +16,17 @@ use super::rational::dyadic;
 /// of an operation have the same `bits`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Interval {
-    pub(crate) low: BigInt,
-    pub(crate) high: BigInt,
-    pub(crate) bits: u32,
+    /// The lower end, times `2ᵇⁱᵗˢ`.
+    pub low: BigInt,
+    /// The upper end, times `2ᵇⁱᵗˢ`.
+    pub high: BigInt,
+    /// Binary places.
+    pub bits: u32,
 }
 
 /// New number of guard places after an enclosure that is too wide: the width determines it; if it does not, `guard` is
 /// doubled.
-pub(crate) fn more_places(guard: u32, bits: u32, found: Option<&Interval>) -> u32 {
+pub fn more_places(guard: u32, bits: u32, found: Option<&Interval>) -> u32 {
     let width = found.map(Interval::width_bits).filter(|&width| width < 0);
     let missing = width.and_then(|width| u32::try_from(width + i64::from(bits)).ok());
     missing.map_or(guard.saturating_mul(2), |missing| {
@@ -294,7 +297,7 @@ impl Interval {
     }
 
     /// The value of a polynomial at a number, from enclosures of the powers of the number from 0 up to the degree.
-    pub(crate) fn combination(powers: &[Interval], polynomial: &Polynomial) -> Interval {
+    pub fn combination(powers: &[Interval], polynomial: &Polynomial) -> Interval {
         let bits = powers[0].bits;
         let (mut low, mut high) = (BigInt::zero(), BigInt::zero());
         for (power, n) in powers.iter().zip(polynomial.numerators()) {
@@ -329,7 +332,7 @@ impl Interval {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arithmetic::rational::ratio;
+    use crate::rational::ratio;
     use proptest::prelude::*;
 
     proptest! {

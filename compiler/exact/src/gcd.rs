@@ -13,7 +13,7 @@ const LEADING: u64 = 126;
 const LARGEST: i128 = 1 << 62;
 
 /// The nonnegative greatest common divisor.
-pub(crate) fn gcd(a: &BigInt, b: &BigInt) -> BigInt {
+pub fn gcd(a: &BigInt, b: &BigInt) -> BigInt {
     if a.bits().min(b.bits()) < SHORT {
         return short(a, b);
     }

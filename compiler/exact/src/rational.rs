@@ -13,12 +13,12 @@ pub fn ratio(numerator: i64, denominator: i64) -> BigRational {
 }
 
 /// The bits of the longer one of numerator and denominator.
-pub(crate) fn length(value: &BigRational) -> u64 {
+pub fn length(value: &BigRational) -> u64 {
     value.numer().bits().max(value.denom().bits())
 }
 
 /// `numerator·2⁻ᵇⁱᵗˢ` in lowest terms, without a greatest common divisor.
-pub(crate) fn dyadic(numerator: &BigInt, bits: u32) -> BigRational {
+pub fn dyadic(numerator: &BigInt, bits: u32) -> BigRational {
     match numerator.trailing_zeros() {
         None => BigRational::zero(),
         Some(zeros) => {
@@ -35,7 +35,7 @@ fn places(value: &BigRational) -> Option<u32> {
 }
 
 /// The sum. Dyadic rationals are added without a greatest common divisor, which is slow for long numbers.
-pub(crate) fn add(a: &BigRational, b: &BigRational) -> BigRational {
+pub fn add(a: &BigRational, b: &BigRational) -> BigRational {
     if let (Some(m), Some(n)) = (places(a), places(b)) {
         let most = m.max(n);
         return dyadic(
@@ -61,7 +61,7 @@ pub(crate) fn add(a: &BigRational, b: &BigRational) -> BigRational {
 const LONG: u64 = 1024;
 
 /// The product. Integers are multiplied without a greatest common divisor.
-pub(crate) fn multiply(a: &BigRational, b: &BigRational) -> BigRational {
+pub fn multiply(a: &BigRational, b: &BigRational) -> BigRational {
     if a.is_integer() && b.is_integer() {
         BigRational::from_integer(a.numer() * b.numer())
     } else if b.is_integer() && b.numer().magnitude().is_one() {

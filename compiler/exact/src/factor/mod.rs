@@ -60,7 +60,7 @@ pub fn irreducible_factor_at(polynomial: &Polynomial, root: &Root) -> Option<Pol
 }
 
 /// The product of the distinct irreducible factors, primitive.
-pub(crate) fn squarefree_part(polynomial: &Polynomial) -> Polynomial {
+pub fn squarefree_part(polynomial: &Polynomial) -> Polynomial {
     let polynomial = polynomial.primitive();
     if is_surely_squarefree(&polynomial) {
         return polynomial;
@@ -75,7 +75,7 @@ pub(crate) fn squarefree_part(polynomial: &Polynomial) -> Polynomial {
 /// Whether a polynomial is squarefree modulo a large prime, and hence over the rationals.
 ///
 /// A squarefree polynomial fails only if the primes divide its discriminant or its leading coefficient.
-pub(crate) fn is_surely_squarefree(polynomial: &Polynomial) -> bool {
+pub fn is_surely_squarefree(polynomial: &Polynomial) -> bool {
     large_primes().take(2).any(|prime| {
         let field = PrimeField::new(prime);
         field.reduce(polynomial).is_some_and(|residues| {
@@ -246,7 +246,7 @@ mod tests {
     fn multiplicities_and_contents_are_left_out() {
         let f = [[2, 1].as_slice(), &[0, 1], &[-2, 0, 1], &[5, 3]].map(Polynomial::from_integers);
         let power = &(&(&f[0].power(3) * &f[1].power(2)) * &f[2].power(2)) * &f[3];
-        let found = factors(&power.scale(&crate::arithmetic::rational::ratio(-6, 35)));
+        let found = factors(&power.scale(&crate::rational::ratio(-6, 35)));
         let mut expected = f.to_vec();
         expected.sort_by_key(|f| (f.numerators().len(), f.numerators().to_vec()));
         assert_eq!(found, expected);
@@ -285,7 +285,7 @@ mod tests {
             &Polynomial::from_integers(&[-2, 0, 1]) * &Polynomial::from_integers(&[-1, -1, 0, 1]);
         let f = &f * &Polynomial::from_integers(&[1, 2]);
         let at = |k: usize| {
-            let root = &crate::arithmetic::roots::real_roots(&f)[k];
+            let root = &crate::roots::real_roots(&f)[k];
             irreducible_factor_at(&f, root)
                 .expect("within the bound")
                 .display("t")

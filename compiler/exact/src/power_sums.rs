@@ -49,7 +49,7 @@ pub fn interpolate_traces(monic: &Polynomial, traces: &[BigRational]) -> Polynom
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arithmetic::rational::ratio;
+    use crate::rational::ratio;
     use proptest::prelude::*;
 
     proptest! {

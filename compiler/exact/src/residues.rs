@@ -123,7 +123,7 @@ impl Residues {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arithmetic::rational::ratio;
+    use crate::rational::ratio;
     use proptest::prelude::*;
 
     proptest! {

@@ -390,7 +390,7 @@ pub fn root(x: &Interval, n: u32) -> Option<Interval> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arithmetic::rational::{parse, ratio};
+    use crate::rational::{parse, ratio};
     use proptest::prelude::*;
 
     /// The decimal `digits·10^(−places)` differs from the number by at most one unit.
@@ -453,7 +453,7 @@ mod tests {
         let sum = s.multiply(&s).add(&c.multiply(&c));
         assert!(sum.contains(&ratio(1, 1)) && sum.width_bits() < -190);
         let doubled = s.multiply(&c).scale(&ratio(2, 1));
-        assert!(super::super::roots::compare(&doubled, &sin(&twice)).is_none());
+        assert!(crate::roots::compare(&doubled, &sin(&twice)).is_none());
     }
 
     #[test]

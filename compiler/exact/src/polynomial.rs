@@ -26,7 +26,7 @@ pub struct Polynomial {
 impl Polynomial {
     /// The polynomial with these integer coefficients, lowest degree first, over a denominator that is
     /// not zero.
-    pub(crate) fn new(mut numerators: Vec<BigInt>, mut denominator: BigInt) -> Self {
+    pub fn new(mut numerators: Vec<BigInt>, mut denominator: BigInt) -> Self {
         while numerators.last().is_some_and(Zero::is_zero) {
             numerators.pop();
         }
@@ -172,7 +172,7 @@ impl Polynomial {
 
     /// The multiple by the common denominator or its negative: integer coefficients, not necessarily coprime, with a
     /// positive leading coefficient.
-    pub(crate) fn whole_multiple(&self) -> Self {
+    pub fn whole_multiple(&self) -> Self {
         let whole = Polynomial {
             numerators: self.numerators.clone(),
             denominator: BigInt::one(),
@@ -451,7 +451,7 @@ impl Neg for &Polynomial {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arithmetic::rational::ratio;
+    use crate::rational::ratio;
     use proptest::prelude::*;
 
     fn polynomial() -> impl Strategy<Value = Polynomial> {

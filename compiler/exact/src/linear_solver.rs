@@ -152,8 +152,8 @@ fn inverse_modulo(field: PrimeField, mut rows: Vec<Vec<u64>>) -> Option<Vec<Vec<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arithmetic::matrix::left_kernel;
-    use crate::arithmetic::rational::ratio;
+    use crate::matrix::left_kernel;
+    use crate::rational::ratio;
     use proptest::prelude::*;
 
     proptest! {

@@ -3,8 +3,8 @@
 use num_bigint::BigInt;
 use num_traits::One;
 
-use crate::arithmetic::prime_field::PrimeField;
-use crate::arithmetic::residues::Residues;
+use crate::prime_field::PrimeField;
+use crate::residues::Residues;
 
 /// Lifts the monic factors of a polynomial modulo `p` to factors modulo a power of `p`.
 ///
