@@ -338,7 +338,9 @@ pub enum ErrorKind {
         message: String,
     },
     /// A file whose entry is not what the derivation gives.
-    #[error("`{entry}` does not fit: the file has {found}, the derivation gives {expected}")]
+    #[error(
+        "`{entry}` does not fit: the file has {found}, the derivation gives {expected}{advice}"
+    )]
     Mismatch {
         /// The first entry that does not fit.
         entry: String,
@@ -346,6 +348,8 @@ pub enum ErrorKind {
         found: String,
         /// What it should say.
         expected: String,
+        /// What to do if an earlier version wrote the file; otherwise empty.
+        advice: &'static str,
     },
     /// A printed number that the exact method of the claimed order does not round to. The method is right; its print is not.
     #[error("{message}")]

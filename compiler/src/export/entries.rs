@@ -57,6 +57,12 @@ pub(crate) fn compare(
     mut found: Entries,
     mut derived: Entries,
 ) -> Result<(), Error> {
+    let is_certified = derived.facts.iter().any(|entry| entry.value == "certified");
+    let advice = match (format.is_older(), is_certified) {
+        (false, _) => "",
+        (true, false) => EARLIER,
+        (true, true) => EARLIER_CERTIFIED,
+    };
     if format.is_older() {
         let explains = |entry: &Entry| EXPLAINS.iter().any(|end| entry.name.ends_with(end));
         // In format 1 a composition did not qualify by its methods, but only by its own coefficients.
@@ -85,8 +91,16 @@ pub(crate) fn compare(
         derived.facts.retain(|entry| stated.contains(&key(entry)));
     }
     let all = |entries: Entries| [entries.table, entries.facts].concat();
-    compare_each(file, &all(found), &all(derived))
+    compare_each(file, &all(found), &all(derived), advice)
 }
+
+/// What to do with a file of an older format that does not fit.
+const EARLIER: &str = "; an earlier version of `symplectic` wrote this file: export the method again, with `symplectic derive` or \
+     `symplectic show`";
+
+/// The same, if several exact methods have the printed digits of the definition.
+const EARLIER_CERTIFIED: &str = "; an earlier version of `symplectic` wrote this file, and may have taken another exact method with the \
+     same printed digits: export the method again, with `symplectic derive` or `symplectic show`";
 
 /// The ends of the names of entries that explain a fact: another version may explain it by another example.
 const EXPLAINS: [&str; 7] = [
@@ -108,7 +122,12 @@ fn is_stronger(evidence: &str, than: &str) -> bool {
 }
 
 /// Compares two lists of entries. If their lengths differ, an entry before the end differs.
-fn compare_each(file: Input<'_>, found: &[Entry], expected: &[Entry]) -> Result<(), Error> {
+fn compare_each(
+    file: Input<'_>,
+    found: &[Entry],
+    expected: &[Entry],
+    advice: &'static str,
+) -> Result<(), Error> {
     let all = found;
     let Some((found, expected)) = all
         .iter()
@@ -124,6 +143,7 @@ fn compare_each(file: Input<'_>, found: &[Entry], expected: &[Entry]) -> Result<
             entry: missing.name.clone(),
             found: "nothing".to_owned(),
             expected: difference(&missing.value, "").0,
+            advice,
         };
         return Err(file.error(&(end..end), kind));
     };
@@ -134,12 +154,14 @@ fn compare_each(file: Input<'_>, found: &[Entry], expected: &[Entry]) -> Result<
                 entry: found.name.clone(),
                 found: difference(&found.value, "").0,
                 expected: "no such entry".to_owned(),
+                advice,
             }
         } else {
             ErrorKind::Mismatch {
                 entry: expected.name.clone(),
                 found: format!("no such entry before `{}`", found.name),
                 expected: difference(&expected.value, "").0,
+                advice,
             }
         };
         return Err(file.error(&found.span, kind));
@@ -149,6 +171,7 @@ fn compare_each(file: Input<'_>, found: &[Entry], expected: &[Entry]) -> Result<
         entry: found.name.clone(),
         found: shown_found,
         expected: shown_expected,
+        advice,
     };
     Err(file.error(&found.span, kind))
 }

@@ -238,3 +238,21 @@ fn a_file_of_a_later_format_is_refused_by_its_number() {
     let alone = "format = 2\n[provenance]\nbasis = \"1\"\nnodes = \"1/2\"\n";
     assert!(check("t.toml", alone, &Limits::default()).is_ok());
 }
+
+/// Fewer digits are printed than determine the method: an earlier version took another one.
+#[test]
+fn an_older_file_of_another_certified_method_says_who_wrote_it_and_what_to_do() {
+    let text = include_str!("older/mclachlan-atela-1992-order-5-optimal-certified.toml");
+    let error = |text: &str| {
+        let checked = check("file.toml", text, &Limits::default());
+        checked.expect_err("other coefficients").to_string()
+    };
+    let shown = error(text);
+    assert!(shown.contains("`c_2 (decimal)` does not fit"), "{shown}");
+    let advice = "an earlier version of `symplectic` wrote this file, and may have taken another exact method with the same printed digits: \
+                  export the method again, with `symplectic derive` or `symplectic show`";
+    assert!(shown.ends_with(advice), "{shown}");
+    // This version cannot have written it.
+    let current = error(&format!("format = 2\n{text}"));
+    assert!(!current.contains("earlier"), "{current}");
+}

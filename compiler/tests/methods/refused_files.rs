@@ -331,6 +331,7 @@ fn the_first_entry_that_does_not_fit_is_named() {
             entry: entry.to_owned(),
             found: found.to_owned(),
             expected: expected.to_owned(),
+            advice: "",
         };
         assert_eq!(*error.kind, kind, "{from} → {to}");
         assert!(

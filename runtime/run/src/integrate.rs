@@ -70,11 +70,11 @@ impl<'a> Run<'a> {
             let bits = |x: &f64| x.to_bits();
             a.iter().map(bits).eq(b.iter().map(bits))
         };
-        let is_long = starts.len() > MANY;
+        let noting = progress.meter().filter(|_| starts.len() <= MANY);
         for start in starts {
             let before = parameters.last();
-            // The meter counts the systems side by side in lanes.
-            let is_of_family = (is_long || progress.meter().is_none())
+            // The meter counts systems, so each trajectory has its own.
+            let is_of_family = noting.is_none()
                 && before.is_some_and(|before| same_bits(before, &start.parameters));
             match families.last_mut() {
                 Some((_, family)) if is_of_family => {
@@ -83,7 +83,7 @@ impl<'a> Run<'a> {
                 _ => {
                     let own = Parameters::Own(start.parameters.as_slice().into());
                     let system = Formula::new(Arc::clone(&self.tapes), own);
-                    let system = system.noting(progress.meter());
+                    let system = system.noting(noting.clone());
                     families.push((system, vec![start.state]));
                 }
             }

@@ -231,7 +231,18 @@ fn new_bar() -> ProgressBar {
 
 #[cfg(test)]
 mod tests {
+    use std::ops::ControlFlow;
+
+    use symplectic::ensemble::Ensemble;
+    use symplectic::nalgebra::DVector;
+    use symplectic::simd::F64x8;
+    use symplectic::{Method, ProvedFor, Separable, State};
+    use symplectic_compiler::formula::{Form, Structure, System};
+
     use super::*;
+    use crate::run::system::{Formula, Tapes};
+    use crate::run::tape::Parameters;
+    use crate::run::values::Values;
 
     /// Evaluations of twenty steps of two trajectories, side by side in lanes or one after another.
     #[test]
@@ -260,6 +271,46 @@ mod tests {
         // Failed trajectories are finished.
         alone.finished.store(4, Ordering::Relaxed);
         assert_eq!(alone.fractions(), [1.0, 0.75]);
+    }
+
+    symplectic::tableau! { Verlet { base: velocity-verlet } }
+    symplectic::tableau! { Gauss2 { base: gauss-2 } }
+
+    /// The number of trajectories that are counted in a run of `count` trajectories in eight lanes.
+    fn counted<M: Method + ProvedFor<Separable> + Sync>(method: M, count: u32) -> f64 {
+        let text = "P q: [x], p: [px]; H = px^2/2 + x^2/2";
+        let mut system = System::read_as(Form::Hamiltonian, "", text).expect("a formula");
+        let structure = Structure::of(&mut system);
+        let values = Values {
+            bodies: 1,
+            ..Values::default()
+        };
+        let tapes = Arc::new(Tapes::new(&mut system, &structure, &values, 0.0).expect("tapes"));
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+        pool.expect("a thread").install(|| {
+            let meter = Arc::new(Meter::new([0.0, 10.0], 0.1));
+            meter.begin(100, 0);
+            let family = |k: u32| {
+                let own = Parameters::Own([].into());
+                let system = Formula::<Separable>::new(Arc::clone(&tapes), own);
+                let q = DVector::from_element(1, f64::from(k));
+                let start = State::new(0.0, q, DVector::zeros(1));
+                (system.noting(Some(Arc::clone(&meter))), vec![start])
+            };
+            Ensemble::of_families(method, (1..=count).map(family), 0.1)
+                .expect("an ensemble")
+                .in_lanes::<F64x8>()
+                .integrate_to(10.0, |_| ControlFlow::Continue(()));
+            100.0 * meter.fractions()[0]
+        })
+    }
+
+    #[test]
+    fn lanes_without_a_trajectory_are_not_counted() {
+        // Groups of eight and three, and of five.
+        for (found, count) in [(counted(Verlet, 11), 11.0), (counted(Gauss2, 5), 5.0)] {
+            assert!((found - count).abs() < 0.01 * count, "{found} of {count}");
+        }
     }
 
     #[test]

@@ -160,7 +160,7 @@ impl<C> Formula<C> {
         }
     }
 
-    /// The same system, which notes its evaluations.
+    /// The same system for a single trajectory, whose evaluations it notes.
     pub(super) fn noting(self, meter: Option<Arc<Meter>>) -> Self {
         Formula { meter, ..self }
     }
@@ -204,10 +204,15 @@ impl<C: Class> Hamiltonian for Formula<C> {
         work.run::<DVector<L>, Self>(|systems| {
             let mut systems = systems.peekable();
             let mut joined = (*systems.peek()?).clone();
-            let mut count = 0;
-            let all = systems.inspect(|_| count += 1);
+            // Lanes without a trajectory repeat the systems from the first one.
+            let mut own: Vec<*const Self> = Vec::new();
+            let all = systems.inspect(|system| {
+                if !own.contains(&std::ptr::from_ref(*system)) {
+                    own.push(*system);
+                }
+            });
             joined.parameters = Parameters::join(all.map(|system| &system.parameters))?;
-            joined.count = count;
+            joined.count = own.len();
             Some(joined)
         })
     }

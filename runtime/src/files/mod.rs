@@ -4,6 +4,8 @@
 
 mod recording;
 mod replace;
+mod run;
 
 pub use recording::Recording;
 pub use replace::{PeriodicFile, replace_file};
+pub use run::{NamedRun, record_at, record_to};

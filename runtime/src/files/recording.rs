@@ -11,8 +11,10 @@ use super::replace_file;
 use crate::ensemble::Npz;
 use crate::number::Vector;
 use crate::state::State;
+use crate::system::Named;
 
 /// The states of one run with the names of their components, to be written as CSV or, with the feature `npz`, for NumPy.
+/// [`record_to`](super::record_to) does in one line what this example does:
 ///
 /// ```
 /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
@@ -22,7 +24,7 @@ use crate::state::State;
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let mut run = Integrator::new(Gauss2, Pendulum, State::from_arrays(0.0, [1.0], [0.0]), 0.1)?;
-/// let mut table = Recording::from_start(run.state(), ["a", "pa"])?;
+/// let mut table = Recording::of(run.system(), run.state())?;
 /// run.integrate_with(10.0, |state| table.record(state))?;
 /// # let path = std::env::temp_dir().join("symplectic-pendulum.csv");
 /// table.save(&path)?;
@@ -42,6 +44,36 @@ pub struct Recording {
 }
 
 impl Recording {
+    /// A table that begins with this state, with the names of a system: those of its formula, such as `x` or `q[0]`.
+    ///
+    /// # Errors
+    ///
+    /// As for [`from_start`](Self::from_start).
+    pub fn of<S: Named, V: Vector<Scalar = f64>>(system: &S, start: &State<V>) -> io::Result<Self> {
+        let mut table = Self::empty(system, start)?;
+        table.record(start);
+        Ok(table)
+    }
+
+    /// [`of`](Self::of) without the state.
+    pub(super) fn empty<S: Named, V: Vector>(_system: &S, state: &State<V>) -> io::Result<Self> {
+        let names = S::NAMES
+            .into_iter()
+            .zip(["q", "p"])
+            .zip([&state.q, &state.p]);
+        let names = names.flat_map(|((names, letter), vector)| {
+            let number = |k| match S::COMPONENTS {
+                Some(components) => format!("{letter}[{}][{}]", k / components, k % components),
+                None => format!("{letter}[{k}]"),
+            };
+            match names {
+                [] => (0..vector.dimension()).map(number).collect(),
+                names => names.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            }
+        });
+        Self::with_names(names.collect(), state)
+    }
+
     /// A table that begins with this state, with a name for each component of the position and then of the momentum.
     ///
     /// # Errors
@@ -52,8 +84,14 @@ impl Recording {
         start: &State<V>,
         names: impl IntoIterator<Item = N>,
     ) -> io::Result<Self> {
-        let names: Vec<String> = names.into_iter().map(Into::into).collect();
-        let components = start.q.dimension() + start.p.dimension();
+        let mut table = Self::with_names(names.into_iter().map(Into::into).collect(), start)?;
+        table.record(start);
+        Ok(table)
+    }
+
+    /// A table without states.
+    fn with_names<V: Vector>(names: Vec<String>, state: &State<V>) -> io::Result<Self> {
+        let components = state.q.dimension() + state.p.dimension();
         if names.len() != components {
             return Err(invalid(format!(
                 "the state has {components} components, positions and momenta; there are {} names",
@@ -69,14 +107,12 @@ impl Recording {
                 )));
             }
         }
-        let mut table = Self {
+        Ok(Self {
             names,
             times: Vec::new(),
             values: Vec::new(),
             other: None,
-        };
-        table.record(start);
-        Ok(table)
+        })
     }
 
     /// Appends a state. A state with another number of components is left out, and the table can then not be written.

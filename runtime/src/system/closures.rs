@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use crate::number::{Vector, copy};
 use crate::solver::FixedPoint;
-use crate::system::{General, Masses, Separable, System};
+use crate::system::{General, Masses, Named, Separable, System};
 
 /// A separable system given by two closures, `|time, p, velocity| …` and `|time, q, force| …`, which write their result
 /// into the last argument.
@@ -135,6 +135,8 @@ impl<V, F, G, C> Closures<V, F, G, NoEnergy, C> {
         }
     }
 }
+
+impl<V, F, G, E, C> Named for Closures<V, F, G, E, C> {}
 
 impl<V: Vector, F: Velocity<V>, G: Fn(V::Scalar, &V, &mut V), E: Energy<V>> System<V>
     for SeparableClosures<V, F, G, E>

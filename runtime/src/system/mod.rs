@@ -16,6 +16,7 @@ pub(crate) mod lane_parameters;
 mod lengths;
 pub(crate) mod linearity;
 pub(crate) mod masses;
+mod named;
 mod over_vectors;
 
 pub use class::{
@@ -47,4 +48,5 @@ pub use lane_parameters::LaneParameter;
 #[doc(hidden)]
 pub use lengths::{bodies, check_bodies, check_length, check_number, check_numbers, check_pairs};
 pub use masses::Masses;
+pub use named::Named;
 pub use over_vectors::{OverEveryScalar, System, SystemInLanes};

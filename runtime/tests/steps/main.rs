@@ -17,6 +17,7 @@ mod newton;
 mod newton_of_chains;
 mod parameters;
 mod proved;
+mod recording;
 mod restart;
 mod run_time;
 mod scalars;

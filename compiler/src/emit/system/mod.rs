@@ -16,6 +16,7 @@ mod jacobian;
 mod lagrangian;
 mod lengths;
 mod momentum;
+mod named;
 mod names;
 
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -112,6 +113,7 @@ impl<'a> Emitter<'a> {
             (None, Ok(split)) if self.system.is_free() => self.separable(split),
             (None, split) => self.general(split.ok()),
         };
+        let named = self.named();
         let momentum = self.momentum();
         let invariants = self.invariants();
         if self.system.graph.overflowed() {
@@ -133,6 +135,8 @@ impl<'a> Emitter<'a> {
                 #dynamics
 
                 #lagrangian
+
+                #named
 
                 #momentum
 

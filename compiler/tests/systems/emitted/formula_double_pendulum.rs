@@ -263,6 +263,9 @@ const _: () = {
             force[1] = -(T::from_lanes(&self.g) * x5 + x7);
         }
     }
+    impl ::symplectic::emitted::Named for DoublePendulum {
+        const NAMES: [&'static [&'static str]; 2] = [&["a", "b"], &["pa", "pb"]];
+    }
     #[allow(unused_variables, non_snake_case, clippy::all)]
     impl DoublePendulum {
         /// Observers of what the exact flow conserves, from a first state: `energy`.

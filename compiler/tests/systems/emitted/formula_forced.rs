@@ -161,4 +161,7 @@ const _: () = {
             ::core::result::Result::Ok(())
         }
     }
+    impl ::symplectic::emitted::Named for Drone {
+        const NAMES: [&'static [&'static str]; 2] = [&["x", "y"], &["px", "py"]];
+    }
 };

@@ -88,6 +88,7 @@ const _: () = {
     ::symplectic::emitted::chain_system!(
         () (Fput), | bonds : & Self | * bonds, between_walls
     );
+    impl ::symplectic::emitted::Named for Fput {}
     #[allow(unused_variables, non_snake_case, clippy::all)]
     impl Fput {
         /// Observers of what the exact flow conserves, from a first state: `energy`.

@@ -294,6 +294,11 @@ const _: () = {
             }
         }
     }
+    impl<const N: usize> ::symplectic::emitted::Named for Planets<N> {
+        const COMPONENTS: ::core::option::Option<usize> = ::core::option::Option::Some(
+            3,
+        );
+    }
     #[allow(unused_variables, non_snake_case, clippy::all)]
     impl<const N: usize> Planets<N> {
         /// `momentum`, which the exact flow conserves: H has the symmetry.

@@ -320,6 +320,9 @@ const _: () = {
             ::core::result::Result::Ok(())
         }
     }
+    impl ::symplectic::emitted::Named for DoublePendulum {
+        const NAMES: [&'static [&'static str]; 2] = [&["a", "b"], &["pa", "pb"]];
+    }
     #[allow(unused_variables, non_snake_case, clippy::all)]
     impl DoublePendulum {
         /// The momenta `p = ∂L/∂v` of these velocities: `State::new(t, q, system.momentum_of_velocity(t, &q, &v))` is where to start.

@@ -117,6 +117,9 @@ const _: () = {
             ::core::result::Result::Ok(())
         }
     }
+    impl ::symplectic::emitted::Named for Particle {
+        const NAMES: [&'static [&'static str]; 2] = [&["x", "y"], &["px", "py"]];
+    }
     #[allow(unused_variables, non_snake_case, clippy::all)]
     impl Particle {
         /// The momenta `p = ∂L/∂v` of these velocities: `State::new(t, q, system.momentum_of_velocity(t, &q, &v))` is where to start.

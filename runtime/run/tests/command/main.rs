@@ -5,6 +5,7 @@ mod derived;
 mod files;
 mod friction;
 mod kept;
+mod names;
 mod newton;
 mod numbers;
 mod parameters;

@@ -15,7 +15,7 @@ use crate::number::{Scalar, Vector, copy};
 use crate::solver::Automatic;
 #[cfg(feature = "alloc")]
 use crate::system::Jacobian;
-use crate::system::{Masses, OverEveryScalar, Separable, System};
+use crate::system::{Masses, Named, OverEveryScalar, Separable, System};
 
 /// The forces on the particles of a [`Chain`].
 ///
@@ -327,6 +327,8 @@ impl<B: Bonds, R: Row<f64>> Work for Forces<'_, B, R> {
         self.chain.forces::<f64, R>(self.time, self.q, self.force);
     }
 }
+
+impl<B> Named for Chain<B> {}
 
 impl<V: Vector, B: Bonds> System<V> for Chain<B> {
     type Class = Separable;
