@@ -20,7 +20,7 @@ use crate::output;
 /// class.
 ///
 /// Digits are wrong if no exact method rounds to all of them. Coefficients that the conditions leave free may vary
-/// within their last place. Fractions and integers are exact.
+/// within their last place. Fractions and integers are exact; an expression such as `1 - 2*0.2345678` is exact given its numbers.
 ///
 /// Butcher arrays: `[printed]` with `a` and `b`, optionally `c`, `a_tilde`, `b_tilde`, `c_tilde`; `[claim]` with
 /// `class = "general"`, `"separable"` or `"nystrom"`, `order = 6`, and optionally

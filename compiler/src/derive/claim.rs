@@ -8,6 +8,7 @@ use crate::certify::{Certificate, CertifyError, Claim, Coefficient, Digits, Prin
 use crate::definition::{Definition, Key, trimmed};
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Input, parse_list, shown};
+use crate::import::computed;
 
 /// Reads `separable(6)`, `nystrom(6)` or `perturbed(8, 6, 4)`.
 pub fn read(definition: &Definition) -> Result<Claim, Error> {
@@ -50,9 +51,8 @@ pub fn text(claim: &Claim) -> String {
 /// Reads a list of decimals, optionally in brackets.
 pub fn read_printed(key: Key, text: &str) -> Result<Vec<Printed>, Error> {
     let read = |range: Range<usize>| {
-        let number: String = text[range.clone()].split_whitespace().collect();
         let name = key.name();
-        Printed::parse(&number).map_err(|error| {
+        printed(Input { name, text }, range.clone()).map_err(|error| {
             let part = &text[range.clone()];
             let exact = parse_list(Input { name, text: part }).is_ok();
             let hint = match exact {
@@ -67,6 +67,12 @@ pub fn read_printed(key: Key, text: &str) -> Result<Vec<Printed>, Error> {
         .into_iter()
         .map(read)
         .collect()
+}
+
+/// A printed number, or one that is computed from printed ones.
+fn printed(input: Input<'_>, range: Range<usize>) -> Result<Printed, CertifyError> {
+    let number: String = input.text[range.clone()].split_whitespace().collect();
+    Printed::parse(&number).or_else(|error| computed(input, range).ok_or(error))
 }
 
 /// The error for printed digits that are not certified, placed at the relevant part.
@@ -100,23 +106,27 @@ pub fn wrong_digits(
             let text = definition.get(key).unwrap_or_default();
             let range = separated(text, list_inside(text)).get(index).cloned();
             let range = range.unwrap_or(0..text.len());
-            let message = wrong_number(certificate, name, &text[range.clone()]);
-            let kind = ErrorKind::WrongDigits { message };
-            Input {
+            let input = Input {
                 name: key.name(),
                 text,
-            }
-            .error(&range, kind)
+            };
+            let message = wrong_number(certificate, name, input, range.clone());
+            input.error(&range, ErrorKind::WrongDigits { message })
         })
         .collect()
 }
 
 /// The message about one wrong printed number.
-fn wrong_number(certificate: &Certificate, name: Coefficient, text: &str) -> String {
-    let number: String = text.split_whitespace().collect();
-    let printed = Printed::parse(&number).ok();
+fn wrong_number(
+    certificate: &Certificate,
+    name: Coefficient,
+    input: Input<'_>,
+    range: Range<usize>,
+) -> String {
+    let text = shown(&input.text[range.clone()]);
+    let printed = printed(input, range).ok();
     let exact = printed.and_then(|printed| certificate.as_printed(name, &printed));
-    let mut message = format!("`{}` is not the exact {name}, rounded", shown(text));
+    let mut message = format!("`{text}` is not the exact {name}, rounded");
     if let Some(exact) = exact {
         message.push_str(&format!(": that is {exact}"));
     }

@@ -223,7 +223,13 @@ pub(super) fn of_json(file: Input<'_>, name: &str, value: &RawValue, entries: &m
             of_json(file, &format!("{name}[{index}]"), value, entries);
         }
     } else {
-        entries.push(Entry::new(name, text, start..start + text.len()));
+        // Another program may have written the same text with other escapes.
+        let value = serde_json::from_str::<String>(text);
+        let value = value.map_or_else(
+            |_| text.to_owned(),
+            |text| serde_json::Value::from(text).to_string(),
+        );
+        entries.push(Entry::new(name, value, start..start + text.len()));
     }
 }
 

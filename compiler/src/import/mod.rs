@@ -24,6 +24,7 @@ use std::ops::Range;
 
 use self::source::Source;
 use crate::arithmetic::rounding::to_f64;
+use crate::certify::Printed;
 use crate::error::{Error, ErrorKind};
 use crate::expression::Input;
 use crate::library::{Library, Notation, Stepping};
@@ -134,6 +135,13 @@ pub(crate) fn value_of(
     notation: Notation,
 ) -> Result<Value, Error> {
     source::value_of(input, range, notation)
+}
+
+/// A number that is computed from printed ones, such as `1 - 2*0.2345678`: exact given these, with the bound of their rounding.
+pub(crate) fn computed(input: Input<'_>, range: Range<usize>) -> Option<Printed> {
+    let value = value_of(input, range, Notation::Julia).ok()?;
+    value.constant.as_rational()?;
+    value.printed().ok()
 }
 
 /// The numbers of a table.

@@ -18,6 +18,7 @@ use crate::library::{Library, Notation};
 use crate::limits::Limits;
 use crate::order::composition;
 use crate::quadrature::check_stages;
+use crate::symbolic::Constant;
 use crate::tableau::Tableau;
 
 /// The names of the lists of a table, and what they are.
@@ -40,7 +41,8 @@ pub enum OwnNames {
         base: String,
         /// The fractions of its steps.
         weights: String,
-        /// Whether they are half of a palindrome. The one in the middle comes last, or first, or is missing, whichever makes the sum 1.
+        /// Whether they are half of a palindrome. The one in the middle comes last, or first, or is missing, whichever makes the sum 1; or
+        /// it is 1 minus all others, if they have an order above 2 with it.
         symmetric: bool,
     },
 }
@@ -163,11 +165,33 @@ fn whole(values: Vec<Value>, symmetric: bool) -> Result<Vec<Value>, ErrorKind> {
         }
         _ => vec![values.clone()],
     };
-    readings.into_iter().find(is_one).ok_or_else(|| {
+    if let Some(found) = readings.into_iter().find(is_one) {
+        return Ok(found);
+    }
+    if symmetric {
+        // The one in the middle is what the others leave, if this gives them an order, outwards or inwards.
+        let one = Value::exact(Constant::one());
+        let middle = (values.iter().chain(&values)).try_fold(one, |rest, x| rest.subtract(x))?;
+        let outwards: Vec<Value> = values.iter().rev().cloned().collect();
+        let order = |all: &Vec<Value>| {
+            let fractions: Vec<BigRational> = all.iter().map(Value::rational).collect();
+            composition::order_within(&fractions, true, &tolerance(all))
+        };
+        let both = [&outwards, &values].map(|list| mirrored(list, std::slice::from_ref(&middle)));
+        if let Some(found) = both
+            .into_iter()
+            .max_by_key(order)
+            .filter(|all| order(all) > 2)
+        {
+            return Ok(found);
+        }
+    }
+    Err({
         let sum = Decimal::round(&sum(&values), 17);
         let message = match symmetric {
             true => format!(
-                "the weights sum to {sum}; mirrored they do not sum to 1, whether the one in the middle is the last, the first or missing"
+                "the weights sum to {sum}; mirrored they do not sum to 1, whether the one in the middle is the last, the first or missing, \
+                 and with 1 minus their sums in the middle they have no order above 2"
             ),
             false => format!(
                 "the weights sum to {sum}, not to 1; half of a palindrome is read with `--symmetric`"
@@ -206,6 +230,7 @@ fn composed(
         return Ok((exact()?, ImportOrigin::Exact));
     }
     let fractions: Vec<BigRational> = values.iter().map(Value::rational).collect();
+    let off = fractions.iter().sum::<BigRational>() - BigRational::one();
     let base = Definition::new([(Key::Base, base.to_owned())]).derive(limits)?;
     let symmetric = base.separable_properties().symmetric.holds;
     let within = |tolerance: &BigRational| match base.own_properties().consistent.holds {
@@ -224,15 +249,44 @@ fn composed(
     let found = Definition::new(claimed).derive(limits);
     match (found, certify_composition(&printed, order)) {
         (Ok(tableau), Ok(certificate)) => {
+            // The first conditions of every composition; only the sum for a base of order 1.
+            let cubes: BigRational = fractions.iter().map(|x| x * x * x).sum();
+            let violated = match off.is_zero() {
+                true => format!(
+                    "the sum of the cubes of the weights is {:.1e}, not 0",
+                    to_f64(&cubes)
+                ),
+                false => format!("the sum of the weights is 1 {:+.1e}", to_f64(&off)),
+            };
             let origin = ImportOrigin::NearDecimals {
-                forced_by: Some(certificate.claim().to_string()),
+                forced_by: Some(format!("{}: {violated}", certificate.claim())),
                 distance: Some(to_f64(certificate.distance())),
             };
             Ok((tableau, origin))
         }
-        _ => {
+        _ if off.is_zero() => {
             let (separable, nystrom) = (order, order);
             Ok((exact()?, ImportOrigin::Decimals { separable, nystrom }))
+        }
+        _ => {
+            // Their order would need exact weights, and a step the sum 1.
+            let middle = fractions.len() / 2;
+            let texts = fractions
+                .iter()
+                .enumerate()
+                .map(|(i, x)| match i == middle {
+                    true => (x - &off).to_string(),
+                    false => x.to_string(),
+                });
+            let tableau = Definition::new(definition(texts.collect())).derive(limits)?;
+            let origin = ImportOrigin::NearDecimals {
+                forced_by: Some(format!(
+                    "the sum 1; only the weight in the middle was changed, since only for a symmetric base of kicks and drifts all are \
+                     refined to their order, which is {order} up to rounding"
+                )),
+                distance: Some(to_f64(&off.abs())),
+            };
+            Ok((tableau, origin))
         }
     }
 }

@@ -45,6 +45,9 @@ impl Assigned {
     }
 }
 
+/// The largest number of names before a value: `a = b = 1` has two.
+const MOST_TOGETHER: usize = 64;
+
 const AGAIN: &str = "has a value already; a file holds one table";
 const CHANGED: &str = "is changed later; write the numbers that it has in the end";
 const INDEX: &str = "has an index that is not one number; write the list as a whole";
@@ -59,6 +62,8 @@ struct Target {
     brackets: usize,
     /// The first token of the value.
     value: usize,
+    /// Whether the name is followed by its type.
+    annotated: bool,
 }
 
 /// A text with its assignments.
@@ -92,26 +97,44 @@ impl<'a> Source<'a> {
         } else if notation == Notation::C {
             name_lists(&mut source.tokens);
         }
-        let mut depth = 0_usize;
+        let mut open = Vec::new();
+        let mut arguments = Vec::new();
         for token in &source.tokens {
             if let Token::Symbol(')' | ']' | '}') = token.token {
-                depth = depth.saturating_sub(1);
+                open.pop();
             }
-            source.depths.push(depth);
-            if let Token::Symbol('(' | '[' | '{') = token.token {
-                depth += 1;
+            source.depths.push(open.len());
+            arguments.push(open.contains(&'('));
+            if let Token::Symbol(bracket @ ('(' | '[' | '{')) = token.token {
+                open.push(bracket);
             }
         }
+        let (mut annotated, mut named) = (0, Vec::new());
         for at in 0..source.tokens.len() {
             let Token::Name(name) = &source.tokens[at].token else {
                 continue;
             };
             let name = name.clone();
-            if let Some(target) = source.assignment(at, &name) {
-                source.note(at, target);
+            if at < annotated {
+                // A part of a type.
+            } else if let Some(target) = source.assignment(at, &name) {
+                if target.annotated {
+                    annotated = target.value;
+                }
+                match arguments[at] {
+                    true => named.push((at, target)),
+                    false => source.note(at, target),
+                }
             } else if source.changes(at) {
                 let span = source.tokens[at].span.clone();
                 source.names.entry(name).or_default().refuse(span, CHANGED);
+            }
+        }
+        // `f(a = 1)` names an argument, unless there is no other `a`.
+        let outside: BTreeSet<String> = source.names.keys().cloned().collect();
+        for (at, target) in named {
+            if !outside.contains(&target.name) {
+                source.note(at, target);
             }
         }
         for assigned in source.names.values_mut() {
@@ -168,18 +191,66 @@ impl<'a> Source<'a> {
 
     /// The left side of an assignment, if one begins at a name.
     fn assignment(&self, at: usize, name: &str) -> Option<Target> {
-        let (after, brackets, index) = self.brackets(at)?;
-        let value = match self.symbol(after) {
-            Some('=') => self.skip_lines(after + 1),
+        let (mut after, brackets, index) = self.brackets(at)?;
+        let annotation = self.annotation(at);
+        after = annotation.unwrap_or(after);
+        let mut value = match self.symbol(after) {
+            Some('=') if self.assigns(after) => self.skip_lines(after + 1),
             Some('{') if self.initialises(at) => after,
             _ => return None,
         };
+        // `a = b = 1`
+        for _ in 0..MOST_TOGETHER {
+            let name = self.tokens.get(value).map(|found| &found.token);
+            let next = name.filter(|name| matches!(name, Token::Name(_)) && !self.fortran);
+            let next = next.and_then(|_| self.brackets(value));
+            match next.filter(|&(after, ..)| self.assigns(after)) {
+                Some((after, ..)) => value = self.skip_lines(after + 1),
+                None => break,
+            }
+        }
         Some(Target {
             name: name.to_owned(),
             index,
             brackets,
             value,
+            annotated: annotation.is_some(),
         })
+    }
+
+    /// Whether a token is the `=` of an assignment, and not of a comparison.
+    fn assigns(&self, at: usize) -> bool {
+        self.symbol(at) == Some('=') && self.symbol(at + 1) != Some('=')
+    }
+
+    /// The `=` after the type of a name at the beginning of a statement: `a: list[float] = [1.0]`, `const a::Vector{Float64} = [1.0]`.
+    fn annotation(&self, at: usize) -> Option<usize> {
+        /// What may precede the name.
+        const KEYWORDS: [&str; 6] = ["const", "static", "global", "local", "let", "mut"];
+        /// What may stand before a colon without being a name.
+        const BLOCKS: [&str; 3] = ["else", "try", "finally"];
+        let typed = matches!(self.notation, Notation::Julia | Notation::Python) && !self.fortran;
+        if !typed || self.symbol(at + 1) != Some(':') {
+            return None;
+        }
+        let is = |at: usize, words: &[&str]| match &self.tokens[at].token {
+            Token::Name(word) => words.contains(&word.as_str()),
+            _ => false,
+        };
+        let begins = at.checked_sub(1).is_none_or(|before| {
+            let ends = matches!(self.tokens[before].token, Token::Line | Token::Symbol(';'));
+            ends || is(before, &KEYWORDS)
+        });
+        if !begins || is(at, &BLOCKS) {
+            return None;
+        }
+        let type_ = self.depths[at..].iter().take(64).enumerate();
+        let mut type_ = type_.filter(|(_, depth)| **depth == self.depths[at]);
+        let (length, _) = type_.find(|(i, _)| {
+            let token = &self.tokens[at + i].token;
+            matches!(token, Token::Line | Token::Symbol('=' | ';' | ','))
+        })?;
+        self.assigns(at + length).then_some(at + length)
     }
 
     /// Whether braces after a name and its size are its value in C++: `double a[2]{1.0, 0.0}`, `std::vector<double> a{1.0}`.
@@ -245,6 +316,7 @@ impl<'a> Source<'a> {
             index,
             brackets,
             value,
+            annotated: _,
         } = target;
         let list = matches!(self.symbol(value), Some('{' | '[')) || self.is_reshaped(value);
         // The size of a list in its declaration.

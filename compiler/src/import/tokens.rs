@@ -306,10 +306,14 @@ impl<'a> Reader<'a> {
                 let name = start..self.at;
                 // `table->a`, `numpy.array` and `std::sqrt` are reduced to their last parts.
                 let rest = self.rest();
-                // `a.b` is a product in Mathematica.
-                let dots = self.notation != Notation::Mathematica;
-                let link = ["->", "::", "."].into_iter().filter(|_| dots).find(|link| {
-                    rest.strip_prefix(link).is_some_and(|rest| {
+                // `a.b` is a product in Mathematica, and `a::Vector` gives a type in Julia.
+                let links: &[&str] = match self.notation {
+                    Notation::Mathematica => &[],
+                    Notation::Julia => &["->", "."],
+                    Notation::C | Notation::Python => &["->", "::", "."],
+                };
+                let link = links.iter().find(|link| {
+                    rest.strip_prefix(**link).is_some_and(|rest| {
                         rest.starts_with(|c: char| c.is_alphabetic() || c == '_')
                     })
                 });

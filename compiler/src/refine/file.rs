@@ -12,6 +12,7 @@ use crate::certify::{
 use crate::error::{Error, ErrorKind};
 use crate::export::first_line;
 use crate::expression::{Input, shown};
+use crate::import::computed;
 use crate::with_suggestion;
 
 type List = Spanned<Vec<Spanned<String>>>;
@@ -95,6 +96,19 @@ fn wrong_file(file: Input<'_>, span: Range<usize>, message: String) -> Error {
     )
 }
 
+/// A printed number, or one that is computed from printed ones.
+pub(super) fn read_printed(file: Input<'_>, text: &Spanned<String>) -> Result<Printed, Error> {
+    Printed::parse(text.get_ref()).or_else(|error| {
+        let span = text.span();
+        // Without the quotes.
+        let inside = span.start + 1..span.end.saturating_sub(1);
+        let computed = (!inside.is_empty())
+            .then(|| computed(file, inside))
+            .flatten();
+        computed.ok_or_else(|| wrong_file(file, span, error.to_string()))
+    })
+}
+
 impl PrintedTable {
     fn lists(&self) -> Result<Lists<'_>, String> {
         match (&self.kick, &self.drift, &self.weights) {
@@ -125,8 +139,7 @@ impl Lists<'_> {
             Lists::Weights(weights) => vec![(weights, Coefficient::Weight)],
         };
         let entry = |name: Coefficient, text: &Spanned<String>| {
-            let printed = Printed::parse(text.get_ref())
-                .map_err(|error| wrong_file(file, text.span(), error.to_string()))?;
+            let printed = read_printed(file, text)?;
             let span = text.span();
             Ok::<Entry, Error>(Entry {
                 name,

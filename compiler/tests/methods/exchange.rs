@@ -44,6 +44,19 @@ fn methods() -> impl Strategy<Value = Tableau> {
     )
 }
 
+fn escaped(json: &str) -> String {
+    let mut units = [0; 2];
+    let escape = |c: char| match c.is_ascii() {
+        true => c.to_string(),
+        false => c
+            .encode_utf16(&mut units)
+            .iter()
+            .map(|unit| format!("\\u{unit:04x}"))
+            .collect(),
+    };
+    json.chars().map(escape).collect()
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
@@ -64,6 +77,8 @@ proptest! {
         let written = json::write(&tableau, digits);
         prop_assert_eq!(json::read("t.json", &written, &limits), Ok(tableau.clone()));
         prop_assert_eq!(check("t.JSON", &written, &limits), Ok(tableau.clone()));
+        // Other programs write what is not ASCII as escapes.
+        prop_assert_eq!(check("t.json", &escaped(&written), &limits), Ok(tableau.clone()));
         let value: serde_json::Value = serde_json::from_str(&written).expect("JSON");
         prop_assert_eq!(value["stages"].as_u64(), Some(tableau.stages() as u64));
         prop_assert!(text::write(&tableau, digits).contains("symplectic"));

@@ -167,11 +167,49 @@ fn a_claim_that_holds_as_printed_changes_no_number() {
     }
 }
 
+/// An expression of printed numbers in a claim is exact given these, as in the files of libraries.
+#[test]
+fn a_claim_with_computed_numbers_is_that_of_the_decimals() {
+    for (computed, written) in [
+        (
+            "first: drift, drift: [0.2345678, 1 - 2*0.2345678, 0.2345678], kick: [0.5, 0.5, 0], claim: separable(2)",
+            "first: drift, drift: [0.2345678, 0.5308644, 0.2345678], kick: [0.5, 0.5, 0], claim: separable(2)",
+        ),
+        (
+            "base: velocity-verlet, weights: [0.784513610477560, 0.235573213359357, -1.17767998417887, \
+             1 - 2*(0.784513610477560 + 0.235573213359357 - 1.17767998417887)], symmetric: true, claim: separable(6)",
+            "base: velocity-verlet, weights: [0.784513610477560, 0.235573213359357, -1.17767998417887, \
+             1.315186320683906 ± 1.2e-14], symmetric: true, claim: separable(6)",
+        ),
+    ] {
+        let [computed, written] = [computed, written].map(derived);
+        assert_eq!(computed.to_f64(), written.to_f64());
+        assert_eq!(computed.orders(), written.orders());
+        // The definition has the number and its bound, and is derived again.
+        let again = derived(&computed.provenance().definition.to_string());
+        assert_eq!(again.to_f64(), written.to_f64());
+    }
+    // Exact numbers need no claim.
+    let exact = "base: velocity-verlet, weights: [sqrt(2)/2, 1 - sqrt(2)], symmetric: true, claim: separable(2)";
+    let exact = Definition::parse(exact).expect(exact);
+    let error = exact.derive(&Limits::default()).expect_err("no decimals");
+    assert!(
+        error
+            .to_string()
+            .contains("leave it out where numbers are exact"),
+        "{error}"
+    );
+}
+
 #[test]
 fn a_file_that_satisfies_its_claim_as_printed_is_refined_to_itself() {
     let text = "[claim]\nclass = \"separable\"\norder = 2\n[printed]\nkick = [\"0\", \"0.5\", \"0.5\"]\n\
                 drift = [\"0.2345678\", \"0.5308644\", \"0.2345678\"]\n";
+    let computed = text.replace("0.5308644", "1 - 2*0.2345678");
+    let computed = refine("splitting.toml", &computed).expect("order 2");
     let refined = refine("splitting.toml", text).expect("order 2");
+    let texts = [&refined, &computed].map(|refined| refined.text(20).expect("few digits"));
+    assert_eq!(texts[0], texts[1]);
     let refined = refined.text(20).expect("few digits");
     assert!(
         refined.contains("drift[1]   0.53086440000000000000 = 1327161/2500000"),
@@ -183,6 +221,11 @@ fn a_file_that_satisfies_its_claim_as_printed_is_refined_to_itself() {
             2,
             "a = [[\"0\", \"0\"], [\"0.125\", \"0\"]]\nb = [\"-3.0000\", \"4\"]\nc = [\"0\", \"0.1250000001 ± 1e-9\"]\n",
             "a[1][0]   0.12500000000000000000",
+        ),
+        (
+            2,
+            "a = [[\"0\", \"0\"], [\"0.1234567\", \"0\"]]\nb = [\"1 - 1/(2*0.1234567)\", \"0.5/0.1234567\"]\n",
+            "a[1][0]   0.12345670000000000000",
         ),
         (
             1,

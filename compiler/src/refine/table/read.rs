@@ -9,11 +9,11 @@ use toml::Spanned;
 
 use super::{Array, Cell, MAX_STAGES};
 use crate::arithmetic::rounding::Decimal;
-use crate::certify::Printed;
 use crate::error::{Error, ErrorKind};
 use crate::export::first_line;
 use crate::expression::{Input, shown};
 use crate::order::HamiltonianClass;
+use crate::refine::file::read_printed;
 use crate::with_suggestion;
 
 type List = Spanned<Vec<Spanned<String>>>;
@@ -249,8 +249,7 @@ fn read_list(
     cells: &mut Vec<Cell>,
 ) -> Result<(), Error> {
     for (index, text) in list.get_ref().iter().enumerate() {
-        let printed = Printed::parse(text.get_ref())
-            .map_err(|error| wrong_file(file, text.span(), error.to_string()))?;
+        let printed = read_printed(file, text)?;
         if printed.places().is_some_and(|places| places > MAX_PLACES) {
             let message = format!("more than {MAX_PLACES} decimal places; give as many or fewer");
             return Err(wrong_file(file, text.span(), message));
