@@ -39,12 +39,7 @@ fn signed(size: &str, kind: &str, negative: bool) -> TokenStream {
 
 /// A coefficient as the runtime takes it: rounded to a double, the remainder, and rounded to a single.
 pub(super) fn coefficient(number: &Number<'_>) -> TokenStream {
-    let double = number.to_f64();
-    rounded(Rounded {
-        double,
-        low: number.low_double(double),
-        single: number.to_f32(),
-    })
+    rounded(Rounded::of(number))
 }
 
 /// [`coefficient`] for a number that has been rounded already.

@@ -18,9 +18,13 @@ mod predictor;
 mod symplectic_rounding;
 mod system;
 
+pub use self::constrained::{
+    ConstrainedStep, ConstrainedSteps, ConstrainedTableau, constrained_steps,
+};
+pub use self::symplectic_rounding::Rounded;
 pub use self::system::system;
 pub(crate) use facts::Known;
-pub(crate) use symplectic_rounding::{Relative, Rounded};
+pub(crate) use symplectic_rounding::Relative;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -103,8 +107,10 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
         let count = literal::count(count);
         quote!(const FUNCTIONS: usize = #count;)
     });
-    let constrained = constrained::code(tableau, &numbers, &parts);
-    let nonholonomic = nonholonomic::code(tableau, &numbers, &parts);
+    let constrained = constrained::holonomic(tableau, &numbers, &parts);
+    let nonholonomic = nonholonomic::steps(tableau, &numbers, &parts);
+    let constrained = constrained.map(|steps| steps.code("CONSTRAINED"));
+    let nonholonomic = nonholonomic.map(|steps| steps.code("NONHOLONOMIC"));
     let proved = proved(
         tableau,
         name,

@@ -1,34 +1,26 @@
-//! How a method steps systems with non-holonomic constraints, as data.
+//! How a method steps systems with non-holonomic constraints.
 
-use proc_macro2::TokenStream;
-
-use super::constrained::{constants, list, steps};
+use super::constrained::{ConstrainedSteps, rounded};
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
 use crate::derive::Parts;
 use crate::properties::composed;
 use crate::tableau::Tableau;
 
-/// The `NONHOLONOMIC` constant of a `Method`; empty for a method that does not qualify.
+/// The steps for non-holonomic constraints; `None` for a method that does not qualify.
 ///
 /// A composition of methods that qualify composes their steps, if it keeps its order with them.
-pub(super) fn code(
+pub(super) fn steps(
     tableau: &Tableau,
     numbers: &Coefficients<Number<'_>>,
     parts: &Parts,
-) -> Option<TokenStream> {
+) -> Option<ConstrainedSteps> {
+    let tableau_of = |numbers: &Coefficients<Number<'_>>| rounded(numbers, Vec::new());
     if composed::nonholonomic(tableau, parts).is_some() {
-        let tableaux = parts.methods.iter();
-        let tableaux = tableaux.map(|method| constants(&method.numbers(), &[]));
-        let tableaux = tableaux.collect::<Option<Vec<_>>>()?;
-        return Some(steps(
-            "NONHOLONOMIC",
-            &tableaux,
-            Some(&list(&parts.substeps)),
-        ));
+        return ConstrainedSteps::composed(parts, tableau_of);
     }
     if !tableau.own_properties().nonholonomic.holds {
         return None;
     }
-    Some(steps("NONHOLONOMIC", &[constants(numbers, &[])?], None))
+    Some(ConstrainedSteps::one(tableau_of(numbers)?))
 }

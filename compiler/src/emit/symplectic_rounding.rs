@@ -27,12 +27,12 @@ pub struct Rounded {
 }
 
 impl Rounded {
-    const ZERO: Self = Rounded {
+    pub(super) const ZERO: Self = Rounded {
         double: 0.0,
         low: 0.0,
         single: 0.0,
     };
-    const ONE: Self = Rounded {
+    pub(super) const ONE: Self = Rounded {
         double: 1.0,
         low: 0.0,
         single: 1.0,
@@ -43,6 +43,16 @@ impl Rounded {
         low: 0.0,
         single: 0.5,
     };
+
+    /// A number, correctly rounded.
+    pub(super) fn of(number: &Number<'_>) -> Self {
+        let double = number.to_f64();
+        Rounded {
+            double,
+            low: number.low_double(double),
+            single: number.to_f32(),
+        }
+    }
 
     /// 1 minus the number, if that is exact in doubles: from 1/2 to 2⁵³. For singles it is exact up to 2²⁴.
     fn complement(self) -> Option<Self> {

@@ -9,11 +9,14 @@ use symplectic::emitted::Solver;
 use symplectic::ensemble::{Ensemble, EnsembleError};
 use symplectic::nalgebra::DVector;
 use symplectic::output::Interpolation;
-use symplectic::system::Conservative;
+use symplectic::system::{Conservative, Frictionless, Unconstrained};
 use symplectic::{
-    AtRunTime, Class, Compensated, Error as RunError, Hamiltonian, Plain, State, Summation, System,
+    AtRunTime, Class, Compensated, Constrained, ConstraintName, Error as RunError, General,
+    Hamiltonian, Nonholonomic, Plain, Separable, State, Summation, System, consistent,
+    consistent_momentum,
 };
 use symplectic_compiler::Error;
+use symplectic_compiler::formula::{Structure, System as Parsed};
 use toml::Spanned;
 
 use crate::chaos;
@@ -33,39 +36,66 @@ use symplectic_terminal::{errors, print};
 pub(super) type Vector = DVector<f64>;
 pub(super) type States = Vec<State<Vector>>;
 type Made<S, R> = Ensemble<AtRunTime, S, Vector, R>;
+/// Systems with their starts.
+type Families<C, const F: bool> = Vec<(Formula<C, F>, States)>;
 /// Runs the trajectories of an ensemble.
 type Task<'a, S, R, N> = fn(&Run<'a>, &mut Ensemble<AtRunTime, S, Vector, R, N>, Keep<'_>);
 /// Keeps a finished trajectory.
 pub(super) type Keep<'k> = &'k mut dyn FnMut(Trajectory) -> ControlFlow<()>;
 
+/// What decides the type of a system.
+#[derive(Clone, Copy)]
+pub(super) struct Kind {
+    pub(super) is_separable: bool,
+    is_forced: bool,
+    /// With holonomic constraints, and with non-holonomic ones.
+    constraints: [bool; 2],
+}
+
+impl Kind {
+    pub(super) fn of(system: &Parsed, structure: &Structure) -> Self {
+        Kind {
+            is_separable: structure.split.is_ok() && system.force_of_momenta().is_none(),
+            is_forced: !system.applied.is_empty(),
+            constraints: [&system.constraints, &system.nonholonomic].map(|all| !all.is_empty()),
+        }
+    }
+}
+
 impl<'a> Run<'a> {
-    pub(super) fn with_class<C: Class + Conservative>(
-        self,
-        starts: Vec<Start>,
-    ) -> Result<ExitCode, Error>
-    where
-        Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>,
-    {
+    pub(super) fn of_kind(self, kind: Kind, starts: Vec<Start>) -> Result<ExitCode, Error> {
         match self.setup.sums {
-            Sums::Compensated => self.integrate::<C, Compensated>(starts),
-            Sums::Plain => self.integrate::<C, Plain>(starts),
+            Sums::Compensated => self.with_sums::<Compensated>(kind, starts),
+            Sums::Plain => self.with_sums::<Plain>(kind, starts),
         }
     }
 
-    fn integrate<C: Class + Conservative, R: Summation>(
+    fn with_sums<R: Summation>(self, kind: Kind, starts: Vec<Start>) -> Result<ExitCode, Error> {
+        match (kind.constraints, kind.is_separable, kind.is_forced) {
+            ([true, _], true, _) => self.integrate(starts, Self::holonomic::<Separable, R>),
+            ([true, _], false, _) => self.integrate(starts, Self::holonomic::<General, R>),
+            ([_, true], true, _) => self.integrate(starts, Self::nonholonomic::<Separable, R>),
+            ([_, true], false, _) => self.integrate(starts, Self::nonholonomic::<General, R>),
+            (_, true, true) => self.integrate(starts, Self::by_solver::<Separable, true, R>),
+            (_, false, true) => self.integrate(starts, Self::by_solver::<General, true, R>),
+            (_, true, false) => self.integrate(starts, Self::free::<Separable, R>),
+            (_, false, false) => self.integrate(starts, Self::free::<General, R>),
+        }
+    }
+
+    /// Groups the starts by parameters and runs their systems by `go`.
+    fn integrate<C, const F: bool>(
         self,
         starts: Vec<Start>,
-    ) -> Result<ExitCode, Error>
-    where
-        Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>,
-    {
+        go: fn(Self, Families<C, F>, &[Vec<f64>], &Progress) -> Result<ExitCode, Error>,
+    ) -> Result<ExitCode, Error> {
         let (start, end) = (self.setup.start(), self.end());
         let last = self.times.as_ref().and_then(|times| times.last());
         let size = *self.setup.step_size.get_ref();
         let meter = Meter::new([start, *last.unwrap_or(&end)], size);
         let progress = Progress::new(meter, self.arguments.progress);
         let mut parameters: Vec<Vec<f64>> = Vec::new();
-        let mut families: Vec<(Formula<C>, States)> = Vec::new();
+        let mut families: Families<C, F> = Vec::new();
         let same_bits = |a: &[f64], b: &[f64]| {
             let bits = |x: &f64| x.to_bits();
             a.iter().map(bits).eq(b.iter().map(bits))
@@ -103,25 +133,105 @@ impl<'a> Run<'a> {
                 return Err(self.file.error(self.setup.system.span(), message));
             }
         }
-        let tableau = &self.method.tableau;
-        let newton = self.setup.solver.as_ref().map(Spanned::get_ref) == Some(&Iteration::Newton);
-        if self.has_chaos() {
-            let tangents = families
-                .into_iter()
-                .map(|(system, starts)| self.tangents(system, starts));
-            let ensemble = Made::<_, R>::families_at_run_time(tableau, tangents, size)
-                .map_err(|error| self.refused(&error))?;
-            return match newton {
-                false => self.run(ensemble, &parameters, &progress, Self::chaos),
-                true => self.run(ensemble.by_newton(), &parameters, &progress, Self::chaos),
-            };
+        go(self, families, &parameters, &progress)
+    }
+
+    /// An ensemble of systems.
+    fn made<S, R>(
+        &self,
+        families: impl IntoIterator<Item = (S, States)>,
+    ) -> Result<Made<S, R>, Error>
+    where
+        S: System<Vector, Class: Frictionless>,
+        R: Summation,
+    {
+        let (tableau, size) = (&self.method.tableau, *self.setup.step_size.get_ref());
+        let made = Made::families_at_run_time(tableau, families, size);
+        made.map_err(|error| self.refused(&error))
+    }
+
+    fn is_by_newton(&self) -> bool {
+        self.setup.solver.as_ref().map(Spanned::get_ref) == Some(&Iteration::Newton)
+    }
+
+    /// Runs systems of H alone, perhaps with indicators of chaos.
+    fn free<C: Class + Conservative, R: Summation>(
+        self,
+        families: Families<C, false>,
+        parameters: &[Vec<f64>],
+        progress: &Progress,
+    ) -> Result<ExitCode, Error>
+    where
+        Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>,
+    {
+        if !self.has_chaos() {
+            return self.by_solver::<C, false, R>(families, parameters, progress);
         }
-        let ensemble = Made::<_, R>::families_at_run_time(tableau, families, size)
-            .map_err(|error| self.refused(&error))?;
-        match newton {
-            false => self.run(ensemble, &parameters, &progress, Self::states),
-            true => self.run(ensemble.by_newton(), &parameters, &progress, Self::states),
+        let tangents = families.into_iter();
+        let tangents = tangents.map(|(system, starts)| self.tangents(system, starts));
+        let ensemble = self.made::<_, R>(tangents)?;
+        match self.is_by_newton() {
+            false => self.run(ensemble, parameters, progress, Self::chaos),
+            true => self.run(ensemble.by_newton(), parameters, progress, Self::chaos),
         }
+    }
+
+    fn by_solver<C: Class + Conservative, const F: bool, R: Summation>(
+        self,
+        families: Families<C, F>,
+        parameters: &[Vec<f64>],
+        progress: &Progress,
+    ) -> Result<ExitCode, Error>
+    where
+        Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
+    {
+        let ensemble = self.made::<_, R>(families)?;
+        match self.is_by_newton() {
+            false => self.run(ensemble, parameters, progress, Self::states),
+            true => self.run(ensemble.by_newton(), parameters, progress, Self::states),
+        }
+    }
+
+    fn holonomic<C: Class + Unconstrained, R: Summation>(
+        self,
+        families: Families<Constrained<C>, false>,
+        parameters: &[Vec<f64>],
+        progress: &Progress,
+    ) -> Result<ExitCode, Error> {
+        let families = self.projected(families, consistent)?;
+        let ensemble = self.made::<_, R>(families)?;
+        self.run(ensemble, parameters, progress, Self::states)
+    }
+
+    fn nonholonomic<C: Class + Unconstrained, R: Summation>(
+        self,
+        families: Families<Nonholonomic<C>, false>,
+        parameters: &[Vec<f64>],
+        progress: &Progress,
+    ) -> Result<ExitCode, Error> {
+        let families = self.projected(families, consistent_momentum)?;
+        let ensemble = self.made::<_, R>(families)?;
+        self.run(ensemble, parameters, progress, Self::states)
+    }
+
+    /// Starts on the constraints, if that is wanted.
+    fn projected<C>(
+        &self,
+        mut families: Families<C, false>,
+        project: fn(&Formula<C>, State<Vector>) -> Result<State<Vector>, RunError>,
+    ) -> Result<Families<C, false>, Error> {
+        let Some(wanted) = &self.setup.project_starts else {
+            return Ok(families);
+        };
+        let all = families.iter_mut();
+        let all = all.flat_map(|(system, starts)| starts.iter_mut().map(|start| (&*system, start)));
+        for (number, (system, start)) in all.enumerate() {
+            *start = project(system, start.clone()).map_err(|error| {
+                let message = format!("start {number}: {error}");
+                self.file.error(wanted.span(), message)
+            })?;
+        }
+        Ok(families)
     }
 
     /// Runs an ensemble by `task`, and writes the results.
@@ -228,12 +338,12 @@ impl<'a> Run<'a> {
     }
 
     /// Integrates to the end, at the output times, or to the states of the section.
-    fn states<C: Class + Conservative, R: Summation, N: Solver<Vector, Formula<C>>>(
+    fn states<C: Class, const F: bool, R: Summation, N: Solver<Vector, Formula<C, F>>>(
         &self,
-        ensemble: &mut Ensemble<AtRunTime, Formula<C>, Vector, R, N>,
+        ensemble: &mut Ensemble<AtRunTime, Formula<C, F>, Vector, R, N>,
         keep: Keep<'_>,
     ) where
-        Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>,
+        Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
     {
         let end = self.end();
         match (&self.times, &self.section) {
@@ -326,6 +436,16 @@ impl<'a> Run<'a> {
         })
     }
 
+    /// The error for a start that is not on the constraints.
+    fn off_constraints(&self, start: usize, name: Option<&ConstraintName>, how: &str) -> Error {
+        let name = name.map_or(String::new(), |name| format!(" `{name}`"));
+        let message = format!(
+            "start {start} is not on the constraint{name}: {how}, but each must be 0; give other starts, by formulas if needed, or write \
+             `project_starts = true`, which moves starts to the nearest ones on the constraints"
+        );
+        self.file.error(self.setup.starts.span(), message)
+    }
+
     /// Translates an error of the ensemble into the terms of the file.
     fn refused(&self, error: &EnsembleError) -> Error {
         let accept = "take another method (`symplectic list --class …`), or write `accept_lower_order = true`";
@@ -339,9 +459,17 @@ impl<'a> Run<'a> {
                 span,
                 format!("`{name}` has order {order} if the kinetic energy is quadratic in the momenta, but for this H only {lower_order}: {accept}"),
             ),
+            EnsembleError::Start { trajectory, error: RunError::InconsistentStart { name, value, rate, .. } } => self.off_constraints(
+                *trajectory,
+                name.as_ref(),
+                &format!("|φ| = {value:e}, |dφ/dt| = {rate:e}"),
+            ),
+            EnsembleError::Start { trajectory, error: RunError::InconsistentVelocity { name, rate, .. } } => {
+                self.off_constraints(*trajectory, name.as_ref(), &format!("|w·q'| = {rate:e}"))
+            }
             EnsembleError::All(RunError::SeparableTableau { order, lower_order }) => self.file.error(
                 span,
-                format!("H is not separable: `{name}` has order {order} for separable H only, and for this H it has order {lower_order} or is not symplectic: {accept}"),
+                format!("H is not separable, or a force depends on momenta: `{name}` has order {order} for separable H only, and for this H it has order {lower_order} or is not symplectic: {accept}"),
             ),
             other => self.file.error(self.setup.starts.span(), other.to_string()),
         }

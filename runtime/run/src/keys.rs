@@ -23,7 +23,7 @@ pub(super) fn key_of(text: &str, span: &Range<usize>) -> Option<Range<usize>> {
 }
 
 /// The keys of a file that are not tables.
-const OF_FILE: [&str; 14] = [
+const OF_FILE: [&str; 15] = [
     "system",
     "method",
     "step_size",
@@ -36,6 +36,7 @@ const OF_FILE: [&str; 14] = [
     "solver",
     "accept_lower_order",
     "skip_impossible_starts",
+    "project_starts",
     "warn_energy_error",
     "random",
 ];

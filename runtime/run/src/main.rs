@@ -4,6 +4,7 @@
 
 mod advice;
 mod chaos;
+mod constraints;
 mod derived;
 mod expression;
 mod integrate;
@@ -34,7 +35,6 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::Parser;
-use symplectic::{General, Separable};
 use symplectic_compiler::export::read_text;
 use symplectic_compiler::formula::{Form, Structure, System};
 use symplectic_compiler::{Error, ErrorKind};
@@ -42,6 +42,7 @@ use symplectic_terminal::errors;
 
 use crate::derived::{Completed, Completion};
 use crate::expression::Names;
+use crate::integrate::Kind;
 use crate::method::Method;
 use crate::section::Section;
 use crate::setup::{File, Setup, Starts};
@@ -123,7 +124,7 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     };
     let setup = file.read()?;
     let (mut system, structure) = read_system(&file, &setup)?;
-    let method = Method::read(&file, &setup, arguments.max_stages)?;
+    let method = Method::read(&file, &setup, &system, arguments.max_stages)?;
     let times = times(&file, &setup)?;
     if let Some(megno) = &setup.megno
         && (times.is_some() || setup.section.is_some())
@@ -131,9 +132,10 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         let message = "MEGNO is computed at the end only: give `end` without `times` and `section`";
         return Err(file.error(megno.span(), message));
     }
-    refuse_with_friction(&file, &setup, &system, &method)?;
+    refuse_combinations(&file, &setup, &system, &method)?;
+    let kind = Kind::of(&system, &structure);
     if let Some(solver) = &setup.solver
-        && structure.split.is_ok()
+        && kind.is_separable
         && method.tableau.is_explicit()
     {
         let message = format!(
@@ -141,6 +143,12 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
             method.tableau.name()
         );
         return Err(file.error(solver.span(), message));
+    }
+    if let Some(project) = &setup.project_starts
+        && !system.is_constrained()
+    {
+        let message = "the system has no constraints, so starts are not projected: leave out `project_starts`";
+        return Err(file.error(project.span(), message));
     }
     if let Some(bound) = &setup.warn_energy_error
         && (bound.get_ref().is_nan() || *bound.get_ref() < 0.0)
@@ -191,7 +199,8 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     }
     let path = named(file.beside(setup.output.file.get_ref()), arguments.shard);
     refuse_overwriting(&file, &setup, &path)?;
-    refuse_twins(&file, &setup, &coordinates, &path)?;
+    let further = output::further(&tapes, setup.megno.is_some());
+    refuse_twins(&file, &setup, &coordinates, &further, &path)?;
     let size = (starts.len(), coordinates.with_parameters().count());
     if let Some(fault) = memory::fault_of_starts(size.0, size.1) {
         return Err(file.error(setup.starts.span(), fault));
@@ -217,25 +226,35 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
         skipped,
         target: Target::open(path).map_err(|error| file.placed(setup.output.file.span(), error))?,
     };
-    match structure.split {
-        Ok(_) => run.with_class::<Separable>(starts),
-        Err(_) => run.with_class::<General>(starts),
-    }
+    run.of_kind(kind, starts)
 }
 
-/// Refuses what is not defined with friction.
-fn refuse_with_friction(
+/// Refuses what is not defined with friction, applied forces or constraints.
+fn refuse_combinations(
     file: &File<'_>,
     setup: &Setup,
     system: &System,
     method: &Method,
 ) -> Result<(), Error> {
+    let with = [
+        (!system.friction.is_empty(), "friction"),
+        (!system.applied.is_empty(), "applied forces"),
+        (system.is_constrained(), "constraints"),
+    ];
+    if let Some(megno) = &setup.megno
+        && let Some((_, with)) = with.iter().find(|(is_given, _)| *is_given)
+    {
+        let message = format!("MEGNO is computed without {with} only: leave out `megno`");
+        return Err(file.error(megno.span(), message));
+    }
+    if let Some(solver) = &setup.solver
+        && system.is_constrained()
+    {
+        let message = "steps with constraints have an iteration of their own: leave out `solver`";
+        return Err(file.error(solver.span(), message));
+    }
     if system.friction.is_empty() {
         return Ok(());
-    }
-    if let Some(megno) = &setup.megno {
-        let message = "MEGNO is computed without friction only";
-        return Err(file.error(megno.span(), message));
     }
     let orders = method.tableau.orders();
     if orders.nystrom > orders.separable && !setup.accept_lower_order {
@@ -270,10 +289,11 @@ fn refuse_twins(
     file: &File<'_>,
     setup: &Setup,
     coordinates: &Coordinates,
+    further: &[String],
     output: &Path,
 ) -> Result<(), Error> {
     let is_table = (output.extension()).is_some_and(|extension| extension != "npz");
-    match table::twin(coordinates, setup.section.is_some(), setup.megno.is_some()) {
+    match table::twin(coordinates, setup.section.is_some(), further) {
         Some(name) if is_table => {
             let message = format!(
                 "two columns of the table would have the name `{name}`: give the coordinate or the parameter another name, or write a `.npz` file"
@@ -297,7 +317,7 @@ fn named(path: PathBuf, shard: Option<Shard>) -> PathBuf {
     }
 }
 
-/// The system of the formula, which must have no constraints or applied forces.
+/// The system of the formula.
 fn read_system(file: &File<'_>, setup: &Setup) -> Result<(System, Structure), Error> {
     let (span, text) = (setup.system.span(), setup.system.get_ref());
     let name = format!("`system` in {}", file.path.display());
@@ -309,8 +329,6 @@ fn read_system(file: &File<'_>, setup: &Setup) -> Result<(System, Structure), Er
         Some("a Lagrangian that is not quadratic in the velocities")
     } else if !system.functions.is_empty() {
         Some("functions that are written in Rust")
-    } else if system.is_constrained() || !system.applied.is_empty() {
-        Some("constraints and applied forces")
     } else {
         None
     };

@@ -3,8 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use symplectic::emitted::{Coefficient, ConstrainedStep, ConstrainedTableau};
 use symplectic::{Orders, RunTimeCoefficients, RunTimeTableau};
+use symplectic_compiler::emit::{ConstrainedSteps, Rounded, constrained_steps};
 use symplectic_compiler::export::read_text;
+use symplectic_compiler::formula::System;
 use symplectic_compiler::order::HamiltonianClass;
 use symplectic_compiler::{
     Definition, Error, Key, Limits, Tableau, catalogue, check, did_you_mean,
@@ -24,6 +27,7 @@ impl Method {
     pub(super) fn read(
         file: &File<'_>,
         setup: &Setup,
+        system: &System,
         max_stages: Option<u16>,
     ) -> Result<Self, Error> {
         let span = setup.method.span();
@@ -48,6 +52,10 @@ impl Method {
         let name = tableau.name().unwrap_or("a method without a name");
         let made = RunTimeTableau::new(name, &coefficients, orders)
             .map_err(|error| file.error(setup.method.span(), error.to_string()))?;
+        let made = match system.is_constrained() {
+            true => with_constraints(file, setup, system, (made, &tableau))?,
+            false => made,
+        };
         Ok(Method {
             tableau: match setup.accept_lower_order {
                 true => made.accept_lower_order(),
@@ -56,6 +64,71 @@ impl Method {
             definition: tableau.provenance().definition.to_string(),
         })
     }
+}
+
+/// A method with its steps for the constraints of a system.
+fn with_constraints(
+    file: &File<'_>,
+    setup: &Setup,
+    system: &System,
+    (made, tableau): (RunTimeTableau, &Tableau),
+) -> Result<RunTimeTableau, Error> {
+    let [holonomic, nonholonomic] = constrained_steps(tableau);
+    let are_holonomic = !system.constraints.is_empty();
+    let (steps, what, instead) = match are_holonomic {
+        true => (
+            holonomic,
+            "holonomic constraints: take one that is `constrained`",
+            "`lobatto-2`, which is RATTLE, `lobatto-3` of order 4, or `{ base = \"lobatto-2\", weights = \"triple_jump(4)\" }`",
+        ),
+        false => (
+            nonholonomic,
+            "non-holonomic constraints: take one that is `nonholonomic`",
+            "`gauss-1`, `lobatto-2`, or `{ base = \"gauss-1\", weights = \"triple_jump(4)\" }`",
+        ),
+    };
+    let Some(steps) = steps else {
+        let message = format!(
+            "`{}` has no steps for {what}, such as {instead}",
+            made.name()
+        );
+        return Err(file.error(setup.method.span(), message));
+    };
+    let steps = leaked(&steps);
+    Ok(match are_holonomic {
+        true => made.with_constrained_steps(steps, &[]),
+        false => made.with_constrained_steps(&[], steps),
+    })
+}
+
+/// Steps as those of an emitted method, which live as long as the program: it has only one method.
+fn leaked(steps: &ConstrainedSteps) -> &'static [ConstrainedStep] {
+    let coefficient = |number: &Rounded| Coefficient::new(number.double, number.low, number.single);
+    let list = |numbers: &Vec<Rounded>| -> &'static [Coefficient] {
+        numbers.iter().map(coefficient).collect::<Vec<_>>().leak()
+    };
+    let rows = |rows: &[Vec<Rounded>]| -> &'static [&'static [Coefficient]] {
+        rows.iter().map(list).collect::<Vec<_>>().leak()
+    };
+    let tableaux = steps.tableaux.iter().map(|tableau| {
+        let multipliers = tableau.multipliers.iter();
+        let multipliers = multipliers.map(|row| -> &'static [f64] { row.clone().leak() });
+        ConstrainedTableau {
+            positions: rows(&tableau.positions),
+            momenta: rows(&tableau.momenta),
+            weights: list(&tableau.weights),
+            nodes: list(&tableau.nodes),
+            momentum_nodes: list(&tableau.momentum_nodes),
+            multipliers: multipliers.collect::<Vec<_>>().leak(),
+        }
+    });
+    let tableaux: &'static [ConstrainedTableau] = tableaux.collect::<Vec<_>>().leak();
+    let steps = steps.steps.iter().map(|step| ConstrainedStep {
+        start: coefficient(&step.start),
+        fraction: coefficient(&step.fraction),
+        tableau: &tableaux[step.tableau],
+    });
+    steps.collect::<Vec<_>>().leak()
 }
 
 fn derive(file: &File<'_>, method: &Wanted, max_stages: Option<u16>) -> Result<Tableau, Error> {

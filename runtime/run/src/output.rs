@@ -1,15 +1,16 @@
 //! What a run writes: arrays for NumPy, `.npz`, or a table, `.parquet` or `.csv`.
 
 use std::io::{self, Write};
+use std::sync::Arc;
 
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
-use symplectic::State;
 use symplectic::ensemble::Npz;
 use symplectic::nalgebra::DVector;
 use symplectic::output::unit_of;
+use symplectic::{Constrained, General, State, constraint_force};
 
 use crate::starts::Coordinates;
-use crate::system::Tapes;
+use crate::system::{Formula, Tapes};
 use crate::tape::{At, Parameters};
 use crate::trajectory::Trajectory;
 
@@ -88,7 +89,7 @@ impl Facts<'_> {
 pub(super) struct Results<'a> {
     pub(super) coordinates: &'a Coordinates,
     pub(super) facts: Facts<'a>,
-    pub(super) tapes: &'a Tapes,
+    pub(super) tapes: &'a Arc<Tapes>,
     pub(super) rows: &'a [Trajectory],
     /// The start of each trajectory.
     pub(super) starts: &'a [State<DVector<f64>>],
@@ -99,8 +100,22 @@ pub(super) struct Results<'a> {
     pub(super) has_chaos: bool,
 }
 
-/// The names of the indicators of chaos.
-pub(super) const CHAOS: [&str; 2] = ["megno", "lyapunov_exponent"];
+/// The names of further columns: indicators of chaos; the error of the constraints, with the multipliers of holonomic ones.
+pub(super) fn further(tapes: &Tapes, has_chaos: bool) -> Vec<String> {
+    if has_chaos {
+        return ["megno", "lyapunov_exponent"].map(str::to_owned).to_vec();
+    }
+    let Some(constraints) = tapes.constraints() else {
+        return Vec::new();
+    };
+    let names = constraints.names().iter();
+    let multipliers = names.filter(|_| constraints.are_holonomic);
+    let multipliers = multipliers.map(|name| format!("{MULTIPLIER}{name}"));
+    ["constraint_error".to_owned()]
+        .into_iter()
+        .chain(multipliers)
+        .collect()
+}
 
 /// The states of a trajectory that are written.
 #[derive(Clone, Copy)]
@@ -116,14 +131,11 @@ pub(super) enum Seen<'a> {
 impl Results<'_> {
     /// `(H − H₀)/|H₀|`; if H₀ is nothing but rounding, relative to [its terms](unit_of).
     pub(super) fn energy_errors(&self) -> Vec<Vec<f64>> {
-        let pairs = self.rows.par_iter().zip(self.starts);
-        let errors = pairs.map(|(row, start)| {
-            let parameters = Parameters::Own(self.parameters(row).into());
+        self.of_rows(|row, start, parameters| {
             let energy_at = |Point {
                                  time,
                                  halves: [q, p],
                              }: Point<'_>| {
-                let parameters = &parameters;
                 let at = At {
                     parameters,
                     time,
@@ -134,15 +146,91 @@ impl Results<'_> {
             };
             let first = energy_at(start.into());
             let scale = unit_of(|state| energy_at(state.into()), start);
-            let error = |energy: f64| (energy - first) / scale;
-            match self.seen {
-                Seen::End => vec![error(energy_at((&row.state).into()))],
-                Seen::Times(_) | Seen::Section => {
-                    points(row).map(|seen| error(energy_at(seen))).collect()
+            let seen = self.states(row).into_iter();
+            seen.map(|point| (energy_at(point) - first) / scale)
+                .collect()
+        })
+    }
+
+    /// Numbers for each trajectory, from its start and its parameters.
+    fn of_rows(
+        &self,
+        of: impl Fn(&Trajectory, &State<DVector<f64>>, &Parameters) -> Vec<f64> + Sync,
+    ) -> Vec<Vec<f64>> {
+        let pairs = self.rows.par_iter().zip(self.starts);
+        let all = pairs.map(|(row, start)| {
+            let parameters = Parameters::Own(self.parameters(row).into());
+            of(row, start, &parameters)
+        });
+        all.collect()
+    }
+
+    /// The states of a trajectory that are written.
+    fn states<'r>(&self, row: &'r Trajectory) -> Vec<Point<'r>> {
+        match self.seen {
+            Seen::End => vec![(&row.state).into()],
+            Seen::Times(_) | Seen::Section => points(row).collect(),
+        }
+    }
+
+    /// The errors of the constraints at the states that are written: the largest |φ|, or |w·q'|; none without constraints.
+    pub(super) fn constraint_errors(&self) -> Vec<Vec<f64>> {
+        self.of_rows(|row, _, parameters| {
+            let seen = self.states(row).into_iter();
+            seen.filter_map(|point| self.constraint_error(point, parameters))
+                .collect()
+        })
+    }
+
+    fn constraint_error(
+        &self,
+        Point {
+            time,
+            halves: [q, p],
+        }: Point<'_>,
+        parameters: &Parameters,
+    ) -> Option<f64> {
+        let constraints = self.tapes.constraints()?;
+        let velocity = self.tapes.velocity_at(At {
+            parameters,
+            time,
+            q,
+            p,
+        });
+        Some(constraints.error(parameters, q, &velocity))
+    }
+
+    /// The names of the further columns.
+    pub(super) fn further_names(&self) -> Vec<String> {
+        further(self.tapes, self.has_chaos)
+    }
+
+    /// The numbers in the further columns, for each state that is written one after another. Multipliers are NaN at states that are not on
+    /// the constraints, as between steps.
+    pub(super) fn further(&self) -> Vec<Vec<f64>> {
+        let multipliers = self.further_names().len().saturating_sub(1);
+        self.of_rows(|row, _, parameters| {
+            if self.has_chaos {
+                return (0..=multipliers).map(|k| indicator(row, k)).collect();
+            }
+            let mut all = Vec::new();
+            for point in self.states(row) {
+                all.extend(self.constraint_error(point, parameters));
+                if multipliers > 0 {
+                    let own = self.multipliers(point, parameters);
+                    all.extend(own.unwrap_or_else(|| vec![f64::NAN; multipliers]));
                 }
             }
-        });
-        errors.collect()
+            all
+        })
+    }
+
+    fn multipliers(&self, point: Point<'_>, parameters: &Parameters) -> Option<Vec<f64>> {
+        let system =
+            Formula::<Constrained<General>>::new(Arc::clone(self.tapes), parameters.clone());
+        let [q, p] = point.halves.map(DVector::from_column_slice);
+        let found = constraint_force(&system, &State::new(point.time, q, p));
+        found.ok().map(|found| found.multipliers)
     }
 
     /// The values of the parameters that vary.
@@ -198,16 +286,14 @@ impl Results<'_> {
             Seen::Times(times) => times,
             Seen::End => {
                 file.doubles("energy_error", &[count], &errors.concat())?;
-                for (k, name) in CHAOS.into_iter().enumerate().filter(|_| self.has_chaos) {
-                    let values = self.rows.iter().map(|row| indicator(row, k));
-                    file.doubles(name, &[count], &of_length(count, values))?;
-                }
+                self.write_further(&mut file, &[count], 1)?;
                 return file.finish().map(|_| ());
             }
             Seen::Section => {
                 self.write_section(&mut file)?;
                 let errors = errors.concat();
                 file.doubles("energy_error", &[errors.len()], &errors)?;
+                self.write_further(&mut file, &[errors.len()], 0)?;
                 return file.finish().map(|_| ());
             }
         };
@@ -232,7 +318,45 @@ impl Results<'_> {
             places[..errors.len()].copy_from_slice(errors);
         }
         file.doubles("energy_error", &[count, steps], &all)?;
+        self.write_further(&mut file, &[count, steps], steps)?;
         file.finish().map(|_| ())
+    }
+
+    /// The further columns: those of `multiplier_…` as one array. Each trajectory has at least this number of states; those that it did not
+    /// reach have NaN.
+    fn write_further(
+        &self,
+        file: &mut Npz<impl Write>,
+        shape: &[usize],
+        least: usize,
+    ) -> io::Result<()> {
+        let names = self.further_names();
+        if names.is_empty() {
+            return Ok(());
+        }
+        let mut all = self.further();
+        for row in &mut all {
+            row.resize(row.len().max(least * names.len()), f64::NAN);
+        }
+        let all = all.concat();
+        let column = |k: usize| all.iter().copied().skip(k).step_by(names.len());
+        for (k, name) in names.iter().enumerate() {
+            if !name.starts_with(MULTIPLIER) {
+                file.doubles(name, shape, &column(k).collect::<Vec<_>>())?;
+            }
+        }
+        let multipliers = names
+            .iter()
+            .filter_map(|name| name.strip_prefix(MULTIPLIER));
+        let multipliers: Vec<&str> = multipliers.collect();
+        if multipliers.is_empty() {
+            return Ok(());
+        }
+        let states = all.chunks_exact(names.len());
+        let values: Vec<f64> = states.flat_map(|state| &state[1..]).copied().collect();
+        file.texts("constraints", &multipliers)?;
+        let shape = [shape, &[multipliers.len()]].concat();
+        file.doubles("multipliers", &shape, &values)
     }
 
     /// The numbers, last states and errors of trajectories.
@@ -284,8 +408,11 @@ impl Results<'_> {
     }
 }
 
+/// How the names of columns of multipliers begin.
+const MULTIPLIER: &str = "multiplier_";
+
 /// An indicator of chaos; NaN for a trajectory that could not start.
-pub(super) fn indicator(row: &Trajectory, k: usize) -> f64 {
+fn indicator(row: &Trajectory, k: usize) -> f64 {
     row.output.get(k).copied().unwrap_or(f64::NAN)
 }
 

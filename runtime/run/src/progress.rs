@@ -240,9 +240,9 @@ mod tests {
     use symplectic_compiler::formula::{Form, Structure, System};
 
     use super::*;
-    use crate::run::system::{Formula, Tapes};
-    use crate::run::tape::Parameters;
-    use crate::run::values::Values;
+    use crate::system::{Formula, Tapes};
+    use crate::tape::Parameters;
+    use crate::values::Values;
 
     /// Evaluations of twenty steps of two trajectories, side by side in lanes or one after another.
     #[test]

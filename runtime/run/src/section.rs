@@ -66,18 +66,18 @@ impl Section {
     }
 
     /// Integrates to `end` and appends the states of the section; ends early if all trajectories have too many.
-    pub(super) fn see<M, C, R, N>(
+    pub(super) fn see<M, C, R, N, const F: bool>(
         &self,
         seen: &mut Vec<f64>,
-        run: &mut Integrator<M, Formula<C>, DVector<f64>, R, N>,
+        run: &mut Integrator<M, Formula<C, F>, DVector<f64>, R, N>,
         end: f64,
     ) -> Result<(), RunError>
     where
         M: Method,
         C: Class,
-        Formula<C>: Hamiltonian<Vector<f64> = DVector<f64>>,
+        Formula<C, F>: Hamiltonian<Vector<f64> = DVector<f64>>,
         R: symplectic::Summation,
-        N: symplectic::emitted::Solver<DVector<f64>, Formula<C>>,
+        N: symplectic::emitted::Solver<DVector<f64>, Formula<C, F>>,
     {
         let parameters = run.system().parameters().clone();
         let value = |state: &State<DVector<f64>>| {

@@ -37,6 +37,9 @@ pub(super) struct Setup {
     /// Leaves out starts whose formulas have no value, or that do not reach their energy.
     #[serde(default)]
     pub(super) skip_impossible_starts: bool,
+    /// `true` to move the starts onto the constraints.
+    #[serde(default, deserialize_with = "if_true")]
+    pub(super) project_starts: Option<Spanned<bool>>,
     /// The |energy error| above which a run warns.
     pub(super) warn_energy_error: Option<Spanned<f64>>,
     #[serde(default)]

@@ -89,6 +89,12 @@ pub(super) fn summary(
         };
         lines.push([label.to_owned(), format!("{error:.1e} ({whose})")]);
     }
+    let constraints = results.constraint_errors().concat().into_iter();
+    let larger = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };
+    if let Some(error) = constraints.reduce(larger) {
+        let label = "largest constraint error".to_owned();
+        lines.push([label, format!("{error:.1e}")]);
+    }
     let total = |of: fn(&Trajectory) -> u64| rows.iter().map(of).sum::<u64>();
     let steps = total(|row| row.statistics.steps);
     lines.push(["steps".to_owned(), steps.to_string()]);

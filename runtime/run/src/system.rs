@@ -7,11 +7,13 @@ use std::sync::Arc;
 use symplectic::emitted::LaneWork;
 use symplectic::nalgebra::DVector;
 use symplectic::simd::Lanes;
-use symplectic::{Class, Hamiltonian, Scalar, Vector};
+use symplectic::system::Gradients;
+use symplectic::{Class, ConstraintName, Hamiltonian, Scalar, Vector};
 use symplectic_compiler::formula::derivative::gradient;
 use symplectic_compiler::formula::graph::{Half, integer};
 use symplectic_compiler::formula::{Structure, System};
 
+use crate::constraints::Constraints;
 use crate::progress::Meter;
 use crate::tape::{At, Input, Parameters, Tape};
 use crate::unroll::{Refusal, Unrolled};
@@ -21,7 +23,11 @@ use crate::values::Values;
 #[derive(Debug)]
 pub(super) struct Tapes {
     velocity: Tape,
+    /// With the applied force.
     force: Tape,
+    /// The applied force alone, if there is one.
+    applied: Option<Tape>,
+    constraints: Option<Constraints>,
     /// Velocity followed by force.
     slopes: Tape,
     energy: Tape,
@@ -44,29 +50,48 @@ impl Tapes {
         };
         let mut by = |of, sign, half| gradient(&mut system.graph, of, &[], integer(sign), half);
         let velocity = by(kinetic, 1, Half::P);
-        let force = by(potential, -1, Half::Q);
+        let mut force = by(potential, -1, Half::Q);
+        system.add_applied(&mut force);
+        let applied = system.applied.clone();
         if system.graph.overflowed() {
             return Err(Refusal::TooLong);
         }
-        let parts = velocity.iter().chain(&force).map(|part| part.value);
+        let parts = velocity.iter().chain(&force).chain(&applied);
+        let parts = parts.map(|part| part.value);
         let mut unrolled = Unrolled::new(system, values, &parts.collect::<Vec<_>>(), Some(start))?;
         let velocity = unrolled.gradient(&velocity)?;
         let force = unrolled.gradient(&force)?;
         let force = unrolled.undamped(force)?;
+        let applied = match applied.as_slice() {
+            [] => None,
+            applied => {
+                let applied = unrolled.gradient(applied)?;
+                let applied = unrolled.undamped(applied)?;
+                Some(unrolled.tape(&applied)?)
+            }
+        };
         let factors = unrolled.factors()?;
         let of_energy = Unrolled::new(system, values, &[energy], None)?;
         Ok(Tapes {
             slopes: unrolled.tape(&[velocity.as_slice(), &force].concat())?,
             velocity: unrolled.tape(&velocity)?,
             force: unrolled.tape(&force)?,
+            applied,
             factors: factors.map(|factors| unrolled.tape(&factors)).transpose()?,
             energy: of_energy.tape(&[of_energy.of(energy)?])?,
+            constraints: Constraints::new(system, values)?,
         })
+    }
+
+    /// The constraints, if there are any.
+    pub(super) fn constraints(&self) -> Option<&Constraints> {
+        self.constraints.as_ref()
     }
 
     /// Whether H is conserved along trajectories without any error.
     pub(super) fn energy_is_conserved(&self) -> bool {
-        !self.energy.inputs.contains(&Input::Time) && self.factors.is_none()
+        let has_time = self.energy.inputs.contains(&Input::Time);
+        !has_time && self.factors.is_none() && self.applied.is_none()
     }
 
     /// Whether momenta have friction.
@@ -138,9 +163,9 @@ fn fill<'a: 'p, 'p, T: Scalar>(
     );
 }
 
-/// A system of class `C`. The tapes of a separable system read no momentum for the force, and no position for the velocity.
+/// A system of class `C`, with an applied force if it is `FORCED`. The tapes of a separable system read no momentum for the force, and no position for the velocity.
 #[derive(Debug)]
-pub(super) struct Formula<C> {
+pub(super) struct Formula<C, const FORCED: bool = false> {
     tapes: Arc<Tapes>,
     parameters: Parameters,
     /// The number of trajectories.
@@ -149,7 +174,7 @@ pub(super) struct Formula<C> {
     class: PhantomData<fn() -> C>,
 }
 
-impl<C> Formula<C> {
+impl<C, const FORCED: bool> Formula<C, FORCED> {
     pub(super) fn new(tapes: Arc<Tapes>, parameters: Parameters) -> Self {
         Formula {
             tapes,
@@ -173,13 +198,19 @@ impl<C> Formula<C> {
         }
     }
 
+    /// The constraints, if they are holonomic or not as wanted.
+    fn of_kind(&self, holonomic: bool) -> Option<&Constraints> {
+        let constraints = self.tapes.constraints();
+        constraints.filter(|constraints| constraints.are_holonomic == holonomic)
+    }
+
     /// The parameters that vary between trajectories.
     pub(super) fn parameters(&self) -> &Parameters {
         &self.parameters
     }
 }
 
-impl<C> Clone for Formula<C> {
+impl<C, const FORCED: bool> Clone for Formula<C, FORCED> {
     fn clone(&self) -> Self {
         Formula {
             tapes: Arc::clone(&self.tapes),
@@ -191,11 +222,12 @@ impl<C> Clone for Formula<C> {
     }
 }
 
-impl<C: Class> Hamiltonian for Formula<C> {
+impl<C: Class, const FORCED: bool> Hamiltonian for Formula<C, FORCED> {
     type Class = C;
     type Vector<T: Scalar> = DVector<T>;
 
     const JOINS: bool = true;
+    const FORCED: bool = FORCED;
 
     fn in_lanes<V: Vector, L: Lanes, K: LaneWork<V, Self, L>>(work: K) -> K::Output
     where
@@ -267,5 +299,52 @@ impl<C: Class> Hamiltonian for Formula<C> {
         // With friction the momenta of the states have factors, and the energy is not conserved.
         let energy = || self.tapes.energy_at(at(&self.parameters, (time, q, p)));
         self.tapes.factors.is_none().then(energy)
+    }
+
+    fn applied_force<T: Scalar>(
+        &self,
+        time: T,
+        q: &DVector<T>,
+        p: &DVector<T>,
+        applied: &mut DVector<T>,
+    ) {
+        match &self.tapes.applied {
+            Some(tape) if FORCED => {
+                let point = |_| (time, q, p);
+                fill((tape, &self.parameters), point, slice::from_mut(applied));
+            }
+            _ => applied.fill(T::zero()),
+        }
+    }
+
+    fn constraints(&self) -> usize {
+        self.of_kind(true).map_or(0, Constraints::count)
+    }
+
+    fn constraint_name(&self, constraint: usize) -> Option<ConstraintName> {
+        let constraints = self.tapes.constraints()?;
+        constraints.names().get(constraint).copied()
+    }
+
+    fn constraint_values<T: Scalar>(&self, q: &DVector<T>, values: &mut [T]) {
+        if let Some(constraints) = self.of_kind(true) {
+            constraints.values(&self.parameters, q.as_slice(), values);
+        }
+    }
+
+    fn constraint_gradients<T: Scalar>(&self, q: &DVector<T>, gradients: &mut Gradients<T>) {
+        if let Some(constraints) = self.of_kind(true) {
+            constraints.set(&self.parameters, q, gradients);
+        }
+    }
+
+    fn nonholonomic_constraints(&self) -> usize {
+        self.of_kind(false).map_or(0, Constraints::count)
+    }
+
+    fn nonholonomic_rows<T: Scalar>(&self, q: &DVector<T>, rows: &mut Gradients<T>) {
+        if let Some(constraints) = self.of_kind(false) {
+            constraints.set(&self.parameters, q, rows);
+        }
     }
 }

@@ -13,7 +13,7 @@ use symplectic::ensemble::{Parquet, ParquetColumn};
 use symplectic_compiler::formula::{Parameter, Shape};
 use symplectic_compiler::{Error, ErrorKind};
 
-use crate::output::{CHAOS, Fact, Point, Results, Seen, indicator, points};
+use crate::output::{Fact, Point, Results, Seen, points};
 use crate::setup::MOST;
 use crate::starts::{Coordinates, Reader, listed};
 use crate::trajectory::Trajectory;
@@ -36,6 +36,8 @@ struct Line<'a> {
     parameters: &'a [f64],
     state: Point<'a>,
     energy_error: Option<f64>,
+    /// The numbers in the further columns; none for a last good state beside others.
+    further: Vec<f64>,
     /// Why the trajectory ended there.
     failure: Option<String>,
 }
@@ -43,32 +45,38 @@ struct Line<'a> {
 impl Results<'_> {
     /// A line for each trajectory, or for each trajectory and time. A trajectory that failed ends with its last good state and its error.
     fn lines(&self) -> impl Iterator<Item = Line<'_>> {
-        let rows = self.rows.iter().zip(self.starts).zip(self.energy_errors());
-        rows.flat_map(move |((row, start), errors)| {
+        let width = self.further_names().len();
+        let further = match width {
+            0 => vec![Vec::new(); self.rows.len()],
+            _ => self.further(),
+        };
+        let rows = self.rows.iter().zip(self.starts);
+        let rows = rows.zip(self.energy_errors()).zip(further);
+        rows.flat_map(move |(((row, start), errors), further)| {
             let failure = row.failure.as_ref().map(|failure| failure.message.clone());
-            let line = move |number, state, energy_error, failure| Line {
+            let line = move |number: usize, state, energy_error: Option<f64>, failure| Line {
                 row,
                 number,
                 start: start.into(),
                 parameters: self.parameters(row),
                 state,
                 energy_error,
+                further: match energy_error {
+                    Some(_) => further[number * width..][..width].to_vec(),
+                    None => Vec::new(),
+                },
                 failure,
             };
             // Without times and a section there are no points, and one error.
             let is_end = matches!(self.seen, Seen::End);
             let last = (is_end || failure.is_some()).then(|| {
                 let error = errors.first().filter(|_| is_end);
-                line(
-                    points(row).count(),
-                    (&row.state).into(),
-                    error.copied(),
-                    failure,
-                )
+                let number = if is_end { 0 } else { points(row).count() };
+                line(number, (&row.state).into(), error.copied(), failure)
             });
             let seen = points(row).zip(errors).enumerate();
-            seen.map(move |(k, (state, error))| line(k, state, Some(error), None))
-                .chain(last)
+            let seen = seen.map(move |(k, (state, error))| line(k, state, Some(error), None));
+            seen.collect::<Vec<_>>().into_iter().chain(last)
         })
     }
 
@@ -76,13 +84,14 @@ impl Results<'_> {
         header(
             self.coordinates,
             matches!(self.seen, Seen::Section),
-            self.has_chaos,
+            &self.further_names(),
         )
     }
 
     pub(super) fn write_csv(&self, out: &mut impl Write) -> io::Result<()> {
         let mut file = csv::Writer::from_writer(out);
         let is_section = matches!(self.seen, Seen::Section);
+        let further = 0..self.further_names().len();
         file.write_record(self.header())?;
         for line in self.lines() {
             let numbers = |state| coordinates(state).map(|x| cell(*x));
@@ -94,8 +103,11 @@ impl Results<'_> {
             cells.push(cell(line.state.time));
             cells.extend(numbers(line.state));
             cells.push(energy_error.unwrap_or_default());
-            let indicators = (0..CHAOS.len()).filter(|_| self.has_chaos);
-            cells.extend(indicators.map(|k| cell(indicator(line.row, k))));
+            let number = |k| {
+                let number = line.further.get(k).filter(|x: &&f64| !x.is_nan());
+                number.map_or(String::new(), |x| cell(*x))
+            };
+            cells.extend(further.clone().map(number));
             cells.push(line.row.statistics.steps.to_string());
             cells.push(line.failure.unwrap_or_default());
             file.write_record(cells)?;
@@ -115,11 +127,12 @@ impl Results<'_> {
         }
         let is_section = matches!(self.seen, Seen::Section);
         let names = self.header();
+        let further = self.further_names().len();
         let mut lines = self.lines();
         let most = (CELLS / names.len()).clamp(1, GROUP);
         loop {
             let group: Vec<Line<'_>> = lines.by_ref().take(most).collect();
-            let columns = columns(&group, self.coordinates, is_section, self.has_chaos);
+            let columns = columns(&group, self.coordinates, is_section, further);
             let columns: Vec<_> = names.iter().map(String::as_str).zip(columns).collect();
             file.group(&columns)?;
             if group.len() < most {
@@ -143,7 +156,7 @@ fn coordinates(state: Point<'_>) -> impl Iterator<Item = &f64> {
 }
 
 /// The names of the columns; coordinates are at the start and at the time of the line. States of a section have numbers.
-fn header(coordinates: &Coordinates, is_section: bool, has_chaos: bool) -> Vec<String> {
+fn header(coordinates: &Coordinates, is_section: bool, further: &[String]) -> Vec<String> {
     let starts = coordinates.all().map(|name| format!("{name}_start"));
     let own = |name: &str| [name.to_owned()].into_iter();
     own("trajectory")
@@ -153,15 +166,19 @@ fn header(coordinates: &Coordinates, is_section: bool, has_chaos: bool) -> Vec<S
         .chain(own("time"))
         .chain(coordinates.all().cloned())
         .chain(own("energy_error"))
-        .chain(CHAOS.into_iter().filter(|_| has_chaos).map(str::to_owned))
+        .chain(further.iter().cloned())
         .chain(["steps", "error"].map(str::to_owned))
         .collect()
 }
 
 /// A name that two columns of a table would have, as with a coordinate `time`.
-pub(super) fn twin(coordinates: &Coordinates, is_section: bool, has_chaos: bool) -> Option<String> {
+pub(super) fn twin(
+    coordinates: &Coordinates,
+    is_section: bool,
+    further: &[String],
+) -> Option<String> {
     let mut known = HashSet::new();
-    let mut names = header(coordinates, is_section, has_chaos).into_iter();
+    let mut names = header(coordinates, is_section, further).into_iter();
     names.find(|name| !known.insert(name.clone()))
 }
 
@@ -170,7 +187,7 @@ fn columns(
     lines: &[Line<'_>],
     names: &Coordinates,
     is_section: bool,
-    has_chaos: bool,
+    further: usize,
 ) -> Vec<ParquetColumn> {
     let count = names.all().count();
     let integers =
@@ -188,8 +205,8 @@ fn columns(
     columns.push(doubles(&|line| line.state.time));
     columns.extend((0..count).map(|k| coordinate(|line| line.state, k)));
     columns.push(doubles(&|line| line.energy_error.unwrap_or(f64::NAN)));
-    let indicators = (0..CHAOS.len()).filter(|_| has_chaos);
-    columns.extend(indicators.map(|k| doubles(&|line| indicator(line.row, k))));
+    let number = |k: usize| move |line: &Line<'_>| line.further.get(k).copied().unwrap_or(f64::NAN);
+    columns.extend((0..further).map(|k| doubles(&number(k))));
     columns.push(integers(|line| line.row.statistics.steps));
     let failures = lines.iter().map(|line| line.failure.clone()).collect();
     columns.push(ParquetColumn::Texts(failures));

@@ -28,7 +28,7 @@ pub(super) enum Refusal {
 }
 
 /// The number of a value.
-type Number = u32;
+pub(super) type Number = u32;
 
 /// A value of an unrolled formula.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -42,6 +42,9 @@ enum Value {
     Parameter(usize),
     Step(Code, [Number; 3]),
 }
+
+/// What is done with the component and the value of a part.
+type Work<'w, 'a> = &'w mut dyn FnMut(&mut Unrolled<'a>, usize, Number) -> Result<(), Refusal>;
 
 /// The unrolled values of several formulas, without duplicates.
 pub(super) struct Unrolled<'a> {
@@ -154,8 +157,9 @@ impl<'a> Unrolled<'a> {
 
     /// The factors of the momenta that a tape reads; `None` without friction.
     pub(super) fn factors(&mut self) -> Result<Option<Vec<Number>>, Refusal> {
-        let count = self.values.bodies * self.system.layout.components();
-        (0..count).map(|place| self.damping(place, false)).collect()
+        (0..self.dimension())
+            .map(|place| self.damping(place, false))
+            .collect()
     }
 
     /// The value of a node outside of loops.
@@ -166,10 +170,15 @@ impl<'a> Unrolled<'a> {
 
     /// The components of a derivative, as sums of its parts.
     pub(super) fn gradient(&mut self, parts: &[Scatter]) -> Result<Vec<Number>, Refusal> {
-        let components = self.system.layout.components();
-        let mut sums = vec![None; self.values.bodies * components];
+        let mut sums = vec![None; self.dimension()];
         for part in parts {
-            self.scatter(part, 0, components, &mut sums)?;
+            self.scatter(part, &mut |this, place, value| {
+                sums[place] = Some(match sums[place] {
+                    Some(sum) => this.step(Code::Add, &[sum, value])?,
+                    None => value,
+                });
+                Ok(())
+            })?;
         }
         sums.into_iter()
             .map(|sum| match sum {
@@ -179,29 +188,38 @@ impl<'a> Unrolled<'a> {
             .collect()
     }
 
-    fn scatter(
+    /// Calls `work` at every index of the loops of a part, with the component and the value there.
+    pub(super) fn scatter(&mut self, part: &Scatter, work: Work<'_, 'a>) -> Result<(), Refusal> {
+        self.scatter_in(&part.loops, part, work)
+    }
+
+    fn scatter_in(
         &mut self,
+        loops: &[LoopId],
         part: &Scatter,
-        depth: usize,
-        components: usize,
-        sums: &mut [Option<Number>],
+        work: Work<'_, 'a>,
     ) -> Result<(), Refusal> {
-        if let Some(&over) = part.loops.get(depth) {
+        if let Some((&over, inner)) = loops.split_first() {
             return self.each(over, self.operations.of(part.value), &mut |this| {
-                this.scatter(part, depth + 1, components, sums)
+                this.scatter_in(inner, part, work)
             });
         }
         let value = self.of(part.value)?;
-        let index = self
-            .values
-            .index(self.system, &self.indices, &part.target.index);
-        let place = index.ok_or(Refusal::Outside)? * components + part.target.component;
-        let sum = sums.get_mut(place).ok_or(Refusal::Outside)?;
-        *sum = Some(match *sum {
-            Some(sum) => self.step(Code::Add, &[sum, value])?,
-            None => value,
-        });
-        Ok(())
+        let target = &part.target;
+        let index = (self.values).index(self.system, &self.indices, &target.index);
+        let place = index.map(|index| index * self.system.layout.components() + target.component);
+        let place = place.filter(|place| *place < self.dimension());
+        work(self, place.ok_or(Refusal::Outside)?, value)
+    }
+
+    /// The index of a loop being unrolled.
+    pub(super) fn index(&self, over: LoopId) -> usize {
+        self.indices.get(&over).copied().unwrap_or_default()
+    }
+
+    /// The number of components of a position.
+    fn dimension(&self) -> usize {
+        self.values.bodies * self.system.layout.components()
     }
 
     /// The operations below `wanted` that vary in a loop, operands first. Restricting to these avoids an infinite

@@ -7,9 +7,9 @@ use crate::integrator::validation::check_orders;
 use crate::method::{AtRunTime, RunTimeTableau};
 use crate::number::{Plain, Summation, Vector};
 use crate::state::State;
-use crate::system::{Conservative, System};
+use crate::system::{Frictionless, System};
 
-impl<S: System<V, Class: Conservative>, V: Vector> Ensemble<AtRunTime, S, V> {
+impl<S: System<V, Class: Frictionless>, V: Vector> Ensemble<AtRunTime, S, V> {
     /// [`new`](Ensemble::new) with a tableau at run time and with [`Compensated`](crate::Compensated) sums.
     ///
     /// Trajectories run in lanes, whether the stages are explicit or coupled. Each has the same bits as if run alone in
@@ -62,7 +62,7 @@ impl<S: System<V, Class: Conservative>, V: Vector> Ensemble<AtRunTime, S, V> {
     }
 }
 
-impl<S: System<V, Class: Conservative>, V: Vector> Ensemble<AtRunTime, S, V, Plain> {
+impl<S: System<V, Class: Frictionless>, V: Vector> Ensemble<AtRunTime, S, V, Plain> {
     /// [`at_run_time`](Ensemble::at_run_time) with [`Plain`] sums.
     ///
     /// # Errors
@@ -78,7 +78,7 @@ impl<S: System<V, Class: Conservative>, V: Vector> Ensemble<AtRunTime, S, V, Pla
     }
 }
 
-impl<S: System<V, Class: Conservative>, V: Vector, R: Summation> Ensemble<AtRunTime, S, V, R> {
+impl<S: System<V, Class: Frictionless>, V: Vector, R: Summation> Ensemble<AtRunTime, S, V, R> {
     /// [`of_families`](Ensemble::of_families) with a tableau at run time and with the [`Summation`] of the type.
     ///
     /// # Errors

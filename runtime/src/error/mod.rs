@@ -306,6 +306,14 @@ pub enum Error {
         lower_order: u32,
     },
 
+    /// A tableau at run time has no steps for the constraints of the system.
+    #[error(
+        "the tableau has no steps for these constraints: give them by `with_constrained_steps`; methods that are `constrained` have \
+         steps for holonomic constraints, such as `basis: polynomial(2), nodes: lobatto(2)`, and those that are `nonholonomic` for \
+         non-holonomic ones, such as `basis: polynomial(1), nodes: gauss(1)`"
+    )]
+    NoConstrainedSteps,
+
     /// A system declares unit masses, but its velocity differs from the momentum.
     #[error(
         "|velocity[{component}]| is {velocity} where |p[{component}]| is {momentum}: leave out `Masses::Unit`, or let `velocity` copy the \

@@ -3,13 +3,13 @@
 use super::memory::StepMemory;
 use super::validation::{check_orders, check_quadratic_kinetic};
 use crate::error::Error;
-use crate::integrator::Integrator;
-use crate::method::{AtRunTime, Method, RunTimeTableau, Solver, StageStorage};
+use crate::integrator::{Integrator, PlanOf};
+use crate::method::{AtRunTime, Method, Plan, RunTimeTableau, Solver, StageStorage};
 use crate::number::{Plain, Summation, Vector};
 use crate::state::State;
-use crate::system::{Conservative, System};
+use crate::system::{Frictionless, System};
 
-impl<S: System<V, Class: Conservative>, V: Vector> Integrator<AtRunTime, S, V> {
+impl<S: System<V, Class: Frictionless>, V: Vector> Integrator<AtRunTime, S, V> {
     /// [`new`](Integrator::new) with a method that is known only at run time, and with
     /// [`Compensated`](crate::Compensated) sums.
     ///
@@ -20,7 +20,7 @@ impl<S: System<V, Class: Conservative>, V: Vector> Integrator<AtRunTime, S, V> {
     /// # Errors
     ///
     /// Those of [`new`](Integrator::new), and [`Error::SeparableTableau`] if the system is not separable and the tableau has a lower
-    /// order there or is not symplectic: see [`RunTimeTableau::accept_lower_order`].
+    /// order there or is not symplectic: see [`RunTimeTableau::accept_lower_order`]. With constraints also [`Error::NoConstrainedSteps`].
     ///
     /// ```
     /// use symplectic::nalgebra::Vector1;
@@ -48,16 +48,16 @@ impl<S: System<V, Class: Conservative>, V: Vector> Integrator<AtRunTime, S, V> {
     /// # }
     /// ```
     ///
-    /// The class of the system is [`General`](crate::General) or [`Separable`](crate::Separable): with friction or constraints take an
-    /// emitted method.
+    /// With constraints the tableau needs its [constrained steps](RunTimeTableau::with_constrained_steps). With friction take an emitted
+    /// method.
     ///
     /// ```compile_fail,E0277
     /// # use symplectic::{Integrator, RunTimeTableau, State};
-    /// symplectic::hamiltonian! { Rod q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + y constraints: { rod = x^2 + y^2 - 1 } }
+    /// symplectic::hamiltonian! { Damped q: [x], p: [px]; H = (px^2 + x^2)/2 friction: 0.1 }
     ///
     /// fn step(tableau: &RunTimeTableau) -> Result<(), symplectic::Error> {
-    ///     let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.0]);
-    ///     Integrator::at_run_time(tableau, Rod, start, 0.1)?.step()?;
+    ///     let start = State::from_arrays(0.0, [1.0], [0.0]);
+    ///     Integrator::at_run_time(tableau, Damped, start, 0.1)?.step()?;
     ///     Ok(())
     /// }
     /// # let _used: fn(&RunTimeTableau) -> Result<(), symplectic::Error> = step;
@@ -87,7 +87,7 @@ impl<S: System<V, Class: Conservative>, V: Vector> Integrator<AtRunTime, S, V> {
     }
 }
 
-impl<S: System<V, Class: Conservative>, V: Vector> Integrator<AtRunTime, S, V, Plain> {
+impl<S: System<V, Class: Frictionless>, V: Vector> Integrator<AtRunTime, S, V, Plain> {
     /// [`at_run_time`](Integrator::at_run_time) with [`Plain`] sums.
     ///
     /// # Errors
@@ -103,7 +103,7 @@ impl<S: System<V, Class: Conservative>, V: Vector> Integrator<AtRunTime, S, V, P
     }
 }
 
-impl<S: System<V, Class: Conservative>, V: Vector, R: Summation> Integrator<AtRunTime, S, V, R> {
+impl<S: System<V, Class: Frictionless>, V: Vector, R: Summation> Integrator<AtRunTime, S, V, R> {
     fn of_tableau(
         tableau: &RunTimeTableau,
         system: S,
@@ -124,5 +124,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     pub(crate) fn set_tableau(&mut self, tableau: &RunTimeTableau) {
         let StepMemory { memory, state, .. } = &mut self.step_memory;
         memory.set_tableau(tableau, &state.q);
+        let State { time, q, p } = state;
+        <PlanOf<M, S, V> as Plan>::prepare::<V, S, N>(memory, &self.system, *time, q, p);
     }
 }

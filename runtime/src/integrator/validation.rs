@@ -1,9 +1,9 @@
 //! Checks before an integrator is created or changed.
 
 use crate::error::{Error, Quantity};
-#[cfg(feature = "alloc")]
-use crate::method::RunTimeTableau;
 use crate::method::storage::is_finite;
+#[cfg(feature = "alloc")]
+use crate::method::{AtRunTime, Plan, RunTimeTableau};
 use crate::method::{Method, Orders, Solver};
 use crate::number::vector::beside;
 use crate::number::{Scalar, Vector};
@@ -119,7 +119,12 @@ pub(crate) fn check_quadratic_kinetic<M: Method, V: Vector, S: System<V>>(
 /// Checks that a run-time tableau is valid for systems of this class.
 #[cfg(feature = "alloc")]
 pub(crate) fn check_orders<V: Vector, S: System<V>>(tableau: &RunTimeTableau) -> Result<(), Error> {
-    if S::Class::SEPARABLE || tableau.keeps_its_order_in_general() {
+    if !<S::Class as Class>::Plan::<AtRunTime>::steps_at_run_time(tableau) {
+        return Err(Error::NoConstrainedSteps);
+    }
+    // A method keeps its order with constraints only if it has it for every H.
+    let is_split = S::Class::SEPARABLE && !S::Class::CONSTRAINED;
+    if is_split || tableau.keeps_its_order_in_general() {
         return Ok(());
     }
     Err(Error::SeparableTableau {

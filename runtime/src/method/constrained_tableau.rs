@@ -4,7 +4,7 @@ use crate::number::Coefficient;
 
 /// A step `Φ_{γh}` of a method on a system with constraints, holonomic or not. A method that is not a composition consists of one such
 /// step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConstrainedStep {
     /// Where it starts, as a fraction of the whole step.
     pub start: Coefficient,
@@ -32,7 +32,7 @@ impl ConstrainedStep {
 /// A symplectic tableau without zero weights. There are two exceptions. Symplectic Euler has the end of the step as a last stage of weight
 /// zero; its adjoint has the start as a first stage. For holonomic constraints `a_1j = 0`, `a_sj = b_j`, and the matrix `X = (A Ã)_ik`,
 /// `i = 2..s`, `k = 1..s−1`, is regular.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConstrainedTableau {
     /// `μ_ij = a_ij/b_j` by rows.
     pub positions: &'static [&'static [Coefficient]],

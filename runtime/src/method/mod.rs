@@ -202,6 +202,14 @@ pub trait Plan {
         stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure>;
+
+    /// Whether a tableau at run time has steps for systems of this class.
+    #[cfg(feature = "alloc")]
+    #[doc(hidden)]
+    fn steps_at_run_time(_tableau: &RunTimeTableau) -> bool {
+        true
+    }
+
     /// Whether steps are taken [in lanes](Self::lane_step).
     #[cfg(feature = "alloc")]
     #[doc(hidden)]

@@ -94,7 +94,7 @@ impl<C: SplitClass> SplitClass for Constrained<C> {}
 #[cfg(feature = "alloc")]
 impl<C: SplitClass> SplitClass for Nonholonomic<C> {}
 
-/// A class without friction: any but [`Damped`].
+/// A class without friction: any but [`Damped`]. Tableaux at run time are for these classes.
 #[diagnostic::on_unimplemented(
     message = "this method has no steps for systems of class `{Self}`",
     label = "no steps with friction",
@@ -149,18 +149,18 @@ or_damped! {
     "class `Constrained` needs a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, or a composition of these methods";
 }
 
-/// A class without friction and constraints: [`General`] or [`Separable`]. Generating functions, tangent systems and tableaux at run time
-/// are for these classes.
+/// A class without friction and constraints: [`General`] or [`Separable`]. Generating functions and tangent systems are for these
+/// classes.
 ///
 /// With friction a step is not symplectic; with constraints it is symplectic on the constrained phase space only.
 #[diagnostic::on_unimplemented(
     message = "systems of class `{Self}` have friction or constraints, and this is for systems without",
     label = "not with friction or constraints",
-    note = "a step with friction or constraints has no generating function, and a tableau at run time has no such step: take a method of `tableau!` or `splitting!`",
+    note = "a step with friction or constraints has no generating function",
     note = "friction as part of a force makes the class `General`: in a formula `force: {{ x = -gamma px }}`",
     note = "generic code needs the bound `S::Class: Conservative`"
 )]
-pub trait Conservative {}
+pub trait Conservative: Unconstrained {}
 
 impl Conservative for General {}
 

@@ -6,13 +6,20 @@ use crate::common::{coefficients, distance, tableau};
 use symplectic::nalgebra::{DVector, Vector1, Vector2};
 use symplectic::simd::{F64x4, Lanes};
 use symplectic::solver::{FixedPoint, FixedPointThenNewton};
-use symplectic::system::Conservative;
+use symplectic::system::{Conservative, Frictionless};
 use symplectic::{
     Error, Event, Integrator, Method, ProvedFor, Quantity, Retry, RunTimeCoefficients,
     RunTimeTableau, Scalar, Separable, State, System, TableauError, acceleration, separable,
 };
 
 symplectic::tableau! { BlanesMoanSrkn11b { base: blanes-moan-2002-srkn11b } }
+
+symplectic::hamiltonian! { Rod q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + y constraints: { rod = x^2 + y^2 - 1 } }
+symplectic::hamiltonian! {
+    Skate q: [x, y, a], p: [px, py, pa]; v: [vx, vy, va];
+    H = (px^2 + py^2 + pa^2)/2 + x
+    nonholonomic: { edge = vx sin(a) - vy cos(a) }
+}
 
 /// The slopes between numbers of steps that are doubled again and again.
 fn slopes(
@@ -299,6 +306,44 @@ fn systems_of_lower_order_are_refused() -> Result<(), Error> {
     );
     Integrator::at_run_time(&nystrom.accept_lower_order(), quartic(), start(), 0.1)?.step()?;
     Ok(())
+}
+
+/// A checkpoint of either continues with the same bits.
+#[test]
+fn constrained_steps_at_run_time_have_the_bits_of_the_method()
+-> Result<(), Box<dyn std::error::Error>> {
+    fn same<M, S, V>(
+        method: M,
+        system: S,
+        start: State<V>,
+    ) -> Result<(), Box<dyn std::error::Error>>
+    where
+        M: Method + ProvedFor<S::Class>,
+        S: System<V, Class: Frictionless> + Clone,
+        V: symplectic::Vector<Scalar = f64>,
+    {
+        let without = tableau(method);
+        let refused = Integrator::at_run_time(&without, system.clone(), start.clone(), 0.05).err();
+        assert_eq!(refused, Some(Error::NoConstrainedSteps));
+        let tableau = without.with_constrained_steps(M::CONSTRAINED, M::NONHOLONOMIC);
+        let mut emitted = Integrator::new(method, system.clone(), start.clone(), 0.05)?;
+        let made = || Integrator::at_run_time(&tableau, system.clone(), start.clone(), 0.05);
+        let (mut whole, mut resumed) = (made()?, made()?);
+        emitted.take_steps(100)?;
+        whole.take_steps(100)?;
+        resumed.restore(&whole.checkpoint()?)?;
+        for run in [&mut whole, &mut resumed] {
+            run.take_steps(100)?;
+        }
+        emitted.take_steps(100)?;
+        assert!(whole.state() == emitted.state() && resumed.state() == emitted.state());
+        Ok(())
+    }
+    let rod = State::from_arrays(0.0, [0.6, -0.8], [0.8, 0.6]);
+    same(Lobatto3, Rod, rod.clone())?;
+    same(StoermerVerlet, Rod, rod)?;
+    let skate = State::from_arrays(0.0, [0.0; 3], [1.0, 0.0, 0.5]);
+    same(Midpoint, Skate, skate)
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! A tableau at run time has no steps with constraints or friction.
+//! A tableau at run time has no steps with friction. Whether it has steps with constraints is known at run time.
 
 use symplectic::ensemble::Ensemble;
 use symplectic::{Integrator, RunTimeTableau, State};
@@ -11,14 +11,6 @@ symplectic::hamiltonian! {
 }
 
 symplectic::hamiltonian! {
-    Skate
-    q: [x, y, a], p: [px, py, pa];
-    v: [vx, vy, va];
-    H = (px^2 + py^2 + pa^2)/2
-    nonholonomic: { edge = vx sin(a) - vy cos(a) }
-}
-
-symplectic::hamiltonian! {
     Damped { gamma }
     q: [x], p: [px];
     H = px^2/2 + x^2/2
@@ -27,12 +19,11 @@ symplectic::hamiltonian! {
 
 fn steps(tableau: &RunTimeTableau) -> Result<(), Box<dyn std::error::Error>> {
     let rod = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.0]);
-    let skate = State::from_arrays(0.0, [0.0; 3], [1.0, 0.0, 0.0]);
     let damped = State::from_arrays(0.0, [1.0], [0.0]);
-    let _rod = Integrator::at_run_time(tableau, Rod, rod.clone(), 0.1)?;
-    let _rods = Ensemble::at_run_time(tableau, Rod, vec![rod], 0.1)?;
-    let _skate = Integrator::plain_at_run_time(tableau, Skate, skate, 0.1)?;
-    let _damped = Integrator::at_run_time(tableau, Damped::new(0.1), damped, 0.1)?;
+    let _rod = Integrator::at_run_time(tableau, Rod, rod, 0.1)?;
+    let _damped = Integrator::at_run_time(tableau, Damped::new(0.1), damped.clone(), 0.1)?;
+    let _ensemble = Ensemble::at_run_time(tableau, Damped::new(0.1), vec![damped.clone()], 0.1)?;
+    let _plain = Integrator::plain_at_run_time(tableau, Damped::new(0.1), damped, 0.1)?;
     Ok(())
 }
 

@@ -27,6 +27,8 @@ impl Elaborator<'_> {
         if found.is_empty() {
             return Ok(found);
         }
+        // Without those of `read_with`, which have no name.
+        let mut declared = (definition.invariants.iter()).filter(|(name, _)| !name.text.is_empty());
         let (what, span) = if let Some(known) = definition.constraints.first() {
             (
                 "holonomic and non-holonomic constraints together",
@@ -34,7 +36,7 @@ impl Elaborator<'_> {
             )
         } else if let Some(friction) = &definition.friction {
             ("friction with constraints", &friction.span)
-        } else if let Some((name, _)) = definition.invariants.first() {
+        } else if let Some((name, _)) = declared.next() {
             (
                 "a conserved quantity with non-holonomic constraints",
                 &name.span,

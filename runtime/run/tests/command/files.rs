@@ -5,7 +5,7 @@ use std::fs;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
-use crate::{CLOUD, CUBIC, PENDULUM, array, call, csv, doubles, folder};
+use crate::{CLOUD, CUBIC, PENDULUM, array, call, columns, csv, doubles, folder};
 
 #[test]
 fn parts_and_threads_have_the_same_bits() {
@@ -92,18 +92,25 @@ fn files_for_numpy_hold_states_at_times() {
     assert_eq!(letters, "forest-ruth-1990");
 }
 
-/// The example of the book.
+/// The examples of the book that are complete files.
 #[test]
-fn the_example_of_the_book_runs() {
+fn the_examples_of_the_book_run() {
     let page = include_str!("../../../../docs/src/guide/run.md");
-    let setup = page
-        .split("```toml\n")
-        .nth(1)
-        .and_then(|rest| rest.split("```").next());
+    let blocks = page.split("```toml\n").skip(1);
+    let blocks = blocks.filter_map(|rest| rest.split("```").next());
     let folder = folder("book");
-    let output = call(&folder, setup.expect("an example"), &[]);
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && errors.is_empty(), "{errors}");
+    let mut count = 0;
+    for setup in blocks.filter(|block| block.contains("system =")) {
+        let output = call(&folder, setup, &[]);
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success() && errors.is_empty(), "{errors}");
+        count += 1;
+    }
+    assert_eq!(count, 3);
+    let text = fs::read_to_string(folder.join("double-pendulum.csv")).expect("the output");
+    for row in columns(&text, &["constraint_error", "energy_error"]) {
+        assert!(row[0] < 1e-14 && row[1].abs() < 1e-3, "{row:?}");
+    }
     let file = fs::read(folder.join("henon-heiles.npz")).expect("the output");
     let errors = doubles(&array(&file, "energy_error").1);
     assert!(

@@ -14,7 +14,7 @@ output.file = "out.csv"
 "#;
 
 /// x and its momentum after a time, with the friction c.
-fn exact(c: f64, [x, p]: [f64; 2], time: f64) -> [f64; 2] {
+pub(super) fn exact(c: f64, [x, p]: [f64; 2], time: f64) -> [f64; 2] {
     let omega = (1.0 - c * c / 4.0).sqrt();
     let (sin, cos) = (omega * time).sin_cos();
     let decay = (-c * time / 2.0).exp();

@@ -1,8 +1,10 @@
 //! What the command does and refuses: trajectories beside those of the macros, starts, numbers, parameters, files, and what is refused.
 
 mod chaos;
+mod constraints;
 mod derived;
 mod files;
+mod forces;
 mod friction;
 mod kept;
 mod names;

@@ -19,6 +19,18 @@ const SETUP: &str = r#"
     output.file = "out.csv"
 "#;
 
+/// Pendulums on rods.
+const RODS: &str = r#"
+    system = "Rod { c } q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + c y constraints: { rod = x^2 + y^2 - 1 }"
+    method = "lobatto-3"
+    step_size = 0.01
+    times = { from = 0, to = 0.5, count = 6 }
+    parameters.c = { values = [0.9, 1] }
+    random = { seed = 3, count = 100 }
+    starts = { x = { uniform = [-0.9, 0.9] }, y = "-sqrt(1 - x^2)", px = 0, py = 0 }
+    output.file = "out.csv"
+"#;
+
 /// Starts a run and kills it once the file of its trajectories has this length; false if the run ends before.
 fn kill_at(folder: &Path, setup: &str, length: u64) -> bool {
     let file = folder.join("setup.toml");
@@ -69,6 +81,7 @@ fn a_killed_run_continues_with_the_same_bits() {
     for (name, setup, output) in [
         ("killed-times", SETUP, "out.csv"),
         ("killed-section", &section, "out.csv"),
+        ("killed-rods", RODS, "out.csv"),
         ("killed-end", &end.replace("out.csv", "out.npz"), "out.npz"),
     ] {
         let folder = folder(name);

@@ -159,7 +159,7 @@ fn all_formats_have_the_same_states_on_any_threads() {
 #[test]
 fn failed_trajectories_end_with_their_error() {
     let folder = folder("section-failed");
-    let cubic = super::CUBIC
+    let cubic = crate::CUBIC
         .replace("times = { from = 0, to = 20, count = 5 }", "end = 20")
         .replace("0.5, 1.5", "0.5, -0.6")
         .replace("output", "section.of = \"x\"\n    output");

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use ::symplectic::ensemble::Ensemble;
 use ::symplectic::nalgebra::DVector;
-use ::symplectic::{Method, ProvedFor, State, System, Vector};
+use ::symplectic::{Compensated, Method, ProvedFor, State, Summation, System, Vector};
 
 use crate::{PENDULUM, columns, csv, folder};
 
@@ -23,14 +23,37 @@ use crate::{PENDULUM, columns, csv, folder};
 }
 
 /// The ends of an ensemble of an emitted method.
-fn ends<M, S, V>(method: M, system: S, starts: Vec<State<V>>, size: f64, end: f64) -> Vec<Vec<f64>>
+pub(super) fn ends<M, S, V>(
+    method: M,
+    system: S,
+    starts: Vec<State<V>>,
+    size: f64,
+    end: f64,
+) -> Vec<Vec<f64>>
 where
     M: Method + ProvedFor<S::Class>,
     S: System<V> + Clone + Send + Sync,
     V: Vector<Scalar = f64> + Send + Sync,
 {
+    ends_with::<M, S, V, Compensated>(method, system, starts, size, end)
+}
+
+/// [`ends`] with these sums.
+pub(super) fn ends_with<M, S, V, R>(
+    method: M,
+    system: S,
+    starts: Vec<State<V>>,
+    size: f64,
+    end: f64,
+) -> Vec<Vec<f64>>
+where
+    M: Method + ProvedFor<S::Class>,
+    S: System<V> + Clone + Send + Sync,
+    V: Vector<Scalar = f64> + Send + Sync,
+    R: Summation,
+{
     let mut ends = Vec::new();
-    Ensemble::new(method, system, starts, size)
+    Ensemble::<M, S, V, R>::with_summation(method, [(system, starts)], size)
         .expect("starts")
         .integrate_to(end, |row| {
             assert_eq!(row.outcome, Ok(()));
@@ -41,7 +64,7 @@ where
     ends
 }
 
-fn assert_near(found: &[Vec<f64>], expected: &[Vec<f64>], bound: f64) {
+pub(super) fn assert_near(found: &[Vec<f64>], expected: &[Vec<f64>], bound: f64) {
     assert_eq!(found.len(), expected.len());
     for (found, expected) in found.iter().zip(expected) {
         assert_eq!(found.len(), expected.len());

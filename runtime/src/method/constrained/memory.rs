@@ -12,7 +12,7 @@ use super::of_dimension::place_of_resized;
 use super::resolution::Resolution;
 use crate::error::Quantity;
 use crate::method::storage::first_non_finite;
-use crate::method::{ConstrainedTableau, Method, StageStorage};
+use crate::method::{ConstrainedStep, ConstrainedTableau, Method, RunTimeTableau, StageStorage};
 use crate::number::{Scalar, Vector, Visit, scalar_words, vector_words};
 use crate::system::{Class, Gradients, System, Terms};
 
@@ -58,6 +58,8 @@ pub(super) struct Workspace<V: Vector> {
 /// The memory of a constrained step.
 #[derive(Clone, Debug)]
 pub struct ConstrainedStages<V: Vector> {
+    /// The steps of a method that is known only at run time.
+    pub(super) at_run_time: Option<RunTimeTableau>,
     /// None until the system is known.
     pub(super) workspace: Option<Workspace<V>>,
     /// The first evaluation of a wrong dimension in the last step, and its dimension.
@@ -67,13 +69,19 @@ pub struct ConstrainedStages<V: Vector> {
 }
 
 impl<V: Vector> Workspace<V> {
-    /// Memory for steps of a method and of a system at this state.
-    pub(super) fn new<M: Method, S: System<V>>(system: &S, time: f64, q: &V, p: &V) -> Self {
+    /// Memory for these steps of a method and of a system at this state.
+    pub(super) fn new<S: System<V>>(
+        steps: &[ConstrainedStep],
+        system: &S,
+        time: f64,
+        q: &V,
+        p: &V,
+    ) -> Self {
         let constraints = system.constraints();
         let (metric, point) = Metric::new(system, time, q, p);
         let mut jacobians: Vec<StageJacobian<V::Scalar>> = Vec::new();
         let mut stages = 0;
-        for step in M::CONSTRAINED {
+        for step in steps {
             let count = step.tableau.weights.len();
             stages = stages.max(count);
             let (own, half) = (count.saturating_sub(1), metric.half_bandwidth());
@@ -82,7 +90,7 @@ impl<V: Vector> Workspace<V> {
                 jacobians.push(StageJacobian::new(constraints, own, half));
             }
         }
-        let histories = M::CONSTRAINED.iter().map(|step| {
+        let histories = steps.iter().map(|step| {
             let stages = step.tableau.weights.len();
             let momenta = if S::Class::SEPARABLE { 0 } else { stages };
             let own = stages.saturating_sub(1);
@@ -126,13 +134,31 @@ impl<V: Vector> Workspace<V> {
     }
 }
 
+impl<V: Vector> ConstrainedStages<V> {
+    /// The steps of the method.
+    pub(super) fn steps<M: Method>(&self) -> &'static [ConstrainedStep] {
+        let at_run_time = self.at_run_time.as_ref();
+        at_run_time.map_or(M::CONSTRAINED, RunTimeTableau::holonomic)
+    }
+}
+
 impl<V: Vector> StageStorage<V> for ConstrainedStages<V> {
     fn like(prototype: &V) -> Self {
         Self {
+            at_run_time: None,
             workspace: None,
             resized: None,
             between: array::from_fn(|_| prototype.zeros_like()),
         }
+    }
+
+    fn tableau(&self) -> Option<&RunTimeTableau> {
+        self.at_run_time.as_ref()
+    }
+
+    fn set_tableau(&mut self, tableau: &RunTimeTableau, _prototype: &V) {
+        self.at_run_time = Some(tableau.clone());
+        self.workspace = None;
     }
 
     fn words(&mut self, visit: &mut Visit<'_>) {

@@ -35,8 +35,8 @@ use core::marker::PhantomData;
 use crate::error::Error;
 use crate::method::composition::in_turn;
 use crate::method::{
-    ConstrainedStep, Failure, Method, Outcome, Plan, Solver, StageStorage, StageView, Step,
-    StepStatistics, Stopping, WarmStart, check_no_friction, check_no_rows,
+    ConstrainedStep, Failure, Method, Outcome, Plan, RunTimeTableau, Solver, StageStorage,
+    StageView, Step, StepStatistics, Stopping, WarmStart, check_no_friction, check_no_rows,
 };
 use crate::number::{Scalar, Summation, Vector};
 use crate::system::{Class, Constrained, System, Unconstrained};
@@ -57,7 +57,8 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         N: Solver<V, S>,
     {
         let system = &OfDimension::new(system, q.dimension());
-        memory.workspace = Some(Workspace::new::<M, _>(system, time, q, p));
+        let steps = memory.steps::<M>();
+        memory.workspace = Some(Workspace::new(steps, system, time, q, p));
     }
 
     fn check<V, S>(system: &S, time: f64, q: &V, p: &V) -> Result<(), Error>
@@ -98,6 +99,10 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         }))
     }
 
+    fn steps_at_run_time(tableau: &RunTimeTableau) -> bool {
+        !tableau.holonomic().is_empty()
+    }
+
     fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
     where
         V: Vector,
@@ -119,14 +124,16 @@ impl<V: Vector> ConstrainedStages<V> {
         outcome: Outcome<'_, V>,
         mut show: impl FnMut(StageView<'_, V>),
     ) -> Result<StepStatistics, Failure> {
+        let steps = self.steps::<M>();
         let ConstrainedStages {
+            at_run_time: _,
             workspace,
             resized,
             between: [q, q_low, p, p_low],
         } = self;
         let system = &OfDimension::new(system, step.q.dimension());
         let workspace = workspace
-            .get_or_insert_with(|| Workspace::new::<M, _>(system, step.time, step.q, step.p));
+            .get_or_insert_with(|| Workspace::new(steps, system, step.time, step.q, step.p));
         let between = Outcome { q, q_low, p, p_low };
         let take = |(number, substep): (usize, &ConstrainedStep),
                     part: &Step<'_, V>,
@@ -147,7 +154,7 @@ impl<V: Vector> ConstrainedStages<V> {
             taken
         };
         let place = |substep: &ConstrainedStep| (substep.start, substep.fraction);
-        let taken = in_turn(M::CONSTRAINED, place, step, kept, between, outcome, take);
+        let taken = in_turn(steps, place, step, kept, between, outcome, take);
         *resized = system.resized();
         taken
     }

@@ -7,7 +7,7 @@ use core::array;
 use crate::error::Quantity;
 use crate::method::constrained::{LastImpulse, Metric, Point, place_of_resized};
 use crate::method::storage::first_non_finite;
-use crate::method::{Method, StageStorage};
+use crate::method::{ConstrainedStep, Method, RunTimeTableau, StageStorage};
 use crate::number::{Scalar, Vector, Visit};
 use crate::system::{Gradients, System, Terms};
 
@@ -49,6 +49,8 @@ pub(super) struct Workspace<V: Vector> {
 /// The memory of a step with non-holonomic constraints.
 #[derive(Clone, Debug)]
 pub struct NonholonomicStages<V: Vector> {
+    /// The steps of a method that is known only at run time.
+    pub(super) at_run_time: Option<RunTimeTableau>,
     /// None until the system is known.
     pub(super) workspace: Option<Workspace<V>>,
     /// The first evaluation of a wrong dimension in the last step, and its dimension.
@@ -58,13 +60,17 @@ pub struct NonholonomicStages<V: Vector> {
 }
 
 impl<V: Vector> Workspace<V> {
-    /// Memory for steps of a method and of a system at this state.
-    pub(super) fn new<M: Method, S: System<V>>(system: &S, time: f64, q: &V, p: &V) -> Self {
+    /// Memory for these steps of a method and of a system at this state.
+    pub(super) fn new<S: System<V>>(
+        steps: &[ConstrainedStep],
+        system: &S,
+        time: f64,
+        q: &V,
+        p: &V,
+    ) -> Self {
         let constraints = system.constraints();
         let (metric, point) = Metric::new(system, time, q, p);
-        let stages = M::NONHOLONOMIC
-            .iter()
-            .map(|step| step.tableau.weights.len());
+        let stages = steps.iter().map(|step| step.tableau.weights.len());
         let stages = stages.max().unwrap_or(0);
         let vectors = |count: usize| -> Vec<V> { (0..count).map(|_| q.zeros_like()).collect() };
         let numbers = |count: usize| vec![V::Scalar::from_f64(0.0); count];
@@ -90,13 +96,31 @@ impl<V: Vector> Workspace<V> {
     }
 }
 
+impl<V: Vector> NonholonomicStages<V> {
+    /// The steps of the method.
+    pub(super) fn steps<M: Method>(&self) -> &'static [ConstrainedStep] {
+        let at_run_time = self.at_run_time.as_ref();
+        at_run_time.map_or(M::NONHOLONOMIC, RunTimeTableau::nonholonomic)
+    }
+}
+
 impl<V: Vector> StageStorage<V> for NonholonomicStages<V> {
     fn like(prototype: &V) -> Self {
         Self {
+            at_run_time: None,
             workspace: None,
             resized: None,
             between: array::from_fn(|_| prototype.zeros_like()),
         }
+    }
+
+    fn tableau(&self) -> Option<&RunTimeTableau> {
+        self.at_run_time.as_ref()
+    }
+
+    fn set_tableau(&mut self, tableau: &RunTimeTableau, _prototype: &V) {
+        self.at_run_time = Some(tableau.clone());
+        self.workspace = None;
     }
 
     fn words(&mut self, visit: &mut Visit<'_>) {

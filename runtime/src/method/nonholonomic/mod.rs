@@ -34,8 +34,9 @@ use crate::error::Error;
 use crate::method::composition::in_turn;
 use crate::method::constrained::{OfDimension, add_to_force, show_stages, taken_once_more};
 use crate::method::{
-    ConstrainedStep, Failure, Method, Outcome, Plan, Solver, StageStorage, StageView, Step,
-    StepStatistics, Stopping, WarmStart, check_no_friction, check_no_holonomic_constraints,
+    ConstrainedStep, Failure, Method, Outcome, Plan, RunTimeTableau, Solver, StageStorage,
+    StageView, Step, StepStatistics, Stopping, WarmStart, check_no_friction,
+    check_no_holonomic_constraints,
 };
 use crate::number::{Scalar, Summation, Vector};
 use crate::system::{Class, Nonholonomic, System, Unconstrained};
@@ -58,7 +59,8 @@ impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
     {
         let system = &RowsAsGradients(system);
         let system = &OfDimension::new(system, q.dimension());
-        memory.workspace = Some(Workspace::new::<M, _>(system, time, q, p));
+        let steps = memory.steps::<M>();
+        memory.workspace = Some(Workspace::new(steps, system, time, q, p));
     }
 
     fn check<V, S>(system: &S, time: f64, q: &V, p: &V) -> Result<(), Error>
@@ -99,6 +101,10 @@ impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
         }))
     }
 
+    fn steps_at_run_time(tableau: &RunTimeTableau) -> bool {
+        !tableau.nonholonomic().is_empty()
+    }
+
     fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
     where
         V: Vector,
@@ -126,7 +132,9 @@ impl<V: Vector> NonholonomicStages<V> {
         S: System<V, Class = Nonholonomic<C>>,
         C: Class + Unconstrained,
     {
+        let steps = self.steps::<M>();
         let NonholonomicStages {
+            at_run_time: _,
             workspace,
             resized,
             between: [q, q_low, p, p_low],
@@ -134,7 +142,7 @@ impl<V: Vector> NonholonomicStages<V> {
         let system = &RowsAsGradients(system);
         let system = &OfDimension::new(system, step.q.dimension());
         let workspace = workspace
-            .get_or_insert_with(|| Workspace::new::<M, _>(system, step.time, step.q, step.p));
+            .get_or_insert_with(|| Workspace::new(steps, system, step.time, step.q, step.p));
         let between = Outcome { q, q_low, p, p_low };
         let take = |(_, substep): (usize, &ConstrainedStep),
                     part: &Step<'_, V>,
@@ -149,7 +157,7 @@ impl<V: Vector> NonholonomicStages<V> {
             taken
         };
         let place = |substep: &ConstrainedStep| (substep.start, substep.fraction);
-        let taken = in_turn(M::NONHOLONOMIC, place, step, kept, between, outcome, take);
+        let taken = in_turn(steps, place, step, kept, between, outcome, take);
         *resized = system.resized();
         taken
     }

@@ -15,9 +15,9 @@ pub use plan::{RunTimePlan, RunTimeStages};
 use schedule::NO_STAGES;
 pub(crate) use schedule::{Coupled, Half, Kind, MOST, Row, Schedule, Splitting};
 
-use crate::method::{Method, Orders, ProvedFor};
+use crate::method::{ConstrainedStep, Method, Orders, ProvedFor};
 use crate::number::{Coefficient, Coefficients};
-use crate::system::{Class, Conservative, General, Separable};
+use crate::system::{Class, Frictionless, General, Separable};
 
 /// The coefficients of a method with s stages, each the double nearest to the exact number.
 ///
@@ -98,6 +98,8 @@ impl From<Coefficients> for RunTimeCoefficients {
 pub struct RunTimeTableau {
     data: Arc<Data>,
     accepts_lower_order: bool,
+    holonomic: &'static [ConstrainedStep],
+    nonholonomic: &'static [ConstrainedStep],
 }
 
 /// The coupled stages of a tableau for systems of class `C`; none without a tableau, or if its steps are drifts and kicks.
@@ -146,6 +148,8 @@ impl RunTimeTableau {
                 general: Schedule::new(coefficients, false),
             }),
             accepts_lower_order: false,
+            holonomic: &[],
+            nonholonomic: &[],
         })
     }
 
@@ -156,6 +160,49 @@ impl RunTimeTableau {
             accepts_lower_order: true,
             ..self
         }
+    }
+
+    /// The same method with its steps for systems with holonomic and with non-holonomic constraints: the constants
+    /// [`CONSTRAINED`](Method::CONSTRAINED) and [`NONHOLONOMIC`](Method::NONHOLONOMIC) of an emitted method, empty if it has no such steps.
+    /// `emit::constrained_steps` of the package `symplectic-compiler` computes them; a program makes them static by `Box::leak`.
+    ///
+    /// ```
+    /// use symplectic::{Integrator, Method, RunTimeTableau, State};
+    ///
+    /// symplectic::tableau! { Rattle { basis: polynomial(2), nodes: lobatto(2) } }
+    /// symplectic::hamiltonian! { Rod q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + y constraints: { rod = x^2 + y^2 - 1 } }
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let rattle = RunTimeTableau::new("RATTLE", &Rattle::COEFFICIENTS.into(), Rattle::ORDERS)?;
+    /// let rattle = rattle.with_constrained_steps(Rattle::CONSTRAINED, Rattle::NONHOLONOMIC);
+    /// let start = State::from_arrays(0.0, [1.0, 0.0], [0.0; 2]);
+    /// let mut run = Integrator::at_run_time(&rattle, Rod, start.clone(), 0.1)?;
+    /// let mut emitted = Integrator::new(Rattle, Rod, start, 0.1)?;
+    /// assert_eq!(run.integrate_to(10.0)?, emitted.integrate_to(10.0)?);
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[must_use]
+    pub fn with_constrained_steps(
+        self,
+        holonomic: &'static [ConstrainedStep],
+        nonholonomic: &'static [ConstrainedStep],
+    ) -> Self {
+        Self {
+            holonomic,
+            nonholonomic,
+            ..self
+        }
+    }
+
+    /// Its steps for systems with holonomic constraints.
+    pub(crate) fn holonomic(&self) -> &'static [ConstrainedStep] {
+        self.holonomic
+    }
+
+    /// Its steps for systems with non-holonomic constraints.
+    pub(crate) fn nonholonomic(&self) -> &'static [ConstrainedStep] {
+        self.nonholonomic
     }
 
     /// Name of the method.
@@ -258,7 +305,4 @@ impl Method for AtRunTime {
 }
 
 // Checked when the integrator is created.
-impl<C: Conservative> ProvedFor<C> for AtRunTime {}
-
-// Required of every method.
-impl ProvedFor<()> for AtRunTime {}
+impl<C: Frictionless> ProvedFor<C> for AtRunTime {}
