@@ -166,7 +166,7 @@ pub enum Error {
     },
 
     /// A parameter of a formula, or one of its entries, is NaN.
-    #[error("the parameter `{parameter}` is NaN or has an entry that is: give it a number")]
+    #[error("the parameter `{parameter}` is NaN or contains NaN: give numbers")]
     ParameterNotANumber {
         /// Its name.
         parameter: &'static str,

@@ -179,7 +179,7 @@
 ///
 /// # Order of evaluation
 ///
-/// * The same text gives the same bits, in doubles and in lanes.
+/// * The same text gives the same bits, for one trajectory and in an ensemble.
 /// * Numeric factors are multiplied exactly, and equal terms and factors are combined. The others keep the order in which they first
 ///   appear; a sum or product in parentheses counts as one.
 /// * Expressions of parameters only are computed first, in double precision. Divisors are multiplied with each other, and divide last.

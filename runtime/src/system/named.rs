@@ -18,7 +18,7 @@
 /// ```
 #[diagnostic::on_unimplemented(
     message = "the coordinates of `{Self}` have no names",
-    label = "write `impl symplectic::system::Named for …` for your system: `{{}}` stands for `q[0]`, … and `p[0]`, …",
+    label = "write `impl symplectic::system::Named for {Self} {{}}`: the names are then `q[0]`, … and `p[0]`, …",
     note = "`files::Recording::from_start` takes the names as a list"
 )]
 pub trait Named {
