@@ -38,6 +38,11 @@ pub(super) type States = Vec<State<Vector>>;
 type Made<S, R> = Ensemble<AtRunTime, S, Vector, R>;
 /// Systems with their starts.
 type Families<C, const F: bool> = Vec<(Formula<C, F>, States)>;
+/// Runs systems with their starts and the parameters of each.
+type Go<'a, C, const F: bool> =
+    fn(Run<'a>, Families<C, F>, &[Vec<f64>], &Progress) -> Result<ExitCode, Error>;
+/// Moves a state onto the constraints.
+type Project<C> = fn(&Formula<C>, State<Vector>) -> Result<State<Vector>, RunError>;
 /// Runs the trajectories of an ensemble.
 type Task<'a, S, R, N> = fn(&Run<'a>, &mut Ensemble<AtRunTime, S, Vector, R, N>, Keep<'_>);
 /// Keeps a finished trajectory.
@@ -87,7 +92,7 @@ impl<'a> Run<'a> {
     fn integrate<C, const F: bool>(
         self,
         starts: Vec<Start>,
-        go: fn(Self, Families<C, F>, &[Vec<f64>], &Progress) -> Result<ExitCode, Error>,
+        go: Go<'a, C, F>,
     ) -> Result<ExitCode, Error> {
         let (start, end) = (self.setup.start(), self.end());
         let last = self.times.as_ref().and_then(|times| times.last());
@@ -218,7 +223,7 @@ impl<'a> Run<'a> {
     fn projected<C>(
         &self,
         mut families: Families<C, false>,
-        project: fn(&Formula<C>, State<Vector>) -> Result<State<Vector>, RunError>,
+        project: Project<C>,
     ) -> Result<Families<C, false>, Error> {
         let Some(wanted) = &self.setup.project_starts else {
             return Ok(families);

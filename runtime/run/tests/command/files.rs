@@ -122,16 +122,32 @@ fn the_examples_of_the_book_run() {
 /// Every number of a table in Parquet is that of the table in CSV, with the facts beside it.
 #[test]
 fn tables_are_the_same_as_parquet_and_as_csv() {
-    let folder = folder("parquet");
-    let table = csv(&folder, CUBIC);
-    call(&folder, &CUBIC.replace("out.csv", "out.parquet"), &[]);
+    // Two trajectories at five times; of the third what it reached, and its end.
+    assert!(lines_in_both("parquet", CUBIC, "forest-ruth-1990") > 11);
+    // Between steps there are no multipliers.
+    let rod = r#"
+        system = "Rod q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + y constraints: { rod = x^2 + y^2 - 1 }"
+        method = "lobatto-2"
+        step_size = 0.1
+        times = [0, 0.05, 0.1]
+        starts = { x = 0.6, y = -0.8, px = 0, py = 0 }
+        output.file = "out.csv"
+    "#;
+    assert_eq!(lines_in_both("parquet-rod", rod, "lobatto-2"), 3);
+}
+
+/// Compares a table as Parquet with that as CSV, and returns the number of its lines.
+fn lines_in_both(name: &str, setup: &str, expected: &str) -> usize {
+    let folder = folder(name);
+    let table = csv(&folder, setup);
+    call(&folder, &setup.replace("out.csv", "out.parquet"), &[]);
     let file = fs::File::open(folder.join("out.parquet")).expect("the output");
     let reader = SerializedFileReader::new(file).expect("a table");
     let about = reader.metadata().file_metadata();
     let notes = about.key_value_metadata().expect("notes");
     let method = notes.iter().find(|note| note.key == "method");
     let method = method.and_then(|note| note.value.as_deref());
-    assert_eq!(method, Some("forest-ruth-1990"));
+    assert_eq!(method, Some(expected));
     let mut lines = csv::Reader::from_reader(table.as_bytes());
     let fields = about.schema().get_fields().iter();
     let names: Vec<&str> = fields.map(|field| field.name()).collect();
@@ -154,8 +170,8 @@ fn tables_are_the_same_as_parquet_and_as_csv() {
         }
         count += 1;
     }
-    // Two trajectories at five times; of the third what it reached, and its end.
-    assert!(count > 11 && count == lines.len(), "{count}");
+    assert_eq!(count, lines.len());
+    count
 }
 
 /// Neither the message nor a file of results advises a call: they name the keys.
