@@ -124,12 +124,15 @@ impl<F> Invariant<F> {
     }
 }
 
+/// Its multiples have different fractional parts.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
 /// What the deviations of a function of the state are relative to: the size of its value at the start, or the size of its terms if that
 /// value consists of their rounding errors, as on a separatrix or a parabolic orbit; 1 if both are 0.
 ///
 /// The size of the terms is not known from the value. It is estimated by how much the value changes if the positions, or the momenta,
 /// change by an eighth and less, each component by another part so that opposite terms do not cancel. A value is rounding if it is below
-/// 64 ε of this; else it is the unit, whatever its terms.
+/// 64 ε of this, with the ε of the scalars; else it is the unit, whatever its terms.
 ///
 /// ```
 /// use symplectic::State;
@@ -149,7 +152,7 @@ pub fn unit_of<V: Vector>(function: impl Fn(&State<V>) -> f64, start: &State<V>)
     let change = |half: fn(&mut State<V>) -> &mut V| {
         let mut near = start.clone();
         for (i, x) in half(&mut near).as_mut_slice().iter_mut().enumerate() {
-            let part = 0.125 / (1 + i % 3) as f64;
+            let part = (1.0 + (i as f64 * GOLDEN) % 1.0) / 16.0;
             *x *= V::Scalar::one() - V::Scalar::from_f64(part);
         }
         let change = (function(&near) - value).abs();
@@ -158,7 +161,7 @@ pub fn unit_of<V: Vector>(function: impl Fn(&State<V>) -> f64, start: &State<V>)
     let terms = change(|state| &mut state.q) + change(|state| &mut state.p);
     match value.abs() {
         value if value == 0.0 && terms == 0.0 => 1.0,
-        value if value <= 64.0 * f64::EPSILON * terms => terms,
+        value if value <= 64.0 * V::Scalar::EPSILON * terms => terms,
         value => value,
     }
 }

@@ -347,6 +347,11 @@ fn what_has_no_end_is_an_error_and_leaves_the_state() {
     assert_eq!(failure(0.0, 1.0, 0.1), FlowError::AtCentre { body: 1 });
     assert_eq!(failure(1e200, 1.0, 1.0), FlowError::NoOrbit { body: 1 });
     assert_eq!(failure(1.0, 1e200, 1.0), FlowError::NoOrbit { body: 1 });
+    // The square of this distance has seven digits.
+    assert_eq!(
+        failure(1e-158, 1e79, 1e-237),
+        FlowError::NoOrbit { body: 1 }
+    );
     assert!(matches!(
         failure(1e-7, 0.0, 1e3),
         FlowError::Periods { body: 1, .. }

@@ -7,7 +7,8 @@ use std::ops::ControlFlow;
 use crate::common::distance;
 use crate::common::methods::{Gauss2, Gauss4, Gauss8, StoermerVerlet};
 use crate::common::systems::{Kepler, perihelion};
-use symplectic::nalgebra::{DVector, Vector1, Vector2};
+use symplectic::nalgebra::{DVector, Vector1, Vector2, Vector4};
+use symplectic::output::unit_of;
 use symplectic::{
     Error, Event, Integrator, Invariant, Method, Retry, SeparableHamiltonian, State, acceleration,
 };
@@ -317,6 +318,23 @@ fn observers_keep_the_largest_deviation() -> Result<(), Error> {
         (angle.relative_deviation(), angle.relative_error()),
         (0.5, -0.5)
     );
+    // A light ray along any axis: H is 0, and its terms are not.
+    type Ray = State<Vector4<f64>>;
+    let ray = |axis: usize| {
+        let (mut p, x) = ([1e10, 0.0, 0.0, 0.0], [1.0, 2.0, 3.0, 4.0]);
+        p[axis] = 1e10;
+        State::from_arrays(0.0, x, p)
+    };
+    for axis in 1..4 {
+        let metric = |ray: &Ray| ray.p.norm_squared() / 2.0 - ray.p[0] * ray.p[0];
+        assert!(unit_of(metric, &ray(axis)) > 1e18, "{axis}");
+    }
+    // A parabola of singles: H is the rounding of the velocity.
+    let energy = |state: &State<Vector1<f32>>| {
+        f64::from(state.p[0]).powi(2) / 2.0 - f64::from(state.q[0]).recip()
+    };
+    let escape = State::from_arrays(0.0, [7.0], [(2.0_f32 / 7.0).sqrt()]);
+    assert!(energy(&escape) != 0.0 && unit_of(energy, &escape) > 0.01);
     // Not a number once is not a number.
     let mut broken = Invariant::new(|state: &Point| (0.5 - state.time).sqrt(), &perihelion());
     for time in [0.0, 1.0, 0.0] {

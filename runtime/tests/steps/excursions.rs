@@ -69,6 +69,28 @@ fn gauss_finds_all_shallow_crossings_in_large_steps() {
     finds_all(Gauss2, &[0.25], &LEVELS, 0.1);
 }
 
+/// The number of sweeps of Newton's iteration does not tell that a step is long. From 0.467 of the period on, such steps can be passed over:
+/// 1 − sin h > 4 sin h.
+#[test]
+fn newton_steps_of_almost_half_a_period_find_all_shallow_crossings() -> Result<(), Error> {
+    for size in [2.0, 2.5, 0.45 * TAU] {
+        for level in LEVELS {
+            let oscillator =
+                acceleration::<Vector1<f64>, _>(|_, q, acceleration| *acceleration = -q);
+            let start = State::from_arrays(0.0, [1.0], [0.0]);
+            let mut run = Integrator::new(Gauss8, oscillator, start, size)?.by_newton();
+            let event = Event::crossing(|state: &Point| state.q[0] - level);
+            let mut count = 0;
+            run.integrate_with_events(200.0, &event, |_| {
+                count += 1;
+                ControlFlow::<()>::Continue(())
+            })?;
+            assert_eq!(count, expected(level).len(), "{size} {level}");
+        }
+    }
+    Ok(())
+}
+
 /// The turning points of other methods vary from period to period by their error, which is smaller than these excursions.
 #[test]
 fn other_methods_find_all_shallow_crossings_that_they_resolve() {

@@ -1,6 +1,6 @@
 //! The ends of several Kepler orbits at once.
 
-use super::orbit::{Change, LARGEST_CANCELLATION, NoEnd, Orbit};
+use super::orbit::{Change, LARGEST_CANCELLATION, NoEnd, Orbit, SMALLEST_DISTANCE};
 use super::path::g_functions;
 use super::stumpff;
 use crate::number::Lanes;
@@ -84,6 +84,7 @@ pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (
         sizes - step.abs() * of(LARGEST_CANCELLATION),
         (beta * s * s).abs() - of(LARGEST_PSI),
         mu * s * s * inverse - of(LARGEST_ARC),
+        of(SMALLEST_DISTANCE) - distance,
     ];
     if excess.iter().all(|excess| excess.all_below(0.0)) {
         return Ok(changes);
@@ -122,7 +123,7 @@ fn one_by_one<L: Lanes>(
     orbit: &Orbit<L>,
     h: f64,
     mut changes: Change<L>,
-    excess: [L; 6],
+    excess: [L; 7],
 ) -> Result<Change<L>, (usize, NoEnd)> {
     let excess = excess.map(L::to_array);
     for lane in 0..L::WIDTH {

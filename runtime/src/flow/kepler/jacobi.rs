@@ -83,7 +83,9 @@ impl Jacobi {
         let mut state = self.bodies.copy(before)?;
         let places = state.q.as_mut_slice().as_chunks_mut::<3>().0;
         let put = |planet: usize, place| places[planet + 1] = place;
-        places[0] = to_positions(&self.bodies, before.q.as_slice(), put);
+        if let [centre, planets @ ..] = before.q.as_slice().as_chunks().0 {
+            places[0] = to_positions(&self.bodies, *centre, planets, put);
+        }
         let p = state.p.as_mut_slice();
         for axis in 0..3 {
             let mut total = p[axis];
@@ -135,13 +137,15 @@ fn to_relative(bodies: &Bodies, p: &mut [f64]) {
     }
 }
 
-/// Passes the inertial positions of the planets to `put`, the last first, and returns the position of the star.
+/// Passes the inertial positions of the planets to `put`, the last first, and returns the position of the star; `centre` is that of the
+/// centre of mass.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn to_positions(bodies: &Bodies, q: &[f64], mut put: impl FnMut(usize, [f64; 3])) -> [f64; 3] {
-    let (mut centre, planets) = match q.as_chunks::<3>().0 {
-        [centre, planets @ ..] => (*centre, planets),
-        [] => ([0.0; 3], &[][..]),
-    };
+fn to_positions(
+    bodies: &Bodies,
+    mut centre: [f64; 3],
+    planets: &[[f64; 3]],
+    mut put: impl FnMut(usize, [f64; 3]),
+) -> [f64; 3] {
     for (i, (planet, [own, _])) in planets.iter().zip(&bodies.shares[1..]).enumerate().rev() {
         centre = array(0.0, |axis| centre[axis] - own * planet[axis]);
         put(i, array(0.0, |axis| centre[axis] + planet[axis]));
@@ -207,9 +211,11 @@ impl<V: Vector<Scalar = f64>> Flow<V> for JacobiKick {
         } = self;
         attraction.check(q, p)?;
         let count = attraction.count();
-        let q = q.as_slice();
-        let star = to_positions(bodies, q, |planet, place| attraction.put(planet, place));
-        let planets = &q.as_chunks::<3>().0[1..];
+        let planets = &q.as_slice().as_chunks().0[1..];
+        // Relative to the centre of mass, which may be far away.
+        let star = to_positions(bodies, [0.0; 3], planets, |planet, place| {
+            attraction.put(planet, place);
+        });
         let zero = Group::zero();
         let at: [Group; 3] = array(zero, |axis| Group::from_f64(star[axis]));
         for first in (0..count).step_by(Group::WIDTH) {

@@ -27,6 +27,9 @@ const MOST_PERIODS: f64 = (1_u64 << 26) as f64;
 /// The ratio of the terms of a sum to the sum, up to which the sum has its digits.
 pub(super) const LARGEST_CANCELLATION: f64 = 6.0;
 
+/// The square of a shorter distance has not all of its digits.
+pub(super) const SMALLEST_DISTANCE: f64 = 1e-153;
+
 /// From this `|βs²|` on, `(s − G1)/β` does not cancel.
 const LONG_ARC: f64 = 4.0;
 
@@ -113,7 +116,8 @@ impl Orbit<f64> {
         if distance == 0.0 {
             return Err(NoEnd::AtCentre);
         }
-        if ![distance, radial, beta, h].iter().all(|x| x.is_finite()) {
+        let known = [distance, radial, beta, h].iter().all(|x| x.is_finite());
+        if !known || distance < SMALLEST_DISTANCE {
             return Err(NoEnd::NotFound);
         }
         let h = self.without_periods(h)?;

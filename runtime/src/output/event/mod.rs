@@ -29,7 +29,7 @@ pub use list::Events;
 ///
 /// So two zeros about an extremum are found down to a distance of about 1e-5 of a panel, up to the accuracy of the method. There are three
 /// conditions: g has at most one extremum in a panel; it deviates from the values at neighbouring points by less than four times their largest change; and a
-/// step is shorter than half the period of every oscillation of g. A step whose stages need more than eight sweeps is evaluated at 8 points
+/// step is shorter than 0.45 of the period of every oscillation of g. A step whose stages need more than eight sweeps is evaluated at 8 points
 /// in any case, since it may contain a whole oscillation. So is the first step. Explicit methods and Newton's iteration have no such sign of
 /// long steps: give [`samples`](Self::samples) if steps are longer.
 ///
