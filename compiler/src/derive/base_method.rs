@@ -502,7 +502,15 @@ fn read_fraction(item: &Expression, input: Input<'_>) -> Result<(Constant, bool)
             return Err(input.error(&item.span, kind));
         }
     }
-    Ok((item.constant(input)?, false))
+    let fraction = item.constant(input).map_err(|mut error| {
+        if let ErrorKind::Unknown { what, known, .. } = &mut *error.kind
+            && *what == "function"
+        {
+            *known = format!("{}, adjoint, {known}", Scheme::NAMES.join(", "));
+        }
+        error
+    });
+    Ok((fraction?, false))
 }
 
 /// A fraction as text.

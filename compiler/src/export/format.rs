@@ -39,7 +39,7 @@ impl Format {
         };
         let error = |message: String| {
             file.error(
-                &first_line(file.text, span),
+                &first_line(file.text, span.clone()),
                 ErrorKind::Document { message },
             )
         };
@@ -50,6 +50,10 @@ impl Format {
                  export the method again from its definition",
                 Self::CURRENT.0
             ))),
+            _ if file.text[span.clone()].contains("symplectic certificate") => Err(error(
+                "this is a certificate, not a tableau: check it with `python3 tableaux/check_certificate.py FILE`"
+                    .to_owned(),
+            )),
             _ => Err(error(format!(
                 "`format` is a whole number from 1 to {}",
                 Self::CURRENT.0

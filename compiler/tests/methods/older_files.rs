@@ -217,6 +217,10 @@ fn a_file_of_a_later_format_is_refused_by_its_number() {
         ("0", none),
         ("-1", none),
         ("\"2\"", none),
+        (
+            "\"symplectic certificate\"",
+            "this is a certificate, not a tableau: check it with",
+        ),
         ("2.5", none),
     ] {
         // Keys that only the later version knows do not hide the reason.

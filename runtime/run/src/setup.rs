@@ -334,7 +334,8 @@ impl Evenly {
     pub(super) fn of(table: &Table) -> Result<Self, String> {
         let keys = ["from", "to", "count"];
         if let Some(other) = table.keys().find(|key| !keys.contains(&key.as_str())) {
-            return Err(format!("there is no key `{other}` beside `from`"));
+            let advice = did_you_mean(other, keys);
+            return Err(format!("there is no key `{other}` beside `from`{advice}"));
         }
         if let Some(missing) = keys.iter().find(|key| !table.contains_key(**key)) {
             return Err(format!("the key `{missing}` is missing"));

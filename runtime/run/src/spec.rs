@@ -1,5 +1,6 @@
 //! Values of a coordinate or a parameter: a number, several, or random ones.
 
+use symplectic_compiler::did_you_mean;
 use toml::{Table, Value};
 
 use crate::counted;
@@ -93,16 +94,17 @@ impl Spec {
         ];
         let is_of = |keys: &[&str]| table.keys().any(|key| keys.contains(&key.as_str()));
         let Some((kind, keys)) = kinds.into_iter().find(|(_, keys)| is_of(keys)) else {
-            let found = match table.keys().next() {
-                Some(key) => format!("there is no key `{key}` here"),
-                None => "found an empty table".to_owned(),
+            let Some(key) = table.keys().next() else {
+                return Err(format!("found an empty table, {EXPECTED}"));
             };
-            return Err(format!("{found}, {EXPECTED}"));
+            let known = kinds.into_iter().flat_map(|(_, keys)| keys).copied();
+            let advice = did_you_mean(key, known.chain(["energy"]));
+            return Err(format!("there is no key `{key}` here, {EXPECTED}{advice}"));
         };
         if let Some(other) = table.keys().find(|key| !keys.contains(&key.as_str())) {
+            let (beside, advice) = (keys[0], did_you_mean(other, keys.iter().copied()));
             return Err(format!(
-                "there is no key `{other}` beside `{}`: {EXPECTED}",
-                keys[0]
+                "there is no key `{other}` beside `{beside}`: {EXPECTED}{advice}"
             ));
         }
         match kind {
@@ -155,8 +157,9 @@ fn energy(table: &Table) -> Result<Rule, String> {
         .keys()
         .find(|key| !["energy", "root"].contains(&key.as_str()))
     {
+        let advice = did_you_mean(other, ["energy", "root"]);
         return Err(format!(
-            "there is no key `{other}` beside `energy`; known here: `energy`, `root`"
+            "there is no key `{other}` beside `energy`; known here: `energy`, `root`{advice}"
         ));
     }
     let energy = match &table["energy"] {

@@ -145,6 +145,10 @@ fn bad_input_is_refused_with_a_caret() {
           | ^^^^^^^^^^^^^^
     "#]]
     .assert_eq(&errors);
+    let weights = ["--weights", "tripel_jump(4)"];
+    let (_, errors) = failure(&[&["derive", "--base", "gauss-1"], &weights[..]].concat());
+    let advice = "known here: triple_jump, suzuki, adjoint, sin, ";
+    assert!(errors.contains(advice) && errors.contains("; did you mean `triple_jump`?"));
     let (status, errors) = failure(&["list", "--tolerance", "-1"]);
     assert_eq!(status, Some(2));
     assert!(

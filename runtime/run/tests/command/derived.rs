@@ -217,7 +217,7 @@ fn wrong_rules_are_refused_at_their_place() {
         (
             HENON.replace(px, "{ energy = \"E\", roots = 2 }"),
             "9:6",
-            "there is no key `roots` beside `energy`",
+            "there is no key `roots` beside `energy`; known here: `energy`, `root`; did you mean `root`?",
         ),
         (
             HENON.replace(px, "{ energy = \"E\", root = 2 }"),

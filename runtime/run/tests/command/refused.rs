@@ -5,6 +5,24 @@ use std::fs;
 use crate::{PENDULUM, call, folder};
 
 #[test]
+fn a_misspelt_key_of_a_start_is_refused_with_the_key_that_is_meant() {
+    let folder = folder("misspelt-starts");
+    for (start, meant) in [
+        ("{ form = 0, to = 1, count = 2 }", "from"),
+        ("{ fro = 0 }", "from"),
+        ("{ uniforn = [0, 1] }", "uniform"),
+        ("{ vaules = [0, 1] }", "values"),
+    ] {
+        let setup = PENDULUM.replace("{ from = -1, to = 1, count = 11 }", start);
+        assert_ne!(setup, PENDULUM);
+        let output = call(&folder, &setup, &[]);
+        let errors = String::from_utf8_lossy(&output.stderr);
+        let advice = format!("did you mean `{meant}`?");
+        assert!(errors.contains(&advice), "{errors}");
+    }
+}
+
+#[test]
 fn wrong_files_are_refused_at_their_place() {
     let folder = folder("wrong");
     let replaced = |from: &str, to: &str| {
@@ -370,7 +388,7 @@ fn wrong_values_are_named_with_what_is_expected() {
         ("{ from = 0, to = 1 }", "the key `count` is missing"),
         (
             "{ from = 0, to = 1, cout = 2 }",
-            "there is no key `cout` beside `from`",
+            "there is no key `cout` beside `from`; did you mean `count`?",
         ),
         (
             "{ from = 0, to = '1', count = 2 }",

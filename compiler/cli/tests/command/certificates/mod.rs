@@ -403,6 +403,14 @@ fn what_is_not_proved_and_what_is_no_certificate_is_rejected() {
         ("{}".to_owned(), "the member 'format' is missing"),
         ("[".repeat(100_000), "RecursionError"),
         (
+            edited(&gauss, "\"version\": 1", "\"version\": 2"),
+            "WRONG: a certificate of version 2: this checker reads version 1; take the one of the version",
+        ),
+        (
+            edited(&gauss, "\"symplectic certificate\"", "2"),
+            "a certificate, as `symplectic certify` writes it",
+        ),
+        (
             edited(&gauss, "\"version\": 1", "\"version\": NaN"),
             "a whole number or a text, not NaN",
         ),
