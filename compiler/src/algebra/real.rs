@@ -1,7 +1,7 @@
 //! Real numbers as expressions that are enclosed as narrowly as needed.
 
 use std::cmp::Ordering;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use num_rational::BigRational;
 use num_traits::{One, Zero as _};
@@ -67,6 +67,43 @@ impl Operation {
             Operation::Add(x, y) | Operation::Subtract(x, y) => x.fineness().max(y.fineness()),
             Operation::Multiply(x, y) => (x.fineness() + y.fineness()).min(MOST_FINENESS),
             Operation::Inverse(x) => x.fineness(),
+        }
+    }
+
+    fn operands(&self) -> impl Iterator<Item = &Real> {
+        let (x, y) = match self {
+            Operation::Rational(_) | Operation::Constant(_) | Operation::Certified(..) => {
+                (None, None)
+            }
+            Operation::Add(x, y) | Operation::Subtract(x, y) | Operation::Multiply(x, y) => {
+                (Some(x), Some(y))
+            }
+            Operation::Inverse(x) => (Some(x), None),
+        };
+        x.into_iter().chain(y)
+    }
+}
+
+impl Expression {
+    /// Moves the operands to `rest`.
+    fn give_operands(&mut self, rest: &mut Vec<Real>) {
+        if self.operation.operands().next().is_some() {
+            let nothing = Operation::Rational(BigRational::default());
+            let operation = std::mem::replace(&mut self.operation, nothing);
+            rest.extend(operation.operands().cloned());
+        }
+    }
+}
+
+impl Drop for Expression {
+    /// One expression after the other: those of deep sums would not fit on the stack.
+    fn drop(&mut self) {
+        let mut rest = Vec::new();
+        self.give_operands(&mut rest);
+        while let Some(number) = rest.pop() {
+            if let Some(mut last) = Arc::into_inner(number.0) {
+                last.give_operands(&mut rest);
+            }
         }
     }
 }
@@ -161,29 +198,55 @@ impl Real {
     /// The value by interval arithmetic with this many binary places; `None` where the enclosure of a
     /// divisor is still too wide.
     fn evaluate(&self, working: u32) -> Option<Interval> {
-        let known = self
-            .0
-            .finest
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .clone();
-        if let Some(known) = known.filter(|known| known.bits() >= working) {
-            return Some(known.with_bits(working));
+        // Operands before what is made of them, on a stack of our own: sums of many terms are deep.
+        let mut pending = vec![self];
+        while let Some(&number) = pending.last() {
+            let place = pending.len();
+            if !number.is_enclosed(working) {
+                let unknown = |operand: &&Real| !operand.is_enclosed(working);
+                pending.extend(number.0.operation.operands().filter(unknown));
+                if pending.len() > place {
+                    continue;
+                }
+                let value = number.evaluate_from_operands(working)?;
+                *number.finest() = Some(value);
+            }
+            pending.pop();
         }
-        let value = match &self.0.operation {
+        self.enclosed(working)
+    }
+
+    fn finest(&self) -> MutexGuard<'_, Option<Interval>> {
+        let finest = self.0.finest.lock();
+        finest.unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn is_enclosed(&self, working: u32) -> bool {
+        (self.finest().as_ref()).is_some_and(|known| known.bits() >= working)
+    }
+
+    /// The finest enclosure so far, rounded to this many binary places, if it has them.
+    fn enclosed(&self, working: u32) -> Option<Interval> {
+        let known = self.finest().clone();
+        known
+            .filter(|known| known.bits() >= working)
+            .map(|known| known.with_bits(working))
+    }
+
+    fn evaluate_from_operands(&self, working: u32) -> Option<Interval> {
+        let enclosed = |x: &Real| x.enclosed(working);
+        Some(match &self.0.operation {
             Operation::Rational(value) => Interval::enclosing(value, working),
             Operation::Constant(constant) => constant.enclose(working)?.with_bits(working),
             Operation::Certified(certificate, name) => certificate.enclose(*name, working)?,
-            Operation::Add(x, y) => x.evaluate(working)?.add(&y.evaluate(working)?),
-            Operation::Subtract(x, y) => x.evaluate(working)?.subtract(&y.evaluate(working)?),
-            Operation::Multiply(x, y) => x.evaluate(working)?.multiply(&y.evaluate(working)?),
+            Operation::Add(x, y) => enclosed(x)?.add(&enclosed(y)?),
+            Operation::Subtract(x, y) => enclosed(x)?.subtract(&enclosed(y)?),
+            Operation::Multiply(x, y) => enclosed(x)?.multiply(&enclosed(y)?),
             Operation::Inverse(x) => {
                 let one = Interval::enclosing(&BigRational::one(), working);
-                one.divide(&x.evaluate(working)?)?
+                one.divide(&enclosed(x)?)?
             }
-        };
-        *self.0.finest.lock().unwrap_or_else(PoisonError::into_inner) = Some(value.clone());
-        Some(value)
+        })
     }
 
     /// Whether the number equals a rational, by enclosures with `limit` binary places and those needed to resolve the smallest
@@ -327,3 +390,19 @@ impl Field for Reals {
 /// Binary places of the first enclosures, which compare pivots: those of [`Number::enclose`], so that everything is evaluated
 /// once with them.
 const PIVOT_BITS: u32 = 192;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arithmetic::rational::ratio;
+
+    #[test]
+    fn sum_of_many_terms_needs_no_deep_stack() {
+        let (field, pi) = (Reals, Real::constant(Constant::pi()));
+        let terms = 200_000;
+        let sum = (1..terms).fold(pi.clone(), |sum, _| field.add(&sum, &pi));
+        let product = field.multiply(&pi, &field.rational(&ratio(terms, 1)));
+        let difference = sum.enclose(200).subtract(&product.enclose(200));
+        assert!(difference.contains(&BigRational::default()) && difference.width_bits() < -198);
+    }
+}
