@@ -97,20 +97,22 @@ impl<'a> Source<'a> {
         } else if notation == Notation::C {
             name_lists(&mut source.tokens);
         }
-        let mut open = Vec::new();
+        // For each open bracket, whether it is inside parentheses or opens them.
+        let mut open: Vec<bool> = Vec::new();
         let mut arguments = Vec::new();
         for token in &source.tokens {
             if let Token::Symbol(')' | ']' | '}') = token.token {
                 open.pop();
             }
+            let inside = open.last() == Some(&true);
             source.depths.push(open.len());
-            arguments.push(open.contains(&'('));
+            arguments.push(inside);
             if let Token::Symbol(bracket @ ('(' | '[' | '{')) = token.token {
-                open.push(bracket);
+                open.push(inside || bracket == '(');
             }
         }
         let (mut annotated, mut named) = (0, Vec::new());
-        for at in 0..source.tokens.len() {
+        for (at, is_argument) in arguments.into_iter().enumerate() {
             let Token::Name(name) = &source.tokens[at].token else {
                 continue;
             };
@@ -121,7 +123,7 @@ impl<'a> Source<'a> {
                 if target.annotated {
                     annotated = target.value;
                 }
-                match arguments[at] {
+                match is_argument {
                     true => named.push((at, target)),
                     false => source.note(at, target),
                 }
