@@ -265,9 +265,9 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         kind: &str,
         beside: &[f64],
     ) -> Result<Checkpoint, CheckpointError> {
-        let mut run = self.all_that_changes();
+        let mut numbers = self.numbers();
         Ok(self.blank_checkpoint(kind)?.filled(|visit| {
-            run.words(visit);
+            numbers.words(visit, |visit| self.step_memory.show_scalars(visit));
             beside.iter().for_each(|value| visit(&mut value.to_bits()));
         }))
     }
@@ -291,21 +291,29 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         beside: &mut [f64],
         mine: impl FnOnce(&V, &[f64]) -> bool,
     ) -> Result<(), CheckpointError> {
-        let mut run = self.all_that_changes();
+        let (mut numbers, mut step_memory) = (self.numbers(), self.step_memory.clone());
         checkpoint.read(&self.blank_checkpoint(kind)?, |visit| {
-            run.words(visit);
+            numbers.words(visit, |visit| step_memory.scalar_words(visit));
             beside.words(visit);
         })?;
-        let known = run.fingerprint == run.fingerprint_of(&self.system);
-        if !known || !mine(&run.step_memory.state.q, beside) {
+        step_memory.state.time = numbers.time;
+        let known = numbers.fingerprint == fingerprint_at(&self.system, &step_memory.state);
+        if !known || !mine(&step_memory.state.q, beside) {
             return Err(CheckpointError::OtherSystem);
         }
-        self.step_memory = run.step_memory;
-        self.clock = run.clock;
-        self.step_size = run.step_size;
-        self.stopping = run.stopping;
-        self.retry = run.retry;
-        self.last_event = run.last_event;
+        self.step_memory = StepMemory {
+            kept: numbers.kept,
+            last_size: numbers.last_size,
+            last_time: numbers.last_time,
+            statistics: numbers.statistics,
+            linear_velocity: numbers.linear_velocity,
+            ..step_memory
+        };
+        self.clock = numbers.clock;
+        self.step_size = numbers.step_size;
+        self.stopping = numbers.stopping;
+        self.retry = numbers.retry;
+        self.last_event = numbers.last_event;
         Ok(())
     }
 
@@ -338,27 +346,44 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         })
     }
 
-    /// Everything that the words store.
-    fn all_that_changes(&self) -> Run<V, super::MemoryOf<M, S, V, N>> {
-        let mut run = Run {
-            step_memory: self.step_memory.clone(),
-            clock: self.clock,
+    /// Everything that the words store beside the scalars of the [`StepMemory`].
+    fn numbers(&self) -> Numbers {
+        let StepMemory {
+            state,
+            kept,
+            last_size,
+            last_time,
+            statistics,
+            linear_velocity,
+            ..
+        } = &self.step_memory;
+        Numbers {
+            time: state.time,
             step_size: self.step_size,
+            kept: *kept,
+            last_size: *last_size,
+            last_time: *last_time,
+            linear_velocity: *linear_velocity,
+            statistics: *statistics,
+            clock: self.clock,
             stopping: self.stopping,
             retry: self.retry,
             last_event: self.last_event,
-            fingerprint: [0; 2],
-        };
-        run.fingerprint = run.fingerprint_of(&self.system);
-        run
+            fingerprint: fingerprint_at(&self.system, state),
+        }
     }
 }
 
-/// The data that change in a run.
-struct Run<V, T> {
-    step_memory: StepMemory<V, T>,
-    clock: Clock,
+/// The numbers that change in a run, beside the scalars of its memory.
+struct Numbers {
+    time: f64,
     step_size: f64,
+    kept: WarmStart,
+    last_size: f64,
+    last_time: f64,
+    linear_velocity: bool,
+    statistics: Statistics,
+    clock: Clock,
     stopping: Stopping,
     retry: Retry,
     last_event: Option<LastEvent>,
@@ -366,25 +391,17 @@ struct Run<V, T> {
     fingerprint: [u64; 2],
 }
 
-impl<V: Vector, T: StageStorage<V>> Run<V, T> {
-    /// Shows `visit` every word, first those of the state.
-    fn words(&mut self, visit: &mut Visit<'_>) {
-        words!(visit: self.step_memory.state.time, self.step_size);
-        self.step_memory.scalar_words(visit);
-        let StepMemory {
-            kept,
-            last_size,
-            last_time,
-            statistics,
-            linear_velocity,
-            ..
-        } = &mut self.step_memory;
+impl Numbers {
+    /// Shows `visit` every word; `scalars` does so for the memory of the steps.
+    fn words(&mut self, visit: &mut Visit<'_>, scalars: impl FnOnce(&mut Visit<'_>)) {
+        words!(visit: self.time, self.step_size);
+        scalars(visit);
         let WarmStart {
             evaluation,
             stages,
             scales,
-        } = kept;
-        words!(visit: *evaluation, *stages, *scales, *last_size, *last_time, *linear_velocity);
+        } = &mut self.kept;
+        words!(visit: *evaluation, *stages, *scales, self.last_size, self.last_time, self.linear_velocity);
         let Statistics {
             steps,
             rejected,
@@ -393,7 +410,7 @@ impl<V: Vector, T: StageStorage<V>> Run<V, T> {
             evaluations,
             factorisations,
             largest_residual,
-        } = statistics;
+        } = &mut self.statistics;
         words!(visit: *steps, *rejected, *iterations, *most_iterations, *evaluations, *factorisations, *largest_residual);
         self.clock.words(visit);
         words!(visit: self.stopping.max_iterations, self.stopping.tolerance);
@@ -404,10 +421,12 @@ impl<V: Vector, T: StageStorage<V>> Run<V, T> {
         words!(visit: halvings, self.last_event, self.fingerprint);
         self.retry = halvings.map_or(Retry::Never, |halvings| Retry::Split { halvings });
     }
+}
 
-    /// [`system_fingerprint`] at the state.
-    fn fingerprint_of<S: System<V>>(&self, system: &S) -> [u64; 2] {
-        let State { time, q, p } = &self.step_memory.state;
-        system_fingerprint(system, *time, q, p)
-    }
+/// [`system_fingerprint`] at a state.
+fn fingerprint_at<V: Vector, S: System<V>>(
+    system: &S,
+    State { time, q, p }: &State<V>,
+) -> [u64; 2] {
+    system_fingerprint(system, *time, q, p)
 }

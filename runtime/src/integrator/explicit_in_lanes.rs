@@ -199,7 +199,7 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
         O: Solver<V, S> + 'r,
     {
         let width = <W::Scalar as Lanes>::WIDTH;
-        let words = |lane| words_of(&mut run(lane).step_memory.clone());
+        let words = |lane| words_of(&run(lane).step_memory);
         let words: Vec<Vec<u64>> = (0..width).map(words).collect();
         let mut number = 0;
         self.step_memory.scalar_words(&mut |word| {
@@ -212,7 +212,7 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
 
     /// The words of all lanes, for [`get_lane`](Self::get_lane).
     pub(crate) fn words(&self) -> Vec<u64> {
-        words_of(&mut self.step_memory.clone())
+        words_of(&self.step_memory)
     }
 
     /// Copies a lane into a run, from the [words](Self::words) of all lanes.
@@ -323,9 +323,9 @@ where
 }
 
 /// The words of all scalars of a run.
-fn words_of<V: Vector, T: StageStorage<V>>(step_memory: &mut StepMemory<V, T>) -> Vec<u64> {
+fn words_of<V: Vector, T: StageStorage<V>>(step_memory: &StepMemory<V, T>) -> Vec<u64> {
     let mut words = Vec::new();
-    step_memory.scalar_words(&mut |word| words.push(*word));
+    step_memory.show_scalars(&mut |word| words.push(*word));
     words
 }
 

@@ -1,6 +1,8 @@
 //! The memory of steps.
 
 use core::mem;
+#[cfg(feature = "alloc")]
+use core::slice;
 
 use crate::integrator::Statistics;
 use crate::method::storage::is_finite;
@@ -9,7 +11,7 @@ use crate::method::{
 };
 use crate::number::{Summation, Vector};
 #[cfg(feature = "alloc")]
-use crate::number::{Visit, scalar_words};
+use crate::number::{Visit, scalar_words, words::show_vectors};
 use crate::state::State;
 use crate::system::System;
 
@@ -74,6 +76,32 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
             &mut self.next_low.0,
             &mut self.next_low.1,
         ]
+    }
+
+    /// Shows `visit` copies of the words that [`scalar_words`](Self::scalar_words) visits.
+    #[cfg(feature = "alloc")]
+    pub(super) fn show_scalars(&self, visit: &mut Visit<'_>) {
+        let Self {
+            state,
+            low,
+            next,
+            next_low,
+            ..
+        } = self;
+        let vectors = [
+            &state.q,
+            &state.p,
+            &low.0,
+            &low.1,
+            &next.0,
+            &next.1,
+            &next_low.0,
+            &next_low.1,
+        ];
+        for vector in vectors {
+            show_vectors(slice::from_ref(vector), visit);
+        }
+        self.memory.show_words(visit);
     }
 
     /// Shows `visit` the words of all scalars of state, result and memory.

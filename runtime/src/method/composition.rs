@@ -4,12 +4,12 @@ use core::marker::PhantomData;
 
 use crate::error::Quantity;
 use crate::method::diagnosis::{FirstFault, culprit};
-use crate::method::storage::is_finite;
+use crate::method::storage::{is_finite, stored_words};
 use crate::method::{
     EvaluationObserver, Failure, Outcome, Plan, Possible, Solver, StageStorage, Step,
     StepStatistics, Stopping, WarmStart,
 };
-use crate::number::{Coefficient, Summation, Vector, Visit, vector_words};
+use crate::number::{Coefficient, Summation, Vector};
 use crate::system::{Class, System};
 
 /// A substep `Φ_{γh}` of a composition.
@@ -90,10 +90,7 @@ impl<V: Vector, T: StageStorage<V>> StageStorage<V> for CompositionMemory<V, T> 
         }
     }
 
-    fn words(&mut self, visit: &mut Visit<'_>) {
-        self.plans.words(visit);
-        vector_words(&mut self.between, visit);
-    }
+    stored_words! { plans: memory; between: vectors; }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         self.plans.non_finite()
@@ -106,6 +103,8 @@ impl<V: Vector, T: StageStorage<V>> StageStorage<V> for CompositionMemory<V, T> 
 }
 
 impl<L: Substeps> Possible for Composition<L> {}
+
+impl<L: Substeps> EmittedPlan for Composition<L> {}
 
 impl<L: Substeps> Plan for Composition<L> {
     type Class = L::Class;

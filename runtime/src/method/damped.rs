@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 use core::slice;
 
 use crate::error::{Error, Quantity};
+use crate::method::storage::stored_words;
 use crate::method::{
     EvaluationObserver, Evaluations, Failure, KickDrift, Method, Outcome, Plan, ProvedFor, Solver,
     StageStorage, Step, StepStatistics, Stopping, WarmStart, check_no_constraints,
@@ -11,7 +12,7 @@ use crate::method::{
 use crate::number::linear_combination::add_products;
 use crate::number::summation::add;
 use crate::number::vector::same_mut;
-use crate::number::{Coefficient, Coefficients, Scalar, Summation, Vector, Visit, larger_or_nan};
+use crate::number::{Coefficient, Coefficients, Scalar, Summation, Vector, larger_or_nan};
 use crate::solver::FixedPoint;
 use crate::system::{Damped, Masses, Separable, System};
 
@@ -170,9 +171,7 @@ impl<V: Vector> StageStorage<V> for DampedMemory<V> {
         }
     }
 
-    fn words(&mut self, visit: &mut Visit<'_>) {
-        self.evaluations.words(visit);
-    }
+    stored_words! { evaluations: memory; }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         None

@@ -9,7 +9,7 @@ use crate::method::StoredEvaluations;
 #[cfg(feature = "alloc")]
 use crate::method::{RunTimeTableau, StageVisit};
 use crate::number::vector::LIGHT;
-use crate::number::{Scalar, Vector, Visit, vector_words};
+use crate::number::{Scalar, Vector, Visit};
 
 /// Memory of one [`Plan`](crate::emitted::Plan), allocated once and used for every step.
 pub trait StageStorage<V: Vector>: Sized + Clone {
@@ -48,6 +48,11 @@ pub trait StageStorage<V: Vector>: Sized + Clone {
     /// Passes all numbers that a step leaves for the next one to `visit`: a checkpoint holds them.
     fn words(&mut self, visit: &mut Visit<'_>);
 
+    /// Passes copies of the same numbers in the same order to `visit`. Long vectors should not be cloned for it.
+    fn show_words(&self, visit: &mut Visit<'_>) {
+        self.clone().words(visit);
+    }
+
     /// Shows `visit` the stages that can run [in lanes](crate::ensemble::Ensemble::in_lanes), if there are any.
     #[cfg(feature = "alloc")]
     #[doc(hidden)]
@@ -76,16 +81,51 @@ pub(crate) fn aside<M: Clone, T>(stages: &M, look: impl FnOnce(&M) -> T) -> T {
     }
 }
 
+/// [`StageStorage::words`] and [`StageStorage::show_words`] of these fields. A field is a `memory` or an `optional memory`, consists of
+/// `vectors`, is a single `vector`, or a `number`.
+macro_rules! stored_words {
+    ($($field:tt: $($kind:ident)+;)+) => {
+        fn words(&mut self, visit: &mut $crate::number::Visit<'_>) {
+            $($crate::method::storage::stored_words!(@change $($kind)+, self.$field, visit);)+
+        }
+
+        fn show_words(&self, visit: &mut $crate::number::Visit<'_>) {
+            $($crate::method::storage::stored_words!(@show $($kind)+, self.$field, visit);)+
+        }
+    };
+    (@change memory, $field:expr, $visit:ident) => { $field.words($visit) };
+    (@show memory, $field:expr, $visit:ident) => { $field.show_words($visit) };
+    (@change optional memory, $field:expr, $visit:ident) => {
+        if let Some(memory) = &mut $field {
+            memory.words($visit);
+        }
+    };
+    (@show optional memory, $field:expr, $visit:ident) => {
+        if let Some(memory) = &$field {
+            memory.show_words($visit);
+        }
+    };
+    (@change vectors, $field:expr, $visit:ident) => { $crate::number::vector_words($field.as_mut(), $visit) };
+    (@show vectors, $field:expr, $visit:ident) => { $crate::number::words::show_vectors($field.as_ref(), $visit) };
+    (@change vector, $field:expr, $visit:ident) => {
+        $crate::number::vector_words(core::slice::from_mut(&mut $field), $visit)
+    };
+    (@show vector, $field:expr, $visit:ident) => {
+        $crate::number::words::show_vectors(core::slice::from_ref(&$field), $visit)
+    };
+    (@change number, $field:expr, $visit:ident) => { $crate::number::Words::words(&mut $field, $visit) };
+    // The visitor sees a copy.
+    (@show number, $field:expr, $visit:ident) => { $crate::number::Words::words(&mut { $field }, $visit) };
+}
+pub(crate) use stored_words;
+
 /// The memories of two plans.
 impl<V: Vector, A: StageStorage<V>, B: StageStorage<V>> StageStorage<V> for (A, B) {
     fn like(prototype: &V) -> Self {
         (A::like(prototype), B::like(prototype))
     }
 
-    fn words(&mut self, visit: &mut Visit<'_>) {
-        self.0.words(visit);
-        self.1.words(visit);
-    }
+    stored_words! { 0: memory; 1: memory; }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         self.0.non_finite().or_else(|| self.1.non_finite())
@@ -115,10 +155,7 @@ impl<V: Vector> StageStorage<V> for Evaluations<V> {
         }
     }
 
-    fn words(&mut self, visit: &mut Visit<'_>) {
-        vector_words(array::from_mut(&mut self.velocity), visit);
-        vector_words(array::from_mut(&mut self.force), visit);
-    }
+    stored_words! { velocity: vector; force: vector; }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         None
@@ -177,12 +214,7 @@ impl<V: Vector, const Q: usize, const P: usize> StageStorage<V> for Stages<V, Q,
         }
     }
 
-    fn words(&mut self, visit: &mut Visit<'_>) {
-        vector_words(&mut self.q, visit);
-        vector_words(&mut self.p, visit);
-        vector_words(&mut self.velocity, visit);
-        vector_words(&mut self.force, visit);
-    }
+    stored_words! { q: vectors; p: vectors; velocity: vectors; force: vectors; }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         first_non_finite((&self.q, &self.force), (&self.p, &self.velocity))

@@ -75,6 +75,13 @@ impl<T: Words + Default> Words for Option<T> {
     }
 }
 
+/// Shows copies of the words of vectors.
+pub fn show_vectors<V: Vector>(vectors: &[V], show: &mut Visit<'_>) {
+    for &(mut copy) in vectors.iter().flat_map(V::as_slice) {
+        copy.as_words(show);
+    }
+}
+
 /// Visits the words of scalars.
 pub fn scalar_words<T: Scalar>(scalars: &mut [T], visit: &mut Visit<'_>) {
     for scalar in scalars {

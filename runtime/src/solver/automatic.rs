@@ -136,6 +136,10 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> StageStorage<V>
         with_stages!(&mut self.0, stages => stages.words(visit));
     }
 
+    fn show_words(&self, visit: &mut Visit<'_>) {
+        with_stages!(&self.0, stages => stages.show_words(visit));
+    }
+
     #[cfg(feature = "alloc")]
     fn stages(&mut self, visit: &mut StageVisit<'_>) {
         with_stages!(&mut self.0, stages => stages.stages(visit));
@@ -197,6 +201,8 @@ where
         }
     }
 }
+
+impl<M> SolverOf<M> for Automatic {}
 
 impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
     type Memory<P: StageTableau> = AutomaticStages<V, S, P>;

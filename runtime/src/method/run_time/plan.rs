@@ -5,15 +5,13 @@ use core::marker::PhantomData;
 
 use super::{Coupled, Kind, RunTimeTableau, Schedule, Splitting, coupled};
 use crate::error::Quantity;
-use crate::method::storage::{first_mismatch, first_non_finite};
+use crate::method::storage::{first_mismatch, first_non_finite, stored_words};
 use crate::method::{
     EvaluationObserver, Evaluations, Failure, Inside, Interpolation, LaneStep, Outcome, Plan,
     Possible, Solver, StagePart, StageStorage, StageVisit, Step, StepStatistics, Stopping,
     WarmStart,
 };
-use crate::number::{
-    Coefficient, Lanes, Scalar, Summation, Vector, Visit, advance, copy, vector_words,
-};
+use crate::number::{Coefficient, Lanes, Scalar, Summation, Vector, advance, copy};
 use crate::system::{Class, System};
 
 /// The plan of [`AtRunTime`](super::AtRunTime) for systems of one class.
@@ -58,14 +56,7 @@ impl<V: Vector, M: StageStorage<V>, C: Class> StageStorage<V> for RunTimeMemory<
         self.tableau = Some(tableau.clone());
     }
 
-    fn words(&mut self, visit: &mut Visit<'_>) {
-        if let Some(evaluations) = &mut self.splitting {
-            evaluations.words(visit);
-        }
-        if let Some(stages) = &mut self.coupled {
-            stages.words(visit);
-        }
-    }
+    stored_words! { splitting: optional memory; coupled: optional memory; }
 
     fn stages(&mut self, visit: &mut StageVisit<'_>) {
         if let Some(stages) = &mut self.coupled {
@@ -131,16 +122,7 @@ impl<V: Vector, C: Class> StageStorage<V> for RunTimeStages<V, C> {
         };
     }
 
-    fn words(&mut self, visit: &mut Visit<'_>) {
-        for vectors in [
-            &mut self.q,
-            &mut self.p,
-            &mut self.velocity,
-            &mut self.force,
-        ] {
-            vector_words(vectors, visit);
-        }
-    }
+    stored_words! { q: vectors; p: vectors; velocity: vectors; force: vectors; }
 
     fn stages(&mut self, visit: &mut StageVisit<'_>) {
         let parts = [

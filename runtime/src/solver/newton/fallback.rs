@@ -3,12 +3,12 @@
 use super::linear_solver::{BandOrDense, LinearSolver};
 use super::{AnalyticOrDifferences, Newton};
 use crate::error::Quantity;
+use crate::method::storage::stored_words;
 use crate::method::{
     Failure, Inside, Outcome, RunTimeTableau, Solver, StageStorage, StageTableau, Step,
     StepStatistics, Stopping, WarmStart,
 };
-use crate::number::words::words;
-use crate::number::{Summation, Vector, Visit};
+use crate::number::{Summation, Vector};
 use crate::solver::FixedPoint;
 use crate::solver::fixed_point::by_stages;
 use crate::solver::run_time::by_rows;
@@ -90,11 +90,7 @@ impl<V: Vector, F: StageStorage<V>, N: StageStorage<V>> StageStorage<V>
         self.newton.set_tableau(tableau, prototype);
     }
 
-    fn words(&mut self, visit: &mut Visit<'_>) {
-        self.fixed_point.words(visit);
-        self.newton.words(visit);
-        words!(visit: self.was_newton, self.newton_steps);
-    }
+    stored_words! { fixed_point: memory; newton: memory; was_newton: number; newton_steps: number; }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         let newton = self.newton.non_finite();
@@ -145,6 +141,8 @@ impl<F, N> FixedPointThenNewtonMemory<F, N> {
         Ok(work)
     }
 }
+
+impl<M, L> SolverOf<M> for FixedPointThenNewton<L> {}
 
 impl<V, S, L> Solver<V, S> for FixedPointThenNewton<L>
 where

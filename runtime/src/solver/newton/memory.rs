@@ -11,7 +11,7 @@ use super::linear_solver::{LinearSolver, Parts};
 use crate::error::Quantity;
 use crate::method::storage::{first_mismatch, first_non_finite};
 use crate::method::{RunTimeTableau, StageStorage};
-use crate::number::words::words;
+use crate::number::words::{show_vectors, words};
 use crate::number::{Vector, Visit, vector_words};
 use crate::system::{Class, System};
 
@@ -202,6 +202,22 @@ impl<V: Vector, T: StageCoefficients, S: System<V>, L: LinearSolver<V, S>> Stage
         }
         L::words(&mut work.linear, visit);
         words!(visit: work.factored, work.stale, work.steps_in_full, work.pause);
+    }
+
+    fn show_words(&self, visit: &mut Visit<'_>) {
+        let work = &self.work;
+        for vectors in [
+            &work.q,
+            &work.p,
+            &work.velocity,
+            &work.force,
+            &work.u,
+            &work.w,
+        ] {
+            show_vectors(vectors, visit);
+        }
+        L::words(&mut work.linear.clone(), visit);
+        words!(visit: { work.factored }, { work.stale }, { work.steps_in_full }, { work.pause });
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {

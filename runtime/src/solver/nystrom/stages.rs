@@ -1,11 +1,11 @@
 //! Memory of the Nyström form.
 
 use crate::error::Quantity;
+use crate::method::storage::stored_words;
 #[cfg(feature = "alloc")]
 use crate::method::{StagePart, StageVisit};
 use crate::method::{StageStorage, StageTableau};
-use crate::number::words::words;
-use crate::number::{Vector, Visit, vector_words};
+use crate::number::Vector;
 use crate::solver::stages_in_lanes::stages::SimdStages;
 
 /// Stages in lanes, and the velocity at the start of the step.
@@ -40,11 +40,7 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for NystromStages
         }
     }
 
-    fn words(&mut self, visit: &mut Visit<'_>) {
-        self.lanes.words(visit);
-        vector_words(core::array::from_mut(&mut self.start), visit);
-        words!(visit: self.of_increments, self.eliminated);
-    }
+    stored_words! { lanes: memory; start: vector; of_increments: number; eliminated: number; }
 
     #[cfg(feature = "alloc")]
     fn stages(&mut self, visit: &mut StageVisit<'_>) {

@@ -1,10 +1,11 @@
 //! Memory of coupled stages in SIMD lanes.
 
 use crate::error::Quantity;
+use crate::method::storage::stored_words;
 use crate::method::{HalfTableau, StageStorage, StageTableau};
 #[cfg(feature = "alloc")]
 use crate::method::{StagePart, StageVisit};
-use crate::number::{Lanes, Vector, Visit, vector_words};
+use crate::number::{Lanes, Vector};
 
 /// A vector of lanes.
 pub(crate) type Laned<V, P> = <V as Vector>::With<<P as StageTableau>::Lanes>;
@@ -42,16 +43,7 @@ impl<V: Vector<Scalar = f64>, P: StageTableau> StageStorage<V> for SimdStages<V,
         }
     }
 
-    fn words(&mut self, visit: &mut Visit<'_>) {
-        for groups in [
-            &mut self.q,
-            &mut self.p,
-            &mut self.velocity,
-            &mut self.force,
-        ] {
-            vector_words(groups.as_mut(), visit);
-        }
-    }
+    stored_words! { q: vectors; p: vectors; velocity: vectors; force: vectors; }
 
     #[cfg(feature = "alloc")]
     fn stages(&mut self, visit: &mut StageVisit<'_>) {
