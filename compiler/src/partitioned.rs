@@ -276,14 +276,14 @@ impl<A: StageAlgebra> Partitioned<A> {
         let algebra = &*self.algebra;
         let vector = |f: &A::Vector| -> Vec<Ball> {
             let values = algebra.values(Cow::Borrowed(f));
-            values.iter().map(|x| Ball::of(x, bits)).collect()
+            values.iter().map(|x| x.ball(bits)).collect()
         };
         let (b, b_tilde) = (vector(&self.b), vector(&self.b_tilde));
         if let Some(lower_triangular) = self.lower_triangular() {
             return Partitioned::of_splitting(Balls::new(bits), lower_triangular, b, b_tilde);
         }
         let matrix = |m: &A::Matrix| -> Vec<Vec<Ball>> {
-            let row = |row: &Vec<Number<'_>>| row.iter().map(|x| Ball::of(x, bits)).collect();
+            let row = |row: &Vec<Number<'_>>| row.iter().map(|x| x.ball(bits)).collect();
             algebra.entries(m).iter().map(row).collect()
         };
         Partitioned {

@@ -2,6 +2,7 @@
 //! correct rounding.
 
 pub mod algebraic_number;
+pub mod ball;
 mod common_divisor;
 pub mod eigen;
 pub mod elementary;
@@ -20,3 +21,4 @@ pub mod rational;
 pub mod residues;
 pub mod roots;
 pub mod rounding;
+pub mod zero;

@@ -54,7 +54,7 @@ pub trait Field: Debug + PartialEq {
     fn exact(&self, x: &Self::Element) -> Option<String>;
     /// An enclosure with this many bits.
     fn enclose(&self, x: &Self::Element, bits: u32) -> Ball {
-        Ball::of(&self.number(x), bits)
+        self.number(x).ball(bits)
     }
     /// Homomorphisms to finite fields, if there are any.
     fn images(&self) -> &[Image] {

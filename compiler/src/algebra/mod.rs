@@ -9,7 +9,7 @@
 //! | 2 | [`Dense`] over [`Constants`] | numbers in `Q(α)(X)`, `X` one transcendental |
 //! | 3 | [`Dense`] over [`Reals`] | expressions that can be enclosed to any precision |
 
-mod ball;
+mod balls;
 mod constants;
 mod dense;
 pub mod field;
@@ -20,14 +20,17 @@ mod rationals;
 mod real;
 mod stage_algebra;
 
-pub use ball::{Ball, Balls};
+pub use balls::Balls;
 pub use constants::Constants;
 pub use dense::{Dense, Field};
 pub use field::{ConstantField, FieldElement};
 pub use images::Image;
 pub use node::{ClosedForm, NodeAlgebra, Tensor};
-pub use number::{Number, Zero};
+pub use number::Number;
 pub use rationals::Rationals;
 pub use real::{ROUNDING_BITS, Real, Reals, ZERO_BITS};
 pub(crate) use stage_algebra::group_by;
 pub use stage_algebra::{Scalar, StageAlgebra};
+
+pub use crate::arithmetic::ball::Ball;
+pub use crate::arithmetic::zero::Zero;

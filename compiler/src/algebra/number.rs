@@ -8,29 +8,13 @@ use num_traits::{Signed, Zero as _};
 
 use super::node::{NodeNumber, short_rational};
 use super::real::{ROUNDING_BITS, beyond_usual};
-use super::{Ball, ConstantField, FieldElement, Real, ZERO_BITS};
+use super::{ConstantField, FieldElement, Real, ZERO_BITS};
+use crate::arithmetic::ball::Ball;
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::{add, length, ratio};
 use crate::arithmetic::rounding::{self, Decimal, exact};
-
-/// The evidence whether a number is zero.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Zero {
-    /// The number is zero, by exact arithmetic.
-    Yes,
-    /// The number is nonzero: some enclosure excludes zero.
-    No,
-    /// The magnitude is at most `2⁻ᵇⁱᵗˢ`; no exact argument decides whether the number is zero.
-    Within(u32),
-}
-
-impl Zero {
-    /// Whether the number is zero, as far as is known.
-    pub fn may_be(self) -> bool {
-        self != Zero::No
-    }
-}
+use crate::arithmetic::zero::Zero;
 
 /// A real number: a coefficient of a tableau, or a number computed from coefficients.
 #[derive(Debug, Clone)]
@@ -51,6 +35,36 @@ pub enum Number<'a> {
 const FIRST_BITS: u32 = 192;
 
 impl Number<'_> {
+    /// An enclosure that is narrow relative to the number, or relative to 1 if the number cannot be distinguished from zero.
+    pub fn ball(&self, bits: u32) -> Ball {
+        match self {
+            Number::Rational(value) => return Ball::quotient(value, bits),
+            Number::Enclosed(ball) => return ball.clone(),
+            _ => {}
+        }
+        match self.zero() {
+            Zero::Yes => return Ball::zero(),
+            Zero::Within(_) => return Ball::undecided(&self.enclose(bits)),
+            Zero::No => {}
+        }
+        // A few places give the size of the number, and so the places needed.
+        let mut places = 64;
+        loop {
+            let interval = self.enclose(places);
+            let wanted = interval.magnitude_bits() - i64::from(bits);
+            let known = interval.sign().is_some();
+            if known && interval.width_bits() <= wanted {
+                return Ball::around(&interval, bits);
+            }
+            let needed = u32::try_from(8 - wanted).unwrap_or(0);
+            places = if known && needed > places {
+                needed
+            } else {
+                2 * places
+            };
+        }
+    }
+
     /// An enclosure with at least this many binary places, and at least 192. Its width tends to zero as `bits` grows, except
     /// for a number that is known by a single enclosure only.
     pub fn enclose(&self, bits: u32) -> Interval {

@@ -104,8 +104,6 @@ impl<V: Vector, T: StageStorage<V>> StageStorage<V> for CompositionMemory<V, T> 
 
 impl<L: Substeps> Possible for Composition<L> {}
 
-impl<L: Substeps> EmittedPlan for Composition<L> {}
-
 impl<L: Substeps> Plan for Composition<L> {
     type Class = L::Class;
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>> =

@@ -202,8 +202,6 @@ where
     }
 }
 
-impl<M> SolverOf<M> for Automatic {}
-
 impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
     type Memory<P: StageTableau> = AutomaticStages<V, S, P>;
     #[cfg(feature = "alloc")]

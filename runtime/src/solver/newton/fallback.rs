@@ -142,8 +142,6 @@ impl<F, N> FixedPointThenNewtonMemory<F, N> {
     }
 }
 
-impl<M, L> SolverOf<M> for FixedPointThenNewton<L> {}
-
 impl<V, S, L> Solver<V, S> for FixedPointThenNewton<L>
 where
     V: Vector,
