@@ -53,7 +53,7 @@ fn hash_of_words(words: impl Iterator<Item = u64>) -> u64 {
 impl<M, S, V, R, N, L> Ensemble<M, S, V, R, N, L>
 where
     M: Method,
-    S: System<V> + Clone + Send + Sync,
+    S: System<V> + Clone + Send,
     V: Vector + Send + Sync,
     R: Summation,
     N: Solver<V, S>,

@@ -43,7 +43,7 @@ where
 impl<'g, 'a, M, S, V, R, N, L, A, F, W, J> Coupled<'g, 'a, M, S, V, R, N, L, A, F, W, J>
 where
     M: Method,
-    S: System<V> + Clone + Send + Sync,
+    S: System<V> + Clone + Send,
     V: Vector + Send + Sync,
     R: Summation,
     N: Solver<V, S>,

@@ -38,7 +38,7 @@ type InLanes<M, J, W, R> = Integrator<M, J, W, R, <J as System<W>>::Solver>;
 impl<M, S, V, R, N, L, K, A, F> LaneWork<V, S, K> for SideBySide<'_, '_, M, S, V, R, N, L, A, F>
 where
     M: Method,
-    S: System<V> + Clone + Send + Sync,
+    S: System<V> + Clone + Send,
     V: Vector + Send + Sync,
     R: Summation,
     N: Solver<V, S>,
@@ -160,7 +160,7 @@ where
 impl<'g, 'a, M, S, V, R, N, L, A, F, W, J> Explicit<'g, 'a, M, S, V, R, N, L, A, F, W, J>
 where
     M: Method,
-    S: System<V> + Clone + Send + Sync,
+    S: System<V> + Clone + Send,
     V: Vector + Send + Sync,
     R: Summation,
     N: Solver<V, S>,

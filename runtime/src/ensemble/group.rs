@@ -72,7 +72,7 @@ pub(super) enum Attempt {
 impl<M, S, V, R, N, L, A, F> Job<'_, M, S, V, R, N, L, A, F>
 where
     M: Method,
-    S: System<V> + Clone + Send + Sync,
+    S: System<V> + Clone + Send,
     V: Vector + Send + Sync,
     R: Summation,
     N: Solver<V, S>,
@@ -104,8 +104,7 @@ where
 
     /// The first group of these trajectories.
     pub(super) fn group_of(&self, places: &Range<usize>) -> Range<usize> {
-        let end = self.ensemble.end_of_group(places.start, self.width);
-        places.start..end.min(places.end)
+        places.start..self.ensemble.end_of_group(places, self.width)
     }
 
     /// Whether lanes are faster for this number of trajectories.
@@ -152,7 +151,7 @@ where
 impl<'a, M, S, V, R, N, L, A> Group<'a, M, S, V, R, N, L, A>
 where
     M: Method,
-    S: System<V> + Clone + Send + Sync,
+    S: System<V> + Clone + Send,
     V: Vector + Send + Sync,
     R: Summation,
     N: Solver<V, S>,
@@ -272,7 +271,7 @@ where
 impl<M, S, V, R, N, A> Member<M, S, V, R, N, A>
 where
     M: Method,
-    S: System<V> + Clone + Send + Sync,
+    S: System<V> + Clone + Send,
     V: Vector + Send + Sync,
     R: Summation,
     N: Solver<V, S>,

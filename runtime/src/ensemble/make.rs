@@ -1,5 +1,6 @@
 //! Construction of an ensemble, and the checks of its starts.
 
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
@@ -138,7 +139,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation> Ensemble<M, S, V, R> {
         }
         Ok(Self {
             systems,
-            starts,
+            starts: Arc::new(starts),
             step_size,
             offset: 0,
             first: 0,

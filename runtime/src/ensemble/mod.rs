@@ -42,6 +42,10 @@
 //!
 //! With the feature `parallel` the threads of `rayon` share the trajectories. Without it there is one thread; the bits
 //! are the same. A thread runs many short trajectories before their rows are shown, and the next ones run meanwhile.
+//!
+//! Each thread has its own copy of the system, so a system need not be `Sync`. [`Newmark`](crate::variational::Newmark),
+//! [`Poincare`](crate::adaptive::Poincare) and [`Logarithmic`](crate::adaptive::Logarithmic), for example, are not. Their ensembles can be
+//! moved to another thread, but not shared: for a thread pool of your own write `pool.install(move || ensemble.take_steps(..))`.
 
 #[cfg(feature = "serde")]
 mod as_bits;
@@ -128,7 +132,8 @@ where
 {
     /// Each system with the end of its range of starts.
     systems: Vec<(S, usize)>,
-    starts: Vec<State<V>>,
+    /// Shared by all threads.
+    starts: Arc<Vec<State<V>>>,
     step_size: f64,
     /// Trajectory number of the first start.
     offset: usize,
@@ -278,7 +283,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
 
     /// The numbers of the trajectories that a run computes: only those of a [shard](Self::shard), and after [`restore`](Self::restore)
     /// only those without a row.
-    pub const fn trajectories(&self) -> Range<usize> {
+    pub fn trajectories(&self) -> Range<usize> {
         self.offset + self.first..self.offset + self.starts.len()
     }
 }

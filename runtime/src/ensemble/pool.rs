@@ -11,21 +11,22 @@ pub(super) fn threads() -> usize {
     return 1;
 }
 
-/// Calls `fill` with shares of at most `share` places, on one thread, and `show` with the rows of each share.
+/// Calls `fill` with `whole` and shares of at most `share` places, on one thread, and `show` with the rows of each share.
 ///
 /// `fill` appends a row for each place to the list; fewer rows end the run. So does `show`, which returns the number of rows shown.
 #[cfg(not(feature = "parallel"))]
-pub(super) fn in_order<T>(
+pub(super) fn in_order<E, T>(
+    (whole, _part): (&E, impl Fn(&Range<usize>, Option<E>) -> E),
     places: Range<usize>,
     share: usize,
-    fill: impl Fn(Range<usize>, &mut Vec<T>),
+    fill: impl Fn(&E, Range<usize>, &mut Vec<T>),
     mut show: impl FnMut(&mut Vec<T>) -> ControlFlow<()>,
 ) {
     let mut rows = Vec::new();
     let mut next = places.start;
     while next < places.end {
         let end = places.end.min(next.saturating_add(share));
-        fill(next..end, &mut rows);
+        fill(whole, next..end, &mut rows);
         let count = rows.len();
         if show(&mut rows).is_break() || count < end - next {
             return;
@@ -55,23 +56,44 @@ mod by_threads {
     const MOST_SHARES: usize = 1 << 6;
 
     /// Shares that run at the same time, in order; the lists are reused.
-    struct Batch<T> {
-        shares: Vec<(Range<usize>, Mutex<Vec<T>>)>,
+    struct Batch<E, T> {
+        shares: Vec<Mutex<Share<E, T>>>,
         /// The number of shares in use.
         count: usize,
     }
 
-    impl<T> Batch<T> {
+    /// What the thread that runs a share has to itself.
+    struct Share<E, T> {
+        places: Range<usize>,
+        part: Option<E>,
+        rows: Vec<T>,
+    }
+
+    impl<E, T> Batch<E, T> {
         /// Takes shares from the beginning of the places.
-        fn take(&mut self, places: &mut Range<usize>, share: usize, most: usize) {
+        fn take(
+            &mut self,
+            places: &mut Range<usize>,
+            share: usize,
+            most: usize,
+            part: impl Fn(&Range<usize>, Option<E>) -> E,
+        ) {
             self.count = 0;
             while places.start < places.end && self.count < most {
                 let end = places.end.min(places.start.saturating_add(share));
                 let own = places.start..end;
                 places.start = end;
                 match self.shares.get_mut(self.count) {
-                    Some((place, _)) => *place = own,
-                    None => self.shares.push((own, Mutex::default())),
+                    Some(held) => {
+                        let held = held.get_mut().unwrap_or_else(PoisonError::into_inner);
+                        held.part = Some(part(&own, held.part.take()));
+                        held.places = own;
+                    }
+                    None => self.shares.push(Mutex::new(Share {
+                        part: Some(part(&own, None)),
+                        places: own,
+                        rows: Vec::new(),
+                    })),
                 }
                 self.count += 1;
             }
@@ -81,32 +103,39 @@ mod by_threads {
     /// Calls `fill` with shares of at most `share` places, on the threads of `rayon`, and `show` with the rows of each share in order, on
     /// this thread.
     ///
+    /// The first argument of `fill` is what `part` makes of the whole for the share, on this thread; its second argument is an earlier part
+    /// that is no longer in use.
+    ///
     /// `fill` appends a row for each place to the list; fewer rows end the run. So does `show`.
-    pub(in crate::ensemble) fn in_order<T: Send>(
+    pub(in crate::ensemble) fn in_order<E: Send, T: Send>(
+        (_whole, part): (&E, impl Fn(&Range<usize>, Option<E>) -> E),
         mut places: Range<usize>,
         share: usize,
-        fill: impl Fn(Range<usize>, &mut Vec<T>) + Sync,
+        fill: impl Fn(&E, Range<usize>, &mut Vec<T>) + Sync,
         mut show: impl FnMut(&mut Vec<T>) -> ControlFlow<()>,
     ) {
         let threads = rayon::current_num_threads();
         let largest = threads * (MOST_PLACES / share.max(1)).clamp(1, MOST_SHARES);
         let ended = AtomicBool::new(false);
-        let mut show_batch = |batch: &mut Batch<T>| {
-            for (own, rows) in &mut batch.shares[..batch.count] {
-                let rows = rows.get_mut().unwrap_or_else(PoisonError::into_inner);
-                let count = rows.len();
-                if show(rows).is_break() || count < own.len() {
+        let mut show_batch = |batch: &mut Batch<E, T>| {
+            for held in &mut batch.shares[..batch.count] {
+                let held = held.get_mut().unwrap_or_else(PoisonError::into_inner);
+                let count = held.rows.len();
+                if show(&mut held.rows).is_break() || count < held.places.len() {
                     return ControlFlow::Break(());
                 }
             }
             ControlFlow::Continue(())
         };
-        let run = |batch: &Batch<T>, meanwhile: &mut dyn FnMut()| {
+        let run = |batch: &Batch<E, T>, meanwhile: &mut dyn FnMut()| {
             let job = |number: usize| {
-                let (own, rows) = &batch.shares[number];
+                let held = &batch.shares[number];
                 if !ended.load(Ordering::Relaxed) {
-                    let mut rows = rows.lock().unwrap_or_else(PoisonError::into_inner);
-                    fill(own.clone(), &mut rows);
+                    let mut held = held.lock().unwrap_or_else(PoisonError::into_inner);
+                    let Share { places, part, rows } = &mut *held;
+                    if let Some(part) = part {
+                        fill(part, places.clone(), rows);
+                    }
                 }
             };
             do_all(batch.count, &job, meanwhile);
@@ -119,7 +148,7 @@ mod by_threads {
         let mut most = threads.min(largest);
         let mut is_short = false;
         loop {
-            next.take(&mut places, share, most);
+            next.take(&mut places, share, most, &part);
             let is_last = next.count == 0;
             let is_shown_now = !is_short || is_last;
             if is_shown_now && show_batch(&mut shown).is_break() {

@@ -94,7 +94,7 @@ mod tests {
     fn rows<M, S, R>(ensemble: &Ensemble<M, S, Point, R>) -> Vec<String>
     where
         M: Method,
-        S: System<Point> + Clone + Send + Sync,
+        S: System<Point> + Clone + Send,
         R: Summation,
     {
         let mut rows = Vec::new();
@@ -122,7 +122,7 @@ mod tests {
     fn compare<M, S, R>(make: impl Fn() -> Ensemble<M, S, Point, R>)
     where
         M: Method,
-        S: System<Point> + Clone + Send + Sync,
+        S: System<Point> + Clone + Send,
         R: Summation,
     {
         let alone = rows(&make().one_by_one());
@@ -143,7 +143,7 @@ mod tests {
     fn check<M, S, R>(method: M, families: &[(S, Vec<State<Point>>)])
     where
         M: Method + ProvedFor<S::Class>,
-        S: System<Point> + Clone + Send + Sync,
+        S: System<Point> + Clone + Send,
         R: Summation,
     {
         compare(|| {

@@ -80,7 +80,7 @@ impl<V: Vector, S: System<V>, L: Lanes> LaneWork<V, S, L> for Joining<'_, '_, S>
 impl<M, S, V, R, N, L> Ensemble<M, S, V, R, N, L>
 where
     M: Method,
-    S: System<V> + Clone + Send + Sync,
+    S: System<V> + Clone + Send,
     V: Vector + Send + Sync,
     R: Summation,
     N: Solver<V, S>,
@@ -239,8 +239,8 @@ where
         work: impl Fn(&mut A, &mut T) -> Result<(), Error> + Sync,
         show: impl FnMut(Row<V, A>) -> ControlFlow<()>,
     ) -> usize {
-        let row = |place| {
-            let (trajectory, integrator) = self.integrator(place);
+        let row = |ensemble: &Self, place| {
+            let (trajectory, integrator) = ensemble.integrator(place);
             let mut output = output(trajectory);
             let (outcome, state, statistics) = match make(integrator) {
                 Ok(mut run) => {
@@ -248,7 +248,7 @@ where
                     (outcome, run.state().clone(), *run.statistics())
                 }
                 Err(error) => {
-                    let start = self.starts[place].clone();
+                    let start = ensemble.starts[place].clone();
                     (Err(error), start, Statistics::default())
                 }
             };
@@ -260,9 +260,13 @@ where
                 output,
             }
         };
-        let fill = |places: Range<usize>, rows: &mut Vec<Row<V, A>>| {
-            let going_on = |_: &usize| !self.is_stopped();
-            rows.extend(places.take_while(going_on).map(row));
+        let fill = |ensemble: &Self, places: Range<usize>, rows: &mut Vec<Row<V, A>>| {
+            let going_on = |_: &usize| !ensemble.is_stopped();
+            rows.extend(
+                places
+                    .take_while(going_on)
+                    .map(|place| row(ensemble, place)),
+            );
         };
         self.show_all(1, fill, show)
     }
@@ -291,17 +295,20 @@ where
                     .clamp(1, width::<L>(self.registers))
             }
         };
-        let job = Job {
-            ensemble: self,
-            task,
-            output: &output,
-            see: &see,
-            way,
-            width,
+        let fill = |ensemble: &Self, places, rows: &mut Vec<Row<V, A>>| {
+            let job = Job {
+                ensemble,
+                task,
+                output: &output,
+                see: &see,
+                way,
+                width,
+            };
+            job.run(places, rows);
         };
         // A thread reports after a number of steps.
         let share = width * ((SHARE / steps.max(1.0)) as usize / width).clamp(1, MOST_GROUPS);
-        self.show_all(share, |places, rows| job.run(places, rows), show)
+        self.show_all(share, fill, show)
     }
 
     /// The number of steps of a trajectory, roughly.
@@ -344,11 +351,13 @@ where
     fn show_all<A: Send>(
         &self,
         share: usize,
-        fill: impl Fn(Range<usize>, &mut Vec<Row<V, A>>) + Sync,
+        fill: impl Fn(&Self, Range<usize>, &mut Vec<Row<V, A>>) + Sync,
         mut show: impl FnMut(Row<V, A>) -> ControlFlow<()>,
     ) -> usize {
         let mut shown = self.first;
-        pool::in_order(self.first..self.starts.len(), share, fill, |rows| {
+        let part = |places: &Range<usize>, former| self.part(places, former);
+        let places = self.first..self.starts.len();
+        pool::in_order((self, part), places, share, fill, |rows| {
             rows.drain(..).try_for_each(|row| {
                 shown += 1;
                 show(row)
@@ -361,11 +370,12 @@ where
         self.stop.as_ref().is_some_and(|stop| stop())
     }
 
-    /// The end of a group of at most `width` trajectories with the same start time and, unless systems [join](System::JOINS), the same
-    /// system.
-    pub(super) fn end_of_group(&self, first: usize, width: usize) -> usize {
+    /// The end of the first group of these starts: at most `width` trajectories with the same start time and, unless systems
+    /// [join](System::JOINS), the same system.
+    pub(super) fn end_of_group(&self, places: &Range<usize>, width: usize) -> usize {
+        let first = places.start;
         let time = self.starts[first].time.to_bits();
-        let most = (first + width).min(self.starts.len());
+        let most = (first + width).min(places.end);
         let others = first + 1..most;
         let other = others.take_while(|&place| self.starts[place].time.to_bits() == time);
         let end = first + 1 + other.count();

@@ -1,5 +1,6 @@
 //! Parts of an ensemble, for several machines.
 
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 use core::ops::Range;
@@ -7,6 +8,7 @@ use core::ops::Range;
 use super::{Ensemble, EnsembleError};
 use crate::method::{Method, Solver};
 use crate::number::{Lanes, Summation, Vector};
+use crate::state::State;
 use crate::system::System;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes>
@@ -46,8 +48,9 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
     /// ```
     pub fn shard(mut self, part: usize, count: usize) -> Result<Self, EnsembleError> {
         let Range { start, end } = self.places_of(part, count)?;
-        self.starts.truncate(end);
-        self.starts.drain(..start);
+        let starts = Arc::make_mut(&mut self.starts);
+        starts.truncate(end);
+        starts.drain(..start);
         for (_, last) in &mut self.systems {
             *last = (*last).min(end).saturating_sub(start);
         }
@@ -78,20 +81,46 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         S: Clone,
     {
         let Range { start, end } = self.places_of(part, count)?;
-        // Copies only the systems of these starts; every start may have its own system.
-        let first = self.systems.partition_point(|(_, last)| *last <= start);
-        let after = &self.systems[first..];
-        let count = after.partition_point(|(_, last)| *last < end) + 1;
-        let mut systems: Vec<_> = after.iter().take(count).cloned().collect();
+        let mut systems = self.systems_of(&(start..end)).to_vec();
         for (_, last) in &mut systems {
             *last = (*last).min(end) - start;
         }
+        let starts = Arc::new(self.starts[start..end].to_vec());
         Ok(Self {
-            systems,
-            starts: self.starts[start..end].to_vec(),
-            step_size: self.step_size,
             offset: self.offset + start,
             first: self.first.clamp(start, end) - start,
+            ..self.with(systems, starts)
+        })
+    }
+
+    /// An ensemble with all starts, but only the systems of these; it reuses a former one.
+    pub(super) fn part(&self, places: &Range<usize>, former: Option<Self>) -> Self
+    where
+        S: Clone,
+    {
+        let systems = self.systems_of(places);
+        let Some(former) = former else {
+            return self.with(systems.to_vec(), self.starts.clone());
+        };
+        // The ends tell which systems these are.
+        let ends = systems.iter().map(|(_, end)| end);
+        match ends.eq(former.systems.iter().map(|(_, end)| end)) {
+            true => former,
+            false => Self {
+                systems: systems.to_vec(),
+                ..former
+            },
+        }
+    }
+
+    /// The same ensemble with other systems and starts.
+    fn with(&self, systems: Vec<(S, usize)>, starts: Arc<Vec<State<V>>>) -> Self {
+        Self {
+            systems,
+            starts,
+            step_size: self.step_size,
+            offset: self.offset,
+            first: self.first,
             stopping: self.stopping,
             retry: self.retry,
             lanes: self.lanes,
@@ -99,7 +128,15 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
             stop: self.stop.clone(),
             tableau: self.tableau.clone(),
             kind: PhantomData,
-        })
+        }
+    }
+
+    /// The systems of a range of starts, each with the end of its own range; every start may have its own system.
+    fn systems_of(&self, places: &Range<usize>) -> &[(S, usize)] {
+        let before = |(_, end): &(S, usize)| *end <= places.start;
+        let after = &self.systems[self.systems.partition_point(before)..];
+        let count = after.partition_point(|(_, end)| *end < places.end) + 1;
+        &after[..count.min(after.len())]
     }
 
     /// The range of starts of a part.

@@ -15,3 +15,4 @@ mod restart;
 mod run_time;
 mod systems;
 mod tangent;
+mod wrappers;
