@@ -46,6 +46,23 @@ impl<T> Coefficients<T> {
         }
     }
 
+    /// The same with the stages in this order.
+    pub(crate) fn reordered(&self, order: &[usize]) -> Self
+    where
+        T: Clone,
+    {
+        let vector = |v: &Vec<T>| order.iter().map(|&i| v[i].clone()).collect();
+        let matrix = |m: &Vec<Vec<T>>| order.iter().map(|&i| vector(&m[i])).collect();
+        Coefficients {
+            c: vector(&self.c),
+            c_tilde: vector(&self.c_tilde),
+            b: vector(&self.b),
+            b_tilde: vector(&self.b_tilde),
+            a: matrix(&self.a),
+            a_tilde: matrix(&self.a_tilde),
+        }
+    }
+
     /// Both things for each coefficient.
     pub fn zip<U>(self, other: Coefficients<U>) -> Coefficients<(T, U)> {
         fn vector<T, U>(a: Vec<T>, b: Vec<U>) -> Vec<(T, U)> {

@@ -128,7 +128,7 @@ impl Tableau {
         let decided = || {
             let mut properties = self.own_properties();
             let definition = &self.provenance.definition;
-            // A composition of constrained steps, which may be none itself.
+            // A composition of constrained steps, which may be none itself. If it is neither, the parts say why.
             let composes = [Key::Base, Key::Compose].map(|key| definition.get(key).is_some());
             if !composes.contains(&true) {
                 return properties;

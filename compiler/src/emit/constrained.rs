@@ -9,7 +9,8 @@ use super::symplectic_rounding::{Rounded, complements};
 use crate::algebra::{Field, Number, Real, Reals};
 use crate::coefficients::Coefficients;
 use crate::derive::{Parts, parts};
-use crate::properties::{composed, multiplier_matrix};
+use crate::exact::over_algebra;
+use crate::properties::{composed, from_start_to_end, multiplier_matrix};
 use crate::tableau::Tableau;
 
 /// The steps of a method for systems with constraints: one step, or those of a composition.
@@ -35,7 +36,8 @@ pub struct ConstrainedStep {
 /// A tableau for systems with constraints, rounded so that it is exactly symplectic.
 #[derive(Debug, Clone)]
 pub struct ConstrainedTableau {
-    /// `μ_ij = a_ij/b_j` by rows.
+    /// `μ_ij = a_ij/b_j` by rows. For holonomic constraints the first stage is the start of the step and the last its end, whatever the
+    /// order in the tableau of the method.
     pub positions: Vec<Vec<Rounded>>,
     /// `μ̃_ij = ã_ij/b_j` by rows.
     pub momenta: Vec<Vec<Rounded>>,
@@ -62,13 +64,10 @@ pub struct ConstrainedTableau {
 /// ```
 pub fn constrained_steps(tableau: &Tableau) -> [Option<ConstrainedSteps>; 2] {
     match parts(&tableau.provenance().definition) {
-        Ok(parts) if tableau.keeps_its_order_in_general() => {
-            let numbers = tableau.numbers();
-            [
-                holonomic(tableau, &numbers, &parts),
-                super::nonholonomic::steps(tableau, &numbers, &parts),
-            ]
-        }
+        Ok(parts) if tableau.keeps_its_order_in_general() => [
+            holonomic(tableau, &parts),
+            super::nonholonomic::steps(tableau, &parts),
+        ],
         _ => [None, None],
     }
 }
@@ -76,40 +75,29 @@ pub fn constrained_steps(tableau: &Tableau) -> [Option<ConstrainedSteps>; 2] {
 /// The steps for holonomic constraints; `None` for a method that does not qualify.
 ///
 /// A composition of constrained methods composes their steps, unless its own coefficients make one.
-pub(super) fn holonomic(
-    tableau: &Tableau,
-    numbers: &Coefficients<Number<'_>>,
-    parts: &Parts,
-) -> Option<ConstrainedSteps> {
-    let tableau_of = |numbers: &Coefficients<Number<'_>>| match numbers.b.len() {
-        1 => Some(with_an_end(numbers.a[0][0].is_zero())),
-        _ => rounded(numbers, multiplier_matrix(numbers)?),
+pub(super) fn holonomic(tableau: &Tableau, parts: &Parts) -> Option<ConstrainedSteps> {
+    let tableau_of = |tableau: &Tableau| match tableau.stages() {
+        1 => Some(with_an_end(tableau.numbers().a[0][0].is_zero())),
+        _ => {
+            let numbers = over_algebra!(tableau, pair => from_start_to_end(pair))?;
+            rounded(&numbers, multiplier_matrix(&numbers)?)
+        }
     };
     if tableau.own_properties().constrained.holds {
-        return Some(ConstrainedSteps::one(tableau_of(numbers)?));
+        return Some(ConstrainedSteps::one(tableau_of(tableau)?));
     }
-    composed::constrained(parts)?;
-    ConstrainedSteps::composed(parts, tableau_of)
+    let composed = composed::constrained(parts).is_some_and(|found| found.holds);
+    composed.then(|| ConstrainedSteps::composed(parts, tableau_of))?
 }
 
 /// Whether the constrained steps are steps of Störmer–Verlet, Lobatto IIIA–IIIB with two stages: nodes 0 and 1 and weights 1/2 determine
 /// the rest.
-pub(super) fn are_of_stoermer_verlet(
-    tableau: &Tableau,
-    numbers: &Coefficients<Number<'_>>,
-    parts: &Parts,
-) -> bool {
-    let is_one = |numbers: &Coefficients<Number<'_>>| {
-        let [weights, nodes] = [&numbers.b, &numbers.c]
-            .map(|vector| vector.iter().map(Number::to_f64).collect::<Vec<_>>());
-        weights == [0.5; 2] && nodes == [0.0, 1.0]
+pub(super) fn are_of_stoermer_verlet(steps: &ConstrainedSteps) -> bool {
+    let doubles = |numbers: &[Rounded]| numbers.iter().map(|x| x.double).collect::<Vec<_>>();
+    let is_one = |tableau: &ConstrainedTableau| {
+        doubles(&tableau.weights) == [0.5; 2] && doubles(&tableau.nodes) == [0.0, 1.0]
     };
-    let qualifies = |tableau: &Tableau| tableau.own_properties().constrained.holds;
-    if qualifies(tableau) {
-        return is_one(numbers);
-    }
-    let is_part = |method: &Tableau| qualifies(method) && is_one(&method.numbers());
-    !parts.substeps.is_empty() && parts.methods.iter().all(is_part)
+    steps.tableaux.iter().all(is_one)
 }
 
 /// Symplectic Euler, whose stage is at the start, with the end of the step as a second stage of weight 0; or its adjoint, whose stage is at
@@ -144,13 +132,12 @@ impl ConstrainedSteps {
         }
     }
 
-    /// The steps of a composition, with the tableau of each method.
+    /// The steps of a composition, with the tableau of each method. Steps of zero size do nothing, and are left out.
     pub(super) fn composed(
         parts: &Parts,
-        tableau_of: impl Fn(&Coefficients<Number<'_>>) -> Option<ConstrainedTableau>,
+        tableau_of: impl Fn(&Tableau) -> Option<ConstrainedTableau>,
     ) -> Option<Self> {
-        let tableaux = parts.methods.iter();
-        let tableaux = tableaux.map(|method| tableau_of(&method.numbers()));
+        let tableaux = parts.methods.iter().map(tableau_of);
         let mut at = Real::rational(BigRational::default());
         let steps = parts.substeps.iter().map(|substep| {
             let fraction = Real::constant(substep.fraction.clone());
@@ -164,7 +151,7 @@ impl ConstrainedSteps {
         });
         Some(ConstrainedSteps {
             tableaux: tableaux.collect::<Option<_>>()?,
-            steps: steps.collect(),
+            steps: steps.filter(|step| step.fraction.double != 0.0).collect(),
         })
     }
 
@@ -172,8 +159,10 @@ impl ConstrainedSteps {
     pub(super) fn code(&self, name: &str) -> TokenStream {
         let name = format_ident!("{name}");
         let tableau = |number: usize| format_ident!("TABLEAU{}", number + 1);
-        let tableaux = self.tableaux.iter().map(ConstrainedTableau::code);
-        let names = (0..self.tableaux.len()).map(tableau);
+        let used = |number: &usize| self.steps.iter().any(|step| step.tableau == *number);
+        let used: Vec<usize> = (0..self.tableaux.len()).filter(used).collect();
+        let tableaux = used.iter().map(|&number| self.tableaux[number].code());
+        let names = used.iter().map(|&number| tableau(number));
         let steps = self.steps.iter().map(|step| {
             let [start, fraction] = [step.start, step.fraction].map(literal::rounded);
             let tableau = tableau(step.tableau);

@@ -107,8 +107,11 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
         let count = literal::count(count);
         quote!(const FUNCTIONS: usize = #count;)
     });
-    let constrained = constrained::holonomic(tableau, &numbers, &parts);
-    let nonholonomic = nonholonomic::steps(tableau, &numbers, &parts);
+    let constrained = constrained::holonomic(tableau, &parts);
+    let nonholonomic = nonholonomic::steps(tableau, &parts);
+    let verlet = constrained
+        .as_ref()
+        .is_some_and(constrained::are_of_stoermer_verlet);
     let constrained = constrained.map(|steps| steps.code("CONSTRAINED"));
     let nonholonomic = nonholonomic.map(|steps| steps.code("NONHOLONOMIC"));
     let proved = proved(
@@ -118,7 +121,6 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
         plans[1].splits,
         matrices.is_none(),
     );
-    let verlet = constrained::are_of_stoermer_verlet(tableau, &numbers, &parts);
     let verlet = verlet.then(|| quote!(impl emitted::StoermerVerletSteps for #name {}));
     let symmetric = symmetric(tableau, name);
     let [general, separable] = [&plans[0].name, &plans[1].name];

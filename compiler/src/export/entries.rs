@@ -65,14 +65,18 @@ pub(crate) fn compare(
     };
     if format.is_older() {
         let explains = |entry: &Entry| EXPLAINS.iter().any(|end| entry.name.ends_with(end));
-        // In format 1 a composition did not qualify by its methods, but only by its own coefficients.
-        let own = tableau.own_properties();
-        let properties = tableau.properties();
-        let widened = properties.all().into_iter().filter(|(name, property)| {
-            let by_steps = property.holds && own.get(name).is_some_and(|own| !own.holds);
+        // In format 1 a method qualified only by its own coefficients, with the start of the step as the first stage and the end as the last.
+        let (own, properties) = (tableau.own_properties(), tableau.properties());
+        let in_order = own.first_same_as_last.holds || tableau.stages() == 1;
+        let widened = [
+            ("constrained", own.constrained.holds && in_order),
+            ("nonholonomic", own.nonholonomic.holds),
+        ];
+        let widened = widened.into_iter().filter(|(name, qualified)| {
+            let holds = properties.get(name).is_some_and(|property| property.holds);
             let name = format!("{name} (holds)");
             let mut facts = found.facts.iter();
-            by_steps && facts.any(|entry| entry.name == name && entry.value == "false")
+            holds && !qualified && facts.any(|entry| entry.name == name && entry.value == "false")
         });
         let widened: Vec<&str> = widened.map(|(name, _)| name).collect();
         let is_widened = |entry: &Entry| widened.iter().any(|name| entry.name.starts_with(name));

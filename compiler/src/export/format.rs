@@ -13,7 +13,7 @@ use crate::expression::Input;
 /// | format | change |
 /// |--:|---|
 /// | 1 | the first; a file may lack facts that were not written then |
-/// | 2 | the file has its format, every property, the orders and the stability; a composition of `constrained` methods is so too, and one of `nonholonomic` methods if it keeps its order |
+/// | 2 | the file has its format, every property, the orders and the stability; adjoints and compositions of `constrained` methods are so too, and compositions that keep their order are `nonholonomic` |
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Format(u64);
 

@@ -6,9 +6,9 @@
 //! these letters up to the degree p are those of `exp(hE₁)`: see [`Conditions`](crate::certify::Conditions).
 
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::Signed;
 
-use crate::arithmetic::interval::Interval;
+use crate::algebra::{Balls, Constants, Field, Rationals};
 use crate::arithmetic::rational::ratio;
 use crate::certify::{Alphabet, MAX_ORDER};
 use crate::evidence::Evidence;
@@ -16,6 +16,9 @@ use crate::symbolic::Constant;
 
 /// Binary places of the enclosures in which the conditions for fractions that are not rational are verified.
 const BITS: u32 = 512;
+
+/// With more fractions that are not rational, exact arithmetic would take long.
+const MOST_EXACT_STEPS: usize = 24;
 
 /// The largest number of letters. Words of more would take long.
 const MOST_LETTERS: usize = 32;
@@ -37,19 +40,38 @@ pub(crate) fn has_order(steps: &[Step<'_>], symmetric: &[bool], order: usize) ->
         return None;
     }
     let methods: Vec<(usize, bool)> = steps.iter().map(|s| (s.method, s.adjoint)).collect();
-    let rational = steps
-        .iter()
-        .map(|step| step.fraction.as_rational().cloned());
-    if let Some(fractions) = rational.collect::<Option<Vec<BigRational>>>() {
-        let holds = all_hold(&methods, &fractions, &letters, order, |x, wanted| {
-            x == wanted
-        });
-        return holds.then_some(Evidence::Proved);
+    let fractions: Vec<&Constant> = steps.iter().map(|step| step.fraction).collect();
+    let over = (&methods[..], &fractions[..], &letters[..]);
+    if fractions.iter().all(|x| x.as_rational().is_some()) {
+        return holds_over(&Rationals, over, order);
     }
-    let enclosed = steps.iter().map(|step| step.fraction.enclose(BITS));
-    let fractions = enclosed.collect::<Option<Vec<Interval>>>()?;
-    let holds = all_hold(&methods, &fractions, &letters, order, Interval::contains);
-    holds.then_some(Evidence::Verified { bits: BITS })
+    let field = match steps.len() <= MOST_EXACT_STEPS {
+        true => Constants::containing(fractions.iter().copied()),
+        false => None,
+    };
+    match field {
+        Some(field) => holds_over(&field, over, order),
+        None => holds_over(&Balls::new(BITS), over, order),
+    }
+}
+
+/// How it is known that all conditions hold, in a field of constants or in enclosures; `None` if they do not.
+fn holds_over<F: Field>(
+    field: &F,
+    (methods, fractions, letters): (&[(usize, bool)], &[&Constant], &[Letter]),
+    order: usize,
+) -> Option<Evidence> {
+    let fractions = fractions.iter().map(|fraction| field.constant(fraction));
+    let fractions = fractions.collect::<Option<Vec<F::Element>>>()?;
+    let holds = all_hold(field, methods, &fractions, letters, order, |x, wanted| {
+        let difference = field.subtract(x, &field.rational(wanted));
+        field.zero(&difference).may_be()
+    });
+    let evidence = match field.verified_bits() {
+        Some(bits) => Evidence::Verified { bits },
+        None => Evidence::Proved,
+    };
+    holds.then_some(evidence)
 }
 
 /// The order of a composition of any method of order 1, or of any symmetric one, with these fractions, as far as conditions of at most this
@@ -63,7 +85,7 @@ pub(crate) fn order_within(
     let near = |x: &BigRational, wanted: &BigRational| (x - wanted).abs() <= *tolerance;
     let holds = |order: &usize| {
         let letters = letters(&[symmetric], *order);
-        all_hold(&steps, fractions, &letters, *order, near)
+        all_hold(&Rationals, &steps, fractions, &letters, *order, near)
     };
     (1..=MAX_ORDER).take_while(holds).last().unwrap_or(0)
 }
@@ -92,47 +114,13 @@ fn letters(symmetric: &[bool], order: usize) -> Vec<Letter> {
     letters
 }
 
-/// Numbers with which the conditions are evaluated.
-trait Scalar: Clone {
-    fn of(value: &BigRational) -> Self;
-    fn plus(&self, other: &Self) -> Self;
-    fn times(&self, other: &Self) -> Self;
-}
-
-impl Scalar for BigRational {
-    fn of(value: &BigRational) -> Self {
-        value.clone()
-    }
-
-    fn plus(&self, other: &Self) -> Self {
-        self + other
-    }
-
-    fn times(&self, other: &Self) -> Self {
-        self * other
-    }
-}
-
-impl Scalar for Interval {
-    fn of(value: &BigRational) -> Self {
-        Interval::enclosing(value, BITS)
-    }
-
-    fn plus(&self, other: &Self) -> Self {
-        self.add(other)
-    }
-
-    fn times(&self, other: &Self) -> Self {
-        self.multiply(other)
-    }
-}
-
-fn all_hold<T: Scalar>(
+fn all_hold<F: Field>(
+    field: &F,
     methods: &[(usize, bool)],
-    fractions: &[T],
+    fractions: &[F::Element],
     letters: &[Letter],
     order: usize,
-    is: impl Fn(&T, &BigRational) -> bool,
+    is: impl Fn(&F::Element, &BigRational) -> bool,
 ) -> bool {
     let alphabet = Alphabet::of_degrees(letters.iter().map(|letter| letter.degree).collect());
     let mut words = (1..=order).flat_map(|degree| alphabet.lyndon(degree));
@@ -140,27 +128,32 @@ fn all_hold<T: Scalar>(
         let word: Vec<Letter> = word.iter().map(|&l| letters[usize::from(l)]).collect();
         let is_first = word.len() == 1 && word[0].degree == 1;
         let wanted = ratio(i64::from(is_first), 1);
-        is(&coefficient(&word, methods, fractions), &wanted)
+        is(&coefficient(field, &word, methods, fractions), &wanted)
     })
 }
 
 /// The coefficient of a word in a product of steps of methods or, where that is true, of their adjoints.
-fn coefficient<T: Scalar>(word: &[Letter], methods: &[(usize, bool)], fractions: &[T]) -> T {
-    let zero = T::of(&BigRational::zero());
+fn coefficient<F: Field>(
+    field: &F,
+    word: &[Letter],
+    methods: &[(usize, bool)],
+    fractions: &[F::Element],
+) -> F::Element {
+    let [zero, one] = [0, 1].map(|number| field.rational(&ratio(number, 1)));
     // The coefficients of the word's prefixes in the product of the factors so far.
     let mut known = vec![zero; word.len() + 1];
-    known[0] = T::of(&BigRational::one());
+    known[0] = one.clone();
     for (&(own, adjoint), fraction) in methods.iter().zip(fractions) {
         for end in (1..=word.len()).rev() {
             // The coefficient of the letters from `start` in the factor.
-            let mut factor = T::of(&BigRational::one());
+            let mut factor = one.clone();
             for start in (0..end).rev() {
                 let Letter { degree, method } = word[start];
                 if method.is_some_and(|method| method != own) {
                     break;
                 }
                 for _ in 0..degree {
-                    factor = factor.times(fraction);
+                    factor = field.multiply(&factor, fraction);
                 }
                 let sign = if adjoint && degree.is_multiple_of(2) {
                     -1
@@ -168,8 +161,9 @@ fn coefficient<T: Scalar>(word: &[Letter], methods: &[(usize, bool)], fractions:
                     1
                 };
                 let count = i64::try_from(end - start).unwrap_or(i64::MAX);
-                factor = factor.times(&T::of(&ratio(sign, count)));
-                known[end] = known[end].plus(&known[start].times(&factor));
+                factor = field.multiply(&factor, &field.rational(&ratio(sign, count)));
+                let term = field.multiply(&known[start], &factor);
+                known[end] = field.add(&known[end], &term);
             }
         }
     }
@@ -229,6 +223,11 @@ mod tests {
                 "base: [basis: 1, nodes: 0], weights: [adjoint(1/4), 1/4, adjoint(1/4), 1/4]",
                 false,
                 2,
+            ),
+            (
+                "base: [base: [basis: 1, nodes: 0], weights: [1/2, adjoint(1/2)]], weights: triple_jump(6)",
+                false,
+                6,
             ),
         ] {
             assert_eq!(

@@ -7,6 +7,8 @@
 //! For small steps `φ(Q_i)` depends on `Λ_1 … Λ_{s−1}` through `−h² X ⊗ G M⁻¹ Gᵀ` with the matrix
 //! `X = (A Ã)_ik`, `i = 2..s`, `k = 1..s−1`: the multipliers exist and are unique iff X is invertible.
 //!
+//! The stages count from the start to the end of the step, whatever their labels: in the adjoint of a method the first is `q1`.
+//!
 //! Enclosures prove `det X ≠ 0`. Whether `det X = 0` is decided exactly if the coefficients are in a field of constants: rational, algebraic,
 //! or rational in one transcendental number. For other expressions it remains undecided.
 //!
@@ -16,25 +18,24 @@
 use num_rational::BigRational;
 use num_traits::One;
 
-use super::{Evidence, Examined, Property, Zero, consistent, end_stages, symplectic};
+use super::end_stages::{self, Ends};
+use super::{Evidence, Examined, Property, Zero, consistent, symplectic};
 use crate::algebra::{Field, Number, StageAlgebra};
 use crate::arithmetic::interval::Interval;
 use crate::arithmetic::inverse::{self, BITS, Inverse};
 use crate::arithmetic::rational::ratio;
 use crate::coefficients::Coefficients;
+use crate::partitioned::Partitioned;
 
 /// Decides the conditions one after another.
 pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
     if examined.numbers.b.len() == 1 {
         return with_an_end(examined);
     }
-    let ends = [
-        end_stages::first_row_zero(examined),
-        end_stages::stiffly_accurate(examined),
-    ];
-    if let Some(refuted) = ends.iter().find(|property| !property.holds) {
-        return refuted.clone();
-    }
+    let ends = match Ends::find(examined) {
+        Ok(ends) => ends,
+        Err(refuted) => return refuted,
+    };
     for (i, weight) in examined.numbers.b.iter().enumerate() {
         match weight.zero() {
             Zero::No => {}
@@ -56,9 +57,12 @@ pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
             Some(bits) => Property::undecided(bits, witness),
         };
     }
+    let numbers = examined
+        .numbers
+        .reordered(&ends.order(examined.numbers.b.len()));
     let found = BITS
         .iter()
-        .find_map(|&bits| Inverse::of(feedback(examined.numbers, bits)));
+        .find_map(|&bits| Inverse::of(feedback(&numbers, bits)));
     let Some(Inverse { determinant, .. }) = found else {
         if is_singular(examined) {
             return Property::refuted("det (A Ã) = 0".to_owned());
@@ -66,9 +70,7 @@ pub(super) fn decide<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
         let witness = "det (A Ã) cannot be told from zero".to_owned();
         return Property::undecided(BITS[BITS.len() - 1], witness);
     };
-    let evidence = ends.iter().fold(symplectic.evidence, |evidence, property| {
-        evidence.and(property.evidence)
-    });
+    let evidence = symplectic.evidence.and(ends.evidence);
     let determinant = Number::Rational(determinant.middle()).decimal(6);
     Property::holding(evidence, Some(format!("det (A Ã) ≈ {determinant}")))
 }
@@ -114,7 +116,7 @@ const MOST_STAGES: usize = 12;
 
 /// Whether `det X = 0` by exact arithmetic, which needs a field of constants whose equations are decided.
 ///
-/// The first row and the last column of `A Ã` are zero, so `det X = ± det (A Ã + 𝟙 𝟙ᵀ)`. This is the determinant of a linear map, in any
+/// The row of the start and the column of the end of `A Ã` are zero, so `det X = ± det (A Ã + 𝟙 𝟙ᵀ)`. This is the determinant of a linear map, in any
 /// basis of the functions of the stages.
 fn is_singular<A: StageAlgebra>(examined: &Examined<'_, A>) -> bool {
     let pair = examined.pair;
@@ -153,7 +155,20 @@ fn is_singular<A: StageAlgebra>(examined: &Examined<'_, A>) -> bool {
     false
 }
 
-/// The matrix X, in enclosures with this many binary places.
+/// The coefficients with the stages from the start to the end of the step; `None` if these are no stages.
+pub(crate) fn from_start_to_end<A: StageAlgebra>(
+    pair: &Partitioned<A>,
+) -> Option<Coefficients<Number<'_>>> {
+    let numbers = pair.numbers();
+    let examined = Examined {
+        pair,
+        numbers: &numbers,
+    };
+    let ends = Ends::find(&examined).ok()?;
+    Some(numbers.reordered(&ends.order(numbers.b.len())))
+}
+
+/// The matrix X, in enclosures with this many binary places, of stages from the start to the end of the step.
 fn feedback(numbers: &Coefficients<Number<'_>>, bits: u32) -> Vec<Vec<Interval>> {
     let enclosed = |rows: &[Vec<Number<'_>>]| -> Vec<Vec<Interval>> {
         let row = |row: &Vec<Number<'_>>| row.iter().map(|x| x.enclose(bits)).collect();
@@ -170,7 +185,7 @@ fn feedback(numbers: &Coefficients<Number<'_>>, bits: u32) -> Vec<Vec<Interval>>
     (1..stages).map(row).collect()
 }
 
-/// `X⁻¹`, correctly rounded, of a method that is `constrained` and has more than one stage.
+/// `X⁻¹`, correctly rounded, of a method that is `constrained` and has more than one stage, in the order of [`from_start_to_end`].
 pub(crate) fn multiplier_matrix(numbers: &Coefficients<Number<'_>>) -> Option<Vec<Vec<f64>>> {
     inverse::rounded(|bits| feedback(numbers, bits))
 }
@@ -243,7 +258,12 @@ mod tests {
             // A part does not qualify.
             (
                 "compose: [[1/2, basis: polynomial(2), nodes: lobatto(2)], [1/2, basis: polynomial(1), nodes: gauss(1)]]",
-                "b_3 − a_33 = ",
+                "its part `basis: polynomial(1), nodes: gauss(1)` is not: a_11 = 1/2",
+            ),
+            // Radau on the right has its end as a stage, and its adjoint the start, as the last stage.
+            (
+                "basis: polynomial(2), nodes: radau-right(2), adjoint: true",
+                "b_1 − a_21 = 3/4",
             ),
         ] {
             let found = property(definition);
@@ -276,6 +296,55 @@ mod tests {
             let found = property(definition);
             let text = format!("yes, proved: each of its {steps} steps is constrained");
             assert_eq!(found.to_string(), text, "{definition}");
+        }
+    }
+
+    /// The adjoint of a step that keeps the constraints keeps them. Its coefficients have the end as the first stage and the start as the last.
+    #[test]
+    fn adjoints_of_methods_that_qualify_do() {
+        for (definition, determinant) in [
+            ("base: lobatto-2, adjoint: true", "0.500000"),
+            ("base: lobatto-3, adjoint: true", "0.0208333"),
+            ("base: lobatto-4, adjoint: true", "0.000277778"),
+            // Not symmetric: computed in fractions from A* and Ã* with the stages 3, 2, 1.
+            (
+                "basis: polynomial(3), nodes: [0, 1/4, 1], adjoint: true",
+                "-0.0295139",
+            ),
+            (
+                "basis: [1, cos(pi*t), sin(pi*t)], nodes: [0, 1/2, 1], adjoint: true",
+                "0.0322515",
+            ),
+            // Lobatto IIIA–IIIB with three stages, in an order of its own.
+            (
+                "a: [[1/3, 5/24, -1/24], [0, 0, 0], [2/3, 1/6, 1/6]], b: [2/3, 1/6, 1/6], a_tilde: symplectic_partner",
+                "0.0208333",
+            ),
+        ] {
+            let found = property(definition);
+            assert!(found.holds, "{definition}: {found}");
+            let witness = found.witness.expect("a determinant");
+            assert!(witness.contains(determinant), "{definition}: {witness}");
+        }
+        for (definition, steps) in [
+            ("base: lobatto-2, weights: [1/2, adjoint(1/2)]", 2),
+            ("base: lobatto-3, weights: [1/4, adjoint(1/2), 1/4]", 3),
+            ("base: lobatto-3, weights: triple_jump(6), adjoint: true", 3),
+            (
+                "base: [base: lobatto-2, weights: [1/2, adjoint(1/2)]], weights: triple_jump(4)",
+                6,
+            ),
+            (
+                "base: [base: symplectic-euler, weights: [adjoint(1/2), 1/2]], weights: triple_jump(4)",
+                6,
+            ),
+            (
+                "compose: [[3/2, base: lobatto-3, adjoint: true], [-1/2, base: lobatto-2]]",
+                2,
+            ),
+        ] {
+            let text = format!("yes, proved: each of its {steps} steps is constrained");
+            assert_eq!(property(definition).to_string(), text, "{definition}");
         }
     }
 

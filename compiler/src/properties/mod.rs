@@ -18,7 +18,7 @@ mod symplectic;
 use std::borrow::Cow;
 use std::fmt;
 
-pub(crate) use self::constrained::multiplier_matrix;
+pub(crate) use self::constrained::{from_start_to_end, multiplier_matrix};
 pub use self::separable::SeparableProperties;
 pub(crate) use self::symmetric::{Symmetry, images};
 use crate::algebra::{Number, StageAlgebra, Zero};
@@ -131,11 +131,11 @@ properties! {
     /// `b_i > 0` and `b̃_i > 0`.
     positive_weights: positive_weights::decide;
     /// Steps systems with holonomic constraints: `b_i = b̃_i ≠ 0`, symplectic, `a_1j = 0`, `a_sj = b_j` and
-    /// `det (A Ã) ≠ 0` for the rows 2..s and the columns 1..s−1 (MW 3.5.6); or a composition of such methods. The order with constraints
-    /// is no part of this property.
+    /// `det (A Ã) ≠ 0` for the rows 2..s and the columns 1..s−1 (MW 3.5.6), with the stages counted from the start to the end of the step;
+    /// or a composition of such methods. The order with constraints is no part of this property.
     constrained: constrained::decide;
     /// Steps systems with non-holonomic constraints without loss of order: `b_i = b̃_i ≠ 0`, symplectic, and symmetric of order 2, or of
-    /// order 1; or a composition of such methods that has its order with any steps of their order.
+    /// order 1; or a composition that has its order with any steps of order 2 for symmetric methods and of order 1 for others.
     nonholonomic: nonholonomic::decide;
 }
 

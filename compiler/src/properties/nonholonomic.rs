@@ -14,9 +14,15 @@ use super::{Examined, Property, Symmetry, Zero, consistent, shown, symmetric, sy
 use crate::algebra::StageAlgebra;
 use crate::arithmetic::rational::ratio;
 use crate::evidence::Evidence;
+use crate::partitioned::Partitioned;
 
-/// Decides the conditions one after another, costly ones last.
-pub(super) fn decide<A: Symmetry>(examined: &Examined<'_, A>) -> Property {
+/// Decides whether a method has such steps, whatever their order.
+pub(super) fn has_steps<A: StageAlgebra>(pair: &Partitioned<A>) -> Property {
+    let numbers = &pair.numbers();
+    have_steps(&Examined { pair, numbers })
+}
+
+fn have_steps<A: StageAlgebra>(examined: &Examined<'_, A>) -> Property {
     for (i, weight) in examined.numbers.b.iter().enumerate() {
         match weight.zero() {
             Zero::No => {}
@@ -33,8 +39,16 @@ pub(super) fn decide<A: Symmetry>(examined: &Examined<'_, A>) -> Property {
             return needed.clone();
         }
     }
-    let evidence = symplectic.evidence.and(consistent.evidence);
-    let pair = examined.pair;
+    Property::holding(symplectic.evidence.and(consistent.evidence), None)
+}
+
+/// Decides the conditions one after another, costly ones last.
+pub(super) fn decide<A: Symmetry>(examined: &Examined<'_, A>) -> Property {
+    let steps = have_steps(examined);
+    if !steps.holds {
+        return steps;
+    }
+    let (evidence, pair) = (steps.evidence, examined.pair);
     let (c, c_tilde) = (&pair.c(), &pair.c_tilde());
     // The condition of order 2 for each colour of the leaf of a tree, Σ b c = 1/2.
     if let Some(witness) = violated(examined, &[("c", &[c]), ("c̃", &[c_tilde])], &ratio(1, 2)) {
@@ -137,7 +151,21 @@ mod tests {
             ),
             (
                 cubic,
-                "yes, verified to 2^-512: order 4: each of its 3 steps is non-holonomic",
+                "yes, proved: order 4: each of its 3 steps is non-holonomic",
+            ),
+            // Gauss with two stages loses its order 4, but the composition has order 2 with and without constraints.
+            (
+                "compose: [[1/2, base: gauss-1], [1/2, base: gauss-2]]",
+                "yes, proved: order 2: each of its 2 steps is non-holonomic",
+            ),
+            // Steps of order 1: two of a method that is not symmetric, two of its adjoint, no palindrome.
+            (
+                "base: [basis: polynomial(3), nodes: [0, 1/4, 1]], weights: [1/6, 1/3, adjoint(1/6), adjoint(1/3)]",
+                "yes, proved: order 2: each of its 4 steps is non-holonomic",
+            ),
+            (
+                "base: [base: symplectic-euler, weights: [1/2, adjoint(1/2)]], weights: triple_jump(4)",
+                "yes, proved: order 4: each of its 6 steps is non-holonomic",
             ),
             // Different methods of order 2.
             (
@@ -162,6 +190,26 @@ mod tests {
             (
                 "compose: [[1/2, basis: polynomial(2), nodes: gauss(2)], [1/2, basis: polynomial(2), nodes: gauss(2)]]",
                 "order 2 at most",
+            ),
+            (
+                "base: gauss-2, weights: triple_jump(6)",
+                "with non-holonomic constraints its steps give order 2, not 6: \
+                 its part `basis: polynomial(2), nodes: gauss(2)` is not: steps with non-holonomic constraints have order 2 at most",
+            ),
+            (
+                "compose: [[1/2, base: gauss-1], [1/2, basis: polynomial(3), nodes: [0, 1/4, 1]]]",
+                "with non-holonomic constraints its steps give order 1, not 2: \
+                 its part `basis: polynomial(3), nodes: [0, 1/4, 1]` is not: not symmetric",
+            ),
+            (
+                "compose: [[1/2, base: gauss-1], [1/2, a: [[0, 0], [1, 0]], b: [1/2, 1/2]]]",
+                "its part `a: [[0, 0], [1, 0]], b: [1/2, 1/2]` is not: b_1 ã_11",
+            ),
+            // The adjoint has the term h²E₂ with the opposite sign, and 2/4² ≠ 1/2².
+            (
+                "base: [basis: polynomial(3), nodes: [0, 1/4, 1]], weights: [1/4, adjoint(1/2), 1/4]",
+                "with non-holonomic constraints its steps give order 1, not 2: \
+                 its part `basis: polynomial(3), nodes: [0, 1/4, 1]` is not: not symmetric",
             ),
             ("kick: [1/2, 1/2], drift: [1, 0]", "b_2 = 0"),
             ("kick: [1/3, 2/3], drift: [1/2, 1/2]", "b_1 − b̃_1 = 1/6"),

@@ -3,7 +3,7 @@
 use symplectic_compiler::{Limits, check, check_and_list, derive, export};
 
 /// A file, its text, and the properties that it does not state.
-const FILES: [(&str, &str, &[&str]); 8] = [
+const FILES: [(&str, &str, &[&str]); 9] = [
     // Neither tier, orders nor stability.
     (
         "lobatto-3.toml",
@@ -37,6 +37,12 @@ const FILES: [(&str, &str, &[&str]); 8] = [
     (
         "suzuki-4.toml",
         include_str!("older/suzuki-4-constrained.toml"),
+        &[],
+    ),
+    // The adjoint of a method that qualifies, which then did not.
+    (
+        "adjoint-rattle.toml",
+        include_str!("older/adjoint-rattle-constrained.toml"),
         &[],
     ),
     // With a byte order mark.
@@ -127,7 +133,7 @@ fn an_older_file_with_a_wrong_entry_is_refused_at_this_entry() {
     }
 }
 
-/// Only a composition may have become one since: other methods have always qualified by their coefficients.
+/// Only compositions and adjoints may have become one since: other methods have always qualified by their coefficients.
 #[test]
 fn an_older_file_that_denies_a_property_of_the_coefficients_is_refused() {
     const LAST: &str = "positive_weights   = { holds = true, evidence = \"proved\" }";

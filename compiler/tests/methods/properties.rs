@@ -128,6 +128,14 @@ fn compositions_of_methods_that_qualify_can_be_required_to() {
         ("base: lobatto-2, weights: triple_jump(4)", "constrained"),
         ("base: gauss-1, weights: suzuki(6)", "nonholonomic"),
         ("base: gauss-1, weights: suzuki(4)", "nonholonomic"),
+        (
+            "base: lobatto-2, weights: [1/2, adjoint(1/2)]",
+            "constrained",
+        ),
+        (
+            "base: [base: symplectic-euler, weights: [1/2, adjoint(1/2)]], weights: triple_jump(4)",
+            "nonholonomic",
+        ),
     ] {
         let parsed = Definition::parse(definition).expect(definition);
         let tableau = parsed.derive(&Limits::default()).expect("derived");

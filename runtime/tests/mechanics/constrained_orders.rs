@@ -1,7 +1,8 @@
 //! Orders of constrained steps, with and without an applied force.
 
+use symplectic::nalgebra::Vector2;
 use symplectic::{
-    Constrained, Hamiltonian, Integrator, Method, ProvedFor, State, Vector, consistent,
+    Constrained, Hamiltonian, Integrator, Method, ProvedFor, Separable, State, Vector, consistent,
     system::Unconstrained,
 };
 
@@ -58,7 +59,7 @@ macro_rules! orders {
 orders! {
     orders_on_the_double_spherical_pendulum: DoubleSpherical, double_start(), [
         Euler 640 1, AdjointEuler 640 1, HalfSteps 40 2, Rattle 40 2, Lobatto3 40 4, Lobatto4 20 6, Quarter 80 2, NewtonCotes4 80 2, NewtonCotes5 32 4, ClenshawCurtis4 80 2, ClenshawCurtis5 32 4, Waves 80 2,
-        Rattle4 80 4, Rattle6 60 6,
+        Rattle4 80 4, Rattle6 60 6, RattleAndAdjoint 20 2, AdjointLobatto3 40 4, AdjointBetween 80 2, HalfSteps4 80 4, Mixed 80 2,
     ];
     orders_with_a_kinetic_energy_that_depends_on_the_place: Bead, sphere_start(), [
         Euler 320 1, AdjointEuler 320 1, HalfSteps 40 2, Rattle 40 2, Lobatto3 32 4, Lobatto4 10 6, Lobatto5 7 8, Rattle4 80 4,
@@ -66,6 +67,7 @@ orders! {
     orders_with_a_velocity_that_is_not_linear: Relativistic,
         consistent(&Relativistic, sphere_start()).expect("regular"), [
         Euler 320 1, AdjointEuler 320 1, HalfSteps 40 2, Rattle 40 2, Lobatto3 32 4, Lobatto4 8 6, Lobatto5 4 8, Rattle4 80 4,
+        AdjointLobatto3 32 4, AdjointBetween 80 2, HalfSteps4 80 4,
     ];
     orders_with_an_applied_force: Resisted::new(), sphere_start(), [
         Rattle 64 2, Lobatto3 16 4, Lobatto4 8 6, Lobatto5 4 8, Rattle4 64 4,
@@ -77,4 +79,56 @@ orders! {
 fn order_eight_on_the_double_spherical_pendulum() {
     let found = slope(Lobatto5, DoubleSpherical, &double_start(), (1.5, 24));
     assert!((found - 8.0).abs() < 0.05, "{found}");
+}
+
+/// A method and its adjoint for −h are inverse to each other, and RATTLE and Lobatto are their own adjoints.
+#[test]
+fn constrained_steps_of_adjoints_go_back() {
+    fn there_and_back<M, N>(there: M, back: N) -> f64
+    where
+        M: Method + ProvedFor<Constrained<Separable>>,
+        N: Method + ProvedFor<Constrained<Separable>>,
+    {
+        let start = double_start();
+        let mut run = Integrator::new(there, DoubleSpherical, start.clone(), 0.05).expect("a run");
+        run.integrate_to(1.0).expect("converges");
+        let turn = run.state().clone();
+        let mut run = Integrator::new(back, DoubleSpherical, turn, -0.05).expect("a run");
+        run.integrate_to(0.0).expect("converges");
+        distance(run.state(), &start)
+    }
+    for back in [
+        there_and_back(Quarter, AdjointQuarter),
+        there_and_back(AdjointQuarter, Quarter),
+        there_and_back(Lobatto3, AdjointLobatto3),
+        there_and_back(RattleAndAdjoint, RattleAndAdjoint),
+    ] {
+        assert!(back < 1e-12, "{back:e}");
+    }
+    let astray = there_and_back(Quarter, Quarter);
+    assert!(astray > 1e-6, "{astray:e}");
+}
+
+/// The positions stay on the constraints and the velocities along them, to rounding.
+#[test]
+fn compositions_with_adjoints_keep_the_constraints() {
+    fn residual<M: Method + ProvedFor<Constrained<Separable>>>(method: M) -> f64 {
+        let start: State<Vector2<f64>> = State::from_arrays(0.0, [0.6, -0.8], [0.8, 0.6]);
+        let mut run = Integrator::new(method, Pendulum, start, 0.05).expect("a run");
+        let mut largest: f64 = 0.0;
+        for _ in 0..1000 {
+            let State { q, p, .. } = run.step().expect("a step");
+            largest = largest.max((q.dot(q) - 1.0).abs()).max(q.dot(p).abs());
+        }
+        largest
+    }
+    for residual in [
+        residual(RattleAndAdjoint),
+        residual(AdjointLobatto3),
+        residual(AdjointBetween),
+        residual(HalfSteps4),
+        residual(Mixed),
+    ] {
+        assert!(residual < 4e-15, "{residual:e}");
+    }
 }

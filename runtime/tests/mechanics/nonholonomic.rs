@@ -7,7 +7,7 @@ use symplectic::{
 };
 
 use crate::rolling::*;
-use crate::systems::{Pendulum, Rattle};
+use crate::systems::{HalfSteps4, Pendulum, Rattle};
 
 /// The distance of two vectors in their largest component.
 fn distance<V: Vector<Scalar = f64>>(a: &V, b: &V) -> f64 {
@@ -124,6 +124,7 @@ fn orders_on_the_oscillator() {
         |end: &State<Vector3<f64>>| distance(&end.q, &exact.q).max(distance(&end.p, &exact.p));
     orders!(error, Oscillator, &oscillator_start(), [
         Midpoint 20 2, Trapezoid 20 2, Thirds 20 2, AtStart 320 1, AtEnd 320 1, Midpoint4 20 4, Trapezoid4 20 4, Midpoint6 3 6,
+        Gauss1And2 20 2, QuarterAndAdjoint 20 2, HalfSteps4 20 4,
     ]);
 }
 
@@ -151,6 +152,7 @@ fn orders_on_the_sleigh_whose_masses_depend_on_the_place() {
     };
     orders!(error, Sleigh, &start, [
         Midpoint 20 2, Trapezoid 20 2, AtStart 320 1, AtEnd 320 1, Midpoint4 20 4, Midpoint6 3 6,
+        Gauss1And2 20 2, QuarterAndAdjoint 20 2, HalfSteps4 20 4,
     ]);
 }
 

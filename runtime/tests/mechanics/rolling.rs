@@ -20,6 +20,14 @@ symplectic::composition! {
     pub Midpoint4 { base: gauss-1, weights: triple_jump(4), require: [order == 4] }
     pub Midpoint6 { base: gauss-1, weights: suzuki(6), require: [order == 6] }
     pub Trapezoid4 { base: lobatto-2, weights: suzuki(4), require: [order == 4] }
+    /// Gauss with two stages has order 4 without constraints, and order 2 with them.
+    pub Gauss1And2 { compose: [[1/2, base: gauss-1], [1/2, base: gauss-2]], require: [nonholonomic, order == 2] }
+    /// A step of order 1 and its adjoint.
+    pub QuarterAndAdjoint {
+        base: [basis: polynomial(3), nodes: [0, 1/4, 1]],
+        weights: [1/2, adjoint(1/2)],
+        require: [nonholonomic, order == 2],
+    }
 }
 
 type V3<T> = SVector<T, 3>;

@@ -32,6 +32,32 @@ symplectic::composition! {
     pub OtherHalfSteps { base: symplectic-euler, weights: [1/2, adjoint(1/2)], require: [constrained, order == 2] }
     pub Rattle4 { base: lobatto-2, weights: triple_jump(4), require: [order == 4] }
     pub Rattle6 { base: lobatto-2, weights: triple_jump(6), require: [order == 6] }
+    /// Its steps are those of RATTLE, since RATTLE is its own adjoint.
+    pub RattleAndAdjoint { base: lobatto-2, weights: [1/2, adjoint(1/2)], require: [constrained, order == 2] }
+    /// The first stage of the tableau is the end of the step.
+    pub AdjointLobatto3 { base: lobatto-3, adjoint: true, require: [constrained, order == 4] }
+    pub AdjointQuarter {
+        base: [basis: polynomial(3), nodes: [0, 1/4, 1]],
+        adjoint: true,
+        require: [constrained, order == 2],
+    }
+    /// A method that is not symmetric, with the adjoint in the middle.
+    pub AdjointBetween {
+        base: [basis: polynomial(3), nodes: [0, 1/4, 1]],
+        weights: [1/4, adjoint(1/2), 1/4],
+        require: [constrained, order == 2],
+    }
+    /// Half steps of symplectic Euler and its adjoint, with negative weights.
+    pub HalfSteps4 {
+        base: [base: symplectic-euler, weights: [adjoint(1/2), 1/2]],
+        weights: triple_jump(4),
+        require: [constrained, nonholonomic, order == 4],
+    }
+    /// Different methods, of order 4 and of order 2, a negative weight and a step of zero size.
+    pub Mixed {
+        compose: [[3/2, base: lobatto-3, adjoint: true], [0, base: lobatto-4], [-1/2, base: lobatto-2]],
+        require: [constrained, order == 2],
+    }
 }
 
 type V2<T> = SVector<T, 2>;

@@ -103,7 +103,9 @@ impl<V: Vector> Workspace<V> {
         work.evaluations += 1;
         let history = &mut self.histories[number];
         let (velocity, gradients) = (&self.scratch[0], &self.start.gradients);
-        let weights = history.begin(step.time, step.size, &mut self.impulses, |apart| {
+        // Another step of the composition may have more stages.
+        let impulses = &mut self.impulses[..(stages - 1) * self.multipliers.len()];
+        let weights = history.begin(step.time, step.size, impulses, |apart| {
             // Positions have rounding errors, and so have the impulses that correct them in a step.
             let [q, p, v] = [step.q, step.p, velocity].map(largest);
             let rounding = V::Scalar::EPSILON * p * (1.0 + q / (step.size.abs() * v));
