@@ -10,16 +10,24 @@ use std::ops::ControlFlow;
 
 use cpu_time::ThreadTime;
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use symplectic::adaptive::{Adaptive, DistancePower};
+use symplectic::adaptive::{Adaptive, DistancePower, Logarithmic, Poincare};
 use symplectic::ensemble::Ensemble;
-use symplectic::nalgebra::{DVector, SVector};
+use symplectic::nalgebra::{DVector, SVector, Vector3};
 use symplectic::tangent::Tangent;
+use symplectic::variational::Newmark;
 use symplectic::{Integrator, Method, ProvedFor, State, System, Vector, acceleration};
 use symplectic_tests::formulas::{DoublePendulum, FputChain, HenonHeiles, Kepler};
-use symplectic_tests::methods::{BlanesMoanS10, Gauss4, Lobatto3, Midpoint, VelocityVerlet};
+use symplectic_tests::methods::{
+    BlanesMoanS10, Gauss2, Gauss4, Lobatto3, Midpoint, VelocityVerlet,
+};
 
 symplectic::hamiltonian! { Resisted q: [x, y], p: [px, py]; H = (px^2 + py^2 + x^2 + y^2)/2 + x^2 y - y^3/3 friction: 0.1 }
 symplectic::hamiltonian! { Pushed q: [x, y], p: [px, py]; H = (px^2 + py^2 + x^2 + y^2)/2 + x^2 y - y^3/3 force: { x = -0.1 px } }
+symplectic::hamiltonian! {
+    Sum
+    q: [20], p: [20];
+    H = sum(i: p[i]^2/2) + sum(i in 0..19: (q[i+1] - q[i])^2/2 + (q[i+1] - q[i])^4/4)
+}
 symplectic::hamiltonian! { Rod q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + y constraints: { rod = x^2 + y^2 - 1 } }
 symplectic::hamiltonian! {
     Skate q: [x, y, a], p: [px, py, pa]; v: [vx, vy, va];
@@ -61,35 +69,41 @@ fn row<M, S, V>(
     start: impl Fn(f64) -> State<V>,
     (size, steps): (f64, u64),
 ) where
-    M: Method + ProvedFor<S::Class> + Copy + Sync,
-    S: System<V> + Clone + Send + Sync,
+    M: Method + ProvedFor<S::Class> + Copy + Send,
+    S: System<V> + Clone + Send,
     V: Vector + Send + Sync,
 {
     let starts: Vec<State<V>> = (0..COUNT).map(|k| start(k as f64 / COUNT as f64)).collect();
     let ensemble = Ensemble::new(method, system.clone(), starts.clone(), size).expect("starts");
-    let together = || {
-        ensemble.take_steps(steps, |row| {
-            black_box(&row);
-            ControlFlow::Continue(())
-        });
-    };
-    let one_by_one = || {
-        for start in &starts {
-            let run = Integrator::new(method, system.clone(), start.clone(), size);
-            black_box(run.expect("a start").take_steps(steps).expect("steps"));
-        }
-    };
-    let found = alone.install(|| times(steps, [&together, &one_by_one]));
+    let found = alone.install(move || {
+        let together = || {
+            ensemble.take_steps(steps, |row| {
+                black_box(&row);
+                ControlFlow::Continue(())
+            });
+        };
+        let one_by_one = || {
+            for start in &starts {
+                let run = Integrator::new(method, system.clone(), start.clone(), size);
+                black_box(run.expect("a start").take_steps(steps).expect("steps"));
+            }
+        };
+        times(steps, [&together, &one_by_one])
+    });
     print(name, M::NAME, found);
+}
+
+/// The pericentre of an orbit of eccentricity 0.9 x.
+fn pericentre(x: f64) -> State<SVector<f64, 2>> {
+    let e = 0.9 * x;
+    State::from_arrays(0.0, [1.0 - e, 0.0], [0.0, ((1.0 + e) / (1.0 - e)).sqrt()])
 }
 
 /// Prints the row of steps of variable size.
 fn adaptive(alone: &ThreadPool) {
-    let pericentre = |k: usize| {
-        let e = 0.9 * k as f64 / COUNT as f64;
-        State::from_arrays(0.0, [1.0 - e, 0.0], [0.0, ((1.0 + e) / (1.0 - e)).sqrt()])
-    };
-    let starts: Vec<_> = (0..COUNT).map(pericentre).collect();
+    let starts: Vec<_> = (0..COUNT)
+        .map(|k| pericentre(k as f64 / COUNT as f64))
+        .collect();
     let ensemble = Ensemble::new(VelocityVerlet, Kepler, starts.clone(), 0.02).expect("starts");
     let make = |run: Integrator<VelocityVerlet, Kepler, SVector<f64, 2>>| {
         Adaptive::new(run, DistancePower(1.5), 0.02)
@@ -136,13 +150,27 @@ fn main() {
             row(alone, $name, $method, $system, $start, ($size, $steps));
         )+};
     }
-    let chain = |x: f64| {
-        let q = DVector::from_fn(32, |i, _| 0.1 * (x + i as f64).sin());
-        State::new(0.0, q, DVector::zeros(32))
+    let chain_of = |length: usize| {
+        move |x: f64| {
+            let q = DVector::from_fn(length, |i, _| 0.1 * (x + i as f64).sin());
+            State::new(0.0, q, DVector::zeros(length))
+        }
+    };
+    let row_of_20 = |x: f64| {
+        let q = SVector::<f64, 20>::from_fn(|i, _| 0.1 * (x + i as f64).sin());
+        State::new(0.0, q, SVector::zeros())
     };
     let hanging = |x: f64| State::from_arrays(0.0, [x.sin(), -x.cos()], [0.0, 0.0]);
     let gliding = |x: f64| State::from_arrays(0.0, [0.0, 0.0, x], [x.cos(), x.sin(), 0.3]);
     let closure = || acceleration(|_, q: &SVector<f64, 2>, a: &mut SVector<f64, 2>| *a = -q);
+    let newmark = Newmark::new(HenonHeiles, 0.25, 0.1).expect("a shift");
+    let logarithmic = Logarithmic::new(Kepler);
+    let poincare = Poincare::new(Kepler, DistancePower(1.5));
+    let (to_logarithmic, to_poincare) = (logarithmic.clone(), poincare.clone());
+    let in_logarithmic =
+        |x: f64| -> State<Vector3<f64>> { to_logarithmic.extend(&pericentre(x)).expect("a start") };
+    let in_poincare =
+        |x: f64| -> State<Vector3<f64>> { to_poincare.extend(&pericentre(x)).expect("a start") };
     rows! {
         "Hénon–Heiles", BlanesMoanS10, HenonHeiles, orbit, 0.05, 200;
         "the same with its tangent", BlanesMoanS10, Tangent::new(HenonHeiles), beside, 0.05, 200;
@@ -154,7 +182,14 @@ fn main() {
         "an applied force", Gauss4, Pushed, orbit, 0.05, 100;
         "a constraint", Lobatto3, Rod, hanging, 0.02, 50;
         "a non-holonomic constraint", Midpoint, Skate, gliding, 0.02, 50;
-        "a chain", VelocityVerlet, FputChain, chain, 0.05, 100;
+        "a chain of 20", VelocityVerlet, FputChain, chain_of(20), 0.05, 200;
+        "a chain of 20", Gauss2, FputChain, chain_of(20), 0.05, 50;
+        "20 particles by a sum", VelocityVerlet, Sum, row_of_20, 0.05, 200;
+        "20 particles by a sum", Gauss2, Sum, row_of_20, 0.05, 50;
+        "a chain of 32", VelocityVerlet, FputChain, chain_of(32), 0.05, 100;
+        "Newmark", VelocityVerlet, newmark, orbit, 0.1, 100;
+        "a logarithmic Hamiltonian", BlanesMoanS10, logarithmic, in_logarithmic, 0.05, 100;
+        "Poincaré's transformation", Gauss2, poincare, in_poincare, 0.05, 50;
         "a closure", BlanesMoanS10, closure(), orbit, 0.05, 200;
     }
     adaptive(alone);
