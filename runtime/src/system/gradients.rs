@@ -31,13 +31,46 @@ pub(crate) struct Terms {
     gradient: f64,
     /// The largest component of a vector at the places of these entries.
     largest: f64,
+    /// The size is at least this.
+    least: f64,
 }
 
 impl Terms {
     /// Upper bound of the product of gradient and vector.
     #[inline]
     pub(crate) fn size(self) -> f64 {
-        self.gradient * self.largest
+        let size = self.gradient * self.largest;
+        // A size that is NaN stays NaN.
+        if self.least > size { self.least } else { size }
+    }
+
+    /// The size of a vector for which [`raise`](Self::raise)d terms have this size.
+    #[inline]
+    pub(crate) fn raised(self) -> f64 {
+        if self.least == 0.0 {
+            return 0.0;
+        }
+        self.least / self.gradient
+    }
+
+    /// The bound that the size was [`raise`](Self::raise)d to.
+    #[inline]
+    pub(crate) const fn least(self) -> f64 {
+        self.least
+    }
+
+    /// Forgets a bound that is not above `factor` times the other terms.
+    #[inline]
+    pub(crate) fn keep_above(&mut self, factor: f64) {
+        if self.least <= factor * self.gradient * self.largest {
+            self.least = 0.0;
+        }
+    }
+
+    /// Makes the size at least this.
+    #[inline]
+    pub(crate) fn raise(&mut self, least: f64) {
+        self.least = least;
     }
 
     /// A residual relative to the terms and to `other`, a number in the same unit; zero if the residual is zero.
@@ -149,29 +182,12 @@ impl<T: Scalar> Gradients<T> {
     pub(crate) fn sizes(&self, size: impl Fn(usize) -> f64, out: &mut [Terms]) {
         out.fill(Terms::default());
         for (constraint, component, value) in self.entries() {
-            let Terms { gradient, largest } = &mut out[constraint];
+            let Terms {
+                gradient, largest, ..
+            } = &mut out[constraint];
             *gradient += value.magnitude();
             *largest = largest.max(size(component));
         }
-    }
-
-    /// The largest size of `Gᵀ factors`, constraint by constraint, relative to the largest `size(k)` of the components of each constraint.
-    pub(crate) fn relative_change(
-        &self,
-        factors: &[T],
-        size: impl Fn(usize) -> f64,
-        terms: &mut [Terms],
-    ) -> f64 {
-        self.sizes(size, terms);
-        let pairs = factors.iter().zip(terms);
-        pairs.fold(0.0, |most: f64, (factor, terms)| {
-            let change = factor.magnitude() * terms.gradient;
-            if change == 0.0 {
-                most
-            } else {
-                most.max(change / terms.largest)
-            }
-        })
     }
 
     /// The words of the values.

@@ -1,5 +1,6 @@
 //! Systems with constraints, and with friction.
 
+mod at_rest;
 mod balances;
 mod chains;
 mod circuits;

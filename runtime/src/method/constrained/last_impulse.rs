@@ -3,7 +3,8 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::metric::Point;
+use super::metric::{Metric, Point};
+use super::momentum_terms::MomentumTerms;
 use super::step::{NOISE, PATIENCE, ROUNDING, SETTLED, result};
 use crate::error::Quantity;
 use crate::method::{Failure, Outcome, Step, StepStatistics, Stopping};
@@ -21,20 +22,23 @@ pub(in crate::method) struct LastImpulse<T> {
     terms: Vec<Terms>,
     /// `|G velocity|` before the impulse removes it.
     drive: Vec<f64>,
+    /// The terms of the momentum at the end.
+    momentum: MomentumTerms,
 }
 
 impl<T: Scalar> LastImpulse<T> {
-    pub(in crate::method) fn new(constraints: usize) -> Self {
+    pub(in crate::method) fn new(constraints: usize, dimension: usize) -> Self {
         Self {
             multipliers: vec![T::zero(); constraints],
             rates: vec![T::zero(); constraints],
             terms: vec![Terms::default(); constraints],
             drive: vec![0.0; constraints],
+            momentum: MomentumTerms::new(dimension),
         }
     }
 
     /// Adds the impulse to the last of the `increments` of the momentum. Writes the momentum after the step into `outcome`, which already
-    /// holds the position. `end` is the point there.
+    /// holds the position. `end` is the point there, of this metric.
     ///
     /// # Errors
     ///
@@ -44,9 +48,9 @@ impl<T: Scalar> LastImpulse<T> {
         &mut self,
         step: &Step<'_, V>,
         system: &S,
-        end: &Point<V>,
+        (metric, end): (&Metric<T>, &Point<V>),
         increments: &mut [V],
-        velocity: &mut V,
+        scratch: &mut [V; 3],
         stopping: Stopping,
         outcome: &mut Outcome<'_, V>,
         work: &mut StepStatistics,
@@ -60,9 +64,9 @@ impl<T: Scalar> LastImpulse<T> {
             let velocity = if S::MASSES.are_unit() {
                 &*outcome.p
             } else {
-                system.velocity(time, outcome.q, outcome.p, velocity);
+                system.velocity(time, outcome.q, outcome.p, &mut scratch[0]);
                 work.evaluations += 1;
-                &*velocity
+                &scratch[0]
             };
             let residual = self.residual(end, velocity, sweep == 1);
             if residual.is_nan() {
@@ -76,17 +80,24 @@ impl<T: Scalar> LastImpulse<T> {
             {
                 return Ok(());
             }
-            end.normal.solve(&mut self.rates);
             if residual < 0.5 * best {
                 (best, since) = (residual, 0);
             } else {
                 since += 1;
-                // If velocities are small differences of large momenta, only rounding errors of the momenta are left.
-                let p = outcome.p.as_slice();
-                let size = |k: usize| p[k].magnitude();
-                let gradients = &end.gradients;
-                let change = gradients.relative_change(&self.rates, size, &mut self.terms);
-                if best <= NOISE || change / T::EPSILON <= NOISE {
+                if best <= NOISE {
+                    return Ok(());
+                }
+                // If the terms of momenta or velocities cancel, only their rounding errors are left.
+                self.momentum.start(outcome.p.as_slice());
+                for increment in &*increments {
+                    self.momentum.add(increment.as_slice());
+                }
+                (self.momentum).add_impulses(&end.gradients, &self.multipliers);
+                let at = (step.time + step.size, &*outcome.q, &*outcome.p);
+                let (gradients, sizes) = (&end.gradients, (self.momentum.sizes(), 1.0));
+                metric.raise(system, at, gradients, sizes, &mut self.terms, scratch);
+                let limit = if sweep > 2 { NOISE } else { ROUNDING };
+                if self.largest() <= limit {
                     return Ok(());
                 }
                 if since > PATIENCE {
@@ -96,6 +107,7 @@ impl<T: Scalar> LastImpulse<T> {
                     });
                 }
             }
+            end.normal.solve(&mut self.rates);
             for (multiplier, &change) in self.multipliers.iter_mut().zip(&self.rates) {
                 *multiplier += change;
             }
@@ -120,13 +132,19 @@ impl<T: Scalar> LastImpulse<T> {
         let velocity = velocity.as_slice();
         end.gradients.multiply(velocity, &mut self.rates);
         (end.gradients).sizes(|k| velocity[k].magnitude(), &mut self.terms);
+        if first {
+            let pairs = self.drive.iter_mut().zip(&self.rates);
+            pairs.for_each(|(drive, rate)| *drive = rate.magnitude());
+        }
+        self.largest()
+    }
+
+    /// The largest of these rates, in units of rounding of its terms.
+    fn largest(&self) -> f64 {
         let mut residual = 0.0;
         for (c, rate) in self.rates.iter().enumerate() {
-            let rate = rate.magnitude();
-            if first {
-                self.drive[c] = rate;
-            }
-            residual = larger_or_nan(residual, self.terms[c].relative(rate, self.drive[c]));
+            let rate = self.terms[c].relative(rate.magnitude(), self.drive[c]);
+            residual = larger_or_nan(residual, rate);
         }
         residual / T::EPSILON
     }

@@ -7,6 +7,7 @@ use core::array;
 use super::history::History;
 use super::last_impulse::LastImpulse;
 use super::metric::{Metric, Point};
+use super::momentum_terms::MomentumTerms;
 use super::newton::StageJacobian;
 use super::of_dimension::place_of_resized;
 use super::resolution::Resolution;
@@ -48,6 +49,8 @@ pub(super) struct Workspace<V: Vector> {
     pub(super) extrapolated: bool,
     /// The multipliers at the end of the previous step, which are the starting values of the next without a history.
     pub(super) multipliers: Vec<V::Scalar>,
+    /// The terms of the momentum of a stage.
+    pub(super) momentum: MomentumTerms,
     pub(super) last_impulse: LastImpulse<V::Scalar>,
     /// The sizes that the residuals of every constraint are compared with.
     pub(super) terms: Vec<Terms>,
@@ -116,7 +119,8 @@ impl<V: Vector> Workspace<V> {
             jacobians,
             defects: numbers(stages.saturating_sub(1) * constraints),
             multipliers: numbers(constraints),
-            last_impulse: LastImpulse::new(constraints),
+            momentum: MomentumTerms::new(q.dimension()),
+            last_impulse: LastImpulse::new(constraints, q.dimension()),
             terms: vec![Terms::default(); constraints],
             scratch: array::from_fn(|_| q.zeros_like()),
         }

@@ -2,6 +2,7 @@
 
 use core::array;
 
+use alloc::vec;
 use alloc::vec::Vec;
 
 use super::normal_matrix::{NormalMatrix, Products};
@@ -10,7 +11,7 @@ use crate::method::Failure;
 use crate::method::storage::is_finite;
 use crate::number::{Scalar, Vector};
 use crate::system::linearity::non_linear_velocity;
-use crate::system::{Class, Gradients, Masses, System};
+use crate::system::{Class, Gradients, Masses, System, Terms};
 
 /// How the velocity depends on the momentum.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,13 +99,8 @@ impl<T: Scalar> Metric<T> {
             });
         }
         for row in 0..gradients.constraints() {
-            let mut largest = 0.0_f64;
-            moved.as_mut_slice().fill(T::zero());
-            for (_, component, value) in gradients.entries().filter(|entry| entry.0 == row) {
-                moved.as_mut_slice()[component] += value;
-                largest = largest.max(value.magnitude());
-            }
-            self.direction(system, (at, q, p), largest, [velocity, direction, moved]);
+            let at = (at, q, p);
+            self.direction(system, at, (gradients, row), [velocity, direction, moved]);
             normal.set_row(row, gradients, direction.as_slice());
         }
         normal.factor()
@@ -127,15 +123,21 @@ impl<T: Scalar> Metric<T> {
         }
     }
 
-    /// `direction = M⁻¹ moved`, where `velocity` is the [reference](Self::reference) and `largest` the largest component of `moved`.
-    /// Overwrites `moved`.
+    /// `direction = M⁻¹ g` for the gradient g of a constraint, where `velocity` is the [reference](Self::reference). Overwrites `moved`.
     fn direction<V: Vector<Scalar = T>, S: System<V>>(
         &self,
         system: &S,
         (time, q, p): (T, &V, &V),
-        largest: f64,
+        (gradients, constraint): (&Gradients<T>, usize),
         [velocity, direction, moved]: [&mut V; 3],
     ) {
+        let mut largest = 0.0_f64;
+        moved.as_mut_slice().fill(T::zero());
+        let entries = gradients.entries();
+        for (_, component, value) in entries.filter(|entry| entry.0 == constraint) {
+            moved.as_mut_slice()[component] += value;
+            largest = largest.max(value.magnitude());
+        }
         if self.linear {
             system.velocity(time, q, moved, direction);
             let pairs = direction.as_mut_slice().iter_mut();
@@ -199,16 +201,60 @@ impl<T: Scalar> Metric<T> {
         }
         self.reference(system, (time, q, p), velocity, moved);
         for column in 0..right.constraints() {
-            let mut largest = 0.0_f64;
-            moved.as_mut_slice().fill(T::zero());
-            for (_, component, value) in right.entries().filter(|entry| entry.0 == column) {
-                moved.as_mut_slice()[component] += value;
-                largest = largest.max(value.magnitude());
-            }
-            self.direction(system, (time, q, p), largest, [velocity, direction, moved]);
+            let at = (time, q, p);
+            self.direction(system, at, (right, column), [velocity, direction, moved]);
             for (row, component, value) in left.entries() {
                 band[place(row, column)] += value * direction.as_slice()[component];
             }
+        }
+    }
+
+    /// The length `√(G M⁻¹ Gᵀ)_cc` of the gradient of every constraint, with `M⁻¹` at a state.
+    pub(in crate::method) fn lengths<V: Vector<Scalar = T>, S: System<V>>(
+        &self,
+        system: &S,
+        at: (T, &V, &V),
+        gradients: &Gradients<T>,
+        scratch: &mut [V; 3],
+    ) -> Vec<f64> {
+        let width = 2 * self.half_bandwidth() + 1;
+        let mut band = vec![T::zero(); width * gradients.constraints()];
+        self.cross(system, at, gradients, gradients, &mut band, scratch);
+        let rows = band.chunks_exact(width);
+        let squares = rows.map(|row| row[width / 2].magnitude());
+        squares.map(num_traits::Float::sqrt).collect()
+    }
+
+    /// Raises the terms of every constraint to `factor Σ_k |G M⁻¹|_k sizes_k`: so far do momenta of these sizes change `factor G velocity`.
+    pub(in crate::method) fn raise<V: Vector<Scalar = T>, S: System<V>>(
+        &self,
+        system: &S,
+        (time, q, p): (f64, &V, &V),
+        gradients: &Gradients<T>,
+        (sizes, factor): (&[f64], f64),
+        terms: &mut [Terms],
+        [velocity, direction, moved]: &mut [V; 3],
+    ) {
+        if self.masses == InverseMasses::Full {
+            let at = (T::from_f64(time), q, p);
+            self.reference(system, at, velocity, moved);
+            for (constraint, terms) in terms.iter_mut().enumerate() {
+                let row = (gradients, constraint);
+                self.direction(system, at, row, [velocity, direction, moved]);
+                let pairs = direction.as_slice().iter().zip(sizes);
+                let sum: f64 = pairs.map(|(x, size)| x.magnitude() * size).sum();
+                terms.raise(factor * sum);
+            }
+            return;
+        }
+        terms.iter_mut().for_each(|terms| terms.raise(0.0));
+        for (constraint, component, value) in gradients.entries() {
+            let velocity = match &self.masses {
+                InverseMasses::Diagonal(inverse) => inverse[component].magnitude(),
+                _ => 1.0,
+            } * sizes[component];
+            let terms = &mut terms[constraint];
+            terms.raise(terms.least() + factor * value.magnitude() * velocity);
         }
     }
 

@@ -17,6 +17,8 @@ use crate::system::{Class, Constrained, Gradients, System, Terms, Unconstrained}
 
 /// How far a start may be from the constraints, relative to the sizes of their terms.
 pub(in crate::method) const CONSISTENT: f64 = 1e-10;
+/// The size of rounding errors that other constraints leave, relative to [`CONSISTENT`] of their terms.
+const SHARED: f64 = 256.0 * f64::EPSILON / CONSISTENT;
 /// How far a gradient may be from the difference quotient, relative to its terms.
 const GRADIENT: f64 = 1e-4;
 /// Maximum number of iterations to find a consistent state.
@@ -36,6 +38,8 @@ pub(in crate::method) struct Examined<V: Vector> {
     rate_terms: Vec<Terms>,
     /// The scale of each rate given by the force, `√(|G M⁻¹ force| |φ|)`, from the sizes of their terms. At rest there is no other scale.
     rate_scales: Vec<f64>,
+    /// [`SHARED`] scales of values and rates. A constraint of bodies at rest at the origin has no terms of its own.
+    shared: [Vec<f64>; 2],
 }
 
 impl<V: Vector> Examined<V> {
@@ -71,6 +75,7 @@ impl<V: Vector> Examined<V> {
             rates: vec![V::Scalar::from_f64(0.0); constraints],
             rate_terms: vec![Terms::default(); constraints],
             rate_scales: vec![0.0; constraints],
+            shared: array::from_fn(|_| vec![0.0; constraints]),
         };
         examined.examine(system, time, q, p)?;
         Ok(examined)
@@ -108,6 +113,12 @@ impl<V: Vector> Examined<V> {
                 0.0
             };
         }
+        let sizes = |c: usize| self.terms[c].size() + self.resolution.values[c];
+        let rates = |c: usize| self.rate_terms[c].size() + self.rate_scales[c];
+        let metric = &self.metric;
+        let at = (V::Scalar::from_f64(time), q, p);
+        let lengths = metric.lengths(system, at, gradients, &mut self.scratch);
+        self.shared = [shared(&lengths, sizes), shared(&lengths, rates)];
         let finite = |numbers: &[V::Scalar]| numbers.iter().all(|x| x.is_finite());
         if finite(&self.values) && finite(&self.rates) && finite(gradients.values()) {
             return Ok(());
@@ -135,12 +146,18 @@ impl<V: Vector> Examined<V> {
     }
 
     fn position(&self) -> (usize, f64) {
-        Self::largest(&self.values, &self.terms, |c| self.resolution.values[c])
+        Self::largest(&self.values, &self.terms, |c| {
+            let others = self.shared[0][c] - self.terms[c].size();
+            self.resolution.values[c].max(others)
+        })
     }
 
     /// The constraint whose `G velocity` is farthest from zero relative to its scale, and this relative size.
     pub(in crate::method) fn momentum(&self) -> (usize, f64) {
-        Self::largest(&self.rates, &self.rate_terms, |c| self.rate_scales[c])
+        Self::largest(&self.rates, &self.rate_terms, |c| {
+            let others = self.shared[1][c] - self.rate_terms[c].size();
+            self.rate_scales[c].max(others)
+        })
     }
 
     /// `|G velocity|` of a constraint.
@@ -171,6 +188,14 @@ impl<V: Vector> Examined<V> {
         }
         Ok(())
     }
+}
+
+/// The [`SHARED`] part of the largest size, for every constraint in its unit. Sizes are compared by the `lengths` of the gradients.
+fn shared(lengths: &[f64], size: impl Fn(usize) -> f64) -> Vec<f64> {
+    let sizes = (0..).zip(lengths).map(|(c, length)| size(c) / length);
+    let largest = sizes.filter(|size| size.is_finite()).fold(0.0, f64::max);
+    let scales = lengths.iter().map(|length| SHARED * largest * length);
+    scales.collect()
 }
 
 /// The error of a state at which there are no multipliers.

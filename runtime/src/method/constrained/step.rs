@@ -2,6 +2,7 @@
 
 use super::history::History;
 use super::memory::Workspace;
+use super::start::CONSISTENT;
 use crate::error::Quantity;
 use crate::method::storage::is_finite;
 use crate::method::{
@@ -9,7 +10,7 @@ use crate::method::{
 };
 use crate::number::summation::add;
 use crate::number::{Coefficient, Scalar, Summation, Vector, copy, larger_or_nan};
-use crate::system::{Class, Gradients, System};
+use crate::system::{Class, Gradients, System, Terms};
 
 /// Residuals are in units of rounding. A residual of at most this size counts as zero if it has [stopped decreasing](STAGNANT).
 pub(in crate::method) const ROUNDING: f64 = 2.0;
@@ -156,6 +157,7 @@ impl<V: Vector> Workspace<V> {
     ) -> Result<(), Failure> {
         let (mut best, mut since) = (f64::INFINITY, 0);
         let (mut before, mut moved) = (f64::INFINITY, f64::INFINITY);
+        let (unit, mut cancelled) = (V::Scalar::EPSILON, false);
         let stages = tableau.weights.len();
         // The first sweep with Newton's matrix, which needs good stages.
         let first = if self.extrapolated { 1 } else { 2 };
@@ -165,15 +167,23 @@ impl<V: Vector> Workspace<V> {
             work.iterations += 1;
             self.kicks(tableau, step, system, work)?;
             self.drifts::<S>(tableau, step, system, work);
-            let [defect, movement, size] = self.positions::<R, S>(tableau, step, system, outcome);
+            let [moved_by, size] = self.positions::<R, S>(tableau, step, system, outcome);
+            let movement = moved_by / size / unit;
             // Where stages do not follow the multipliers at once, the next movement is smaller by the same factor at least.
             let rate = if !between && sweep > 1 && movement < moved {
                 movement / moved
             } else {
                 1.0
             };
-            let residual = larger_or_nan(defect, movement * rate);
+            let mut residual = larger_or_nan(self.defect(stages), movement * rate);
             moved = movement;
+            // Impulses change from sweep to sweep, and the terms with them.
+            cancelled |= residual > NOISE && residual > SLOW * before || residual == f64::INFINITY;
+            if cancelled {
+                let reach = self.raise(tableau, step, system)?;
+                let movement = moved_by / size.max(reach) / unit;
+                residual = larger_or_nan(self.defect(stages), movement * rate);
+            }
             let last = before <= STAGNANT || sweep == stopping.max_iterations;
             if residual <= SETTLED || residual <= ROUNDING && last {
                 return Ok(());
@@ -284,15 +294,15 @@ impl<V: Vector> Workspace<V> {
         }
     }
 
-    /// The positions of the stages. Returns their distance from the constraints, the movement of the positions that forces depend on, and
-    /// the size of these positions. The first two are in units of rounding.
+    /// The positions of the stages, and their distance from the constraints. Returns the movement of the positions that forces depend on,
+    /// and the size of these positions.
     fn positions<R: Summation, S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
         system: &S,
         outcome: &mut Outcome<'_, V>,
-    ) -> [f64; 3] {
+    ) -> [f64; 2] {
         let (stages, constraints) = (tableau.weights.len(), self.multipliers.len());
         // No force inside the step of a separable system depends on the last position.
         let moving = if S::Class::SEPARABLE {
@@ -327,6 +337,12 @@ impl<V: Vector> Workspace<V> {
             let defects = &mut self.defects[(i - 1) * constraints..i * constraints];
             system.constraint_values(&self.q[i], defects);
         }
+        [movement, size]
+    }
+
+    /// The distance of the stages from the constraints, in units of rounding.
+    fn defect(&self, stages: usize) -> f64 {
+        let constraints = self.multipliers.len();
         let defects = self.defects.chunks_exact(constraints).take(stages - 1);
         let mut residual = 0.0;
         for defects in defects {
@@ -334,8 +350,55 @@ impl<V: Vector> Workspace<V> {
                 residual = larger_or_nan(residual, terms.relative(defect.magnitude(), 0.0));
             }
         }
-        let unit = V::Scalar::EPSILON;
-        [residual / unit, movement / size / unit, size]
+        residual / V::Scalar::EPSILON
+    }
+
+    /// Raises the terms of the constraints to those of the forces and impulses of the step, which may cancel. Returns the size of a position
+    /// with the same rounding error. The gradients are those after the step: at another place they could be too large.
+    fn raise<S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+    ) -> Result<f64, Failure> {
+        let last = tableau.weights.len() - 1;
+        let (q, p) = (&self.q[last], &self.p[last]);
+        let end = &mut self.end.gradients;
+        if !end.evaluate(|gradients| system.constraint_gradients(q, gradients)) {
+            return Err(Failure::MovingGradients);
+        }
+        let (at, size) = ((step.time + step.size, q, p), step.size.abs());
+        let [_, evaluated, _] = &self.scratch;
+        let force = match S::Class::SEPARABLE {
+            true => &self.start.force,
+            false => evaluated,
+        };
+        self.momentum.start(force.as_slice());
+        let (terms, scratch) = (&mut self.terms, &mut self.scratch);
+        let sizes = (self.momentum.sizes(), size * size);
+        (self.metric).raise(system, at, end, sizes, terms, scratch);
+        let pushed = reach(terms);
+        self.momentum.start(step.p.as_slice());
+        let impulses = self.impulses.chunks_exact(self.multipliers.len());
+        for (j, impulses) in impulses.take(last).enumerate() {
+            let gradients = match j {
+                0 => &self.start.gradients,
+                _ => &self.gradients[j - 1],
+            };
+            self.momentum.add(self.kick[j].as_slice());
+            self.momentum.add_impulses(gradients, impulses);
+        }
+        let sizes = (self.momentum.sizes(), size);
+        (self.metric).raise(system, at, end, sizes, terms, scratch);
+        // Rounding errors above those of a start would decide the motion.
+        let motion = largest(step.q).max(largest(q)) + pushed;
+        if NOISE * V::Scalar::EPSILON * reach(terms) > CONSISTENT * motion {
+            terms.iter_mut().for_each(|terms| terms.raise(0.0));
+            return Ok(0.0);
+        }
+        // Below these the terms of every step are enough.
+        terms.iter_mut().for_each(|terms| terms.keep_above(NOISE));
+        Ok(reach(terms))
     }
 
     /// The larger of distance and movement in units of what the values of the constraints resolve.
@@ -445,9 +508,9 @@ impl<V: Vector> Workspace<V> {
         let found = self.last_impulse.find::<R, V, S>(
             step,
             system,
-            &self.end,
+            (&self.metric, &self.end),
             &mut self.kick[..=last],
-            &mut self.scratch[0],
+            &mut self.scratch,
             stopping,
             outcome,
             work,
@@ -588,6 +651,12 @@ pub(in crate::method) fn stage<V: Vector>(
     for (out, &base) in out.as_mut_slice().iter_mut().zip(base.as_slice()) {
         *out = base + *out;
     }
+}
+
+/// The largest size of a position for which raised terms have their size.
+fn reach(terms: &[Terms]) -> f64 {
+    let reaches = terms.iter().map(|terms| terms.raised());
+    reaches.fold(0.0, f64::max)
 }
 
 /// The largest magnitude of the components.

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::array;
 
 use crate::error::Quantity;
-use crate::method::constrained::{LastImpulse, Metric, Point, place_of_resized};
+use crate::method::constrained::{LastImpulse, Metric, MomentumTerms, Point, place_of_resized};
 use crate::method::storage::first_non_finite;
 use crate::method::{ConstrainedStep, Method, RunTimeTableau, StageStorage};
 use crate::number::{Scalar, Vector, Visit};
@@ -30,6 +30,8 @@ pub(super) struct Workspace<V: Vector> {
     pub(super) kick: Vec<V>,
     /// λ
     pub(super) multipliers: Vec<V::Scalar>,
+    /// The terms of the momentum of a stage.
+    pub(super) momentum: MomentumTerms,
     pub(super) last_impulse: LastImpulse<V::Scalar>,
     /// w(Q_i) of one stage.
     pub(super) rows: Gradients<V::Scalar>,
@@ -85,7 +87,8 @@ impl<V: Vector> Workspace<V> {
             drift: vectors(stages),
             kick: vectors(stages + 2),
             multipliers: numbers(constraints),
-            last_impulse: LastImpulse::new(constraints),
+            momentum: MomentumTerms::new(q.dimension()),
+            last_impulse: LastImpulse::new(constraints, q.dimension()),
             part: numbers(constraints),
             defects: numbers(constraints),
             terms: vec![Terms::default(); constraints],

@@ -91,7 +91,7 @@ impl<V: Vector> Workspace<V> {
             work.iterations += 1;
             self.kicks(tableau, step, system, work);
             self.drifts(tableau, step, system, work);
-            let movement = self.positions::<R>(tableau, step, outcome);
+            let (movement, size) = self.positions::<R>(tableau, step, outcome);
             let defect = self.defects(tableau, system)?;
             // The remaining movement shrinks at least as fast as the movements did.
             let rate = if sweep > 1 && movement.own < moved {
@@ -99,7 +99,7 @@ impl<V: Vector> Workspace<V> {
             } else {
                 1.0
             };
-            let residual = larger_or_nan(defect.own, movement.own * rate);
+            let residual = larger_or_nan(defect, movement.own * rate);
             moved = movement.own;
             if residual <= ROUNDING {
                 return Ok(());
@@ -107,13 +107,14 @@ impl<V: Vector> Workspace<V> {
             if residual.is_nan() {
                 return Err(self.not_finite());
             }
-            let change = self.changes(tableau, step);
             if residual < best {
                 (best, since) = (residual, 0);
             } else {
                 since += 1;
-                let noise = larger_or_nan(defect.largest.min(change), movement.largest);
-                if since >= PATIENCE && (best <= NOISE || noise <= NOISE) {
+                if since >= PATIENCE
+                    && (best <= NOISE
+                        || self.noise(tableau, step, system, movement.largest, size) <= NOISE)
+                {
                     return Ok(());
                 }
                 if since >= PATIENCE * PATIENCE {
@@ -123,7 +124,7 @@ impl<V: Vector> Workspace<V> {
                     });
                 }
             }
-            self.correct(tableau);
+            self.correct(tableau, step);
         }
         Err(Failure::NoConvergence {
             residual: best * V::Scalar::EPSILON,
@@ -187,13 +188,13 @@ impl<V: Vector> Workspace<V> {
         }
     }
 
-    /// The positions of the stages and after the step, and the displacement `q1 − q0`. Returns how far the stages have moved.
+    /// The positions of the stages and after the step, and the displacement `q1 − q0`. Returns how far the stages have moved, and their size.
     fn positions<R: Summation>(
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
         outcome: &mut Outcome<'_, V>,
-    ) -> Residual {
+    ) -> (Residual, f64) {
         let stages = tableau.weights.len();
         for (k, displacement) in self.displacement.as_mut_slice().iter_mut().enumerate() {
             let drifts = self.drift[..stages].iter().map(|drift| drift.as_slice()[k]);
@@ -224,15 +225,15 @@ impl<V: Vector> Workspace<V> {
                 size = larger_or_nan(size, scale);
             }
         }
-        Residual::new::<V>(own, difference / size)
+        (Residual::new::<V>(own, difference / size), size)
     }
 
-    /// `Σ_i b_i w(Q_i)·(q1 − q0)`. Returns its size relative to the displacement.
+    /// `Σ_i b_i w(Q_i)·(q1 − q0)`. Returns its size relative to the displacement, in units of rounding.
     fn defects<S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
         system: &S,
-    ) -> Result<Residual, Failure> {
+    ) -> Result<f64, Failure> {
         self.defects.fill(V::Scalar::from_f64(0.0));
         for (q, &weight) in self.q.iter().zip(tableau.weights) {
             let rows = &mut self.rows;
@@ -246,37 +247,53 @@ impl<V: Vector> Workspace<V> {
             }
         }
         let (reach, q) = (self.reach.as_slice(), self.q[0].as_slice());
-        let (mut own, mut largest) = (0.0_f64, 0.0_f64);
         self.rows.sizes(|k| reach[k].magnitude(), &mut self.terms);
-        for (defect, terms) in self.defects.iter().zip(&self.terms) {
-            own = larger_or_nan(own, terms.relative(defect.magnitude(), 0.0));
-        }
+        let own = self.largest_defect();
         self.rows
             .sizes(|k| q[k].magnitude() + reach[k].magnitude(), &mut self.terms);
+        Ok(own)
+    }
+
+    /// The largest defect, in units of rounding of its terms.
+    fn largest_defect(&self) -> f64 {
+        let mut largest = 0.0;
         for (defect, terms) in self.defects.iter().zip(&self.terms) {
             largest = larger_or_nan(largest, terms.relative(defect.magnitude(), 0.0));
         }
-        Ok(Residual::new::<V>(own, largest))
+        largest / V::Scalar::EPSILON
     }
 
-    /// The changes of the multipliers, in place of the defects. Returns the size of their impulse, in units of rounding of the momentum.
-    fn changes(&mut self, tableau: &ConstrainedTableau, step: &Step<'_, V>) -> f64 {
+    /// The larger of defect and movement in units of rounding of all terms, also of those of the momenta, which may cancel.
+    fn noise<S: System<V>>(
+        &mut self,
+        tableau: &ConstrainedTableau,
+        step: &Step<'_, V>,
+        system: &S,
+        movement: f64,
+        size: f64,
+    ) -> f64 {
+        let stages = tableau.weights.len();
+        self.momentum.start(step.p.as_slice());
+        for kick in &self.kick[..stages] {
+            self.momentum.add(kick.as_slice());
+        }
+        (self.momentum).add_impulses(&self.start.gradients, &self.multipliers);
+        let (q, p) = (&self.q[stages - 1], &self.p[stages - 1]);
+        let at = (step.time + step.size, q, p);
+        let sizes = (self.momentum.sizes(), step.size.abs());
+        let rows = &self.rows;
+        (self.metric).raise(system, at, rows, sizes, &mut self.terms, &mut self.scratch);
+        let reaches = self.terms.iter().map(|terms| terms.raised());
+        let reach = reaches.fold(size, f64::max);
+        larger_or_nan(self.largest_defect(), movement * size / reach)
+    }
+
+    /// Changes the multipliers by the defects, and with them their impulse.
+    fn correct(&mut self, tableau: &ConstrainedTableau, step: &Step<'_, V>) {
         self.start.normal.solve(&mut self.defects);
         let factor = V::Scalar::from_f64(step.size.recip());
-        for change in &mut self.defects {
-            *change *= factor;
-        }
-        let impulse = self.kick[tableau.weights.len()].as_slice();
-        let size = |k: usize| step.p.as_slice()[k].magnitude() + impulse[k].magnitude();
-        let gradients = &self.start.gradients;
-        let change = gradients.relative_change(&self.defects, size, &mut self.terms);
-        change / V::Scalar::EPSILON
-    }
-
-    /// The impulse of the new multipliers.
-    fn correct(&mut self, tableau: &ConstrainedTableau) {
         for (multiplier, &change) in self.multipliers.iter_mut().zip(&self.defects) {
-            *multiplier += change;
+            *multiplier += change * factor;
         }
         let impulse = self.kick[tableau.weights.len()].as_mut_slice();
         impulse.fill(V::Scalar::from_f64(0.0));
@@ -305,9 +322,9 @@ impl<V: Vector> Workspace<V> {
         let stages = tableau.weights.len();
         let time = step.time + step.size;
         metric.evaluate(system, time, (outcome.q, &p[stages - 1]), end, scratch)?;
-        let (kick, velocity) = (&mut kick[..stages + 2], &mut scratch[0]);
-        let found = last_impulse
-            .find::<R, V, S>(step, system, end, kick, velocity, stopping, outcome, work);
+        let (kick, end) = (&mut kick[..stages + 2], (&*metric, &*end));
+        let found =
+            last_impulse.find::<R, V, S>(step, system, end, kick, scratch, stopping, outcome, work);
         match found {
             Err(Failure::NonFinite { .. }) => Err(self.not_finite()),
             found => found,
