@@ -152,7 +152,7 @@ pub fn unit_of<V: Vector>(function: impl Fn(&State<V>) -> f64, start: &State<V>)
     let change = |half: fn(&mut State<V>) -> &mut V| {
         let mut near = start.clone();
         for (i, x) in half(&mut near).as_mut_slice().iter_mut().enumerate() {
-            let part = (1.0 + (i as f64 * GOLDEN) % 1.0) / 16.0;
+            let part = 0.125 / (1.0 + 3.0 * ((i as f64 * GOLDEN) % 1.0));
             *x *= V::Scalar::one() - V::Scalar::from_f64(part);
         }
         let change = (function(&near) - value).abs();
