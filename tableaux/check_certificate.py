@@ -48,12 +48,10 @@ TIE = Fraction(1, 1 << 240)  # What is nearer to the middle between two decimals
 class Rejected(Exception): """A claim that does not hold."""
 class OtherVersion(Exception): """A file that this checker does not read."""
 class NotChecked(str): """What to say of a claim that is not checked."""
-# What claims that do not hold and files that are no certificates raise.
-WRONG = (Rejected, OtherVersion, ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RecursionError, TypeError, ValueError)
+WRONG = (Rejected, OtherVersion, ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RecursionError, TypeError, ValueError)  # What is caught.
 
 def demand(holds, claim):
-    if not holds:
-        raise Rejected(claim)
+    if not holds: raise Rejected(claim)
 
 def check_members(thing, needed, optional=()):
     demand(isinstance(thing, dict), "an object")
@@ -436,8 +434,7 @@ def check(text):
     """Returns a certificate, its method with functions for the ends of the coefficients, by name, and what was checked, or raises one of WRONG."""
     certificate = read(text)
     demand(certificate["format"] == "symplectic certificate", "a certificate, as `symplectic certify` writes it")
-    if whole(certificate["version"]) != 1:
-        raise OtherVersion(f"a certificate of version {certificate['version']}: this checker reads version 1; take the one of the version of symplectic that wrote it")
+    if whole(certificate["version"]) != 1: raise OtherVersion(f"a certificate of version {certificate['version']}: this checker reads version 1; take the one of the version of symplectic that wrote it")
     demand(isinstance(certificate["name"], str), "the name as a text")
     demand(certificate["layout"] in ("matrices", "kicks first", "drifts first"), "a layout that is known")
     matrices = ("a", "a_tilde") if certificate["layout"] == "matrices" else ()  # Those of a splitting follow from its weights.
@@ -484,8 +481,7 @@ def verdict(path):
             done.append(further("table", content(table), certificate, exact))
     except WRONG as error:
         kind = {Rejected: "not proved: ", OtherVersion: ""}.get(type(error), f"{type(error).__name__}: ")
-        what = f"{kind}{error}"
-        return 1, f"WRONG: {file}{f'the member {error} is missing' if isinstance(error, KeyError) else what}"
+        return 1, f"WRONG: {file}{f'the member {error} is missing' if isinstance(error, KeyError) else f'{kind}{error}'}"
     status = 2 if any(isinstance(x, NotChecked) for x in done) else 0
     return status, f"{'NOT ALL CHECKED' if status else 'right'}: {', '.join(done)}"
 
