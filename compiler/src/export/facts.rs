@@ -4,7 +4,7 @@ use super::json::evidence;
 use crate::order::{ClassOrder, HamiltonianClass, PerturbedOrder, PowerOrder, SymplecticityOrder};
 use crate::properties::Property;
 use crate::stability::{
-    EndPoint, MOST_STAGES, RungeKuttaStability, Stability, StableSteps, decimals, evidence_text,
+    EndPoint, MOST_STAGES, RungeKuttaStability, Stability, StableSteps, evidence_text,
 };
 use crate::tableau::Tableau;
 
@@ -214,8 +214,6 @@ fn symplecticity(tableau: &Tableau) -> Fact {
 fn stability(found: &Stability, digits: usize) -> Vec<(&'static str, Fact)> {
     let exact = |end: &EndPoint| Fact::optional(end.exact());
     let decimal = |end: &EndPoint| Text(end.decimal(digits));
-    let decimals = decimals(&found.intervals, digits).into_iter();
-    let decimals = decimals.map(|ends| List(ends.map(Text).into()));
     let closed = |closed: bool| Literal(closed.to_string());
     let pairs = |each: &dyn Fn(&crate::stability::StabilityInterval) -> [Fact; 2]| {
         let intervals = found.intervals.iter();
@@ -227,7 +225,7 @@ fn stability(found: &Stability, digits: usize) -> Vec<(&'static str, Fact)> {
         ("trace", Text(found.trace.to_string())),
         ("determinant", Text(found.determinant.to_string())),
         ("intervals", pairs(&|i| [exact(&i.low), exact(&i.high)])),
-        ("decimal", List(decimals.collect())),
+        ("decimal", pairs(&|i| [decimal(&i.low), decimal(&i.high)])),
         (
             "closed",
             pairs(&|i| [closed(i.low_closed), closed(i.high_closed)]),

@@ -37,23 +37,21 @@ impl StabilityInterval {
 
 /// Digits of an end without a short exact form.
 pub(super) const SHOWN_DIGITS: usize = 12;
-/// The most digits with which two ends are distinguished.
-const MOST_DIGITS: usize = 1536;
+/// How often the digits are doubled to distinguish two ends.
+const MOST_DOUBLINGS: u32 = 7;
 
-/// The digits with which the ends of ascending intervals are shown, at least the given ones: enough to distinguish each from the ends
-/// beside it.
+/// The digits with which the ends of ascending intervals are shown: enough to distinguish each from the ends beside it.
 ///
 /// Equal ends, as those of a single point, have the fewest digits.
-fn distinguishing_digits(intervals: &[StabilityInterval], least: usize) -> Vec<usize> {
+fn distinguishing_digits(intervals: &[StabilityInterval]) -> Vec<usize> {
     let ends: Vec<&EndPoint> = intervals.iter().flat_map(|i| [&i.low, &i.high]).collect();
-    let mut digits = vec![least; ends.len()];
+    let mut digits = vec![SHOWN_DIGITS; ends.len()];
     for last in 1..ends.len() {
         let (low, high) = (ends[last - 1], ends[last]);
         if low.exact().is_some() && low.exact() == high.exact() {
             continue;
         }
-        let doubled = std::iter::successors(Some(least.max(1)), |digits| Some(2 * digits));
-        let mut enough = doubled.take_while(|&digits| digits <= MOST_DIGITS);
+        let mut enough = (0..=MOST_DOUBLINGS).map(|n| SHOWN_DIGITS << n);
         if let Some(enough) = enough.find(|&n| low.decimal(n) != high.decimal(n)) {
             digits[last - 1] = digits[last - 1].max(enough);
             digits[last] = enough;
@@ -62,17 +60,9 @@ fn distinguishing_digits(intervals: &[StabilityInterval], least: usize) -> Vec<u
     digits
 }
 
-/// The ends of ascending intervals as decimals of this many digits, or as many more as distinguish them.
-pub(crate) fn decimals(intervals: &[StabilityInterval], least: usize) -> Vec<[String; 2]> {
-    let digits = distinguishing_digits(intervals, least);
-    let ends = intervals.iter().zip(digits.chunks(2));
-    ends.map(|(i, digits)| [i.low.decimal(digits[0]), i.high.decimal(digits[1])])
-        .collect()
-}
-
 /// `(0, 2*sqrt(2)) ∪ (2*sqrt(3), 2*sqrt(6))`, with brackets at closed ends, and enough digits to distinguish the ends.
 pub(super) fn union(intervals: &[StabilityInterval]) -> String {
-    let digits = distinguishing_digits(intervals, SHOWN_DIGITS);
+    let digits = distinguishing_digits(intervals);
     let text = |(interval, digits): (&StabilityInterval, &[usize])| {
         let open = if interval.low_closed { '[' } else { '(' };
         let close = if interval.high_closed { ']' } else { ')' };

@@ -47,7 +47,6 @@ pub use end_point::EndPoint;
 pub(crate) use fraction::superscript;
 pub use fraction::{Coefficient, RationalFunction, Variable};
 pub use intervals::StabilityInterval;
-pub(crate) use intervals::decimals;
 pub use runge_kutta::RungeKuttaStability;
 pub use stable_steps::{MOST_STAGES, StableSteps};
 
@@ -279,7 +278,10 @@ impl Stability {
                 .clone()
                 .map(|i| [exact(&i.low), exact(&i.high)])
                 .collect(),
-            decimal: decimals(&self.intervals, digits),
+            decimal: intervals
+                .clone()
+                .map(|i| [i.low.decimal(digits), i.high.decimal(digits)])
+                .collect(),
             closed: intervals.map(|i| [i.low_closed, i.high_closed]).collect(),
             p_stable: self.p_stable,
             evidence: evidence_text(self.evidence),
