@@ -18,7 +18,7 @@ impl Default for Limits {
 }
 
 impl Limits {
-    /// At most so many stages.
+    /// Limits with this largest number of stages.
     #[must_use]
     pub fn at_most(stages: impl Into<usize>) -> Self {
         Limits {

@@ -96,7 +96,7 @@ impl Expression {
 }
 
 impl Drop for Expression {
-    /// One expression after the other: those of deep sums would not fit on the stack.
+    /// A loop instead of recursion, as in [`Real::evaluate`].
     fn drop(&mut self) {
         let mut rest = Vec::new();
         self.give_operands(&mut rest);
@@ -198,7 +198,7 @@ impl Real {
     /// The value by interval arithmetic with this many binary places; `None` where the enclosure of a
     /// divisor is still too wide.
     fn evaluate(&self, working: u32) -> Option<Interval> {
-        // Operands before what is made of them, on a stack of our own: sums of many terms are deep.
+        // A loop instead of recursion: a sum of many terms is deeper than the stack of a thread. Operands come first.
         let mut pending = vec![self];
         while let Some(&number) = pending.last() {
             let place = pending.len();

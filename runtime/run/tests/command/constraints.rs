@@ -234,7 +234,7 @@ fn project_starts_moves_starts_onto_the_constraints() {
 }
 
 #[test]
-fn what_constraints_exclude_is_refused_at_its_place() {
+fn keys_that_constraints_exclude_are_refused_at_their_place() {
     let folder = folder("constrained-refused");
     let replaced = |setup: &str, from: &str, to: &str| {
         assert!(setup.contains(from), "{from}");

@@ -153,7 +153,7 @@ fn the_energy_is_not_said_to_be_conserved() {
 }
 
 #[test]
-fn what_forces_exclude_is_refused_at_its_place() {
+fn run_files_with_wrong_forces_are_refused_at_their_place() {
     let folder = folder("forced-refused");
     for (setup, place, told) in [
         (
