@@ -7,11 +7,11 @@ use symplectic::ensemble::{Ensemble, Row};
 use symplectic::system::Conservative;
 use symplectic::tangent::{Megno, Tangent};
 use symplectic::{AtRunTime, Class, Hamiltonian, Integrator, State, Summation};
+use symplectic_tape::Formula;
 
 use crate::Run;
 use crate::integrate::{Keep, States, Vector};
 use crate::random;
-use crate::system::Formula;
 
 /// The length of a displacement of an explicit method, relative to the state: it may grow by 10⁵⁸⁰.
 const SMALL: f64 = 1e-280;

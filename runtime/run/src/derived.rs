@@ -5,13 +5,12 @@ use std::ops::Range;
 use symplectic::State;
 use symplectic::nalgebra::{DMatrix, DVector};
 use symplectic_compiler::Error;
+use symplectic_tape::{At, Input, Parameters, Tape, Tapes};
 
 use crate::expression::Names;
 use crate::setup::{File, Setup};
 use crate::starts::{Coordinates, Start};
 use crate::surface::outer_root;
-use crate::system::Tapes;
-use crate::tape::{At, Input, Parameters, Tape};
 
 /// How a coordinate follows from others.
 #[derive(Debug, Clone, PartialEq)]
@@ -163,7 +162,7 @@ impl Completion<'_> {
         let refused = |message: String| Err(self.file.error(span.clone(), message));
         let half = self.coordinates.dimension();
         let needs = |tape: &Tape| -> Vec<usize> {
-            let inputs = tape.inputs.iter();
+            let inputs = tape.inputs().iter();
             let places = inputs.filter_map(|input| match *input {
                 Input::Position(k) => Some(k),
                 Input::Momentum(k) => Some(half + k),
@@ -214,9 +213,9 @@ impl Completion<'_> {
         }
         let half = self.coordinates.dimension();
         let mut parameters = row[2 * half..].to_vec();
-        let of_system = Parameters::Own(parameters.as_slice().into());
+        let of_system = Parameters::from(parameters.as_slice());
         parameters.push(trajectory as f64);
-        let with_number = Parameters::Own(parameters.into());
+        let with_number = Parameters::from(parameters.as_slice());
         for Prepared { derived, value, .. } in order {
             let place = derived.place;
             let value = value.value(self.at(&with_number, row));
@@ -284,7 +283,7 @@ impl Completion<'_> {
     /// Replaces the velocities of a row by momenta. H of a Lagrangian is quadratic in the momenta, so that velocities are linear.
     fn momenta(&self, row: &mut [f64]) -> Result<(), Error> {
         let half = self.coordinates.dimension();
-        let parameters = Parameters::Own(row[2 * half..].into());
+        let parameters = Parameters::from(&row[2 * half..]);
         let velocity =
             |row: &[f64]| DVector::from_vec(self.tapes.velocity_at(self.at(&parameters, row)));
         let wanted = DVector::from_column_slice(&row[half..2 * half]);

@@ -5,11 +5,9 @@ use std::ops::Range;
 use symplectic_compiler::Error;
 use symplectic_compiler::expression::Input;
 use symplectic_compiler::formula::{Form, System};
+use symplectic_tape::{Entry, MAX_OPERATIONS, Refusal, Tape, Values};
 
 use crate::setup::{File, Setup};
-use crate::tape::Tape;
-use crate::unroll::{MOST_STEPS, Refusal, Unrolled};
-use crate::values::{Entry, Values};
 
 /// What expressions refer to.
 pub(super) struct Names<'a> {
@@ -45,18 +43,11 @@ impl Names<'_> {
         let rows = entries.into_iter().map(|entry| vec![vec![entry]]);
         values.parameters.extend(rows);
         values.pairs.resize(values.parameters.len(), Vec::new());
-        let tape = || {
-            if system.graph.overflowed() {
-                return Err(Refusal::TooLong);
-            }
-            let start = Some(self.setup.start());
-            let unrolled = Unrolled::new(&system, &values, &[part], start)?;
-            unrolled.tape(&[unrolled.of(part)?])
-        };
-        tape().map_err(|refusal| {
+        let tape = Tape::of_value(&system, &values, part, Some(self.setup.start()));
+        tape.map_err(|refusal| {
             let message = match refusal {
                 Refusal::TooLong => format!(
-                    "with its sums written out, `{key}` has more than {MOST_STEPS} operations: give a shorter expression, or take fewer bodies"
+                    "with its sums written out, `{key}` has more than {MAX_OPERATIONS} operations: give a shorter expression, or take fewer bodies"
                 ),
                 Refusal::Outside => format!(
                     "an index in `{key}` is out of range: that coordinate or entry of a parameter does not exist; positions are from 0 to {}",

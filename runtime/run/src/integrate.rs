@@ -27,10 +27,9 @@ use crate::resume::{Origin, Resume, checksum};
 use crate::setup::{Iteration, Sums};
 use crate::starts::Start;
 use crate::summary::summary;
-use crate::system::Formula;
-use crate::tape::Parameters;
 use crate::trajectory::Trajectory;
 use crate::{Run, Shard, counted, document};
+use symplectic_tape::{Formula, Parameters};
 use symplectic_terminal::{errors, print};
 
 pub(super) type Vector = DVector<f64>;
@@ -116,16 +115,16 @@ impl<'a> Run<'a> {
                     family.push(start.state);
                 }
                 _ => {
-                    let own = Parameters::Own(start.parameters.as_slice().into());
+                    let own = Parameters::from(start.parameters.as_slice());
                     let system = Formula::new(Arc::clone(&self.tapes), own);
-                    let system = system.noting(noting.clone());
+                    let system = system.watched(noting.clone());
                     families.push((system, vec![start.state]));
                 }
             }
             parameters.push(start.parameters);
         }
         for own in parameters.iter().filter(|_| self.tapes.has_friction()) {
-            let own = Parameters::Own(own.as_slice().into());
+            let own = Parameters::from(own.as_slice());
             let last = *last.unwrap_or(&end);
             let factors = self.tapes.factors(&own, last).unwrap_or_default();
             if factors
@@ -374,7 +373,7 @@ impl<'a> Run<'a> {
             return;
         }
         let own = parameters.get(row.number).map_or(&[][..], Vec::as_slice);
-        let own = Parameters::Own(own.into());
+        let own = Parameters::from(own);
         let damp = |time: f64, momenta: &mut [f64]| {
             let factors = self.tapes.factors(&own, time).unwrap_or_default();
             for (momentum, factor) in momenta.iter_mut().zip(factors) {

@@ -4,7 +4,6 @@
 
 mod advice;
 mod chaos;
-mod constraints;
 mod derived;
 mod expression;
 mod integrate;
@@ -22,13 +21,9 @@ mod spec;
 mod starts;
 mod summary;
 mod surface;
-mod system;
 mod table;
-mod tape;
 mod target;
 mod trajectory;
-mod unroll;
-mod values;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -38,6 +33,7 @@ use clap::Parser;
 use symplectic_compiler::export::read_text;
 use symplectic_compiler::formula::{Form, Structure, System};
 use symplectic_compiler::{Error, ErrorKind};
+use symplectic_tape::{MAX_OPERATIONS, Refusal, Tapes};
 use symplectic_terminal::errors;
 
 use crate::derived::{Completed, Completion};
@@ -47,9 +43,7 @@ use crate::method::Method;
 use crate::section::Section;
 use crate::setup::{File, Setup, Starts};
 use crate::starts::{Coordinates, Reader};
-use crate::system::Tapes;
 use crate::target::Target;
-use crate::unroll::{MOST_STEPS, Refusal};
 
 /// Integrate an ensemble of trajectories of a system given by its formula.
 ///
@@ -171,7 +165,7 @@ fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
     let tapes = Tapes::new(&mut system, &structure, &values, setup.start()).map_err(|refusal| {
         let message = match refusal {
             Refusal::TooLong => format!(
-                "with its sums written out, the formula has more than {MOST_STEPS} operations: take fewer bodies, or write a program with the macro `hamiltonian!`"
+                "with its sums written out, the formula has more than {MAX_OPERATIONS} operations: take fewer bodies, or write a program with the macro `hamiltonian!`"
             ),
             Refusal::Outside => "an index in the formula is out of range: that coordinate or entry of a parameter does not exist".to_owned(),
         };

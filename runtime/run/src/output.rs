@@ -8,10 +8,9 @@ use symplectic::ensemble::Npz;
 use symplectic::nalgebra::DVector;
 use symplectic::output::unit_of;
 use symplectic::{Constrained, General, State, constraint_force};
+use symplectic_tape::{At, Formula, Parameters, Tapes};
 
 use crate::starts::Coordinates;
-use crate::system::{Formula, Tapes};
-use crate::tape::{At, Parameters};
 use crate::trajectory::Trajectory;
 
 /// A state that is written.
@@ -109,7 +108,7 @@ pub(super) fn further(tapes: &Tapes, has_chaos: bool) -> Vec<String> {
         return Vec::new();
     };
     let names = constraints.names().iter();
-    let multipliers = names.filter(|_| constraints.are_holonomic);
+    let multipliers = names.filter(|_| constraints.are_holonomic());
     let multipliers = multipliers.map(|name| format!("{MULTIPLIER}{name}"));
     ["constraint_error".to_owned()]
         .into_iter()
@@ -159,7 +158,7 @@ impl Results<'_> {
     ) -> Vec<Vec<f64>> {
         let pairs = self.rows.par_iter().zip(self.starts);
         let all = pairs.map(|(row, start)| {
-            let parameters = Parameters::Own(self.parameters(row).into());
+            let parameters = Parameters::from(self.parameters(row));
             of(row, start, &parameters)
         });
         all.collect()

@@ -6,13 +6,13 @@ use symplectic_compiler::Error;
 use symplectic_compiler::formula::evaluate::Real;
 use symplectic_compiler::formula::syntax::Length;
 use symplectic_compiler::formula::{Parameter, Shape, System};
+use symplectic_tape::{Entry, Values};
 use toml::Value;
 
 use crate::counted;
 use crate::keys::advice;
 use crate::setup::{self, File, Setup};
 use crate::starts::Coordinates;
-use crate::values::{Entry, Values};
 
 /// A parameter, or an entry of one, that varies between trajectories.
 pub(super) struct Varied<'a> {

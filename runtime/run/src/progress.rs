@@ -8,6 +8,7 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use symplectic_tape::Watch;
 
 /// A shorter run shows nothing.
 const SILENT: Duration = Duration::from_secs(2);
@@ -67,29 +68,6 @@ impl Meter {
         self.finished.store(before, Ordering::Relaxed);
     }
 
-    /// The time of the starts.
-    pub(super) fn start(&self) -> f64 {
-        self.start
-    }
-
-    /// Notes an evaluation of a number of trajectories on this thread, at a time since the start.
-    pub(super) fn note(&self, elapsed: f64, trajectories: usize) {
-        let slot = rayon::current_thread_index().and_then(|thread| self.slots.get(thread));
-        let Some(slot) = slot else {
-            return;
-        };
-        let get = |place: &AtomicU64| f64::from_bits(place.load(Ordering::Relaxed));
-        let set = |place: &AtomicU64, value: f64| place.store(value.to_bits(), Ordering::Relaxed);
-        let last = get(&slot.elapsed);
-        // Stages of a step may go back, but not so far: these are other trajectories.
-        let last = if elapsed < 0.1 * last { 0.0 } else { last };
-        if elapsed >= last {
-            let more = trajectories as f64 * (elapsed - last);
-            set(&slot.total, get(&slot.total) + more);
-            set(&slot.elapsed, elapsed);
-        }
-    }
-
     /// The done part of the run, from 0 to 1, with trajectories of an interrupted run, and without these.
     fn fractions(&self) -> [f64; 2] {
         let all = self.trajectories.load(Ordering::Relaxed).max(1) as f64;
@@ -123,6 +101,29 @@ impl Meter {
             "{:.0} %, {count}{rate:.1e} steps/s, {left} left",
             (100.0 * fraction).floor()
         )
+    }
+}
+
+impl Watch for Meter {
+    fn start(&self) -> f64 {
+        self.start
+    }
+
+    fn evaluated(&self, elapsed: f64, trajectories: usize) {
+        let slot = rayon::current_thread_index().and_then(|thread| self.slots.get(thread));
+        let Some(slot) = slot else {
+            return;
+        };
+        let get = |place: &AtomicU64| f64::from_bits(place.load(Ordering::Relaxed));
+        let set = |place: &AtomicU64, value: f64| place.store(value.to_bits(), Ordering::Relaxed);
+        let last = get(&slot.elapsed);
+        // Stages of a step may go back, but not so far: these are other trajectories.
+        let last = if elapsed < 0.1 * last { 0.0 } else { last };
+        if elapsed >= last {
+            let more = trajectories as f64 * (elapsed - last);
+            set(&slot.total, get(&slot.total) + more);
+            set(&slot.elapsed, elapsed);
+        }
     }
 }
 
@@ -165,8 +166,8 @@ impl Progress {
     }
 
     /// What evaluations note, if it is shown.
-    pub(super) fn meter(&self) -> Option<Arc<Meter>> {
-        self.way.map(|_| Arc::clone(&self.meter))
+    pub(super) fn meter(&self) -> Option<Arc<dyn Watch>> {
+        self.way.map(|_| Arc::clone(&self.meter) as Arc<dyn Watch>)
     }
 
     /// Shows the progress of a number of trajectories, some of which are finished before, until the result is dropped.
@@ -238,11 +239,9 @@ mod tests {
     use symplectic::simd::F64x8;
     use symplectic::{Method, ProvedFor, Separable, State};
     use symplectic_compiler::formula::{Form, Structure, System};
+    use symplectic_tape::{Formula, Parameters, Tapes, Values};
 
     use super::*;
-    use crate::system::{Formula, Tapes};
-    use crate::tape::Parameters;
-    use crate::values::Values;
 
     /// Evaluations of twenty steps of two trajectories, side by side in lanes or one after another.
     #[test]
@@ -258,10 +257,14 @@ mod tests {
         let step = |time: f64| [0.68, 0.5, 0.32, 1.0].map(|node| time + node);
         let times = || (0..20).map(f64::from).flat_map(step);
         let lanes = meter(0);
-        pool.install(|| times().for_each(|time| lanes.note(time, 2)));
+        pool.install(|| times().for_each(|time| lanes.evaluated(time, 2)));
         assert_eq!(lanes.fractions(), [0.5, 0.5]);
         let alone = meter(1);
-        pool.install(|| times().chain(times()).for_each(|time| alone.note(time, 1)));
+        pool.install(|| {
+            times()
+                .chain(times())
+                .for_each(|time| alone.evaluated(time, 1))
+        });
         alone.finished.store(2, Ordering::Relaxed);
         assert_eq!(alone.fractions(), [0.75, 0.5]);
         assert_eq!(
@@ -291,11 +294,11 @@ mod tests {
             let meter = Arc::new(Meter::new([0.0, 10.0], 0.1));
             meter.begin(100, 0);
             let family = |k: u32| {
-                let own = Parameters::Own([].into());
+                let own = Parameters::none();
                 let system = Formula::<Separable>::new(Arc::clone(&tapes), own);
                 let q = DVector::from_element(1, f64::from(k));
                 let start = State::new(0.0, q, DVector::zeros(1));
-                (system.noting(Some(Arc::clone(&meter))), vec![start])
+                (system.watched(Some(Arc::clone(&meter) as _)), vec![start])
             };
             Ensemble::of_families(method, (1..=count).map(family), 0.1)
                 .expect("an ensemble")

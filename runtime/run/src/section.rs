@@ -7,14 +7,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use symplectic::nalgebra::DVector;
 use symplectic::{Class, Error as RunError, Event, Hamiltonian, Integrator, Method, State};
 use symplectic_compiler::Error;
+use symplectic_tape::{At, Formula, Tape, Values};
 
 use crate::expression::Names;
 use crate::output::{append, points};
 use crate::setup::{Direction, File, Setup};
-use crate::system::Formula;
-use crate::tape::{At, Tape};
 use crate::trajectory::Trajectory;
-use crate::values::Values;
 
 /// A section, and the number of its states.
 #[derive(Debug)]
@@ -122,13 +120,12 @@ mod tests {
     use std::sync::Arc;
 
     use symplectic::{Integrator, Separable, State};
+    use symplectic_compiler::expression::Input;
     use symplectic_compiler::formula::{Form, Structure, System};
+    use symplectic_tape::{Formula, Parameters, Tape, Tapes, Values};
 
     use crate::Section;
     use crate::setup::Direction;
-    use crate::system::{Formula, Tapes};
-    use crate::tape::{Input, Parameters, Tape};
-    use crate::values::Values;
 
     symplectic::tableau! { Verlet { base: velocity-verlet } }
 
@@ -137,18 +134,17 @@ mod tests {
         let formula = "Oscillator q: [x], p: [px]; H = px^2/2 + x^2/2";
         let mut system = System::read_as(Form::Hamiltonian, "", formula).expect("a formula");
         let structure = Structure::of(&mut system);
-        let values = Values {
-            bodies: 1,
-            ..Values::default()
-        };
+        let values = Values::of_bodies(1);
         let tapes = Arc::new(Tapes::new(&mut system, &structure, &values, 0.0).expect("tapes"));
+        let x = Input {
+            name: "x",
+            text: "x",
+        };
+        let read = System::read_with(Form::Hamiltonian, formula, &[], x);
+        let (system, x) = read.expect("an expression");
+        let tape = Tape::of_value(&system, &values, x[0], None).expect("a tape");
         let section = Section {
-            tape: Tape {
-                inputs: vec![Input::Position(0)],
-                steps: Vec::new(),
-                results: vec![0],
-                registers: 1,
-            },
+            tape,
             direction: Direction::Both,
             most: 5,
             found: Arc::default(),
@@ -156,7 +152,7 @@ mod tests {
         let mut seen = Vec::new();
         // Three crossings each; of the second run two are kept.
         for (states, is_full) in [(3, false), (5, true)] {
-            let system = Formula::<Separable>::new(Arc::clone(&tapes), Parameters::Own([].into()));
+            let system = Formula::<Separable>::new(Arc::clone(&tapes), Parameters::none());
             let start = State::new(0.0, vec![1.0].into(), vec![0.0].into());
             let mut run = Integrator::new(Verlet, system, start, 0.1).expect("a start");
             section.see(&mut seen, &mut run, 10.0).expect("steps");

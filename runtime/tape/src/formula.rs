@@ -1,5 +1,6 @@
 //! A formula as a system for integrators.
 
+use std::fmt::Debug;
 use std::marker::PhantomData;
 use std::slice;
 use std::sync::Arc;
@@ -14,14 +15,13 @@ use symplectic_compiler::formula::graph::{Half, integer};
 use symplectic_compiler::formula::{Structure, System};
 
 use crate::constraints::Constraints;
-use crate::progress::Meter;
 use crate::tape::{At, Input, Parameters, Tape};
 use crate::unroll::{Refusal, Unrolled};
 use crate::values::Values;
 
 /// The tapes of a formula.
 #[derive(Debug)]
-pub(super) struct Tapes {
+pub struct Tapes {
     velocity: Tape,
     /// With the applied force.
     force: Tape,
@@ -36,8 +36,12 @@ pub(super) struct Tapes {
 }
 
 impl Tapes {
-    /// Differentiates a system and unrolls its loops.
-    pub(super) fn new(
+    /// Differentiates a system and unrolls its loops. Friction damps momenta from the time `start` on.
+    ///
+    /// # Errors
+    ///
+    /// The [`Refusal`] of a formula that is too long or goes beyond its arrays.
+    pub fn new(
         system: &mut System,
         structure: &Structure,
         values: &Values,
@@ -84,23 +88,23 @@ impl Tapes {
     }
 
     /// The constraints, if there are any.
-    pub(super) fn constraints(&self) -> Option<&Constraints> {
+    pub fn constraints(&self) -> Option<&Constraints> {
         self.constraints.as_ref()
     }
 
     /// Whether H is conserved along trajectories without any error.
-    pub(super) fn energy_is_conserved(&self) -> bool {
+    pub fn energy_is_conserved(&self) -> bool {
         let has_time = self.energy.inputs.contains(&Input::Time);
         !has_time && self.factors.is_none() && self.applied.is_none()
     }
 
     /// Whether momenta have friction.
-    pub(super) fn has_friction(&self) -> bool {
+    pub fn has_friction(&self) -> bool {
         self.factors.is_some()
     }
 
     /// The factors of the momenta in the states of integrators at a time, if there is friction.
-    pub(super) fn factors(&self, parameters: &Parameters, time: f64) -> Option<Vec<f64>> {
+    pub fn factors(&self, parameters: &Parameters, time: f64) -> Option<Vec<f64>> {
         let tape = self.factors.as_ref()?;
         let at = At {
             parameters,
@@ -114,12 +118,12 @@ impl Tapes {
     }
 
     /// The tape of H.
-    pub(super) fn energy(&self) -> &Tape {
+    pub fn energy(&self) -> &Tape {
         &self.energy
     }
 
     /// The velocity at a point.
-    pub(super) fn velocity_at(&self, point: At<'_, f64>) -> Vec<f64> {
+    pub fn velocity_at(&self, point: At<'_, f64>) -> Vec<f64> {
         let mut velocity = vec![0.0; point.q.len()];
         self.velocity
             .run(1, |_| point, |_, k, value| velocity[k] = value);
@@ -127,7 +131,7 @@ impl Tapes {
     }
 
     /// H at a point.
-    pub(super) fn energy_at<T: Scalar>(&self, point: At<'_, T>) -> T {
+    pub fn energy_at<T: Scalar>(&self, point: At<'_, T>) -> T {
         self.energy.value(point)
     }
 }
@@ -163,49 +167,59 @@ fn fill<'a: 'p, 'p, T: Scalar>(
     );
 }
 
+/// What sees the evaluations of a system, such as a display of the progress.
+pub trait Watch: Debug + Send + Sync {
+    /// The time of the starts.
+    fn start(&self) -> f64;
+
+    /// The force of a number of trajectories was evaluated on this thread, at a time since the start.
+    fn evaluated(&self, elapsed: f64, trajectories: usize);
+}
+
 /// A system of class `C`, with an applied force if it is `FORCED`. The tapes of a separable system read no momentum for the force, and no position for the velocity.
 #[derive(Debug)]
-pub(super) struct Formula<C, const FORCED: bool = false> {
+pub struct Formula<C, const FORCED: bool = false> {
     tapes: Arc<Tapes>,
     parameters: Parameters,
     /// The number of trajectories.
     count: usize,
-    meter: Option<Arc<Meter>>,
+    watch: Option<Arc<dyn Watch>>,
     class: PhantomData<fn() -> C>,
 }
 
 impl<C, const FORCED: bool> Formula<C, FORCED> {
-    pub(super) fn new(tapes: Arc<Tapes>, parameters: Parameters) -> Self {
+    /// The system of one trajectory, with the parameters that vary between trajectories.
+    pub fn new(tapes: Arc<Tapes>, parameters: Parameters) -> Self {
         Formula {
             tapes,
             parameters,
             count: 1,
-            meter: None,
+            watch: None,
             class: PhantomData,
         }
     }
 
-    /// The same system for a single trajectory, whose evaluations it notes.
-    pub(super) fn noting(self, meter: Option<Arc<Meter>>) -> Self {
-        Formula { meter, ..self }
+    /// The same system, whose evaluations are watched.
+    pub fn watched(self, watch: Option<Arc<dyn Watch>>) -> Self {
+        Formula { watch, ..self }
     }
 
     #[inline(always)]
     fn note<T: Scalar>(&self, time: T) {
-        if let Some(meter) = &self.meter {
-            let elapsed = time - T::from_f64(meter.start());
-            meter.note(elapsed.magnitude(), self.count);
+        if let Some(watch) = &self.watch {
+            let elapsed = time - T::from_f64(watch.start());
+            watch.evaluated(elapsed.magnitude(), self.count);
         }
     }
 
     /// The constraints, if they are holonomic or not as wanted.
     fn of_kind(&self, holonomic: bool) -> Option<&Constraints> {
         let constraints = self.tapes.constraints();
-        constraints.filter(|constraints| constraints.are_holonomic == holonomic)
+        constraints.filter(|constraints| constraints.are_holonomic() == holonomic)
     }
 
     /// The parameters that vary between trajectories.
-    pub(super) fn parameters(&self) -> &Parameters {
+    pub fn parameters(&self) -> &Parameters {
         &self.parameters
     }
 }
@@ -216,7 +230,7 @@ impl<C, const FORCED: bool> Clone for Formula<C, FORCED> {
             tapes: Arc::clone(&self.tapes),
             parameters: self.parameters.clone(),
             count: self.count,
-            meter: self.meter.clone(),
+            watch: self.watch.clone(),
             class: PhantomData,
         }
     }

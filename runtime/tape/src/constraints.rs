@@ -13,9 +13,9 @@ use crate::values::Values;
 
 /// The constraints of a system.
 #[derive(Debug)]
-pub(super) struct Constraints {
+pub struct Constraints {
     /// Whether they are functions of positions; otherwise they are linear in the velocities.
-    pub(super) are_holonomic: bool,
+    are_holonomic: bool,
     /// φ(q); for non-holonomic constraints without results.
     values: Tape,
     /// The entries of ∂φ/∂q, or of w, in the order of their places.
@@ -27,7 +27,7 @@ pub(super) struct Constraints {
 
 impl Constraints {
     /// Differentiates the constraints of a system and unrolls their loops; `None` if it has none.
-    pub(super) fn new(system: &mut System, values: &Values) -> Result<Option<Self>, Refusal> {
+    pub(crate) fn new(system: &mut System, values: &Values) -> Result<Option<Self>, Refusal> {
         if !system.is_constrained() {
             return Ok(None);
         }
@@ -122,18 +122,23 @@ impl Constraints {
         }))
     }
 
+    /// Whether they are functions of positions; otherwise they are linear in the velocities.
+    pub fn are_holonomic(&self) -> bool {
+        self.are_holonomic
+    }
+
     /// Their number.
-    pub(super) fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.names.len()
     }
 
     /// The names of all constraints.
-    pub(super) fn names(&self) -> &[ConstraintName] {
+    pub fn names(&self) -> &[ConstraintName] {
         &self.names
     }
 
     /// φ(q)
-    pub(super) fn values<T: Scalar>(&self, parameters: &Parameters, q: &[T], out: &mut [T]) {
+    pub(crate) fn values<T: Scalar>(&self, parameters: &Parameters, q: &[T], out: &mut [T]) {
         let write = |_, k: usize, value| {
             if let Some(place) = out.get_mut(k) {
                 *place = value;
@@ -158,7 +163,7 @@ impl Constraints {
     }
 
     /// Sets ∂φ/∂q or w.
-    pub(super) fn set<T: Scalar>(
+    pub(crate) fn set<T: Scalar>(
         &self,
         parameters: &Parameters,
         q: &DVector<T>,
@@ -169,7 +174,7 @@ impl Constraints {
     }
 
     /// The largest |φ|, or the largest |w·q'|.
-    pub(super) fn error(&self, parameters: &Parameters, q: &[f64], velocity: &[f64]) -> f64 {
+    pub fn error(&self, parameters: &Parameters, q: &[f64], velocity: &[f64]) -> f64 {
         let mut all = vec![0.0; self.count()];
         match self.are_holonomic {
             true => self.values(parameters, q, &mut all),

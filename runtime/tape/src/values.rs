@@ -8,31 +8,40 @@ use symplectic_compiler::formula::syntax::Length;
 
 /// The values of parameters and lengths.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Values {
+pub struct Values {
     /// The number of coordinates, or of bodies.
-    pub(super) bodies: usize,
+    pub bodies: usize,
     /// The values of lengths that the formula leaves open.
-    pub(super) lengths: HashMap<Length, usize>,
+    pub lengths: HashMap<Length, usize>,
     /// The rows of each parameter. A number has one row of one column; a one-dimensional array has rows of one column.
-    pub(super) parameters: Vec<Vec<Vec<Entry>>>,
+    pub parameters: Vec<Vec<Vec<Entry>>>,
     /// The pairs of each parameter that is a list of pairs.
-    pub(super) pairs: Vec<Vec<[usize; 2]>>,
+    pub pairs: Vec<Vec<[usize; 2]>>,
 }
 
 /// An entry of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Entry {
+pub enum Entry {
+    /// The same in all trajectories.
     Number(f64),
     /// The number of a parameter that varies between trajectories.
     Varied(usize),
 }
 
 /// The index of each loop being unrolled; for a list of pairs, the number of the pair.
-pub(super) type Indices = HashMap<LoopId, usize>;
+pub(crate) type Indices = HashMap<LoopId, usize>;
 
 impl Values {
+    /// For a formula without parameters: the number of coordinates, or of bodies.
+    pub fn of_bodies(bodies: usize) -> Self {
+        Values {
+            bodies,
+            ..Values::default()
+        }
+    }
+
     /// A length, if known.
-    pub(super) fn length(&self, system: &System, length: &Length) -> Option<usize> {
+    pub fn length(&self, system: &System, length: &Length) -> Option<usize> {
         match length {
             Length::Fixed(n) => Some(*n),
             known if *known == system.layout.length() => Some(self.bodies),
@@ -46,7 +55,7 @@ impl Values {
     }
 
     /// An index; `None` if it does not exist.
-    pub(super) fn index(&self, system: &System, indices: &Indices, index: &Index) -> Option<usize> {
+    pub(crate) fn index(&self, system: &System, indices: &Indices, index: &Index) -> Option<usize> {
         let base = match &index.base {
             Base::Start => 0,
             Base::End(length) => self.length(system, length)?,
@@ -64,7 +73,7 @@ impl Values {
     }
 
     /// The range of indices of a loop.
-    pub(super) fn range(
+    pub(crate) fn range(
         &self,
         system: &System,
         indices: &Indices,

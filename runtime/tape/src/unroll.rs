@@ -1,6 +1,8 @@
 //! From a formula to a tape: unrolls loops, substitutes parameters, and shares common subexpressions.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::error::Error;
+use std::fmt;
 use std::rc::Rc;
 
 use symplectic_compiler::formula::System;
@@ -14,21 +16,37 @@ use crate::tape::{Code, Input, Register, Step, Tape, apply};
 use crate::values::{Entry, Indices, Values};
 
 /// Largest number of operations of a formula with unrolled loops.
-pub(super) const MOST_STEPS: usize = 60_000;
+pub const MAX_OPERATIONS: usize = 60_000;
 /// Largest number of values to visit while unrolling.
-const MOST_VALUES: usize = 4_000_000;
+const MAX_VALUES: usize = 4_000_000;
 
 /// Why a formula has no tape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Refusal {
-    /// It has more than [`MOST_STEPS`] operations.
+pub enum Refusal {
+    /// It has more than [`MAX_OPERATIONS`] operations.
     TooLong,
     /// It refers to a coordinate, or an entry of a parameter, that does not exist.
     Outside,
 }
 
+impl fmt::Display for Refusal {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refusal::TooLong => write!(
+                formatter,
+                "with its sums written out, the formula has more than {MAX_OPERATIONS} operations"
+            ),
+            Refusal::Outside => formatter.write_str(
+                "an index in the formula is out of range: that coordinate or entry of a parameter does not exist",
+            ),
+        }
+    }
+}
+
+impl Error for Refusal {}
+
 /// The number of a value.
-pub(super) type Number = u32;
+pub(crate) type Number = u32;
 
 /// A value of an unrolled formula.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -47,7 +65,7 @@ enum Value {
 type Work<'w, 'a> = &'w mut dyn FnMut(&mut Unrolled<'a>, usize, Number) -> Result<(), Refusal>;
 
 /// The unrolled values of several formulas, without duplicates.
-pub(super) struct Unrolled<'a> {
+pub(crate) struct Unrolled<'a> {
     system: &'a System,
     values: &'a Values,
     operations: Operations<'a>,
@@ -75,7 +93,7 @@ struct Damping {
 
 impl<'a> Unrolled<'a> {
     /// Unrolls the operations of some nodes of the graph of a system.
-    pub(super) fn new(
+    pub(crate) fn new(
         system: &'a System,
         values: &'a Values,
         roots: &[Id],
@@ -147,7 +165,7 @@ impl<'a> Unrolled<'a> {
     }
 
     /// The force on the momenta that a tape reads.
-    pub(super) fn undamped(&mut self, force: Vec<Number>) -> Result<Vec<Number>, Refusal> {
+    pub(crate) fn undamped(&mut self, force: Vec<Number>) -> Result<Vec<Number>, Refusal> {
         let each = |(place, force)| match self.damping(place, true)? {
             Some(growth) => self.step(Code::Multiply, &[growth, force]),
             None => Ok(force),
@@ -156,20 +174,20 @@ impl<'a> Unrolled<'a> {
     }
 
     /// The factors of the momenta that a tape reads; `None` without friction.
-    pub(super) fn factors(&mut self) -> Result<Option<Vec<Number>>, Refusal> {
+    pub(crate) fn factors(&mut self) -> Result<Option<Vec<Number>>, Refusal> {
         (0..self.dimension())
             .map(|place| self.damping(place, false))
             .collect()
     }
 
     /// The value of a node outside of loops.
-    pub(super) fn of(&self, id: Id) -> Result<Number, Refusal> {
+    pub(crate) fn of(&self, id: Id) -> Result<Number, Refusal> {
         let found = self.known.get(&self.operations.of(id));
         found.copied().ok_or(Refusal::Outside)
     }
 
     /// The components of a derivative, as sums of its parts.
-    pub(super) fn gradient(&mut self, parts: &[Scatter]) -> Result<Vec<Number>, Refusal> {
+    pub(crate) fn gradient(&mut self, parts: &[Scatter]) -> Result<Vec<Number>, Refusal> {
         let mut sums = vec![None; self.dimension()];
         for part in parts {
             self.scatter(part, &mut |this, place, value| {
@@ -189,7 +207,7 @@ impl<'a> Unrolled<'a> {
     }
 
     /// Calls `work` at every index of the loops of a part, with the component and the value there.
-    pub(super) fn scatter(&mut self, part: &Scatter, work: Work<'_, 'a>) -> Result<(), Refusal> {
+    pub(crate) fn scatter(&mut self, part: &Scatter, work: Work<'_, 'a>) -> Result<(), Refusal> {
         self.scatter_in(&part.loops, part, work)
     }
 
@@ -213,7 +231,7 @@ impl<'a> Unrolled<'a> {
     }
 
     /// The index of a loop being unrolled.
-    pub(super) fn index(&self, over: LoopId) -> usize {
+    pub(crate) fn index(&self, over: LoopId) -> usize {
         self.indices.get(&over).copied().unwrap_or_default()
     }
 
@@ -389,7 +407,7 @@ impl<'a> Unrolled<'a> {
     /// Counts visited values, to bound the work.
     fn look_at(&mut self, count: usize) -> Result<(), Refusal> {
         self.looked_at += count;
-        match self.looked_at > MOST_VALUES {
+        match self.looked_at > MAX_VALUES {
             true => Err(Refusal::TooLong),
             false => Ok(()),
         }
@@ -441,7 +459,7 @@ impl<'a> Unrolled<'a> {
     }
 
     /// The tape that computes exactly the given values.
-    pub(super) fn tape(&self, results: &[Number]) -> Result<Tape, Refusal> {
+    pub(crate) fn tape(&self, results: &[Number]) -> Result<Tape, Refusal> {
         let mut list = self.list.clone();
         let used = join_products(&mut list, results);
         Assembly::new(&list, &used, results).tape()
@@ -566,7 +584,7 @@ impl<'a> Assembly<'a> {
             if self.left[number] == 0 {
                 continue;
             }
-            if self.tape.steps.len() == MOST_STEPS {
+            if self.tape.steps.len() == MAX_OPERATIONS {
                 return Err(Refusal::TooLong);
             }
             let places = operands.map(|operand| self.registers.get(&operand).copied());

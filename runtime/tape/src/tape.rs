@@ -7,10 +7,15 @@ use std::sync::Arc;
 
 use symplectic::Scalar;
 use symplectic::simd::MOST_LANES;
+use symplectic_compiler::formula::System;
+use symplectic_compiler::formula::graph::Id;
+
+use crate::unroll::{Refusal, Unrolled};
+use crate::values::Values;
 
 /// The operation of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Code {
+pub(crate) enum Code {
     /// `a + b`
     Add,
     /// `a − b`
@@ -62,22 +67,26 @@ pub(super) enum Code {
 }
 
 /// The number of a register.
-pub(super) type Register = u16;
+pub(crate) type Register = u16;
 
 /// An operation that reads at most three registers and writes one.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Step {
-    pub(super) code: Code,
-    pub(super) into: Register,
-    pub(super) operands: [Register; 3],
+pub(crate) struct Step {
+    pub(crate) code: Code,
+    pub(crate) into: Register,
+    pub(crate) operands: [Register; 3],
 }
 
 /// The initial value of a register.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Input {
+pub enum Input {
+    /// A number.
     Constant(f64),
+    /// The time.
     Time,
+    /// A component of q.
     Position(usize),
+    /// A component of p.
     Momentum(usize),
     /// A parameter that varies between trajectories.
     Parameter(usize),
@@ -85,39 +94,54 @@ pub(super) enum Input {
 
 /// The operations that compute a list of results.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Tape {
+pub struct Tape {
     /// The initial values of the first registers.
-    pub(super) inputs: Vec<Input>,
-    pub(super) steps: Vec<Step>,
+    pub(crate) inputs: Vec<Input>,
+    pub(crate) steps: Vec<Step>,
     /// The register of each result at the end.
-    pub(super) results: Vec<Register>,
+    pub(crate) results: Vec<Register>,
     /// Number of registers.
-    pub(super) registers: usize,
+    pub(crate) registers: usize,
 }
 
 /// The parameters that vary between trajectories.
 #[derive(Debug, Clone)]
-pub(super) enum Parameters {
+pub struct Parameters(Held);
+
+#[derive(Debug, Clone)]
+enum Held {
     /// Of one trajectory.
     Own(Arc<[f64]>),
     /// Of the trajectory in each lane.
     InLanes(Arc<[[f64; MOST_LANES]]>),
 }
 
+impl From<&[f64]> for Parameters {
+    /// The parameters of one trajectory.
+    fn from(own: &[f64]) -> Self {
+        Parameters(Held::Own(own.into()))
+    }
+}
+
 impl Parameters {
+    /// No parameter varies.
+    pub fn none() -> Self {
+        Self::from(&[][..])
+    }
+
     #[inline(always)]
     fn get<T: Scalar>(&self, k: usize) -> T {
-        match self {
-            Parameters::Own(numbers) => T::from_f64(numbers[k]),
-            Parameters::InLanes(numbers) => T::from_lanes(&numbers[k]),
+        match &self.0 {
+            Held::Own(numbers) => T::from_f64(numbers[k]),
+            Held::InLanes(numbers) => T::from_lanes(&numbers[k]),
         }
     }
 
     /// The parameters of several trajectories, each in its lane.
-    pub(super) fn join<'a>(all: impl Iterator<Item = &'a Self>) -> Option<Self> {
+    pub(crate) fn join<'a>(all: impl Iterator<Item = &'a Self>) -> Option<Self> {
         let mut joined: Vec<[f64; MOST_LANES]> = Vec::new();
         for (lane, parameters) in all.enumerate() {
-            let Parameters::Own(own) = parameters else {
+            let Held::Own(own) = &parameters.0 else {
                 return None;
             };
             joined.resize(own.len(), [f64::NAN; MOST_LANES]);
@@ -125,17 +149,21 @@ impl Parameters {
                 *numbers.get_mut(lane)? = *own;
             }
         }
-        Some(Parameters::InLanes(joined.into()))
+        Some(Parameters(Held::InLanes(joined.into())))
     }
 }
 
 /// The point of evaluation.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct At<'a, T> {
-    pub(super) parameters: &'a Parameters,
-    pub(super) time: T,
-    pub(super) q: &'a [T],
-    pub(super) p: &'a [T],
+pub struct At<'a, T> {
+    /// The parameters of the trajectory, or of those in the lanes.
+    pub parameters: &'a Parameters,
+    /// The time.
+    pub time: T,
+    /// The positions.
+    pub q: &'a [T],
+    /// The momenta.
+    pub p: &'a [T],
 }
 
 impl<T: Scalar> At<'_, T> {
@@ -157,8 +185,32 @@ impl<T: Scalar> At<'_, T> {
 }
 
 impl Tape {
+    /// The tape of one value of a system, a node outside of loops. With friction from a time `start`, the momenta are those
+    /// that [`Formula`](crate::Formula) steps.
+    ///
+    /// # Errors
+    ///
+    /// The [`Refusal`] of a formula that is too long or goes beyond its arrays.
+    pub fn of_value(
+        system: &System,
+        values: &Values,
+        value: Id,
+        start: Option<f64>,
+    ) -> Result<Self, Refusal> {
+        if system.graph.overflowed() {
+            return Err(Refusal::TooLong);
+        }
+        let unrolled = Unrolled::new(system, values, &[value], start)?;
+        unrolled.tape(&[unrolled.of(value)?])
+    }
+
+    /// What the tape reads.
+    pub fn inputs(&self) -> &[Input] {
+        &self.inputs
+    }
+
     /// The result of a tape that has one.
-    pub(super) fn value<T: Scalar>(&self, point: At<'_, T>) -> T {
+    pub fn value<T: Scalar>(&self, point: At<'_, T>) -> T {
         let mut result = T::zero();
         self.run(1, |_| point, |_, _, value| result = value);
         result
@@ -170,7 +222,7 @@ impl Tape {
     /// An operation is applied at up to four points before the next one is read. Up to 256 registers are an array on the
     /// stack, of the next larger of five sizes; more are allocated in every evaluation.
     #[inline]
-    pub(super) fn run<'a, T: Scalar>(
+    pub fn run<'a, T: Scalar>(
         &self,
         count: usize,
         at: impl Fn(usize) -> At<'a, T>,
@@ -308,7 +360,7 @@ impl<T> Use<T> for AtOnce<T> {
 }
 
 /// Applies an operation to numbers.
-pub(super) fn apply<T: Scalar>(code: Code, operands: [T; 3]) -> T {
+pub(crate) fn apply<T: Scalar>(code: Code, operands: [T; 3]) -> T {
     dispatch(code, AtOnce(operands))
 }
 
@@ -369,7 +421,7 @@ mod tests {
 
     #[test]
     fn several_points_have_the_values_of_each_point() {
-        let parameters = Parameters::Own([0.1].into());
+        let parameters = Parameters::from(&[0.1][..]);
         for registers in [5, 8, 9, 16, 17, 32, 33, 64, 65, 256, 257, 1000] {
             let tape = tape(registers);
             for count in 0..10 {
@@ -392,7 +444,7 @@ mod tests {
     #[test]
     fn every_lane_has_its_own_parameters() {
         let own: Vec<_> = (0..8)
-            .map(|lane| Parameters::Own([lane as f64].into()))
+            .map(|lane| Parameters::from(&[lane as f64][..]))
             .collect();
         let joined = Parameters::join(own.iter()).expect("eight lanes");
         let (q, p) = ([F64x8::from_f64(0.5)], [F64x8::from_f64(2.0)]);
