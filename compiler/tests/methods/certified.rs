@@ -138,6 +138,7 @@ fn definitions_and_files_come_back() {
 /// The kicks and drifts that a paper prints lead to the method that the catalogue derives from half of them, or from the
 /// weights of a composition.
 #[test]
+#[ignore = "thorough"]
 fn methods_of_the_literature_are_derived() {
     let data: Value =
         serde_json::from_str(include_str!("../data/explicit-methods.json")).expect("JSON");

@@ -119,6 +119,7 @@ fn coefficients(code: &str) -> Vec<f64> {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn nothing_is_multiplied_by_zero_or_computed_twice() {
     // As many stages as the macros take.
     let usual = |entry: &catalogue::Entry| entry.stages <= Limits::default().stages;

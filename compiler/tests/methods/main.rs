@@ -1,6 +1,6 @@
 //! Methods: derived, proved, written and read.
 //!
-//! `UPDATE_EXPECT=1 cargo test -p symplectic-compiler` writes the catalogue in `tableaux/` and the emitted code anew.
+//! `UPDATE_EXPECT=1 cargo test -p symplectic-compiler -- --include-ignored` writes the catalogue in `tableaux/` and the emitted code anew.
 
 mod catalogue;
 mod certified;

@@ -123,6 +123,7 @@ fn every_property_is_proved_of_one_method_and_refuted_of_another() {
 
 /// The methods that the guides name for systems with constraints, with the requirement that they name.
 #[test]
+#[ignore = "thorough"]
 fn compositions_of_methods_that_qualify_can_be_required_to() {
     for (definition, requirement) in [
         ("base: lobatto-2, weights: triple_jump(4)", "constrained"),

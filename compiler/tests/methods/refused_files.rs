@@ -376,6 +376,7 @@ fn change_digits(name: &str, text: &str, after: &str, stride: usize) -> usize {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn every_digit_of_every_value_is_looked_at() {
     assert!(change_digits("t.toml", &toml_text(), "stages", 1) > 100);
     assert!(change_digits("t.json", &json_text(), "stages", 1) > 100);
@@ -384,6 +385,7 @@ fn every_digit_of_every_value_is_looked_at() {
 /// All digits of the values of ten tables of the catalogue, and some of each other table that is not long. Years of sources are no values,
 /// and a printed digit of a definition with a claim may be wrong: a warning says so.
 #[test]
+#[ignore = "thorough"]
 fn digits_of_the_catalogue_are_looked_at() {
     const ALL: [&str; 10] = [
         "symplectic-euler",

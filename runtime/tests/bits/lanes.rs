@@ -83,6 +83,7 @@ where
 
 /// Of long vectors; of short ones see `matrix.rs`.
 #[test]
+#[ignore = "thorough"]
 fn lanes_give_the_same_bits() -> Result<(), Error> {
     fn check<M: Method + ProvedFor<General>>(method: M, n: usize, h: f64) -> Result<(), Error> {
         let wave = |phase: f64| DVector::from_fn(n, |k, _| (phase + 1.3 * k as f64).sin());
@@ -299,6 +300,7 @@ where
 }
 
 #[test]
+#[ignore = "thorough"]
 fn halves_at_once_are_those_in_turn_up_to_rounding() -> Result<(), Error> {
     fn check<M: Method + ProvedFor<General>>(method: M) -> Result<(), Error> {
         let q = SVector::from([0.5, -0.3, 0.9]);

@@ -93,6 +93,7 @@ fn orbits(count: u32) -> Vec<State<SVector<f64, 2>>> {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn second_order_systems() {
     // With unit masses, and one that leaves; with velocities that are computed.
     check!(
@@ -140,6 +141,7 @@ fn points(count: usize) -> Vec<State<Vector1<f64>>> {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn separable_systems() {
     check!(
         Relativistic,
@@ -160,6 +162,7 @@ symplectic::hamiltonian! {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn systems_that_are_not_separable() {
     let start = |k: usize| State::from_arrays(0.5, [0.1 * k as f64, 0.2], [0.3, 0.1 * k as f64]);
     let starts: Vec<_> = (0..19).map(start).collect();
@@ -168,6 +171,7 @@ fn systems_that_are_not_separable() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn tableaux_at_run_time_of_systems_that_are_not_separable() {
     let start = |k: usize| State::from_arrays(0.5, [0.1 * k as f64, 0.2], [0.3, 0.1 * k as f64]);
     let starts: Vec<_> = (0..19).map(start).collect();
@@ -192,6 +196,7 @@ fn tableaux_at_run_time_of_systems_that_are_not_separable() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn dynamic_vectors() {
     for dimension in [1, 3, 20] {
         let start = |k: usize| {

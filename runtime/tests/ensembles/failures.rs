@@ -58,6 +58,7 @@ fn check<M: Method + ProvedFor<Separable>>(method: M, escape: usize, size: f64, 
 }
 
 #[test]
+#[ignore = "thorough"]
 fn neighbours_go_on_to_the_bit() {
     for escape in [2, 5] {
         check(StoermerVerlet, escape, 0.1, Retry::Never);
@@ -141,6 +142,7 @@ fn a_run_ends_where_it_is_stopped() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn a_run_in_lanes_to_one_far_time_is_stopped_on_its_way() {
     let mut ensemble = Ensemble::new(ForestRuth, SYSTEM, starts(2, 100), 0.1).expect("starts");
     // The third question comes 65 536 steps after the second.

@@ -48,6 +48,7 @@ macro_rules! check {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn every_trajectory_has_the_bits_that_it_has_alone() {
     // Some of them escape, in their lane.
     let starts = starts(21, 6);

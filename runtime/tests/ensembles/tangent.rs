@@ -352,6 +352,7 @@ fn megno_of_other_lengths_and_times() -> Result<(), Error> {
 
 /// In lanes and alone, with the same bits; chaotic orbits apart from the others.
 #[test]
+#[ignore = "thorough"]
 fn in_ensembles() -> Result<(), Box<dyn std::error::Error>> {
     let system = Tangent::new(STILL);
     let displacement = (&Vector2::new(0.6, 0.3), &Vector2::new(-0.2, 0.7));

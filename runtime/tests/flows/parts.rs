@@ -203,6 +203,7 @@ fn spring() -> impl System<V, Class = symplectic::Separable> + Copy {
 
 /// The area between two solutions of a linear equation with friction decays by `e^{−γt}`.
 #[test]
+#[ignore = "thorough"]
 fn the_rate_of_the_decay_is_exact_over_a_million_steps() {
     let (rate, size, steps) = (1e-3, 0.1, 1_000_000);
     let ends = [(1.0, 0.0), (0.0, 1.0)].map(|(q, p)| {

@@ -59,6 +59,7 @@ impl Hamiltonian for Dense {
 
 /// A band and a full matrix give the same motion up to rounding errors, which grow as the chain falls.
 #[test]
+#[ignore = "thorough"]
 fn a_band_and_a_full_matrix_are_the_same_motion() -> Result<(), Error> {
     let links = Links(30);
     let mut band = Integrator::new(Rattle, links, links.start(), 0.005)?;
@@ -84,6 +85,7 @@ symplectic::hamiltonian! {
 
 /// The memory of a run is linear in the number of links, and quadratic with a full matrix: twice as many links add twice as much.
 #[test]
+#[ignore = "thorough"]
 fn the_memory_is_linear_in_the_links() {
     fn growth(size: impl Fn(usize) -> usize) -> f64 {
         let [a, b, c] = [50, 100, 200].map(|links| size(links) as f64);

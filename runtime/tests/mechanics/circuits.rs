@@ -107,6 +107,7 @@ fn orders_on_the_circuit() {
 
 /// KCL and the primary constraints with each rule, KVL of the loop of capacitors with trapezoids, the energy of linear elements at the middle.
 #[test]
+#[ignore = "thorough"]
 fn what_the_circuit_conserves() {
     let circuit = Circuit { beta: 0.0 };
     for rule in [DiracRule::Trapezoid, DiracRule::Midpoint, DiracRule::AtEnd] {
@@ -295,6 +296,7 @@ fn long_run(rule: DiracRule) -> ([f64; 4], f64) {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn the_energy_of_a_nonlinear_circuit_stays() {
     let (means, loops) = long_run(DiracRule::Trapezoid);
     let drift = means.map(|mean| (mean - means[0]).abs());

@@ -63,6 +63,7 @@ fn bead(a: f64, b: f64) -> Space {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn conserved_quantities() -> Result<(), Error> {
     let angular = |state: &Plane| state.q.perp(&state.p);
     let distance = |state: &Plane| state.q.norm();

@@ -313,6 +313,7 @@ impl Lagrangian for Bent {
 
 /// Silent before: Störmer–Verlet did not move, Lobatto methods and a nonlinear a cost the order, and any momentum was taken.
 #[test]
+#[ignore = "thorough"]
 fn steps_that_leave_primary_constraints_are_errors() -> Result<(), Error> {
     /// A vortex in the potential |q|²/2: L = (x y' − y x' − |q|²)/2.
     struct Vortex;

@@ -270,6 +270,7 @@ fn mean_energies<M: Method + ProvedFor<Nonholonomic<Separable>>>(method: M) -> [
 
 /// Symmetric steps keep the mean energy; the constraint at one end loses it or gains it.
 #[test]
+#[ignore = "thorough"]
 fn the_mean_energy_of_symmetric_steps_stays() {
     for means in [mean_energies(Midpoint), mean_energies(Trapezoid)] {
         let drift = means

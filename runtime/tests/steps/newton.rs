@@ -257,6 +257,7 @@ fn noisy_evaluations_are_told_from_divergence() -> Result<(), Error> {
 
 /// Rounding errors make the energy a random walk, not a drift.
 #[test]
+#[ignore = "thorough"]
 fn the_energy_does_not_drift() -> Result<(), Error> {
     // A stiff oscillator that is coupled to a soft one: H = |p|²/2 + ω²q₁²/2 + q₂²/2 + q₁q₂ + γ q₁²q₂²/2.
     let system = |omega: f64, gamma: f64| {

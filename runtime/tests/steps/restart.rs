@@ -93,6 +93,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
+    #[ignore = "thorough"]
     fn runs_restart_at_random_steps(
         breaks in proptest::collection::vec(0_u64..60, 1..6),
         size in 0.01..0.3,
@@ -113,6 +114,7 @@ proptest! {
 
 /// Long vectors: a ring of particles.
 #[test]
+#[ignore = "thorough"]
 fn restored_chains_have_the_bits_of_those_that_went_on() -> Result<(), Error> {
     fn all<M: Method + ProvedFor<Separable>>(method: M) -> Result<(), Error> {
         for n in [17, 64] {

@@ -47,6 +47,7 @@ fn library_row(file: &str, name: &str, convention: &str) -> Row {
 
 /// The whole audit: what is found for the libraries, and that all of it is seen in steps of the pendulum too.
 #[test]
+#[ignore = "thorough"]
 fn the_libraries_differ_from_their_claims_where_it_is_known() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let [json, page] = ["audit.json", "audit.html"].map(|name| folder.join(name));

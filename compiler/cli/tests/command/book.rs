@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::run::stdout;
 
 #[test]
+#[ignore = "thorough"]
 fn the_catalogue_of_the_book_is_what_the_tool_lists() {
     let page =
         PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/reference/catalogue.md");

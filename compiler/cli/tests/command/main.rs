@@ -1,6 +1,6 @@
 //! What the binary prints and refuses, one file for each command or format.
 //!
-//! `UPDATE_EXPECT=1 cargo test -p symplectic-cli` writes the forms and the catalogue of the book anew.
+//! `UPDATE_EXPECT=1 cargo test -p symplectic-cli -- --include-ignored` writes the forms and the catalogue of the book anew.
 
 mod audit;
 mod bad_input;

@@ -123,6 +123,7 @@ fn a_file_is_refined() {
 
 /// One order more, one wrong digit, kicks and drifts exchanged: refused with the place.
 #[test]
+#[ignore = "thorough"]
 fn twins_are_refused() {
     for (path, text) in FILES.iter() {
         let file = parsed(text);

@@ -175,6 +175,7 @@ fn choice(others: &[&str]) -> Vec<String> {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn list_filters_and_sorts() {
     let efficient = choice(&[
         "--class",
@@ -206,6 +207,7 @@ fn list_filters_and_sorts() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn list_sorts_by_efficiency_and_error() {
     // The coarser the tolerance, the better the lower order.
     let coarse = choice(&["--sort", "efficiency", "--tolerance", "1"]);

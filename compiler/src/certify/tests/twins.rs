@@ -25,6 +25,7 @@ fn near_one_millionth(distance: &BigRational) -> bool {
 
 /// A wrong digit in the sixth place breaks the sum of the weights; the exact method behind it is still found.
 #[test]
+#[ignore = "thorough"]
 fn one_wrong_digit_is_found() {
     for name in [
         "ForestRuth1990",
@@ -84,6 +85,7 @@ fn wrong_digits_with_the_right_sum_are_found() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn exchanged_and_truncated_lists_are_refuted() {
     for method in methods() {
         let name = &method.name;
@@ -112,6 +114,7 @@ fn exchanged_and_truncated_lists_are_refuted() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn orders_that_are_too_high_are_refuted() {
     for method in methods() {
         let name = &method.name;

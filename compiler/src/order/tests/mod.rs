@@ -164,6 +164,7 @@ fn approximate_order(pair: &RationalPair, class: HamiltonianClass) -> usize {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn explicit_methods_have_the_orders_of_their_papers() {
     let text = include_str!("../../../tests/data/explicit-methods.json");
     let data: serde_json::Value = serde_json::from_str(text).expect("valid");
@@ -253,6 +254,7 @@ fn all_conditions_agree_with_those_of_symplectic_methods() {
 
 /// Below order 8 the simplifying assumptions give what enumeration finds for general `H`.
 #[test]
+#[ignore = "thorough"]
 fn simplifying_assumptions_give_the_order_of_the_catalogue() {
     for entry in catalogue::entries() {
         let tableau = entry.derive().expect("derived");
@@ -414,6 +416,7 @@ fn weights_are_those_of_the_recursion_over_each_tree() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn order_10_of_five_stages_by_full_enumeration() {
     let options = OrderOptions {
         limit: 10,
