@@ -35,11 +35,11 @@ pub enum Error {
         step_size: f64,
         /// Number of the step, from 1.
         step: u64,
-        /// Relative change of the stages in the last sweep in which it was finite; infinite if it was not computed.
+        /// Relative change of the stages in the last sweep with a finite change; infinite if there was none.
         residual: f64,
         /// Sweeps made.
         iterations: u32,
-        /// Whether Newton's iteration may find the stages: a fixed-point iteration did not, and the system has no constraints.
+        /// Whether Newton's iteration may converge: a fixed-point iteration failed, and the system has no constraints.
         newton_may_help: bool,
     },
 
@@ -81,8 +81,7 @@ pub enum Error {
         step: u64,
         /// What is not finite.
         what: Quantity,
-        /// The stage of the evaluation, from 1, among the stages that the plan stores; `None` for the result of the
-        /// step.
+        /// Number of the stage, from 1, counting only stages that are stored; `None` for the result of the step.
         stage: Option<usize>,
     },
 
@@ -118,7 +117,7 @@ pub enum Error {
         step: u64,
         /// The quantity that has the wrong dimension.
         what: Quantity,
-        /// Its stage, from 1, among the stages that the plan stores; `None` outside the stages.
+        /// Number of its stage, from 1, counting only stages that are stored; `None` outside the stages.
         stage: Option<usize>,
         /// Dimension of the state.
         expected: usize,
@@ -172,7 +171,7 @@ pub enum Error {
         parameter: &'static str,
     },
 
-    /// An array among the parameters of a system has another length than the state or a list of pairs requires.
+    /// The length of an array parameter does not fit the state or a list of pairs.
     #[error(
         "the parameter `{parameter}` has {}; it needs {expected}: give an entry for each body or pair, or start from a state with \
          other dimensions",
@@ -187,7 +186,7 @@ pub enum Error {
         expected: usize,
     },
 
-    /// A pair among the parameters of a system has the index of a body that does not exist.
+    /// A pair in a parameter has the index of a body that does not exist.
     #[error(
         "pair {index} of the parameter `{parameter}` is {pair:?}, but there are {bodies} bodies; indices count from 0 and must be less \
          than {bodies}"
@@ -203,7 +202,7 @@ pub enum Error {
         bodies: usize,
     },
 
-    /// Positions are vectors, and the dimension of the state is not a multiple of their number of components.
+    /// The dimension of the state is not a multiple of the number of components of each body.
     #[error(
         "the state has dimension {dimension}, which is not a multiple of {factor}; give {factor} components for each body"
     )]
@@ -293,8 +292,8 @@ pub enum Error {
         linear: f64,
     },
 
-    /// A tableau at run time has its order, or is symplectic, for separable Hamiltonians only, and the system is not
-    /// separable.
+    /// The system is not separable, but a tableau at run time has its order, or is symplectic, for separable
+    /// Hamiltonians only.
     #[error(
         "the tableau has order {order} for separable Hamiltonians and {lower_order} for others, or is symplectic for separable ones only; \
          write the system as a separable one, take another tableau, or call `accept_lower_order`"
@@ -432,9 +431,8 @@ pub enum Error {
         time: f64,
     },
 
-    /// Events follow each other more closely than time or the state can resolve. Also returned after a thousand events in a row, each
-    /// within 1/16384 of a step after the one before. Impacts accumulate, or the state rests on a wall. The present state is that at the
-    /// last event.
+    /// Events accumulate, as impacts do when a body comes to rest on a wall: they follow each other more closely than time or the state can
+    /// resolve, or a thousand events in a row are less than 1/16384 of a step apart. The present state is that at the last event.
     #[error(
         "events accumulate at time {time}: after {count} events in a row, each within 1/16384 of a step, the search ends at function \
          {index}; stop there, constrain the state to the wall, or take a smaller step if the events are real",
@@ -445,7 +443,7 @@ pub enum Error {
         time: f64,
         /// Index of the event in the list, from 0.
         index: usize,
-        /// Number of events of all functions in the row.
+        /// Number of these events, of all functions.
         count: u32,
     },
 
@@ -501,7 +499,7 @@ pub enum Error {
         dimension: usize,
     },
 
-    /// An entry of a gradient was set for a constraint or a component that does not exist.
+    /// A gradient has an entry for a constraint or a component that does not exist.
     #[error(
         "the gradient of constraint {constraint} by component {component} was set, but there are only {constraints} constraints and \
          {dimension} components, counted from 0"
@@ -650,7 +648,7 @@ pub enum Error {
         pivot: f64,
     },
 
-    /// A discrete Lagrangian that is not self-adjoint, for a composition.
+    /// The discrete Lagrangian of a composition is not self-adjoint.
     #[error(
         "Ld(q0, q1, h) + Ld(q1, q0, −h) is {defect:e} instead of 0: the discrete Lagrangian is not self-adjoint, so its compositions have \
          order 1; take a self-adjoint one, such as the mean of Ld and −Ld(q1, q0, −h), or `VariationalIntegrator::new`"
@@ -669,7 +667,7 @@ pub enum Error {
         method: &'static str,
     },
 
-    /// A Lagrangian whose `∂²L/∂v∂v` is singular, and a method whose steps leave its primary constraints on the momenta.
+    /// The Lagrangian has a singular `∂²L/∂v∂v`, and steps of the method leave its primary constraints on the momenta.
     #[error(
         "the Lagrangian is degenerate: ∂L/∂v does not determine component {component} of the velocity, and steps of {method} leave the \
          primary constraint on this component of p, which `primary_constraints` returns; take `DiracIntegrator`, or, if L is a(q)·v − H(q) \
@@ -758,7 +756,7 @@ pub enum Error {
         step_size: f64,
         /// Number of the step, from 1.
         step: u64,
-        /// Whether the condition belongs to a component of the momentum or to a constraint.
+        /// What the violated condition belongs to: a component of the momentum, or a constraint.
         what: Quantity,
         /// Its index, from 0.
         index: usize,
