@@ -108,7 +108,9 @@ pub mod variational;
 pub use error::{ConstraintName, Error, Quantity};
 #[cfg(feature = "alloc")]
 pub use integrator::{Checkpoint, CheckpointError};
-pub use integrator::{Integrator, PhasePoint, Retry, Statistics, StepMap};
+pub use integrator::{
+    Integrator, PhasePoint, RemainingSteps, Retry, Run, Statistics, StepMap, Stepper,
+};
 #[cfg(feature = "alloc")]
 pub use method::{AtRunTime, RunTimeCoefficients, RunTimeTableau, TableauError};
 #[cfg(feature = "alloc")]

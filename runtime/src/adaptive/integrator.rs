@@ -346,7 +346,7 @@ where
     N: Solver<V, S>,
 {
     /// The present state.
-    pub const fn state(&self) -> &State<V> {
+    pub fn state(&self) -> &State<V> {
         self.integrator.state()
     }
 
@@ -368,7 +368,7 @@ where
     }
 
     /// Number of steps taken.
-    pub const fn steps(&self) -> u64 {
+    pub fn steps(&self) -> u64 {
         self.integrator.steps()
     }
 

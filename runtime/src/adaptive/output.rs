@@ -5,10 +5,10 @@ use core::ops::ControlFlow;
 use super::integrator::Adaptive;
 use super::monitor::Monitor;
 use crate::error::Error;
-use crate::integrator::Integrator;
 use crate::integrator::last_step::LastEvent;
 use crate::integrator::partial_step::PartialSteps;
 use crate::integrator::sight::Sight;
+use crate::integrator::{Integrator, Partitioned};
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 use crate::output::at_times::integrate_at;
@@ -229,7 +229,7 @@ where
     fn steps_in_sight<B>(
         &mut self,
         end: f64,
-        sight: &mut impl Sight<M, S, V, R, N, B>,
+        sight: &mut impl Sight<Partitioned<M, S, V, R, N>, B>,
     ) -> Result<ControlFlow<B>, Error> {
         while self.is_after(end, self.state().time) {
             self.advance()?;

@@ -247,7 +247,7 @@ where
             if self.job.ensemble.is_stopped() {
                 return Attempt::Stopped;
             }
-            let block = self.lanes.block_of(&remaining);
+            let block = self.lanes.stepper.block_of(&remaining);
             let left = remaining.left - block;
             if begun.left > remaining.left && begun.left - left > UNSAVED {
                 (saved, begun) = (Some(self.lanes.saved()), remaining);

@@ -421,7 +421,7 @@ where
         let system = self.family_of(place).0.clone();
         let start = self.starts[place].clone();
         let mut run = Integrator::unchecked(system, start, self.step_size);
-        (run.stopping, run.retry) = (self.stopping, self.retry);
+        (run.stepper.stopping, run.retry) = (self.stopping, self.retry);
         if let Some(tableau) = &self.tableau {
             run.set_tableau(tableau);
         }

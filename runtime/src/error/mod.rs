@@ -974,6 +974,20 @@ pub enum Error {
 }
 
 impl Error {
+    /// Whether it is the error of a step that may succeed if it is shorter.
+    pub(crate) const fn depends_on_the_size(&self) -> bool {
+        matches!(
+            self,
+            Self::NoConvergence { .. }
+                | Self::Stagnation { .. }
+                | Self::NonFinite { .. }
+                | Self::SingularMatrix { .. }
+                | Self::NoEndOfStep { .. }
+                | Self::IrregularLagrangian { .. }
+                | Self::HalfTurn { .. }
+        )
+    }
+
     /// Makes [`Error::Monitor`] at a time from a value.
     pub(crate) const fn monitor_at(time: f64) -> impl Fn(f64) -> Self {
         move |value| Self::Monitor { time, value }

@@ -1,8 +1,9 @@
 //! Checkpoints of runs of a flow; a restored run has the same bits.
 
-use super::integrator::{FlowIntegrator, RunState};
+use super::integrator::{FlowIntegrator, FlowSteps, RunState};
 use super::memory::Memory;
 use super::{Flow, Span};
+use crate::integrator::clock::Clock;
 use crate::integrator::fingerprint::hash;
 use crate::integrator::{Checkpoint, CheckpointError};
 use crate::number::Vector;
@@ -39,11 +40,11 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// # }
     /// ```
     pub fn checkpoint(&mut self) -> Checkpoint {
-        let (mut run_state, mut memory) = (self.run_state.clone(), self.present_memory());
-        let mut tried = self.tried_step();
-        let blank = Checkpoint::of_flow(run_state.state.q.dimension(), memory.len());
+        let (mut saved, mut memory) = (self.saved(), self.stepper.present_memory());
+        let mut tried = self.stepper.tried_step(self.step_size);
+        let blank = Checkpoint::of_flow(saved.run_state.state.q.dimension(), memory.len());
         blank.filled(|visit| {
-            words!(visit: run_state, memory, tried);
+            words!(visit: saved, memory, tried);
         })
     }
 
@@ -54,37 +55,46 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// [`CheckpointError`]; it is [`OtherSystem`](CheckpointError::OtherSystem) if a step of the flow from the stored state gives another
     /// result. The run is then unchanged.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
-        let (mut run_state, mut memory) = (self.run_state.clone(), self.present_memory());
-        let own = Checkpoint::of_flow(run_state.state.q.dimension(), memory.len());
+        let (mut saved, mut memory) = (self.saved(), self.stepper.present_memory());
+        let own = Checkpoint::of_flow(saved.run_state.state.q.dimension(), memory.len());
         let mut tried = 0_u64;
         checkpoint.read(&own, |visit| {
-            words!(visit: run_state, memory, tried);
+            words!(visit: saved, memory, tried);
         })?;
-        let present = self.present_memory();
-        core::mem::swap(&mut self.run_state, &mut run_state);
-        memory.put_back(&mut self.flow);
-        if self.tried_step() != tried {
-            self.run_state = run_state;
-            present.put_back(&mut self.flow);
+        let stepper = &mut self.stepper;
+        let present = stepper.present_memory();
+        core::mem::swap(&mut stepper.run_state, &mut saved.run_state);
+        memory.put_back(&mut stepper.flow);
+        if stepper.tried_step(saved.step_size) != tried {
+            stepper.run_state = saved.run_state;
+            present.put_back(&mut stepper.flow);
             return Err(CheckpointError::OtherSystem);
         }
+        (self.step_size, self.clock) = (saved.step_size, saved.clock);
         Ok(())
     }
 
+    fn saved(&self) -> Saved<V> {
+        Saved {
+            step_size: self.step_size,
+            clock: self.clock,
+            run_state: self.stepper.run_state.clone(),
+        }
+    }
+}
+
+impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowSteps<V, F> {
     fn present_memory(&mut self) -> Memory {
         let mut memory = Memory::default();
         memory.keep(&mut self.flow);
         memory
     }
 
-    /// A hash of the state after the next step, also if that step fails.
-    fn tried_step(&mut self) -> u64 {
+    /// A hash of the state after the next step, of this size, also if that step fails.
+    fn tried_step(&mut self, size: f64) -> u64 {
         let memory = self.present_memory();
         let State { time, q, p } = &self.run_state.state;
-        let span = Span {
-            time: *time,
-            size: self.step_size(),
-        };
+        let span = Span { time: *time, size };
         let (mut q, mut p) = (q.clone(), p.clone());
         // A failed step leaves other bits than a good one.
         let _ = self.flow.flow(span, &mut q, &mut p);
@@ -93,16 +103,23 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     }
 }
 
-impl<V: Vector<Scalar = f64>> Words for RunState<V> {
+/// What changes in a run, apart from the flow.
+struct Saved<V> {
+    step_size: f64,
+    clock: Clock,
+    run_state: RunState<V>,
+}
+
+impl<V: Vector<Scalar = f64>> Words for Saved<V> {
     fn words(&mut self, visit: &mut Visit<'_>) {
-        let Self {
-            step_clock,
+        let RunState {
             state: State { time, q, p },
+            statistics,
             before,
             last,
             memory,
-        } = self;
-        words!(visit: *time, *step_clock, *last, *memory);
+        } = &mut self.run_state;
+        words!(visit: *time, self.step_size, self.clock, statistics.steps, *last, *memory);
         for vector in [q, p, &mut before.0, &mut before.1] {
             vector_words(core::slice::from_mut(vector), visit);
         }

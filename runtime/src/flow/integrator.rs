@@ -3,9 +3,8 @@
 use super::memory::Memory;
 use super::{Flow, FlowError, Span};
 use crate::error::{Error, Quantity};
-use crate::integrator::StepMap;
-use crate::integrator::step_clock::{StepClock, Stepper};
-use crate::integrator::validation::check_state;
+use crate::integrator::validation::{check_state, check_step_size};
+use crate::integrator::{Run, Statistics, Stepper};
 use crate::method::storage::is_finite;
 use crate::number::words::{Visit, Words, words};
 use crate::number::{Vector, copy};
@@ -13,8 +12,8 @@ use crate::state::State;
 
 /// Integrates with a composed [`Flow`], such as a [`Splitting`](super::Splitting) or a [`Palindrome`](super::Palindrome).
 ///
-/// A failed step leaves the state untouched. Sums are not compensated. Steps do not allocate unless the flows do. A clone, if the flow
-/// can be cloned, continues with the same bits.
+/// Sums are not compensated. Steps do not allocate unless the flows do. A failed step is not [split](crate::Retry). A clone, if the flow
+/// can be cloned, continues with the same bits. [`set_state`](Run::set_state) leaves the [memory](Flow::memory) of the flow as it is.
 ///
 /// ```
 /// symplectic::tableau! { Verlet { base: velocity-verlet } }
@@ -32,8 +31,11 @@ use crate::state::State;
 /// # Ok(())
 /// # }
 /// ```
+pub type FlowIntegrator<V, F> = Run<FlowSteps<V, F>>;
+
+/// The steps of a [`FlowIntegrator`].
 #[derive(Clone, Debug)]
-pub struct FlowIntegrator<V, F> {
+pub struct FlowSteps<V, F> {
     pub(super) flow: F,
     pub(super) run_state: RunState<V>,
     /// Work space for the memory of the flow during a partial step.
@@ -44,8 +46,8 @@ pub struct FlowIntegrator<V, F> {
 /// What a step changes, apart from the flow.
 #[derive(Clone, Debug)]
 pub(super) struct RunState<V> {
-    pub(super) step_clock: StepClock,
     pub(super) state: State<V>,
+    pub(super) statistics: Statistics,
     /// Position and momentum before the last step.
     pub(super) before: (V, V),
     pub(super) last: Option<Last>,
@@ -74,139 +76,40 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// [`Error::StepSize`], [`Error::Dimension`], [`Error::NonFiniteState`].
     pub fn new(mut flow: F, state: State<V>, step_size: f64) -> Result<Self, Error> {
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
+        check_step_size(step_size)?;
         let mut memory = Memory::default();
         memory.keep(&mut flow);
-        Ok(Self {
+        let stepper = FlowSteps {
             flow,
             run_state: RunState {
-                step_clock: StepClock::new(state.time, step_size)?,
                 before: (state.q.clone(), state.p.clone()),
                 last: None,
                 memory,
                 state,
+                statistics: Statistics::default(),
             },
             #[cfg(feature = "alloc")]
             present: Memory::default(),
-        })
-    }
-
-    /// Takes one step and returns the state after it. The time after `k` steps is `start + k h`.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Flow`], [`Error::NonFinite`], [`Error::TimeResolution`]; the state is untouched.
-    pub fn step(&mut self) -> Result<&State<V>, Error> {
-        self.one_step()?;
-        Ok(&self.run_state.state)
-    }
-
-    /// Takes `count` steps and returns the state after them.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`step`](Self::step); the state is then that of the last successful step.
-    pub fn take_steps(&mut self, count: u64) -> Result<&State<V>, Error> {
-        for _ in 0..count {
-            self.one_step()?;
-        }
-        Ok(&self.run_state.state)
-    }
-
-    /// An endless iterator over the states after each step, cloned. After an error there are no more items.
-    pub fn states(&mut self) -> impl Iterator<Item = Result<State<V>, Error>> {
-        let mut failed = false;
-        core::iter::from_fn(move || {
-            if failed {
-                return None;
-            }
-            let state = self.step().cloned();
-            failed = state.is_err();
-            Some(state)
-        })
-    }
-
-    /// Integrates to the time `end` exactly, forward or backward, in the smallest number of equal steps no longer than the step size.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last successful step.
-    pub fn integrate_to(&mut self, end: f64) -> Result<&State<V>, Error> {
-        self.steps_to(end)?;
-        Ok(&self.run_state.state)
-    }
-
-    /// Like [`integrate_to`](Self::integrate_to), and calls `observe` with the state after every step.
-    ///
-    /// # Errors
-    ///
-    /// As for [`integrate_to`](Self::integrate_to).
-    pub fn integrate_with<O: FnMut(&State<V>)>(
-        &mut self,
-        end: f64,
-        mut observe: O,
-    ) -> Result<&State<V>, Error> {
-        self.steps_in_sight(end, |run| observe(&run.run_state.state))?;
-        Ok(&self.run_state.state)
-    }
-
-    /// The present state.
-    pub const fn state(&self) -> &State<V> {
-        &self.run_state.state
-    }
-
-    /// The present state, by value.
-    pub fn into_state(self) -> State<V> {
-        self.run_state.state
-    }
-
-    /// Replaces the present state by another state of the same dimension. The [memory](Flow::memory) of the flow stays.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`]; the state is then untouched.
-    pub fn set_state(&mut self, state: State<V>) -> Result<(), Error> {
-        let dimension = self.run_state.state.q.dimension();
-        check_state(state.time, &state.q, &state.p, dimension)?;
-        self.run_state.step_clock.restart(state.time);
-        self.run_state.state = state;
-        self.run_state.last = None;
-        Ok(())
+        };
+        Self::of(stepper, step_size)
     }
 
     /// The flow of a step.
     pub const fn flow(&self) -> &F {
-        &self.flow
+        &self.stepper.flow
     }
+}
 
-    /// The step size.
-    pub const fn step_size(&self) -> f64 {
-        self.run_state.step_clock.step_size()
-    }
-
-    /// Steps taken.
-    pub const fn steps(&self) -> u64 {
-        self.run_state.step_clock.taken()
-    }
-
-    /// Changes the step size; negative to go backward.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::StepSize`]; the step size is then unchanged.
-    pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
-        let time = self.run_state.state.time;
-        self.run_state.step_clock.set_step_size(time, step_size)
-    }
-
+#[cfg(feature = "alloc")]
+impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowSteps<V, F> {
     /// Writes the state at the present time or at a time within the last step.
-    #[cfg(feature = "alloc")]
     pub(super) fn look_at(&mut self, time: f64, out: &mut State<V>) -> Result<(), Error> {
         let RunState {
             state,
             before,
             last,
             memory,
-            step_clock,
+            statistics,
         } = &self.run_state;
         out.time = time;
         if time == state.time {
@@ -231,7 +134,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
         memory.put_back(&mut self.flow);
         let taken = take(&mut self.flow, span, out);
         self.present.put_back(&mut self.flow);
-        taken.map_err(|failure| failed(failure, span, step_clock.taken()))
+        taken.map_err(|failure| failed(failure, span, statistics.steps))
     }
 }
 
@@ -283,22 +186,44 @@ pub(super) const fn failed(failure: FlowError, span: Span, step: u64) -> Error {
     }
 }
 
-impl<V: Vector<Scalar = f64>, F: Flow<V>> Stepper for FlowIntegrator<V, F> {
-    fn step_clock(&mut self) -> &mut StepClock {
-        &mut self.run_state.step_clock
+impl<V: Vector<Scalar = f64>, F: Flow<V>> Stepper for FlowSteps<V, F> {
+    type State = State<V>;
+    /// A step with noise is not repeated.
+    type Saved = ();
+
+    fn state(&self) -> &State<V> {
+        &self.run_state.state
     }
 
     fn time(&self) -> f64 {
         self.run_state.state.time
     }
 
-    fn advance(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
+    fn statistics(&self) -> &Statistics {
+        &self.run_state.statistics
+    }
+
+    fn statistics_mut(&mut self) -> &mut Statistics {
+        &mut self.run_state.statistics
+    }
+
+    fn set_state(&mut self, state: &State<V>) -> Result<(), Error> {
+        let RunState {
+            state: own, last, ..
+        } = &mut self.run_state;
+        check_state(state.time, &state.q, &state.p, own.q.dimension())?;
+        own.copy_from(state);
+        *last = None;
+        Ok(())
+    }
+
+    fn advance(&mut self, size: f64, end: f64) -> Result<(), Error> {
         let RunState {
             state,
+            statistics,
             before,
             last,
             memory,
-            ..
         } = &mut self.run_state;
         let span = Span {
             time: state.time,
@@ -312,29 +237,16 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> Stepper for FlowIntegrator<V, F> {
             state.p.clone_from(&before.1);
             memory.put_back(&mut self.flow);
             *last = None;
-            return Err(failed(failure, span, number));
+            return Err(failed(failure, span, statistics.steps + 1));
         }
         let start = state.time;
         *last = Some(Last { start, size });
         state.time = end;
+        statistics.steps += 1;
         Ok(())
     }
-}
 
-impl<V: Vector<Scalar = f64>, F: Flow<V>> StepMap for FlowIntegrator<V, F>
-where
-    Self: Clone,
-{
-    type State = State<V>;
+    fn save(&self) {}
 
-    fn present(&self) -> &State<V> {
-        &self.run_state.state
-    }
-
-    fn step_from(&self, state: State<V>) -> Result<State<V>, Error> {
-        let mut run = self.clone();
-        run.set_state(state)?;
-        run.step()?;
-        Ok(run.into_state())
-    }
+    fn go_back(&mut self, _saved: &()) {}
 }

@@ -91,7 +91,7 @@ pub use corrector::Corrector;
 pub use damping::Damping;
 pub use drift::Drift;
 pub use gyration::Gyration;
-pub use integrator::FlowIntegrator;
+pub use integrator::{FlowIntegrator, FlowSteps};
 pub use kick::Kick;
 #[cfg(feature = "alloc")]
 pub use linear::Linear;

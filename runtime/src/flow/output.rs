@@ -51,7 +51,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
             while is_after(direction, time, self.state().time) {
                 self.step()?;
             }
-            self.look_at(time, &mut inside)?;
+            self.stepper.look_at(time, &mut inside)?;
             observe(&inside);
         }
         Ok(self.state())
@@ -70,17 +70,17 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// [`Error::Flow`] and [`Error::NonFinite`] if the shorter step fails.
     pub fn state_at(&mut self, time: f64) -> Result<State<V>, Error> {
         let mut state = self.state().clone();
-        if self.run_state.last.is_none() {
+        if self.stepper.run_state.last.is_none() {
             return Err(Error::NoStep);
         }
-        self.look_at(time, &mut state)?;
+        self.stepper.look_at(time, &mut state)?;
         Ok(state)
     }
 
     /// The start of the last step; the present time if there is no last step or it had the other direction.
     fn start_of_last_step(&self) -> f64 {
         let present = self.state().time;
-        match self.run_state.last {
+        match self.stepper.run_state.last {
             Some(last) if is_after(self.step_size(), present, last.start) => last.start,
             _ => present,
         }

@@ -267,7 +267,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     ) -> Result<Checkpoint, CheckpointError> {
         let mut numbers = self.numbers();
         Ok(self.blank_checkpoint(kind)?.filled(|visit| {
-            numbers.words(visit, |visit| self.step_memory.show_scalars(visit));
+            numbers.words(visit, |visit| self.stepper.step_memory.show_scalars(visit));
             beside.iter().for_each(|value| visit(&mut value.to_bits()));
         }))
     }
@@ -291,17 +291,17 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         beside: &mut [f64],
         mine: impl FnOnce(&V, &[f64]) -> bool,
     ) -> Result<(), CheckpointError> {
-        let (mut numbers, mut step_memory) = (self.numbers(), self.step_memory.clone());
+        let (mut numbers, mut step_memory) = (self.numbers(), self.stepper.step_memory.clone());
         checkpoint.read(&self.blank_checkpoint(kind)?, |visit| {
             numbers.words(visit, |visit| step_memory.scalar_words(visit));
             beside.words(visit);
         })?;
         step_memory.state.time = numbers.time;
-        let known = numbers.fingerprint == fingerprint_at(&self.system, &step_memory.state);
+        let known = numbers.fingerprint == fingerprint_at(&self.stepper.system, &step_memory.state);
         if !known || !mine(&step_memory.state.q, beside) {
             return Err(CheckpointError::OtherSystem);
         }
-        self.step_memory = StepMemory {
+        self.stepper.step_memory = StepMemory {
             kept: numbers.kept,
             last_size: numbers.last_size,
             last_time: numbers.last_time,
@@ -311,7 +311,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         };
         self.clock = numbers.clock;
         self.step_size = numbers.step_size;
-        self.stopping = numbers.stopping;
+        self.stepper.stopping = numbers.stopping;
         self.retry = numbers.retry;
         self.last_event = numbers.last_event;
         Ok(())
@@ -331,7 +331,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
                 "" => M::NAME.to_string(),
                 _ => format!("{}, {kind}", M::NAME),
             },
-            definition: match self.step_memory.memory.tableau() {
+            definition: match self.stepper.step_memory.memory.tableau() {
                 Some(tableau) => tableau.definition(),
                 None => M::DEFINITION.to_string(),
             },
@@ -340,7 +340,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
                 .to_string(),
             sums: sums.to_string(),
             solver: N::name(),
-            dimension: self.step_memory.state.q.dimension(),
+            dimension: self.stepper.step_memory.state.q.dimension(),
             words: Vec::new(),
             damage: None,
         })
@@ -356,7 +356,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             statistics,
             linear_velocity,
             ..
-        } = &self.step_memory;
+        } = &self.stepper.step_memory;
         Numbers {
             time: state.time,
             step_size: self.step_size,
@@ -366,10 +366,10 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             linear_velocity: *linear_velocity,
             statistics: *statistics,
             clock: self.clock,
-            stopping: self.stopping,
+            stopping: self.stepper.stopping,
             retry: self.retry,
             last_event: self.last_event,
-            fingerprint: fingerprint_at(&self.system, state),
+            fingerprint: fingerprint_at(&self.stepper.system, state),
         }
     }
 }

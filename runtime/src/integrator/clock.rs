@@ -47,15 +47,17 @@ impl Clock {
     }
 }
 
-/// Remaining steps of one size.
+/// The remaining steps of a run, all of one size.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct RemainingSteps {
+pub struct RemainingSteps {
     /// Number of steps.
     pub(crate) left: u64,
     pub(crate) size: f64,
     pub(crate) clock: Clock,
     /// The time after the last step, if it is given.
     pub(crate) end: Option<f64>,
+    /// Number of the next steps that are taken one by one, because not all of them succeed.
+    pub(crate) alone: u64,
 }
 
 impl RemainingSteps {
@@ -72,6 +74,7 @@ impl RemainingSteps {
             size,
             clock: Clock::new(start, size),
             end: Some(end),
+            alone: 0,
         }
     }
 
@@ -82,24 +85,34 @@ impl RemainingSteps {
         end.unwrap_or_else(|| self.clock.next())
     }
 
+    /// Number of steps.
+    pub const fn left(&self) -> u64 {
+        self.left
+    }
+
+    /// The size of the next step and the time after it, if a step is left.
+    #[inline]
+    pub fn next(&self) -> Option<(f64, f64)> {
+        (self.left > 0).then(|| (self.size, self.next_time()))
+    }
+
     /// Counts the next step as taken.
-    pub(crate) const fn tick(&mut self) {
+    pub const fn tick(&mut self) {
         self.skip(1);
     }
 
     pub(crate) const fn skip(&mut self, steps: u64) {
         self.left -= steps;
+        self.alone = self.alone.saturating_sub(steps);
         self.clock.skip(steps);
     }
 
     /// The size of the next step and the time after it, if a step is left; the step counts as taken.
     #[inline]
     pub(crate) fn next_step(&mut self) -> Option<(f64, f64)> {
-        (self.left > 0).then(|| {
-            let time = self.next_time();
-            self.tick();
-            (self.size, time)
-        })
+        let next = self.next()?;
+        self.tick();
+        Some(next)
     }
 }
 

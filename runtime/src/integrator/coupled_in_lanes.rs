@@ -64,16 +64,16 @@ where
     /// Empty lanes for runs like this one, of a system with the parameters of each of them, in vectors like `zeros`.
     pub(crate) fn like(run: &mut Integrator<M, S, V, R, N>, system: J, zeros: &W) -> Self {
         let vectors = || Box::new(core::array::from_fn(|_| zeros.clone()));
-        let time = run.step_memory.state.time;
+        let time = run.stepper.step_memory.state.time;
         Self {
             system,
-            linear_velocity: run.step_memory.linear_velocity,
-            stopping: run.stopping,
+            linear_velocity: run.stepper.step_memory.linear_velocity,
+            stopping: run.stepper.stopping,
             states: StatesInLanes {
                 now: vectors(),
                 other: vectors(),
             },
-            memory: LaneMemory::like(&mut run.step_memory.memory, zeros),
+            memory: LaneMemory::like(&mut run.stepper.step_memory.memory, zeros),
             taken: None,
             time,
             last_time: time,
@@ -101,7 +101,7 @@ where
         for low in [q_low, p_low] {
             low.as_mut_slice().fill(W::Scalar::zero());
         }
-        self.linear_velocity = first.step_memory.linear_velocity;
+        self.linear_velocity = first.stepper.step_memory.linear_velocity;
         self.taken = None;
         (self.time, self.last_time, self.last_size) = (start(0).time, start(0).time, 0.0);
         self.since.fill(self.steps);
@@ -122,7 +122,8 @@ where
     /// Whether a run can be in these lanes.
     pub(crate) fn takes(&self, run: &Integrator<M, S, V, R, N>) -> bool {
         // The last allowed sweep of a step is left to the run.
-        run.step_memory.linear_velocity == self.linear_velocity && self.stopping.max_iterations > 1
+        run.stepper.step_memory.linear_velocity == self.linear_velocity
+            && self.stopping.max_iterations > 1
     }
 
     /// Time of all runs in lanes.
@@ -137,7 +138,7 @@ where
         run: &mut Integrator<M, S, V, R, N>,
         size: f64,
     ) -> bool {
-        let step_memory = &mut run.step_memory;
+        let step_memory = &mut run.stepper.step_memory;
         let StatesInLanes { now, other } = &mut self.states;
         let lanes = now.iter_mut().chain(other.iter_mut());
         for (lanes, numbers) in lanes.zip(step_memory.vectors()) {
@@ -158,8 +159,8 @@ where
     /// Copies a lane into its run.
     pub(crate) fn store(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>) {
         self.store_state(lane, run);
-        self.memory.store(lane, &mut run.step_memory.memory);
-        run.step_memory.kept = WarmStart {
+        self.memory.store(lane, &mut run.stepper.step_memory.memory);
+        run.stepper.step_memory.kept = WarmStart {
             evaluation: true,
             stages: true,
             scales: self.memory.scales.map(|scale| scale.get(lane)),
@@ -168,7 +169,7 @@ where
 
     /// Copies the state of a lane, and its statistics, into its run, but not the stages: the run has ended.
     pub(crate) fn store_state(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>) {
-        let step_memory = &mut run.step_memory;
+        let step_memory = &mut run.stepper.step_memory;
         let StatesInLanes { now, other } = &self.states;
         let lanes = now.iter().chain(other.iter());
         for (lanes, numbers) in lanes.zip(step_memory.vectors()) {

@@ -8,7 +8,9 @@ use core::marker::PhantomData;
 
 use num_traits::Zero;
 
-use super::{Integrator, MemoryOf, PlanOf, StepMemory};
+use super::memory::StepMemory;
+use super::partitioned::MemoryOf;
+use super::{Integrator, Partitioned, PlanOf, Run};
 use crate::integrator::clock::{Clock, RemainingSteps};
 use crate::integrator::{Retry, Statistics};
 use crate::method::{Method, Plan, Solver, StageStorage, WarmStart};
@@ -43,14 +45,14 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// A copy of the run to [return](Self::return_to) to.
     pub(crate) fn saved(&self) -> SavedRunOf<M, S, V, N> {
         SavedRun {
-            step_memory: self.step_memory.clone(),
+            step_memory: self.stepper.step_memory.clone(),
             clock: self.clock,
         }
     }
 
     /// Returns to a [saved](Self::saved) run.
     pub(crate) fn return_to(&mut self, saved: SavedRunOf<M, S, V, N>) {
-        (self.step_memory, self.clock) = (saved.step_memory, saved.clock);
+        (self.stepper.step_memory, self.clock) = (saved.step_memory, saved.clock);
     }
 
     /// An integrator for runs like this one, with the system of their lanes, in vectors like `zeros`; every lane still has to be
@@ -60,19 +62,25 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         system: J,
         zeros: &W,
     ) -> Integrator<M, J, W, R, <J as System<W>>::Solver> {
-        let blank = State::new(self.step_memory.state.time, zeros.clone(), zeros.clone());
-        let mut lanes = Integrator {
-            system,
-            step_memory: StepMemory::new(false, blank),
+        let blank = State::new(
+            self.stepper.step_memory.state.time,
+            zeros.clone(),
+            zeros.clone(),
+        );
+        let mut lanes = Run {
+            stepper: Partitioned {
+                system,
+                step_memory: StepMemory::new(false, blank),
+                stopping: self.stepper.stopping,
+                method: PhantomData,
+            },
             clock: self.clock,
             step_size: self.step_size,
-            stopping: self.stopping,
             // A step that fails is repeated by the trajectory that it belongs to.
             retry: Retry::Never,
             last_event: self.last_event,
-            method: PhantomData,
         };
-        if let Some(tableau) = self.step_memory.memory.tableau() {
+        if let Some(tableau) = self.stepper.step_memory.memory.tableau() {
             lanes.set_tableau(tableau);
         }
         lanes
@@ -89,7 +97,7 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
         block: u64,
         remaining: &mut RemainingSteps,
     ) -> bool {
-        let ready = self.step_memory.kept.evaluation && remaining.left > 1;
+        let ready = self.stepper.step_memory.kept.evaluation && remaining.left > 1;
         if ready {
             let (run, remaining) = (&mut *self, &mut *remaining);
             if W::Scalar::in_registers(InPlace {
@@ -100,7 +108,7 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
                 return true;
             }
         }
-        if ready && !self.step_memory.kept.evaluation {
+        if ready && !self.stepper.step_memory.kept.evaluation {
             return false;
         }
         for _ in 0..block {
@@ -114,7 +122,7 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
 
     /// [`advance`](Self::advance) for runs side by side.
     fn advance_together(&mut self, size: f64, time: f64) -> bool {
-        time != self.step_memory.state.time
+        time != self.stepper.step_memory.state.time
             && W::Scalar::in_registers(OneStep {
                 run: self,
                 size,
@@ -133,7 +141,7 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
 
     /// Sets the system, with the parameters of the run in each lane.
     pub(crate) fn set_system(&mut self, system: J) {
-        self.system = system;
+        self.stepper.system = system;
     }
 
     /// Begins runs at other states of the same time: each lane at the state that `start` returns for it.
@@ -149,7 +157,7 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
             last_time,
             statistics,
             ..
-        } = &mut self.step_memory;
+        } = &mut self.stepper.step_memory;
         state.time = start(0).time;
         fill(&mut state.q, |lane| start(lane).q.as_slice());
         fill(&mut state.p, |lane| start(lane).p.as_slice());
@@ -164,7 +172,7 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
 
     /// Velocity and force in all lanes.
     pub(crate) fn evaluations_together(&self) -> [W; 2] {
-        evaluations(&self.system, &self.step_memory.state)
+        evaluations(&self.stepper.system, &self.stepper.step_memory.state)
     }
 
     /// Writes the state of each lane, from the first on, to the `state` of an item.
@@ -173,7 +181,7 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
         items: &mut [T],
         state: impl Fn(&mut T) -> &mut State<V>,
     ) {
-        let own = &self.step_memory.state;
+        let own = &self.stepper.step_memory.state;
         for item in &mut *items {
             state(item).time = own.time;
         }
@@ -199,20 +207,22 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
         O: Solver<V, S> + 'r,
     {
         let width = <W::Scalar as Lanes>::WIDTH;
-        let words = |lane| words_of(&run(lane).step_memory);
+        let words = |lane| words_of(&run(lane).stepper.step_memory);
         let words: Vec<Vec<u64>> = (0..width).map(words).collect();
         let mut number = 0;
-        self.step_memory.scalar_words(&mut |word| {
+        self.stepper.step_memory.scalar_words(&mut |word| {
             *word = words[number % width][number / width];
             number += 1;
         });
-        self.step_memory.same_place(&run(0).step_memory);
+        self.stepper
+            .step_memory
+            .same_place(&run(0).stepper.step_memory);
         self.clock = run(0).clock;
     }
 
     /// The words of all lanes, for [`get_lane`](Self::get_lane).
     pub(crate) fn words(&self) -> Vec<u64> {
-        words_of(&self.step_memory)
+        words_of(&self.stepper.step_memory)
     }
 
     /// Copies a lane into a run, from the [words](Self::words) of all lanes.
@@ -223,11 +233,13 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
         run: &mut Integrator<M, S, V, R, O>,
     ) {
         let mut number = lane;
-        run.step_memory.scalar_words(&mut |word| {
+        run.stepper.step_memory.scalar_words(&mut |word| {
             *word = words[number];
             number += <W::Scalar as Lanes>::WIDTH;
         });
-        run.step_memory.same_place(&self.step_memory);
+        run.stepper
+            .step_memory
+            .same_place(&self.stepper.step_memory);
         run.clock = self.clock;
     }
 }
@@ -284,7 +296,9 @@ where
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> bool {
-        self.run.advance_in_place(self.block, self.remaining)
+        self.run
+            .stepper
+            .advance_in_place(self.block, self.remaining)
     }
 }
 
@@ -307,12 +321,12 @@ where
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> bool {
-        let Integrator {
+        let Partitioned {
             system,
             step_memory,
             stopping,
             ..
-        } = self.run;
+        } = &mut self.run.stepper;
         let attempt = step_memory.attempt::<PlanOf<M, S, V>, R, S, N>(system, self.size, *stopping);
         match attempt {
             Ok(work) => step_memory.accept::<R>(self.size, self.time, work),

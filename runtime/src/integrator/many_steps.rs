@@ -1,13 +1,15 @@
 //! Many steps of one size, in place if possible.
 
 use core::mem;
-use core::ops::ControlFlow;
 
-use super::{Integrator, MemoryOf, PlanOf, Statistics, StepMemory};
+#[cfg(feature = "alloc")]
+use super::Integrator;
+use super::memory::StepMemory;
+use super::partitioned::MemoryOf;
+use super::{Partitioned, PlanOf, Statistics, Stepper};
 use crate::error::Error;
 use crate::integrator::clock::RemainingSteps;
 use crate::integrator::memory::Failed;
-use crate::integrator::sight::Sight;
 use crate::method::{Method, Plan, Solver, Span, StageStorage, WarmStart};
 use crate::number::vector::{LIGHT, is_in_place};
 use crate::number::{Summation, Vector};
@@ -20,35 +22,16 @@ fn block(dimension: usize) -> u64 {
     (1 << 20) / (dimension as u64).clamp(16, 1 << 13)
 }
 
-impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// The steps of [`take_steps`](Self::take_steps).
-    pub(crate) const fn steps_left(&self, count: u64) -> RemainingSteps {
-        RemainingSteps {
-            left: count,
-            size: self.step_size,
-            clock: self.clock,
-            end: None,
-        }
-    }
-
-    /// The steps of [`integrate_to`](Self::integrate_to).
-    pub(crate) fn steps_to_time(&self, end: f64) -> Result<RemainingSteps, Error> {
-        RemainingSteps::between(self.step_memory.state.time, end, self.step_size)
-    }
-
-    /// Takes all remaining steps.
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitioned<M, S, V, R, N> {
+    /// [`Stepper::take`](super::Stepper::take).
     #[inline]
-    pub(crate) fn take_remaining(&mut self, remaining: &mut RemainingSteps) -> Result<(), Error> {
+    pub(super) fn take_all(&mut self, remaining: &mut RemainingSteps) -> Result<(), Error> {
         while remaining.left > 0 {
             let coupled = PlanOf::<M, S, V>::EVALUATIONS_IN_PLACE.is_none();
             if coupled && remaining.left > 1 && self.is_light() {
                 let left = remaining.left;
                 if let Apart::Failed(failed, time) = self.advance_apart(remaining, |_, _| true) {
-                    let size = remaining.size;
-                    match self.prepare_as_first(size, failed) {
-                        Ok(work) => self.step_memory.accept::<R>(size, time, work),
-                        Err(error) => self.take_again(size, time, error).map(|_| ())?,
-                    }
+                    self.accept_as_first(remaining.size, time, failed)?;
                     remaining.tick();
                 }
                 if remaining.left < left {
@@ -60,76 +43,45 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         Ok(())
     }
 
-    /// Takes remaining steps until `left` are left.
-    #[cfg(feature = "alloc")]
-    pub(crate) fn take_until(
-        &mut self,
-        left: u64,
-        remaining: &mut RemainingSteps,
-    ) -> Result<(), Error> {
-        while remaining.left > left {
-            let block = self.block_of(remaining).min(remaining.left - left);
-            self.take_block(block, remaining)?;
-        }
-        Ok(())
-    }
-
-    /// [`integrate_to`](Self::integrate_to) in sight of `sight`, until it breaks.
-    pub(crate) fn integrate_in_sight<B>(
-        &mut self,
-        end: f64,
-        sight: &mut impl Sight<M, S, V, R, N, B>,
-    ) -> Result<ControlFlow<B>, Error> {
-        let mut remaining = self.steps_to_time(end)?;
-        let outcome = self.take_in_sight(&mut remaining, sight);
-        self.restart_clock();
-        outcome
-    }
-
-    /// Takes the remaining steps in sight of `sight`, until it breaks.
-    fn take_in_sight<B>(
+    /// [`Stepper::take_while`](super::Stepper::take_while).
+    #[inline]
+    pub(super) fn take_some(
         &mut self,
         remaining: &mut RemainingSteps,
-        sight: &mut impl Sight<M, S, V, R, N, B>,
-    ) -> Result<ControlFlow<B>, Error> {
-        let mut seen = ControlFlow::Continue(());
-        // After a step that does not pass, the next one is tried alone.
-        let (light, mut passed) = (self.is_light(), true);
-        while remaining.left > 0 && seen.is_continue() {
-            let (size, left) = (remaining.size, remaining.left);
-            if light && passed && left > 1 {
-                let passes =
-                    |state: &_, statistics: &Statistics| sight.passes(state, statistics.iterations);
-                match self.advance_apart(remaining, passes) {
-                    Apart::Taken => passed = remaining.left < left,
-                    Apart::Seen => (passed, seen) = (false, sight.see(self)?),
-                    Apart::Failed(failed, time) => {
-                        seen = match self.prepare_as_first(size, failed) {
-                            Ok(work) => {
-                                self.step_memory.accept::<R>(size, time, work);
-                                sight.see_or_pass(self)?
-                            }
-                            Err(error) => {
-                                let mut see = |integrator: &_| sight.see_or_pass(integrator);
-                                self.take_again_in_sight(size, time, error, &mut see)?
-                            }
-                        };
-                        remaining.tick();
-                    }
-                }
+        mut goes_on: impl FnMut(&State<V>, &Statistics) -> bool,
+    ) -> Result<bool, Error> {
+        let is_light = self.is_light();
+        while let Some((size, time)) = remaining.next() {
+            // After a step that does not go on, the next one is taken alone.
+            self.advance(size, time)?;
+            remaining.tick();
+            if !goes_on(&self.step_memory.state, &self.step_memory.statistics) {
+                return Ok(false);
+            }
+            if !is_light || remaining.left < 2 {
                 continue;
             }
-            let time = remaining.next_time();
-            seen = self.advance_in_sight(size, time, &mut |integrator| {
-                passed = sight.passes(integrator.state(), integrator.iterations());
-                match passed {
-                    true => Ok(ControlFlow::Continue(())),
-                    false => sight.see(integrator),
+            match self.advance_apart(remaining, &mut goes_on) {
+                Apart::Taken => {}
+                Apart::Stopped => return Ok(false),
+                Apart::Failed(failed, time) => {
+                    self.accept_as_first(size, time, failed)?;
+                    remaining.tick();
+                    if !goes_on(&self.step_memory.state, &self.step_memory.statistics) {
+                        return Ok(false);
+                    }
                 }
-            })?;
-            remaining.tick();
+            }
         }
-        Ok(seen)
+        Ok(true)
+    }
+
+    /// Takes a step that failed once more as a first step.
+    #[cold]
+    fn accept_as_first(&mut self, size: f64, time: f64, failed: Failed) -> Result<(), Error> {
+        let work = self.prepare_as_first(size, failed)?;
+        self.step_memory.accept::<R>(size, time, work);
+        Ok(())
     }
 
     /// Number of the remaining steps to take next: one, to provide an evaluation to continue from, or many in place.
@@ -151,10 +103,13 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         remaining: &mut RemainingSteps,
     ) -> Result<(), Error> {
         let ready = self.step_memory.kept.evaluation && remaining.left > 1;
-        if ready && self.advance_in_place(block, remaining) {
-            return Ok(());
+        if remaining.alone == 0 {
+            if ready && self.advance_in_place(block, remaining) {
+                return Ok(());
+            }
+            remaining.alone = block;
         }
-        for _ in 0..block {
+        while remaining.alone > 0 {
             self.advance(remaining.size, remaining.next_time())?;
             remaining.tick();
         }
@@ -214,7 +169,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         !at_run_time && is_in_place(&self.step_memory.state.q) && bytes <= LIGHT
     }
 
-    /// Takes steps until one fails or does not pass. None is taken if the first one does not change the time.
+    /// Takes steps until one fails or they are not to go on. None is taken if the first one does not change the time.
     ///
     /// The memory of the steps is moved out of the integrator, so that it can stay in registers from step to step. If the system panics,
     /// the state is that before the steps.
@@ -222,7 +177,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     fn advance_apart(
         &mut self,
         remaining: &mut RemainingSteps,
-        mut passes: impl FnMut(&State<V>, &Statistics) -> bool,
+        mut goes_on: impl FnMut(&State<V>, &Statistics) -> bool,
     ) -> Apart {
         let mut steps = *remaining;
         let size = steps.size;
@@ -240,8 +195,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
                 Ok(work) => {
                     step_memory.accept::<R>(size, time, work);
                     steps.tick();
-                    if !passes(&step_memory.state, &step_memory.statistics) {
-                        ended = Apart::Seen;
+                    if !goes_on(&step_memory.state, &step_memory.statistics) {
+                        ended = Apart::Stopped;
                     }
                 }
                 Err(failed) => ended = Apart::Failed(failed, time),
@@ -253,12 +208,30 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 }
 
+#[cfg(feature = "alloc")]
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
+    /// Takes remaining steps until `left` are left.
+    pub(crate) fn take_until(
+        &mut self,
+        left: u64,
+        remaining: &mut RemainingSteps,
+    ) -> Result<(), Error> {
+        while remaining.left > left {
+            let block = (self.stepper.block_of(remaining)).min(remaining.left - left);
+            if let Err(error) = self.stepper.take_block(block, remaining) {
+                self.take_next_again(remaining, error)?;
+            }
+        }
+        Ok(())
+    }
+}
+
 /// How several steps ended.
 enum Apart {
     /// All are taken, up to one that does not change the time.
     Taken,
-    /// The last one does not pass.
-    Seen,
+    /// After the last one they were not to go on.
+    Stopped,
     /// The next one, to this time, failed.
     Failed(Failed, f64),
 }

@@ -1,62 +1,15 @@
 //! One step: computed, checked, and accepted or rejected.
 
-use core::ops::ControlFlow;
-
 use super::first_step::or_as_first_step;
 use super::memory::Failed;
-use super::{Integrator, PlanOf};
+use super::{Partitioned, PlanOf};
 use crate::error::Error;
 use crate::method::diagnosis::{Attempt, FirstFault};
 use crate::method::{Failure, Method, Plan, Solver, StepStatistics};
 use crate::number::{Summation, Vector};
-use crate::state::State;
 use crate::system::System;
 
-impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// Takes one step and returns the state after it.
-    ///
-    /// A step that fails from what earlier steps left, such as extrapolated stages, is taken once more as the first step of a new
-    /// integrator: see [`Statistics::rejected`](crate::Statistics::rejected).
-    ///
-    /// # Errors
-    ///
-    /// [`Error::NoConvergence`], [`Error::NonFinite`], [`Error::EvaluationDimension`], [`Error::TimeResolution`]; with
-    /// a Newton iteration also [`Error::SingularMatrix`]. The state is then unchanged.
-    pub fn step(&mut self) -> Result<&State<V>, Error> {
-        self.advance(self.step_size, self.clock.next())?;
-        self.clock.tick();
-        Ok(&self.step_memory.state)
-    }
-
-    /// Takes one step of size `size` to the time `time`. The caller advances the clock.
-    #[inline]
-    pub(crate) fn advance(&mut self, size: f64, time: f64) -> Result<(), Error> {
-        match self.prepare(size, time) {
-            Ok(work) => {
-                self.step_memory.accept::<R>(size, time, work);
-                Ok(())
-            }
-            Err(error) => self.take_again(size, time, error).map(|_| ()),
-        }
-    }
-
-    /// [`advance`](Self::advance) that calls `see` after the step until it breaks; after each part if the step has to be split.
-    #[inline]
-    pub(crate) fn advance_in_sight<B>(
-        &mut self,
-        size: f64,
-        time: f64,
-        see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
-    ) -> Result<ControlFlow<B>, Error> {
-        match self.prepare(size, time) {
-            Ok(work) => {
-                self.step_memory.accept::<R>(size, time, work);
-                see(self)
-            }
-            Err(error) => self.take_again_in_sight(size, time, error, see),
-        }
-    }
-
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitioned<M, S, V, R, N> {
     /// Computes a step of size `size`, to the time `time`, into `next`; returns its statistics.
     #[inline]
     pub(super) fn prepare(&mut self, size: f64, time: f64) -> Result<StepStatistics, Error> {

@@ -20,7 +20,7 @@ impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S, V, 
     pub(crate) fn of<R: Summation>(integrator: &Integrator<M, S, V, R, N>) -> Self {
         let prototype = &integrator.state().q;
         Self {
-            memory: StageStorage::of_method(&integrator.step_memory.memory, prototype),
+            memory: StageStorage::of_method(&integrator.stepper.step_memory.memory, prototype),
             low: (prototype.zeros_like(), prototype.zeros_like()),
         }
     }
@@ -47,14 +47,14 @@ impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S, V, 
             q_low,
             p,
             p_low,
-            linear_velocity: integrator.step_memory.linear_velocity,
+            linear_velocity: integrator.stepper.step_memory.linear_velocity,
         };
         let taken = <PlanOf<M, S, V> as Plan>::take::<R, V, S, N>(
             &step,
             integrator.system(),
             &mut self.memory,
             WarmStart::default(),
-            integrator.stopping,
+            integrator.stepper.stopping,
             Outcome {
                 q: &mut state.q,
                 q_low: &mut self.low.0,

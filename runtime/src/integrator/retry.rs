@@ -3,14 +3,12 @@
 use core::convert::Infallible;
 use core::ops::ControlFlow;
 
-use super::Integrator;
+use super::clock::RemainingSteps;
+use super::stepper::advance_in_time;
+use super::{Run, Stepper};
 use crate::error::Error;
-use crate::integrator::clock::RemainingSteps;
-use crate::method::{Method, Solver, WarmStart};
-use crate::number::{Summation, Vector};
-use crate::system::System;
 
-/// The reaction of an [`Integrator`] if the stages of a step do not converge or a result is NaN or infinite.
+/// The reaction of a [`Run`] if the stages of a step do not converge or a result is NaN or infinite.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Retry {
     /// The step fails, with the error.
@@ -42,7 +40,7 @@ impl Retry {
     }
 }
 
-impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
+impl<S: Stepper> Run<S> {
     /// [`take_again`](Self::take_again), and once more with `see` when the number of parts is known.
     #[cold]
     pub(super) fn take_again_in_sight<B>(
@@ -52,45 +50,38 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         error: Error,
         see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
     ) -> Result<ControlFlow<B>, Error> {
-        let (state, low) = (self.step_memory.state.clone(), self.step_memory.low.clone());
+        if !self.is_to_be_split(&error) {
+            return Err(error);
+        }
+        let saved = self.stepper.save();
         let parts = self.take_again(size, time, error)?;
-        let statistics = self.step_memory.statistics;
-        (
-            self.step_memory.state,
-            self.step_memory.low,
-            self.step_memory.kept,
-        ) = (state, low, WarmStart::default());
+        let statistics = *self.stepper.statistics();
+        self.stepper.go_back(&saved);
         let seen = self.take_in_parts(size, time, parts, see);
-        self.step_memory.statistics = statistics;
+        *self.stepper.statistics_mut() = statistics;
         seen
     }
 
     /// Repeats a step that failed with `error` in parts, if it is to be retried; returns the number of parts.
     #[cold]
     pub(super) fn take_again(&mut self, size: f64, time: f64, error: Error) -> Result<u32, Error> {
-        let of_the_size = matches!(
-            error,
-            Error::NoConvergence { .. }
-                | Error::Stagnation { .. }
-                | Error::NonFinite { .. }
-                | Error::SingularMatrix { .. }
-        );
-        if !of_the_size || self.retry == Retry::Never {
+        if !self.is_to_be_split(&error) {
             return Err(error);
         }
-        let (state, low) = (self.step_memory.state.clone(), self.step_memory.low.clone());
-        let statistics = self.step_memory.statistics;
+        let saved = self.stepper.save();
         for (failed, parts) in (1..).zip(self.retry.parts()) {
             let mut ignore = |_: &Self| Ok(ControlFlow::<Infallible>::Continue(()));
             if self.take_in_parts(size, time, parts, &mut ignore).is_ok() {
-                self.step_memory.statistics.rejected += failed;
+                self.stepper.statistics_mut().rejected += failed;
                 return Ok(parts);
             }
-            self.step_memory.state = state.clone();
-            self.step_memory.low = low.clone();
-            self.step_memory.statistics = statistics;
+            self.stepper.go_back(&saved);
         }
         Err(error)
+    }
+
+    fn is_to_be_split(&self, error: &Error) -> bool {
+        self.retry != Retry::Never && self.stepper.may_split(error)
     }
 
     /// Takes a step as several equal parts and calls `see` after each until it breaks. If a part fails, the state is that before it.
@@ -103,11 +94,10 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     ) -> Result<ControlFlow<B>, Error> {
         let mut seen = ControlFlow::Continue(());
         let part = size / f64::from(parts);
-        let start = self.step_memory.state.time;
+        let start = self.stepper.time();
         let mut remaining = RemainingSteps::of_size(u64::from(parts), part, start, end);
         while let Some((part, time)) = remaining.next_step() {
-            let work = self.prepare(part, time)?;
-            self.step_memory.accept::<R>(part, time, work);
+            advance_in_time(&mut self.stepper, part, time)?;
             if seen.is_continue() {
                 seen = see(self)?;
             }

@@ -3,7 +3,7 @@
 use super::memory::StepMemory;
 use super::validation::{check_orders, check_quadratic_kinetic};
 use crate::error::Error;
-use crate::integrator::{Integrator, PlanOf};
+use crate::integrator::{Integrator, Partitioned, PlanOf};
 use crate::method::{AtRunTime, Method, Plan, RunTimeTableau, Solver, StageStorage};
 use crate::number::{Plain, Summation, Vector};
 use crate::state::State;
@@ -113,7 +113,7 @@ impl<S: System<V, Class: Frictionless>, V: Vector, R: Summation> Integrator<AtRu
         check_orders::<V, S>(tableau)?;
         let mut made = Self::made(system, state, step_size)?;
         let orders = tableau.needs_quadratic_kinetic();
-        check_quadratic_kinetic::<AtRunTime, V, S>(orders, &made.system, made.state())?;
+        check_quadratic_kinetic::<AtRunTime, V, S>(orders, made.system(), made.state())?;
         made.set_tableau(tableau);
         Ok(made)
     }
@@ -122,9 +122,13 @@ impl<S: System<V, Class: Frictionless>, V: Vector, R: Summation> Integrator<AtRu
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Sets the tableau in the memory of steps.
     pub(crate) fn set_tableau(&mut self, tableau: &RunTimeTableau) {
-        let StepMemory { memory, state, .. } = &mut self.step_memory;
+        let Partitioned {
+            system,
+            step_memory: StepMemory { memory, state, .. },
+            ..
+        } = &mut self.stepper;
         memory.set_tableau(tableau, &state.q);
         let State { time, q, p } = state;
-        <PlanOf<M, S, V> as Plan>::prepare::<V, S, N>(memory, &self.system, *time, q, p);
+        <PlanOf<M, S, V> as Plan>::prepare::<V, S, N>(memory, system, *time, q, p);
     }
 }

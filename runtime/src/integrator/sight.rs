@@ -2,37 +2,22 @@
 
 use core::ops::ControlFlow;
 
-use super::Integrator;
+use super::{Run, Statistics, Stepper};
 use crate::error::Error;
-use crate::method::{Method, Solver};
-use crate::number::{Summation, Vector};
-use crate::state::State;
-use crate::system::System;
 
 /// What is to be seen in the steps of a run: output and events.
-pub(crate) trait Sight<M, S, V, R, N, B>
-where
-    M: Method,
-    S: System<V>,
-    V: Vector,
-    R: Summation,
-    N: Solver<V, S>,
-{
-    /// Whether nothing is to be seen in the step to `state`. `iterations` is the number of sweeps up to there. The state before the step and
-    /// its stages may be unavailable.
-    fn passes(&mut self, state: &State<V>, iterations: u64) -> bool;
+pub(crate) trait Sight<S: Stepper, B> {
+    /// Whether nothing is to be seen in the step to `state`. The state before the step and its stages may be unavailable.
+    fn passes(&mut self, state: &S::State, statistics: &Statistics) -> bool;
 
     /// Sees the last step, unless it passes.
-    fn see(&mut self, integrator: &Integrator<M, S, V, R, N>) -> Result<ControlFlow<B>, Error>;
+    fn see(&mut self, run: &Run<S>) -> Result<ControlFlow<B>, Error>;
 
     /// Sees the last step if it does not pass.
-    fn see_or_pass(
-        &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
-    ) -> Result<ControlFlow<B>, Error> {
-        match self.passes(integrator.state(), integrator.iterations()) {
+    fn see_or_pass(&mut self, run: &Run<S>) -> Result<ControlFlow<B>, Error> {
+        match self.passes(run.state(), run.statistics()) {
             true => Ok(ControlFlow::Continue(())),
-            false => self.see(integrator),
+            false => self.see(run),
         }
     }
 }

@@ -3,9 +3,9 @@
 use core::marker::PhantomData;
 
 use super::memory::StepMemory;
+use super::partitioned::MemoryOf;
 use super::validation::has_linear_velocity;
-use super::{MemoryOf, PlanOf};
-use crate::integrator::Integrator;
+use super::{Integrator, Partitioned, PlanOf, Run};
 use crate::method::{Method, Plan, Solver};
 use crate::number::{Summation, Vector};
 #[cfg(feature = "alloc")]
@@ -16,26 +16,34 @@ use crate::system::System;
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// The same integrator with another [`Solver`] for coupled stages from here on; the counts continue.
     pub fn with_solver<O: Solver<V, S>>(self, _solver: O) -> Integrator<M, S, V, R, O> {
-        let linear_velocity = has_linear_velocity::<V, S, O>(&self.system, &self.step_memory.state);
+        let Partitioned {
+            system,
+            step_memory,
+            stopping,
+            ..
+        } = self.stepper;
+        let linear_velocity = has_linear_velocity::<V, S, O>(&system, &step_memory.state);
         let mut step_memory: StepMemory<V, MemoryOf<M, S, V, O>> =
-            self.step_memory.with_memory(linear_velocity);
+            step_memory.with_memory(linear_velocity);
         let State { time, q, p } = &step_memory.state;
         <PlanOf<M, S, V> as Plan>::prepare::<V, S, O>(
             &mut step_memory.memory,
-            &self.system,
+            &system,
             *time,
             q,
             p,
         );
-        Integrator {
-            step_memory,
-            system: self.system,
+        Run {
+            stepper: Partitioned {
+                step_memory,
+                system,
+                stopping,
+                method: PhantomData,
+            },
             clock: self.clock,
             step_size: self.step_size,
-            stopping: self.stopping,
             retry: self.retry,
             last_event: self.last_event,
-            method: PhantomData,
         }
     }
 

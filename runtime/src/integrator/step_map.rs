@@ -1,11 +1,9 @@
 //! The step of an integrator as a map of states: whether it is symplectic, and equivariant under a symmetry.
 
-use super::Integrator;
+use super::{Run, Stepper};
 use crate::error::Error;
-use crate::method::{Method, Solver};
-use crate::number::{Scalar, Summation, Vector};
+use crate::number::{Scalar, Vector};
 use crate::state::State;
-use crate::system::System;
 
 /// A state of an integrator as a point `(q, p)` of a cotangent bundle, with the form `ω = dq∧dp`.
 pub trait PhasePoint {
@@ -159,18 +157,14 @@ fn form<V: Vector>([(q, p), (other_q, other_p)]: &[(V, V); 2]) -> (V::Scalar, f6
     (sum, size)
 }
 
-impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> StepMap
-    for Integrator<M, S, V, R, N>
-where
-    Self: Clone,
-{
-    type State = State<V>;
+impl<S: Stepper<State: PhasePoint> + Clone> StepMap for Run<S> {
+    type State = S::State;
 
-    fn present(&self) -> &State<V> {
+    fn present(&self) -> &S::State {
         self.state()
     }
 
-    fn step_from(&self, state: State<V>) -> Result<State<V>, Error> {
+    fn step_from(&self, state: S::State) -> Result<S::State, Error> {
         let mut run = self.clone();
         run.set_state(state)?;
         run.step()?;

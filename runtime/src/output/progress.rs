@@ -3,17 +3,13 @@
 use core::ops::ControlFlow;
 
 use crate::error::Error;
-use crate::integrator::{Integrator, Statistics};
-use crate::method::{Method, Solver};
-use crate::number::{Summation, Vector};
-use crate::state::State;
-use crate::system::System;
+use crate::integrator::{Run, Statistics, Stepper};
 
-/// Progress of an integration, reported by [`Integrator::integrate_while`] after every step.
+/// Progress of an integration, reported by [`Run::integrate_while`] after every step; `T` is the type of the state.
 #[derive(Clone, Copy, Debug)]
-pub struct Progress<'a, V> {
+pub struct Progress<'a, T> {
     /// The present state.
-    pub state: &'a State<V>,
+    pub state: &'a T,
     /// Number of steps taken in this integration.
     pub step: u64,
     /// Number of steps of the whole integration.
@@ -22,14 +18,14 @@ pub struct Progress<'a, V> {
     pub statistics: &'a Statistics,
 }
 
-impl<V> Progress<'_, V> {
+impl<T> Progress<'_, T> {
     /// Fraction of the integration that is done, from 0 to 1.
     pub fn fraction(&self) -> f64 {
         self.step as f64 / self.steps as f64
     }
 }
 
-impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
+impl<S: Stepper> Run<S> {
     /// [`integrate_to`](Self::integrate_to) that calls `report` after every step. If `report` breaks with a value, the
     /// integration stops and returns that value; otherwise it returns `None` at `end`.
     ///
@@ -60,20 +56,20 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// # Ok(())
     /// # }
     /// ```
-    pub fn integrate_while<B, F: FnMut(Progress<'_, V>) -> ControlFlow<B>>(
+    pub fn integrate_while<B, F: FnMut(Progress<'_, S::State>) -> ControlFlow<B>>(
         &mut self,
         end: f64,
         mut report: F,
     ) -> Result<Option<B>, Error> {
         let (mut step, steps) = (0, self.steps_to_time(end)?.left);
-        let ended = self.steps_to(end, |integrator, size, time| {
-            integrator.advance(size, time)?;
+        let ended = self.steps_to(end, |run, size, time| {
+            run.advance(size, time)?;
             step += 1;
             Ok(report(Progress {
-                state: integrator.state(),
+                state: run.state(),
                 step,
                 steps,
-                statistics: integrator.statistics(),
+                statistics: run.statistics(),
             }))
         })?;
         Ok(ended.break_value())

@@ -1,45 +1,33 @@
 //! Iterator over the states of an integration.
 
-use core::fmt;
 use core::iter::FusedIterator;
 
 use crate::error::Error;
-use crate::integrator::Integrator;
-use crate::method::{Method, Solver};
-use crate::number::{Compensated, Summation, Vector};
-use crate::solver::FixedPoint;
-use crate::state::State;
-use crate::system::System;
+use crate::integrator::{Run, Stepper};
 
-impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
+impl<S: Stepper> Run<S> {
     /// An endless iterator over the states after each step; limit it by [`Iterator::take`].
-    pub const fn states(&mut self) -> States<'_, M, S, V, R, N> {
+    pub const fn states(&mut self) -> States<'_, S> {
         States {
-            integrator: self,
+            run: self,
             stride: 1,
             failed: false,
         }
     }
 }
 
-/// The endless iterator that [`Integrator::states`] returns.
+/// The endless iterator that [`Run::states`] returns.
 ///
 /// Each item is a clone of the state after one more step, or after [several](Self::every). It ends after an error.
-pub struct States<
-    'a,
-    M: Method,
-    S: System<V>,
-    V: Vector,
-    R: Summation = Compensated,
-    N: Solver<V, S> = FixedPoint,
-> {
-    integrator: &'a mut Integrator<M, S, V, R, N>,
+#[derive(Debug)]
+pub struct States<'a, S> {
+    run: &'a mut Run<S>,
     /// Number of steps between items.
     stride: u64,
     failed: bool,
 }
 
-impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> States<'_, M, S, V, R, N> {
+impl<S: Stepper> States<'_, S> {
     /// Yields the states after every `steps` steps only, without a copy of the states in between; 0 counts as 1.
     ///
     /// ```
@@ -63,35 +51,17 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> States<'
     }
 }
 
-impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Iterator
-    for States<'_, M, S, V, R, N>
-{
-    type Item = Result<State<V>, Error>;
+impl<S: Stepper> Iterator for States<'_, S> {
+    type Item = Result<S::State, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
         if self.failed {
             return None;
         }
-        let state = self.integrator.take_steps(self.stride).cloned();
+        let state = self.run.take_steps(self.stride).cloned();
         self.failed = state.is_err();
         Some(state)
     }
 }
 
-impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> FusedIterator
-    for States<'_, M, S, V, R, N>
-{
-}
-
-impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt::Debug
-    for States<'_, M, S, V, R, N>
-{
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter
-            .debug_struct("States")
-            .field("integrator", self.integrator)
-            .field("stride", &self.stride)
-            .field("failed", &self.failed)
-            .finish()
-    }
-}
+impl<S: Stepper> FusedIterator for States<'_, S> {}

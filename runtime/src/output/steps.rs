@@ -3,10 +3,10 @@
 use core::ops::ControlFlow;
 
 use crate::error::Error;
-use crate::integrator::Integrator;
 use crate::integrator::clock::check_count;
 use crate::integrator::last_step::LastEvent;
 use crate::integrator::sight::Sight;
+use crate::integrator::{Integrator, Partitioned};
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 use crate::state::State;
@@ -64,7 +64,7 @@ where
     fn steps_in_sight<B>(
         &mut self,
         end: f64,
-        sight: &mut impl Sight<M, S, V, R, N, B>,
+        sight: &mut impl Sight<Partitioned<M, S, V, R, N>, B>,
     ) -> Result<ControlFlow<B>, Error>;
 
     /// Replaces the present state, without an allocation.
@@ -108,7 +108,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Steps<M,
     fn steps_in_sight<B>(
         &mut self,
         end: f64,
-        sight: &mut impl Sight<M, S, V, R, N, B>,
+        sight: &mut impl Sight<Partitioned<M, S, V, R, N>, B>,
     ) -> Result<ControlFlow<B>, Error> {
         self.integrate_in_sight(end, sight)
     }

@@ -7,8 +7,8 @@ use super::body::RigidBody;
 use super::free_step::{NoRotation, rotation};
 use super::state::RotationState;
 use crate::error::{Error, Quantity};
-use crate::integrator::StepMap;
-use crate::integrator::step_clock::{StepClock, Stepper};
+use crate::integrator::validation::check_step_size;
+use crate::integrator::{Run, Statistics, Stepper};
 use crate::method::StoermerVerletSteps;
 use crate::method::symmetric_steps::{Part, SymmetricSteps};
 
@@ -33,17 +33,26 @@ use crate::method::symmetric_steps::{Part, SymmetricSteps};
 /// # Ok(())
 /// # }
 /// ```
+pub type RotationIntegrator<B> = Run<RotationSteps<B>>;
+
+/// The steps of a [`RotationIntegrator`].
 #[derive(Clone, Debug)]
-pub struct RotationIntegrator<B> {
+pub struct RotationSteps<B> {
     body: B,
     moments: Vector3<f64>,
     steps: SymmetricSteps,
-    step_clock: StepClock,
-    precise: PreciseState,
-    state: RotationState,
+    present: Present,
 }
 
-/// The variables that a step changes.
+/// What a step changes.
+#[derive(Clone, Copy, Debug)]
+pub struct Present {
+    precise: PreciseState,
+    state: RotationState,
+    statistics: Statistics,
+}
+
+/// The state with its rounding errors, and the torque there.
 #[derive(Clone, Copy, Debug)]
 struct PreciseState {
     attitude: Attitude,
@@ -109,7 +118,7 @@ impl<B: RigidBody> RotationIntegrator<B> {
         state: RotationState,
         step_size: f64,
     ) -> Result<Self, Error> {
-        let step_clock = StepClock::new(state.time, step_size)?;
+        check_step_size(step_size)?;
         let moments = body.moments();
         for (axis, &value) in moments.iter().enumerate() {
             if !(value > 0.0 && value.is_finite()) {
@@ -117,47 +126,23 @@ impl<B: RigidBody> RotationIntegrator<B> {
             }
         }
         check_state(&state)?;
-        Ok(Self {
+        let present = Present {
+            precise: PreciseState::new(&state),
+            state,
+            statistics: Statistics::default(),
+        };
+        let stepper = RotationSteps {
             body,
             moments,
             steps,
-            step_clock,
-            precise: PreciseState::new(&state),
-            state,
-        })
-    }
-
-    /// Takes one step and returns the state after it. The time after `k` steps is `start + k h`.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::HalfTurn`] for a rotation by π or more, [`Error::NoEndOfStep`] if Newton's iteration does not converge,
-    /// [`Error::NonFinite`] for a torque, [`Error::TimeResolution`]; the state is then untouched.
-    pub fn step(&mut self) -> Result<&RotationState, Error> {
-        self.one_step()?;
-        Ok(&self.state)
-    }
-
-    /// Integrates to exactly the time `end`, forward or backward, in the smallest number of equal steps that do not
-    /// exceed the step size.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that of the last
-    /// successful step.
-    pub fn integrate_to(&mut self, end: f64) -> Result<&RotationState, Error> {
-        self.steps_to(end)?;
-        Ok(&self.state)
-    }
-
-    /// The present state, rounded.
-    pub const fn state(&self) -> &RotationState {
-        &self.state
+            present,
+        };
+        Self::of(stepper, step_size)
     }
 
     /// The angular momentum `RΠ` in the space frame. Without torque it is constant to the last bit.
     pub fn spatial_momentum(&self) -> Vector3<f64> {
-        self.precise.spatial()
+        self.stepper.present.precise.spatial()
     }
 
     /// The energy `Π·I⁻¹Π/2 + V(t, R)`; `None` if the body has no potential.
@@ -166,35 +151,18 @@ impl<B: RigidBody> RotationIntegrator<B> {
             time,
             attitude,
             momentum,
-        } = &self.state;
-        let kinetic = momentum.dot(&momentum.component_div(&self.moments)) / 2.0;
-        Some(kinetic + self.body.potential(*time, attitude)?)
+        } = self.state();
+        let kinetic = momentum.dot(&momentum.component_div(&self.stepper.moments)) / 2.0;
+        Some(kinetic + self.stepper.body.potential(*time, attitude)?)
     }
 
     /// The body.
     pub const fn body(&self) -> &B {
-        &self.body
+        &self.stepper.body
     }
+}
 
-    /// The step size.
-    pub const fn step_size(&self) -> f64 {
-        self.step_clock.step_size()
-    }
-
-    /// Number of steps taken.
-    pub const fn steps(&self) -> u64 {
-        self.step_clock.taken()
-    }
-
-    /// Changes the step size; a negative size goes backward.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::StepSize`]; the step size is then unchanged.
-    pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
-        self.step_clock.set_step_size(self.state.time, step_size)
-    }
-
+impl<B: RigidBody> RotationSteps<B> {
     /// A step of order 2: half a kick, the free step, half a kick.
     fn kick_free_step_kick(&self, precise: &mut PreciseState, part: Part) -> Result<(), Failure> {
         let before = match precise.torque {
@@ -223,45 +191,58 @@ impl<B: RigidBody> RotationIntegrator<B> {
     }
 }
 
-impl<B: RigidBody> Stepper for RotationIntegrator<B> {
-    fn step_clock(&mut self) -> &mut StepClock {
-        &mut self.step_clock
+impl<B: RigidBody> Stepper for RotationSteps<B> {
+    type State = RotationState;
+    type Saved = Present;
+
+    fn state(&self) -> &RotationState {
+        &self.present.state
     }
 
     fn time(&self) -> f64 {
-        self.state.time
+        self.present.state.time
     }
 
-    fn advance(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
-        let start = self.state.time;
-        let mut precise = self.precise;
-        for part in self.steps.parts(start, size, end) {
-            self.kick_free_step_kick(&mut precise, part)
-                .map_err(|failure| failure.error(start, size, number))?;
-        }
-        let attitude = precise.attitude.rounded();
-        let momentum = attitude.inverse_transform_vector(&precise.spatial());
-        self.precise = precise;
-        self.state = RotationState::new(end, attitude, momentum);
+    fn statistics(&self) -> &Statistics {
+        &self.present.statistics
+    }
+
+    fn statistics_mut(&mut self) -> &mut Statistics {
+        &mut self.present.statistics
+    }
+
+    fn set_state(&mut self, state: &RotationState) -> Result<(), Error> {
+        check_state(state)?;
+        self.present.precise = PreciseState::new(state);
+        self.present.state = *state;
         Ok(())
     }
-}
 
-impl<B: RigidBody + Clone> StepMap for RotationIntegrator<B> {
-    type State = RotationState;
-
-    fn present(&self) -> &RotationState {
-        &self.state
+    fn advance(&mut self, size: f64, end: f64) -> Result<(), Error> {
+        let mut next = self.present;
+        next.statistics.steps += 1;
+        let start = next.state.time;
+        for part in self.steps.parts(start, size, end) {
+            self.kick_free_step_kick(&mut next.precise, part)
+                .map_err(|failure| failure.error(start, size, next.statistics.steps))?;
+        }
+        let attitude = next.precise.attitude.rounded();
+        let momentum = attitude.inverse_transform_vector(&next.precise.spatial());
+        next.state = RotationState::new(end, attitude, momentum);
+        self.present = next;
+        Ok(())
     }
 
-    fn step_from(&self, state: RotationState) -> Result<RotationState, Error> {
-        check_state(&state)?;
-        let mut run = self.clone();
-        run.step_clock.restart(state.time);
-        run.precise = PreciseState::new(&state);
-        run.state = state;
-        run.step()?;
-        Ok(run.state)
+    fn save(&self) -> Present {
+        self.present
+    }
+
+    fn go_back(&mut self, saved: &Present) {
+        self.present = *saved;
+    }
+
+    fn may_split(&self, error: &Error) -> bool {
+        error.depends_on_the_size()
     }
 }
 

@@ -53,5 +53,5 @@ mod integrator;
 mod state;
 
 pub use body::{FreeBody, HeavyTop, RigidBody};
-pub use integrator::RotationIntegrator;
+pub use integrator::{RotationIntegrator, RotationSteps};
 pub use state::RotationState;

@@ -149,11 +149,10 @@ pub struct GivenEnds<V> {
 impl<M, S, V, R, N> GeneratingFunctions for Integrator<M, S, V, R, N>
 where
     M: Method,
-    S: System<V, Class: Conservative>,
+    S: System<V, Class: Conservative> + Clone,
     V: Vector<Scalar = f64>,
     R: Summation,
     N: Solver<V, S>,
-    Self: Clone,
 {
     type Vector = V;
 

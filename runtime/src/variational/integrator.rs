@@ -6,9 +6,8 @@ use super::failure::Failure;
 use super::given_ends::GeneratingFunctions;
 use super::regular::Factors;
 use crate::error::{Error, Quantity};
-use crate::integrator::StepMap;
-use crate::integrator::step_clock::{StepClock, Stepper};
-use crate::integrator::validation::check_state;
+use crate::integrator::validation::{check_state, check_step_size};
+use crate::integrator::{Run, Statistics, Stepper};
 use crate::method::StoermerVerletSteps;
 use crate::method::symmetric_steps::{Part, SymmetricSteps};
 use crate::number::Vector;
@@ -62,11 +61,14 @@ use crate::state::State;
 /// # Ok(())
 /// # }
 /// ```
+pub type VariationalIntegrator<L> = Run<VariationalSteps<L>>;
+
+/// The steps of a [`VariationalIntegrator`].
 #[derive(Clone)]
-pub struct VariationalIntegrator<L: DiscreteLagrangian> {
+pub struct VariationalSteps<L: DiscreteLagrangian> {
     lagrangian: L,
     steps: SymmetricSteps,
-    step_clock: StepClock,
+    statistics: Statistics,
     state: State<L::Vector<f64>>,
     /// The state inside a step.
     next: State<L::Vector<f64>>,
@@ -105,7 +107,7 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
         step_size: f64,
     ) -> Result<Self, Error> {
         let run = Self::by(SymmetricSteps::of::<M>(), lagrangian, state, step_size)?;
-        let State { time, q, p } = &run.state;
+        let State { time, q, p } = run.state();
         // Two paths of about the length of a step: the value at one of them may be small by chance.
         let (along, mut defect, mut size) = (beside(p), 0.0_f64, 0.0_f64);
         for steps in [1.0, 2.0] {
@@ -119,8 +121,8 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
                 q0: q,
                 q1: &q1,
             };
-            defect = defect.max(path.self_adjoint_defect(&run.lagrangian));
-            let value = run.lagrangian.value(*time, step_size, q, &q1);
+            defect = defect.max(path.self_adjoint_defect(run.lagrangian()));
+            let value = run.lagrangian().value(*time, step_size, q, &q1);
             size = size.max(value.abs());
         }
         match defect > SELF_ADJOINT * size {
@@ -135,76 +137,34 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
         state: State<L::Vector<f64>>,
         step_size: f64,
     ) -> Result<Self, Error> {
-        let step_clock = StepClock::new(state.time, step_size)?;
+        check_step_size(step_size)?;
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
-        Ok(Self {
+        let stepper = VariationalSteps {
             lagrangian,
             steps,
-            step_clock,
+            statistics: Statistics::default(),
             next: state.clone(),
             q1: state.q.clone(),
             derivatives: Derivatives::new(&state.q)?,
             factors: Factors::new(state.q.dimension()),
             state,
             action: None,
-        })
+        };
+        Self::of(stepper, step_size)
     }
 
-    /// Takes one step and returns the state after it. The time after `k` steps is `start + k h`.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::EvaluationDimension`],
-    /// [`Error::TimeResolution`]; the state is then unchanged.
-    pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
-        self.one_step()?;
-        Ok(&self.state)
-    }
-
-    /// Integrates to the time `end` exactly, forward or backward, in the smallest number of equal steps no longer than the step size.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that after the last successful step.
-    pub fn integrate_to(&mut self, end: f64) -> Result<&State<L::Vector<f64>>, Error> {
-        self.steps_to(end)?;
-        Ok(&self.state)
-    }
-
-    /// The present state.
-    pub const fn state(&self) -> &State<L::Vector<f64>> {
-        &self.state
-    }
-
-    /// `Ld(q0, q1)` of the last step, for a composition the sum over its substeps; `None` before the first step.
+    /// `Ld(q0, q1)` of the last step, or of the last part of a [split](crate::Retry) step; for a composition the sum over its substeps. `None` before the first step.
     pub const fn action(&self) -> Option<f64> {
-        self.action
+        self.stepper.action
     }
 
     /// The discrete Lagrangian.
     pub const fn lagrangian(&self) -> &L {
-        &self.lagrangian
+        &self.stepper.lagrangian
     }
+}
 
-    /// The step size.
-    pub const fn step_size(&self) -> f64 {
-        self.step_clock.step_size()
-    }
-
-    /// Number of steps taken.
-    pub const fn steps(&self) -> u64 {
-        self.step_clock.taken()
-    }
-
-    /// Sets the step size, which is negative to go backward.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::StepSize`]; the step size is then unchanged.
-    pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
-        self.step_clock.set_step_size(self.state.time, step_size)
-    }
-
+impl<L: DiscreteLagrangian> VariationalSteps<L> {
     /// A step of the discrete Lagrangian, from `next` to `next`.
     fn part(&mut self, part: Part) -> Result<(), Failure> {
         self.find_end(part)?;
@@ -263,20 +223,36 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
     }
 }
 
-impl<L: DiscreteLagrangian> Stepper for VariationalIntegrator<L> {
-    fn step_clock(&mut self) -> &mut StepClock {
-        &mut self.step_clock
+impl<L: DiscreteLagrangian> Stepper for VariationalSteps<L> {
+    type State = State<L::Vector<f64>>;
+    type Saved = (Self::State, Option<f64>, Statistics);
+
+    fn state(&self) -> &Self::State {
+        &self.state
     }
 
     fn time(&self) -> f64 {
         self.state.time
     }
 
-    fn advance(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
-        let start = self.state.time;
-        let (from, to) = (&self.state, &mut self.next);
-        to.q.as_mut_slice().copy_from_slice(from.q.as_slice());
-        to.p.as_mut_slice().copy_from_slice(from.p.as_slice());
+    fn statistics(&self) -> &Statistics {
+        &self.statistics
+    }
+
+    fn statistics_mut(&mut self) -> &mut Statistics {
+        &mut self.statistics
+    }
+
+    fn set_state(&mut self, state: &Self::State) -> Result<(), Error> {
+        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
+        self.state.copy_from(state);
+        self.action = None;
+        Ok(())
+    }
+
+    fn advance(&mut self, size: f64, end: f64) -> Result<(), Error> {
+        let (start, number) = (self.state.time, self.statistics.steps + 1);
+        self.next.copy_from(&self.state);
         let mut action = 0.0;
         for part in self.steps.parts(start, size, end) {
             self.part(part).map_err(|failure| {
@@ -287,31 +263,21 @@ impl<L: DiscreteLagrangian> Stepper for VariationalIntegrator<L> {
         self.next.time = end;
         core::mem::swap(&mut self.state, &mut self.next);
         self.action = Some(action);
+        self.statistics.steps = number;
         Ok(())
     }
-}
 
-impl<L: DiscreteLagrangian + Clone> VariationalIntegrator<L> {
-    /// An integrator that took one step from `state`.
-    fn stepped_from(&self, state: State<L::Vector<f64>>) -> Result<Self, Error> {
-        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
-        let mut run = self.clone();
-        run.step_clock.restart(state.time);
-        run.state = state;
-        run.step()?;
-        Ok(run)
-    }
-}
-
-impl<L: DiscreteLagrangian + Clone> StepMap for VariationalIntegrator<L> {
-    type State = State<L::Vector<f64>>;
-
-    fn present(&self) -> &Self::State {
-        &self.state
+    fn save(&self) -> Self::Saved {
+        (self.state.clone(), self.action, self.statistics)
     }
 
-    fn step_from(&self, state: Self::State) -> Result<Self::State, Error> {
-        Ok(self.stepped_from(state)?.state)
+    fn go_back(&mut self, (state, action, statistics): &Self::Saved) {
+        self.state.copy_from(state);
+        (self.action, self.statistics) = (*action, *statistics);
+    }
+
+    fn may_split(&self, error: &Error) -> bool {
+        error.depends_on_the_size()
     }
 }
 
@@ -326,7 +292,10 @@ impl<L: DiscreteLagrangian + Clone> GeneratingFunctions for VariationalIntegrato
                 "with a force a step is not symplectic and has no generating function"
             )
         }
-        let run = self.stepped_from(start)?;
-        Ok((run.state, run.action.unwrap_or(f64::NAN)))
+        let mut run = self.clone();
+        run.set_state(start)?;
+        run.step_at_once()?;
+        let action = run.action().unwrap_or(f64::NAN);
+        Ok((run.into_state(), action))
     }
 }

@@ -28,14 +28,18 @@ mod two_ends;
 
 pub use checks::DiscretePath;
 pub use cotangent_lift::{PointTransformation, cotangent_lift};
-pub use dirac::{DiracIntegrator, DiracRule, DiracSystem, PrimaryConstraint, primary_constraints};
+pub use dirac::{
+    DiracIntegrator, DiracRule, DiracSteps, DiracSystem, PrimaryConstraint, primary_constraints,
+};
 pub use discrete_lagrangian::DiscreteLagrangian;
 pub use energy_momentum::EnergyMomentumIntegrator;
 pub use generating_function::{GeneratingFunction, generating_function};
 pub use given_ends::{GeneratingFunctions, GivenEnds};
 pub use hamilton_jacobi::DiscreteHamiltonJacobi;
-pub use integrator::VariationalIntegrator;
-pub use lagrangian::{LagrangianIntegrator, momentum_of_velocity, velocity_of_momentum};
+pub use integrator::{VariationalIntegrator, VariationalSteps};
+pub use lagrangian::{
+    LagrangianIntegrator, LagrangianSteps, momentum_of_velocity, velocity_of_momentum,
+};
 pub use momentum_map::momentum_map;
 pub use newmark::Newmark;
 pub use observed_order::observed_order;

@@ -6,8 +6,8 @@ use super::list::Events;
 use super::search::{Search, Stop};
 use super::{Event, Moment};
 use crate::error::Error;
-use crate::integrator::Integrator;
 use crate::integrator::sight::Sight;
+use crate::integrator::{Integrator, Partitioned, Statistics};
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 use crate::output::at_times::check_times;
@@ -140,7 +140,8 @@ where
     handle: &'a mut F,
 }
 
-impl<E, M, S, V, R, N, F, B> Sight<M, S, V, R, N, Stop<B>> for Searching<'_, '_, E, M, S, V, N, F>
+impl<E, M, S, V, R, N, F, B> Sight<Partitioned<M, S, V, R, N>, Stop<B>>
+    for Searching<'_, '_, E, M, S, V, N, F>
 where
     E: Events<V> + ?Sized,
     M: Method,
@@ -151,8 +152,8 @@ where
     F: FnMut(Moment<'_, V>) -> ControlFlow<B>,
 {
     #[inline]
-    fn passes(&mut self, state: &State<V>, iterations: u64) -> bool {
-        self.search.passes(state, iterations)
+    fn passes(&mut self, state: &State<V>, statistics: &Statistics) -> bool {
+        self.search.passes(state, statistics.iterations)
     }
 
     fn see(

@@ -6,13 +6,12 @@ use super::primary::consistent_velocity;
 use super::step::Equations;
 use super::{DiracRule, DiracSystem};
 use crate::error::Error;
-use crate::integrator::StepMap;
 use crate::integrator::first_step::or_as_first_step;
-use crate::integrator::step_clock::{StepClock, Stepper};
-use crate::integrator::validation::check_state;
+use crate::integrator::validation::{check_state, check_step_size};
+use crate::integrator::{Run, Statistics, Stepper};
 use crate::method::StoermerVerletSteps;
 use crate::method::symmetric_steps::SymmetricSteps;
-use crate::number::Vector;
+use crate::number::{Vector, copy};
 use crate::state::State;
 use crate::variational::stages::StagesOfStep;
 use crate::variational::two_ends::dot;
@@ -96,12 +95,15 @@ use crate::variational::two_ends::dot;
 /// # Ok(())
 /// # }
 /// ```
+pub type DiracIntegrator<L> = Run<DiracSteps<L>>;
+
+/// The steps of a [`DiracIntegrator`].
 #[derive(Clone)]
-pub struct DiracIntegrator<L: DiracSystem> {
+pub struct DiracSteps<L: DiracSystem> {
     system: L,
     equations: Equations<L>,
     steps: SymmetricSteps,
-    step_clock: StepClock,
+    statistics: Statistics,
     state: State<L::Vector<f64>>,
     velocity: L::Vector<f64>,
     /// State and velocity inside a step.
@@ -152,30 +154,19 @@ impl<L: DiracSystem> DiracIntegrator<L> {
         state: State<L::Vector<f64>>,
         step_size: f64,
     ) -> Result<Self, Error> {
-        let step_clock = StepClock::new(state.time, step_size)?;
+        check_step_size(step_size)?;
         check_state(state.time, &state.q, &state.p, state.q.dimension())?;
         let velocity = consistent_velocity(&system, &state)?;
-        Ok(Self {
+        let stepper = DiracSteps {
             equations: Equations::new(rule, &system, state.q.as_slice())?,
             system,
             steps,
-            step_clock,
+            statistics: Statistics::default(),
             next: (state.clone(), velocity.clone()),
             state,
             velocity,
-        })
-    }
-
-    /// Takes one step and returns the state after it. The time after `k` steps is `start + k h`.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::ContradictoryStep`], [`Error::UndeterminedPosition`], [`Error::DependentConstraints`], [`Error::MovingGradients`],
-    /// [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::EvaluationDimension`], [`Error::TimeResolution`]; the state is then
-    /// unchanged.
-    pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
-        self.one_step()?;
-        Ok(&self.state)
+        };
+        Self::of(stepper, step_size)
     }
 
     /// Takes one step and returns its stages, for balances of energy and momentum. The force of a stage is `∂L/∂q + f`, without the impulses
@@ -183,120 +174,64 @@ impl<L: DiracSystem> DiracIntegrator<L> {
     ///
     /// In a step the momentum map of a linear symmetry of L and of the constraints changes by exactly the [impulse](StagesOfStep::impulse)
     /// of the force. The energy changes by its [work](StagesOfStep::work), up to an error of the order of the method. The step is taken
-    /// twice. Memory is allocated.
+    /// twice, and never [split](crate::Retry). Memory is allocated.
     ///
     /// # Errors
     ///
     /// Those of [`step`](Self::step); the state is then unchanged.
     pub fn step_with_stages(&mut self) -> Result<StagesOfStep<L::Vector<f64>>, Error> {
-        let (state, velocity) = (self.state.clone(), self.velocity.clone());
-        self.step()?;
-        let stages = self.stages_from(state.clone(), velocity);
-        let take = |run: &mut Self| {
+        let (state, velocity) = (self.state().clone(), self.velocity().clone());
+        self.step_at_once()?;
+        let (size, run) = (self.step_size(), &mut self.stepper);
+        let stages = run.stages_from(size, state.clone(), velocity);
+        let take = |run: &mut DiracSteps<L>| {
             let velocity = consistent_velocity(&run.system, &state)?;
-            run.stages_from(state, velocity)
+            run.stages_from(size, state, velocity)
         };
-        or_as_first_step(self, stages, |_| true, take)
-    }
-
-    /// Repeats the last step, from its start and a starting value of the velocity.
-    fn stages_from(
-        &mut self,
-        mut state: State<L::Vector<f64>>,
-        mut velocity: L::Vector<f64>,
-    ) -> Result<StagesOfStep<L::Vector<f64>>, Error> {
-        let (start, end, size) = (state.time, self.state.time, self.step_clock.step_size());
-        let mut stages = Vec::new();
-        for part in self.steps.parts(start, size, end) {
-            let q0 = state.q.clone();
-            self.equations
-                .take(&self.system, part, &mut state, &mut velocity)
-                .map_err(|failure| failure.error(start, size, self.step_clock.taken()))?;
-            stages.extend(self.equations.stages(&self.system, part, q0.as_slice()));
-        }
-        Ok(StagesOfStep::new(stages))
-    }
-
-    /// Integrates to the time `end` exactly, forward or backward, in the smallest number of equal steps no longer than the step size.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that after the last successful step.
-    pub fn integrate_to(&mut self, end: f64) -> Result<&State<L::Vector<f64>>, Error> {
-        self.steps_to(end)?;
-        Ok(&self.state)
-    }
-
-    /// The present state.
-    pub const fn state(&self) -> &State<L::Vector<f64>> {
-        &self.state
+        or_as_first_step(run, stages, |_| true, take)
     }
 
     /// A velocity v with `∂L/∂v = p` and `w(q) v = 0`. Components that these equations leave free are those of the mean velocity of the
     /// last step, and 0 before the first step.
     pub const fn velocity(&self) -> &L::Vector<f64> {
-        &self.velocity
+        &self.stepper.velocity
     }
 
     /// The energy `p·v − L(t, q, v)`; it does not depend on velocities that p does not determine.
     pub fn energy(&self) -> f64 {
-        let State { time, q, p } = &self.state;
-        dot(p, &self.velocity) - self.system.lagrangian(*time, q, &self.velocity)
+        let (State { time, q, p }, velocity) = (self.state(), self.velocity());
+        dot(p, velocity) - self.system().lagrangian(*time, q, velocity)
     }
 
     /// The system.
     pub const fn system(&self) -> &L {
-        &self.system
-    }
-
-    /// The step size.
-    pub const fn step_size(&self) -> f64 {
-        self.step_clock.step_size()
-    }
-
-    /// Number of steps taken.
-    pub const fn steps(&self) -> u64 {
-        self.step_clock.taken()
-    }
-
-    /// Sets the step size, which is negative to go backward.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::StepSize`]; the step size is then unchanged.
-    pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
-        self.step_clock.set_step_size(self.state.time, step_size)
+        &self.stepper.system
     }
 }
 
-impl<L: DiracSystem> Stepper for DiracIntegrator<L> {
-    fn step_clock(&mut self) -> &mut StepClock {
-        &mut self.step_clock
+impl<L: DiracSystem> DiracSteps<L> {
+    /// Repeats the last step, from its start and a starting value of the velocity.
+    fn stages_from(
+        &mut self,
+        size: f64,
+        mut state: State<L::Vector<f64>>,
+        mut velocity: L::Vector<f64>,
+    ) -> Result<StagesOfStep<L::Vector<f64>>, Error> {
+        let (start, end) = (state.time, self.state.time);
+        let mut stages = Vec::new();
+        for part in self.steps.parts(start, size, end) {
+            let q0 = state.q.clone();
+            self.equations
+                .take(&self.system, part, &mut state, &mut velocity)
+                .map_err(|failure| failure.error(start, size, self.statistics.steps))?;
+            stages.extend(self.equations.stages(&self.system, part, q0.as_slice()));
+        }
+        Ok(StagesOfStep::new(stages))
     }
 
-    fn time(&self) -> f64 {
-        self.state.time
-    }
-
-    fn advance(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
-        let velocity = self.next.1.as_mut_slice();
-        velocity.copy_from_slice(self.velocity.as_slice());
-        let taken = self.attempt(size, end, number);
-        or_as_first_step(self, taken, Self::begin_as_first, |run| {
-            run.attempt(size, end, number)
-        })?;
-        let (next, velocity) = &mut self.next;
-        next.time = end;
-        core::mem::swap(&mut self.state, next);
-        core::mem::swap(&mut self.velocity, velocity);
-        Ok(())
-    }
-}
-
-impl<L: DiracSystem> DiracIntegrator<L> {
     /// Computes a step into `next`, whose velocity is the starting value.
-    fn attempt(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
-        let start = self.state.time;
+    fn attempt(&mut self, size: f64, end: f64) -> Result<(), Error> {
+        let (start, number) = (self.state.time, self.statistics.steps + 1);
         let (next, velocity) = &mut self.next;
         for (to, from) in [(&mut next.q, &self.state.q), (&mut next.p, &self.state.p)] {
             to.as_mut_slice().copy_from_slice(from.as_slice());
@@ -321,20 +256,58 @@ impl<L: DiracSystem> DiracIntegrator<L> {
     }
 }
 
-impl<L: DiracSystem + Clone> StepMap for DiracIntegrator<L> {
+impl<L: DiracSystem> Stepper for DiracSteps<L> {
     type State = State<L::Vector<f64>>;
+    type Saved = (Self::State, L::Vector<f64>, Statistics);
 
-    fn present(&self) -> &Self::State {
+    fn state(&self) -> &Self::State {
         &self.state
     }
 
-    fn step_from(&self, state: Self::State) -> Result<Self::State, Error> {
+    fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    fn statistics(&self) -> &Statistics {
+        &self.statistics
+    }
+
+    fn statistics_mut(&mut self) -> &mut Statistics {
+        &mut self.statistics
+    }
+
+    fn set_state(&mut self, state: &Self::State) -> Result<(), Error> {
         check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
-        let mut run = self.clone();
-        run.velocity = consistent_velocity(&run.system, &state)?;
-        run.step_clock.restart(state.time);
-        run.state = state;
-        run.step()?;
-        Ok(run.state)
+        self.velocity = consistent_velocity(&self.system, state)?;
+        self.state.copy_from(state);
+        Ok(())
+    }
+
+    fn advance(&mut self, size: f64, end: f64) -> Result<(), Error> {
+        copy(&mut self.next.1, &self.velocity);
+        let taken = self.attempt(size, end);
+        or_as_first_step(self, taken, Self::begin_as_first, |run| {
+            run.attempt(size, end)
+        })?;
+        let (next, velocity) = &mut self.next;
+        next.time = end;
+        core::mem::swap(&mut self.state, next);
+        core::mem::swap(&mut self.velocity, velocity);
+        self.statistics.steps += 1;
+        Ok(())
+    }
+
+    fn save(&self) -> Self::Saved {
+        (self.state.clone(), self.velocity.clone(), self.statistics)
+    }
+
+    fn go_back(&mut self, (state, velocity, statistics): &Self::Saved) {
+        self.state.copy_from(state);
+        copy(&mut self.velocity, velocity);
+        self.statistics = *statistics;
+    }
+
+    fn may_split(&self, error: &Error) -> bool {
+        error.depends_on_the_size()
     }
 }

@@ -7,7 +7,7 @@ mod primary;
 mod rows;
 mod step;
 
-pub use integrator::DiracIntegrator;
+pub use integrator::{DiracIntegrator, DiracSteps};
 pub use primary::{PrimaryConstraint, primary_constraints};
 
 use crate::number::Scalar;

@@ -5,10 +5,9 @@ use super::legendre::{momentum_of_velocity, velocity_near, velocity_of_momentum}
 use super::linear::{LinearConstraint, is_regular_beside};
 use super::stages::{Stages, Start};
 use crate::error::{Error, Quantity};
-use crate::integrator::StepMap;
 use crate::integrator::first_step::or_as_first_step;
-use crate::integrator::step_clock::{StepClock, Stepper};
-use crate::integrator::validation::check_state;
+use crate::integrator::validation::{check_state, check_step_size};
+use crate::integrator::{Run, Statistics, Stepper};
 use crate::method::{Method, ProvedFor};
 use crate::number::Vector;
 use crate::number::vector::beside;
@@ -73,10 +72,13 @@ use crate::variational::two_ends::dot;
 /// # Ok(())
 /// # }
 /// ```
+pub type LagrangianIntegrator<L> = Run<LagrangianSteps<L>>;
+
+/// The steps of a [`LagrangianIntegrator`].
 #[derive(Clone)]
-pub struct LagrangianIntegrator<L: Lagrangian> {
+pub struct LagrangianSteps<L: Lagrangian> {
     lagrangian: L,
-    step_clock: StepClock,
+    statistics: Statistics,
     state: State<L::Vector<f64>>,
     next: State<L::Vector<f64>>,
     stages: Stages<L>,
@@ -102,7 +104,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         step_size: f64,
     ) -> Result<Self, Error> {
         let mut run = Self::by::<M>(StageCoefficients::of::<M>(), lagrangian, state, step_size)?;
-        run.find_velocity::<M>(true)?;
+        run.stepper.find_velocity::<M>(true)?;
         Ok(run)
     }
 
@@ -147,7 +149,7 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     ) -> Result<Self, Error> {
         let coefficients = StageCoefficients::galerkin::<M>()?;
         let mut run = Self::by::<M>(coefficients, lagrangian, state, step_size)?;
-        run.find_velocity::<M>(M::FUNCTIONS == M::STAGES)?;
+        run.stepper.find_velocity::<M>(M::FUNCTIONS == M::STAGES)?;
         Ok(run)
     }
 
@@ -161,8 +163,9 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         check_state(state.time, &state.q, &state.p, n)?;
         lagrangian.check_dimension(n)?;
         check_force(&lagrangian, &state)?;
-        Ok(Self {
-            step_clock: StepClock::new(state.time, step_size)?,
+        check_step_size(step_size)?;
+        let stepper = LagrangianSteps {
+            statistics: Statistics::default(),
             stages: Stages::new(coefficients, n)?,
             next: state.clone(),
             lagrangian,
@@ -170,9 +173,127 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
             action: None,
             method: M::NAME,
             constraint: None,
-        })
+        };
+        Self::of(stepper, step_size)
     }
 
+    /// [`new`](Self::new) with the momentum `∂L/∂v` of the velocity `v`, where Newton's iteration begins; that of [`new`](Self::new) begins
+    /// at rest.
+    ///
+    /// # Errors
+    ///
+    /// As for [`new`](Self::new), and [`Error::NonFiniteState`] if the momentum is not finite.
+    pub fn from_velocity<M: Method + ProvedFor<General>>(
+        _method: M,
+        lagrangian: L,
+        time: f64,
+        q: L::Vector<f64>,
+        v: L::Vector<f64>,
+        step_size: f64,
+    ) -> Result<Self, Error> {
+        let p = momentum_of_velocity(&lagrangian, time, &q, &v)?;
+        let state = State::new(time, q, p);
+        let coefficients = StageCoefficients::of::<M>();
+        let mut run = Self::by::<M>(coefficients, lagrangian, state, step_size)?;
+        let State { q, p, .. } = run.state();
+        if let Err(Error::NoVelocity {
+            component: Some(component),
+            ..
+        }) = velocity_near(run.lagrangian(), time, q, p, v.clone())
+        {
+            run.stepper.allow_linear::<M>(true, component)?;
+        }
+        run.stepper.stages.begin_with(v.as_slice());
+        Ok(run)
+    }
+
+    /// Takes one step and returns its stages, for balances of energy and momentum. The force of a stage is `∂L/∂q + f`.
+    ///
+    /// In a step the momentum map of a linear symmetry of L changes by exactly the [impulse](StagesOfStep::impulse) of the force. The
+    /// energy changes by its [work](StagesOfStep::work), up to an error of the order of the method. Memory is allocated. The step is never
+    /// [split](crate::Retry).
+    ///
+    /// # Errors
+    ///
+    /// Those of [`step`](Self::step); the state is then unchanged.
+    ///
+    /// ```
+    /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
+    /// use symplectic::State;
+    /// use symplectic::variational::LagrangianIntegrator;
+    ///
+    /// symplectic::lagrangian! {
+    ///     /// A particle that is slowed down.
+    ///     Slowed q: [x], v: [vx];
+    ///     L = vx^2/2
+    ///     force: { x = -vx/4 }
+    /// }
+    ///
+    /// # fn main() -> Result<(), symplectic::Error> {
+    /// let mut run = LagrangianIntegrator::new(Gauss2, Slowed, State::from_arrays(0.0, [0.0], [1.0]), 0.1)?;
+    /// // Translations: J = p.
+    /// let impulse = run.step_with_stages()?.impulse(|_, out| out[0] = 1.0);
+    /// assert!((run.state().p[0] - 1.0 - impulse).abs() < 1e-15 && impulse < -0.02);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn step_with_stages(&mut self) -> Result<StagesOfStep<L::Vector<f64>>, Error> {
+        let State { time, q, p } = self.state().clone();
+        self.step_at_once()?;
+        let start = Start {
+            time,
+            size: self.step_size(),
+            q: q.as_slice(),
+            p: p.as_slice(),
+        };
+        let LagrangianSteps {
+            stages, lagrangian, ..
+        } = &mut self.stepper;
+        let stages = stages.of_step(lagrangian, start);
+        Ok(StagesOfStep::new(stages))
+    }
+
+    /// The velocity of the present state, as from [`velocity_of_momentum`], but Newton's iteration begins with the mean velocity of the
+    /// last step.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`velocity_of_momentum`].
+    pub fn velocity(&self) -> Result<L::Vector<f64>, Error> {
+        let State { time, q, p } = self.state();
+        let LagrangianSteps {
+            stages, lagrangian, ..
+        } = &self.stepper;
+        let mut mean = q.zeros_like();
+        stages.add_mean_velocity(mean.as_mut_slice());
+        velocity_near(lagrangian, *time, q, p, mean)
+            .or_else(|_| velocity_of_momentum(lagrangian, *time, q, p))
+    }
+
+    /// The energy `p·v − L` of the present state.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`velocity_of_momentum`].
+    pub fn energy(&self) -> Result<f64, Error> {
+        let State { time, q, p } = self.state();
+        let v = self.velocity()?;
+        Ok(dot(p, &v) - self.lagrangian().lagrangian(*time, q, &v))
+    }
+
+    /// The discrete Lagrangian `h Σ_i b_i L_i` of the last step, or of the last part of a [split](crate::Retry) step; `None`
+    /// before the first step.
+    pub const fn action(&self) -> Option<f64> {
+        self.stepper.action
+    }
+
+    /// The Lagrangian.
+    pub const fn lagrangian(&self) -> &L {
+        &self.stepper.lagrangian
+    }
+}
+
+impl<L: Lagrangian> LagrangianSteps<L> {
     /// Finds the velocity of the start: from rest, or, because L may be degenerate at rest only, as v⁴ is, from v = p. A degenerate L is
     /// refused, unless it `may_be_linear` in the velocities and is.
     fn find_velocity<M: Method>(&mut self, may_be_linear: bool) -> Result<(), Error> {
@@ -220,184 +341,9 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         Ok(())
     }
 
-    /// [`new`](Self::new) with the momentum `∂L/∂v` of the velocity `v`, where Newton's iteration begins; that of [`new`](Self::new) begins
-    /// at rest.
-    ///
-    /// # Errors
-    ///
-    /// As for [`new`](Self::new), and [`Error::NonFiniteState`] if the momentum is not finite.
-    pub fn from_velocity<M: Method + ProvedFor<General>>(
-        _method: M,
-        lagrangian: L,
-        time: f64,
-        q: L::Vector<f64>,
-        v: L::Vector<f64>,
-        step_size: f64,
-    ) -> Result<Self, Error> {
-        let p = momentum_of_velocity(&lagrangian, time, &q, &v)?;
-        let state = State::new(time, q, p);
-        let coefficients = StageCoefficients::of::<M>();
-        let mut run = Self::by::<M>(coefficients, lagrangian, state, step_size)?;
-        let State { q, p, .. } = &run.state;
-        if let Err(Error::NoVelocity {
-            component: Some(component),
-            ..
-        }) = velocity_near(&run.lagrangian, time, q, p, v.clone())
-        {
-            run.allow_linear::<M>(true, component)?;
-        }
-        run.stages.begin_with(v.as_slice());
-        Ok(run)
-    }
-
-    /// Takes one step and returns the state after it. The time after `k` steps is `start + k h`.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::EvaluationDimension`],
-    /// [`Error::TimeResolution`]; [`Error::DegenerateLagrangian`] if L is linear in v and the step leaves `p = ∂L/∂v`. The state is then
-    /// unchanged.
-    pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
-        self.one_step()?;
-        Ok(&self.state)
-    }
-
-    /// Takes one step and returns its stages, for balances of energy and momentum. The force of a stage is `∂L/∂q + f`.
-    ///
-    /// In a step the momentum map of a linear symmetry of L changes by exactly the [impulse](StagesOfStep::impulse) of the force. The
-    /// energy changes by its [work](StagesOfStep::work), up to an error of the order of the method. Memory is allocated.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`step`](Self::step); the state is then unchanged.
-    ///
-    /// ```
-    /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
-    /// use symplectic::State;
-    /// use symplectic::variational::LagrangianIntegrator;
-    ///
-    /// symplectic::lagrangian! {
-    ///     /// A particle that is slowed down.
-    ///     Slowed q: [x], v: [vx];
-    ///     L = vx^2/2
-    ///     force: { x = -vx/4 }
-    /// }
-    ///
-    /// # fn main() -> Result<(), symplectic::Error> {
-    /// let mut run = LagrangianIntegrator::new(Gauss2, Slowed, State::from_arrays(0.0, [0.0], [1.0]), 0.1)?;
-    /// // Translations: J = p.
-    /// let impulse = run.step_with_stages()?.impulse(|_, out| out[0] = 1.0);
-    /// assert!((run.state().p[0] - 1.0 - impulse).abs() < 1e-15 && impulse < -0.02);
-    /// # Ok(())
-    /// # }
-    /// ```
-    pub fn step_with_stages(&mut self) -> Result<StagesOfStep<L::Vector<f64>>, Error> {
-        let State { time, q, p } = self.state.clone();
-        self.step()?;
-        let start = Start {
-            time,
-            size: self.step_clock.step_size(),
-            q: q.as_slice(),
-            p: p.as_slice(),
-        };
-        let stages = self.stages.of_step(&self.lagrangian, start);
-        Ok(StagesOfStep::new(stages))
-    }
-
-    /// Integrates to the time `end` exactly, forward or backward, in the smallest number of equal steps no longer than the step size.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that after the last successful step.
-    pub fn integrate_to(&mut self, end: f64) -> Result<&State<L::Vector<f64>>, Error> {
-        self.steps_to(end)?;
-        Ok(&self.state)
-    }
-
-    /// The present state.
-    pub const fn state(&self) -> &State<L::Vector<f64>> {
-        &self.state
-    }
-
-    /// The velocity of the present state, as from [`velocity_of_momentum`], but Newton's iteration begins with the mean velocity of the
-    /// last step.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`velocity_of_momentum`].
-    pub fn velocity(&self) -> Result<L::Vector<f64>, Error> {
-        let State { time, q, p } = &self.state;
-        let mut mean = q.zeros_like();
-        self.stages.add_mean_velocity(mean.as_mut_slice());
-        velocity_near(&self.lagrangian, *time, q, p, mean)
-            .or_else(|_| velocity_of_momentum(&self.lagrangian, *time, q, p))
-    }
-
-    /// The energy `p·v − L` of the present state.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`velocity_of_momentum`].
-    pub fn energy(&self) -> Result<f64, Error> {
-        let State { time, q, p } = &self.state;
-        let v = self.velocity()?;
-        Ok(dot(p, &v) - self.lagrangian.lagrangian(*time, q, &v))
-    }
-
-    /// The discrete Lagrangian `h Σ_i b_i L_i` of the last step; `None` before the first step.
-    pub const fn action(&self) -> Option<f64> {
-        self.action
-    }
-
-    /// The Lagrangian.
-    pub const fn lagrangian(&self) -> &L {
-        &self.lagrangian
-    }
-
-    /// The step size.
-    pub const fn step_size(&self) -> f64 {
-        self.step_clock.step_size()
-    }
-
-    /// Number of steps taken.
-    pub const fn steps(&self) -> u64 {
-        self.step_clock.taken()
-    }
-
-    /// Sets the step size, which is negative to go backward.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::StepSize`]; the step size is then unchanged.
-    pub fn set_step_size(&mut self, step_size: f64) -> Result<(), Error> {
-        self.step_clock.set_step_size(self.state.time, step_size)
-    }
-}
-
-impl<L: Lagrangian> Stepper for LagrangianIntegrator<L> {
-    fn step_clock(&mut self) -> &mut StepClock {
-        &mut self.step_clock
-    }
-
-    fn time(&self) -> f64 {
-        self.state.time
-    }
-
-    fn advance(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
-        let are_new = self.stages.are_new();
-        let taken = self.attempt(size, end, number);
-        let forget = |run: &mut Self| !are_new && run.begin_as_first();
-        or_as_first_step(self, taken, forget, |run| run.attempt(size, end, number))?;
-        self.next.time = end;
-        self.action = Some(self.stages.action(size));
-        core::mem::swap(&mut self.state, &mut self.next);
-        Ok(())
-    }
-}
-
-impl<L: Lagrangian> LagrangianIntegrator<L> {
     /// Computes a step into `next`.
-    fn attempt(&mut self, size: f64, end: f64, number: u64) -> Result<(), Error> {
+    fn attempt(&mut self, size: f64, end: f64) -> Result<(), Error> {
+        let number = self.statistics.steps + 1;
         let start = Start {
             time: self.state.time,
             size,
@@ -434,28 +380,59 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     }
 }
 
-impl<L: Lagrangian + Clone> LagrangianIntegrator<L> {
-    /// A new integrator that took one step from `state`. Newton's iteration begins where it began in the first step of this integrator.
-    fn stepped_from(&self, state: State<L::Vector<f64>>) -> Result<Self, Error> {
-        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
-        let mut run = self.clone();
-        run.step_clock.restart(state.time);
-        run.stages.forget();
-        run.state = state;
-        run.step()?;
-        Ok(run)
-    }
-}
-
-impl<L: Lagrangian + Clone> StepMap for LagrangianIntegrator<L> {
+impl<L: Lagrangian> Stepper for LagrangianSteps<L> {
     type State = State<L::Vector<f64>>;
+    type Saved = (Self::State, Option<f64>, Statistics);
 
-    fn present(&self) -> &Self::State {
+    fn state(&self) -> &Self::State {
         &self.state
     }
 
-    fn step_from(&self, state: Self::State) -> Result<Self::State, Error> {
-        Ok(self.stepped_from(state)?.state)
+    fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    fn statistics(&self) -> &Statistics {
+        &self.statistics
+    }
+
+    fn statistics_mut(&mut self) -> &mut Statistics {
+        &mut self.statistics
+    }
+
+    /// Newton's iteration begins where it began in the first step of this stepper.
+    fn set_state(&mut self, state: &Self::State) -> Result<(), Error> {
+        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
+        self.state.copy_from(state);
+        self.stages.forget();
+        self.action = None;
+        Ok(())
+    }
+
+    fn advance(&mut self, size: f64, end: f64) -> Result<(), Error> {
+        let are_new = self.stages.are_new();
+        let taken = self.attempt(size, end);
+        let forget = |run: &mut Self| !are_new && run.begin_as_first();
+        or_as_first_step(self, taken, forget, |run| run.attempt(size, end))?;
+        self.next.time = end;
+        self.action = Some(self.stages.action(size));
+        core::mem::swap(&mut self.state, &mut self.next);
+        self.statistics.steps += 1;
+        Ok(())
+    }
+
+    fn save(&self) -> Self::Saved {
+        (self.state.clone(), self.action, self.statistics)
+    }
+
+    fn go_back(&mut self, (state, action, statistics): &Self::Saved) {
+        self.state.copy_from(state);
+        self.begin_as_first();
+        (self.action, self.statistics) = (*action, *statistics);
+    }
+
+    fn may_split(&self, error: &Error) -> bool {
+        error.depends_on_the_size()
     }
 }
 
@@ -470,8 +447,11 @@ impl<L: Lagrangian + Clone> GeneratingFunctions for LagrangianIntegrator<L> {
                 "with a force a step is not symplectic and has no generating function"
             )
         }
-        let run = self.stepped_from(start)?;
-        Ok((run.state, run.action.unwrap_or(f64::NAN)))
+        let mut run = self.clone();
+        run.set_state(start)?;
+        run.step_at_once()?;
+        let action = run.action().unwrap_or(f64::NAN);
+        Ok((run.into_state(), action))
     }
 }
 

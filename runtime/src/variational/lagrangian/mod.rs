@@ -7,5 +7,5 @@ mod legendre;
 mod linear;
 mod stages;
 
-pub use integrator::LagrangianIntegrator;
+pub use integrator::{LagrangianIntegrator, LagrangianSteps};
 pub use legendre::{momentum_of_velocity, velocity_of_momentum};

@@ -1,0 +1,167 @@
+//! Steppers: what a run drives.
+
+use super::Statistics;
+use super::clock::RemainingSteps;
+use crate::error::Error;
+
+/// Takes steps: a method with its system and the present state. A [`Run`](super::Run) chooses sizes and times of the steps.
+///
+/// Every integrator of this crate is a run of a stepper. Your own method becomes one with an implementation:
+///
+/// ```
+/// use symplectic::nalgebra::Vector1;
+/// use symplectic::{Error, Run, State, Statistics, StepMap, Stepper};
+///
+/// /// The symplectic Euler method for a pendulum.
+/// #[derive(Clone)]
+/// struct Pendulum {
+///     state: State<Vector1<f64>>,
+///     statistics: Statistics,
+/// }
+///
+/// impl Stepper for Pendulum {
+///     type State = State<Vector1<f64>>;
+///     type Saved = Self;
+///
+///     fn state(&self) -> &Self::State {
+///         &self.state
+///     }
+///
+///     fn time(&self) -> f64 {
+///         self.state.time
+///     }
+///
+///     fn statistics(&self) -> &Statistics {
+///         &self.statistics
+///     }
+///
+///     fn statistics_mut(&mut self) -> &mut Statistics {
+///         &mut self.statistics
+///     }
+///
+///     fn set_state(&mut self, state: &Self::State) -> Result<(), Error> {
+///         self.state = state.clone();
+///         Ok(())
+///     }
+///
+///     fn advance(&mut self, size: f64, end: f64) -> Result<(), Error> {
+///         let State { time, q, p } = &mut self.state;
+///         p[0] -= size * q[0].sin();
+///         q[0] += size * p[0];
+///         *time = end;
+///         self.statistics.steps += 1;
+///         Ok(())
+///     }
+///
+///     fn save(&self) -> Self {
+///         self.clone()
+///     }
+///
+///     fn go_back(&mut self, saved: &Self) {
+///         self.clone_from(saved);
+///     }
+/// }
+///
+/// # fn main() -> Result<(), Error> {
+/// let near = |a, b| State::from_arrays(0.0, [1.0 + a], [b]);
+/// let stepper = Pendulum { state: near(0.0, 0.0), statistics: Statistics::default() };
+/// let mut run = Run::of(stepper, 0.01)?;
+/// assert!(run.symplecticity_defect(near)? < 1e-11);
+/// let end = run.integrate_to(10.0)?;
+/// assert!((end.p[0] * end.p[0] / 2.0 - end.q[0].cos() + 1_f64.cos()).abs() < 0.01);
+/// assert_eq!((run.state().time, run.steps()), (10.0, 1000));
+/// # Ok(())
+/// # }
+/// ```
+pub trait Stepper {
+    /// The state, with its time.
+    type State: Clone;
+
+    /// What a step changes.
+    type Saved;
+
+    /// The present state.
+    fn state(&self) -> &Self::State;
+
+    /// The time of the present state.
+    fn time(&self) -> f64;
+
+    /// The statistics of all steps so far.
+    fn statistics(&self) -> &Statistics;
+
+    /// The statistics, for a run that counts what it rejects.
+    fn statistics_mut(&mut self) -> &mut Statistics;
+
+    /// Replaces the present state. The next step is that of a new stepper from there.
+    ///
+    /// # Errors
+    ///
+    /// Those of a new stepper at this state; nothing is then changed.
+    fn set_state(&mut self, state: &Self::State) -> Result<(), Error>;
+
+    /// Takes a step of size `size` to the time `end`, which is not the present time, and counts it.
+    ///
+    /// # Errors
+    ///
+    /// Those of the method; the state is then unchanged.
+    fn advance(&mut self, size: f64, end: f64) -> Result<(), Error>;
+
+    /// Takes all these steps. They have the bits of single steps.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`advance`](Self::advance) and [`Error::TimeResolution`]; the step that failed is then the next of `steps`.
+    #[inline]
+    fn take(&mut self, steps: &mut RemainingSteps) -> Result<(), Error> {
+        self.take_while(steps, |_, _| true).map(|_| ())
+    }
+
+    /// Takes these steps until `goes_on` of the state and the statistics after a step is `false`; returns whether it always was `true`.
+    ///
+    /// # Errors
+    ///
+    /// As for [`take`](Self::take).
+    #[inline]
+    fn take_while(
+        &mut self,
+        steps: &mut RemainingSteps,
+        mut goes_on: impl FnMut(&Self::State, &Statistics) -> bool,
+    ) -> Result<bool, Error> {
+        while let Some((size, end)) = steps.next() {
+            advance_in_time(self, size, end)?;
+            steps.tick();
+            if !goes_on(self.state(), self.statistics()) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// What the next step may change, statistics included.
+    fn save(&self) -> Self::Saved;
+
+    /// Returns to what was saved.
+    fn go_back(&mut self, saved: &Self::Saved);
+
+    /// Whether a step that failed with this error may be [split](super::Retry) into shorter ones. By default it may not.
+    fn may_split(&self, error: &Error) -> bool {
+        let _ = error;
+        false
+    }
+}
+
+/// [`Stepper::advance`], after a check that the step changes the time.
+#[inline]
+pub(super) fn advance_in_time<S: Stepper + ?Sized>(
+    stepper: &mut S,
+    size: f64,
+    end: f64,
+) -> Result<(), Error> {
+    if end == stepper.time() {
+        return Err(Error::TimeResolution {
+            time: end,
+            step_size: size,
+        });
+    }
+    stepper.advance(size, end)
+}
