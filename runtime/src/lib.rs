@@ -25,6 +25,7 @@
 //! | Discrete and degenerate Lagrangians, generating functions, stages and balances | [`variational`] |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`]; [`RunTimeTableau`] |
 //! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
+//! | All integrators, and your own | [`Run`], [`Stepper`], [`DenseSteps`]; their tests: [`StepMap`] |
 //! | Output and events | [`Event`], [`Invariant`], [`Progress`]; [`output`] |
 //! | Many trajectories, in lanes and on all cores | [`ensemble`] |
 //! | Is an orbit chaotic? MEGNO, Lyapunov exponent, tangent map | [`tangent`] |
@@ -109,7 +110,8 @@ pub use error::{ConstraintName, Error, Quantity};
 #[cfg(feature = "alloc")]
 pub use integrator::{Checkpoint, CheckpointError};
 pub use integrator::{
-    Integrator, PhasePoint, RemainingSteps, Retry, Run, Statistics, StepMap, Stepper,
+    DenseSteps, Equal, Integrator, Own, Pace, Partitioned, PhasePoint, RemainingSteps, Retry, Run,
+    Statistics, StepMap, Stepper,
 };
 #[cfg(feature = "alloc")]
 pub use method::{AtRunTime, RunTimeCoefficients, RunTimeTableau, TableauError};
@@ -123,7 +125,7 @@ pub use nalgebra;
 pub use num_traits;
 pub use number::{Compensated, Plain, Scalar, Summation, Vector};
 pub use output::{Event, Events, Invariant, Moment, Progress};
-pub use state::State;
+pub use state::{State, Timed};
 pub use system::{
     Class, Damped, General, Hamiltonian, Lagrangian, Masses, Separable, SeparableHamiltonian,
     System, acceleration, hamiltonian, lagrangian, separable,

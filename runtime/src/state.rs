@@ -24,6 +24,19 @@ pub struct State<V> {
     pub p: V,
 }
 
+/// A state with its time.
+pub trait Timed: Clone {
+    /// The time.
+    fn time(&self) -> f64;
+}
+
+impl<V: Clone> Timed for State<V> {
+    #[inline]
+    fn time(&self) -> f64 {
+        self.time
+    }
+}
+
 impl<V> State<V> {
     /// The state `(q, p)` at `time`.
     pub const fn new(time: f64, q: V, p: V) -> Self {

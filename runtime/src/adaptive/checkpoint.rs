@@ -1,6 +1,6 @@
 //! Checkpoints of runs with steps of variable size; a restored run has the same bits.
 
-use super::integrator::{Adaptive, Controller};
+use super::integrator::{Adaptive, AdaptiveSteps, Controller};
 use super::monitor::{Monitor, Slopes, seen};
 use crate::integrator::{Checkpoint, CheckpointError};
 use crate::method::{Method, Solver};
@@ -31,10 +31,15 @@ where
             unfinished,
             time_low,
             ..
-        } = self.controller;
-        let [value, slope] = evaluated(&self.monitor, &self.slopes, seen::<S, V>(&self.state().q));
+        } = self.stepper.controller;
+        let [value, slope] = evaluated(
+            &self.stepper.monitor,
+            &self.stepper.slopes,
+            seen::<S, V>(&self.state().q),
+        );
         let beside = [epsilon, density, unfinished, time_low, value, slope];
-        self.integrator.checkpoint_with(KIND, &beside)
+        let integrator = &self.stepper.integrator;
+        integrator.checkpoint_with(KIND, self.last_event, &beside)
     }
 
     /// Continues from a checkpoint of a run with the same method, system, solver, sums and monitor.
@@ -44,20 +49,26 @@ where
     /// [`CheckpointError`]; [`OtherSystem`](CheckpointError::OtherSystem) also for another monitor. The run is then unchanged.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
         let mut found = [0.0; 6];
-        let (monitor, slopes) = (&self.monitor, &self.slopes);
+        let AdaptiveSteps {
+            integrator,
+            monitor,
+            slopes,
+            ..
+        } = &mut self.stepper;
         let mine = |q: &V, words: &[f64]| {
             let known = evaluated(monitor, slopes, seen::<S, V>(q)).map(f64::to_bits);
             words[4..].iter().map(|word| word.to_bits()).eq(known)
         };
-        self.integrator
-            .restore_with(KIND, checkpoint, &mut found, mine)?;
+        integrator.restore_with(KIND, checkpoint, &mut found, mine)?;
+        self.last_event = integrator.last_event.take();
         let [epsilon, density, unfinished, time_low, ..] = found;
-        self.controller = Controller {
+        let controller = &mut self.stepper.controller;
+        *controller = Controller {
             epsilon,
             density,
             unfinished,
             time_low,
-            ..self.controller
+            ..*controller
         };
         Ok(())
     }

@@ -5,7 +5,9 @@ use core::fmt;
 use super::monitor::{Monitor, Slopes, seen, value_at};
 use crate::error::Error;
 use crate::integrator::validation::{check_state, check_step_size};
-use crate::integrator::{Integrator, Retry};
+use crate::integrator::{
+    DenseSteps, Integrator, Own, Partitioned, Retry, Run, Statistics, Stepper,
+};
 use crate::method::{Method, ProvedFor, Solver, SymmetricFor};
 use crate::number::summation::{fast_two_sum, two_sum};
 use crate::number::{Compensated, Summation, Vector};
@@ -78,7 +80,11 @@ use crate::system::System;
 /// let start = State::from_arrays(0.0, [0.1, 0.0], [0.0, 19_f64.sqrt()]);
 /// let run = Integrator::adaptive(SymplecticEuler, Kepler, DistancePower(1.5), start, 0.02);
 /// ```
-pub struct Adaptive<
+pub type Adaptive<M, S, W, V, R = Compensated, N = <S as System<V>>::Solver> =
+    Run<AdaptiveSteps<M, S, W, V, R, N>>;
+
+/// The steps of an [`Adaptive`] run.
+pub struct AdaptiveSteps<
     M: Method,
     S: System<V>,
     W,
@@ -195,39 +201,178 @@ where
         let value = value_at(&monitor, seen::<S, V>(q)).map_err(Error::monitor_at(*time))?;
         let (slopes, velocity) = (Slopes::like(q), q.zeros_like());
         integrator.set_retry(Retry::Never);
-        Ok(Self {
+        let last_event = integrator.last_event.take();
+        let stepper = AdaptiveSteps {
             integrator,
             monitor,
             slopes,
             velocity,
             controller: Controller::new(epsilon, value),
+        };
+        Ok(Self {
+            last_event,
+            ..Self::of(stepper, 1.0)?
         })
     }
 
-    /// Takes one step and returns the state after it.
+    /// Reverses the direction of the run: the next step undoes the last one.
     ///
-    /// # Errors
+    /// ```
+    /// use symplectic::adaptive::DistancePower;
+    /// use symplectic::nalgebra::Vector2;
+    /// use symplectic::{Error, Integrator, State, acceleration};
     ///
-    /// Those of [`Integrator::step`]; [`Error::Monitor`] if `∇σ·q'/σ` is not finite, or if dual numbers evaluate it and σ is not positive;
-    /// [`Error::StepDensity`] if z is no longer positive, or `ε/z` overflows. State and step density are then unchanged.
-    pub fn step(&mut self) -> Result<&State<V>, Error> {
-        self.advance()?;
-        Ok(self.integrator.state())
+    /// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let kepler = acceleration(|_time, q: &Vector2<f64>, acceleration| *acceleration = -q / q.norm().powi(3));
+    /// let start = State::from_arrays(0.0, [0.1, 0.0], [0.0, 19_f64.sqrt()]);
+    /// let mut run = Integrator::adaptive(VelocityVerlet, kepler, DistancePower(1.5), start.clone(), 0.05)?;
+    /// run.take_steps(100)?;
+    /// let size = run.step_size();
+    /// run.reverse();
+    /// run.step()?;
+    /// assert_eq!(run.step_size(), -size);
+    /// run.take_steps(99)?;
+    /// assert!((run.state().q - start.q).norm() < 1e-11);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub const fn reverse(&mut self) {
+        let controller = &mut self.stepper.controller;
+        controller.epsilon = -controller.epsilon;
+    }
+}
+
+impl<M, S, W, V, R, N> Adaptive<M, S, W, V, R, N>
+where
+    M: Method,
+    S: System<V>,
+    V: Vector,
+    R: Summation,
+    N: Solver<V, S>,
+{
+    /// The energy of the present state, if the system gives it.
+    pub fn energy(&self) -> Option<V::Scalar> {
+        self.stepper.integrator.energy()
     }
 
-    /// Takes `count` steps and returns the state after them.
+    /// The size of the last step, negative in a run backward. Before the first step, and after [`set_state`](Self::set_state), `ε σ(q)`.
+    /// After [`reverse`](Self::reverse) it has the opposite sign.
+    pub fn step_size(&self) -> f64 {
+        self.stepper.controller.step_size()
+    }
+
+    /// The step density z, positive: `z_{n+1/2}` of the last step, whose size was `ε/z`. Before the first step, and after
+    /// [`set_state`](Self::set_state), `1/σ(q)`.
+    pub const fn step_density(&self) -> f64 {
+        self.stepper.controller.density
+    }
+
+    /// The ε of the run, negative in a run backward.
+    pub const fn epsilon(&self) -> f64 {
+        self.stepper.controller.epsilon
+    }
+
+    /// The monitor.
+    pub const fn monitor(&self) -> &W {
+        &self.stepper.monitor
+    }
+
+    /// The states inside the last step: see [`Integrator::dense`].
     ///
     /// # Errors
     ///
-    /// Those of [`step`](Self::step); the state is then that after the last successful step.
-    pub fn take_steps(&mut self, count: u64) -> Result<&State<V>, Error> {
-        for _ in 0..count {
-            self.advance()?;
+    /// Those of [`Integrator::dense`].
+    pub fn dense(&self) -> Result<DenseOutput<'_, M, S, V, R, N>, Error> {
+        self.stepper.integrator.dense()
+    }
+
+    /// The integrator that takes the steps, for example to read its system and its statistics.
+    pub const fn integrator(&self) -> &Integrator<M, S, V, R, N> {
+        &self.stepper.integrator
+    }
+}
+
+impl<M, S, W, V, R, N> AdaptiveSteps<M, S, W, V, R, N>
+where
+    M: Method,
+    S: System<V>,
+    W: Monitor,
+    V: Vector<Scalar = f64>,
+    R: Summation,
+    N: Solver<V, S>,
+{
+    /// The system.
+    pub const fn system(&self) -> &S {
+        self.integrator.system()
+    }
+
+    /// `G = −∇σ·q'/σ` at the present state.
+    fn rate(&mut self) -> Result<f64, Error> {
+        let State { time, q, p } = self.integrator.state();
+        let velocity = if S::MASSES.are_unit() {
+            p
+        } else {
+            let system = self.integrator.system();
+            system.velocity(*time, q, p, &mut self.velocity);
+            &self.velocity
+        };
+        let slope = self
+            .slopes
+            .along(&self.monitor, seen::<S, V>(q), seen::<S, V>(velocity));
+        if slope.is_finite() {
+            Ok(-slope)
+        } else {
+            Err(Error::monitor_at(*time)(
+                self.monitor.value(seen::<S, V>(q)),
+            ))
         }
-        Ok(self.integrator.state())
     }
 
-    pub(super) fn advance(&mut self) -> Result<(), Error> {
+    fn restarted(&self, state: &State<V>) -> Result<Controller, Error> {
+        let State { time, q, p } = state;
+        check_state(*time, q, p, self.integrator.state().q.dimension())?;
+        let value = value_at(&self.monitor, seen::<S, V>(q)).map_err(Error::monitor_at(*time))?;
+        Ok(Controller::new(self.controller.epsilon, value))
+    }
+}
+
+impl<M, S, W, V, R, N> Stepper for AdaptiveSteps<M, S, W, V, R, N>
+where
+    M: Method,
+    S: System<V>,
+    W: Monitor,
+    V: Vector<Scalar = f64>,
+    R: Summation,
+    N: Solver<V, S>,
+{
+    type State = State<V>;
+    type Pace = Own;
+    /// Parts of a step would not be symmetric.
+    type Saved = ();
+
+    fn state(&self) -> &State<V> {
+        self.integrator.state()
+    }
+
+    fn statistics(&self) -> &Statistics {
+        self.integrator.statistics()
+    }
+
+    fn statistics_mut(&mut self) -> &mut Statistics {
+        self.integrator.stepper.statistics_mut()
+    }
+
+    /// The step density becomes 1/σ.
+    fn set_state(&mut self, state: &State<V>) -> Result<(), Error> {
+        let controller = self.restarted(state)?;
+        self.integrator.copy_state(state)?;
+        self.controller = controller;
+        Ok(())
+    }
+
+    fn advance(&mut self, _size: f64, _end: f64) -> Result<(), Error> {
         let mut next = self.controller;
         let half = 0.5 * next.epsilon;
         let kick = next.unfinished + half;
@@ -263,141 +408,67 @@ where
         Ok(())
     }
 
-    /// `G = −∇σ·q'/σ` at the present state.
-    fn rate(&mut self) -> Result<f64, Error> {
-        let State { time, q, p } = self.integrator.state();
-        let velocity = if S::MASSES.are_unit() {
-            p
-        } else {
-            let system = self.integrator.system();
-            system.velocity(*time, q, p, &mut self.velocity);
-            &self.velocity
-        };
-        let slope = self
-            .slopes
-            .along(&self.monitor, seen::<S, V>(q), seen::<S, V>(velocity));
-        if slope.is_finite() {
-            Ok(-slope)
-        } else {
-            Err(Error::monitor_at(*time)(
-                self.monitor.value(seen::<S, V>(q)),
-            ))
-        }
+    fn own_step_size(&self) -> Option<f64> {
+        Some(self.controller.step_size())
     }
 
-    /// Reverses the direction of the run: the next step undoes the last one.
-    ///
-    /// ```
-    /// use symplectic::adaptive::DistancePower;
-    /// use symplectic::nalgebra::Vector2;
-    /// use symplectic::{Error, Integrator, State, acceleration};
-    ///
-    /// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
-    ///
-    /// # fn main() -> Result<(), Error> {
-    /// let kepler = acceleration(|_time, q: &Vector2<f64>, acceleration| *acceleration = -q / q.norm().powi(3));
-    /// let start = State::from_arrays(0.0, [0.1, 0.0], [0.0, 19_f64.sqrt()]);
-    /// let mut run = Integrator::adaptive(VelocityVerlet, kepler, DistancePower(1.5), start.clone(), 0.05)?;
-    /// run.take_steps(100)?;
-    /// let size = run.step_size();
-    /// run.reverse();
-    /// run.step()?;
-    /// assert_eq!(run.step_size(), -size);
-    /// run.take_steps(99)?;
-    /// assert!((run.state().q - start.q).norm() < 1e-11);
-    /// # Ok(())
-    /// # }
-    /// ```
-    pub const fn reverse(&mut self) {
-        self.controller.epsilon = -self.controller.epsilon;
-    }
+    fn save(&self) {}
 
-    /// Replaces the present state by another state of the same dimension, and the step density by 1/σ there.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Integrator::set_state`]; [`Error::Monitor`] if σ is not finite and positive there. The state is then unchanged.
-    pub fn set_state(&mut self, state: State<V>) -> Result<(), Error> {
-        self.copy_state(&state)
-    }
-
-    /// [`set_state`](Self::set_state) by a copy.
-    pub(super) fn copy_state(&mut self, state: &State<V>) -> Result<(), Error> {
-        let controller = self.restarted(state)?;
-        self.integrator.copy_state(state)?;
-        self.controller = controller;
-        Ok(())
-    }
-
-    fn restarted(&self, state: &State<V>) -> Result<Controller, Error> {
-        let State { time, q, p } = state;
-        check_state(*time, q, p, self.integrator.state().q.dimension())?;
-        let value = value_at(&self.monitor, seen::<S, V>(q)).map_err(Error::monitor_at(*time))?;
-        Ok(Controller::new(self.controller.epsilon, value))
-    }
+    fn go_back(&mut self, _saved: &()) {}
 }
 
-impl<M, S, W, V, R, N> Adaptive<M, S, W, V, R, N>
+impl<M, S, W, V, R, N> DenseSteps for AdaptiveSteps<M, S, W, V, R, N>
 where
     M: Method,
     S: System<V>,
-    V: Vector,
+    W: Monitor,
+    V: Vector<Scalar = f64>,
     R: Summation,
     N: Solver<V, S>,
 {
-    /// The present state.
-    pub fn state(&self) -> &State<V> {
-        self.integrator.state()
+    type Vector = V;
+    type Scratch = <Partitioned<M, S, V, R, N> as DenseSteps>::Scratch;
+
+    fn scratch(&self) -> Self::Scratch {
+        self.integrator.stepper.scratch()
     }
 
-    /// The energy of the present state, if the system gives it.
-    pub fn energy(&self) -> Option<V::Scalar> {
-        self.integrator.energy()
+    fn last_span(&self) -> Option<(f64, f64)> {
+        self.integrator.stepper.last_span()
     }
 
-    /// The size of the last step, negative in a run backward. Before the first step, and after [`set_state`](Self::set_state), `ε σ(q)`.
-    /// After [`reverse`](Self::reverse) it has the opposite sign.
-    pub fn step_size(&self) -> f64 {
-        self.controller.step_size()
+    fn write_start(&self, out: &mut State<V>) {
+        self.integrator.stepper.write_start(out);
     }
 
-    /// The step density z, positive: `z_{n+1/2}` of the last step, whose size was `ε/z`. Before the first step, and after
-    /// [`set_state`](Self::set_state), `1/σ(q)`.
-    pub const fn step_density(&self) -> f64 {
-        self.controller.density
+    fn prepare(&self, scratch: &mut Self::Scratch) -> Result<(), Error> {
+        self.integrator.stepper.prepare(scratch)
     }
 
-    /// Number of steps taken.
-    pub fn steps(&self) -> u64 {
-        self.integrator.steps()
+    fn look(
+        &mut self,
+        time: f64,
+        scratch: &mut Self::Scratch,
+        out: &mut State<V>,
+    ) -> Result<(), Error> {
+        self.integrator.stepper.look(time, scratch, out)
     }
 
-    /// The ε of the run, negative in a run backward.
-    pub const fn epsilon(&self) -> f64 {
-        self.controller.epsilon
+    fn look_by_step(
+        &mut self,
+        time: f64,
+        scratch: &mut Self::Scratch,
+        out: &mut State<V>,
+    ) -> Result<(), Error> {
+        self.integrator.stepper.look_by_step(time, scratch, out)
     }
 
-    /// The monitor.
-    pub const fn monitor(&self) -> &W {
-        &self.monitor
-    }
-
-    /// The states inside the last step: see [`Integrator::dense`].
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Integrator::dense`].
-    pub fn dense(&self) -> Result<DenseOutput<'_, M, S, V, R, N>, Error> {
-        self.integrator.dense()
-    }
-
-    /// The integrator that takes the steps, for example to read its system and its statistics.
-    pub const fn integrator(&self) -> &Integrator<M, S, V, R, N> {
-        &self.integrator
+    fn slopes(&mut self, state: &State<V>, size: f64, velocity: &mut V, force: &mut V) {
+        (self.integrator.stepper).slopes(state, size, velocity, force);
     }
 }
 
-impl<M, S, W, V, R, N> Clone for Adaptive<M, S, W, V, R, N>
+impl<M, S, W, V, R, N> Clone for AdaptiveSteps<M, S, W, V, R, N>
 where
     M: Method,
     S: System<V> + Clone,
@@ -418,7 +489,7 @@ where
     }
 }
 
-impl<M, S, W, V, R, N> fmt::Debug for Adaptive<M, S, W, V, R, N>
+impl<M, S, W, V, R, N> fmt::Debug for AdaptiveSteps<M, S, W, V, R, N>
 where
     M: Method,
     S: System<V>,
@@ -428,7 +499,7 @@ where
 {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter
-            .debug_struct("Adaptive")
+            .debug_struct("AdaptiveSteps")
             .field("integrator", &self.integrator)
             .field("controller", &self.controller)
             .finish_non_exhaustive()

@@ -25,7 +25,7 @@ mod output;
 mod poincare;
 
 pub use crate::method::Symmetry;
-pub use integrator::Adaptive;
+pub use integrator::{Adaptive, AdaptiveSteps};
 #[cfg(feature = "alloc")]
 pub use logarithmic::Logarithmic;
 pub use monitor::{DistancePower, ForcePower, Monitor, PairDistances};

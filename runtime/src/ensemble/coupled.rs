@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::integrator::CoupledLanes;
 use crate::method::{Method, Solver};
 use crate::number::{Lanes, Summation, Vector};
-use crate::output::at_times::{self, Output};
+use crate::output::at_times::Output;
 use crate::state::State;
 use crate::system::System;
 
@@ -119,19 +119,19 @@ where
 
     fn see_at(&mut self, times: &[f64]) -> Attempt {
         let run = &self.group.members[0].run;
-        if at_times::check(run, times).is_err() {
+        if run.check_times(times).is_err() {
             return Attempt::Refused;
         }
         let (size, mut clock) = (run.step_size(), run.clock());
         let see = self.see;
-        let mut output = Output::new(run, size);
+        let mut output = Output::new(&run.stepper, size);
         let mut rest = times;
         for (lane, member) in self.group.members.iter_mut().enumerate() {
             let Member {
                 run, output: own, ..
             } = member;
             let mut seen = times;
-            member.outcome = output.show(run, &mut seen, &mut |state| see(own, state));
+            member.outcome = output.show(&mut run.stepper, &mut seen, &mut |state| see(own, state));
             self.live &= !(u32::from(member.outcome.is_err()) << lane);
         }
         output.skip(&mut rest, self.lanes.time());
@@ -148,8 +148,8 @@ where
                     run, output: own, ..
                 } = member;
                 let mut seen = before;
-                let outcome = run.advance_in_sight(size, time, &mut |run| {
-                    output.show(run, &mut seen, &mut |state| see(own, state))?;
+                let outcome = run.advance_in_sight(size, time, &mut |stepper| {
+                    output.show(stepper, &mut seen, &mut |state| see(own, state))?;
                     Ok(ControlFlow::<()>::Continue(()))
                 });
                 outcome.map(|_| ())
@@ -168,7 +168,7 @@ where
                 } = &mut self.group.members[lane];
                 self.lanes.store(lane, run);
                 let mut seen = before;
-                *outcome = output.show(run, &mut seen, &mut |state| see(own, state));
+                *outcome = output.show(&mut run.stepper, &mut seen, &mut |state| see(own, state));
                 if outcome.is_err() {
                     self.live &= !(1 << lane);
                     self.ready &= !(1 << lane);

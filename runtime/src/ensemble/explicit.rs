@@ -10,12 +10,11 @@ use super::Row;
 use super::coupled::Coupled;
 use super::group::{Attempt, Group, Job, Task};
 use super::run::Way;
-use crate::integrator::{CoupledLanes, Integrator};
+use crate::integrator::{CoupledLanes, Integrator, Partitioned};
 use crate::method::{Method, Solver};
 use crate::number::vector::same;
 use crate::number::{Lanes, Scalar, Summation, Vector};
-use crate::output::at_times::{self, Output};
-use crate::output::steps::is_after;
+use crate::output::at_times::{Output, is_after};
 use crate::state::State;
 use crate::system::{Join, LaneWork, System};
 
@@ -34,6 +33,9 @@ pub(super) struct SideBySide<'j, 'a, M, S: System<V>, V: Vector, R, N, L, A, F> 
 
 /// The integrator whose lanes hold the trajectories.
 type InLanes<M, J, W, R> = Integrator<M, J, W, R, <J as System<W>>::Solver>;
+
+/// Output of such an integrator.
+type OutputInLanes<M, J, W, R> = Output<Partitioned<M, J, W, R, <J as System<W>>::Solver>>;
 
 impl<M, S, V, R, N, L, K, A, F> LaneWork<V, S, K> for SideBySide<'_, '_, M, S, V, R, N, L, A, F>
 where
@@ -306,7 +308,7 @@ where
     /// Observes the trajectories at given times. If anything fails in a lane, all trajectories continue alone from the
     /// last observed time.
     fn see_at(&mut self, times: &[f64]) -> Attempt {
-        if at_times::check(self.lanes, times).is_err() {
+        if self.lanes.check_times(times).is_err() {
             return Attempt::Refused;
         }
         let present = self.lanes.state().time;
@@ -321,7 +323,7 @@ where
                 self.see(index, start);
             }
         }
-        let mut output = Output::new(self.lanes, direction);
+        let mut output = Output::new(&self.lanes.stepper, direction);
         let mut shown = self.group.start(0).clone();
         while !rest.is_empty() {
             if self.job.ensemble.is_stopped() {
@@ -360,7 +362,7 @@ where
     fn see_next(
         &mut self,
         times: &[f64],
-        (output, shown): (&mut Output<W>, &mut State<V>),
+        (output, shown): (&mut OutputInLanes<M, J, W, R>, &mut State<V>),
     ) -> Option<usize> {
         let direction = self.lanes.step_size();
         let mut steps = 0_u64;
@@ -384,7 +386,7 @@ where
                 // A zero time has the same sign as in a run of one trajectory.
                 true => present,
                 false => {
-                    output.look_together(self.lanes, time).ok()?;
+                    output.look_together(&mut self.lanes.stepper, time).ok()?;
                     &output.state
                 }
             };

@@ -69,7 +69,6 @@ mod row;
 mod run;
 mod run_time;
 mod shards;
-mod trajectory;
 
 pub use checkpoint::EnsembleCheckpoint;
 pub use error::EnsembleError;
@@ -80,7 +79,6 @@ pub use npz::{Npz, NpzArray, NpzValues};
 #[cfg(feature = "parquet")]
 pub use parquet::{Parquet, ParquetColumn};
 pub use row::Row;
-pub use trajectory::Run;
 
 use alloc::sync::Arc;
 use alloc::vec::Vec;

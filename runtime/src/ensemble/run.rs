@@ -6,9 +6,9 @@ use core::ops::{ControlFlow, Range};
 use super::group::{Job, Task};
 use super::pool::{self, threads};
 use super::registers::width;
-use super::{Ensemble, Row, Run, Wanted};
+use super::{Ensemble, Row, Wanted};
 use crate::error::Error;
-use crate::integrator::{Integrator, Statistics};
+use crate::integrator::{Integrator, Run, Statistics, Stepper};
 use crate::method::{Method, RunTimeTableau, Solver};
 use crate::number::registers::Widest;
 use crate::number::{Lanes, Scalar, Summation, Vector};
@@ -185,9 +185,8 @@ where
         self.each_as(Ok, output, work, show)
     }
 
-    /// [`each`](Self::each) for runs other than integrators: `make` constructs the [`Run`] of a trajectory from its integrator, for example
-    /// with [reversible steps of variable size](crate::adaptive::Adaptive). [`set_retry`](Self::set_retry) has no effect on runs with steps
-    /// of variable size.
+    /// [`each`](Self::each) for runs of any [`Stepper`]: `make` constructs the [`Run`] of a trajectory from its integrator, for example with
+    /// [reversible steps of variable size](crate::adaptive::Adaptive). [`set_retry`](Self::set_retry) has no effect on those.
     ///
     /// If `make` fails, the row has its error and the start. A [checkpoint](Self::checkpoint) does not store `make` and `work`: pass the
     /// same ones again.
@@ -232,11 +231,11 @@ where
     /// # Ok(())
     /// # }
     /// ```
-    pub fn each_as<T: Run<V>, A: Send>(
+    pub fn each_as<T: Stepper<State = State<V>>, A: Send>(
         &self,
-        make: impl Fn(Integrator<M, S, V, R, N>) -> Result<T, Error> + Sync,
+        make: impl Fn(Integrator<M, S, V, R, N>) -> Result<Run<T>, Error> + Sync,
         output: impl Fn(usize) -> A + Sync,
-        work: impl Fn(&mut A, &mut T) -> Result<(), Error> + Sync,
+        work: impl Fn(&mut A, &mut Run<T>) -> Result<(), Error> + Sync,
         show: impl FnMut(Row<V, A>) -> ControlFlow<()>,
     ) -> usize {
         let row = |ensemble: &Self, place| {

@@ -8,4 +8,4 @@ mod run;
 
 pub use recording::Recording;
 pub use replace::{PeriodicFile, replace_file};
-pub use run::{NamedRun, record_at, record_to};
+pub use run::{NamedSteps, record_at, record_to};

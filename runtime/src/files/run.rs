@@ -4,12 +4,12 @@ use std::io;
 use std::path::Path;
 
 use super::Recording;
-use crate::adaptive::{Adaptive, Monitor};
+use crate::adaptive::{AdaptiveSteps, Monitor};
+#[cfg(doc)]
 use crate::error::Error;
-use crate::integrator::Integrator;
+use crate::integrator::{DenseSteps, Partitioned, Run};
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
-use crate::state::State;
 use crate::system::{Named, System};
 
 /// Integrates to `end` and writes the start and the state after every step, with the [names](Named) of the system, as `.csv` or, with the
@@ -35,68 +35,46 @@ use crate::system::{Named, System};
 /// # Ok(())
 /// # }
 /// ```
-pub fn record_to<R: NamedRun>(run: &mut R, end: f64, path: impl AsRef<Path>) -> io::Result<()> {
-    let mut table = Recording::of(run.system(), run.state())?;
+pub fn record_to<S: NamedSteps>(
+    run: &mut Run<S>,
+    end: f64,
+    path: impl AsRef<Path>,
+) -> io::Result<()> {
+    let mut table = Recording::of(run.stepper().system(), run.state())?;
     table.save(&path)?;
-    let outcome = run.integrate_with(end, |state| table.record(state));
+    let outcome = run.watch_to(end, |state| table.record(state));
     table.save(&path)?;
     outcome.map_err(io::Error::other)
 }
 
-/// [`record_to`] with the states at `times` only, as from [`Integrator::integrate_at`].
+/// [`record_to`] with the states at `times` only, as from [`Run::integrate_at`].
 ///
 /// # Errors
 ///
 /// As for [`record_to`].
-pub fn record_at<R: NamedRun>(
-    run: &mut R,
+pub fn record_at<S: NamedSteps>(
+    run: &mut Run<S>,
     times: &[f64],
     path: impl AsRef<Path>,
 ) -> io::Result<()> {
-    let mut table = Recording::empty(run.system(), run.state())?;
+    let mut table = Recording::empty(run.stepper().system(), run.state())?;
     table.save(&path)?;
     let outcome = run.integrate_at(times, |state| table.record(state));
     table.save(&path)?;
-    outcome.map_err(io::Error::other)
+    outcome.map(|_| ()).map_err(io::Error::other)
 }
 
-/// A run of a system with [names](Named): an [`Integrator`], or an [`Adaptive`] with steps of variable size.
-pub trait NamedRun {
+/// The steps of a system with [names](Named), whose runs can be recorded: those of an [`Integrator`](crate::Integrator), or of an
+/// [`Adaptive`](crate::adaptive::Adaptive) run with steps of variable size.
+pub trait NamedSteps: DenseSteps<Vector: Vector<Scalar = f64>> {
     /// The system.
     type System: Named;
-    /// The vector of positions.
-    type Vector: Vector<Scalar = f64>;
 
     /// The system.
     fn system(&self) -> &Self::System;
-
-    /// The present state.
-    fn state(&self) -> &State<Self::Vector>;
-
-    /// See [`Integrator::integrate_with`].
-    ///
-    /// # Errors
-    ///
-    /// Those of a step.
-    fn integrate_with(
-        &mut self,
-        end: f64,
-        observe: impl FnMut(&State<Self::Vector>),
-    ) -> Result<(), Error>;
-
-    /// See [`Integrator::integrate_at`].
-    ///
-    /// # Errors
-    ///
-    /// Those of a step.
-    fn integrate_at(
-        &mut self,
-        times: &[f64],
-        observe: impl FnMut(&State<Self::Vector>),
-    ) -> Result<(), Error>;
 }
 
-impl<M, S, V, R, N> NamedRun for Integrator<M, S, V, R, N>
+impl<M, S, V, R, N> NamedSteps for Partitioned<M, S, V, R, N>
 where
     M: Method,
     S: System<V> + Named,
@@ -105,26 +83,13 @@ where
     N: Solver<V, S>,
 {
     type System = S;
-    type Vector = V;
 
     fn system(&self) -> &S {
         self.system()
     }
-
-    fn state(&self) -> &State<V> {
-        self.state()
-    }
-
-    fn integrate_with(&mut self, end: f64, observe: impl FnMut(&State<V>)) -> Result<(), Error> {
-        self.integrate_with(end, observe).map(|_| ())
-    }
-
-    fn integrate_at(&mut self, times: &[f64], observe: impl FnMut(&State<V>)) -> Result<(), Error> {
-        self.integrate_at(times, observe).map(|_| ())
-    }
 }
 
-impl<M, S, W, V, R, N> NamedRun for Adaptive<M, S, W, V, R, N>
+impl<M, S, W, V, R, N> NamedSteps for AdaptiveSteps<M, S, W, V, R, N>
 where
     M: Method,
     S: System<V> + Named,
@@ -134,21 +99,8 @@ where
     N: Solver<V, S>,
 {
     type System = S;
-    type Vector = V;
 
     fn system(&self) -> &S {
-        self.integrator().system()
-    }
-
-    fn state(&self) -> &State<V> {
-        self.state()
-    }
-
-    fn integrate_with(&mut self, end: f64, observe: impl FnMut(&State<V>)) -> Result<(), Error> {
-        self.integrate_with(end, observe).map(|_| ())
-    }
-
-    fn integrate_at(&mut self, times: &[f64], observe: impl FnMut(&State<V>)) -> Result<(), Error> {
-        self.integrate_at(times, observe).map(|_| ())
+        self.system()
     }
 }

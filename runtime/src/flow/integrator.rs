@@ -4,7 +4,7 @@ use super::memory::Memory;
 use super::{Flow, FlowError, Span};
 use crate::error::{Error, Quantity};
 use crate::integrator::validation::{check_state, check_step_size};
-use crate::integrator::{Run, Statistics, Stepper};
+use crate::integrator::{DenseSteps, Equal, Run, Statistics, Stepper};
 use crate::method::storage::is_finite;
 use crate::number::words::{Visit, Words, words};
 use crate::number::{Vector, copy};
@@ -14,6 +14,11 @@ use crate::state::State;
 ///
 /// Sums are not compensated. Steps do not allocate unless the flows do. A failed step is not [split](crate::Retry). A clone, if the flow
 /// can be cloned, continues with the same bits. [`set_state`](Run::set_state) leaves the [memory](Flow::memory) of the flow as it is.
+///
+/// A state inside the last step is that of a shorter step of the flow from its start. It has the error of a step and costs as much. The
+/// shorter step has the direction of the step, so it works for flows that cannot go backward. It starts with the memory of the start of the
+/// step, and then restores the present memory. So noise uses the random numbers of the step. The state has the distribution of a shorter
+/// step from the start; it is not a bridge, which would depend on the end too.
 ///
 /// ```
 /// symplectic::tableau! { Verlet { base: velocity-verlet } }
@@ -38,9 +43,6 @@ pub type FlowIntegrator<V, F> = Run<FlowSteps<V, F>>;
 pub struct FlowSteps<V, F> {
     pub(super) flow: F,
     pub(super) run_state: RunState<V>,
-    /// Work space for the memory of the flow during a partial step.
-    #[cfg(feature = "alloc")]
-    present: Memory,
 }
 
 /// What a step changes, apart from the flow.
@@ -88,8 +90,6 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
                 state,
                 statistics: Statistics::default(),
             },
-            #[cfg(feature = "alloc")]
-            present: Memory::default(),
         };
         Self::of(stepper, step_size)
     }
@@ -97,44 +97,6 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
     /// The flow of a step.
     pub const fn flow(&self) -> &F {
         &self.stepper.flow
-    }
-}
-
-#[cfg(feature = "alloc")]
-impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowSteps<V, F> {
-    /// Writes the state at the present time or at a time within the last step.
-    pub(super) fn look_at(&mut self, time: f64, out: &mut State<V>) -> Result<(), Error> {
-        let RunState {
-            state,
-            before,
-            last,
-            memory,
-            statistics,
-        } = &self.run_state;
-        out.time = time;
-        if time == state.time {
-            copy(&mut out.q, &state.q);
-            copy(&mut out.p, &state.p);
-            return Ok(());
-        }
-        let (Last { start, size }, end) = (last.ok_or(Error::NoStep)?, state.time);
-        if !(start.min(end) <= time && time <= start.max(end)) {
-            return Err(Error::OutsideStep { time, start, end });
-        }
-        copy(&mut out.q, &before.0);
-        copy(&mut out.p, &before.1);
-        if time == start {
-            return Ok(());
-        }
-        let span = Span {
-            time: start,
-            size: size * ((time - start) / (end - start)),
-        };
-        self.present.keep(&mut self.flow);
-        memory.put_back(&mut self.flow);
-        let taken = take(&mut self.flow, span, out);
-        self.present.put_back(&mut self.flow);
-        taken.map_err(|failure| failed(failure, span, statistics.steps))
     }
 }
 
@@ -188,15 +150,12 @@ pub(super) const fn failed(failure: FlowError, span: Span, step: u64) -> Error {
 
 impl<V: Vector<Scalar = f64>, F: Flow<V>> Stepper for FlowSteps<V, F> {
     type State = State<V>;
+    type Pace = Equal;
     /// A step with noise is not repeated.
     type Saved = ();
 
     fn state(&self) -> &State<V> {
         &self.run_state.state
-    }
-
-    fn time(&self) -> f64 {
-        self.run_state.state.time
     }
 
     fn statistics(&self) -> &Statistics {
@@ -249,4 +208,89 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> Stepper for FlowSteps<V, F> {
     fn save(&self) {}
 
     fn go_back(&mut self, _saved: &()) {}
+
+    fn may_split(&self, _error: &Error) -> bool {
+        false
+    }
+}
+
+impl<V: Vector<Scalar = f64>, F: Flow<V>> DenseSteps for FlowSteps<V, F> {
+    type Vector = V;
+    /// The present memory of the flow, during a shorter step.
+    type Scratch = Memory;
+
+    fn scratch(&self) -> Memory {
+        Memory::default()
+    }
+
+    fn last_span(&self) -> Option<(f64, f64)> {
+        let last = self.run_state.last?;
+        Some((last.start, self.run_state.state.time))
+    }
+
+    fn write_start(&self, out: &mut State<V>) {
+        let RunState {
+            state,
+            before,
+            last,
+            ..
+        } = &self.run_state;
+        match last {
+            Some(last) => {
+                out.time = last.start;
+                copy(&mut out.q, &before.0);
+                copy(&mut out.p, &before.1);
+            }
+            None => out.copy_from(state),
+        }
+    }
+
+    /// By a shorter step from the start of the last step, with the memory of the flow there.
+    fn look(&mut self, time: f64, present: &mut Memory, out: &mut State<V>) -> Result<(), Error> {
+        if time == self.run_state.state.time {
+            out.copy_from(&self.run_state.state);
+            return Ok(());
+        }
+        self.write_start(out);
+        let (start, end) = self.last_span().ok_or(Error::NoStep)?;
+        if !(start.min(end) <= time && time <= start.max(end)) {
+            return Err(Error::OutsideStep { time, start, end });
+        }
+        if time == start {
+            return Ok(());
+        }
+        let Self { flow, run_state } = self;
+        let size = run_state.last.map_or(0.0, |last| last.size);
+        let span = Span {
+            time: start,
+            size: size * ((time - start) / (end - start)),
+        };
+        present.keep(flow);
+        run_state.memory.put_back(flow);
+        let taken = take(flow, span, out);
+        present.put_back(flow);
+        out.time = time;
+        taken.map_err(|failure| failed(failure, span, run_state.statistics.steps))
+    }
+
+    /// Difference quotients of a short step forward; 0 if it fails.
+    fn slopes(&mut self, state: &State<V>, size: f64, velocity: &mut V, force: &mut V) {
+        copy(velocity, &state.q);
+        copy(force, &state.p);
+        let mut present = Memory::default();
+        present.keep(&mut self.flow);
+        let span = Span {
+            time: state.time,
+            size,
+        };
+        let taken = self.flow.flow(span, velocity, force);
+        present.put_back(&mut self.flow);
+        for (end, start) in [(velocity, &state.q), (force, &state.p)] {
+            let pairs = end.as_mut_slice().iter_mut().zip(start.as_slice());
+            pairs.for_each(|(end, start)| match taken {
+                Ok(()) => *end = (*end - start) / size,
+                Err(_) => *end = 0.0,
+            });
+        }
+    }
 }

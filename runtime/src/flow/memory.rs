@@ -10,7 +10,7 @@ use crate::number::words::{Visit, Words};
 
 /// The words of the [memory](Flow::memory) of a flow at one moment; none without the feature `alloc`.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Memory(#[cfg(feature = "alloc")] Vec<u64>);
+pub struct Memory(#[cfg(feature = "alloc")] Vec<u64>);
 
 #[cfg(feature = "alloc")]
 impl Memory {

@@ -76,8 +76,6 @@ mod memory;
 #[cfg(feature = "alloc")]
 mod mollified;
 mod ornstein_uhlenbeck;
-#[cfg(feature = "alloc")]
-mod output;
 mod palindrome;
 mod philox;
 mod splitting;

@@ -256,16 +256,20 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     ///
     /// [`CheckpointError::Scalar`].
     pub fn checkpoint(&self) -> Result<Checkpoint, CheckpointError> {
-        self.checkpoint_with("", &[])
+        self.checkpoint_with("", self.last_event, &[])
     }
 
-    /// A checkpoint of a run of kind `kind`, with the values `beside` that change in addition to the integrator.
+    /// A checkpoint of a run of kind `kind`, with its last event and the values `beside` that change in addition to the integrator.
     pub(crate) fn checkpoint_with(
         &self,
         kind: &str,
+        last_event: Option<LastEvent>,
         beside: &[f64],
     ) -> Result<Checkpoint, CheckpointError> {
-        let mut numbers = self.numbers();
+        let mut numbers = Numbers {
+            last_event,
+            ..self.numbers()
+        };
         Ok(self.blank_checkpoint(kind)?.filled(|visit| {
             numbers.words(visit, |visit| self.stepper.step_memory.show_scalars(visit));
             beside.iter().for_each(|value| visit(&mut value.to_bits()));

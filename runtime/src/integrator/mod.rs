@@ -1,8 +1,10 @@
 //! Runs and their steppers; the stepper of a partitioned Runge–Kutta method.
 
 pub(crate) mod clock;
+mod dense_steps;
 pub(crate) mod first_step;
 pub(crate) mod last_step;
+mod pace;
 pub(crate) mod partial_step;
 pub(crate) mod retry;
 pub(crate) mod run;
@@ -15,6 +17,8 @@ pub use checkpoint::{Checkpoint, CheckpointError};
 pub use clock::RemainingSteps;
 #[cfg(feature = "alloc")]
 pub(crate) use coupled_in_lanes::CoupledLanes;
+pub use dense_steps::DenseSteps;
+pub use pace::{Equal, Own, Pace};
 pub(crate) use partitioned::PlanOf;
 pub use partitioned::{Integrator, Partitioned};
 pub use retry::Retry;

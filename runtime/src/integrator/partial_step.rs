@@ -1,38 +1,37 @@
 //! Shorter steps from the start of the last step.
 
 use crate::error::Error;
-use crate::integrator::Integrator;
-use crate::integrator::PlanOf;
+use crate::integrator::{Partitioned, PlanOf, Stepper};
 use crate::method::diagnosis::{Attempt, FirstFault};
 use crate::method::{Method, Outcome, Plan, Solver, StageStorage, Step, WarmStart};
 use crate::number::{Summation, Vector, copy};
 use crate::state::State;
 use crate::system::System;
 
-/// Memory for partial steps, in addition to that of the integrator.
+/// Memory for partial steps, in addition to that of the stepper.
 pub(crate) struct PartialSteps<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> {
     memory: <PlanOf<M, S, V> as Plan>::Memory<V, S, N>,
     low: (V, V),
 }
 
 impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S, V, N> {
-    /// Memory for steps of this integrator.
-    pub(crate) fn of<R: Summation>(integrator: &Integrator<M, S, V, R, N>) -> Self {
-        let prototype = &integrator.state().q;
+    /// Memory for steps of this stepper.
+    pub(crate) fn of<R: Summation>(stepper: &Partitioned<M, S, V, R, N>) -> Self {
+        let prototype = &stepper.state().q;
         Self {
-            memory: StageStorage::of_method(&integrator.stepper.step_memory.memory, prototype),
+            memory: StageStorage::of_method(&stepper.step_memory.memory, prototype),
             low: (prototype.zeros_like(), prototype.zeros_like()),
         }
     }
 
-    /// Takes a step from the start of the last step of an integrator to `time`, and writes the result into `state`.
+    /// Takes a step from the start of the last step of a stepper to `time`, and writes the result into `state`.
     pub(crate) fn take<R: Summation>(
         &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
+        stepper: &Partitioned<M, S, V, R, N>,
         time: f64,
         state: &mut State<V>,
     ) -> Result<(), Error> {
-        let last = integrator.last_step().ok_or(Error::NoStep)?;
+        let last = stepper.last_step().ok_or(Error::NoStep)?;
         let ((q, q_low), (p, p_low)) = (last.positions.start, last.momenta.start);
         state.time = time;
         if time == last.start {
@@ -47,14 +46,14 @@ impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S, V, 
             q_low,
             p,
             p_low,
-            linear_velocity: integrator.stepper.step_memory.linear_velocity,
+            linear_velocity: stepper.step_memory.linear_velocity,
         };
         let taken = <PlanOf<M, S, V> as Plan>::take::<R, V, S, N>(
             &step,
-            integrator.system(),
+            stepper.system(),
             &mut self.memory,
             WarmStart::default(),
-            integrator.stepper.stopping,
+            stepper.stopping,
             Outcome {
                 q: &mut state.q,
                 q_low: &mut self.low.0,
@@ -63,7 +62,7 @@ impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S, V, 
             },
         );
         taken.map(|_| ()).map_err(|failure| {
-            let attempt = Attempt::of(&step, integrator.steps()).with_solver::<V, S, N>();
+            let attempt = Attempt::of(&step, stepper.statistics().steps).with_solver::<V, S, N>();
             let fault = FirstFault::new(attempt.dimension);
             attempt.error(Some(failure), &fault, &self.memory, &state.q)
         })

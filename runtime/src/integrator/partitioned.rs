@@ -10,7 +10,7 @@ use super::validation::{
     check_masses, check_quadratic_kinetic, check_start, check_state, check_step_size,
     has_linear_velocity,
 };
-use super::{Retry, Run, Statistics, Stepper};
+use super::{Equal, Retry, Run, Statistics, Stepper};
 use crate::error::Error;
 use crate::method::interpolation::Line;
 use crate::method::{Inside, Interpolation, Method, Plan, ProvedFor, Solver, Stopping};
@@ -28,7 +28,10 @@ pub(super) type MemoryOf<M, S, V, N> = <PlanOf<M, S, V> as Plan>::Memory<V, S, N
 
 /// An integrator: a method that steps a system from a state.
 ///
-/// [`new`](Self::new) allocates all memory. What a run can do is described at [`Run`].
+/// [`new`](Integrator::new) allocates all memory. A step that fails from what earlier steps left, such as extrapolated stages, is taken once more as
+/// the first step of a new integrator: see [`Statistics::rejected`]. The errors of a step are [`Error::NoConvergence`],
+/// [`Error::NonFinite`], [`Error::EvaluationDimension`] and [`Error::TimeResolution`]; with a Newton iteration also
+/// [`Error::SingularMatrix`].
 ///
 /// ```
 /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
@@ -274,46 +277,6 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         let State { time, q, p } = &self.stepper.step_memory.state;
         self.stepper.system.energy(V::Scalar::from_f64(*time), q, p)
     }
-
-    /// Writes p' at a state: see [`Plan::momentum_rate`].
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn momentum_rate(&self, time: f64, q: &V, p: &V, rate: &mut V) {
-        <PlanOf<M, S, V> as Plan>::momentum_rate(&self.stepper.system, time, q, p, rate);
-    }
-
-    /// The last step, if its stages are still stored.
-    pub(crate) fn last_step(&self) -> Option<LastStep<'_, V>> {
-        self.stepper.step_memory.kept.stages.then_some(LastStep {
-            start: self.stepper.step_memory.last_time,
-            end: self.stepper.step_memory.state.time,
-            size: self.stepper.step_memory.last_size,
-            positions: Line {
-                start: (
-                    &self.stepper.step_memory.next.0,
-                    &self.stepper.step_memory.next_low.0,
-                ),
-                end: (
-                    &self.stepper.step_memory.state.q,
-                    &self.stepper.step_memory.low.0,
-                ),
-            },
-            momenta: Line {
-                start: (
-                    &self.stepper.step_memory.next.1,
-                    &self.stepper.step_memory.next_low.1,
-                ),
-                end: (
-                    &self.stepper.step_memory.state.p,
-                    &self.stepper.step_memory.low.1,
-                ),
-            },
-        })
-    }
-
-    /// Adds the contribution of the stages to a state inside the last step: see [`Plan::extend`].
-    pub(crate) fn extend(&self, at: Inside<'_, V>, q: &mut V, p: &mut V) {
-        <PlanOf<M, S, V> as Plan>::extend::<V, S, N>(&self.stepper.step_memory.memory, at, q, p);
-    }
 }
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitioned<M, S, V, R, N> {
@@ -336,21 +299,51 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitio
             method: PhantomData,
         }
     }
+
+    /// The system.
+    pub const fn system(&self) -> &S {
+        &self.system
+    }
+
+    /// Writes p' at a state: see [`Plan::momentum_rate`].
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub(crate) fn momentum_rate(&self, time: f64, q: &V, p: &V, rate: &mut V) {
+        <PlanOf<M, S, V> as Plan>::momentum_rate(&self.system, time, q, p, rate);
+    }
+
+    /// The last step, if its stages are still stored.
+    pub(crate) fn last_step(&self) -> Option<LastStep<'_, V>> {
+        self.step_memory.kept.stages.then_some(LastStep {
+            start: self.step_memory.last_time,
+            end: self.step_memory.state.time,
+            size: self.step_memory.last_size,
+            positions: Line {
+                start: (&self.step_memory.next.0, &self.step_memory.next_low.0),
+                end: (&self.step_memory.state.q, &self.step_memory.low.0),
+            },
+            momenta: Line {
+                start: (&self.step_memory.next.1, &self.step_memory.next_low.1),
+                end: (&self.step_memory.state.p, &self.step_memory.low.1),
+            },
+        })
+    }
+
+    /// Adds the contribution of the stages to a state inside the last step: see [`Plan::extend`].
+    pub(crate) fn extend(&self, at: Inside<'_, V>, q: &mut V, p: &mut V) {
+        <PlanOf<M, S, V> as Plan>::extend::<V, S, N>(&self.step_memory.memory, at, q, p);
+    }
 }
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Stepper
     for Partitioned<M, S, V, R, N>
 {
     type State = State<V>;
+    type Pace = Equal;
     /// With the round-off of the state.
     type Saved = (State<V>, (V, V), Statistics);
 
     fn state(&self) -> &State<V> {
         &self.step_memory.state
-    }
-
-    fn time(&self) -> f64 {
-        self.step_memory.state.time
     }
 
     fn statistics(&self) -> &Statistics {
@@ -406,10 +399,6 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Stepper
         self.step_memory.copy_state(state);
         self.step_memory.low = low.clone();
         self.step_memory.statistics = *statistics;
-    }
-
-    fn may_split(&self, error: &Error) -> bool {
-        error.depends_on_the_size()
     }
 }
 

@@ -48,7 +48,7 @@ impl<S: Stepper> Run<S> {
         size: f64,
         time: f64,
         error: Error,
-        see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
+        see: &mut impl FnMut(&mut S) -> Result<ControlFlow<B>, Error>,
     ) -> Result<ControlFlow<B>, Error> {
         if !self.is_to_be_split(&error) {
             return Err(error);
@@ -70,7 +70,7 @@ impl<S: Stepper> Run<S> {
         }
         let saved = self.stepper.save();
         for (failed, parts) in (1..).zip(self.retry.parts()) {
-            let mut ignore = |_: &Self| Ok(ControlFlow::<Infallible>::Continue(()));
+            let mut ignore = |_: &mut S| Ok(ControlFlow::<Infallible>::Continue(()));
             if self.take_in_parts(size, time, parts, &mut ignore).is_ok() {
                 self.stepper.statistics_mut().rejected += failed;
                 return Ok(parts);
@@ -90,7 +90,7 @@ impl<S: Stepper> Run<S> {
         size: f64,
         end: f64,
         parts: u32,
-        see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
+        see: &mut impl FnMut(&mut S) -> Result<ControlFlow<B>, Error>,
     ) -> Result<ControlFlow<B>, Error> {
         let mut seen = ControlFlow::Continue(());
         let part = size / f64::from(parts);
@@ -99,7 +99,7 @@ impl<S: Stepper> Run<S> {
         while let Some((part, time)) = remaining.next_step() {
             advance_in_time(&mut self.stepper, part, time)?;
             if seen.is_continue() {
-                seen = see(self)?;
+                seen = see(&mut self.stepper)?;
             }
         }
         Ok(seen)

@@ -9,14 +9,14 @@ use super::last_step::LastEvent;
 use super::sight::Sight;
 use super::stepper::advance_in_time;
 use super::validation::check_step_size;
-use super::{Retry, Statistics, Stepper};
+use super::{Equal, Retry, Statistics, Stepper};
 use crate::error::Error;
 
-/// A [`Stepper`] that steps from a state with equal steps. All integrators of this crate are runs.
+/// A [`Stepper`] that steps from a state. All integrators of this crate are runs.
 ///
 /// A step allocates nothing. A step that fails leaves the state and the counts unchanged.
 ///
-/// The time after `k` steps is computed as `start + k h`, not as a sum. The count starts again when the step size or the state is set and
+/// The run chooses equal steps unless the stepper has its [own](super::Own) pace. The time after `k` steps is computed as `start + k h`, not as a sum. The count starts again when the step size or the state is set and
 /// when [`integrate_to`](Self::integrate_to) ends.
 #[derive(Clone)]
 pub struct Run<S> {
@@ -87,53 +87,6 @@ impl<S: Stepper> Run<S> {
         outcome.map(|()| self.stepper.state())
     }
 
-    /// Integrates to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size, up
-    /// to rounding. The sign of the step size does not matter. At the time `end` it takes no step.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that after the
-    /// last successful step.
-    pub fn integrate_to(&mut self, end: f64) -> Result<&S::State, Error> {
-        let mut remaining = self.steps_to_time(end)?;
-        let outcome = self.take_remaining(&mut remaining);
-        self.restart_clock();
-        outcome.map(|()| self.stepper.state())
-    }
-
-    /// [`integrate_to`](Self::integrate_to) that calls `observe` with the state after every step.
-    ///
-    /// # Errors
-    ///
-    /// As for [`integrate_to`](Self::integrate_to).
-    ///
-    /// ```
-    /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
-    /// # use symplectic::nalgebra::Vector1;
-    /// # use symplectic::{Error, Integrator, State, separable};
-    /// # fn main() -> Result<(), Error> {
-    /// let oscillator = separable::<Vector1<f64>, _, _>(|_, p, velocity| *velocity = *p, |_, q, force| *force = -q);
-    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
-    /// let mut integrator = Integrator::new(StoermerVerlet, oscillator, start, 0.1)?;
-    /// let mut times = Vec::new();
-    /// integrator.integrate_with(0.5, |state| times.push(state.time))?;
-    /// assert_eq!(times, [0.1, 0.2, 0.1 * 3.0, 0.4, 0.5]);
-    /// # Ok(())
-    /// # }
-    /// ```
-    pub fn integrate_with<F: FnMut(&S::State)>(
-        &mut self,
-        end: f64,
-        mut observe: F,
-    ) -> Result<&S::State, Error> {
-        let ControlFlow::Continue(()) = self.steps_to(end, |run, size, time| {
-            run.advance(size, time)?;
-            observe(run.state());
-            Ok(ControlFlow::<Infallible>::Continue(()))
-        })?;
-        Ok(self.stepper.state())
-    }
-
     /// Calls `take` with the size and the end of each step of [`integrate_to`](Self::integrate_to), until it breaks.
     #[inline]
     pub(crate) fn steps_to<B>(
@@ -156,11 +109,11 @@ impl<S: Stepper> Run<S> {
     /// Takes one step as [`step`](Self::step) does, and calls `see` after each of its parts.
     pub(crate) fn step_shown_to(
         &mut self,
-        mut see: impl FnMut(&Self) -> Result<(), Error>,
+        mut see: impl FnMut(&mut S) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let (size, time) = (self.step_size, self.clock.next());
-        let outcome = self.advance_in_sight(size, time, &mut |run| {
-            see(run)?;
+        let outcome = self.advance_in_sight(size, time, &mut |stepper| {
+            see(stepper)?;
             Ok(ControlFlow::<Infallible>::Continue(()))
         });
         match outcome {
@@ -199,10 +152,10 @@ impl<S: Stepper> Run<S> {
         &mut self,
         size: f64,
         time: f64,
-        see: &mut impl FnMut(&Self) -> Result<ControlFlow<B>, Error>,
+        see: &mut impl FnMut(&mut S) -> Result<ControlFlow<B>, Error>,
     ) -> Result<ControlFlow<B>, Error> {
         match advance_in_time(&mut self.stepper, size, time) {
-            Ok(()) => see(self),
+            Ok(()) => see(&mut self.stepper),
             Err(error) => self.take_again_in_sight(size, time, error, see),
         }
     }
@@ -275,10 +228,10 @@ impl<S: Stepper> Run<S> {
             let passes = |state: &_, statistics: &_| sight.passes(state, statistics);
             match self.stepper.take_while(remaining, passes) {
                 Ok(true) => {}
-                Ok(false) => seen = sight.see(self)?,
+                Ok(false) => seen = sight.see(&mut self.stepper)?,
                 Err(error) => {
                     let (size, time) = (remaining.size, remaining.next_time());
-                    let mut see = |run: &_| sight.see_or_pass(run);
+                    let mut see = |stepper: &mut _| sight.see_or_pass(stepper);
                     seen = self.take_again_in_sight(size, time, error, &mut see)?;
                     remaining.tick();
                 }
@@ -311,6 +264,74 @@ impl<S: Stepper> Run<S> {
     /// Returns the present state and drops the run.
     pub fn into_state(self) -> S::State {
         self.stepper.state().clone()
+    }
+
+    /// The statistics of all steps so far.
+    pub fn statistics(&self) -> &Statistics {
+        self.stepper.statistics()
+    }
+
+    /// Number of steps taken.
+    pub fn steps(&self) -> u64 {
+        self.stepper.statistics().steps
+    }
+
+    /// The stepper.
+    pub const fn stepper(&self) -> &S {
+        &self.stepper
+    }
+
+    pub(crate) fn restart_clock(&mut self) {
+        self.clock = Clock::new(self.stepper.time(), self.step_size);
+    }
+}
+
+impl<S: Stepper<Pace = Equal>> Run<S> {
+    /// Integrates to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size, up
+    /// to rounding. The sign of the step size does not matter. At the time `end` it takes no step.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that after the
+    /// last successful step.
+    pub fn integrate_to(&mut self, end: f64) -> Result<&S::State, Error> {
+        let mut remaining = self.steps_to_time(end)?;
+        let outcome = self.take_remaining(&mut remaining);
+        self.restart_clock();
+        outcome.map(|()| self.stepper.state())
+    }
+
+    /// [`integrate_to`](Self::integrate_to) that calls `observe` with the state after every step.
+    ///
+    /// # Errors
+    ///
+    /// As for [`integrate_to`](Self::integrate_to).
+    ///
+    /// ```
+    /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
+    /// # use symplectic::nalgebra::Vector1;
+    /// # use symplectic::{Error, Integrator, State, separable};
+    /// # fn main() -> Result<(), Error> {
+    /// let oscillator = separable::<Vector1<f64>, _, _>(|_, p, velocity| *velocity = *p, |_, q, force| *force = -q);
+    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
+    /// let mut integrator = Integrator::new(StoermerVerlet, oscillator, start, 0.1)?;
+    /// let mut times = Vec::new();
+    /// integrator.integrate_with(0.5, |state| times.push(state.time))?;
+    /// assert_eq!(times, [0.1, 0.2, 0.1 * 3.0, 0.4, 0.5]);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn integrate_with<F: FnMut(&S::State)>(
+        &mut self,
+        end: f64,
+        mut observe: F,
+    ) -> Result<&S::State, Error> {
+        let ControlFlow::Continue(()) = self.steps_to(end, |run, size, time| {
+            run.advance(size, time)?;
+            observe(run.state());
+            Ok(ControlFlow::<Infallible>::Continue(()))
+        })?;
+        Ok(self.stepper.state())
     }
 
     /// The step size.
@@ -352,25 +373,6 @@ impl<S: Stepper> Run<S> {
     /// ```
     pub const fn set_retry(&mut self, retry: Retry) {
         self.retry = retry;
-    }
-
-    /// The statistics of all steps so far.
-    pub fn statistics(&self) -> &Statistics {
-        self.stepper.statistics()
-    }
-
-    /// Number of steps taken.
-    pub fn steps(&self) -> u64 {
-        self.stepper.statistics().steps
-    }
-
-    /// The stepper.
-    pub const fn stepper(&self) -> &S {
-        &self.stepper
-    }
-
-    pub(crate) fn restart_clock(&mut self) {
-        self.clock = Clock::new(self.stepper.time(), self.step_size);
     }
 }
 

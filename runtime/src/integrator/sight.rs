@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use super::{Run, Statistics, Stepper};
+use super::{Statistics, Stepper};
 use crate::error::Error;
 
 /// What is to be seen in the steps of a run: output and events.
@@ -11,13 +11,13 @@ pub(crate) trait Sight<S: Stepper, B> {
     fn passes(&mut self, state: &S::State, statistics: &Statistics) -> bool;
 
     /// Sees the last step, unless it passes.
-    fn see(&mut self, run: &Run<S>) -> Result<ControlFlow<B>, Error>;
+    fn see(&mut self, stepper: &mut S) -> Result<ControlFlow<B>, Error>;
 
     /// Sees the last step if it does not pass.
-    fn see_or_pass(&mut self, run: &Run<S>) -> Result<ControlFlow<B>, Error> {
-        match self.passes(run.state(), run.statistics()) {
+    fn see_or_pass(&mut self, stepper: &mut S) -> Result<ControlFlow<B>, Error> {
+        match self.passes(stepper.state(), stepper.statistics()) {
             true => Ok(ControlFlow::Continue(())),
-            false => self.see(run),
+            false => self.see(stepper),
         }
     }
 }

@@ -1,8 +1,9 @@
 //! Steppers: what a run drives.
 
-use super::Statistics;
 use super::clock::RemainingSteps;
+use super::{Pace, Statistics};
 use crate::error::Error;
+use crate::state::Timed;
 
 /// Takes steps: a method with its system and the present state. A [`Run`](super::Run) chooses sizes and times of the steps.
 ///
@@ -10,7 +11,7 @@ use crate::error::Error;
 ///
 /// ```
 /// use symplectic::nalgebra::Vector1;
-/// use symplectic::{Error, Run, State, Statistics, StepMap, Stepper};
+/// use symplectic::{Equal, Error, Run, State, Statistics, StepMap, Stepper};
 ///
 /// /// The symplectic Euler method for a pendulum.
 /// #[derive(Clone)]
@@ -21,14 +22,11 @@ use crate::error::Error;
 ///
 /// impl Stepper for Pendulum {
 ///     type State = State<Vector1<f64>>;
+///     type Pace = Equal;
 ///     type Saved = Self;
 ///
 ///     fn state(&self) -> &Self::State {
 ///         &self.state
-///     }
-///
-///     fn time(&self) -> f64 {
-///         self.state.time
 ///     }
 ///
 ///     fn statistics(&self) -> &Statistics {
@@ -74,8 +72,11 @@ use crate::error::Error;
 /// # }
 /// ```
 pub trait Stepper {
-    /// The state, with its time.
-    type State: Clone;
+    /// The state.
+    type State: Timed;
+
+    /// Who chooses the sizes of the steps: [`Equal`](super::Equal) or [`Own`](super::Own).
+    type Pace: Pace;
 
     /// What a step changes.
     type Saved;
@@ -84,7 +85,10 @@ pub trait Stepper {
     fn state(&self) -> &Self::State;
 
     /// The time of the present state.
-    fn time(&self) -> f64;
+    #[inline]
+    fn time(&self) -> f64 {
+        self.state().time()
+    }
 
     /// The statistics of all steps so far.
     fn statistics(&self) -> &Statistics;
@@ -99,7 +103,8 @@ pub trait Stepper {
     /// Those of a new stepper at this state; nothing is then changed.
     fn set_state(&mut self, state: &Self::State) -> Result<(), Error>;
 
-    /// Takes a step of size `size` to the time `end`, which is not the present time, and counts it.
+    /// Takes a step of size `size` to the time `end`, which is not the present time, and counts it. A stepper with its [`Own`](super::Own)
+    /// pace ignores both.
     ///
     /// # Errors
     ///
@@ -137,16 +142,21 @@ pub trait Stepper {
         Ok(true)
     }
 
+    /// The approximate size of the next step, negative in a run backward, if the stepper chooses it.
+    fn own_step_size(&self) -> Option<f64> {
+        None
+    }
+
     /// What the next step may change, statistics included.
     fn save(&self) -> Self::Saved;
 
     /// Returns to what was saved.
     fn go_back(&mut self, saved: &Self::Saved);
 
-    /// Whether a step that failed with this error may be [split](super::Retry) into shorter ones. By default it may not.
+    /// Whether a step that failed with this error may be [split](super::Retry) into shorter ones. By default it may if the error depends on
+    /// the step size.
     fn may_split(&self, error: &Error) -> bool {
-        let _ = error;
-        false
+        error.depends_on_the_size()
     }
 }
 
@@ -157,7 +167,7 @@ pub(super) fn advance_in_time<S: Stepper + ?Sized>(
     size: f64,
     end: f64,
 ) -> Result<(), Error> {
-    if end == stepper.time() {
+    if stepper.own_step_size().is_none() && end == stepper.time() {
         return Err(Error::TimeResolution {
             time: end,
             step_size: size,

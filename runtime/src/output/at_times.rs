@@ -1,29 +1,27 @@
 //! Output at given times.
 
+use core::convert::Infallible;
+use core::ops::ControlFlow;
+
 use crate::error::Error;
-use crate::integrator::Integrator;
-use crate::method::{Method, Solver};
-#[cfg(feature = "alloc")]
-use crate::number::Scalar;
+use crate::integrator::clock::check_count;
+use crate::integrator::{DenseSteps, Run};
 #[cfg(feature = "alloc")]
 use crate::number::registers::Work;
-use crate::number::{Summation, Vector};
-use crate::output::dense::Ends;
-use crate::output::steps::{Steps, is_after};
-use crate::state::State;
-use crate::system::System;
+#[cfg(feature = "alloc")]
+use crate::number::{Scalar, Vector};
 
-impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
+impl<S: DenseSteps> Run<S> {
     /// Steps past the last of `times` and calls `observe` with the state at each of them, in order.
     ///
-    /// The step size does not depend on the output times; states inside a step are [interpolated](Self::dense). The
+    /// The step size does not depend on the output times; states inside a step are interpolated if the stepper has dense output, or those of a shorter step. The
     /// first time may be the present time or lie in the last step. With a negative step size the times decrease.
     ///
     /// # Errors
     ///
     /// [`Error::OutputTime`] for the first time that is not finite, precedes its predecessor or precedes the last step;
     /// [`Error::StepCount`] for too many steps. Both are returned before any step is taken. Also the errors of
-    /// [`step`](Self::step) and of [`dense`](Self::dense); the state is then that of the last successful step.
+    /// [`step`](Self::step) and of its dense output; the state is then that of the last successful step.
     ///
     /// ```
     /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
@@ -42,41 +40,98 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// # Ok(())
     /// # }
     /// ```
-    pub fn integrate_at<F: FnMut(&State<V>)>(
+    pub fn integrate_at<F: FnMut(&S::State)>(
         &mut self,
         times: &[f64],
         mut observe: F,
-    ) -> Result<&State<V>, Error> {
-        integrate_at(self, times, &mut observe)?;
+    ) -> Result<&S::State, Error> {
+        self.check_times(times)?;
+        let mut rest = times;
+        let mut output = Output::new(&self.stepper, self.direction());
+        output.show(&mut self.stepper, &mut rest, &mut observe)?;
+        while let Some(&time) = rest.first() {
+            if self.stepper.own_step_size().is_none() {
+                self.take_most_before(time)?;
+            }
+            self.step_shown_to(|stepper| output.show(stepper, &mut rest, &mut observe))?;
+        }
         Ok(self.state())
     }
-}
 
-/// [`Integrator::integrate_at`] for constant and variable step sizes.
-pub(crate) fn integrate_at<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>>(
-    steps: &mut impl Steps<M, S, V, R, N>,
-    times: &[f64],
-    observe: &mut impl FnMut(&State<V>),
-) -> Result<(), Error> {
-    check(steps, times)?;
-    let direction = steps.direction();
-    let mut rest = times;
-    let mut output = Output::new(steps.integrator(), direction);
-    output.show(steps.integrator(), &mut rest, observe)?;
-    while let Some(&time) = rest.first() {
-        steps.steps_before(time)?;
-        steps.step_in_sight(|integrator| output.show(integrator, &mut rest, observe))?;
+    /// The state at a time within the last step, exact to the bit at both ends.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoStep`] before the first step and after every call that discards it, such as a new state or a failed step;
+    /// [`Error::OutsideStep`]; those of the dense output of the stepper.
+    pub fn state_at(&mut self, time: f64) -> Result<S::State, Error> {
+        let mut output = Output::new(&self.stepper, self.direction());
+        output.look_at(&mut self.stepper, time)?;
+        Ok(output.state)
     }
-    Ok(())
+
+    /// Checks the times of [`integrate_at`](Self::integrate_at).
+    pub(crate) fn check_times(&self, times: &[f64]) -> Result<(), Error> {
+        let end = check_times(self.direction(), times, self.start_of_last_step(), None)?;
+        match self.stepper.own_step_size() {
+            // The number of steps is not known in advance.
+            Some(_) => Ok(()),
+            None => check_count(self.stepper.time(), end, self.step_size),
+        }
+    }
+
+    /// Takes the steps to `end`, or all up to the one that reaches or passes it if the stepper has its own pace. Calls `observe` with the
+    /// state after each.
+    pub(crate) fn watch_to(
+        &mut self,
+        end: f64,
+        mut observe: impl FnMut(&S::State),
+    ) -> Result<(), Error> {
+        if self.stepper.own_step_size().is_none() {
+            let ended = self.steps_to(end, |run, size, time| {
+                run.advance(size, time)?;
+                observe(run.state());
+                Ok(ControlFlow::<Infallible>::Continue(()))
+            });
+            return ended.map(|_| ());
+        }
+        let before = self.start_of_last_step();
+        if !end.is_finite() || is_after(self.direction(), before, end) {
+            return Err(Error::OutputTime { time: end, before });
+        }
+        while self.is_before(end) {
+            observe(self.step()?);
+        }
+        Ok(())
+    }
+
+    /// Whether `end` comes after the present time in the direction of the steps.
+    pub(crate) fn is_before(&self, end: f64) -> bool {
+        is_after(self.direction(), end, self.stepper.time())
+    }
+
+    /// The sign of the step size.
+    pub(crate) fn direction(&self) -> f64 {
+        self.stepper.own_step_size().unwrap_or(self.step_size)
+    }
+
+    /// Start time of the last step; the present time if there is no last step or it went in the other direction.
+    pub(crate) fn start_of_last_step(&self) -> f64 {
+        let present = self.stepper.time();
+        match self.stepper.last_span() {
+            Some((start, _)) if is_after(self.direction(), present, start) => start,
+            _ => present,
+        }
+    }
 }
 
-/// Checks the times of [`integrate_at`].
-pub(crate) fn check<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>>(
-    steps: &impl Steps<M, S, V, R, N>,
-    times: &[f64],
-) -> Result<(), Error> {
-    let before = steps.start_of_last_step();
-    steps.check_count(check_times(steps.direction(), times, before, None)?)
+/// Whether `time` comes after `other` in the direction whose sign `direction` has.
+pub(crate) fn is_after(direction: f64, time: f64, other: f64) -> bool {
+    if direction > 0.0 {
+        time > other
+    } else {
+        time < other
+    }
 }
 
 /// Checks that the times are finite and ordered, from `before` to `end`, and returns the last of them.
@@ -101,25 +156,22 @@ pub(crate) fn check_times(
 }
 
 /// Storage for states inside a step.
-pub(crate) struct Output<V> {
-    ends: Ends<V>,
-    /// Whether `ends` belongs to the last step.
+pub(crate) struct Output<S: DenseSteps> {
+    scratch: S::Scratch,
+    /// Whether `scratch` is prepared for the last step.
     pub(crate) evaluated: bool,
-    pub(crate) state: State<V>,
+    pub(crate) state: S::State,
     /// The sign of the step size.
     direction: f64,
 }
 
-impl<V: Vector> Output<V> {
-    /// Storage for states like the present one of an integrator; `direction` has the sign of the step size.
-    pub(crate) fn new<M: Method, S: System<V>, R: Summation, N: Solver<V, S>>(
-        integrator: &Integrator<M, S, V, R, N>,
-        direction: f64,
-    ) -> Self {
+impl<S: DenseSteps> Output<S> {
+    /// Storage for states like the present one; `direction` has the sign of the step size.
+    pub(crate) fn new(stepper: &S, direction: f64) -> Self {
         Self {
-            ends: Ends::new(),
+            scratch: stepper.scratch(),
             evaluated: false,
-            state: integrator.state().clone(),
+            state: stepper.state().clone(),
             direction,
         }
     }
@@ -131,31 +183,25 @@ impl<V: Vector> Output<V> {
 
     /// Sets `state` to the state at a time inside the last step.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn look_at<M: Method, S: System<V>, R: Summation, N: Solver<V, S>>(
-        &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
-        time: f64,
-    ) -> Result<(), Error> {
+    pub(crate) fn look_at(&mut self, stepper: &mut S, time: f64) -> Result<(), Error> {
         if !self.evaluated {
-            self.ends.evaluate(integrator)?;
+            stepper.prepare(&mut self.scratch)?;
             self.evaluated = true;
         }
-        let State { q, p, .. } = &mut self.state;
-        self.ends.write(integrator, time, q, p)?;
-        self.state.time = time;
-        Ok(())
+        stepper.look(time, &mut self.scratch, &mut self.state)
+    }
+
+    /// [`look_at`](Self::look_at) by a step of the method.
+    pub(crate) fn look_by_step(&mut self, stepper: &mut S, time: f64) -> Result<(), Error> {
+        stepper.look_by_step(time, &mut self.scratch, &mut self.state)
     }
 
     /// [`look_at`](Self::look_at) for runs side by side, in the registers of their lanes.
     #[cfg(feature = "alloc")]
-    pub(crate) fn look_together<M: Method, S: System<V>, R: Summation, N: Solver<V, S>>(
-        &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
-        time: f64,
-    ) -> Result<(), Error> {
-        V::Scalar::in_registers(Look {
+    pub(crate) fn look_together(&mut self, stepper: &mut S, time: f64) -> Result<(), Error> {
+        <S::Vector as Vector>::Scalar::in_registers(Look {
             output: self,
-            integrator,
+            stepper,
             time,
         })
     }
@@ -168,22 +214,22 @@ impl<V: Vector> Output<V> {
     }
 
     /// Observes the states at the output times up to the present time and removes these times from the list.
-    pub(crate) fn show<M: Method, S: System<V>, R: Summation, N: Solver<V, S>>(
+    pub(crate) fn show(
         &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
+        stepper: &mut S,
         times: &mut &[f64],
-        observe: &mut impl FnMut(&State<V>),
+        observe: &mut impl FnMut(&S::State),
     ) -> Result<(), Error> {
         self.evaluated = false;
         while let Some((&time, rest)) = times.split_first() {
-            let present = integrator.state();
-            if self.is_after(time, present.time) {
+            let present = stepper.time();
+            if self.is_after(time, present) {
                 break;
             }
-            if time == present.time {
-                observe(present);
+            if time == present {
+                observe(stepper.state());
             } else {
-                self.look_at(integrator, time)?;
+                self.look_at(stepper, time)?;
                 observe(&self.state);
             }
             *times = rest;
@@ -194,25 +240,18 @@ impl<V: Vector> Output<V> {
 
 /// A look at a time inside a step.
 #[cfg(feature = "alloc")]
-struct Look<'a, V, T> {
-    output: &'a mut Output<V>,
-    integrator: &'a T,
+struct Look<'a, S: DenseSteps> {
+    output: &'a mut Output<S>,
+    stepper: &'a mut S,
     time: f64,
 }
 
 #[cfg(feature = "alloc")]
-impl<M, S, V, R, N> Work for Look<'_, V, Integrator<M, S, V, R, N>>
-where
-    M: Method,
-    S: System<V>,
-    V: Vector,
-    R: Summation,
-    N: Solver<V, S>,
-{
+impl<S: DenseSteps> Work for Look<'_, S> {
     type Output = Result<(), Error>;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> Self::Output {
-        self.output.look_at(self.integrator, self.time)
+        self.output.look_at(self.stepper, self.time)
     }
 }

@@ -3,10 +3,11 @@
 use core::fmt;
 
 use crate::error::{Error, Quantity};
-use crate::integrator::Integrator;
+use crate::integrator::partial_step::PartialSteps;
+use crate::integrator::{DenseSteps, Integrator, Partitioned, Stepper};
 use crate::method::storage::is_finite;
 use crate::method::{Inside, Interpolation, Method, Solver};
-use crate::number::{Compensated, Scalar, Summation, Vector};
+use crate::number::{Compensated, Scalar, Summation, Vector, copy};
 use crate::solver::FixedPoint;
 use crate::state::State;
 use crate::system::System;
@@ -45,7 +46,7 @@ pub struct DenseOutput<
     R: Summation = Compensated,
     N: Solver<V, S> = FixedPoint,
 > {
-    integrator: &'a Integrator<M, S, V, R, N>,
+    stepper: &'a Partitioned<M, S, V, R, N>,
     ends: Ends<V>,
 }
 
@@ -62,20 +63,20 @@ impl<V: Vector> Ends<V> {
         Self(None)
     }
 
-    /// Evaluates the derivatives for the last step of an integrator.
+    /// Evaluates the derivatives for the last step of an stepper.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn evaluate<M: Method, S: System<V>, R: Summation, N: Solver<V, S>>(
         &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
+        stepper: &Partitioned<M, S, V, R, N>,
     ) -> Result<(), Error> {
-        let last = integrator.last_step().ok_or(Error::NoStep)?;
+        let last = stepper.last_step().ok_or(Error::NoStep)?;
         if Integrator::<M, S, V, R, N>::INTERPOLATION != Interpolation::Hermite {
             return Ok(());
         }
         let ends = self.0.get_or_insert_with(|| {
             core::array::from_fn(|_| Derivatives {
-                velocity: integrator.state().q.zeros_like(),
-                force: integrator.state().p.zeros_like(),
+                velocity: stepper.state().q.zeros_like(),
+                force: stepper.state().p.zeros_like(),
             })
         });
         let states = [
@@ -84,8 +85,8 @@ impl<V: Vector> Ends<V> {
         ];
         for ((time, q, p), Derivatives { velocity, force }) in states.into_iter().zip(ends) {
             let at = V::Scalar::from_f64(time);
-            integrator.system().velocity(at, q, p, velocity);
-            integrator.momentum_rate(time, q, p, force);
+            stepper.system().velocity(at, q, p, velocity);
+            stepper.momentum_rate(time, q, p, force);
             for (what, value) in [(Quantity::Velocity, velocity), (Quantity::Force, force)] {
                 if value.dimension() != q.dimension() {
                     return Err(Error::ResizedEvaluation {
@@ -99,7 +100,7 @@ impl<V: Vector> Ends<V> {
                     return Err(Error::NonFinite {
                         time,
                         step_size: last.size,
-                        step: integrator.steps(),
+                        step: stepper.statistics().steps,
                         what,
                         stage: None,
                     });
@@ -113,18 +114,18 @@ impl<V: Vector> Ends<V> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn write<M: Method, S: System<V>, R: Summation, N: Solver<V, S>>(
         &self,
-        integrator: &Integrator<M, S, V, R, N>,
+        stepper: &Partitioned<M, S, V, R, N>,
         time: f64,
         q: &mut V,
         p: &mut V,
     ) -> Result<(), Error> {
-        let last = integrator.last_step().ok_or(Error::NoStep)?;
+        let last = stepper.last_step().ok_or(Error::NoStep)?;
         let (start, end) = (last.start, last.end);
         if !(start.min(end) <= time && time <= start.max(end)) {
             return Err(Error::OutsideStep { time, start, end });
         }
         let (dimension, found) = (
-            integrator.state().q.dimension(),
+            stepper.state().q.dimension(),
             (q.dimension(), p.dimension()),
         );
         if found != (dimension, dimension) {
@@ -145,7 +146,7 @@ impl<V: Vector> Ends<V> {
                 at.add_cubic([&start.velocity, &end.velocity], &last.positions, q);
                 at.add_cubic([&start.force, &end.force], &last.momenta, p);
             }
-            None => integrator.extend(at, q, p),
+            None => stepper.extend(at, q, p),
         }
         last.positions.add(at.fraction, q);
         last.momenta.add(at.fraction, p);
@@ -166,11 +167,80 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// wrong dimension.
     pub fn dense(&self) -> Result<DenseOutput<'_, M, S, V, R, N>, Error> {
         let mut ends = Ends::new();
-        ends.evaluate(self)?;
+        ends.evaluate(&self.stepper)?;
         Ok(DenseOutput {
-            integrator: self,
+            stepper: &self.stepper,
             ends,
         })
+    }
+}
+
+/// Memory for states inside a step of a [`Partitioned`].
+pub struct InsideSteps<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> {
+    ends: Ends<V>,
+    partial: Option<PartialSteps<M, S, V, N>>,
+}
+
+impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> DenseSteps
+    for Partitioned<M, S, V, R, N>
+{
+    type Vector = V;
+    type Scratch = InsideSteps<M, S, V, N>;
+
+    fn scratch(&self) -> Self::Scratch {
+        InsideSteps {
+            ends: Ends::new(),
+            partial: None,
+        }
+    }
+
+    fn last_span(&self) -> Option<(f64, f64)> {
+        self.last_step().map(|last| (last.start, last.end))
+    }
+
+    fn write_start(&self, out: &mut State<V>) {
+        match self.last_step() {
+            Some(last) => {
+                out.time = last.start;
+                copy(&mut out.q, last.positions.start.0);
+                copy(&mut out.p, last.momenta.start.0);
+            }
+            None => out.copy_from(self.state()),
+        }
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn prepare(&self, scratch: &mut Self::Scratch) -> Result<(), Error> {
+        scratch.ends.evaluate(self)
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn look(
+        &mut self,
+        time: f64,
+        scratch: &mut Self::Scratch,
+        out: &mut State<V>,
+    ) -> Result<(), Error> {
+        scratch.ends.write(self, time, &mut out.q, &mut out.p)?;
+        out.time = time;
+        Ok(())
+    }
+
+    fn look_by_step(
+        &mut self,
+        time: f64,
+        scratch: &mut Self::Scratch,
+        out: &mut State<V>,
+    ) -> Result<(), Error> {
+        let partial = &mut scratch.partial;
+        let partial = partial.get_or_insert_with(|| PartialSteps::of(self));
+        partial.take(self, time, out)
+    }
+
+    fn slopes(&mut self, state: &State<V>, _size: f64, velocity: &mut V, force: &mut V) {
+        let State { time, q, p } = state;
+        (self.system()).velocity(V::Scalar::from_f64(*time), q, p, velocity);
+        self.momentum_rate(*time, q, p, force);
     }
 }
 
@@ -179,7 +249,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>>
 {
     /// Start time and end time of the step; the end is smaller if the step went backward.
     pub fn span(&self) -> (f64, f64) {
-        let span = self.integrator.last_step();
+        let span = self.stepper.last_step();
         // `dense` checked that there is a last step, and the borrow keeps it.
         span.map_or((f64::NAN, f64::NAN), |last| (last.start, last.end))
     }
@@ -191,7 +261,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>>
     /// [`Error::OutsideStep`] if `time` is outside [`span`](Self::span), [`Error::Dimension`] if `q` or `p` has another
     /// dimension; `q` and `p` are then untouched.
     pub fn write(&self, time: f64, q: &mut V, p: &mut V) -> Result<(), Error> {
-        self.ends.write(self.integrator, time, q, p)
+        self.ends.write(self.stepper, time, q, p)
     }
 
     /// The state at `time`.
@@ -200,7 +270,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>>
     ///
     /// [`Error::OutsideStep`] if `time` is outside [`span`](Self::span).
     pub fn state(&self, time: f64) -> Result<State<V>, Error> {
-        let State { q, p, .. } = self.integrator.state();
+        let State { q, p, .. } = self.stepper.state();
         let mut state = State::new(time, q.zeros_like(), p.zeros_like());
         self.write(time, &mut state.q, &mut state.p)?;
         Ok(state)

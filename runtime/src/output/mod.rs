@@ -9,7 +9,6 @@ pub(crate) mod event;
 pub(crate) mod invariant;
 pub(crate) mod progress;
 pub(crate) mod states;
-pub(crate) mod steps;
 
 pub use crate::method::{Inside, Interpolation};
 pub use balance::Balance;

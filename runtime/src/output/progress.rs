@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 
 use crate::error::Error;
-use crate::integrator::{Run, Statistics, Stepper};
+use crate::integrator::{Equal, Run, Statistics, Stepper};
 
 /// Progress of an integration, reported by [`Run::integrate_while`] after every step; `T` is the type of the state.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ impl<T> Progress<'_, T> {
     }
 }
 
-impl<S: Stepper> Run<S> {
+impl<S: Stepper<Pace = Equal>> Run<S> {
     /// [`integrate_to`](Self::integrate_to) that calls `report` after every step. If `report` breaks with a value, the
     /// integration stops and returns that value; otherwise it returns `None` at `end`.
     ///

@@ -8,7 +8,7 @@ use super::free_step::{NoRotation, rotation};
 use super::state::RotationState;
 use crate::error::{Error, Quantity};
 use crate::integrator::validation::check_step_size;
-use crate::integrator::{Run, Statistics, Stepper};
+use crate::integrator::{Equal, Run, Statistics, Stepper};
 use crate::method::StoermerVerletSteps;
 use crate::method::symmetric_steps::{Part, SymmetricSteps};
 
@@ -193,14 +193,11 @@ impl<B: RigidBody> RotationSteps<B> {
 
 impl<B: RigidBody> Stepper for RotationSteps<B> {
     type State = RotationState;
+    type Pace = Equal;
     type Saved = Present;
 
     fn state(&self) -> &RotationState {
         &self.present.state
-    }
-
-    fn time(&self) -> f64 {
-        self.present.state.time
     }
 
     fn statistics(&self) -> &Statistics {
@@ -239,10 +236,6 @@ impl<B: RigidBody> Stepper for RotationSteps<B> {
 
     fn go_back(&mut self, saved: &Present) {
         self.present = *saved;
-    }
-
-    fn may_split(&self, error: &Error) -> bool {
-        error.depends_on_the_size()
     }
 }
 

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use crate::integrator::PhasePoint;
-use crate::state::State;
+use crate::state::{State, Timed};
 
 /// The attitude and the angular momentum of a rigid body at a time.
 ///
@@ -39,6 +39,12 @@ impl RotationState {
     /// The angular momentum `RΠ`, in the space frame.
     pub fn spatial_momentum(&self) -> Vector3<f64> {
         self.attitude * self.momentum
+    }
+}
+
+impl Timed for RotationState {
+    fn time(&self) -> f64 {
+        self.time
     }
 }
 

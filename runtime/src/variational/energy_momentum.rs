@@ -10,6 +10,7 @@ use super::failure::Failure;
 use super::regular::Factors;
 use crate::error::{Error, Quantity};
 use crate::integrator::validation::{check_state, check_step_size};
+use crate::integrator::{Own, Run, Statistics, Stepper};
 use crate::number::Vector;
 use crate::state::State;
 
@@ -66,12 +67,18 @@ use crate::state::State;
 /// # Ok(())
 /// # }
 /// ```
-pub struct EnergyMomentumIntegrator<L: DiscreteLagrangian> {
+pub type EnergyMomentumIntegrator<L> = Run<EnergyMomentumSteps<L>>;
+
+/// The steps of an [`EnergyMomentumIntegrator`].
+#[derive(Clone)]
+pub struct EnergyMomentumSteps<L: DiscreteLagrangian> {
     lagrangian: L,
     state: State<L::Vector<f64>>,
     q1: L::Vector<f64>,
+    /// That of the last step.
     step_size: f64,
-    steps: u64,
+    first_size: f64,
+    statistics: Statistics,
     energy: Option<f64>,
     curvature: Option<f64>,
     derivatives: Derivatives<L>,
@@ -112,11 +119,12 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
         check_step_size(step_size)?;
         let n = state.q.dimension();
         check_state(state.time, &state.q, &state.p, n)?;
-        Ok(Self {
+        let stepper = EnergyMomentumSteps {
             lagrangian,
             q1: state.q.clone(),
             step_size,
-            steps: 0,
+            first_size: step_size,
+            statistics: Statistics::default(),
             energy: None,
             curvature: None,
             derivatives: Derivatives::new(&state.q)?,
@@ -124,17 +132,55 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
             last_row: vec![0.0; n + 1],
             factors: Factors::new(n + 1),
             state,
-        })
+        };
+        Self::of(stepper, 1.0)
     }
 
-    /// Takes one step and returns the state after it.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::NoEnergyStep`] if Newton's iteration finds no step that conserves the discrete energy; [`Error::NoEndOfStep`],
-    /// [`Error::IrregularLagrangian`], [`Error::NonFinite`] if a step of the previous size has no end; [`Error::EvaluationDimension`],
-    /// [`Error::TimeResolution`]. The state is then unchanged.
-    pub fn step(&mut self) -> Result<&State<L::Vector<f64>>, Error> {
+    /// The size of the last step; before the first step, its prescribed size.
+    pub const fn step_size(&self) -> f64 {
+        self.stepper.step_size
+    }
+
+    /// The discrete energy E of all steps; `None` before the first step.
+    pub const fn discrete_energy(&self) -> Option<f64> {
+        self.stepper.energy
+    }
+
+    /// The curvature c at the start of the last step, from the derivative of the discrete energy by the step size: `−dE_d/dh / (2h)`. If it
+    /// comes near zero, the run is about to end. `None` before the first step.
+    pub const fn curvature(&self) -> Option<f64> {
+        self.stepper.curvature
+    }
+}
+
+impl<L: DiscreteLagrangian> Stepper for EnergyMomentumSteps<L> {
+    type State = State<L::Vector<f64>>;
+    type Pace = Own;
+    /// A step is not split: its size is the unknown.
+    type Saved = ();
+
+    fn state(&self) -> &Self::State {
+        &self.state
+    }
+
+    fn statistics(&self) -> &Statistics {
+        &self.statistics
+    }
+
+    fn statistics_mut(&mut self) -> &mut Statistics {
+        &mut self.statistics
+    }
+
+    /// The next step has the size of the first one, and defines E.
+    fn set_state(&mut self, state: &Self::State) -> Result<(), Error> {
+        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
+        self.state.copy_from(state);
+        (self.energy, self.curvature) = (None, None);
+        self.step_size = self.first_size;
+        Ok(())
+    }
+
+    fn advance(&mut self, _size: f64, _end: f64) -> Result<(), Error> {
         let (time, before) = (self.state.time, self.step_size);
         // First the end of a step of the previous size, then that of a step with the energy E.
         self.q1
@@ -150,7 +196,7 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
                 .map_err(|_| Error::NoEnergyStep {
                     time,
                     step_size: before,
-                    step: self.steps + 1,
+                    step: self.statistics.steps + 1,
                     curvature,
                 })?,
         };
@@ -183,36 +229,20 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
         self.state.time = end;
         self.energy.get_or_insert(energy);
         (self.step_size, self.curvature) = (size, Some(curvature));
-        self.steps += 1;
-        Ok(&self.state)
+        self.statistics.steps += 1;
+        Ok(())
     }
 
-    /// The present state.
-    pub const fn state(&self) -> &State<L::Vector<f64>> {
-        &self.state
+    fn own_step_size(&self) -> Option<f64> {
+        Some(self.step_size)
     }
 
-    /// The size of the last step; before the first step, its prescribed size.
-    pub const fn step_size(&self) -> f64 {
-        self.step_size
-    }
+    fn save(&self) {}
 
-    /// The discrete energy E of all steps; `None` before the first step.
-    pub const fn discrete_energy(&self) -> Option<f64> {
-        self.energy
-    }
+    fn go_back(&mut self, _saved: &()) {}
+}
 
-    /// The curvature c at the start of the last step, from the derivative of the discrete energy by the step size: `−dE_d/dh / (2h)`. If it
-    /// comes near zero, the run is about to end. `None` before the first step.
-    pub const fn curvature(&self) -> Option<f64> {
-        self.curvature
-    }
-
-    /// Number of steps taken.
-    pub const fn steps(&self) -> u64 {
-        self.steps
-    }
-
+impl<L: DiscreteLagrangian> EnergyMomentumSteps<L> {
     /// Newton's iteration for q1, and for the step size if `energy` is given. It starts from the present q1.
     fn solve(&mut self, before: f64, energy: Option<f64>) -> Result<f64, Failure> {
         let n = self.q1.dimension();
@@ -314,6 +344,11 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
 
     fn error(&self, failure: Failure) -> Error {
         let what = Quantity::DiscreteLagrangian;
-        failure.error(what, self.state.time, self.step_size, self.steps + 1)
+        failure.error(
+            what,
+            self.state.time,
+            self.step_size,
+            self.statistics.steps + 1,
+        )
     }
 }

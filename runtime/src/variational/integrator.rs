@@ -7,7 +7,7 @@ use super::given_ends::GeneratingFunctions;
 use super::regular::Factors;
 use crate::error::{Error, Quantity};
 use crate::integrator::validation::{check_state, check_step_size};
-use crate::integrator::{Run, Statistics, Stepper};
+use crate::integrator::{Equal, Run, Statistics, Stepper};
 use crate::method::StoermerVerletSteps;
 use crate::method::symmetric_steps::{Part, SymmetricSteps};
 use crate::number::Vector;
@@ -225,14 +225,11 @@ impl<L: DiscreteLagrangian> VariationalSteps<L> {
 
 impl<L: DiscreteLagrangian> Stepper for VariationalSteps<L> {
     type State = State<L::Vector<f64>>;
+    type Pace = Equal;
     type Saved = (Self::State, Option<f64>, Statistics);
 
     fn state(&self) -> &Self::State {
         &self.state
-    }
-
-    fn time(&self) -> f64 {
-        self.state.time
     }
 
     fn statistics(&self) -> &Statistics {
@@ -274,10 +271,6 @@ impl<L: DiscreteLagrangian> Stepper for VariationalSteps<L> {
     fn go_back(&mut self, (state, action, statistics): &Self::Saved) {
         self.state.copy_from(state);
         (self.action, self.statistics) = (*action, *statistics);
-    }
-
-    fn may_split(&self, error: &Error) -> bool {
-        error.depends_on_the_size()
     }
 }
 

@@ -32,7 +32,7 @@ pub use dirac::{
     DiracIntegrator, DiracRule, DiracSteps, DiracSystem, PrimaryConstraint, primary_constraints,
 };
 pub use discrete_lagrangian::DiscreteLagrangian;
-pub use energy_momentum::EnergyMomentumIntegrator;
+pub use energy_momentum::{EnergyMomentumIntegrator, EnergyMomentumSteps};
 pub use generating_function::{GeneratingFunction, generating_function};
 pub use given_ends::{GeneratingFunctions, GivenEnds};
 pub use hamilton_jacobi::DiscreteHamiltonJacobi;

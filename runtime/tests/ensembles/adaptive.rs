@@ -1,7 +1,8 @@
-//! Ensembles with reversible steps of variable size: every trajectory has the bits that it has alone.
+//! Ensembles with other steppers, such as reversible steps of variable size: every trajectory has the bits that it has alone.
 
 use symplectic::adaptive::{Adaptive, DistancePower};
 use symplectic::ensemble::Ensemble;
+use symplectic::flow::{Drift, FlowIntegrator, Kick, Splitting};
 use symplectic::nalgebra::Vector2;
 use symplectic::{
     CheckpointError, Error, Event, Integrator, Method, ProvedFor, Separable, State, SymmetricFor,
@@ -142,4 +143,28 @@ fn a_resumed_ensemble_has_the_same_rows() {
     }
     let part = ensemble(StoermerVerlet, 0.02).shard(1, 3).expect("a part");
     assert_eq!(rows(&part, 1, MONITOR.0), whole[7..14]);
+}
+
+#[test]
+fn flows_in_an_ensemble_have_the_bits_of_single_runs() {
+    let made = |start: &State<Vector>| {
+        let step = Splitting::new(StoermerVerlet, Drift::new(Kepler), Kick::new(Kepler));
+        FlowIntegrator::new(step, start.clone(), 0.01)
+    };
+    let starts = starts();
+    let end = ensemble(StoermerVerlet, 0.01).each_as(
+        |integrator| made(integrator.state()),
+        |_| (),
+        |(), run| run.integrate_to(1.0).map(|_| ()),
+        |row| {
+            let mut alone = made(&starts[row.trajectory]).expect("a run");
+            assert_eq!(row.outcome, alone.integrate_to(1.0).map(|_| ()));
+            assert_eq!(
+                (&row.state, &row.statistics),
+                (alone.state(), alone.statistics())
+            );
+            std::ops::ControlFlow::Continue(())
+        },
+    );
+    assert_eq!(end, starts.len());
 }

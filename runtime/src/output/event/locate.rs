@@ -4,12 +4,9 @@ use super::list::EventList;
 use super::search::Search;
 use super::track::{Crossing, DEEPEST, Track};
 use crate::error::Error;
-use crate::integrator::Integrator;
-use crate::integrator::partial_step::PartialSteps;
-use crate::method::{Method, Solver};
-use crate::number::{Scalar, Summation, Vector};
+use crate::integrator::DenseSteps;
+use crate::number::{Scalar, Vector};
 use crate::output::brent::{before_zero, negative_near_minimum};
-use crate::system::System;
 
 /// Halvings of a panel, down to rounding, in the search for the sign of a function that starts on zero.
 const HALVINGS: u32 = 60;
@@ -20,14 +17,12 @@ const BESIDE: f64 = 1.0 / 65_536.0;
 /// Increment of the difference quotient for the derivative along the flow, relative to the step.
 pub(super) const SMALL: f64 = 1.0 / 16_384.0;
 
-impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, S>>
-    Search<'_, E, M, S, V, N>
-{
+impl<E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'_, E, S> {
     /// Finds the events of a function in the panel from `start`, and advances its track to the end. `ahead` holds the middle and the end of
     /// the panel.
-    pub(super) fn detect<R: Summation>(
+    pub(super) fn detect(
         &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
+        stepper: &mut S,
         index: usize,
         start: f64,
         ahead: [Option<f64>; 2],
@@ -40,23 +35,23 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
             let Some(to) = to else { continue };
             if track.changes(value) {
                 changed = true;
-                self.push(integrator, index, &mut track, (from, to))?;
+                self.push(stepper, index, &mut track, (from, to))?;
             }
             track.go_on(value);
             from = to;
         }
         if let (false, [Some(middle), Some(end)]) = (changed || at_start.side == 0.0, ahead) {
             let places = [start, middle, end];
-            self.look_for_two(integrator, index, at_start, &mut track, places)?;
+            self.look_for_two(stepper, index, at_start, &mut track, places)?;
         }
         self.tracks.as_mut()[index] = track;
         Ok(())
     }
 
     /// Finds two zeros between points with equal signs: on both sides of an extremum with the opposite sign.
-    fn look_for_two<R: Summation>(
+    fn look_for_two(
         &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
+        stepper: &mut S,
         index: usize,
         at_start: Track,
         track: &mut Track,
@@ -70,7 +65,7 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
             return Ok(());
         }
         let by_steps = self.by_steps;
-        let mut value = |time| Ok(side * self.value_at(integrator, index, time, by_steps)?);
+        let mut value = |time| Ok(side * self.value_at(stepper, index, time, by_steps)?);
         // A single extremum lies next to the smallest of the three values.
         let between = if second <= third && second <= first {
             (start, end)
@@ -89,17 +84,17 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
         let beyond = negative_near_minimum(between, &mut value)?;
         let Some(beyond) = beyond else { return Ok(()) };
         let mut pair = at_start;
-        self.push(integrator, index, &mut pair, (start, beyond))?;
+        self.push(stepper, index, &mut pair, (start, beyond))?;
         pair.go_on(-at_start.side);
-        self.push(integrator, index, &mut pair, (beyond, end))?;
+        self.push(stepper, index, &mut pair, (beyond, end))?;
         track.pending = pair.pending;
         Ok(())
     }
 
     /// Records the event at a sign change if the change has the requested direction.
-    fn push<R: Summation>(
+    fn push(
         &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
+        stepper: &mut S,
         index: usize,
         track: &mut Track,
         between: (f64, f64),
@@ -108,13 +103,13 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
         if kind.matches(track.side) {
             let side = track.side;
             let by_steps = kind.by_steps || self.by_steps;
-            let found = self.locate(integrator, index, track, between, by_steps)?;
+            let found = self.locate(stepper, index, track, between, by_steps)?;
             let time = found.unwrap_or(between.0);
             let unseen = track.stays && {
-                self.look_at(integrator, time, by_steps)?;
+                self.look_at(stepper, time, by_steps)?;
                 self.shown.copy_from(&self.output.state);
                 let step = between.1 - between.0;
-                time == between.0 || side * self.slope(integrator, index, step) >= 0.0
+                time == between.0 || side * self.slope(stepper, index, step) >= 0.0
             };
             track.push(Crossing { time, side, unseen });
         }
@@ -122,9 +117,9 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
     }
 
     /// The last time before a sign change; `None` if it is the start of a search on zero.
-    fn locate<R: Summation>(
+    fn locate(
         &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
+        stepper: &mut S,
         index: usize,
         track: &Track,
         (from, to): (f64, f64),
@@ -132,14 +127,15 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
     ) -> Result<Option<f64>, Error> {
         let mut start = from;
         if track.on_zero {
-            match self.departure(integrator, index, track, (from, to), by_steps)? {
+            match self.departure(stepper, index, track, (from, to), by_steps)? {
                 Some(place) => start = place,
                 None => return Ok(None),
             }
         }
+        let span = stepper.last_span();
         let mut zero = |between, by_steps| {
             before_zero(between, |time| {
-                self.value_at(integrator, index, time, by_steps)
+                self.value_at(stepper, index, time, by_steps)
             })
         };
         let found = zero((start, to), by_steps)?;
@@ -147,8 +143,8 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
             return Ok(Some(found.unwrap_or(to)));
         }
         // Steps of the method place a zero close to `start` or `to` just outside the interval.
-        let (last, width) = (integrator.last_step().ok_or(Error::NoStep)?, to - from);
-        let (low, high) = (last.start.min(last.end), last.start.max(last.end));
+        let ((first, last), width) = (span.ok_or(Error::NoStep)?, to - from);
+        let (low, high) = (first.min(last), first.max(last));
         let wider = (
             (from - width).clamp(low, high),
             (to + width).clamp(low, high),
@@ -158,14 +154,14 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
             return Ok(found);
         }
         let time = zero((start, to), false)?.unwrap_or(to);
-        Ok(zero((last.start, time), true)?.or(Some(time)))
+        Ok(zero((first, time), true)?.or(Some(time)))
     }
 
     /// A time at which a function that starts on zero exceeds its rounding error. The midpoint of the panel is tried first, then a quarter
     /// of it, and so on.
-    fn departure<R: Summation>(
+    fn departure(
         &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
+        stepper: &mut S,
         index: usize,
         track: &Track,
         (from, to): (f64, f64),
@@ -178,7 +174,7 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
             if place == from {
                 break;
             }
-            let value = self.value_at(integrator, index, place, by_steps)?;
+            let value = self.value_at(stepper, index, place, by_steps)?;
             if track.side * value > track.rounding {
                 return Ok(Some(place));
             }
@@ -187,51 +183,40 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
     }
 
     /// Value of a function at a time inside the last step.
-    fn value_at<R: Summation>(
+    fn value_at(
         &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
+        stepper: &mut S,
         index: usize,
         time: f64,
         by_steps: bool,
     ) -> Result<f64, Error> {
-        self.look_at(integrator, time, by_steps)?;
+        self.look_at(stepper, time, by_steps)?;
         self.value(index)
     }
 
     /// Sets `output.state` to the state at a time inside the last step.
-    pub(super) fn look_at<R: Summation>(
+    pub(super) fn look_at(
         &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
+        stepper: &mut S,
         time: f64,
         by_steps: bool,
     ) -> Result<(), Error> {
         if by_steps {
-            let partial = self
-                .partial
-                .get_or_insert_with(|| PartialSteps::of(integrator));
-            let taken = partial.take(integrator, time, &mut self.output.state);
+            let taken = self.output.look_by_step(stepper, time);
             if taken.is_ok() || self.needs_steps {
                 return taken;
             }
         }
-        self.output.look_at(integrator, time)
+        self.output.look_at(stepper, time)
     }
 
     /// Change of a function along the flow through `self.shown`, over a small part of `step`; 0 if it is unreliable.
-    pub(super) fn slope<R: Summation>(
-        &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
-        index: usize,
-        step: f64,
-    ) -> f64 {
+    pub(super) fn slope(&mut self, stepper: &mut S, index: usize, step: f64) -> f64 {
         let state = &self.shown;
         let (velocity, force) = self
             .slopes
             .get_or_insert_with(|| (state.q.zeros_like(), state.p.zeros_like()));
-        let time = V::Scalar::from_f64(state.time);
-        let system = integrator.system();
-        system.velocity(time, &state.q, &state.p, velocity);
-        integrator.momentum_rate(state.time, &state.q, &state.p, force);
+        stepper.slopes(state, SMALL * step, velocity, force);
         let [before, after] = [-SMALL * step, SMALL * step].map(|size| {
             self.output.state.time = state.time + size;
             add(&mut self.output.state.q, &state.q, size, velocity);
@@ -245,15 +230,10 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
     }
 
     /// Largest change of a function at the present state when the state changes by rounding errors.
-    pub(super) fn rounding<R: Summation>(
-        &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
-        index: usize,
-        value: f64,
-    ) -> f64 {
+    pub(super) fn rounding(&mut self, stepper: &mut S, index: usize, value: f64) -> f64 {
         let changes = (0..4).map(|pattern| {
-            self.output.state.copy_from(integrator.state());
-            let size = 4.0 * V::Scalar::EPSILON;
+            self.output.state.copy_from(stepper.state());
+            let size = 4.0 * <S::Vector as Vector>::Scalar::EPSILON;
             perturb(&mut self.output.state.q, pattern, size);
             perturb(&mut self.output.state.p, pattern, size);
             (self.events.value(index, &self.output.state) - value).abs()

@@ -7,28 +7,23 @@ use super::search::{Search, Stop};
 use super::{Event, Moment};
 use crate::error::Error;
 use crate::integrator::sight::Sight;
-use crate::integrator::{Integrator, Partitioned, Statistics};
-use crate::method::{Method, Solver};
-use crate::number::{Summation, Vector};
-use crate::output::at_times::check_times;
-use crate::output::steps::{Steps, is_after};
-use crate::state::State;
-use crate::system::System;
+use crate::integrator::{DenseSteps, Run, Statistics};
+use crate::output::at_times::{check_times, is_after};
 
-impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// [`integrate_to`](Self::integrate_to) that calls `observe` with the state at every event, in order. If `observe` breaks with a value,
+impl<S: DenseSteps> Run<S> {
+    /// [`integrate_to`](Run::integrate_to) that calls `observe` with the state at every event, in order. If `observe` breaks with a value,
     /// the integration ends and returns that value; otherwise it returns `None`. It ends after the step that contains the event, or at the
     /// event if it is a [`wall`](Event::wall).
     ///
     /// # Errors
     ///
-    /// Those of [`integrate_to`](Self::integrate_to) and of [`dense`](Self::dense). [`Error::EventValue`] if the
+    /// Those of [`integrate_to`](Run::integrate_to) and of [`look`](DenseSteps::look). [`Error::EventValue`] if the
     /// function is NaN; the present state is then the state before the step. [`Error::EventsAccumulate`], see
     /// [`Event`].
     pub fn integrate_with_events<
-        G: Fn(&State<V>) -> f64,
+        G: Fn(&S::State) -> f64,
         B,
-        F: FnMut(&State<V>) -> ControlFlow<B>,
+        F: FnMut(&S::State) -> ControlFlow<B>,
     >(
         &mut self,
         end: f64,
@@ -51,15 +46,15 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// # Errors
     ///
     /// Those of [`integrate_with_events`](Self::integrate_with_events).
-    pub fn find_event<G: Fn(&State<V>) -> f64>(
+    pub fn find_event<G: Fn(&S::State) -> f64>(
         &mut self,
         end: f64,
         event: &Event<G>,
-    ) -> Result<Option<State<V>>, Error> {
+    ) -> Result<Option<S::State>, Error> {
         self.integrate_with_events(end, event, |state| ControlFlow::Break(state.clone()))
     }
 
-    /// [`integrate_to`](Self::integrate_to) that calls `handle` with the states at the output times and at the events
+    /// [`integrate_to`](Run::integrate_to) that calls `handle` with the states at the output times and at the events
     /// of a list, in order of time.
     ///
     /// At equal times output comes first, then the events in the order of the list. The handler may change the state at
@@ -113,9 +108,9 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// # }
     /// ```
     pub fn integrate_through<
-        E: Events<V> + ?Sized,
+        E: Events<S::Vector> + ?Sized,
         B,
-        F: FnMut(Moment<'_, V>) -> ControlFlow<B>,
+        F: FnMut(Moment<'_, S::Vector>) -> ControlFlow<B>,
     >(
         &mut self,
         end: f64,
@@ -123,102 +118,102 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
         events: &E,
         mut handle: F,
     ) -> Result<Option<B>, Error> {
-        integrate_through(self, end, times, events, &mut handle)
+        let own_pace = self.stepper.own_step_size().is_some();
+        if own_pace && !end.is_finite() {
+            return Err(Error::EndTime { value: end });
+        }
+        let (present, step) = (self.stepper.time(), self.size_to(end));
+        // A stepper with its own pace may be beyond the end.
+        let before = match own_pace {
+            true => self.start_of_last_step(),
+            false => present,
+        };
+        if is_after(step, before, end) {
+            return Err(Error::OutputTime { time: end, before });
+        }
+        check_times(step, times, before, Some(end))?;
+        let mut search = Search::new(events, times, &self.stepper, self.last_event, step);
+        search.start(&mut self.stepper, step)?;
+        let mut ended = search.show_output(&mut self.stepper, present, &mut handle)?;
+        loop {
+            let stepped = match ended {
+                ControlFlow::Break(stop) => Ok(ControlFlow::Break(stop)),
+                ControlFlow::Continue(()) => {
+                    let mut searching = Searching {
+                        search: &mut search,
+                        handle: &mut handle,
+                    };
+                    match own_pace {
+                        true => self.pass_in_sight(end, &mut searching),
+                        false => self.integrate_in_sight(end, &mut searching),
+                    }
+                }
+            };
+            self.last_event = search.last;
+            let ControlFlow::Break(stop) = stepped? else {
+                return Ok(None);
+            };
+            if !matches!(stop, Stop::Broken(_, false)) {
+                let changed = self.copy_state(&search.shown);
+                if changed.is_err() {
+                    self.copy_state(&search.output.state)?;
+                }
+                changed?;
+            }
+            match stop {
+                Stop::Broken(value, _) => return Ok(Some(value)),
+                Stop::Failed(error) => return Err(error),
+                Stop::Reset => {
+                    let step = self.size_to(end).copysign(step);
+                    search.start(&mut self.stepper, step)?;
+                }
+            }
+            ended = ControlFlow::Continue(());
+        }
+    }
+
+    /// Takes steps in sight of `sight` until `end` is reached or passed, or until it breaks.
+    fn pass_in_sight<B>(
+        &mut self,
+        end: f64,
+        sight: &mut impl Sight<S, B>,
+    ) -> Result<ControlFlow<B>, Error> {
+        while self.is_before(end) {
+            self.step()?;
+            let seen = sight.see_or_pass(&mut self.stepper)?;
+            if seen.is_break() {
+                return Ok(seen);
+            }
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// Approximate size of the next step towards `end`.
+    fn size_to(&self, end: f64) -> f64 {
+        let equal = || self.step_size.abs().copysign(end - self.stepper.time());
+        self.stepper.own_step_size().unwrap_or_else(equal)
     }
 }
 
 /// A search during the steps of a run.
-struct Searching<'a, 'e, E, M, S, V, N, F>
-where
-    E: Events<V> + ?Sized,
-    M: Method,
-    S: System<V>,
-    V: Vector,
-    N: Solver<V, S>,
-{
-    search: &'a mut Search<'e, E, M, S, V, N>,
+struct Searching<'a, 'e, E: Events<S::Vector> + ?Sized, S: DenseSteps, F> {
+    search: &'a mut Search<'e, E, S>,
     handle: &'a mut F,
 }
 
-impl<E, M, S, V, R, N, F, B> Sight<Partitioned<M, S, V, R, N>, Stop<B>>
-    for Searching<'_, '_, E, M, S, V, N, F>
+impl<E, S, F, B> Sight<S, Stop<B>> for Searching<'_, '_, E, S, F>
 where
-    E: Events<V> + ?Sized,
-    M: Method,
-    S: System<V>,
-    V: Vector,
-    R: Summation,
-    N: Solver<V, S>,
-    F: FnMut(Moment<'_, V>) -> ControlFlow<B>,
+    E: Events<S::Vector> + ?Sized,
+    S: DenseSteps,
+    F: FnMut(Moment<'_, S::Vector>) -> ControlFlow<B>,
 {
     #[inline]
-    fn passes(&mut self, state: &State<V>, statistics: &Statistics) -> bool {
+    fn passes(&mut self, state: &S::State, statistics: &Statistics) -> bool {
         self.search.passes(state, statistics.iterations)
     }
 
-    fn see(
-        &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
-    ) -> Result<ControlFlow<Stop<B>>, Error> {
-        let seen = self.search.step(integrator, self.handle);
-        Ok(seen.unwrap_or_else(|error| self.search.fail(integrator, error)))
-    }
-}
-
-/// [`Integrator::integrate_through`] for constant and variable step sizes.
-pub(crate) fn integrate_through<M, S, V, R, N, E, B>(
-    steps: &mut impl Steps<M, S, V, R, N>,
-    end: f64,
-    times: &[f64],
-    events: &E,
-    handle: &mut impl FnMut(Moment<'_, V>) -> ControlFlow<B>,
-) -> Result<Option<B>, Error>
-where
-    M: Method,
-    S: System<V>,
-    V: Vector,
-    R: Summation,
-    N: Solver<V, S>,
-    E: Events<V> + ?Sized,
-{
-    let run = steps.integrator();
-    let present = run.state().time;
-    let step = steps.size_to(end);
-    let before = steps.first_output();
-    if is_after(step, before, end) {
-        return Err(Error::OutputTime { time: end, before });
-    }
-    check_times(step, times, before, Some(end))?;
-    let mut search = Search::new(events, times, run, step);
-    search.start(run, step)?;
-    let mut ended = search.show_output(run, present, handle)?;
-    loop {
-        let stepped = match ended {
-            ControlFlow::Break(stop) => Ok(ControlFlow::Break(stop)),
-            ControlFlow::Continue(()) => {
-                let search = &mut search;
-                steps.steps_in_sight(end, &mut Searching { search, handle })
-            }
-        };
-        steps.keep_last_event(search.last);
-        let ControlFlow::Break(stop) = stepped? else {
-            return Ok(None);
-        };
-        if !matches!(stop, Stop::Broken(_, false)) {
-            let changed = steps.replace_state(&search.shown);
-            if changed.is_err() {
-                steps.replace_state(&search.output.state)?;
-            }
-            changed?;
-        }
-        match stop {
-            Stop::Broken(value, _) => return Ok(Some(value)),
-            Stop::Failed(error) => return Err(error),
-            Stop::Reset => {
-                let step = steps.size_to(end).copysign(step);
-                search.start(steps.integrator(), step)?;
-            }
-        }
-        ended = ControlFlow::Continue(());
+    fn see(&mut self, stepper: &mut S) -> Result<ControlFlow<Stop<B>>, Error> {
+        let seen = self.search.step(stepper, self.handle);
+        Ok(seen.unwrap_or_else(|error| self.search.fail(stepper, error)))
     }
 }

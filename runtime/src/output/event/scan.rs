@@ -7,10 +7,7 @@ use super::locate::SMALL;
 use super::search::{Search, place};
 use super::track::{DEEPEST, Track, sign};
 use crate::error::Error;
-use crate::integrator::Integrator;
-use crate::method::{Method, Solver};
-use crate::number::{Summation, Vector};
-use crate::system::System;
+use crate::integrator::DenseSteps;
 
 /// An extremum at a distance from zero of at most this number of differences is looked for by steps of the method.
 const OPEN: f64 = 2.0;
@@ -95,15 +92,9 @@ impl Track {
     }
 }
 
-impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, S>>
-    Search<'_, E, M, S, V, N>
-{
+impl<E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'_, E, S> {
     /// Whether the interpolation leaves open which events the last step has, so that steps of the method decide.
-    pub(super) fn is_open<R: Summation>(
-        &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
-        span: (f64, f64),
-    ) -> Result<bool, Error> {
+    pub(super) fn is_open(&mut self, stepper: &mut S, span: (f64, f64)) -> Result<bool, Error> {
         let (count, finest) = (self.tracks.as_ref().len(), self.samples.next_multiple_of(2));
         self.tracks.as_mut().iter_mut().for_each(Track::begin_scan);
         if count == 0 || self.samples == 1 {
@@ -114,7 +105,7 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
         loop {
             self.tracks.as_mut().iter_mut().for_each(Track::begin_scan);
             for number in 1..=points {
-                self.look_at_point(integrator, place(span, number, points), false)?;
+                self.look_at_point(stepper, place(span, number, points), false)?;
                 for index in 0..count {
                     let value = self.value(index)?;
                     self.tracks.as_mut()[index].scan.append(value);
@@ -130,7 +121,7 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
         }
         for index in 0..count {
             if self.tracks.as_ref()[index].is_near()
-                && self.is_open_for(integrator, index, span, points)?
+                && self.is_open_for(stepper, index, span, points)?
             {
                 return Ok(true);
             }
@@ -139,9 +130,9 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
     }
 
     /// [`is_open`](Self::is_open) for a function that is near zero at some of the points of a scan.
-    fn is_open_for<R: Summation>(
+    fn is_open_for(
         &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
+        stepper: &mut S,
         index: usize,
         span: (f64, f64),
         points: u32,
@@ -149,8 +140,8 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
         let track = self.tracks.as_ref()[index];
         let mut slopes = [0.0; 2];
         for (slope, time) in slopes.iter_mut().zip([span.0, span.1]) {
-            self.look_at_point(integrator, time, false)?;
-            *slope = self.slope_here(integrator, index, span);
+            self.look_at_point(stepper, time, false)?;
+            *slope = self.slope_here(stepper, index, span);
         }
         let range = track.open_range(slopes);
         if track.scan.changes > 1 || track.scan.smallest > range {
@@ -159,11 +150,11 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
         // The function turns between two points if it goes towards zero at the first one and away from it at the second one.
         let (mut side, mut goes_there) = (track.side, track.on_zero.then_some(false));
         for number in 0..=points {
-            self.look_at_point(integrator, place(span, number, points), false)?;
+            self.look_at_point(stepper, place(span, number, points), false)?;
             let value = self.value(index)?;
             let here = if number == 0 { track.side } else { sign(value) };
             let slope =
-                (value.abs() <= range).then(|| here * self.slope_here(integrator, index, span));
+                (value.abs() <= range).then(|| here * self.slope_here(stepper, index, span));
             let turns = match slope {
                 Some(slope) => slope >= 0.0 && goes_there != Some(false),
                 None => goes_there == Some(true),
@@ -180,13 +171,8 @@ impl<E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, 
     }
 
     /// The change of a function in the last step that its derivative at `self.output.state` predicts.
-    fn slope_here<R: Summation>(
-        &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
-        index: usize,
-        (start, end): (f64, f64),
-    ) -> f64 {
+    fn slope_here(&mut self, stepper: &mut S, index: usize, (start, end): (f64, f64)) -> f64 {
         self.shown.copy_from(&self.output.state);
-        self.slope(integrator, index, end - start) / (2.0 * SMALL)
+        self.slope(stepper, index, end - start) / (2.0 * SMALL)
     }
 }

@@ -6,14 +6,9 @@ use super::Moment;
 use super::list::EventList;
 use super::track::{Crossing, Track, sign};
 use crate::error::Error;
-use crate::integrator::Integrator;
+use crate::integrator::DenseSteps;
 use crate::integrator::last_step::LastEvent;
-use crate::integrator::partial_step::PartialSteps;
-use crate::method::{Method, Solver};
-use crate::number::{Summation, Vector, copy};
 use crate::output::at_times::Output;
-use crate::state::State;
-use crate::system::System;
 
 /// Largest number of events in a row that follow each other within [`SHORTEST`].
 const MOST_IN_A_ROW: u32 = 1000;
@@ -37,14 +32,7 @@ pub(super) fn place((start, end): (f64, f64), number: u32, count: u32) -> f64 {
 }
 
 /// A search for the events of a list.
-pub(super) struct Search<'e, E, M, S, V, N>
-where
-    E: EventList<V> + ?Sized,
-    M: Method,
-    S: System<V>,
-    V: Vector,
-    N: Solver<V, S>,
-{
+pub(super) struct Search<'e, E: EventList<S::Vector> + ?Sized, S: DenseSteps> {
     pub(super) events: &'e E,
     pub(super) tracks: E::Tracks,
     /// Remaining output times.
@@ -62,11 +50,10 @@ where
     /// Whether the last step took few sweeps.
     pub(super) resolved: bool,
     /// The state under examination.
-    pub(super) output: Output<V>,
-    pub(super) partial: Option<PartialSteps<M, S, V, N>>,
-    pub(super) slopes: Option<(V, V)>,
+    pub(super) output: Output<S>,
+    pub(super) slopes: Option<(S::Vector, S::Vector)>,
     /// The state passed to the handler at an event, and as the handler changed it.
-    pub(super) shown: State<V>,
+    pub(super) shown: S::State,
     pub(super) last: Option<LastEvent>,
 }
 
@@ -81,20 +68,19 @@ pub(super) enum Stop<B> {
 
 type Seen<B> = ControlFlow<Stop<B>>;
 
-impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver<V, S>>
-    Search<'e, E, M, S, V, N>
-{
-    /// A search from the present state of the integrator; `direction` has the sign of the step size.
-    pub(super) fn new<R: Summation>(
+impl<'e, E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'e, E, S> {
+    /// A search from the present state of the stepper, after the event `last`; `direction` has the sign of the step size.
+    pub(super) fn new(
         events: &'e E,
         times: &'e [f64],
-        integrator: &Integrator<M, S, V, R, N>,
+        stepper: &S,
+        last: Option<LastEvent>,
         direction: f64,
     ) -> Self {
         let mut tracks = events.tracks();
         let count = tracks.as_ref().len();
-        let start = integrator.state();
-        let last = integrator.last_event.filter(|last| last.time == start.time);
+        let start = stepper.state();
+        let last = last.filter(|last| last.time == start.time);
         if let Some(last) = last
             && let Some(track) = tracks.as_mut().get_mut(last.index)
         {
@@ -111,40 +97,29 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
             samples_all: (0..count).any(|k| events.kind(k).samples.is_some()),
             by_steps: false,
             needs_steps: (0..count).any(|k| events.kind(k).by_steps),
-            iterations: integrator.iterations(),
+            iterations: stepper.statistics().iterations,
             resolved: false,
-            output: Output::new(integrator, direction),
-            partial: None,
+            output: Output::new(stepper, direction),
             slopes: None,
             shown: start.clone(),
             last,
         }
     }
 
-    /// Starts at the present state of the integrator; `step` is the approximate size of the next step.
-    pub(super) fn start<R: Summation>(
-        &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
-        step: f64,
-    ) -> Result<(), Error> {
-        self.shown.copy_from(integrator.state());
+    /// Starts at the present state of the stepper; `step` is the approximate size of the next step.
+    pub(super) fn start(&mut self, stepper: &mut S, step: f64) -> Result<(), Error> {
+        self.shown.copy_from(stepper.state());
         for index in 0..self.tracks.as_ref().len() {
-            self.output.state.copy_from(integrator.state());
+            self.output.state.copy_from(stepper.state());
             let value = self.value(index)?;
-            let track = self.start_of(integrator, index, value, step);
+            let track = self.start_of(stepper, index, value, step);
             self.tracks.as_mut()[index] = track;
         }
         Ok(())
     }
 
     /// Track of a function at the start, where its value is `value`.
-    fn start_of<R: Summation>(
-        &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
-        index: usize,
-        value: f64,
-        step: f64,
-    ) -> Track {
+    fn start_of(&mut self, stepper: &mut S, index: usize, value: f64, step: f64) -> Track {
         let fired = self.tracks.as_ref()[index].fired;
         let mut track = Track {
             side: sign(value),
@@ -157,11 +132,11 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
             track.side = 1.0;
         }
         if fired != 0.0 {
-            track.rounding = self.rounding(integrator, index, value);
+            track.rounding = self.rounding(stepper, index, value);
         } else if value * track.side > 0.0 {
             return track;
         }
-        let slope = self.slope(integrator, index, step);
+        let slope = self.slope(stepper, index, step);
         let near = value.abs() <= track.rounding.max(slope.abs());
         if !wall && near {
             track.side = if slope == 0.0 { fired } else { sign(slope) };
@@ -173,7 +148,7 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
 
     /// Whether the step to `state` has no output and, for certain, no event. `iterations` is the number of sweeps so far.
     #[inline]
-    pub(super) fn passes(&mut self, state: &State<V>, iterations: u64) -> bool {
+    pub(super) fn passes(&mut self, state: &S::State, iterations: u64) -> bool {
         let sweeps = iterations.checked_sub(self.iterations);
         self.resolved = sweeps.is_some_and(|sweeps| sweeps <= FEW_SWEEPS);
         self.iterations = iterations;
@@ -201,15 +176,14 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
     }
 
     /// Passes the output and the events in the last step to the handler.
-    pub(super) fn step<R: Summation, B>(
+    pub(super) fn step<B>(
         &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
-        handle: &mut impl FnMut(Moment<'_, V>) -> ControlFlow<B>,
+        stepper: &mut S,
+        handle: &mut impl FnMut(Moment<'_, S::Vector>) -> ControlFlow<B>,
     ) -> Result<Seen<B>, Error> {
-        let last = integrator.last_step().ok_or(Error::NoStep)?;
-        let (start, end) = (last.start, last.end);
+        let (start, end) = stepper.last_span().ok_or(Error::NoStep)?;
         self.output.evaluated = false;
-        self.by_steps = self.is_open(integrator, (start, end))?;
+        self.by_steps = self.is_open(stepper, (start, end))?;
         // Otherwise the sign changes at most once, as at the ends.
         let (panels, halves) = match self.by_steps {
             true => (self.samples.div_ceil(2), 2),
@@ -224,10 +198,10 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
             let middle = (halves == 2).then(|| point(panel * halves + 1));
             let to = point((panel + 1) * halves);
             if let Some(middle) = middle {
-                self.look_at(integrator, middle, self.by_steps)?;
+                self.look_at(stepper, middle, self.by_steps)?;
                 self.look_ahead(0)?;
             }
-            self.look_at_point(integrator, to, self.by_steps)?;
+            self.look_at_point(stepper, to, self.by_steps)?;
             self.look_ahead(1)?;
             for index in 0..self.tracks.as_ref().len() {
                 let (mut from, mut until) = (from, to);
@@ -236,9 +210,9 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
                     from = place((start, end), before, points);
                     until = place((start, end), after, points);
                 }
-                self.detect(integrator, index, from, [middle, Some(until)])?;
+                self.detect(stepper, index, from, [middle, Some(until)])?;
             }
-            let seen = self.show(integrator, to, handle)?;
+            let seen = self.show(stepper, to, handle)?;
             if seen.is_break() {
                 return Ok(seen);
             }
@@ -252,47 +226,37 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
     }
 
     /// [`look_at`](Self::look_at), or the present state at the end of the step.
-    pub(super) fn look_at_point<R: Summation>(
+    pub(super) fn look_at_point(
         &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
+        stepper: &mut S,
         time: f64,
         by_steps: bool,
     ) -> Result<(), Error> {
-        if time == integrator.state().time {
-            self.output.state.copy_from(integrator.state());
+        if time == stepper.time() {
+            self.output.state.copy_from(stepper.state());
             return Ok(());
         }
-        self.look_at(integrator, time, by_steps)
+        self.look_at(stepper, time, by_steps)
     }
 
     /// Ends the search with an error. The state returns to the start of the last step, because its end may lie behind a
     /// wall that was not found.
-    pub(super) fn fail<R: Summation, B>(
-        &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
-        error: Error,
-    ) -> Seen<B> {
-        if let Some(last) = integrator.last_step() {
-            self.shown.time = last.start;
-            copy(&mut self.shown.q, last.positions.start.0);
-            copy(&mut self.shown.p, last.momenta.start.0);
-        } else {
-            self.shown.copy_from(integrator.state());
-        }
+    pub(super) fn fail<B>(&mut self, stepper: &mut S, error: Error) -> Seen<B> {
+        stepper.write_start(&mut self.shown);
         ControlFlow::Break(Stop::Failed(error))
     }
 
     /// Passes output and events up to a time to the handler.
-    fn show<R: Summation, B>(
+    fn show<B>(
         &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
+        stepper: &mut S,
         end: f64,
-        handle: &mut impl FnMut(Moment<'_, V>) -> ControlFlow<B>,
+        handle: &mut impl FnMut(Moment<'_, S::Vector>) -> ControlFlow<B>,
     ) -> Result<Seen<B>, Error> {
         loop {
             let next = self.next();
             let until = next.map_or(end, |(_, next)| next.time);
-            let shown = self.show_output(integrator, until, handle)?;
+            let shown = self.show_output(stepper, until, handle)?;
             let Some((index, Crossing { time, .. })) = next else {
                 return Ok(shown);
             };
@@ -300,11 +264,9 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
                 return Ok(shown);
             }
             let by_steps = self.events.kind(index).by_steps || self.by_steps;
-            self.look_at(integrator, time, by_steps)?;
+            self.look_at(stepper, time, by_steps)?;
             self.shown.copy_from(&self.output.state);
-            let step = integrator
-                .last_step()
-                .map_or(0.0, |last| last.end - last.start);
+            let step = stepper.last_span().map_or(0.0, |(start, end)| end - start);
             let shown = self.show_events((time, step), handle);
             if shown.is_break() {
                 return Ok(shown);
@@ -329,7 +291,7 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
     fn show_events<B>(
         &mut self,
         (time, step): (f64, f64),
-        handle: &mut impl FnMut(Moment<'_, V>) -> ControlFlow<B>,
+        handle: &mut impl FnMut(Moment<'_, S::Vector>) -> ControlFlow<B>,
     ) -> Seen<B> {
         let mut reset = false;
         while let Some((index, next)) = self.next()
@@ -374,20 +336,20 @@ impl<'e, E: EventList<V> + ?Sized, M: Method, S: System<V>, V: Vector, N: Solver
     }
 
     /// Passes the states at the output times up to `until` to the handler; `until` is not after the present time.
-    pub(super) fn show_output<R: Summation, B>(
+    pub(super) fn show_output<B>(
         &mut self,
-        integrator: &Integrator<M, S, V, R, N>,
+        stepper: &mut S,
         until: f64,
-        handle: &mut impl FnMut(Moment<'_, V>) -> ControlFlow<B>,
+        handle: &mut impl FnMut(Moment<'_, S::Vector>) -> ControlFlow<B>,
     ) -> Result<Seen<B>, Error> {
         while let Some((&time, rest)) = self.times.split_first()
             && !self.output.is_after(time, until)
         {
-            let present = integrator.state();
+            let present = stepper.state();
             let handled = if time == present.time {
                 handle(Moment::Output(present))
             } else {
-                self.look_at(integrator, time, false)?;
+                self.look_at(stepper, time, false)?;
                 handle(Moment::Output(&self.output.state))
             };
             self.times = rest;

@@ -8,7 +8,7 @@ use super::{DiracRule, DiracSystem};
 use crate::error::Error;
 use crate::integrator::first_step::or_as_first_step;
 use crate::integrator::validation::{check_state, check_step_size};
-use crate::integrator::{Run, Statistics, Stepper};
+use crate::integrator::{Equal, Run, Statistics, Stepper};
 use crate::method::StoermerVerletSteps;
 use crate::method::symmetric_steps::SymmetricSteps;
 use crate::number::{Vector, copy};
@@ -258,14 +258,11 @@ impl<L: DiracSystem> DiracSteps<L> {
 
 impl<L: DiracSystem> Stepper for DiracSteps<L> {
     type State = State<L::Vector<f64>>;
+    type Pace = Equal;
     type Saved = (Self::State, L::Vector<f64>, Statistics);
 
     fn state(&self) -> &Self::State {
         &self.state
-    }
-
-    fn time(&self) -> f64 {
-        self.state.time
     }
 
     fn statistics(&self) -> &Statistics {
@@ -305,9 +302,5 @@ impl<L: DiracSystem> Stepper for DiracSteps<L> {
         self.state.copy_from(state);
         copy(&mut self.velocity, velocity);
         self.statistics = *statistics;
-    }
-
-    fn may_split(&self, error: &Error) -> bool {
-        error.depends_on_the_size()
     }
 }

@@ -7,7 +7,7 @@ use super::stages::{Stages, Start};
 use crate::error::{Error, Quantity};
 use crate::integrator::first_step::or_as_first_step;
 use crate::integrator::validation::{check_state, check_step_size};
-use crate::integrator::{Run, Statistics, Stepper};
+use crate::integrator::{Equal, Run, Statistics, Stepper};
 use crate::method::{Method, ProvedFor};
 use crate::number::Vector;
 use crate::number::vector::beside;
@@ -382,14 +382,11 @@ impl<L: Lagrangian> LagrangianSteps<L> {
 
 impl<L: Lagrangian> Stepper for LagrangianSteps<L> {
     type State = State<L::Vector<f64>>;
+    type Pace = Equal;
     type Saved = (Self::State, Option<f64>, Statistics);
 
     fn state(&self) -> &Self::State {
         &self.state
-    }
-
-    fn time(&self) -> f64 {
-        self.state.time
     }
 
     fn statistics(&self) -> &Statistics {
@@ -429,10 +426,6 @@ impl<L: Lagrangian> Stepper for LagrangianSteps<L> {
         self.state.copy_from(state);
         self.begin_as_first();
         (self.action, self.statistics) = (*action, *statistics);
-    }
-
-    fn may_split(&self, error: &Error) -> bool {
-        error.depends_on_the_size()
     }
 }
 
