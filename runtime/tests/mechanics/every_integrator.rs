@@ -39,7 +39,7 @@ fn turned_plane(state: &Plane) -> Plane {
     State::new(state.time, turn * state.q, turn * state.p)
 }
 
-fn kepler_by_flows(
+pub(crate) fn kepler_by_flows(
     start: Plane,
 ) -> Result<FlowIntegrator<Vector2<f64>, impl symplectic::flow::Flow<Vector2<f64>> + Clone>, Error>
 {
@@ -53,7 +53,7 @@ fn kepler_by_flows(
 }
 
 /// On the sphere, `H = |p|²(2 + z)/2 + z`.
-fn bead(a: f64, b: f64) -> Space {
+pub(crate) fn bead(a: f64, b: f64) -> Space {
     let state = State::from_arrays(
         0.0,
         [0.6 + a, 0.1 * b, -0.8],

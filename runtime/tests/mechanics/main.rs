@@ -38,4 +38,5 @@ mod scales;
 mod start;
 mod symmetry;
 mod systems;
+mod whole_interface;
 mod wrong_dimension;
