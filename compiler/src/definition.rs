@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
 
-use crate::did_you_mean;
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Input, shown};
+use crate::suggestion::did_you_mean;
 use crate::symbolic::Constant;
 
 /// Makes [`Key`] from its one list: each with its name, what the value is called (nothing for a switch), and a help text.

@@ -22,6 +22,16 @@ pub enum Evidence {
     },
 }
 
+/// The evidence of what holds, in words.
+pub(crate) fn evidence_text(evidence: Evidence) -> String {
+    match evidence {
+        Evidence::Verified { bits } => format!("verified to 2^-{bits}"),
+        Evidence::Certified => "certified".to_owned(),
+        Evidence::Undecided { bits } => format!("not decided by enclosures of {bits} bits"),
+        _ => "proved".to_owned(),
+    }
+}
+
 impl Evidence {
     /// The evidence for two statements that both hold.
     pub(crate) fn and(self, other: Evidence) -> Evidence {

@@ -52,6 +52,7 @@ mod exact;
 pub mod export;
 pub mod expression;
 pub mod formula;
+mod hamiltonian_class;
 mod import;
 mod library;
 mod limits;

@@ -14,7 +14,7 @@ use crate::import::{Flows, Numbers, Value, half, value_of};
 use crate::library::{Library, Notation};
 use crate::limits::Limits;
 use crate::order::HamiltonianClass;
-use crate::with_suggestion;
+use crate::suggestion::with_suggestion;
 
 type List = Spanned<Vec<Spanned<String>>>;
 

@@ -6,11 +6,11 @@ use num_traits::{One, Zero};
 use serde::{Serialize, Serializer};
 
 use crate::error::Error;
+use crate::evidence::evidence_text;
 use crate::import::{Numbers, Origin};
 use crate::library::Library;
 use crate::limits::Limits;
 use crate::order::{ClassOrder, HamiltonianClass, Pendulum};
-use crate::stability::evidence_text;
 
 /// The largest accepted difference between the observed and the proved order.
 const TOLERANCE: f64 = 0.05;

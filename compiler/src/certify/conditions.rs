@@ -42,7 +42,7 @@ use num_traits::{One, Zero};
 use super::CertifyError;
 use super::lyndon::{Alphabet, Word, split_lyndon};
 use super::nystrom::{Combination, Quotient};
-use crate::order::HamiltonianClass;
+use crate::hamiltonian_class::HamiltonianClass;
 
 /// The highest order that a method can claim.
 pub const MAX_ORDER: usize = 10;

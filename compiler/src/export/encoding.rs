@@ -4,6 +4,7 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::error::{Error, ErrorKind};
+use crate::expression::without_mark;
 
 /// The largest table file that is read, in bytes; a file with 36 stages has about 1 MB.
 const MAX_FILE: u64 = 64 << 20;
@@ -57,14 +58,6 @@ fn with_line_feeds(text: &str) -> String {
         lines.push(if alone { '\n' } else { c });
     }
     lines
-}
-
-/// The character that some programs write at the start of UTF-8 text.
-const BYTE_ORDER_MARK: char = '\u{feff}';
-
-/// A text without a byte-order mark at its start.
-pub fn without_mark(text: &str) -> &str {
-    text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text)
 }
 
 /// The UTF-16 or UTF-32 encoding of a text, detected by its byte-order mark or by its first character, which is

@@ -1,11 +1,10 @@
 //! Order and stability of a tableau as data, in the same shape for all formats.
 
 use super::json::evidence;
+use crate::evidence::evidence_text;
 use crate::order::{ClassOrder, HamiltonianClass, PerturbedOrder, PowerOrder, SymplecticityOrder};
 use crate::properties::Property;
-use crate::stability::{
-    EndPoint, MOST_STAGES, RungeKuttaStability, Stability, StableSteps, evidence_text,
-};
+use crate::stability::{EndPoint, MOST_STAGES, RungeKuttaStability, Stability, StableSteps};
 use crate::tableau::Tableau;
 
 /// A value in a file.

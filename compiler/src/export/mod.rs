@@ -26,7 +26,8 @@ mod stepper;
 pub mod text;
 pub mod toml;
 
-pub use encoding::{read_text, without_mark};
+pub use crate::expression::without_mark;
+pub use encoding::read_text;
 pub(crate) use entries::{compare, first_line};
 pub(crate) use format::Format;
 pub use language::Language;

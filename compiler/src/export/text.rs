@@ -4,9 +4,8 @@ use super::columns::{left, right, width, widths};
 use super::facts::separable_only;
 use super::written;
 use crate::coefficients::Coefficients;
-use crate::evidence::Evidence;
+use crate::evidence::{Evidence, evidence_text};
 use crate::partitioned::LowerTriangular;
-use crate::stability::evidence_text;
 use crate::tableau::Tableau;
 use crate::tableau::left_out;
 

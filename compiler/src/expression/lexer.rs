@@ -7,7 +7,14 @@ use num_rational::BigRational;
 
 use super::{Input, MAX_EXPONENT, MAX_LENGTH};
 use crate::error::{Error, ErrorKind};
-use crate::quadrature::FAMILIES;
+
+/// The names with hyphens, those of quadrature rules: `radau-left(3)` is a call, not a difference.
+const HYPHENATED: [&str; 4] = [
+    "clenshaw-curtis",
+    "newton-cotes",
+    "radau-left",
+    "radau-right",
+];
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Token {
@@ -54,11 +61,9 @@ pub(super) fn tokenize(input: Input<'_>) -> Result<Vec<(Token, Range<usize>)>, E
             Token::Number(number(input, start..position)?)
         } else if first.is_alphabetic() || first == '_' {
             position = run(position, |c| c.is_alphanumeric() || c == '_');
-            // The names of some rules contain hyphens: `radau-left(3)`.
-            let rules = FAMILIES.iter().map(|family| family.name);
-            let hyphenated =
-                |name: &&str| text[start..].starts_with(name) && name.len() > position - start;
-            if let Some(name) = rules.filter(hyphenated).max_by_key(|name| name.len()) {
+            let found =
+                |name: &&&str| text[start..].starts_with(**name) && name.len() > position - start;
+            if let Some(name) = HYPHENATED.iter().find(found) {
                 position = start + name.len();
             }
             Token::Name(text[start..position].to_owned())

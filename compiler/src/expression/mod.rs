@@ -22,7 +22,6 @@ use std::ops::Range;
 use num_rational::BigRational;
 
 use crate::error::{Error, ErrorKind, Place};
-use crate::export::without_mark;
 
 pub use parser::{Row, parse_list, parse_matrix};
 
@@ -119,6 +118,14 @@ pub struct Input<'a> {
     pub name: &'a str,
     /// The text.
     pub text: &'a str,
+}
+
+/// The character that some programs write at the start of UTF-8 text.
+const BYTE_ORDER_MARK: char = '\u{feff}';
+
+/// A text without a byte-order mark at its start.
+pub fn without_mark(text: &str) -> &str {
+    text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text)
 }
 
 impl<'a> Input<'a> {

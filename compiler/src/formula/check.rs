@@ -3,12 +3,12 @@
 use num_traits::One;
 
 use super::derivative::{Scatter, directional, gradient};
-use super::error::FormulaError;
 use super::evaluate::{Evaluator, Point};
 use super::graph::{Base, Coordinate, Graph, Half, Id, Index, MOST_LOOPS, Node, Number, integer};
 use super::structure::{Kinetic, Structure, goes_over_all};
 use super::syntax::{Length, Name};
 use super::system::{Invariant, Layout, Shape, System};
+use crate::error::FormulaError;
 use crate::error::{Error, ErrorKind};
 use crate::expression::Input;
 

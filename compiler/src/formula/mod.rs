@@ -36,7 +36,6 @@ pub mod display;
 pub mod distance;
 pub mod elaborate;
 mod equations;
-mod error;
 pub mod evaluate;
 pub mod function;
 pub mod graph;
@@ -55,7 +54,6 @@ mod system;
 mod trigonometry;
 
 pub use check::PROPERTIES;
-pub use error::FormulaError;
 pub use structure::{Kinetic, Structure};
 pub use syntax::Form;
 pub use system::{
@@ -65,6 +63,7 @@ pub use system::{
 use self::graph::Id;
 use self::syntax::{Definition, Name, ParameterKind};
 use crate::error::Error;
+pub use crate::error::FormulaError;
 use crate::expression::Input;
 
 impl System {

@@ -11,13 +11,13 @@ use crate::arithmetic::rational::ratio;
 use crate::arithmetic::rounding::{Decimal, to_f64};
 use crate::certify::{Printed, certify_composition};
 use crate::definition::{Definition, Key};
-use crate::did_you_mean;
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Input, shown};
 use crate::library::{Library, Notation};
 use crate::limits::Limits;
 use crate::order::composition;
 use crate::quadrature::check_stages;
+use crate::suggestion::did_you_mean;
 use crate::symbolic::Constant;
 use crate::tableau::Tableau;
 

@@ -1,38 +1,9 @@
-//! Classes of Hamiltonians, by the bicoloured trees that do not vanish for them.
-
-use std::fmt;
+//! The bicoloured trees that do not vanish for a class of Hamiltonians.
 
 use super::tree::{BicolouredTree, Colour};
-
-/// A class of Hamiltonians; the smaller it is, the fewer order conditions a method has to satisfy.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum HamiltonianClass {
-    /// Every `H(q, p)`: all bicoloured trees.
-    General,
-    /// `H = T(p) + U(q)`: neighbouring vertices have different colours.
-    Separable,
-    /// `H = pᵀM⁻¹p/2 + U(q)` (Nyström): in addition, a vertex for `q'` has at most one child, because
-    /// `∂H/∂p` is linear in `p`.
-    Nystrom,
-}
+pub use crate::hamiltonian_class::HamiltonianClass;
 
 impl HamiltonianClass {
-    /// All classes, the largest first.
-    pub const ALL: [HamiltonianClass; 3] = [
-        HamiltonianClass::General,
-        HamiltonianClass::Separable,
-        HamiltonianClass::Nystrom,
-    ];
-
-    /// The name in requirements and exports: `general`, `separable`, `nystrom`.
-    pub fn name(self) -> &'static str {
-        match self {
-            HamiltonianClass::General => "general",
-            HamiltonianClass::Separable => "separable",
-            HamiltonianClass::Nystrom => "nystrom",
-        }
-    }
-
     /// Whether the elementary differential of a tree can be nonzero in this class.
     pub fn contains(self, tree: &BicolouredTree) -> bool {
         let children = tree.children();
@@ -45,12 +16,6 @@ impl HamiltonianClass {
         let linear = self == HamiltonianClass::Nystrom && tree.colour() == Colour::Q;
         let count = !linear || children.len() <= 1;
         colours && count && children.iter().all(|child| self.contains(child))
-    }
-}
-
-impl fmt::Display for HamiltonianClass {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
     }
 }
 

@@ -28,11 +28,10 @@ use super::weights::most_products;
 use super::{GivenOrder, SHORT, short};
 use crate::algebra::{Dense, Field, Rationals, Zero};
 use crate::certify::{DRIFT, KICK, MAX_ORDER, MAX_PERTURBED_ORDER, Word, split_lyndon};
-use crate::evidence::Evidence;
+use crate::evidence::{Evidence, evidence_text};
 use crate::exact::Exact;
 use crate::partitioned::Partitioned;
 use crate::schedule::{Class, Node, StepGraph};
-use crate::stability::evidence_text;
 use crate::stability::superscript;
 use crate::tableau::Tableau;
 

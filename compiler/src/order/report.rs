@@ -7,8 +7,7 @@ use num_rational::BigRational;
 use super::class::HamiltonianClass;
 use super::tree::BicolouredTree;
 use crate::arithmetic::rounding::Decimal;
-use crate::evidence::Evidence;
-use crate::stability::evidence_text;
+use crate::evidence::{Evidence, evidence_text};
 
 /// The order of a method for each class of Hamiltonians.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -23,9 +23,8 @@ pub use self::separable::SeparableProperties;
 pub(crate) use self::symmetric::{Symmetry, images};
 use crate::algebra::{Number, StageAlgebra, Zero};
 use crate::coefficients::{Coefficients, subscript};
-use crate::evidence::Evidence;
+use crate::evidence::{Evidence, evidence_text};
 use crate::partitioned::Partitioned;
-use crate::stability::evidence_text;
 
 /// Whether a property holds, how that is known, and an example.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -307,6 +307,14 @@ mod tests {
     }
 
     #[test]
+    fn names_of_families_are_read_as_they_are_written() {
+        for family in FAMILIES {
+            let (name, count) = (family.name, family.minimum.max(2));
+            assert_eq!(rule(&format!("{name}({count})")).len(), count);
+        }
+    }
+
+    #[test]
     fn chebyshev_weights_are_equal() {
         for stages in [1, 2, 3, 4, 5, 6, 7, 9] {
             let rule = rule(&format!("chebyshev({stages})"));

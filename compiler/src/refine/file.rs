@@ -13,7 +13,7 @@ use crate::error::{Error, ErrorKind};
 use crate::export::first_line;
 use crate::expression::{Input, shown};
 use crate::import::computed;
-use crate::with_suggestion;
+use crate::suggestion::with_suggestion;
 
 type List = Spanned<Vec<Spanned<String>>>;
 

@@ -39,7 +39,7 @@ use self::oscillator::{Parts, Step};
 use self::polynomial::RealPolynomial;
 use crate::algebra::{Field, Number, Scalar, StageAlgebra, ZERO_BITS};
 use crate::arithmetic::polynomial::Polynomial;
-use crate::evidence::Evidence;
+use crate::evidence::{Evidence, evidence_text};
 use crate::partitioned::Partitioned;
 
 pub use dispersion::Dispersion;
@@ -334,15 +334,6 @@ fn rational_polynomial<F: Field>(field: &F, list: &[F::Element]) -> Option<Polyn
     });
     let values: Option<Vec<BigRational>> = values.collect();
     Some(Polynomial::from_rationals(&values?))
-}
-
-pub(crate) fn evidence_text(evidence: Evidence) -> String {
-    match evidence {
-        Evidence::Verified { bits } => format!("verified to 2^-{bits}"),
-        Evidence::Certified => "certified".to_owned(),
-        Evidence::Undecided { bits } => format!("not decided by enclosures of {bits} bits"),
-        _ => "proved".to_owned(),
-    }
 }
 
 impl fmt::Display for Stability {

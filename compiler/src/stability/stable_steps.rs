@@ -1,7 +1,7 @@
 //! The stable steps of a method, computed in bounded time.
 
-use super::{Stability, StabilityInterval, evidence_text};
-use crate::evidence::Evidence;
+use super::{Stability, StabilityInterval};
+use crate::evidence::{Evidence, evidence_text};
 use crate::tableau::Tableau;
 
 /// The largest number of stages for which all stable steps are computed. The real roots of polynomials of twice that degree take

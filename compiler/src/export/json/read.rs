@@ -19,8 +19,8 @@ use crate::export::{Format, MAX_DIGITS};
 use crate::expression::Input;
 use crate::limits::Limits;
 use crate::properties::Properties;
+use crate::suggestion::with_suggestion;
 use crate::tableau::Tableau;
-use crate::with_suggestion;
 
 /// Reads a tableau from JSON.
 ///

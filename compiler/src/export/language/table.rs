@@ -2,13 +2,13 @@
 
 use crate::arithmetic::rational::ratio;
 use crate::coefficients::Coefficients;
+use crate::evidence::evidence_text;
 use crate::export::facts::separable_only;
 use crate::export::written;
 use crate::library::{Library, Stepping};
 use crate::order::HamiltonianClass;
 use crate::partitioned::LowerTriangular;
 use crate::schedule::{Class, Node, StepGraph};
-use crate::stability::evidence_text;
 use crate::tableau::{Tableau, left_out};
 
 /// Longer exact forms are left out next to decimals.

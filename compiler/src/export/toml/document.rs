@@ -18,8 +18,8 @@ use crate::export::provenance::{Origin, Part};
 use crate::expression::Input;
 use crate::limits::Limits;
 use crate::properties::Properties;
+use crate::suggestion::with_suggestion;
 use crate::tableau::Tableau;
-use crate::with_suggestion;
 
 pub(super) type List = Spanned<Vec<Spanned<String>>>;
 pub(super) type Matrix = Spanned<Vec<List>>;

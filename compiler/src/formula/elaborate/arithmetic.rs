@@ -5,8 +5,8 @@ use num_traits::{One, Signed, Zero};
 
 use super::values::counted;
 use super::{Elaborator, MOST_EXPONENT, MOST_JOINED_EXPONENT, Value};
+use crate::error::FormulaError;
 use crate::error::{Error, ErrorKind};
-use crate::formula::error::FormulaError;
 use crate::formula::function::{Elementary, Function};
 use crate::formula::graph::{Id, Node, Number, integer};
 use crate::formula::parse::{JUMPS, constant, unknown_function};

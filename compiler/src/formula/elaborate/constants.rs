@@ -4,8 +4,8 @@ use num_traits::{One, Signed};
 
 use super::Elaborator;
 use crate::arithmetic::rounding::to_f64;
+use crate::error::FormulaError;
 use crate::error::{Error, ErrorKind};
-use crate::formula::error::FormulaError;
 use crate::formula::evaluate::{Evaluator, Point};
 use crate::formula::function::Elementary;
 use crate::formula::graph::{Dependence, Graph, Id, Node, Number};

@@ -3,7 +3,7 @@
 use super::smooth::Role;
 use super::{Elaborator, Value};
 use crate::error::Error;
-use crate::formula::error::FormulaError;
+use crate::error::FormulaError;
 use crate::formula::graph::{Base, Id, LoopRange};
 use crate::formula::syntax::{self, Expression, Length};
 use crate::formula::system::Constraint;

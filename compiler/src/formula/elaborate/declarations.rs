@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
-use super::super::error::FormulaError;
 use super::super::parse::unknown_length;
 use super::super::syntax::{
     Coordinates, CoordinatesKind, Definition, Form, Length, Name, ParameterKind,
 };
 use super::super::system::{Layout, Parameter, Shape};
+use crate::error::FormulaError;
 use crate::error::{Error, ErrorKind};
 use crate::expression::Input;
 

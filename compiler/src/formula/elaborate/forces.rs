@@ -3,9 +3,9 @@
 use super::smooth::Role;
 use super::values::counted;
 use super::{Elaborator, Momenta, Value};
+use crate::error::FormulaError;
 use crate::error::{Error, ErrorKind};
 use crate::formula::derivative::Scatter;
-use crate::formula::error::FormulaError;
 use crate::formula::graph::{Coordinate, Half, Id, Node};
 use crate::formula::syntax::{Force, Form, Kind, Length, Name, Over};
 use crate::formula::system::{Layout, Parameter, Shape};

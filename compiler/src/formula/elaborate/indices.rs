@@ -3,8 +3,8 @@
 use num_traits::ToPrimitive;
 
 use super::{Elaborator, MOST_COMPONENTS, Value};
+use crate::error::FormulaError;
 use crate::error::{Error, ErrorKind};
-use crate::formula::error::FormulaError;
 use crate::formula::graph::{Base, Coordinate, Index, LoopRange, Number};
 use crate::formula::parse::constant;
 use crate::formula::syntax::{Expression, Kind, Length};

@@ -16,11 +16,11 @@ use std::collections::HashMap;
 use self::declarations::{check_names, coordinate, layout, parameters};
 use self::smooth::Role;
 pub use self::totals::STRETCH;
-use super::error::FormulaError;
 use super::graph::{Base, Coordinate, Graph, Half, Id, Index, LoopId, Node};
 use super::syntax::{CoordinatesKind, Definition, Form, Length, Span};
 use super::system::{Bonds, Invariant, Lagrangian, Layout, Legendre, Parameter, Shape, System};
 use crate::error::Error;
+use crate::error::FormulaError;
 use crate::expression::Input;
 
 /// The longest array that is written out if it is used as a whole.

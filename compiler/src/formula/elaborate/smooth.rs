@@ -2,7 +2,7 @@
 
 use super::Elaborator;
 use crate::error::Error;
-use crate::formula::error::FormulaError;
+use crate::error::FormulaError;
 use crate::formula::graph::{Id, Node};
 use crate::formula::smooth::{Powers, Smoothness, kinks};
 use crate::formula::syntax::{Expression, Form, Span};

@@ -4,8 +4,8 @@ use num_traits::One;
 
 use super::indices::normal;
 use super::{Elaborator, Value};
+use crate::error::FormulaError;
 use crate::error::{Error, ErrorKind};
-use crate::formula::error::FormulaError;
 use crate::formula::graph::{Base, Coordinate, Half, Id, Index, Loop, LoopId, LoopRange, Number};
 use crate::formula::syntax::{Abbreviation, Ends, Expression, Kind, Name, Over};
 use crate::formula::system::{Bonds, Layout, Shape};

@@ -1,8 +1,8 @@
 //! Values with their shapes, names, and errors about them.
 
 use super::{Elaborator, MOST_COMPONENTS, MOST_NODES, Momenta, Value};
+use crate::error::FormulaError;
 use crate::error::{Error, ErrorKind};
-use crate::formula::error::FormulaError;
 use crate::formula::function::ELEMENTARY;
 use crate::formula::graph::{Base, Coordinate, Half, Id, Index, Loop, LoopRange, Node};
 use crate::formula::parse::{VECTOR_FUNCTIONS, suggestion, unknown_function};

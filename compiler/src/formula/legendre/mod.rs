@@ -17,7 +17,6 @@ use self::masses::Masses;
 use super::check::at;
 use super::derivative::{Scatter, gradient};
 use super::display::Notation;
-use super::error::FormulaError;
 use super::graph::{Coordinate, Graph, Half, Id, Index, Node, Number, integer};
 use super::modular::Points;
 use super::rewrite::{Copier, at_rest, flat};
@@ -25,6 +24,7 @@ use super::structure::terms;
 use super::syntax::{CoordinatesKind, Definition, Span};
 use super::system::{Lagrangian, Layout, Legendre, System};
 use crate::error::Error;
+use crate::error::FormulaError;
 use crate::expression::Input;
 
 /// The Hamiltonian system of a Lagrangian. On input, `energy` holds L.

@@ -34,9 +34,9 @@ use num_traits::{One, ToPrimitive, Zero};
 pub use self::form::form;
 use self::tokens::{Token, tokenize};
 pub use self::unknown::{suggestion, unknown_function, unknown_length};
-use super::error::FormulaError;
 use super::function::Function;
 use super::syntax::{Definition, Expression, Form, Kind, Name, Over, Span};
+use crate::error::FormulaError;
 use crate::error::{Error, ErrorKind};
 use crate::expression::Input;
 

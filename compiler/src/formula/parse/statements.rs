@@ -5,8 +5,8 @@ use num_traits::ToPrimitive;
 use super::tokens::Token;
 use super::unknown::{suggestion, unknown_length};
 use super::{Parser, STATEMENTS, constant};
+use crate::error::FormulaError;
 use crate::error::{Error, ErrorKind};
-use crate::formula::error::FormulaError;
 use crate::formula::syntax::{
     Abbreviation, Constraint, Coordinates, CoordinatesKind, Definition, Ends, Expression, Force,
     Form, Kind, Length, Name, Parameter, ParameterKind, Span,

@@ -98,7 +98,7 @@ pub fn suggestion<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
     let own = OTHER_NAMES.iter().find(|(other, _)| *other == name);
     match own {
         Some((_, own)) => Some(own),
-        None => crate::suggestion(name, known),
+        None => crate::suggestion::suggestion(name, known),
     }
 }
 

@@ -14,7 +14,7 @@ use crate::export::first_line;
 use crate::expression::{Input, shown};
 use crate::order::HamiltonianClass;
 use crate::refine::file::read_printed;
-use crate::with_suggestion;
+use crate::suggestion::with_suggestion;
 
 type List = Spanned<Vec<Spanned<String>>>;
 type Matrix = Spanned<Vec<List>>;

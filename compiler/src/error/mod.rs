@@ -1,9 +1,11 @@
 //! What can be wrong with an input, and where.
 
+mod formula;
+
 use std::fmt;
 use std::ops::Range;
 
-use crate::formula::FormulaError;
+pub use formula::FormulaError;
 
 /// An input that cannot be compiled: what is wrong, where, and what to do instead.
 #[derive(Clone, PartialEq, Eq)]
