@@ -26,6 +26,7 @@
 //! | tables of other libraries | [`import`], [`Library`]; what they claim and what is proved: [`audit`] |
 //! | text, JSON, TOML; reading and checking files | [`export`], [`check`] |
 //! | known methods | [`catalogue`] |
+//! | programs that take steps in C, Rust, Julia, Python | [`stepper`] |
 //! | explicit methods from printed digits, with a proof that an exact method is near | [`certify`], [`refine()`] for files, [`refine_table()`] for Butcher arrays |
 //! | Rust code | [`emit`], from the order of computation found in [`schedule`] |
 //!
@@ -56,6 +57,7 @@ mod hamiltonian_class;
 mod import;
 mod library;
 mod limits;
+mod numerals;
 mod operations;
 pub mod order;
 mod partitioned;
@@ -65,6 +67,7 @@ mod refine;
 mod requirement;
 pub mod schedule;
 pub mod stability;
+pub mod stepper;
 mod suggestion;
 pub mod symbolic;
 mod tableau;

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
-use symplectic_compiler::export::{self, SteppedClass, Stepper};
-use symplectic_compiler::{Error, Tableau, catalogue, check};
+use symplectic_compiler::stepper::{SteppedClass, Stepper};
+use symplectic_compiler::{Error, Tableau, catalogue, check, export};
 use symplectic_terminal::print;
 
 use crate::{formula, output};

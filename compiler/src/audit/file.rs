@@ -10,9 +10,10 @@ use super::row::{Claim, Row, Source};
 use crate::error::{Error, ErrorKind};
 use crate::export::first_line;
 use crate::expression::{Input, shown};
-use crate::import::{Flows, Numbers, Value, half, value_of};
+use crate::import::{Flows, Numbers, half};
 use crate::library::{Library, Notation};
 use crate::limits::Limits;
+use crate::numerals::{Value, value_of};
 use crate::order::HamiltonianClass;
 use crate::suggestion::with_suggestion;
 

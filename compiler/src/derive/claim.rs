@@ -8,7 +8,7 @@ use crate::certify::{Certificate, CertifyError, Claim, Coefficient, Digits, Prin
 use crate::definition::{Definition, Key, trimmed};
 use crate::error::{Error, ErrorKind};
 use crate::expression::{Input, parse_list, shown};
-use crate::import::computed;
+use crate::numerals::computed;
 
 /// Reads `separable(6)`, `nystrom(6)` or `perturbed(8, 6, 4)`.
 pub fn read(definition: &Definition) -> Result<Claim, Error> {

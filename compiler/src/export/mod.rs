@@ -7,7 +7,6 @@
 //! | TOML | [`toml::write`] | [`toml::read`] | all exact data, decimals, the properties |
 //! | certificate | [`certificate::write`] | `tableaux/check_certificate.py` | all exact data, doubles, what is proved |
 //! | LaTeX, C, Fortran, Julia, Python, SUNDIALS, PETSc, nodepy, RungeKutta.jl, Coq | [`Language::write`] | that language | the coefficients |
-//! | C, Rust, Julia, Python | [`Stepper::write`] | that language | a program that takes steps |
 
 use crate::coefficients::Coefficients;
 use crate::exact::Exact;
@@ -20,9 +19,8 @@ mod entries;
 mod facts;
 mod format;
 pub mod json;
-mod language;
+pub(crate) mod language;
 mod provenance;
-mod stepper;
 pub mod text;
 pub mod toml;
 
@@ -31,7 +29,6 @@ pub use encoding::read_text;
 pub(crate) use entries::{compare, first_line};
 pub(crate) use format::Format;
 pub use language::Language;
-pub use stepper::{SteppedClass, Stepper};
 
 /// The default number of significant digits of decimals in JSON and TOML.
 pub const DEFAULT_DIGITS: usize = 40;

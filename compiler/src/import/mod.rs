@@ -6,29 +6,19 @@
 //! conditions of their order as they are written are kept. Otherwise they are rounded, and the table is that of the exact method that is
 //! [proved](crate::certify) to be near them.
 
-mod constructors;
-mod fortran;
 mod numbers;
 mod own;
-mod parser;
-mod source;
-mod tokens;
 mod tsv;
-mod value;
 
 pub(crate) use numbers::{Flows, Numbers, Origin, half};
 pub use own::{OwnNames, import_own};
-pub(crate) use value::Value;
 
-use std::ops::Range;
-
-use self::source::Source;
 use crate::arithmetic::rounding::to_f64;
-use crate::certify::Printed;
 use crate::error::{Error, ErrorKind};
 use crate::expression::Input;
-use crate::library::{Library, Notation, Stepping};
+use crate::library::{Library, Stepping};
 use crate::limits::Limits;
+use crate::numerals::{Source, Value, zero};
 use crate::tableau::Tableau;
 
 /// Reads a table in the form of a library.
@@ -128,22 +118,6 @@ fn outcome(numbers: &Numbers, limits: &Limits) -> Result<(Tableau, ImportOrigin)
     Ok((read.tableau, origin))
 }
 
-/// The exact value of a text in a language, as in `a = "1/3"`, and its place.
-pub(crate) fn value_of(
-    input: Input<'_>,
-    range: Range<usize>,
-    notation: Notation,
-) -> Result<Value, Error> {
-    source::value_of(input, range, notation)
-}
-
-/// A number that is computed from printed ones, such as `1 - 2*0.2345678`: exact given these, with the bound of their rounding.
-pub(crate) fn computed(input: Input<'_>, range: Range<usize>) -> Option<Printed> {
-    let value = value_of(input, range, Notation::Julia).ok()?;
-    value.constant.as_rational()?;
-    value.printed().ok()
-}
-
 /// The numbers of a table.
 fn read(library: Library, input: Input<'_>, limits: &Limits) -> Result<Numbers, Error> {
     if library == Library::RungeKuttaJl && tsv::is_tsv(input.text) {
@@ -220,9 +194,9 @@ fn below_diagonal(rows: Vec<Vec<Value>>, stages: usize) -> Result<Vec<Value>, St
             "the rows of `a` have {lengths:?} entries; {stages} weights need rows of 1, 2, … entries"
         ));
     }
-    let mut matrix = vec![source::zero(); stages];
+    let mut matrix = vec![zero(); stages];
     for mut row in rows {
-        row.resize_with(stages, source::zero);
+        row.resize_with(stages, zero);
         matrix.extend(row);
     }
     Ok(matrix)

@@ -6,8 +6,6 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use super::source::zero;
-use super::value::{PLACES, Value};
 use crate::algebra::{Dense, Number, Rationals};
 use crate::arithmetic::rational::ratio;
 use crate::arithmetic::rounding::to_f64;
@@ -17,6 +15,7 @@ use crate::exact::over_algebra;
 use crate::expression::shown;
 use crate::library::Stepping;
 use crate::limits::Limits;
+use crate::numerals::{PLACES, Value, zero};
 use crate::order::{HamiltonianClass, OrderOptions, ViolatedCondition, order_within};
 use crate::partitioned::{LowerTriangular, Partitioned};
 use crate::quadrature::check_stages;

@@ -4,8 +4,6 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::numbers::{Flows, Numbers};
-use super::source::Source;
-use super::value::Value;
 use super::{ImportOrigin, outcome};
 use crate::arithmetic::rational::ratio;
 use crate::arithmetic::rounding::{Decimal, to_f64};
@@ -15,6 +13,7 @@ use crate::error::{Error, ErrorKind};
 use crate::expression::{Input, shown};
 use crate::library::{Library, Notation};
 use crate::limits::Limits;
+use crate::numerals::{Source, Value};
 use crate::order::composition;
 use crate::quadrature::check_stages;
 use crate::suggestion::did_you_mean;

@@ -11,10 +11,10 @@
 use std::ops::Range;
 
 use super::numbers::{Numbers, half};
-use super::value::Value;
 use crate::error::{Error, ErrorKind};
 use crate::expression::Input;
 use crate::limits::Limits;
+use crate::numerals::Value;
 use crate::quadrature::check_stages;
 
 /// A word of the text and its bytes.

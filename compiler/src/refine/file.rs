@@ -12,7 +12,7 @@ use crate::certify::{
 use crate::error::{Error, ErrorKind};
 use crate::export::first_line;
 use crate::expression::{Input, shown};
-use crate::import::computed;
+use crate::numerals::computed;
 use crate::suggestion::with_suggestion;
 
 type List = Spanned<Vec<Spanned<String>>>;

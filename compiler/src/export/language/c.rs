@@ -22,7 +22,7 @@ pub(super) fn write(table: &Table<'_>) -> String {
 }
 
 /// Lines as one comment.
-pub(in crate::export) fn comment(lines: &[String]) -> String {
+pub(crate) fn comment(lines: &[String]) -> String {
     let lines: Vec<String> = lines.iter().map(|line| line.replace("*/", "* /")).collect();
     let text = lines.join("\n   ").replace("\n   \n", "\n\n");
     format!("/* {text} */\n")
@@ -47,7 +47,7 @@ pub(super) fn numbers(indent: &str, entries: &[Entry]) -> String {
 }
 
 /// A double as a hexadecimal floating constant, exactly: `0x1.8p-1`.
-pub(in crate::export) fn hexadecimal(value: f64) -> String {
+pub(crate) fn hexadecimal(value: f64) -> String {
     let bits = value.to_bits();
     let sign = if value.is_sign_negative() { "-" } else { "" };
     let (exponent, fraction) = ((bits >> 52) & 0x7ff, bits & ((1 << 52) - 1));

@@ -22,10 +22,10 @@ mod petsc;
 mod polynomials;
 mod python;
 mod sundials;
-pub(in crate::export) mod table;
+pub(crate) mod table;
 mod tsv;
 
-pub(in crate::export) use c::{comment, hexadecimal};
+pub(crate) use c::{comment, hexadecimal};
 
 use crate::error::{Error, ErrorKind};
 use crate::tableau::Tableau;

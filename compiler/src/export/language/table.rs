@@ -15,7 +15,7 @@ use crate::tableau::{Tableau, left_out};
 const LONGEST_EXACT: usize = 60;
 
 /// A tableau with its coefficients in all forms.
-pub(in crate::export) struct Table<'a> {
+pub(crate) struct Table<'a> {
     pub tableau: &'a Tableau,
     /// The coefficients, without the matrices of long splittings.
     pub entries: Coefficients<Entry>,
@@ -27,7 +27,7 @@ pub(in crate::export) struct Table<'a> {
 
 /// A coefficient.
 #[derive(Clone)]
-pub(in crate::export) struct Entry {
+pub(crate) struct Entry {
     /// An exact form in the grammar of expressions.
     pub exact: Option<String>,
     pub decimal: String,
@@ -35,7 +35,7 @@ pub(in crate::export) struct Entry {
 }
 
 /// A drift `q += h weight ∂H/∂p` or a kick `p −= h weight ∂H/∂q`.
-pub(in crate::export) struct Flow {
+pub(crate) struct Flow {
     pub is_drift: bool,
     pub weight: Entry,
     /// The time at which the velocity or force is evaluated, as a fraction of the step.
@@ -45,7 +45,7 @@ pub(in crate::export) struct Flow {
 }
 
 /// Alternating drifts and kicks, equal in number, with a library's names for them.
-pub(in crate::export) struct Stepped {
+pub(crate) struct Stepped {
     pub stepping: Stepping,
     pub drifts: Vec<Entry>,
     pub kicks: Vec<Entry>,
@@ -289,7 +289,7 @@ fn flows(tableau: &Tableau, digits: usize) -> Option<Vec<Flow>> {
 }
 
 /// The weight of a velocity or a force.
-pub(in crate::export) fn weight(
+pub(crate) fn weight(
     graph: &StepGraph<'_>,
     node: Node,
     forms: &Coefficients<Option<String>>,
@@ -425,7 +425,7 @@ fn identifier(name: &str) -> String {
 }
 
 /// Lines as comments.
-pub(in crate::export) fn comments(mark: &str, lines: &[String]) -> String {
+pub(crate) fn comments(mark: &str, lines: &[String]) -> String {
     let line = |line: &String| format!("{}\n", format!("{mark} {line}").trim_end());
     lines.iter().map(line).collect()
 }

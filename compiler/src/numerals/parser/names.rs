@@ -5,10 +5,10 @@ use std::ops::Range;
 use super::{Combine, Item, Parser, joined};
 use crate::error::{Error, ErrorKind};
 use crate::expression::shown;
-use crate::import::source::Assigned;
-use crate::import::tokens::Token;
-use crate::import::value::Value;
 use crate::library::Notation;
+use crate::numerals::source::Assigned;
+use crate::numerals::tokens::Token;
+use crate::numerals::value::Value;
 
 impl Parser<'_, '_> {
     /// A variable, an element, a call, or a list preceded by the type of its entries.

@@ -13,8 +13,8 @@ mod template;
 use self::languages::Notation;
 use self::plan::{Coupled, Plan};
 use self::template::fill;
-use super::language::table::{Entry, Flow, Table};
 use crate::error::Error;
+use crate::export::language::table::{Entry, Flow, Table};
 use crate::formula::{Structure, System};
 use crate::order::HamiltonianClass;
 use crate::tableau::Tableau;
@@ -55,7 +55,7 @@ impl Stepper {
     ///
     /// ```
     /// use symplectic_compiler::derive;
-    /// use symplectic_compiler::export::Stepper;
+    /// use symplectic_compiler::stepper::Stepper;
     ///
     /// let verlet = derive("polynomial(2)", "lobatto(2)")?.named("stormer-verlet");
     /// let text = Stepper::C.write(&verlet, None)?;
@@ -78,7 +78,7 @@ impl Stepper {
     ///
     /// ```
     /// use symplectic_compiler::derive;
-    /// use symplectic_compiler::export::Stepper;
+    /// use symplectic_compiler::stepper::Stepper;
     /// use symplectic_compiler::formula::{Structure, System};
     ///
     /// let mut pendulum = System::read("pendulum", "Pendulum { g: 9.81 } q: [a], p: [pa]; H = pa^2/2 - g cos(a)")?;

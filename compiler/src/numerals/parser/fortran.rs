@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use super::{Item, Parser};
 use crate::error::{Error, ErrorKind};
-use crate::import::fortran::double_of_bits;
-use crate::import::tokens::Token;
-use crate::import::value::Value;
+use crate::numerals::fortran::double_of_bits;
+use crate::numerals::tokens::Token;
+use crate::numerals::value::Value;
 
 impl Parser<'_, '_> {
     /// The value of such a call; `None` for other names.

@@ -15,7 +15,7 @@ const EXACT_DIGITS: usize = 6;
 /// Doubles with at most this many binary digits are exact: `0x1.8p-1`.
 const EXACT_BITS: u64 = 20;
 /// The decimal places of irrational exact values when others are decimals.
-pub(super) const PLACES: u32 = 50;
+pub(crate) const PLACES: u32 = 50;
 
 /// A number of a table.
 #[derive(Debug, Clone)]

@@ -29,7 +29,7 @@ const MAX_COPIES: usize = 100 * MAX_NUMBERS;
 
 /// The assignments to a name.
 #[derive(Default)]
-pub(super) struct Assigned {
+pub(crate) struct Assigned {
     /// The place of the name and the first token of the value, if the name is assigned as a whole.
     pub whole: Option<(Range<usize>, usize)>,
     /// The same for elements such as `a[3]`, by index.
@@ -67,7 +67,7 @@ struct Target {
 }
 
 /// A text with its assignments.
-pub(super) struct Source<'a> {
+pub(crate) struct Source<'a> {
     pub input: Input<'a>,
     pub notation: Notation,
     pub fortran: bool,
@@ -615,7 +615,7 @@ impl<'a> Source<'a> {
 }
 
 /// The exact value of one text, as in `a = "1/3"`.
-pub(super) fn value_of(
+pub(crate) fn value_of(
     input: Input<'_>,
     range: Range<usize>,
     notation: Notation,
@@ -645,6 +645,6 @@ fn number(name: &str, key: &str) -> Option<usize> {
 }
 
 /// The number 0.
-pub(super) fn zero() -> Value {
+pub(crate) fn zero() -> Value {
     Value::exact(Constant::zero())
 }
