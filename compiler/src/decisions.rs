@@ -5,7 +5,7 @@ use crate::algebra::{Number, StageAlgebra, ZERO_BITS};
 use crate::coefficients::Coefficients;
 use crate::evidence::Evidence;
 use crate::exact::over_algebra;
-use crate::order::{HamiltonianClass, OrderOptions, OrderReport, order};
+use crate::order::{HamiltonianClass, OrderOptions, OrderReport, order_of_pair};
 use crate::partitioned::Partitioned;
 use crate::properties::Properties;
 use crate::schedule::{Class, StepGraph};
@@ -165,7 +165,7 @@ fn compare(tableau: &Tableau) -> Vec<Difference> {
         ..OrderOptions::default()
     };
     let mut all: Vec<Difference> = Vec::new();
-    over_algebra!(tableau, pair => {
+    over_algebra!(&tableau.exact, pair => {
         let (coarse, fine) = (pair.enclosed(BITS / TIMES), pair.enclosed(BITS));
         let [few, more] = [1, TIMES].map(|times| Stability::with_more_bits(pair, times));
         for stability in [tableau.stability(), few] {
@@ -185,8 +185,8 @@ fn compare(tableau: &Tableau) -> Vec<Difference> {
         for graphs in [graphs(pair, &pair.numbers()), graphs(&coarse, &coarse.numbers())] {
             all.push(("schedule", graphs, more.clone()));
         }
-        let more = order_text(&order(&fine, &options, None));
-        for report in [order(pair, &options, None), order(&coarse, &options, None)] {
+        let more = order_text(&order_of_pair(&fine, &options, None));
+        for report in [order_of_pair(pair, &options, None), order_of_pair(&coarse, &options, None)] {
             all.push(("order", order_text(&report), more.clone()));
         }
     });

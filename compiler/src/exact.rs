@@ -1,7 +1,21 @@
 //! Exact coefficients, in the strongest algebra that holds them.
 
-use crate::algebra::{Constants, Dense, NodeAlgebra, Reals};
+use crate::algebra::{Constants, Dense, NodeAlgebra, Number, Reals, StageAlgebra};
+use crate::coefficients::Coefficients;
 use crate::partitioned::Partitioned;
+
+/// An expression over the coefficients, whichever algebra holds them.
+macro_rules! over_algebra {
+    ($exact:expr, $pair:ident => $body:expr) => {{
+        let exact: &crate::exact::Exact = $exact;
+        match exact {
+            crate::exact::Exact::Nodes($pair) => $body,
+            crate::exact::Exact::Field($pair) => $body,
+            crate::exact::Exact::Reals($pair) => $body,
+        }
+    }};
+}
+pub(crate) use over_algebra;
 
 /// The coefficients in the algebra that holds them.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,6 +54,16 @@ impl Tier {
 }
 
 impl Exact {
+    /// The number of stages.
+    pub fn stages(&self) -> usize {
+        over_algebra!(self, pair => pair.algebra.stages())
+    }
+
+    /// All coefficients as numbers that can be enclosed and correctly rounded.
+    pub fn numbers(&self) -> Coefficients<Number<'_>> {
+        over_algebra!(self, pair => pair.numbers())
+    }
+
     /// The coefficients with positions and momenta exchanged.
     pub fn exchanged(self) -> Self {
         match self {
@@ -67,15 +91,3 @@ impl Exact {
         }
     }
 }
-
-/// An expression over the coefficients, whichever algebra holds them.
-macro_rules! over_algebra {
-    ($tableau:expr, $pair:ident => $body:expr) => {
-        match &$tableau.exact {
-            crate::exact::Exact::Nodes($pair) => $body,
-            crate::exact::Exact::Field($pair) => $body,
-            crate::exact::Exact::Reals($pair) => $body,
-        }
-    };
-}
-pub(crate) use over_algebra;

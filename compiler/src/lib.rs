@@ -76,7 +76,6 @@ pub use basis::Basis;
 pub use check::{check, check_and_list};
 pub use coefficients::Coefficients;
 pub use definition::{Definition, Key};
-pub use derive::{derive, derive_from, derive_within};
 pub use error::{Error, ErrorKind, Place};
 pub use evidence::Evidence;
 pub use exact::Tier;
@@ -91,4 +90,4 @@ pub use refine::{
 pub use requirement::{Requirement, failed_assertion, require};
 pub use suggestion::{did_you_mean, suggestion, with_suggestion};
 pub use symplectic_exact as arithmetic;
-pub use tableau::{Provenance, Tableau};
+pub use tableau::{Provenance, Tableau, derive, derive_from, derive_within};

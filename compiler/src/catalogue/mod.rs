@@ -5,10 +5,8 @@ mod decimals;
 mod perturbed;
 mod splittings;
 
-use crate::definition::Definition;
 use crate::error::{Error, ErrorKind};
 use crate::limits::Limits;
-use crate::tableau::Tableau;
 
 /// A method of the catalogue.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,37 +24,12 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// Derives the tableau, with its name and source.
-    ///
-    /// # Errors
-    /// None for the methods that are in the catalogue now.
-    ///
-    /// ```
-    /// use symplectic_compiler::catalogue;
-    ///
-    /// let verlet = catalogue::find("stormer-verlet").expect("a known method").derive()?;
-    /// assert!(verlet.properties().explicit.holds);
-    /// # Ok::<(), symplectic_compiler::Error>(())
-    /// ```
-    pub fn derive(&self) -> Result<Tableau, Error> {
-        self.derive_within(&self.limits())
-    }
-
     /// The default limits, or where the method has more stages, as many as it has.
     pub fn limits(&self) -> Limits {
         let default = Limits::default();
         Limits {
             stages: default.stages.max(self.stages),
         }
-    }
-
-    /// As [`Entry::derive`], within given limits.
-    ///
-    /// # Errors
-    /// [`ErrorKind::TooManyStages`].
-    pub fn derive_within(&self, limits: &Limits) -> Result<Tableau, Error> {
-        let tableau = Definition::parse(&self.definition)?.derive(limits)?;
-        Ok(tableau.named(&self.name).with_source(&self.source))
     }
 
     /// The other names of this method in the catalogue.

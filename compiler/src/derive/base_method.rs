@@ -1,10 +1,12 @@
 //! Compositions of one base method: `Φ_{γ_m h} ∘ … ∘ Φ_{γ_1 h}`; some steps may be of its adjoint (GNI II.4).
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::certified::Factors;
 use super::claim;
 use super::composition::{Step, check_depth, in_text, inner, separated};
+use super::concatenate::concatenate;
 use super::fractions::off_one;
 use super::named_compositions::{MAX_ORDER, Scheme};
 use super::problem::{Construction, Problem};
@@ -19,29 +21,32 @@ use crate::evidence::Evidence;
 use crate::exact::Exact;
 use crate::expression::{Expression, ExpressionKind, Input, parse_list, shown};
 use crate::limits::Limits;
-use crate::operations::concatenate;
-use crate::order::{GivenOrder, OrderOptions, OrderReport};
+use crate::order::{self, GivenOrder, OrderOptions, OrderReport};
+use crate::properties::{Property, SeparableProperties, symmetric};
 use crate::quadrature::check_stages;
 use crate::symbolic::Constant;
-use crate::tableau::Tableau;
 
 /// A base method, alone or with the steps of a composition.
-#[derive(Clone)]
 pub struct Based {
     base: Base,
     weights: Option<Weights>,
 }
 
 /// A method by its name in the catalogue or by its definition.
-#[derive(Clone)]
 struct Base {
     /// The name, or the definition in brackets, in canonical form.
     text: String,
     method: Problem,
 }
 
+/// A symmetric base, with how its symmetry is known for every and for separable Hamiltonians.
+struct Symmetry {
+    exact: Arc<Exact>,
+    general: Property,
+    separable: Property,
+}
+
 /// The steps of a composition.
-#[derive(Clone)]
 struct Weights {
     /// In canonical form.
     text: String,
@@ -57,7 +62,6 @@ struct Weights {
 }
 
 /// A step of the base method.
-#[derive(Clone)]
 struct Component {
     /// The fraction of the whole step.
     fraction: Factor,
@@ -139,7 +143,7 @@ impl Based {
     pub fn given(&self) -> Option<GivenOrder> {
         match &self.weights {
             Some(weights) => weights.given.clone(),
-            None => self.base.method.given(),
+            None => self.base.method.constructed_order(),
         }
     }
 
@@ -180,11 +184,13 @@ impl Based {
             }]);
         };
         let step = |component: &Component| {
-            let mut method = self.base.method.clone();
-            method.adjoint ^= component.adjoint;
+            let method = &self.base.method;
             Some(Step {
                 fraction: component.fraction.constant()?.clone(),
-                method,
+                method: match component.adjoint {
+                    true => method.adjoint(),
+                    false => method.clone(),
+                },
             })
         };
         components.iter().map(step).collect()
@@ -193,15 +199,15 @@ impl Based {
     /// The coefficients.
     pub fn exact(&self) -> Result<Exact, ErrorKind> {
         let Some(weights) = &self.weights else {
-            return self.base.method.exact();
+            return self.base.method.exact().map(Arc::unwrap_or_clone);
         };
         if let Some(sequence) = self.sequence() {
             return sequence.exact();
         }
-        let method = self.base.method.exact()?;
-        let adjoint = method.adjoint();
+        let method = &*self.base.method.exact()?;
+        let adjoint = &method.adjoint();
         let steps = weights.components.iter().map(|component| {
-            let method = if component.adjoint { &adjoint } else { &method };
+            let method = if component.adjoint { adjoint } else { method };
             Some((component.fraction.constant()?, method))
         });
         let steps: Option<Vec<_>> = steps.collect();
@@ -266,8 +272,8 @@ impl Base {
                 self.text
             ));
         }
-        let tableau = self.symmetric("a `claim`", definition)?;
-        match tableau.separable_properties().symmetric.evidence {
+        let symmetry = self.symmetry("a `claim`", definition)?;
+        match symmetry.separable.evidence {
             Evidence::Proved => Ok(()),
             _ => refused(format!(
                 "a `claim` takes a base that is proved to be symmetric, and {} is only verified to be",
@@ -276,22 +282,25 @@ impl Base {
         }
     }
 
-    /// The tableau of the base, if it is symmetric; the requirements of a composition are decided from it.
-    fn symmetric(&self, what: &str, definition: &Definition) -> Result<Tableau, Error> {
+    /// The symmetry of the base, which a composition requires.
+    fn symmetry(&self, what: &str, definition: &Definition) -> Result<Symmetry, Error> {
         let at_base = |message: String| misfit_at(definition, Key::Base, message);
-        let tableau = self
-            .method
-            .derive()
-            .map_err(|kind| at_base(kind.to_string()))?;
-        let symmetric = tableau.separable_properties().symmetric;
-        if !symmetric.holds {
-            let witness = symmetric.witness.unwrap_or_default();
+        let exact = self.method.exact();
+        let exact = exact.map_err(|kind| at_base(kind.to_string()))?;
+        let general = symmetric(&exact);
+        let separable = SeparableProperties::of(&exact, general.clone()).symmetric;
+        if !separable.holds {
+            let witness = separable.witness.unwrap_or_default();
             return Err(at_base(format!(
                 "{what} needs a base method that is symmetric, and {} is not: {witness}; steps of the adjoint are written `adjoint(1/2)` among the weights",
                 self.text
             )));
         }
-        Ok(tableau)
+        Ok(Symmetry {
+            exact,
+            general,
+            separable,
+        })
     }
 }
 
@@ -324,7 +333,7 @@ impl Weights {
         let mut fractions: Vec<(Constant, bool)> = fractions.collect::<Result<_, _>>()?;
         let texts: Vec<String> = fractions.iter().map(fraction_text).collect();
         if symmetric {
-            base.symmetric("`symmetric`", definition)?;
+            base.symmetry("`symmetric`", definition)?;
             mirror(&mut fractions);
         }
         if let Some(sum) = off_one(fractions.iter().map(|(fraction, _)| fraction)) {
@@ -408,13 +417,14 @@ impl Weights {
             return Err(misfit_at(definition, Key::Symmetric, message));
         }
         let written = order.whole(input)?;
-        let tableau = base.symmetric(&format!("`{name}`"), definition)?;
+        let symmetry = base.symmetry(&format!("`{name}`"), definition)?;
         let options = OrderOptions {
             limit: MAX_ORDER,
             ..OrderOptions::default()
         };
         // A symmetric method has an even order, and the scheme raises it by two.
-        let orders_of_base = tableau.order(&options);
+        let given = base.method.given(&symmetry.exact);
+        let orders_of_base = order::order(&symmetry.exact, &options, given.as_ref());
         let start = orders_of_base.separable.order;
         let orders = (start + 2..=MAX_ORDER).step_by(2);
         let wanted = orders.clone().find(|order| written == (*order).into());
@@ -441,30 +451,30 @@ impl Weights {
             text: format!("{name}({wanted})"),
             symmetric: false,
             components: fractions.into_iter().map(component).collect(),
-            given: raised(&tableau, &orders_of_base, wanted),
+            given: symmetry.raised(&orders_of_base, wanted),
             claimed: false,
             wrong_digits: Vec::new(),
         })
     }
 }
 
-/// The order of a named composition by the theorem of [`GivenOrder`], if the order and the symmetry of its base are
-/// proved or certified. Each level of the composition has its own root, with which its two equations are identities.
-fn raised(base: &Tableau, orders: &OrderReport, wanted: usize) -> Option<GivenOrder> {
-    let separable = base.separable_properties().symmetric;
-    let evidence = separable.evidence.and(orders.separable.evidence);
-    let general = &orders.general;
-    let symmetric = base.properties().symmetric;
-    // The fractions cancel the leading error of a base of this order for every Hamiltonian.
-    let for_all = symmetric.holds
-        && general.order == orders.separable.order
-        && symmetric.evidence.and(general.evidence) == evidence;
-    matches!(evidence, Evidence::Proved | Evidence::Certified).then_some(GivenOrder {
-        claim: Claim::Separable(wanted),
-        general: if for_all { wanted } else { 1 },
-        evidence,
-        symmetric: false,
-    })
+impl Symmetry {
+    /// The order of a named composition by the theorem of [`GivenOrder`], if the order and the symmetry of its base are
+    /// proved or certified. Each level of the composition has its own root, with which its two equations are identities.
+    fn raised(&self, orders: &OrderReport, wanted: usize) -> Option<GivenOrder> {
+        let evidence = self.separable.evidence.and(orders.separable.evidence);
+        let general = &orders.general;
+        // The fractions cancel the leading error of a base of this order for every Hamiltonian.
+        let for_all = self.general.holds
+            && general.order == orders.separable.order
+            && self.general.evidence.and(general.evidence) == evidence;
+        matches!(evidence, Evidence::Proved | Evidence::Certified).then_some(GivenOrder {
+            claim: Claim::Separable(wanted),
+            general: if for_all { wanted } else { 1 },
+            evidence,
+            symmetric: false,
+        })
+    }
 }
 
 /// Extends the first half of a palindromic list to the whole list; its last item is in the middle.

@@ -12,7 +12,6 @@ use crate::limits::Limits;
 use crate::symbolic::Constant;
 
 /// Printed kicks and drifts with the certificate of the claimed order.
-#[derive(Clone)]
 pub struct Certified {
     printed: Lists<Printed>,
     certificate: Certificate,

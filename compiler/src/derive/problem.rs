@@ -1,5 +1,8 @@
 //! The parsed parts of a definition.
 
+use std::fmt;
+use std::sync::{Arc, OnceLock};
+
 use super::base_method::Based;
 use super::certified::Certified;
 use super::composition::{self, Step};
@@ -10,24 +13,36 @@ use super::splitting::Splitting;
 use crate::basis::Basis;
 use crate::certify::Claim;
 use crate::definition::{Definition, Key};
-use crate::error::Error;
+use crate::error::{Error, ErrorKind};
+use crate::exact::{Exact, over_algebra};
 use crate::limits::Limits;
 use crate::order::GivenOrder;
 use crate::quadrature::Nodes;
 use crate::symbolic::Constant;
 
-/// A definition whose texts have been parsed.
+/// A definition whose texts have been parsed. Clones share the construction and what has been derived from it.
 #[derive(Clone)]
 pub struct Problem {
-    pub construction: Construction,
+    construction: Arc<Constructed>,
     /// Whether positions and momenta are exchanged at the end.
-    pub exchange: bool,
+    exchange: bool,
     /// Whether the method is the adjoint of the construction.
-    pub adjoint: bool,
+    adjoint: bool,
+}
+
+/// A construction with its coefficients, derived when they are first needed.
+struct Constructed {
+    construction: Construction,
+    exact: OnceLock<Arc<Exact>>,
+}
+
+impl fmt::Debug for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.definition())
+    }
 }
 
 /// The constructions of [`super`], given coefficients, and compositions of other methods.
-#[derive(Clone)]
 pub enum Construction {
     /// As many functions as nodes.
     Collocation { basis: Basis, nodes: Nodes },
@@ -75,7 +90,6 @@ impl Construction {
 }
 
 /// The coefficients for momenta, for given coefficients for positions.
-#[derive(Clone)]
 pub enum Momenta {
     /// `ã = a`, `b̃ = b`.
     Equal,
@@ -92,6 +106,41 @@ pub enum Momenta {
 const SYMPLECTIC_PARTNER: &str = "symplectic_partner";
 
 impl Problem {
+    fn new(construction: Construction) -> Self {
+        let exact = OnceLock::new();
+        Problem {
+            construction: Arc::new(Constructed {
+                construction,
+                exact,
+            }),
+            exchange: false,
+            adjoint: false,
+        }
+    }
+
+    /// As many functions as nodes.
+    pub fn collocation(basis: Basis, nodes: Nodes) -> Self {
+        Problem::new(Construction::Collocation { basis, nodes })
+    }
+
+    /// Steps of methods one after another.
+    pub fn composition(steps: Vec<Step>) -> Self {
+        Problem::new(Construction::Composition { steps })
+    }
+
+    /// The problem of the adjoint method.
+    #[must_use]
+    pub fn adjoint(&self) -> Self {
+        Problem {
+            adjoint: !self.adjoint,
+            ..self.clone()
+        }
+    }
+
+    fn construction(&self) -> &Construction {
+        &self.construction.construction
+    }
+
     /// Reads all parts.
     ///
     /// # Errors
@@ -126,9 +175,9 @@ impl Problem {
         };
         match construction {
             Some(construction) if errors.0.is_empty() => Ok(Problem {
-                construction,
                 exchange,
                 adjoint,
+                ..Problem::new(construction)
             }),
             _ => Err(errors.0),
         }
@@ -144,7 +193,7 @@ impl Problem {
             let rows: Vec<String> = rows.iter().map(|r| format!("[{}]", row(r))).collect();
             format!("[{}]", rows.join(", "))
         };
-        let mut parts = match &self.construction {
+        let mut parts = match self.construction() {
             Construction::Collocation { basis, nodes } => vec![
                 (Key::Basis, basis.name().to_owned()),
                 (Key::Nodes, nodes.name().to_owned()),
@@ -200,7 +249,7 @@ impl Problem {
     /// The sequence of kicks and drifts of the step, if it consists of them: for a splitting, or a composition of
     /// splittings only.
     pub fn sequence(&self) -> Option<Sequence> {
-        let mut sequence = self.construction.sequence()?;
+        let mut sequence = self.construction().sequence()?;
         if self.exchange {
             sequence = sequence.exchanged();
         }
@@ -211,9 +260,19 @@ impl Problem {
         })
     }
 
-    /// The order that follows from the construction of the method.
-    pub fn given(&self) -> Option<GivenOrder> {
-        let given = match &self.construction {
+    /// The order that follows from the construction of the method with these coefficients.
+    pub fn given(&self, exact: &Exact) -> Option<GivenOrder> {
+        self.constructed_order().map(|given| GivenOrder {
+            symmetric: over_algebra!(exact, pair => {
+                pair.flows().is_some_and(|flows| flows.is_palindrome())
+            }),
+            ..given
+        })
+    }
+
+    /// The order that follows from the construction, without the symmetry of a splitting.
+    pub fn constructed_order(&self) -> Option<GivenOrder> {
+        let given = match self.construction() {
             Construction::Certified(certified) => {
                 Some(GivenOrder::certified(certified.claim().clone()))
             }
@@ -228,7 +287,7 @@ impl Problem {
     /// The printed numbers that differ from the rounded exact ones: each at its place, or without a place in steps of a
     /// composition.
     pub fn wrong_digits(&self) -> Vec<Error> {
-        match &self.construction {
+        match self.construction() {
             Construction::Certified(certified) => certified.wrong_digits().to_vec(),
             Construction::Based(based) => based.wrong_digits().to_vec(),
             Construction::Composition { steps } => {
@@ -244,7 +303,7 @@ impl Problem {
 
     /// The number of stages of the method, or a bound on it.
     pub fn stages(&self) -> usize {
-        match &self.construction {
+        match self.construction() {
             Construction::Collocation { nodes, .. } | Construction::Galerkin { nodes, .. } => {
                 nodes.len()
             }
@@ -252,11 +311,84 @@ impl Problem {
             Construction::Splitting(splitting) => splitting.sequence().stages(),
             Construction::Certified(certified) => certified.stages(),
             Construction::Based(based) => based.stages(),
-            Construction::Composition { steps } => match self.construction.sequence() {
+            Construction::Composition { steps } => match self.construction().sequence() {
                 Some(sequence) => sequence.stages(),
                 None => steps.iter().map(|step| step.method.stages()).sum(),
             },
         }
+    }
+
+    /// The number of functions of the basis, if the quadrature formula has more nodes.
+    pub fn functions(&self) -> Option<usize> {
+        match self.construction() {
+            Construction::Galerkin { basis, nodes, .. } => {
+                let fewer = basis.len() < nodes.len() && !self.exchange;
+                fewer.then(|| basis.len())
+            }
+            _ => None,
+        }
+    }
+
+    /// The steps of a composition that is not a splitting, expanded down to methods that are not compositions.
+    pub fn steps(&self) -> Result<Option<Vec<Step>>, ErrorKind> {
+        if self.sequence().is_some() {
+            return Ok(None);
+        }
+        let outer = match self.construction() {
+            Construction::Composition { steps } => Some(steps.clone()),
+            Construction::Based(based) => based.steps(),
+            _ => None,
+        };
+        let Some(outer) = outer else {
+            return Ok(None);
+        };
+        let mut steps = Vec::new();
+        for Step { fraction, method } in outer {
+            match method.steps()? {
+                Some(inner) => {
+                    for step in inner {
+                        steps.push(Step {
+                            fraction: fraction.multiply(&step.fraction)?,
+                            ..step
+                        });
+                    }
+                }
+                None => steps.push(Step { fraction, method }),
+            }
+        }
+        if self.exchange {
+            steps
+                .iter_mut()
+                .for_each(|step| step.method.exchange ^= true);
+        }
+        if self.adjoint {
+            steps
+                .iter_mut()
+                .for_each(|step| step.method.adjoint ^= true);
+            steps.reverse();
+        }
+        Ok(Some(steps))
+    }
+
+    /// The coefficients, derived at the first call.
+    ///
+    /// # Errors
+    /// All errors except those in the texts.
+    pub fn exact(&self) -> Result<Arc<Exact>, ErrorKind> {
+        let known = &self.construction.exact;
+        let exact = match known.get() {
+            Some(exact) => exact,
+            None => {
+                let exact = Arc::new(self.construction().exact()?);
+                known.get_or_init(|| exact)
+            }
+        };
+        Ok(match (self.exchange, self.adjoint) {
+            (false, false) => Arc::clone(exact),
+            (true, false) => Arc::new((**exact).clone().exchanged()),
+            (false, true) => Arc::new(exact.adjoint()),
+            (true, true) => Arc::new((**exact).clone().exchanged().adjoint()),
+        })
     }
 }
 

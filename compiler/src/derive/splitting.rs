@@ -49,7 +49,6 @@ impl Flow {
 pub type Splitting = Lists<Constant>;
 
 /// A splitting as written, with coefficients of any kind.
-#[derive(Clone)]
 pub struct Lists<T> {
     kick: Vec<T>,
     drift: Vec<T>,

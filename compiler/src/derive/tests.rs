@@ -3,14 +3,18 @@
 use num_rational::BigRational;
 use proptest::prelude::*;
 
-use super::*;
 use crate::algebra::NodeAlgebra;
 use crate::arithmetic::matrix;
 use crate::arithmetic::polynomial::Polynomial;
 use crate::arithmetic::rational::ratio;
+use crate::basis::Basis;
+use crate::error::ErrorKind;
 use crate::exact::Exact;
+use crate::limits::Limits;
 use crate::partitioned::Partitioned;
+use crate::quadrature::{Nodes, QuadratureRule};
 use crate::symbolic::Function;
+use crate::tableau::{Tableau, derive, derive_from};
 
 fn basis_of(polynomials: &[Polynomial]) -> Result<Basis, ErrorKind> {
     let functions = polynomials.iter().map(Function::polynomial);
@@ -55,7 +59,7 @@ fn what_cannot_be_derived_is_refused_at_its_place() {
 }
 
 fn nodes_of(tableau: &Tableau) -> &Partitioned<NodeAlgebra> {
-    match &tableau.exact {
+    match &*tableau.exact {
         Exact::Nodes(pair) => pair,
         _ => panic!("not in the node algebra"),
     }
@@ -162,11 +166,11 @@ fn in_all_tiers(basis: &str, nodes: &str) -> Vec<Tableau> {
     if let Some(field) = Constants::containing(samples.constants()) {
         let samples = samples.in_field(&field).expect("in the field");
         let pair = collocation(field, &samples).unwrap_or_else(|_| panic!("derived before"));
-        all.push(Tableau::new(definition.clone(), Exact::Field(pair)));
+        all.push(Tableau::read(definition.clone(), Exact::Field(pair).into()));
     }
     let samples = samples.in_field(&Reals).expect("reals");
     let pair = collocation(Reals, &samples).unwrap_or_else(|_| panic!("derived before"));
-    all.push(Tableau::new(definition, Exact::Reals(pair)));
+    all.push(Tableau::read(definition, Exact::Reals(pair).into()));
     all
 }
 

@@ -6,51 +6,23 @@ use std::sync::Arc;
 use num_rational::BigRational;
 use num_traits::Zero;
 
+use super::concatenate::concatenate;
 use super::dense::{self, Samples};
 use super::node;
-use super::problem::{Construction, Momenta, Problem};
+use super::problem::{Construction, Momenta};
 use super::reading::outside;
 use crate::algebra::{self, Constants, Dense, Field, NodeAlgebra, Reals};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::basis::{Basis, Coefficient, combination};
 use crate::error::ErrorKind;
-use crate::exact::{Exact, over_algebra};
-use crate::operations::concatenate;
-use crate::order::GivenOrder;
+use crate::exact::Exact;
 use crate::partitioned::Partitioned;
 use crate::quadrature::{Nodes, node_text};
 use crate::symbolic::{Constant, Function};
-use crate::tableau::Tableau;
-
-impl Problem {
-    /// Derives the tableau.
-    ///
-    /// # Errors
-    /// All errors except those in the texts.
-    pub fn derive(&self) -> Result<Tableau, ErrorKind> {
-        let mut tableau = Tableau::new(self.definition(), self.exact()?);
-        tableau.given = self.given().map(|given| GivenOrder {
-            symmetric: over_algebra!(tableau, pair => {
-                pair.flows().is_some_and(|flows| flows.is_palindrome())
-            }),
-            ..given
-        });
-        tableau.wrong_digits = self.wrong_digits();
-        Ok(tableau)
-    }
-
-    /// Derives the coefficients.
-    pub fn exact(&self) -> Result<Exact, ErrorKind> {
-        let mut exact = self.construction.exact()?;
-        if self.exchange {
-            exact = exact.exchanged();
-        }
-        Ok(if self.adjoint { exact.adjoint() } else { exact })
-    }
-}
 
 impl Construction {
-    fn exact(&self) -> Result<Exact, ErrorKind> {
+    /// Derives the coefficients.
+    pub(super) fn exact(&self) -> Result<Exact, ErrorKind> {
         match self {
             Construction::Collocation { basis, nodes } => collocation(basis, nodes),
             Construction::Galerkin {
@@ -67,9 +39,10 @@ impl Construction {
                     return sequence.exact();
                 }
                 let methods = steps.iter().map(|step| step.method.exact());
-                let methods: Vec<Exact> = methods.collect::<Result<_, _>>()?;
+                let methods: Vec<Arc<Exact>> = methods.collect::<Result<_, _>>()?;
                 let fractions = steps.iter().map(|step| &step.fraction);
-                concatenate(&fractions.zip(&methods).collect::<Vec<_>>())
+                let methods = methods.iter().map(|exact| &**exact);
+                concatenate(&fractions.zip(methods).collect::<Vec<_>>())
             }
         }
     }

@@ -8,10 +8,9 @@ use super::literal;
 use super::symplectic_rounding::{Rounded, complements};
 use crate::algebra::{Field, Number, Real, Reals};
 use crate::coefficients::Coefficients;
-use crate::derive::{Parts, parts};
 use crate::exact::over_algebra;
-use crate::properties::{composed, from_start_to_end, multiplier_matrix};
-use crate::tableau::Tableau;
+use crate::properties::{from_start_to_end, multiplier_matrix};
+use crate::tableau::{Parts, Tableau, composed};
 
 /// The steps of a method for systems with constraints: one step, or those of a composition.
 #[derive(Debug, Clone)]
@@ -63,10 +62,10 @@ pub struct ConstrainedTableau {
 /// # Ok::<(), symplectic_compiler::Error>(())
 /// ```
 pub fn constrained_steps(tableau: &Tableau) -> [Option<ConstrainedSteps>; 2] {
-    match parts(&tableau.provenance().definition) {
+    match tableau.parts() {
         Ok(parts) if tableau.keeps_its_order_in_general() => [
-            holonomic(tableau, &parts),
-            super::nonholonomic::steps(tableau, &parts),
+            holonomic(tableau, parts),
+            super::nonholonomic::steps(tableau, parts),
         ],
         _ => [None, None],
     }
@@ -79,7 +78,7 @@ pub(super) fn holonomic(tableau: &Tableau, parts: &Parts) -> Option<ConstrainedS
     let tableau_of = |tableau: &Tableau| match tableau.stages() {
         1 => Some(with_an_end(tableau.numbers().a[0][0].is_zero())),
         _ => {
-            let numbers = over_algebra!(tableau, pair => from_start_to_end(pair))?;
+            let numbers = over_algebra!(&tableau.exact, pair => from_start_to_end(pair))?;
             rounded(&numbers, multiplier_matrix(&numbers)?)
         }
     };

@@ -248,7 +248,7 @@ mod tests {
         let definition = Definition::parse(definition).expect("a definition");
         let tableau = definition.derive(&Limits::default()).expect("derived");
         let numbers = tableau.numbers();
-        let graph = StepGraph::new(class, &tableau, &numbers);
+        let graph = StepGraph::new(class, &tableau.exact, &numbers);
         let polynomials = StagePolynomials::new(&numbers);
         [Node::Velocity(0), Node::Force(0)]
             .map(|kind| polynomials.extension(&graph, kind, increments))

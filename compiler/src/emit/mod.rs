@@ -31,12 +31,10 @@ use quote::{format_ident, quote};
 
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
-use crate::derive::parts;
 use crate::error::{ErrorKind, FormulaError};
 use crate::partitioned::LowerTriangular;
 use crate::schedule::Class;
-use crate::tableau::Tableau;
-use crate::tableau::left_out;
+use crate::tableau::{Tableau, left_out};
 
 /// What the user writes before the braces: attributes, visibility and the name of the type.
 #[derive(Debug, Clone)]
@@ -99,15 +97,15 @@ pub fn method(tableau: &Tableau, header: &Header) -> Result<TokenStream, ErrorKi
     ];
     let orders = orders(tableau);
     let symmetry = symmetry(tableau);
-    let parts = parts(&provenance.definition)?;
+    let parts = tableau.parts()?;
     let both = (&parts.methods[..], &parts.substeps[..]);
     let plans = plan::plans(tableau, &numbers, both, names, &plan);
     let functions = parts.functions.map(|count| {
         let count = literal::count(count);
         quote!(const FUNCTIONS: usize = #count;)
     });
-    let constrained = constrained::holonomic(tableau, &parts);
-    let nonholonomic = nonholonomic::steps(tableau, &parts);
+    let constrained = constrained::holonomic(tableau, parts);
+    let nonholonomic = nonholonomic::steps(tableau, parts);
     let verlet = constrained
         .as_ref()
         .is_some_and(constrained::are_of_stoermer_verlet);

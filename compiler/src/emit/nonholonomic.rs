@@ -1,9 +1,7 @@
 //! How a method steps systems with non-holonomic constraints.
 
 use super::constrained::{ConstrainedSteps, rounded};
-use crate::derive::Parts;
-use crate::properties::composed;
-use crate::tableau::Tableau;
+use crate::tableau::{Parts, Tableau, composed};
 
 /// The steps for non-holonomic constraints; `None` for a method that does not qualify.
 ///

@@ -117,7 +117,7 @@ mod tests {
         for entry in catalogue::entries().filter(usual) {
             let tableau = entry.derive().expect("derived");
             let numbers = tableau.numbers();
-            let graph = StepGraph::new(Class::Separable, &tableau, &numbers);
+            let graph = StepGraph::new(Class::Separable, &tableau.exact, &numbers);
             let Some(rounded) = SecondOrder::new(&graph) else {
                 continue;
             };
@@ -147,7 +147,7 @@ mod tests {
     fn the_matrix_of_gauss_2() {
         let tableau = crate::derive("polynomial(2)", "gauss(2)").expect("derived");
         let numbers = tableau.numbers();
-        let graph = StepGraph::new(Class::Separable, &tableau, &numbers);
+        let graph = StepGraph::new(Class::Separable, &tableau.exact, &numbers);
         let rounded = SecondOrder::new(&graph).expect("symplectic");
         let r = 3.0_f64.sqrt() / 6.0;
         let a = [[0.25, 0.25 - r], [0.25 + r, 0.25]];

@@ -216,7 +216,7 @@ mod tests {
             let numbers = tableau.numbers();
             let known = Known::new(&tableau);
             for class in [Class::General, Class::Separable] {
-                let graph = StepGraph::new(class, &tableau, &numbers);
+                let graph = StepGraph::new(class, &tableau.exact, &numbers);
                 let Some(relative) = Relative::new(&graph, &known) else {
                     // A symplectic method with equal weights would have this form.
                     assert!(!tableau.properties().symplectic.holds, "{}", entry.name);

@@ -43,7 +43,7 @@ pub const MAX_DIGITS: usize = 10_000;
 pub fn most_digits(tableau: &Tableau) -> usize {
     /// A bound on the square of the digits times the cube of the stages.
     const MOST_WORK: u64 = 2_000_000_000_000;
-    match &tableau.exact {
+    match &*tableau.exact {
         Exact::Nodes(_) => {
             let stages = tableau.stages().max(1) as u64;
             let digits = (MOST_WORK / stages.saturating_pow(3)).isqrt();

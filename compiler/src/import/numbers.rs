@@ -606,7 +606,7 @@ fn alone(tableau: Tableau, (rows, weights): &Half, limits: &Limits) -> Option<Ta
 
 /// Whether a stage of a splitting drifts before it kicks.
 fn tableau_starts_with_drift(tableau: &Tableau) -> bool {
-    let lower_triangular = over_algebra!(tableau, pair => pair.lower_triangular());
+    let lower_triangular = over_algebra!(&tableau.exact, pair => pair.lower_triangular());
     lower_triangular == Some(LowerTriangular::DriftsFirst)
 }
 

@@ -4,12 +4,9 @@
 //! operands and the operation, `compose: […]` or `adjoint: true`. Coefficients alone would not do, for those
 //! at the roots of a polynomial of high degree, and those known as enclosures, have no exact form to write.
 
-mod concatenate;
+use std::sync::Arc;
 
-pub(crate) use concatenate::concatenate;
-
-use crate::definition::Definition;
-use crate::derive::{check_depth, splitting};
+use crate::derive::{Problem, Step, check_depth, concatenate};
 use crate::error::ErrorKind;
 use crate::symbolic::Constant;
 use crate::tableau::Tableau;
@@ -35,8 +32,11 @@ impl Tableau {
             Some(name) => name.to_owned(),
             None => format!("{PREFIX}{name}"),
         };
-        let definition = self.provenance.definition.adjoint();
-        let mut adjoint = Tableau::new(definition, self.exact.adjoint());
+        let exact = Arc::new(self.exact.adjoint());
+        let mut adjoint = match self.known_problem() {
+            Some(problem) => Tableau::of(problem.adjoint(), exact),
+            None => Tableau::read(self.provenance.definition.adjoint(), exact),
+        };
         // The inverse of a map of order p with −h for h is one too.
         adjoint.given.clone_from(&self.given);
         adjoint.name = self.name().map(renamed);
@@ -128,23 +128,26 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn concatenate(methods: &[(&Constant, &Tableau)]) -> Result<Self, ErrorKind> {
-        let parts = methods
-            .iter()
-            .map(|&(fraction, method)| (fraction, &method.provenance.definition));
-        let definition = Definition::composition(parts);
-        for (_, text) in definition.parts() {
+        let step = |&(fraction, method): &(&Constant, &Tableau)| {
+            Ok::<_, ErrorKind>(Step {
+                fraction: fraction.clone(),
+                method: method.problem()?.clone(),
+            })
+        };
+        let steps = methods.iter().map(step).collect::<Result<_, _>>()?;
+        let problem = Problem::composition(steps);
+        for (_, text) in problem.definition().parts() {
             check_depth(text)?;
         }
-        if !methods.is_empty()
-            && let Some(exact) = splitting(&definition)?
-        {
-            return Ok(Tableau::new(definition, exact));
-        }
-        let parts: Vec<_> = methods
-            .iter()
-            .map(|&(fraction, method)| (fraction, &method.exact))
-            .collect();
-        Ok(Tableau::new(definition, concatenate(&parts)?))
+        let exact = match problem.sequence() {
+            Some(sequence) => sequence.exact()?,
+            None => {
+                let parts = methods.iter();
+                let parts = parts.map(|&(fraction, method)| (fraction, &*method.exact));
+                concatenate(&parts.collect::<Vec<_>>())?
+            }
+        };
+        Ok(Tableau::of(problem, Arc::new(exact)))
     }
 }
 

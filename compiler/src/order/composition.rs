@@ -173,14 +173,18 @@ fn coefficient<F: Field>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::definition::Definition;
-    use crate::derive::parts;
+    use crate::derive::Problem;
+    use crate::tableau::Parts;
+    use crate::{Definition, Limits};
 
     /// The orders up to 9 with these methods, the first of which may be symmetric, and the second its adjoint.
     fn orders(definition: &str, symmetric: bool) -> Vec<usize> {
         let definition = Definition::parse(definition).expect(definition);
-        let substeps = parts(&definition).expect("steps").substeps;
-        let steps: Vec<Step<'_>> = substeps
+        let limits = Limits { stages: 100 };
+        let problem = Problem::read(&definition, &limits).expect("a problem");
+        let parts = Parts::of(&problem).expect("steps");
+        let steps: Vec<Step<'_>> = parts
+            .substeps
             .iter()
             .map(|step| Step {
                 fraction: &step.fraction,

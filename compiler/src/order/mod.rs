@@ -23,7 +23,7 @@
 //! million products of a coefficient and a stage, or four million if numbers are expressions. Then only the simplifying assumptions
 //! give information about that order.
 //!
-//! The order [observed](Tableau::observed_order) in a step of a pendulum does not use any of this.
+//! The order [observed](crate::Tableau::observed_order) in a step of a pendulum does not use any of this.
 //!
 //! Splittings also have an order for perturbed systems, a [`PerturbedOrder`], from words instead of trees.
 
@@ -48,12 +48,16 @@ pub use class::HamiltonianClass;
 pub use enumeration::{TreeRule, Trees};
 pub(crate) use inherited::GivenOrder;
 pub use modified::ModifiedTerm;
+pub(crate) use modified::modified_equation;
 pub use observed::Pendulum;
-pub(crate) use perturbed::listed;
+pub(crate) use observed::observed_order;
 pub use perturbed::{PerturbedOrder, PowerOrder, ViolatedWord};
+pub(crate) use perturbed::{listed, perturbed_order};
 pub(crate) use plan::Plan;
 pub use report::{ClassOrder, OrderReport, ViolatedCondition};
 pub use simplifying::SimplifyingAssumptions;
+pub(crate) use simplifying::simplifying_assumptions;
+pub(crate) use symplecticity::symplecticity_order;
 pub use symplecticity::{SymplecticityOrder, SymplecticityViolation};
 pub use tree::{BicolouredTree, Colour, TreeError};
 pub(crate) use weights::one_of_each_rooting;
@@ -62,16 +66,13 @@ use num_rational::BigRational;
 use num_traits::Signed;
 
 use self::error_constant::Term;
-use self::modified::modified_equation;
-use self::simplifying::simplifying_assumptions;
-use self::symplecticity::{Symplecticity, symplecticity_order};
+use self::symplecticity::Symplecticity;
 use self::weights::{MAX_ORDER, Weights};
 use crate::algebra::{Balls, Dense, Field, Number, StageAlgebra, Zero};
 use crate::evidence::Evidence;
-use crate::exact::over_algebra;
+use crate::exact::{Exact, over_algebra};
 use crate::partitioned::Partitioned;
 use crate::properties::shown;
-use crate::tableau::Tableau;
 
 /// Options for deciding orders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -94,79 +95,17 @@ impl Default for OrderOptions {
     }
 }
 
-impl Tableau {
-    /// The order for each class of Hamiltonians.
-    ///
-    /// ```
-    /// use symplectic_compiler::order::OrderOptions;
-    ///
-    /// let lobatto = symplectic_compiler::derive("polynomial(3)", "lobatto(3)")?;
-    /// let order = lobatto.order(&OrderOptions::default());
-    /// assert_eq!(order.general.order, 4);
-    /// let violated = order.general.refuted_by.expect("refuted at order 5");
-    /// assert_eq!(violated.tree.order(), 5);
-    /// # Ok::<(), symplectic_compiler::Error>(())
-    /// ```
-    pub fn order(&self, options: &OrderOptions) -> OrderReport {
-        over_algebra!(self, pair => order(pair, options, self.given.as_ref()))
-    }
-
-    /// The simplifying assumptions that hold; `None` if `b` differs from `b̃`.
-    ///
-    /// ```
-    /// let gauss = symplectic_compiler::derive("polynomial(20)", "gauss(20)")?;
-    /// let assumptions = gauss.simplifying_assumptions().expect("b = b̃");
-    /// assert_eq!((assumptions.b, assumptions.c, assumptions.d), (40, 20, 20));
-    /// assert_eq!(assumptions.order(), 40);
-    /// # Ok::<(), symplectic_compiler::Error>(())
-    /// ```
-    pub fn simplifying_assumptions(&self) -> Option<SimplifyingAssumptions> {
-        over_algebra!(self, pair => simplifying_assumptions(pair))
-    }
-
-    /// The order of symplecticity for general Hamiltonians, from trees up to order `limit`; `None` for a
-    /// method that is symplectic by its coefficients.
-    ///
-    /// If no condition up to the limit is violated, it is the order of the method if that is higher, because the
-    /// exact flow is symplectic.
-    pub fn symplecticity_order(&self, limit: usize) -> Option<SymplecticityOrder> {
-        let mut found = over_algebra!(self, pair => {
-            symplecticity_order(pair, HamiltonianClass::General, limit)
-        })?;
-        let verified = matches!(found.evidence, Evidence::Verified { .. });
-        if found.violated.is_none() || verified {
-            let general = self.orders().general;
-            // Better knowledge of the order is also knowledge of the order of symplecticity.
-            if general.order > found.order || (verified && general.order == found.order) {
-                found.order = general.order;
-                found.evidence = general.evidence;
-            }
-        }
-        Some(found)
-    }
-
-    /// The coefficients of the modified equation for the trees of a class up to an order, at most 20, in
-    /// the order of the enumeration (see [`ModifiedTerm`]).
-    ///
-    /// ```
-    /// use symplectic_compiler::order::HamiltonianClass;
-    ///
-    /// let euler = symplectic_compiler::derive("polynomial(1)", "0")?;
-    /// let terms = euler.modified_equation(HamiltonianClass::Separable, 2);
-    /// let trees: Vec<_> = terms.iter().map(|term| term.tree.to_string()).collect();
-    /// assert_eq!(trees, ["q", "p", "q[p]", "p[q]"]);
-    /// // q' = ∂T/∂p − h/2 ∂²T/∂p² ∂U/∂q, p' = −∂U/∂q + h/2 ∂²U/∂q² ∂T/∂p
-    /// assert_eq!(terms[2].exact.as_deref(), Some("1/2"));
-    /// assert_eq!(terms[3].exact.as_deref(), Some("-1/2"));
-    /// # Ok::<(), symplectic_compiler::Error>(())
-    /// ```
-    pub fn modified_equation(&self, class: HamiltonianClass, order: usize) -> Vec<ModifiedTerm> {
-        over_algebra!(self, pair => modified_equation(pair, class, order))
-    }
+/// The order of a method for each class of Hamiltonians; `given` is the order that follows from its construction.
+pub(crate) fn order(
+    exact: &Exact,
+    options: &OrderOptions,
+    given: Option<&GivenOrder>,
+) -> OrderReport {
+    over_algebra!(exact, pair => order_of_pair(pair, options, given))
 }
 
 /// The order of a pair for each class of Hamiltonians.
-pub(crate) fn order<A: StageAlgebra>(
+pub(crate) fn order_of_pair<A: StageAlgebra>(
     pair: &Partitioned<A>,
     options: &OrderOptions,
     given: Option<&GivenOrder>,

@@ -51,7 +51,7 @@ pub struct ModifiedTerm {
 }
 
 /// The coefficients of the modified equation for the trees of a class up to an order.
-pub(super) fn modified_equation<A: StageAlgebra>(
+pub(crate) fn modified_equation<A: StageAlgebra>(
     pair: &Partitioned<A>,
     class: HamiltonianClass,
     order: usize,

@@ -8,8 +8,8 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
+use crate::algebra::Number;
 use crate::coefficients::Coefficients;
-use crate::tableau::Tableau;
 
 /// Numbers are integers, in units of `2^−BITS`.
 const BITS: usize = 320;
@@ -33,48 +33,32 @@ pub enum Pendulum {
     Coupled,
 }
 
-impl Tableau {
-    /// The order observed on a pendulum: `log₂` of the ratio of the errors of one step, minus 1.
-    /// `expected` determines the size of the step.
-    ///
-    /// `None` if the error is lost in round-off, because the order is much higher than expected, or if the iteration for the
-    /// stages does not converge.
-    ///
-    /// ```
-    /// use symplectic_compiler::{catalogue, order::Pendulum};
-    ///
-    /// // Of order 4 for quadratic T, of order 3 for other separable Hamiltonians, and of order 1 for those that are not.
-    /// let method = catalogue::find("mclachlan-atela-1992-order-4-optimal").expect("a known method").derive()?;
-    /// let seen = |pendulum, expected| method.observed_order(pendulum, expected).expect("an order");
-    /// assert!((seen(Pendulum::Quadratic, 4) - 4.0).abs() < 0.01);
-    /// assert!((seen(Pendulum::Relativistic, 3) - 3.0).abs() < 0.01);
-    /// assert!((seen(Pendulum::Coupled, 1) - 1.0).abs() < 0.01);
-    /// # Ok::<(), symplectic_compiler::Error>(())
-    /// ```
-    pub fn observed_order(&self, pendulum: Pendulum, expected: usize) -> Option<f64> {
-        let bits = u32::try_from(BITS + 16).unwrap_or(u32::MAX);
-        let method = self
-            .numbers()
-            .map(|number| fixed(&number.enclose(bits).middle()));
-        let start = [(5, 13), (4, 17)].map(|(p, q)| (BigInt::from(p) << BITS) / q);
-        let series = series(pendulum, &start);
-        let halvings = ERROR_BITS / (expected + 2);
-        let mut logarithms = [0.0; 2];
-        for (logarithm, halvings) in logarithms.iter_mut().zip([halvings, halvings + 1]) {
-            let found = step(&method, pendulum, &start, halvings)?;
-            let exact = [0, 1].map(|i| -> BigInt {
-                let terms = series.iter().enumerate();
-                terms.map(|(n, term)| &term[i] >> (n * halvings)).sum()
-            });
-            let squares = found.iter().zip(&exact).map(|(x, y)| (x - y).pow(2));
-            let square: BigInt = squares.sum();
-            if square.bits() <= 2 * NOISE_BITS {
-                return None;
-            }
-            *logarithm = log2(&square) / 2.0;
+/// The order observed on a pendulum; `expected` determines the size of the step.
+pub(crate) fn observed_order(
+    numbers: Coefficients<Number<'_>>,
+    pendulum: Pendulum,
+    expected: usize,
+) -> Option<f64> {
+    let bits = u32::try_from(BITS + 16).unwrap_or(u32::MAX);
+    let method = numbers.map(|number| fixed(&number.enclose(bits).middle()));
+    let start = [(5, 13), (4, 17)].map(|(p, q)| (BigInt::from(p) << BITS) / q);
+    let series = series(pendulum, &start);
+    let halvings = ERROR_BITS / (expected + 2);
+    let mut logarithms = [0.0; 2];
+    for (logarithm, halvings) in logarithms.iter_mut().zip([halvings, halvings + 1]) {
+        let found = step(&method, pendulum, &start, halvings)?;
+        let exact = [0, 1].map(|i| -> BigInt {
+            let terms = series.iter().enumerate();
+            terms.map(|(n, term)| &term[i] >> (n * halvings)).sum()
+        });
+        let squares = found.iter().zip(&exact).map(|(x, y)| (x - y).pow(2));
+        let square: BigInt = squares.sum();
+        if square.bits() <= 2 * NOISE_BITS {
+            return None;
         }
-        Some(logarithms[0] - logarithms[1] - 1.0)
+        *logarithm = log2(&square) / 2.0;
     }
+    Some(logarithms[0] - logarithms[1] - 1.0)
 }
 
 /// A rational number in units of `2^−BITS`.

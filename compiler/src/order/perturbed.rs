@@ -33,7 +33,6 @@ use crate::exact::Exact;
 use crate::partitioned::Partitioned;
 use crate::schedule::{Class, Node, StepGraph};
 use crate::stability::superscript;
-use crate::tableau::Tableau;
 
 /// The order `(s₁, s₂, …)` of a splitting for `H = H_A + εH_B` with drifts for `H_A` and kicks for `εH_B`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -138,37 +137,13 @@ impl fmt::Display for ViolatedWord {
     }
 }
 
-impl Tableau {
-    /// The order `(s₁, s₂, …)` for perturbed systems `H = H_A + εH_B` with drifts for `H_A` and kicks for `εH_B`, computed on
-    /// the first call. `None` for a method that is not a splitting for separable `H`.
-    ///
-    /// The first order is determined up to [`MAX_PERTURBED_ORDER`], the others up to [`MAX_ORDER`].
-    ///
-    /// ```
-    /// use symplectic_compiler::catalogue;
-    ///
-    /// let order = |name| Some(catalogue::find(name)?.derive().ok()?.perturbed_order()?.orders());
-    /// assert_eq!(order("saba-4"), Some(vec![8, 2]));
-    /// assert_eq!(order("stormer-verlet"), Some(vec![2, 2]));
-    /// assert_eq!(order("gauss-2"), None);
-    /// ```
-    pub fn perturbed_order(&self) -> Option<PerturbedOrder> {
-        self.perturbed
-            .get_or_init(|| {
-                // A splitting is explicit, which is decided faster.
-                let explicit = self.properties().explicit.holds;
-                explicit.then(|| perturbed_order(self)).flatten()
-            })
-            .clone()
-    }
-}
-
-fn perturbed_order(tableau: &Tableau) -> Option<PerturbedOrder> {
-    let numbers = tableau.numbers();
-    let graph = StepGraph::new(Class::Separable, tableau, &numbers);
+/// The order of an explicit method; `None` if it is not a splitting for separable `H`. `given` is the order that follows from its
+/// construction.
+pub(crate) fn perturbed_order(exact: &Exact, given: Option<&GivenOrder>) -> Option<PerturbedOrder> {
+    let numbers = exact.numbers();
+    let graph = StepGraph::new(Class::Separable, exact, &numbers);
     let chain = graph.splitting()?;
-    let given = tableau.given.as_ref();
-    match &tableau.exact {
+    match exact {
         // The splittings among these have only one or two nodes, which are 0 and 1.
         Exact::Nodes(_) => {
             let rational = |&node: &Node| {

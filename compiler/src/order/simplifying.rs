@@ -92,7 +92,7 @@ impl SimplifyingAssumptions {
 ///
 /// Each equation is decided in the algebra; the work is a few products of a matrix and a vector for each
 /// number up to `2s`.
-pub(super) fn simplifying_assumptions<A: StageAlgebra>(
+pub(crate) fn simplifying_assumptions<A: StageAlgebra>(
     pair: &Partitioned<A>,
 ) -> Option<SimplifyingAssumptions> {
     let algebra = &*pair.algebra;

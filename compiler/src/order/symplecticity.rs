@@ -112,7 +112,7 @@ fn defect<A: StageAlgebra>(pair: &Partitioned<A>) -> A::Matrix {
 ///
 /// Trees are examined up to order `limit`; a method that is symplectic to that order has no violated
 /// condition.
-pub(super) fn symplecticity_order<A: StageAlgebra>(
+pub(crate) fn symplecticity_order<A: StageAlgebra>(
     pair: &Partitioned<A>,
     class: HamiltonianClass,
     limit: usize,
@@ -237,7 +237,7 @@ mod tests {
     #[test]
     fn symplectic_methods_have_no_such_order() {
         let lobatto = crate::derive("polynomial(3)", "lobatto(3)").expect("derived");
-        let Exact::Nodes(pair) = &lobatto.exact else {
+        let Exact::Nodes(pair) = &*lobatto.exact else {
             panic!("classical nodes");
         };
         assert_eq!(

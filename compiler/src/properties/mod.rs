@@ -3,7 +3,6 @@
 //! One property a file; each decides itself from the exact coefficients and trusts nothing about how
 //! they were derived.
 
-pub(crate) mod composed;
 mod consistent;
 mod constrained;
 mod end_stages;
@@ -19,11 +18,13 @@ use std::borrow::Cow;
 use std::fmt;
 
 pub(crate) use self::constrained::{from_start_to_end, multiplier_matrix};
+pub(crate) use self::nonholonomic::has_steps;
 pub use self::separable::SeparableProperties;
 pub(crate) use self::symmetric::{Symmetry, images};
 use crate::algebra::{Number, StageAlgebra, Zero};
 use crate::coefficients::{Coefficients, subscript};
 use crate::evidence::{Evidence, evidence_text};
+use crate::exact::{Exact, over_algebra};
 use crate::partitioned::Partitioned;
 
 /// Whether a property holds, how that is known, and an example.
@@ -39,7 +40,7 @@ pub struct Property {
 }
 
 impl Property {
-    fn holding(evidence: Evidence, witness: Option<String>) -> Self {
+    pub(crate) fn holding(evidence: Evidence, witness: Option<String>) -> Self {
         Property {
             holds: true,
             evidence,
@@ -55,7 +56,7 @@ impl Property {
         }
     }
 
-    fn refuted(witness: String) -> Self {
+    pub(crate) fn refuted(witness: String) -> Self {
         Property {
             holds: false,
             evidence: Evidence::Refuted,
@@ -139,11 +140,20 @@ properties! {
 }
 
 impl Properties {
-    /// Decides all properties of a pair by its coefficients.
+    /// Decides all properties of a method by its coefficients.
+    pub(crate) fn of(exact: &Exact) -> Self {
+        over_algebra!(exact, pair => Properties::of_pair(pair))
+    }
+
     pub(crate) fn of_pair<A: Symmetry>(pair: &Partitioned<A>) -> Self {
         let numbers = &pair.numbers();
         Properties::decide(&Examined { pair, numbers })
     }
+}
+
+/// Decides the symmetry alone.
+pub(crate) fn symmetric(exact: &Exact) -> Property {
+    over_algebra!(exact, pair => symmetric::decide(&Examined { pair, numbers: &pair.numbers() }))
 }
 
 /// A pair with its coefficients as numbers, which several properties look at.

@@ -17,7 +17,7 @@ use crate::evidence::Evidence;
 use crate::partitioned::Partitioned;
 
 /// Decides whether a method has such steps, whatever their order.
-pub(super) fn has_steps<A: StageAlgebra>(pair: &Partitioned<A>) -> Property {
+pub(crate) fn has_steps<A: StageAlgebra>(pair: &Partitioned<A>) -> Property {
     let numbers = &pair.numbers();
     have_steps(&Examined { pair, numbers })
 }

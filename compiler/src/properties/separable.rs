@@ -7,6 +7,7 @@ use num_rational::BigRational;
 use super::symplectic::decide_matrices;
 use super::{Evidence, Examined, Property, Symmetry};
 use crate::algebra::{Dense, Field, NodeAlgebra, Zero};
+use crate::exact::{Exact, over_algebra};
 use crate::partitioned::Partitioned;
 use crate::schedule::{Class, Groups};
 
@@ -37,10 +38,11 @@ impl SeparableProperties {
     ///
     /// A splitting is symplectic whatever its coefficients are: with [lower triangular](Partitioned::lower_triangular) matrices one of
     /// `b_i ã_ij` and `b̃_j a_ji` is `b_i b̃_j`, and the other is zero.
-    pub(crate) fn of_pair<A: SeparableSymmetry>(
-        pair: &Partitioned<A>,
-        symmetric: Property,
-    ) -> Self {
+    pub(crate) fn of(exact: &Exact, symmetric: Property) -> Self {
+        over_algebra!(exact, pair => SeparableProperties::of_pair(pair, symmetric))
+    }
+
+    fn of_pair<A: SeparableSymmetry>(pair: &Partitioned<A>, symmetric: Property) -> Self {
         let symplectic = match pair.lower_triangular() {
             Some(_) => Property::holding(Evidence::Proved, None),
             None => decide_matrices(&Examined {

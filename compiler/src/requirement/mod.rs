@@ -7,9 +7,11 @@ use std::fmt;
 use num_rational::BigRational;
 use num_traits::Signed;
 
+use crate::definition::Definition;
 use crate::error::{Error, ErrorKind};
 use crate::evidence::Evidence;
 use crate::expression::{ExpressionKind, Input, parse_list, shown};
+use crate::limits::Limits;
 use crate::order::{HamiltonianClass, OrderOptions, listed};
 use crate::properties::{Properties, SeparableProperties};
 use crate::stability::StableSteps;
@@ -376,9 +378,9 @@ pub fn require(
     definition: &str,
     requirement: &str,
     accepted: Option<u32>,
-    limits: &crate::Limits,
+    limits: &Limits,
 ) -> Result<(), Error> {
-    let tableau = crate::Definition::parse(definition)?.derive(limits)?;
+    let tableau = Definition::parse(definition)?.derive(limits)?;
     Ok(tableau.require(&Requirement::parse(requirement)?, accepted)?)
 }
 

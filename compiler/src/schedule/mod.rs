@@ -12,9 +12,8 @@ pub use phases::{Evaluations, Phases};
 use crate::algebra::{Number, StageAlgebra, group_by};
 use crate::arithmetic::roots::compare;
 use crate::coefficients::Coefficients;
-use crate::exact::over_algebra;
+use crate::exact::{Exact, over_algebra};
 use crate::partitioned::Partitioned;
-use crate::tableau::Tableau;
 
 /// What the derivatives of a Hamiltonian depend on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -103,8 +102,8 @@ pub struct Schedule {
 
 impl<'a> StepGraph<'a> {
     /// The graph of a tableau.
-    pub fn new(class: Class, tableau: &'a Tableau, numbers: &Coefficients<Number<'a>>) -> Self {
-        over_algebra!(tableau, pair => Self::of_pair(class, pair, numbers))
+    pub(crate) fn new(class: Class, exact: &'a Exact, numbers: &Coefficients<Number<'a>>) -> Self {
+        over_algebra!(exact, pair => Self::of_pair(class, pair, numbers))
     }
 
     pub(crate) fn of_pair<A: StageAlgebra>(
@@ -438,7 +437,7 @@ mod tests {
 
     fn schedule(class: Class, basis: &str, nodes: &str) -> Schedule {
         let tableau = crate::derive(basis, nodes).expect("derived");
-        StepGraph::new(class, &tableau, &tableau.numbers()).schedule()
+        StepGraph::new(class, &tableau.exact, &tableau.numbers()).schedule()
     }
 
     #[test]
@@ -491,11 +490,11 @@ mod tests {
                      23/6 - 1144/9*t + 3742/3*t^2 - 48896/9*t^3 + 104000/9*t^4 - 34816/3*t^5 + 39424/9*t^6, \
                      -155/6 + 6604/9*t - 18514/3*t^2 + 209216/9*t^3 - 392960/9*t^4 + 119296/3*t^5 - 125440/9*t^6";
         let tableau = crate::derive(basis, "1/4, 1/2, 3/4").expect("derived");
-        let groups = over_algebra!(&tableau, pair => Groups::new(Class::Separable, pair));
+        let groups = over_algebra!(&tableau.exact, pair => Groups::new(Class::Separable, pair));
         assert_eq!(groups.positions, [vec![0], vec![1, 2]]);
         assert_eq!(groups.momenta, groups.positions);
         // Their weights cancel, and no other stage needs them: they are not evaluated at all.
-        let graph = StepGraph::new(Class::Separable, &tableau, &tableau.numbers());
+        let graph = StepGraph::new(Class::Separable, &tableau.exact, &tableau.numbers());
         assert_eq!((graph.positions.len(), graph.momenta.len()), (1, 1));
         assert_eq!(graph.order(), Ok(["Q1", "P1"].map(String::from).to_vec()));
     }

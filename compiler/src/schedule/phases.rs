@@ -2,7 +2,7 @@
 
 use super::{Class, Evaluation, Node, Schedule, StageValue, StepGraph};
 use crate::arithmetic::rational::ratio;
-use crate::tableau::Tableau;
+use crate::exact::Exact;
 
 /// The nodes of a step by the function in which they are computed.
 #[derive(Debug)]
@@ -120,24 +120,10 @@ pub struct Evaluations {
     pub velocities: usize,
 }
 
-impl Tableau {
-    /// The numbers of evaluations of force and velocity per step, for separable Hamiltonians and a method that is
-    /// explicit for them; `None` for a method with coupled stages.
-    ///
-    /// Evaluations of the previous step that are reused (first same as last) do not count: only the very first step
-    /// makes them.
-    ///
-    /// ```
-    /// use symplectic_compiler::schedule::Evaluations;
-    ///
-    /// let verlet = symplectic_compiler::derive("polynomial(2)", "lobatto(2)")?;
-    /// assert_eq!(verlet.evaluations(), Some(Evaluations { forces: 1, velocities: 1 }));
-    /// let gauss = symplectic_compiler::derive("polynomial(2)", "gauss(2)")?;
-    /// assert_eq!(gauss.evaluations(), None);
-    /// # Ok::<(), symplectic_compiler::Error>(())
-    /// ```
-    pub fn evaluations(&self) -> Option<Evaluations> {
-        let graph = StepGraph::new(Class::Separable, self, &self.numbers());
+impl Evaluations {
+    /// The evaluations of a method that is explicit for separable Hamiltonians.
+    pub(crate) fn of(exact: &Exact) -> Option<Self> {
+        let graph = StepGraph::new(Class::Separable, exact, &exact.numbers());
         let phases = Phases::new(&graph);
         let carried = phases.carried();
         let saved = |force: bool| {

@@ -40,6 +40,7 @@ use self::polynomial::RealPolynomial;
 use crate::algebra::{Field, Number, Scalar, StageAlgebra, ZERO_BITS};
 use crate::arithmetic::polynomial::Polynomial;
 use crate::evidence::{Evidence, evidence_text};
+use crate::exact::{Exact, over_algebra};
 use crate::partitioned::Partitioned;
 
 pub use dispersion::Dispersion;
@@ -80,10 +81,14 @@ pub struct Stability {
 }
 
 impl Stability {
-    /// Decides the linear stability of a pair.
+    /// Decides the linear stability of a method.
     ///
     /// If exact arithmetic is not available or takes more than a fixed number of operations, enclosures
     /// of the coefficients decide; numbers taken to be zero are then only verified.
+    pub(crate) fn of(exact: &Exact) -> Self {
+        over_algebra!(exact, pair => Stability::of_pair(pair))
+    }
+
     pub(crate) fn of_pair<A: StageAlgebra + 'static>(pair: &Partitioned<A>) -> Self {
         Stability::within(pair, PRODUCTS)
     }
@@ -237,12 +242,9 @@ impl Stability {
         }
     }
 
-    /// The interval that begins at zero, for a palindromic splitting of any length. [`Stability::of_pair`] decides everything
-    /// else.
-    pub(crate) fn first_interval<A: StageAlgebra + 'static>(
-        pair: &Partitioned<A>,
-    ) -> Option<StabilityInterval> {
-        halves::first_interval(pair)
+    /// The interval that begins at zero, for a palindromic splitting of any length. [`Stability::of`] decides everything else.
+    pub(crate) fn first_interval(exact: &Exact) -> Option<StabilityInterval> {
+        over_algebra!(exact, pair => halves::first_interval(pair))
     }
 
     /// Whether a step size `ν = hω > 0` is stable.

@@ -274,7 +274,7 @@ fn both_kinds_of_polynomials_agree() {
     ] {
         let tableau = crate::derive(basis, nodes).expect("derived");
         let fast = tableau.stability();
-        let general = over_algebra!(&tableau, pair => over_field(pair));
+        let general = over_algebra!(&tableau.exact, pair => over_field(pair));
         assert_eq!(fast.p_stable, general.p_stable);
         assert_eq!(fast.intervals.len(), general.intervals.len());
         for (x, y) in fast.intervals.iter().zip(&general.intervals) {
@@ -304,7 +304,8 @@ fn the_budget_decides_the_evidence_and_nothing_else() {
         ("1, cos(pi*t), sin(pi*t)", "0, 1/2, 1"),
     ] {
         let tableau = crate::derive(basis, nodes).expect("derived");
-        let within = |products| over_algebra!(&tableau, pair => Stability::within(pair, products));
+        let within =
+            |products| over_algebra!(&tableau.exact, pair => Stability::within(pair, products));
         let exact = within(PRODUCTS);
         assert_eq!(exact.evidence, Evidence::Proved, "{basis}");
         assert!(exact.preserves_area && exact.dispersion.is_some());
@@ -662,7 +663,7 @@ fn dense(stages: usize, entry: impl Fn(usize) -> String) -> Tableau {
 }
 
 fn cost(tableau: &Tableau) -> u64 {
-    over_algebra!(tableau, pair => oscillator::cost(pair))
+    over_algebra!(&tableau.exact, pair => oscillator::cost(pair))
 }
 
 /// Decimals have a common denominator, so that the matrix needs whole numbers only: 22 stages are proved. Fractions with unrelated

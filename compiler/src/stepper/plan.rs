@@ -93,7 +93,7 @@ impl Coupled {
             ));
         }
         let (numbers, forms) = (tableau.numbers(), tableau.exact_forms());
-        let graph = StepGraph::new(Class::General, tableau, &numbers);
+        let graph = StepGraph::new(Class::General, &tableau.exact, &numbers);
         let relative = Relative::new(&graph, &Known::new(tableau)).ok_or_else(|| {
             refused(
                 "its stages are solved for, and one has the weight zero: a_ij / b_j does not exist",

@@ -6,8 +6,8 @@ use quote::quote;
 
 use super::{Plan, class_name, for_each_class, literal};
 use crate::algebra::{Field, Real, Reals};
-use crate::derive::Substep;
 use crate::schedule::Class;
+use crate::tableau::Substep;
 use crate::tableau::Tableau;
 
 /// A composition of different methods.

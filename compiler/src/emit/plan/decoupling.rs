@@ -99,7 +99,7 @@ mod tests {
             let numbers = tableau.numbers();
             let known = Known::new(&tableau);
             for (class, expected) in [(Class::General, general), (Class::Separable, separable)] {
-                let graph = StepGraph::new(class, &tableau, &numbers);
+                let graph = StepGraph::new(class, &tableau.exact, &numbers);
                 let blocks = blocks(&graph, &known);
                 assert_eq!(blocks.is_some(), expected, "{name} {class:?}");
                 let Some(blocks) = blocks else { continue };

@@ -16,8 +16,8 @@ use super::facts::Known;
 use super::{literal, literal::identifier, nystrom, predictor, symplectic_rounding};
 use crate::algebra::Number;
 use crate::coefficients::Coefficients;
-use crate::derive::Substep;
 use crate::schedule::{Class, Node, Phases, StepGraph};
+use crate::tableau::Substep;
 use crate::tableau::Tableau;
 use crate::tableau::left_out;
 use composition::Composed;
@@ -72,7 +72,7 @@ pub(super) fn plans(
     // There is no plan for general systems if the matrices are left out.
     let graphs = names.map(|(class, _)| {
         let stepped = !long || class == Class::Separable;
-        stepped.then(|| StepGraph::new(class, tableau, numbers))
+        stepped.then(|| StepGraph::new(class, &tableau.exact, numbers))
     });
     let composed = |plans| Composed {
         plans,
@@ -107,7 +107,7 @@ pub(super) fn plans(
             return of_stages(&graph, name, &known, Some(&polynomials));
         }
         let part = |(k, name): (usize, Ident)| {
-            let graph = StepGraph::new(class, &methods[k], &parts[k]);
+            let graph = StepGraph::new(class, &methods[k].exact, &parts[k]);
             of_stages(&graph, &name, &parts_known[k], None)
         };
         let plans = numbered(name, methods.len())
@@ -127,7 +127,7 @@ fn parts_of_both(
 ) -> Option<Vec<Plan>> {
     let plan = |(k, name): (usize, Ident)| {
         let graphs = [Class::General, Class::Separable]
-            .map(|class| StepGraph::new(class, &methods[k], &numbers[k]));
+            .map(|class| StepGraph::new(class, &methods[k].exact, &numbers[k]));
         let step = Stored::for_both(graphs.each_ref(), &known[k], None)?;
         Some(Plan {
             code: of_both(&step, &name, None),

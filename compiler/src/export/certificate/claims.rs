@@ -96,7 +96,7 @@ pub(super) fn of(
 
 /// The order of the stages, counted from 1, with which the method is symmetric; `None` if its matrices are functions of the nodes.
 fn order_of_stages(tableau: &Tableau) -> Option<Fact> {
-    let images = match &tableau.exact {
+    let images = match &*tableau.exact {
         Exact::Field(_) => images(&tableau.numbers())?,
         _ => return None,
     };

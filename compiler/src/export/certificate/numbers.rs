@@ -34,7 +34,7 @@ pub(super) struct Numbers {
 impl Numbers {
     /// The coefficients; `None` if there is no exact form.
     pub fn of(tableau: &Tableau) -> Option<Self> {
-        match &tableau.exact {
+        match &*tableau.exact {
             Exact::Nodes(pair) => Some(Numbers::of_nodes(pair)),
             Exact::Field(pair) => Some(Numbers::of_field(pair)),
             Exact::Reals(pair) => {

@@ -157,8 +157,8 @@ fn used_stages(
     tableau: &Tableau,
     [drifts, kicks]: &[Vec<Polynomial>; 2],
 ) -> Option<[Range<usize>; 2]> {
-    let drift_first =
-        over_algebra!(tableau, pair => pair.lower_triangular())? == LowerTriangular::DriftsFirst;
+    let drift_first = over_algebra!(&tableau.exact, pair => pair.lower_triangular())?
+        == LowerTriangular::DriftsFirst;
     // Twice the stage, and one more for its second flow.
     let place = |stage: usize, is_drift: bool| 2 * stage + usize::from(is_drift != drift_first);
     let places = |weights: &[Polynomial], is_drift: bool| -> Vec<usize> {

@@ -38,7 +38,7 @@ impl<'a> Polynomials<'a> {
     /// # Errors
     /// The reason why there is none.
     pub fn of(tableau: &'a Tableau) -> Result<Self, &'static str> {
-        match &tableau.exact {
+        match &*tableau.exact {
             Exact::Nodes(pair) => Ok(quadratic(pair).unwrap_or(Polynomials::InNodes(pair))),
             Exact::Field(pair) => in_field(pair)
                 .ok_or("its coefficients are not algebraic numbers; they contain pi, e or such"),

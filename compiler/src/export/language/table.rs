@@ -270,7 +270,7 @@ fn flows(tableau: &Tableau, digits: usize) -> Option<Vec<Flow>> {
         return None;
     }
     let (numbers, forms) = (tableau.numbers(), tableau.exact_forms());
-    let graph = StepGraph::new(Class::Separable, tableau, &numbers);
+    let graph = StepGraph::new(Class::Separable, &tableau.exact, &numbers);
     let chain = graph.splitting()?;
     let kind = |node: &Node| matches!(node, Node::Velocity(_));
     let time = |node: Option<&Node>, end: i64| {

@@ -63,7 +63,7 @@ pub fn read(file_name: &str, text: &str, limits: &Limits) -> Result<Tableau, Err
         b: polynomial(file, &exact.b)?,
         b_tilde: polynomial(file, &exact.b_tilde)?,
     };
-    let mut tableau = Tableau::new(origin.definition(), Exact::Nodes(pair));
+    let mut tableau = Tableau::read(origin.definition(), Arc::new(Exact::Nodes(pair)));
     tableau.name = origin.name;
     tableau.provenance.source = origin.source;
     Ok(tableau)

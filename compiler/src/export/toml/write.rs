@@ -80,7 +80,7 @@ pub fn write(tableau: &Tableau, digits: usize) -> String {
         text.push_str(&format!("source = {}\n", string(source)));
     }
 
-    match &tableau.exact {
+    match &*tableau.exact {
         Exact::Nodes(pair) => write_functions_of_nodes(&mut text, pair),
         Exact::Field(_) => write_expressions(&mut text, tableau),
         Exact::Reals(_) => {}

@@ -10,13 +10,14 @@ use proptest::prelude::*;
 use super::*;
 use crate::catalogue;
 use crate::exact::Exact;
+use crate::tableau::Tableau;
 use methods::{
     RationalPair, decimal, drift_first, explicit_runge_kutta, rational, runge_kutta, splitting,
     weight,
 };
 
 fn order<A: StageAlgebra>(pair: &Partitioned<A>, options: &OrderOptions) -> OrderReport {
-    super::order(pair, options, None)
+    order_of_pair(pair, options, None)
 }
 
 const QUICK: OrderOptions = OrderOptions {
@@ -258,7 +259,7 @@ fn all_conditions_agree_with_those_of_symplectic_methods() {
 fn simplifying_assumptions_give_the_order_of_the_catalogue() {
     for entry in catalogue::entries() {
         let tableau = entry.derive().expect("derived");
-        let Exact::Nodes(pair) = &tableau.exact else {
+        let Exact::Nodes(pair) = &*tableau.exact else {
             continue;
         };
         for pair in [pair.clone(), pair.clone().exchanged()] {
@@ -289,7 +290,7 @@ fn simplifying_assumptions_say_nothing_wrong_about_other_methods() {
     };
     for entry in catalogue::entries().filter(|entry| entry.stages <= 4) {
         let tableau = entry.derive().expect("derived");
-        let Exact::Nodes(pair) = &tableau.exact else {
+        let Exact::Nodes(pair) = &*tableau.exact else {
             continue;
         };
         let Partitioned { algebra, b, .. } = pair.clone();
@@ -423,7 +424,7 @@ fn order_10_of_five_stages_by_full_enumeration() {
         all_conditions: true,
     };
     let tableau = derived("polynomial(5)", "gauss(5)");
-    let Exact::Nodes(pair) = &tableau.exact else {
+    let Exact::Nodes(pair) = &*tableau.exact else {
         panic!("classical nodes");
     };
     let found = class_order(pair, HamiltonianClass::General, &Known::of(pair, &options));

@@ -141,11 +141,12 @@ mod tests {
     use crate::evidence::Evidence;
     use crate::exact::Exact;
     use crate::tableau::Tableau;
+    use std::sync::Arc;
 
     /// Two indistinguishable stages: all entries of both matrices are the same number.
     fn twins(entry: BigRational) -> Tableau {
         let mut tableau = crate::derive("polynomial(2)", "0, 1").expect("derived");
-        let Exact::Nodes(pair) = &mut tableau.exact else {
+        let Exact::Nodes(pair) = Arc::make_mut(&mut tableau.exact) else {
             panic!("rational nodes");
         };
         let matrix = pair

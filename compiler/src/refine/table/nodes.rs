@@ -1,5 +1,7 @@
 //! Collocation methods with polynomials and their symplectic partners, from their nodes.
 
+use std::sync::Arc;
+
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
@@ -13,13 +15,13 @@ use crate::arithmetic::rational::ratio;
 use crate::basis::Basis;
 use crate::certify::{Best, Row, middle, minimax};
 use crate::definition::{Definition, Key};
-use crate::derive::derive_from;
 use crate::error::Error;
 use crate::evidence::Evidence;
 use crate::expression::Input;
+use crate::limits::Limits;
 use crate::order::HamiltonianClass;
 use crate::quadrature::QuadratureRule;
-use crate::tableau::Tableau;
+use crate::tableau::{Tableau, derive_from};
 
 /// Which array belongs to the collocation method.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -409,15 +411,17 @@ fn derived(rule: &QuadratureRule, named: bool, role: Role) -> Result<Tableau, St
         if role == Role::Momenta {
             parts.push((Key::Exchange, "true".to_owned()));
         }
-        let derived = Definition::new(parts).derive(&crate::Limits::default());
+        let derived = Definition::new(parts).derive(&Limits::default());
         return derived.map_err(|error| error.kind.to_string());
     }
     let mut tableau = derive_from(&basis, rule).map_err(|kind| kind.to_string())?;
-    tableau.exact = match role {
-        Role::Positions => tableau.exact,
-        Role::Momenta => tableau.exact.exchanged(),
-        Role::Partner => tableau.exact.partner_alone(),
-    };
+    match role {
+        Role::Positions => {}
+        Role::Momenta => {
+            tableau.exact = Arc::new(Arc::unwrap_or_clone(tableau.exact).exchanged());
+        }
+        Role::Partner => tableau.exact = Arc::new(tableau.exact.partner_alone()),
+    }
     Ok(tableau)
 }
 

@@ -27,7 +27,7 @@ pub(super) struct Legend<'a> {
 
 impl<'a> Legend<'a> {
     pub fn new(table: &Table<'a>) -> Self {
-        let nodes = match &table.tableau.exact {
+        let nodes = match &*table.tableau.exact {
             Exact::Nodes(pair) => Some(pair),
             _ => None,
         };

@@ -1,11 +1,11 @@
 //! Properties that a composition has because its steps have them: it steps systems with constraints by one step of each part after another.
 
-use super::{Evidence, Property, nonholonomic};
-use crate::derive::Parts;
+use super::{Parts, Tableau};
+use crate::evidence::Evidence;
 use crate::exact::over_algebra;
 use crate::expression::shown;
 use crate::order::composition::{self, Step};
-use crate::tableau::Tableau;
+use crate::properties::{Property, has_steps};
 
 /// `constrained` of a composition: whether each of its methods is; `None` for a single step, whose coefficients decide it. It says nothing
 /// about the order with constraints.
@@ -25,7 +25,7 @@ pub(crate) fn constrained(parts: &Parts) -> Option<Property> {
 pub(crate) fn nonholonomic(tableau: &Tableau, parts: &Parts) -> Option<Property> {
     let found = each(
         parts,
-        |method| over_algebra!(method, pair => nonholonomic::has_steps(pair)),
+        |method| over_algebra!(&method.exact, pair => has_steps(pair)),
     )?;
     let mut evidence = match found {
         Ok(evidence) => evidence,

@@ -40,7 +40,7 @@ pub(crate) fn concatenate(parts: &[(&Constant, &Exact)]) -> Result<Exact, ErrorK
     let needed: Option<Vec<Vec<&Constant>>> = methods.iter().map(Method::constants).collect();
     let field = needed.and_then(|needed| {
         let needed = needed.into_iter().flatten();
-        let stages = parts.iter().map(|(_, exact)| stages(exact)).sum();
+        let stages = parts.iter().map(|(_, exact)| exact.stages()).sum();
         let words = longest(fractions.iter().copied()) + longest(needed.clone());
         let short = work(stages, words) <= MOST_WORK;
         let fractions = fractions.iter().copied();
@@ -59,14 +59,6 @@ pub(crate) fn concatenate(parts: &[(&Constant, &Exact)]) -> Result<Exact, ErrorK
 /// The products of machine words for all products of two coefficients beyond which exact arithmetic with all that follows
 /// takes more than two seconds or so.
 const MOST_WORK: u64 = 300_000;
-
-fn stages(exact: &Exact) -> usize {
-    match exact {
-        Exact::Nodes(pair) => pair.algebra.stages(),
-        Exact::Field(pair) => pair.algebra.stages(),
-        Exact::Reals(pair) => pair.algebra.stages(),
-    }
-}
 
 /// The products of machine words for a product of each coefficient of a matrix with another.
 fn work(stages: usize, words: u64) -> u64 {
