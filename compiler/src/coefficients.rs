@@ -83,7 +83,7 @@ impl<T> Coefficients<T> {
 }
 
 /// The index of a matrix entry, counted from 1, as a subscript: `21`, and `2,10` where digits would run together.
-pub(crate) fn subscript(row: usize, column: usize) -> String {
+pub fn subscript(row: usize, column: usize) -> String {
     if row < 10 && column < 10 {
         format!("{row}{column}")
     } else {

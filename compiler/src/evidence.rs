@@ -23,7 +23,7 @@ pub enum Evidence {
 }
 
 /// The evidence of what holds, in words.
-pub(crate) fn evidence_text(evidence: Evidence) -> String {
+pub fn evidence_text(evidence: Evidence) -> String {
     match evidence {
         Evidence::Verified { bits } => format!("verified to 2^-{bits}"),
         Evidence::Certified => "certified".to_owned(),

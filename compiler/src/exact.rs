@@ -2,7 +2,7 @@
 
 use crate::algebra::{Constants, Dense, NodeAlgebra, Number, Reals, StageAlgebra};
 use crate::coefficients::Coefficients;
-use crate::partitioned::Partitioned;
+use crate::partitioned::{LowerTriangular, Partitioned};
 
 /// An expression over the coefficients, whichever algebra holds them.
 macro_rules! over_algebra {
@@ -19,7 +19,7 @@ pub(crate) use over_algebra;
 
 /// The coefficients in the algebra that holds them.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Exact {
+pub enum Exact {
     /// Functions of the nodes.
     Nodes(Partitioned<NodeAlgebra>),
     /// Numbers in a constant field.
@@ -57,6 +57,11 @@ impl Exact {
     /// The number of stages.
     pub fn stages(&self) -> usize {
         over_algebra!(self, pair => pair.algebra.stages())
+    }
+
+    /// Which matrices of a splitting are lower triangular; `None` for other methods.
+    pub fn lower_triangular(&self) -> Option<LowerTriangular> {
+        over_algebra!(self, pair => pair.lower_triangular())
     }
 
     /// All coefficients as numbers that can be enclosed and correctly rounded.

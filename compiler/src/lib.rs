@@ -23,19 +23,18 @@
 //! | the order of splittings for perturbed systems | [`Tableau::perturbed_order`] |
 //! | linear stability on the oscillator | [`stability`] |
 //! | what a user requires of a method | [`Requirement`], [`Tableau::require`], [`assert_order!`] |
-//! | tables of other libraries | [`import`], [`Library`]; what they claim and what is proved: [`audit`] |
 //! | text, JSON, TOML; reading and checking files | [`export`], [`check`] |
 //! | known methods | [`catalogue`] |
-//! | programs that take steps in C, Rust, Julia, Python | [`stepper`] |
-//! | explicit methods from printed digits, with a proof that an exact method is near | [`certify`], [`refine()`] for files, [`refine_table()`] for Butcher arrays |
+//! | explicit methods from printed digits, with a proof that an exact method is near | [`certify`] |
 //! | Rust code | [`emit`], from the order of computation found in [`schedule`] |
+//!
+//! Tables in other languages, programs that take steps, and certificates are in the package `symplectic-tools`.
 //!
 //! Statements about a tableau are decided in exact arithmetic where its coefficients are functions of the
 //! nodes or elements of a constant field, and refuted or verified by enclosures elsewhere. Numbers are rounded
 //! from certified enclosures, ties decided exactly, so every printed digit and every double is the correct one.
 
 pub mod algebra;
-pub mod audit;
 mod basis;
 pub mod catalogue;
 pub mod certify;
@@ -54,7 +53,8 @@ pub mod export;
 pub mod expression;
 pub mod formula;
 mod hamiltonian_class;
-mod import;
+#[doc(hidden)]
+pub mod inside;
 mod library;
 mod limits;
 mod numerals;
@@ -63,11 +63,9 @@ pub mod order;
 mod partitioned;
 mod properties;
 mod quadrature;
-mod refine;
 mod requirement;
 pub mod schedule;
 pub mod stability;
-pub mod stepper;
 mod suggestion;
 pub mod symbolic;
 mod tableau;
@@ -79,14 +77,10 @@ pub use definition::{Definition, Key};
 pub use error::{Error, ErrorKind, Place};
 pub use evidence::Evidence;
 pub use exact::Tier;
-pub use import::{ImportOrigin, OwnNames, import, import_own, import_with_origin};
 pub use library::{Library, Stepping};
 pub use limits::Limits;
 pub use properties::{Properties, Property, SeparableProperties};
 pub use quadrature::{FAMILIES, Family, Nodes, QuadratureRule};
-pub use refine::{
-    RefinedTable, Refinement, refine, refine_table, refine_table_to_nearest, refine_to_nearest,
-};
 pub use requirement::{Requirement, failed_assertion, require};
 pub use suggestion::{did_you_mean, suggestion, with_suggestion};
 pub use symplectic_exact as arithmetic;

@@ -50,7 +50,7 @@ pub struct Stepping {
 
 /// The language that tables are written in, as far as it makes a difference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Notation {
+pub enum Notation {
     /// `//` begins a comment, lines do not end a statement, and lists are numbered from 0.
     C,
     /// `1//2` is a fraction, and lists are numbered from 1; Matlab and Fortran too.
@@ -205,7 +205,7 @@ impl Library {
     }
 
     /// The language of its tables.
-    pub(crate) const fn notation(self) -> Notation {
+    pub const fn notation(self) -> Notation {
         match self {
             Library::Sundials
             | Library::Petsc

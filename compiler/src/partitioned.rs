@@ -38,7 +38,7 @@ pub struct Partitioned<A: StageAlgebra> {
 ///
 /// and zero elsewhere, so that the weights say all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum LowerTriangular {
+pub enum LowerTriangular {
     /// `P_i` contains the kick at `Q_i`.
     KicksFirst,
     /// `Q_i` contains the drift at `P_i`.
@@ -59,7 +59,7 @@ impl LowerTriangular {
 
 /// The flows of a splitting in their order: alternating kicks and drifts, without flows of zero time at either end.
 #[derive(Debug, Clone)]
-pub(crate) struct Flows<T> {
+pub struct Flows<T> {
     /// Whether the first one is a kick.
     kick_first: bool,
     /// The fractions of the step.
@@ -114,7 +114,7 @@ impl<T> Flows<T> {
 
 impl<F: Field> Partitioned<Dense<F>> {
     /// The coefficients of a splitting with the drifts `b` and the kicks `b̃`.
-    pub(crate) fn of_splitting(
+    pub fn of_splitting(
         field: F,
         lower_triangular: LowerTriangular,
         b: Vec<F::Element>,
@@ -256,7 +256,7 @@ impl<A: StageAlgebra> Partitioned<A> {
     }
 
     /// Whether the coefficients have the form of a splitting; other coefficients may also be splittings.
-    pub(crate) fn lower_triangular(&self) -> Option<LowerTriangular> {
+    pub fn lower_triangular(&self) -> Option<LowerTriangular> {
         let algebra = &*self.algebra;
         let steps = |positions, momenta| {
             algebra.is_lower_triangular(&self.a, &self.b, positions)

@@ -27,9 +27,9 @@ const ROOMS: &[&[&str]] = &[
     &["tableau"],
     &["efficiency", "operations", "requirement"],
     &["export"],
-    &["check", "emit", "refine"],
-    &["import", "stepper"],
-    &["audit"],
+    &["check", "emit"],
+    // What the package `symplectic-tools` needs.
+    &["inside"],
 ];
 
 /// A number field decides whether a constant is zero, and its numbers are constants.
@@ -142,7 +142,7 @@ fn imports_run_downward() {
         found.extend(faults(&file, &text));
     }
     assert_eq!(found, Vec::<String>::new());
-    assert!(seen > 900, "{seen}");
+    assert!(seen > 700, "{seen}");
 }
 
 #[test]

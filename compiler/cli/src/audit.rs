@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use symplectic_compiler::audit::{Audit, Row, Verdict};
 use symplectic_compiler::{Error, ErrorKind, export};
 use symplectic_terminal::{aligned, print};
+use symplectic_tools::audit::{Audit, Row, Verdict};
 
 use crate::output;
 

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use clap::Args;
 use symplectic_compiler::{Error, ErrorKind, Tableau, catalogue, check, export};
 use symplectic_terminal::print;
+use symplectic_tools::certificate;
 
 use crate::output;
 
@@ -26,7 +27,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Error> {
-    let text = export::certificate::write(&tableau(&arguments.method, arguments.max_stages)?)?;
+    let text = certificate::write(&tableau(&arguments.method, arguments.max_stages)?)?;
     match &arguments.out {
         None => print(&text),
         Some(path) => {

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
-use symplectic_compiler::stepper::{SteppedClass, Stepper};
 use symplectic_compiler::{Error, Tableau, catalogue, check, export};
 use symplectic_terminal::print;
+use symplectic_tools::{SteppedClass, Stepper};
 
 use crate::{formula, output};
 

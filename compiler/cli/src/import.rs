@@ -4,10 +4,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
-use symplectic_compiler::{
-    Error, ErrorKind, ImportOrigin, Library, OwnNames, export, import_own, import_with_origin,
-};
+use symplectic_compiler::{Error, ErrorKind, Library, export};
 use symplectic_terminal::{errors, print};
+use symplectic_tools::{ImportOrigin, OwnNames, import_own, import_with_origin};
 
 use crate::output::{self, OutputOptions};
 

@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use symplectic_compiler::catalogue::Entry;
-use symplectic_compiler::export::{self, DEFAULT_DIGITS, Language, MAX_DIGITS, TEXT_DIGITS};
+use symplectic_compiler::export::{self, DEFAULT_DIGITS, MAX_DIGITS, TEXT_DIGITS};
 use symplectic_compiler::order::ClassOrder;
 use symplectic_compiler::{Error, ErrorKind, Limits, Tableau};
 
 use symplectic_terminal::errors;
+use symplectic_tools::Language;
 
 /// An order, with "≥" if only a lower bound is known.
 pub(crate) fn order(found: &ClassOrder) -> String {

@@ -4,11 +4,10 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
+use symplectic_compiler::Error;
 use symplectic_compiler::export::{self, DEFAULT_DIGITS};
-use symplectic_compiler::{
-    Error, refine, refine_table, refine_table_to_nearest, refine_to_nearest,
-};
 use symplectic_terminal::print;
+use symplectic_tools::{refine, refine_table, refine_table_to_nearest, refine_to_nearest};
 
 use crate::output;
 

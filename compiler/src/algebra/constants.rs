@@ -189,7 +189,7 @@ impl Parts {
 
 impl Constants {
     /// The field.
-    pub(crate) fn field(&self) -> &ConstantField {
+    pub fn field(&self) -> &ConstantField {
         &self.field
     }
 

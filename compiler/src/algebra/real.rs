@@ -151,7 +151,7 @@ impl Real {
 
     /// The number as an affine function of the unknowns of `certificate`, which is set to the first certificate found; `None`
     /// if the number is not such a function.
-    pub(crate) fn affine(&self, certificate: &mut Option<Certificate>) -> Option<Affine> {
+    pub fn affine(&self, certificate: &mut Option<Certificate>) -> Option<Affine> {
         let one = BigRational::one();
         match &self.0.operation {
             Operation::Rational(value) => Some(Affine::rational(value.clone())),

@@ -12,13 +12,15 @@ use crate::arithmetic::interval::Interval;
 
 /// `c + Σ_i f_i x_i`
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Affine {
+pub struct Affine {
+    /// `c`
     pub constant: BigRational,
     /// The factors of the unknowns, by their indices; none is zero.
     pub factors: BTreeMap<usize, BigRational>,
 }
 
 impl Affine {
+    /// A function that is a number.
     pub fn rational(value: BigRational) -> Self {
         Affine {
             constant: value,
@@ -26,10 +28,12 @@ impl Affine {
         }
     }
 
+    /// The number, if the function is one.
     pub fn as_rational(&self) -> Option<&BigRational> {
         self.factors.is_empty().then_some(&self.constant)
     }
 
+    /// The multiple by a number.
     pub fn scaled(&self, factor: &BigRational) -> Self {
         Affine::rational(BigRational::zero()).plus(self, factor)
     }
@@ -47,7 +51,7 @@ impl Affine {
 
 /// The solved conditions, in the form that certificates for other programs contain.
 #[derive(Debug)]
-pub(crate) struct Solved {
+pub struct Solved {
     /// The claim for which the conditions are sufficient; for a composition, an order with any symmetric base.
     pub claim: Claim,
     /// The fractions of a composition, in the order of its steps.
@@ -56,7 +60,7 @@ pub(crate) struct Solved {
 
 impl Certificate {
     /// A coefficient as an affine function of the unknowns whose values are not known rationals.
-    pub(crate) fn affine(&self, coefficient: Coefficient) -> Option<Affine> {
+    pub fn affine(&self, coefficient: Coefficient) -> Option<Affine> {
         let target = self.target(coefficient)?;
         let terms = target.terms.iter();
         Some(terms.fold(
@@ -77,7 +81,7 @@ impl Certificate {
     }
 
     /// The conditions that were solved; `None` for a method whose coefficients are all rational.
-    pub(crate) fn solved(&self) -> Option<Solved> {
+    pub fn solved(&self) -> Option<Solved> {
         let Solution::Enclosed(enclosed) = self.solution() else {
             return None;
         };
@@ -92,7 +96,7 @@ impl Certificate {
     }
 
     /// Enclosures of all unknowns.
-    pub(crate) fn enclosed_unknowns(&self, bits: u32) -> Vec<Interval> {
+    pub fn enclosed_unknowns(&self, bits: u32) -> Vec<Interval> {
         self.solution().unknowns(bits)
     }
 }

@@ -86,7 +86,7 @@ pub(super) enum Solution {
 
 /// Enclosures of the unknowns with increasing binary places.
 #[derive(Debug)]
-pub(crate) struct Enclosed<S = System> {
+pub struct Enclosed<S = System> {
     proof: Proof<S>,
     /// The rational unknowns: the fixed ones, and those that they determine linearly.
     known: Vec<Option<BigRational>>,
@@ -101,6 +101,7 @@ struct Level {
 }
 
 impl Enclosed {
+    /// The solution that a proof encloses.
     pub fn new(proof: Proof) -> Self {
         let known = proof.square.linear_values();
         Enclosed::with_known(proof, known)
@@ -217,7 +218,7 @@ impl Certificate {
     }
 
     /// Whether both are the same certificate (the same allocation).
-    pub(crate) fn is(&self, other: &Certificate) -> bool {
+    pub fn is(&self, other: &Certificate) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
 

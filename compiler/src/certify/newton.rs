@@ -35,6 +35,7 @@ impl Equations for System {
 /// As many conditions as unknowns: the other arguments are fixed.
 #[derive(Debug, Clone)]
 pub struct Square<S = System> {
+    /// The conditions.
     pub system: S,
     /// The values of the fixed arguments.
     pub fixed: Vec<Option<BigRational>>,

@@ -129,7 +129,7 @@ impl Printed {
     }
 
     /// The number 0.
-    pub(crate) fn zero() -> Self {
+    pub fn zero() -> Self {
         Printed {
             text: "0".to_owned(),
             value: BigRational::zero(),
@@ -223,7 +223,7 @@ fn decimal_length(value: &BigInt) -> u64 {
 const LONGEST_DECIMAL: u64 = 1 << 10;
 
 /// A number as a decimal with all its places; `None` if it does not terminate, or is very long.
-pub(crate) fn decimal_text(value: &BigRational) -> Option<String> {
+pub fn decimal_text(value: &BigRational) -> Option<String> {
     // A denominator below 2ⁿ has at most n factors 2 or 5.
     let places = value.denom().bits();
     if places > LONGEST_DECIMAL {

@@ -40,6 +40,7 @@ const SMALL_RADIUS_BITS: u32 = 64;
 /// A cube with exactly one solution, which a point approximates.
 #[derive(Debug, Clone)]
 pub struct Proof<S = System> {
+    /// The conditions and the fixed arguments.
     pub square: Square<S>,
     /// The binary places of `center`, `matrix` and `radius`.
     pub bits: u32,

@@ -77,7 +77,7 @@ pub fn certify_composition(weights: &[Printed], order: usize) -> Result<Certific
 }
 
 /// The binary places of the proof.
-pub(crate) const PROOF_BITS: u32 = 320;
+pub const PROOF_BITS: u32 = 320;
 
 /// The binary places with which digits are compared: more than the digits have.
 fn digit_bits<'a>(all: impl Iterator<Item = &'a Printed>) -> u32 {

@@ -40,7 +40,7 @@ const MAX_SUSPECTS: usize = 4;
 const GUARD_BITS: u64 = 40;
 
 /// The outcome of the search.
-pub(crate) enum Settled {
+pub enum Settled {
     /// Values of the fixed unknowns with which all numbers round to their prints.
     All(Vec<Option<BigRational>>),
     /// No such values were found.
@@ -53,14 +53,14 @@ pub(crate) enum Settled {
 }
 
 /// A printed number that could be wrong.
-pub(crate) struct Suspect {
+pub struct Suspect {
     pub coefficient: Coefficient,
     /// Values of the fixed unknowns with which all other numbers round to their prints.
     pub fixed: Vec<Option<BigRational>>,
 }
 
 /// Looks for an exact method near that of `square` which has all printed digits.
-pub(crate) fn settle<S: Equations>(
+pub fn settle<S: Equations>(
     square: &Square<S>,
     unknowns: &[Unknown],
     targets: &[Target],

@@ -90,10 +90,13 @@ pub struct Unknown {
 /// A printed coefficient as a combination of unknowns.
 #[derive(Debug, Clone)]
 pub struct Target {
+    /// The coefficient.
     pub name: Coefficient,
+    /// The printed value.
     pub printed: BigRational,
     /// Half a unit of the last printed place; zero for a number that is printed exactly.
     pub half: BigRational,
+    /// Unknowns with their factors.
     pub terms: Vec<(usize, BigRational)>,
 }
 

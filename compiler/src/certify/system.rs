@@ -42,7 +42,9 @@ pub enum Kind {
 /// The order conditions of a product of steps.
 #[derive(Debug, Clone)]
 pub struct System {
+    /// The steps.
     pub steps: Vec<Step>,
+    /// The conditions on their product.
     pub conditions: Conditions,
 }
 

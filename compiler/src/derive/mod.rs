@@ -25,7 +25,7 @@ mod tiers;
 
 pub(crate) use self::composition::{Step, check_depth};
 pub(crate) use self::concatenate::concatenate;
-pub(crate) use self::named_compositions::Scheme;
+pub use self::named_compositions::Scheme;
 pub(crate) use self::problem::Problem;
 
 #[cfg(test)]

@@ -24,7 +24,9 @@ pub const MAX_ORDER: usize = 10;
 /// A named composition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scheme {
+    /// The triple jump.
     TripleJump,
+    /// Suzuki's fractal.
     Suzuki,
 }
 
@@ -65,6 +67,7 @@ impl Scheme {
         (order as usize <= MAX_ORDER).then_some((scheme, order))
     }
 
+    /// The name in definitions.
     pub fn name(self) -> &'static str {
         match self {
             Scheme::TripleJump => Self::NAMES[0],

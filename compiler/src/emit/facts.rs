@@ -13,7 +13,7 @@ use crate::tableau::Tableau;
 
 /// Results that plans share: many are the same for both classes of systems, and all occur twice if the two halves of the
 /// tableau are equal.
-pub(crate) struct Known {
+pub struct Known {
     /// Whether `a = ã` and `b = b̃`.
     equal_halves: bool,
     complements: RefCell<BTreeMap<[Term; 2], Complements>>,
@@ -45,7 +45,7 @@ pub(super) enum Half {
 
 impl Known {
     /// An empty cache.
-    pub(crate) fn new(tableau: &Tableau) -> Self {
+    pub fn new(tableau: &Tableau) -> Self {
         Known {
             equal_halves: tableau.equal_halves() == (true, true),
             complements: RefCell::default(),

@@ -23,8 +23,8 @@ pub use self::constrained::{
 };
 pub use self::symplectic_rounding::Rounded;
 pub use self::system::system;
-pub(crate) use facts::Known;
-pub(crate) use symplectic_rounding::Relative;
+pub use facts::Known;
+pub use symplectic_rounding::Relative;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};

@@ -77,7 +77,7 @@ pub struct Relative {
 impl Relative {
     /// The relative coefficients; `None` if the method is not symplectic, if a weight is zero, or if a weight is so small that
     /// a quotient has no exact complement.
-    pub(crate) fn new(graph: &StepGraph<'_>, known: &Known) -> Option<Self> {
+    pub fn new(graph: &StepGraph<'_>, known: &Known) -> Option<Self> {
         let evaluations = || graph.velocities.iter().chain(&graph.forces);
         if evaluations().any(|evaluation| evaluation.weight.is_zero()) {
             return None;

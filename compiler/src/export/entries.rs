@@ -313,7 +313,7 @@ pub(super) fn offset(text: &str, line: usize, column: usize) -> usize {
 }
 
 /// A span cut at the end of its first line, so that a caret can be placed under it.
-pub(crate) fn first_line(text: &str, span: Range<usize>) -> Range<usize> {
+pub fn first_line(text: &str, span: Range<usize>) -> Range<usize> {
     let end = text
         .get(span.clone())
         .and_then(|part| part.find(['\n', '\r']))

@@ -8,7 +8,7 @@ use crate::stability::{EndPoint, MOST_STAGES, RungeKuttaStability, Stability, St
 use crate::tableau::Tableau;
 
 /// A value in a file.
-pub(super) enum Fact {
+pub enum Fact {
     /// A text.
     Text(String),
     /// A number or a truth value in its notation, the same in all formats.
@@ -110,7 +110,7 @@ pub(super) fn sections(
 }
 
 /// Properties that hold for separable Hamiltonians and are not known to hold for all: their names in files and for people.
-pub(super) fn separable_only(tableau: &Tableau) -> Vec<(&'static str, &'static str, Property)> {
+pub fn separable_only(tableau: &Tableau) -> Vec<(&'static str, &'static str, Property)> {
     let properties = tableau.properties();
     if properties.symplectic.holds && properties.symmetric.holds {
         return Vec::new();

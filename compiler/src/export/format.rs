@@ -15,7 +15,7 @@ use crate::expression::Input;
 /// | 1 | the first; a file may lack facts that were not written then |
 /// | 2 | the file has its format, every property, the orders and the stability; adjoints and compositions of `constrained` methods are so too, and compositions that keep their order are `nonholonomic` |
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Format(u64);
+pub struct Format(u64);
 
 impl Format {
     /// The format that is written.

@@ -1,34 +1,31 @@
-//! Tableaux as text: a table for people, JSON for programs, TOML for lossless exchange, and the notation of other languages.
+//! Tableaux as text: a table for people, JSON for programs, TOML for lossless exchange.
 //!
 //! | format | written by | read by | holds |
 //! |---|---|---|---|
 //! | text | [`text::write`] | | exact entries where short, decimals otherwise, the properties |
 //! | JSON | [`json::write`] | [`json::read`] | short exact forms, decimals, doubles, the properties |
 //! | TOML | [`toml::write`] | [`toml::read`] | all exact data, decimals, the properties |
-//! | certificate | [`certificate::write`] | `tableaux/check_certificate.py` | all exact data, doubles, what is proved |
-//! | LaTeX, C, Fortran, Julia, Python, SUNDIALS, PETSc, nodepy, RungeKutta.jl, Coq | [`Language::write`] | that language | the coefficients |
 
 use crate::coefficients::Coefficients;
 use crate::exact::Exact;
 use crate::tableau::{Tableau, left_out};
 
-pub mod certificate;
 pub mod columns;
 mod encoding;
 mod entries;
 mod facts;
 mod format;
 pub mod json;
-pub(crate) mod language;
 mod provenance;
 pub mod text;
 pub mod toml;
 
 pub use crate::expression::without_mark;
 pub use encoding::read_text;
-pub(crate) use entries::{compare, first_line};
-pub(crate) use format::Format;
-pub use language::Language;
+pub(crate) use entries::compare;
+pub use entries::first_line;
+pub use facts::{Fact, separable_only};
+pub use format::Format;
 
 /// The default number of significant digits of decimals in JSON and TOML.
 pub const DEFAULT_DIGITS: usize = 40;
@@ -55,7 +52,7 @@ pub fn most_digits(tableau: &Tableau) -> usize {
 }
 
 /// The coefficients without the matrices that are left out.
-fn written<T>(tableau: &Tableau, mut coefficients: Coefficients<T>) -> Coefficients<T> {
+pub fn written<T>(tableau: &Tableau, mut coefficients: Coefficients<T>) -> Coefficients<T> {
     if left_out(tableau).is_some() {
         (coefficients.a, coefficients.a_tilde) = (Vec::new(), Vec::new());
     }

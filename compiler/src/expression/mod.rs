@@ -15,7 +15,7 @@ mod parser;
 mod value;
 
 pub(crate) use lexer::{number, number_end};
-pub(crate) use value::shown;
+pub use value::shown;
 
 use std::ops::Range;
 
@@ -130,7 +130,7 @@ pub fn without_mark(text: &str) -> &str {
 
 impl<'a> Input<'a> {
     /// The text of a file, without a byte-order mark at its start.
-    pub(crate) fn of_file(name: &'a str, text: &'a str) -> Self {
+    pub fn of_file(name: &'a str, text: &'a str) -> Self {
         let text = without_mark(text);
         Input { name, text }
     }

@@ -56,7 +56,7 @@ impl Expression {
 }
 
 /// A word of the input as it is repeated in a message: whole if it is short.
-pub(crate) fn shown(text: &str) -> String {
+pub fn shown(text: &str) -> String {
     const LENGTH: usize = 40;
     if text.chars().count() <= LENGTH {
         return text.to_owned();

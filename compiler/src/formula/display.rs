@@ -549,7 +549,7 @@ fn number(value: &Number, notation: Notation) -> (String, Strength) {
 }
 
 /// The letter of the index of a loop.
-pub(crate) fn index_letter(over: LoopId) -> String {
+pub fn index_letter(over: LoopId) -> String {
     match ["i", "j", "k", "l", "m"].get(over.0) {
         Some(letter) => (*letter).to_owned(),
         None => format!("i{}", over.0),

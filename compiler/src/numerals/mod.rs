@@ -7,8 +7,8 @@ mod source;
 mod tokens;
 mod value;
 
-pub(crate) use source::{Source, value_of, zero};
-pub(crate) use value::{PLACES, Value};
+pub use source::{Source, value_of, zero};
+pub use value::{PLACES, Value};
 
 use std::ops::Range;
 
@@ -17,7 +17,7 @@ use crate::expression::Input;
 use crate::library::Notation;
 
 /// A number that is computed from printed ones, such as `1 - 2*0.2345678`: exact given these, with the bound of their rounding.
-pub(crate) fn computed(input: Input<'_>, range: Range<usize>) -> Option<Printed> {
+pub fn computed(input: Input<'_>, range: Range<usize>) -> Option<Printed> {
     let value = value_of(input, range, Notation::Julia).ok()?;
     value.constant.as_rational()?;
     value.printed().ok()

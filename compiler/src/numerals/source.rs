@@ -29,7 +29,7 @@ const MAX_COPIES: usize = 100 * MAX_NUMBERS;
 
 /// The assignments to a name.
 #[derive(Default)]
-pub(crate) struct Assigned {
+pub struct Assigned {
     /// The place of the name and the first token of the value, if the name is assigned as a whole.
     pub whole: Option<(Range<usize>, usize)>,
     /// The same for elements such as `a[3]`, by index.
@@ -67,15 +67,17 @@ struct Target {
 }
 
 /// A text with its assignments.
-pub(crate) struct Source<'a> {
-    pub input: Input<'a>,
-    pub notation: Notation,
+pub struct Source<'a> {
+    pub(super) input: Input<'a>,
+    pub(super) notation: Notation,
+    /// Whether the text is Fortran.
     pub fortran: bool,
     /// Lists of Fortran with an explicit lower bound.
     pub bounded: BTreeSet<String>,
     tokens: Vec<Spanned>,
     /// The bracket depth of each token.
     depths: Vec<usize>,
+    /// The assignments.
     pub names: BTreeMap<String, Assigned>,
     /// The number of computed values. It is bounded, because names may refer to each other many times.
     computed: Cell<usize>,
@@ -615,11 +617,7 @@ impl<'a> Source<'a> {
 }
 
 /// The exact value of one text, as in `a = "1/3"`.
-pub(crate) fn value_of(
-    input: Input<'_>,
-    range: Range<usize>,
-    notation: Notation,
-) -> Result<Value, Error> {
+pub fn value_of(input: Input<'_>, range: Range<usize>, notation: Notation) -> Result<Value, Error> {
     let source = Source::empty(input, notation);
     let mut parser = Parser {
         source: &source,
@@ -645,6 +643,6 @@ fn number(name: &str, key: &str) -> Option<usize> {
 }
 
 /// The number 0.
-pub(crate) fn zero() -> Value {
+pub fn zero() -> Value {
     Value::exact(Constant::zero())
 }

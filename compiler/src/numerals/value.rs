@@ -15,11 +15,11 @@ const EXACT_DIGITS: usize = 6;
 /// Doubles with at most this many binary digits are exact: `0x1.8p-1`.
 const EXACT_BITS: u64 = 20;
 /// The decimal places of irrational exact values when others are decimals.
-pub(crate) const PLACES: u32 = 50;
+pub const PLACES: u32 = 50;
 
 /// A number of a table.
 #[derive(Debug, Clone)]
-pub(crate) struct Value {
+pub struct Value {
     /// The exact value as written.
     pub constant: Constant,
     /// Half a unit of the last place of a decimal, propagated through operations; zero for an exact number.
@@ -146,7 +146,7 @@ impl Value {
         }
     }
 
-    pub fn negate(&self) -> Result<Self, ErrorKind> {
+    pub(super) fn negate(&self) -> Result<Self, ErrorKind> {
         let text = self.text.as_ref();
         Ok(Value {
             constant: self.constant.negate()?,
@@ -159,6 +159,7 @@ impl Value {
         })
     }
 
+    /// The sum.
     pub fn add(&self, other: &Self) -> Result<Self, ErrorKind> {
         Ok(Value {
             constant: self.constant.add(&other.constant)?,
@@ -168,11 +169,12 @@ impl Value {
         })
     }
 
+    /// The difference.
     pub fn subtract(&self, other: &Self) -> Result<Self, ErrorKind> {
         self.add(&other.negate()?)
     }
 
-    pub fn multiply(&self, other: &Self) -> Result<Self, ErrorKind> {
+    pub(super) fn multiply(&self, other: &Self) -> Result<Self, ErrorKind> {
         let (x, y) = (self.rational().abs(), other.rational().abs());
         Ok(Value {
             constant: self.constant.multiply(&other.constant)?,
@@ -182,7 +184,7 @@ impl Value {
         })
     }
 
-    pub fn divide(&self, other: &Self) -> Result<Self, ErrorKind> {
+    pub(super) fn divide(&self, other: &Self) -> Result<Self, ErrorKind> {
         let constant = self.constant.divide(&other.constant)?;
         let quotient = Value::exact(constant.clone()).rational().abs();
         let divisor = other.rational().abs();

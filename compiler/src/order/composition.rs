@@ -76,11 +76,7 @@ fn holds_over<F: Field>(
 
 /// The order of a composition of any method of order 1, or of any symmetric one, with these fractions, as far as conditions of at most this
 /// residual tell.
-pub(crate) fn order_within(
-    fractions: &[BigRational],
-    symmetric: bool,
-    tolerance: &BigRational,
-) -> usize {
+pub fn order_within(fractions: &[BigRational], symmetric: bool, tolerance: &BigRational) -> usize {
     let steps = vec![(0, false); fractions.len()];
     let near = |x: &BigRational, wanted: &BigRational| (x - wanted).abs() <= *tolerance;
     let holds = |order: &usize| {

@@ -51,16 +51,17 @@ pub use modified::ModifiedTerm;
 pub(crate) use modified::modified_equation;
 pub use observed::Pendulum;
 pub(crate) use observed::observed_order;
+pub use perturbed::listed;
+pub(crate) use perturbed::perturbed_order;
 pub use perturbed::{PerturbedOrder, PowerOrder, ViolatedWord};
-pub(crate) use perturbed::{listed, perturbed_order};
-pub(crate) use plan::Plan;
+pub use plan::Plan;
 pub use report::{ClassOrder, OrderReport, ViolatedCondition};
 pub use simplifying::SimplifyingAssumptions;
 pub(crate) use simplifying::simplifying_assumptions;
 pub(crate) use symplecticity::symplecticity_order;
 pub use symplecticity::{SymplecticityOrder, SymplecticityViolation};
 pub use tree::{BicolouredTree, Colour, TreeError};
-pub(crate) use weights::one_of_each_rooting;
+pub use weights::one_of_each_rooting;
 
 use num_rational::BigRational;
 use num_traits::Signed;
@@ -266,7 +267,7 @@ fn class_order<A: StageAlgebra>(
 
 /// The order for a class up to a tolerance of the conditions, for rounded numbers, and the first condition violated by more than
 /// that. The order is at most `limit`.
-pub(crate) fn order_within<A: StageAlgebra>(
+pub fn order_within<A: StageAlgebra>(
     pair: &Partitioned<A>,
     class: HamiltonianClass,
     tolerance: &BigRational,

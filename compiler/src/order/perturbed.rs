@@ -165,7 +165,7 @@ pub(crate) fn perturbed_order(exact: &Exact, given: Option<&GivenOrder>) -> Opti
 }
 
 /// Orders in `ε`, `ε²`, … as text: `(8, 4)`.
-pub(crate) fn listed(orders: &[usize]) -> String {
+pub fn listed(orders: &[usize]) -> String {
     let orders: Vec<String> = orders.iter().map(usize::to_string).collect();
     format!("({})", orders.join(", "))
 }

@@ -9,7 +9,7 @@ use super::tree::Colour;
 
 /// A tree from which other trees are formed.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Planned {
+pub struct Planned {
     /// Whether its root is coloured `p`: it takes `b̃` and, as a child, `ã`.
     pub momentum: bool,
     /// An earlier tree, and another one that becomes an additional child of its root.
@@ -18,16 +18,21 @@ pub(crate) struct Planned {
 
 /// `Σ_i b_i Φ_i(rest) Σ_j a_ij Φ_j(last) = wanted`.
 #[derive(Debug, Clone)]
-pub(crate) struct PlannedCondition {
+pub struct PlannedCondition {
+    /// The tree whose root is that of the whole.
     pub rest: usize,
+    /// The tree that becomes an additional child of that root.
     pub last: usize,
+    /// The value.
     pub wanted: BigRational,
 }
 
 /// The conditions of some orders.
 #[derive(Debug, Clone)]
-pub(crate) struct Plan {
+pub struct Plan {
+    /// The trees, each formed from earlier ones.
     pub trees: Vec<Planned>,
+    /// The conditions on them.
     pub conditions: Vec<PlannedCondition>,
 }
 

@@ -34,7 +34,7 @@ pub(super) fn most_products<F: Field>(field: &F) -> usize {
 }
 
 /// The conditions for quadratic `T` of these orders that remain for a symplectic method, as trees, with the elementary weights.
-pub(crate) fn one_of_each_rooting(
+pub fn one_of_each_rooting(
     pair: &Partitioned<Dense<Rationals>>,
     orders: impl Iterator<Item = usize>,
 ) -> Vec<(BicolouredTree, BigRational)> {

@@ -205,7 +205,7 @@ pub(crate) fn count(
 }
 
 /// A number of stages within the limits.
-pub(crate) fn check_stages(stages: &BigInt, limits: &Limits) -> Result<usize, ErrorKind> {
+pub fn check_stages(stages: &BigInt, limits: &Limits) -> Result<usize, ErrorKind> {
     stages
         .to_usize()
         .filter(|&s| s <= limits.stages)

@@ -102,7 +102,7 @@ pub struct Schedule {
 
 impl<'a> StepGraph<'a> {
     /// The graph of a tableau.
-    pub(crate) fn new(class: Class, exact: &'a Exact, numbers: &Coefficients<Number<'a>>) -> Self {
+    pub fn new(class: Class, exact: &'a Exact, numbers: &Coefficients<Number<'a>>) -> Self {
         over_algebra!(exact, pair => Self::of_pair(class, pair, numbers))
     }
 
@@ -225,7 +225,7 @@ impl<'a> StepGraph<'a> {
     }
 
     /// The stages of the tableau that an evaluation belongs to.
-    pub(crate) fn stages_of(&self, evaluation: &Evaluation<'_>) -> Vec<usize> {
+    pub fn stages_of(&self, evaluation: &Evaluation<'_>) -> Vec<usize> {
         let position = evaluation.position.map(|i| &self.positions[i].stages);
         let momentum = evaluation.momentum.map(|i| &self.momenta[i].stages);
         match (position, momentum) {

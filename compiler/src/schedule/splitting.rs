@@ -58,7 +58,7 @@ impl<'a> StepGraph<'a> {
     }
 
     /// The only stage value that an evaluation depends on, for separable Hamiltonians.
-    pub(crate) fn argument(&self, node: Node) -> Option<&StageValue<'a>> {
+    pub fn argument(&self, node: Node) -> Option<&StageValue<'a>> {
         let evaluation = self.evaluation(node);
         match node {
             Node::Force(_) => self.positions.get(evaluation.position?),

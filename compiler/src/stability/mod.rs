@@ -72,9 +72,11 @@ pub struct Stability {
     /// The stability function, for methods with `ã = a` and `b̃ = b`.
     pub runge_kutta: Option<RungeKuttaStability>,
     /// Whether the matrix is 1 or −1 for some ν.
-    pub(crate) touches: bool,
+    #[doc(hidden)]
+    pub touches: bool,
     /// `det(1 + ν²ÃA)`, where the stages have no unique solution if it vanishes.
-    pub(crate) stages: RationalFunction,
+    #[doc(hidden)]
+    pub stages: RationalFunction,
     /// The evidence: proved, verified if zeros are known only from enclosures, or undecided. If it is undecided, the
     /// other fields need not be correct.
     pub evidence: Evidence,

@@ -179,6 +179,22 @@ impl Tableau {
         self
     }
 
+    /// The coefficients in the algebra that holds them.
+    #[doc(hidden)]
+    pub fn exact(&self) -> &Exact {
+        &self.exact
+    }
+
+    /// The same tableau with other coefficients.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn with_exact(self, exact: Exact) -> Self {
+        Tableau {
+            exact: Arc::new(exact),
+            ..self
+        }
+    }
+
     /// The name, if it was given one.
     pub fn name(&self) -> Option<&str> {
         self.name.as_deref()
@@ -254,7 +270,7 @@ impl Tableau {
 }
 
 /// How the weights make the matrices of a splitting that are left out; `None` where they are not.
-pub(crate) fn left_out(tableau: &Tableau) -> Option<LowerTriangular> {
+pub fn left_out(tableau: &Tableau) -> Option<LowerTriangular> {
     let long = tableau.stages() > LARGEST_MATRICES;
-    long.then(|| over_algebra!(&tableau.exact, pair => pair.lower_triangular()))?
+    long.then(|| tableau.exact.lower_triangular())?
 }

@@ -68,7 +68,8 @@ impl Tableau {
     }
 
     /// The properties that follow from the coefficients, whatever the method is composed of.
-    pub(crate) fn own_properties(&self) -> Properties {
+    #[doc(hidden)]
+    pub fn own_properties(&self) -> Properties {
         let decided = || {
             let mut properties = Properties::of(&self.exact);
             // A method of order 1 is consistent.

@@ -1,6 +1,6 @@
 //! Methods: derived, proved, written and read.
 //!
-//! `UPDATE_EXPECT=1 cargo test -p symplectic-compiler -- --include-ignored` writes the catalogue in `tableaux/` and the emitted code anew.
+//! `UPDATE_EXPECT=1 cargo test -p symplectic-compiler -- --include-ignored` writes the emitted code anew.
 
 mod catalogue;
 mod certified;
@@ -9,11 +9,8 @@ mod exchange;
 mod extreme;
 mod extreme_definitions;
 mod golden;
-mod imports;
-mod kept_as_written;
 mod observed_order;
 mod older_files;
-mod own_names;
 mod perturbed;
 mod properties;
 mod refused_files;

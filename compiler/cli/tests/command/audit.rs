@@ -5,8 +5,8 @@ use std::path::Path;
 
 use crate::run::{failure, symplectic};
 use serde_json::Value;
-use symplectic_compiler::audit::{Audit, Row, Verdict};
 use symplectic_compiler::{Error, Limits};
+use symplectic_tools::audit::{Audit, Row, Verdict};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tableaux/libraries");
 

@@ -7,8 +7,8 @@ use std::process::Command;
 
 use crate::run::{failure, stdout};
 use expect_test::expect_file;
-use symplectic_compiler::export::Language;
 use symplectic_compiler::{Coefficients, Tableau, catalogue};
+use symplectic_tools::Language;
 
 #[test]
 fn forms() {

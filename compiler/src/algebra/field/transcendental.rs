@@ -51,7 +51,7 @@ impl Transcendental {
     }
 
     /// The powers `Xᵏ` as text; empty for `k = 0`.
-    pub(crate) fn power(self, k: i64) -> String {
+    pub fn power(self, k: i64) -> String {
         if k == 0 {
             return String::new();
         }

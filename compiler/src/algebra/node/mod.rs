@@ -119,12 +119,12 @@ impl NodeAlgebra {
     }
 
     /// Short exact forms of the values of an element at all nodes, if there are any.
-    pub(crate) fn closed_values(&self, element: &Polynomial) -> Vec<Option<ClosedForm>> {
+    pub fn closed_values(&self, element: &Polynomial) -> Vec<Option<ClosedForm>> {
         closed_form::of_element(self, element)
     }
 
     /// Short exact forms of the entries of a matrix, if there are any.
-    pub(crate) fn closed_entries(&self, matrix: &Tensor) -> Vec<Vec<Option<ClosedForm>>> {
+    pub fn closed_entries(&self, matrix: &Tensor) -> Vec<Vec<Option<ClosedForm>>> {
         closed_form::of_tensor(self, matrix)
     }
 

@@ -16,7 +16,7 @@ use crate::library::Notation;
 type Combine = fn(&Value, &Value) -> Result<Value, ErrorKind>;
 
 /// The value of an expression.
-pub(crate) enum Item {
+pub enum Item {
     One(Value),
     /// A list, with nested lists flattened.
     Many(Vec<Value>),

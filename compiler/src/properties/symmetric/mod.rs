@@ -31,7 +31,7 @@ const SEARCH_BITS: u32 = 512;
 
 /// The images of the stages, counted from 0, under a permutation for which enclosures do not exclude that a tableau is equal to its
 /// adjoint.
-pub(crate) fn images(numbers: &Coefficients<Number<'_>>) -> Option<Vec<usize>> {
+pub fn images(numbers: &Coefficients<Number<'_>>) -> Option<Vec<usize>> {
     search(numbers).ok().map(|Permutation(images)| images)
 }
 
