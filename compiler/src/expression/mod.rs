@@ -11,11 +11,11 @@
 //! this grammar; every node of the tree stores the range of bytes it was read from.
 
 mod lexer;
+mod messages;
 mod parser;
-mod value;
 
 pub(crate) use lexer::{number, number_end};
-pub use value::shown;
+pub use messages::shown;
 
 use std::ops::Range;
 

@@ -1,5 +1,6 @@
 //! Conversion of syntax trees to functions and constants.
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive};
 
@@ -171,6 +172,37 @@ impl Expression {
             return Err(at(count(name, "one argument", arguments.len())));
         };
         one(&argument.function(input)?).map_err(at)
+    }
+
+    /// The value as a rational number.
+    ///
+    /// # Errors
+    /// As [`Self::constant`], and where the value is not known to be rational.
+    pub fn rational(&self, input: Input<'_>) -> Result<BigRational, Error> {
+        let value = self.constant(input)?;
+        value.as_rational().cloned().ok_or_else(|| {
+            let kind = ErrorKind::Type {
+                found: shown(&value.to_string()),
+                expected: "a rational number".to_owned(),
+            };
+            input.error(&self.span, kind)
+        })
+    }
+
+    /// The value as a whole number; any size, any sign.
+    ///
+    /// # Errors
+    /// As [`Self::rational`], and where the value is not whole.
+    pub fn whole(&self, input: Input<'_>) -> Result<BigInt, Error> {
+        let value = self.rational(input)?;
+        if !value.is_integer() {
+            let kind = ErrorKind::Type {
+                found: shown(&value.to_string()),
+                expected: "a whole number".to_owned(),
+            };
+            return Err(input.error(&self.span, kind));
+        }
+        Ok(value.to_integer())
     }
 }
 

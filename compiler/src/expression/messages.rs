@@ -1,43 +1,9 @@
-//! Syntax trees to rationals and counts of stages.
-
-use num_bigint::BigInt;
-use num_rational::BigRational;
+//! Messages about expressions.
 
 use super::{Expression, Input};
 use crate::error::{Error, ErrorKind};
 
 impl Expression {
-    /// The value as a rational number.
-    ///
-    /// # Errors
-    /// As [`Self::constant`], and where the value is not known to be rational.
-    pub fn rational(&self, input: Input<'_>) -> Result<BigRational, Error> {
-        let value = self.constant(input)?;
-        value.as_rational().cloned().ok_or_else(|| {
-            let kind = ErrorKind::Type {
-                found: shown(&value.to_string()),
-                expected: "a rational number".to_owned(),
-            };
-            input.error(&self.span, kind)
-        })
-    }
-
-    /// The value as a whole number; any size, any sign.
-    ///
-    /// # Errors
-    /// As [`Self::rational`], and where the value is not whole.
-    pub fn whole(&self, input: Input<'_>) -> Result<BigInt, Error> {
-        let value = self.rational(input)?;
-        if !value.is_integer() {
-            let kind = ErrorKind::Type {
-                found: shown(&value.to_string()),
-                expected: "a whole number".to_owned(),
-            };
-            return Err(input.error(&self.span, kind));
-        }
-        Ok(value.to_integer())
-    }
-
     /// An error about a name that is not known.
     pub(crate) fn unknown(
         &self,
