@@ -102,7 +102,7 @@ impl RemainingSteps {
     }
 
     pub(crate) const fn skip(&mut self, steps: u64) {
-        self.left -= steps;
+        self.left = self.left.saturating_sub(steps);
         self.alone = self.alone.saturating_sub(steps);
         self.clock.skip(steps);
     }

@@ -28,8 +28,8 @@ pub(super) type MemoryOf<M, S, V, N> = <PlanOf<M, S, V> as Plan>::Memory<V, S, N
 
 /// An integrator: a method that steps a system from a state.
 ///
-/// [`new`](Integrator::new) allocates all memory. A step that fails from what earlier steps left, such as extrapolated stages, is taken once more as
-/// the first step of a new integrator: see [`Statistics::rejected`]. The errors of a step are [`Error::NoConvergence`],
+/// [`new`](Integrator::new) allocates all memory. A step that fails from what earlier steps left, such as extrapolated stages, is taken once
+/// more as the first step of a new integrator: see [`Statistics::rejected`]. The errors of a step are [`Error::NoConvergence`],
 /// [`Error::NonFinite`], [`Error::EvaluationDimension`] and [`Error::TimeResolution`]; with a Newton iteration also
 /// [`Error::SingularMatrix`].
 ///

@@ -16,8 +16,8 @@ use crate::error::Error;
 ///
 /// A step allocates nothing. A step that fails leaves the state and the counts unchanged.
 ///
-/// The run chooses equal steps unless the stepper has its [own](super::Own) pace. The time after `k` steps is computed as `start + k h`, not as a sum. The count starts again when the step size or the state is set and
-/// when [`integrate_to`](Self::integrate_to) ends.
+/// The run chooses equal steps unless the stepper has its [own](super::Own) pace. The time after `k` steps is computed as `start + k h`, not
+/// as a sum. The count starts again when the step size or the state is set and when [`integrate_to`](Self::integrate_to) ends.
 #[derive(Clone)]
 pub struct Run<S> {
     pub(crate) stepper: S,
@@ -28,7 +28,7 @@ pub struct Run<S> {
 }
 
 impl<S: Stepper> Run<S> {
-    /// A run of a stepper from its present state. A negative `step_size` steps backward.
+    /// A run of a stepper from its present state. A negative `step_size` steps backward; a stepper with its [own](super::Own) pace ignores it.
     ///
     /// # Errors
     ///

@@ -142,7 +142,7 @@ pub trait Stepper {
         Ok(true)
     }
 
-    /// The approximate size of the next step, negative in a run backward, if the stepper chooses it.
+    /// The approximate size of the next step, negative in a run backward, if the stepper has its [`Own`](super::Own) pace.
     fn own_step_size(&self) -> Option<f64> {
         None
     }

@@ -14,8 +14,8 @@ use crate::number::{Scalar, Vector};
 impl<S: DenseSteps> Run<S> {
     /// Steps past the last of `times` and calls `observe` with the state at each of them, in order.
     ///
-    /// The step size does not depend on the output times; states inside a step are interpolated if the stepper has dense output, or those of a shorter step. The
-    /// first time may be the present time or lie in the last step. With a negative step size the times decrease.
+    /// The step size does not depend on the output times. States inside a step are interpolated, or those of a shorter step. The first time
+    /// may be the present time or lie in the last step. With a negative step size the times decrease.
     ///
     /// # Errors
     ///
