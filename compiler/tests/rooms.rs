@@ -6,18 +6,12 @@ use std::path::{Path, PathBuf};
 /// The rooms from the lowest to the highest. Those on one line do not import each other, except for [`TOGETHER`].
 const ROOMS: &[&[&str]] = &[
     // The package `symplectic-exact`.
-    &["arithmetic"],
-    &["evidence", "hamiltonian_class", "limits", "suggestion"],
-    &["error", "certify"],
+    &["arithmetic", "error", "suggestion"],
+    &["evidence", "hamiltonian_class", "limits"],
+    &["certify"],
     &["expression"],
     &["symbolic", "algebra"],
-    &[
-        "catalogue",
-        "coefficients",
-        "definition",
-        "formula",
-        "library",
-    ],
+    &["catalogue", "coefficients", "definition", "library"],
     &["numerals", "partitioned", "quadrature"],
     &["basis", "exact"],
     &["schedule", "stability"],
@@ -142,7 +136,7 @@ fn imports_run_downward() {
         found.extend(faults(&file, &text));
     }
     assert_eq!(found, Vec::<String>::new());
-    assert!(seen > 700, "{seen}");
+    assert!(seen > 600, "{seen}");
 }
 
 #[test]

@@ -12,7 +12,7 @@ mod system;
 
 use proc_macro::TokenStream;
 
-use symplectic_compiler::formula::Form;
+use symplectic_formula::Form;
 
 /// Derives, proves and emits the integrator of a basis and nodes, or of any other definition of a method.
 #[proc_macro]

@@ -2,8 +2,9 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::ToTokens;
-use symplectic_compiler::emit::{Header, system};
-use symplectic_compiler::formula::{Form, Structure, System};
+use symplectic_compiler::emit::Header;
+use symplectic_formula::emit::system;
+use symplectic_formula::{Form, Structure, System};
 use syn::parse::ParseStream;
 use syn::{Attribute, Visibility};
 

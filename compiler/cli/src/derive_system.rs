@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use symplectic_compiler::Error;
-use symplectic_compiler::formula::description;
+use symplectic_formula::description;
 use symplectic_terminal::print;
 
 use crate::formula;

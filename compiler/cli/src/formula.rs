@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use symplectic_compiler::export::read_text;
-use symplectic_compiler::formula::{Form, Structure, System};
 use symplectic_compiler::{Error, ErrorKind};
+use symplectic_formula::{Form, Structure, System};
 
 /// Reads and checks the system of a file: a formula, or a TOML file with one.
 pub(crate) fn read(file: &Path) -> Result<(System, Structure), Error> {

@@ -1,41 +1,12 @@
 //! Numbers and names as tokens.
 
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
+
+pub(super) use symplectic_exact::code::{double, identifier, single};
 
 use super::symplectic_rounding::Rounded;
 use crate::algebra::Number;
-
-/// A name of the generated code.
-pub(super) fn identifier(name: &str) -> Ident {
-    Ident::new(name, Span::call_site())
-}
-
-/// A double as the shortest literal that parses to it. Negative numbers are in parentheses, so that a method call
-/// applies to the negative number.
-pub(super) fn double(value: f64) -> TokenStream {
-    // `{:?}` always reads as a floating-point literal: 1.0, never the integer 1.
-    let size = format!("{:?}", value.abs());
-    signed(&size, "f64", value.is_sign_negative())
-}
-
-/// A single as a literal: where an f32 is expected, the literal is read as an f32 directly, not through a double.
-fn single(value: f32) -> TokenStream {
-    let size = format!("{:?}", value.abs());
-    signed(&size, "f32", value.is_sign_negative())
-}
-
-fn signed(size: &str, kind: &str, negative: bool) -> TokenStream {
-    let size = match size.parse::<Literal>() {
-        Ok(literal) => quote!(#literal),
-        // Every finite number is a valid literal; this one is infinite.
-        Err(_) => {
-            let kind = identifier(kind);
-            quote!(::core::primitive::#kind::INFINITY)
-        }
-    };
-    if negative { quote!((-#size)) } else { size }
-}
 
 /// A coefficient as the runtime takes it: rounded to a double, the remainder, and rounded to a single.
 pub(super) fn coefficient(number: &Number<'_>) -> TokenStream {

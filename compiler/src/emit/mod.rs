@@ -16,14 +16,13 @@ mod nystrom;
 mod plan;
 mod predictor;
 mod symplectic_rounding;
-mod system;
 
 pub use self::constrained::{
     ConstrainedStep, ConstrainedSteps, ConstrainedTableau, constrained_steps,
 };
 pub use self::symplectic_rounding::Rounded;
-pub use self::system::system;
 pub use facts::Known;
+pub use symplectic_exact::code::Header;
 pub use symplectic_rounding::Relative;
 
 use proc_macro2::{Ident, TokenStream};
@@ -35,17 +34,6 @@ use crate::error::{ErrorKind, FormulaError};
 use crate::partitioned::LowerTriangular;
 use crate::schedule::Class;
 use crate::tableau::{Tableau, left_out};
-
-/// What the user writes before the braces: attributes, visibility and the name of the type.
-#[derive(Debug, Clone)]
-pub struct Header {
-    /// Attributes, including doc comments.
-    pub attributes: TokenStream,
-    /// The visibility.
-    pub visibility: TokenStream,
-    /// The name of the type.
-    pub name: Ident,
-}
 
 /// The type of a method with its coefficients and its plans.
 ///

@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use num_bigint::BigInt;
 use num_rational::BigRational;
 
-use super::{Input, MAX_EXPONENT, MAX_LENGTH};
+use super::{Input, MAX_LENGTH};
 use crate::error::{Error, ErrorKind};
+use symplectic_exact::input::{number, number_end};
 
 /// The names with hyphens, those of quadrature rules: `radau-left(3)` is a call, not a difference.
 const HYPHENATED: [&str; 4] = [
@@ -81,59 +81,4 @@ pub(super) fn tokenize(input: Input<'_>) -> Result<Vec<(Token, Range<usize>)>, E
     }
     tokens.push((Token::End, text.len()..text.len()));
     Ok(tokens)
-}
-
-/// The end of the number that starts at a position: digits, a fraction, an exponent.
-pub(crate) fn number_end(text: &str, start: usize) -> usize {
-    let digits = |from: usize| {
-        text[from..]
-            .find(|c: char| !c.is_ascii_digit())
-            .map_or(text.len(), |n| from + n)
-    };
-    let mut end = digits(start);
-    if text[end..].starts_with('.') {
-        end = digits(end + 1);
-    }
-    if text[end..].starts_with(['e', 'E']) {
-        let sign = usize::from(text[end + 1..].starts_with(['+', '-']));
-        let exponent = digits(end + 1 + sign);
-        if exponent > end + 1 + sign {
-            end = exponent;
-        }
-    }
-    end
-}
-
-/// The number in `span`, exactly.
-pub(crate) fn number(input: Input<'_>, span: Range<usize>) -> Result<BigRational, Error> {
-    let text = &input.text[span.clone()];
-    let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
-    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    let digits: BigInt = format!("{whole}{fraction}").parse().map_err(|_| {
-        let kind = ErrorKind::Syntax {
-            found: format!("found `{text}`"),
-            expected: "a number".to_owned(),
-        };
-        input.error(&span, kind)
-    })?;
-    let limit = MAX_EXPONENT as i32;
-    let exponent = exponent
-        .parse::<i32>()
-        .ok()
-        .filter(|e| e.abs() <= limit)
-        .ok_or_else(|| {
-            let kind = ErrorKind::Type {
-                found: format!("a number with the exponent {}", super::shown(exponent)),
-                expected: format!("an exponent from -{limit} to {limit}"),
-            };
-            input.error(&span, kind)
-        })?;
-    let power = |n: usize| BigInt::from(10u32).pow(n as u32);
-    let value = BigRational::new(digits, power(fraction.len()));
-    let scale = BigRational::from_integer(power(exponent.unsigned_abs() as usize));
-    Ok(if exponent < 0 {
-        value / scale
-    } else {
-        value * scale
-    })
 }

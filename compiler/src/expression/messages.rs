@@ -1,6 +1,6 @@
 //! Messages about expressions.
 
-use super::{Expression, Input};
+use super::{Expression, Input, shown};
 use crate::error::{Error, ErrorKind};
 
 impl Expression {
@@ -19,16 +19,6 @@ impl Expression {
         };
         input.error(&self.span, kind)
     }
-}
-
-/// A word of the input as it is repeated in a message: whole if it is short.
-pub fn shown(text: &str) -> String {
-    const LENGTH: usize = 40;
-    if text.chars().count() <= LENGTH {
-        return text.to_owned();
-    }
-    let start: String = text.chars().take(LENGTH).collect();
-    format!("{start}…")
 }
 
 #[cfg(test)]

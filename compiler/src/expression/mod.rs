@@ -14,14 +14,11 @@ mod lexer;
 mod messages;
 mod parser;
 
-pub(crate) use lexer::{number, number_end};
-pub use messages::shown;
-
 use std::ops::Range;
 
 use num_rational::BigRational;
 
-use crate::error::{Error, ErrorKind, Place};
+pub use symplectic_exact::input::{Input, MAX_EXPONENT, shown, without_mark};
 
 pub use parser::{Row, parse_list, parse_matrix};
 
@@ -31,8 +28,6 @@ pub const MAX_LENGTH: usize = 100_000;
 pub const MAX_DEPTH: usize = 64;
 /// The highest syntax tree; a sum of as many terms is as high.
 pub const MAX_HEIGHT: usize = 256;
-/// The largest exponent of a power, and of a number such as `1e-300`.
-pub const MAX_EXPONENT: u32 = 400;
 /// The largest degree of a polynomial.
 pub const MAX_DEGREE: usize = 256;
 /// The longest numerator or denominator, in bits.
@@ -109,43 +104,4 @@ pub enum Operator {
     Divide,
     /// `^`
     Power,
-}
-
-/// An input text with its name, for messages.
-#[derive(Debug, Clone, Copy)]
-pub struct Input<'a> {
-    /// What the text is, e.g. `basis`.
-    pub name: &'a str,
-    /// The text.
-    pub text: &'a str,
-}
-
-/// The character that some programs write at the start of UTF-8 text.
-const BYTE_ORDER_MARK: char = '\u{feff}';
-
-/// A text without a byte-order mark at its start.
-pub fn without_mark(text: &str) -> &str {
-    text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text)
-}
-
-impl<'a> Input<'a> {
-    /// The text of a file, without a byte-order mark at its start.
-    pub fn of_file(name: &'a str, text: &'a str) -> Self {
-        let text = without_mark(text);
-        Input { name, text }
-    }
-
-    /// A part of the text.
-    pub fn place(&self, span: Range<usize>) -> Place {
-        Place {
-            input: self.name.to_owned(),
-            text: self.text.to_owned(),
-            span,
-        }
-    }
-
-    /// An error at a part of the text.
-    pub fn error(&self, span: &Range<usize>, kind: ErrorKind) -> Error {
-        Error::at(kind, self.place(span.clone()))
-    }
 }

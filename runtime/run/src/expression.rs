@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use symplectic_compiler::Error;
 use symplectic_compiler::expression::Input;
-use symplectic_compiler::formula::{Form, System};
+use symplectic_formula::{Form, System};
 use symplectic_tape::{Entry, MAX_OPERATIONS, Refusal, Tape, Values};
 
 use crate::setup::{File, Setup};

@@ -16,7 +16,7 @@ use symplectic::{
     consistent_momentum,
 };
 use symplectic_compiler::Error;
-use symplectic_compiler::formula::{Structure, System as Parsed};
+use symplectic_formula::{Structure, System as Parsed};
 use toml::Spanned;
 
 use crate::chaos;

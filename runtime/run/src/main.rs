@@ -31,8 +31,8 @@ use std::sync::Arc;
 
 use clap::Parser;
 use symplectic_compiler::export::read_text;
-use symplectic_compiler::formula::{Form, Structure, System};
 use symplectic_compiler::{Error, ErrorKind};
+use symplectic_formula::{Form, Structure, System};
 use symplectic_tape::{MAX_OPERATIONS, Refusal, Tapes};
 use symplectic_terminal::errors;
 

@@ -7,11 +7,11 @@ use symplectic::emitted::{Coefficient, ConstrainedStep, ConstrainedTableau};
 use symplectic::{Orders, RunTimeCoefficients, RunTimeTableau};
 use symplectic_compiler::emit::{ConstrainedSteps, Rounded, constrained_steps};
 use symplectic_compiler::export::read_text;
-use symplectic_compiler::formula::System;
 use symplectic_compiler::order::HamiltonianClass;
 use symplectic_compiler::{
     Definition, Error, Key, Limits, Tableau, catalogue, check, did_you_mean,
 };
+use symplectic_formula::System;
 use toml::{Spanned, Value};
 
 use crate::setup::{File, Setup, Wanted};

@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use symplectic_compiler::Error;
-use symplectic_compiler::formula::evaluate::Real;
-use symplectic_compiler::formula::syntax::Length;
-use symplectic_compiler::formula::{Parameter, Shape, System};
+use symplectic_formula::evaluate::Real;
+use symplectic_formula::syntax::Length;
+use symplectic_formula::{Parameter, Shape, System};
 use symplectic_tape::{Entry, Values};
 use toml::Value;
 

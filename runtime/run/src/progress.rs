@@ -238,7 +238,7 @@ mod tests {
     use symplectic::nalgebra::DVector;
     use symplectic::simd::F64x8;
     use symplectic::{Method, ProvedFor, Separable, State};
-    use symplectic_compiler::formula::{Form, Structure, System};
+    use symplectic_formula::{Form, Structure, System};
     use symplectic_tape::{Formula, Parameters, Tapes, Values};
 
     use super::*;

@@ -121,7 +121,7 @@ mod tests {
 
     use symplectic::{Integrator, Separable, State};
     use symplectic_compiler::expression::Input;
-    use symplectic_compiler::formula::{Form, Structure, System};
+    use symplectic_formula::{Form, Structure, System};
     use symplectic_tape::{Formula, Parameters, Tape, Tapes, Values};
 
     use crate::Section;

@@ -7,9 +7,9 @@ use std::ops::Range;
 use symplectic::State;
 use symplectic::nalgebra::DVector;
 use symplectic_compiler::Error;
-use symplectic_compiler::formula::graph::Half;
-use symplectic_compiler::formula::syntax::Length;
-use symplectic_compiler::formula::{Layout, System};
+use symplectic_formula::graph::Half;
+use symplectic_formula::syntax::Length;
+use symplectic_formula::{Layout, System};
 use toml::{Spanned, Value};
 
 use crate::counted;

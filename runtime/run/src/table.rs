@@ -10,8 +10,8 @@ use std::path::Path;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use symplectic::ensemble::{Parquet, ParquetColumn};
-use symplectic_compiler::formula::{Parameter, Shape};
 use symplectic_compiler::{Error, ErrorKind};
+use symplectic_formula::{Parameter, Shape};
 
 use crate::output::{Fact, Point, Results, Seen, points};
 use crate::setup::MOST;

@@ -3,9 +3,9 @@
 use symplectic::nalgebra::DVector;
 use symplectic::system::Gradients;
 use symplectic::{ConstraintName, Scalar};
-use symplectic_compiler::formula::System;
-use symplectic_compiler::formula::derivative::{Scatter, gradient};
-use symplectic_compiler::formula::graph::{Coordinate, Half, Index, integer};
+use symplectic_formula::System;
+use symplectic_formula::derivative::{Scatter, gradient};
+use symplectic_formula::graph::{Coordinate, Half, Index, integer};
 
 use crate::tape::{At, Parameters, Tape};
 use crate::unroll::{Refusal, Unrolled};

@@ -10,9 +10,9 @@ use symplectic::nalgebra::DVector;
 use symplectic::simd::Lanes;
 use symplectic::system::Gradients;
 use symplectic::{Class, ConstraintName, Hamiltonian, Scalar, Vector};
-use symplectic_compiler::formula::derivative::gradient;
-use symplectic_compiler::formula::graph::{Half, integer};
-use symplectic_compiler::formula::{Structure, System};
+use symplectic_formula::derivative::gradient;
+use symplectic_formula::graph::{Half, integer};
+use symplectic_formula::{Structure, System};
 
 use crate::constraints::Constraints;
 use crate::tape::{At, Input, Parameters, Tape};

@@ -9,7 +9,7 @@
 //!
 //! use symplectic::nalgebra::DVector;
 //! use symplectic::{Integrator, Separable, State};
-//! use symplectic_compiler::formula::{Form, Structure, System};
+//! use symplectic_formula::{Form, Structure, System};
 //! use symplectic_tape::{Formula, Parameters, Tapes, Values};
 //!
 //! symplectic::tableau! { StoermerVerlet { base: velocity-verlet } }

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use symplectic::Scalar;
 use symplectic::simd::MOST_LANES;
-use symplectic_compiler::formula::System;
-use symplectic_compiler::formula::graph::Id;
+use symplectic_formula::System;
+use symplectic_formula::graph::Id;
 
 use crate::unroll::{Refusal, Unrolled};
 use crate::values::Values;

@@ -5,12 +5,12 @@ use std::error::Error;
 use std::fmt;
 use std::rc::Rc;
 
-use symplectic_compiler::formula::System;
-use symplectic_compiler::formula::derivative::Scatter;
-use symplectic_compiler::formula::evaluate::Real;
-use symplectic_compiler::formula::function::Elementary;
-use symplectic_compiler::formula::graph::{Half, Id, LoopId};
-use symplectic_compiler::formula::operations::{Op, Operation, Operations};
+use symplectic_formula::System;
+use symplectic_formula::derivative::Scatter;
+use symplectic_formula::evaluate::Real;
+use symplectic_formula::function::Elementary;
+use symplectic_formula::graph::{Half, Id, LoopId};
+use symplectic_formula::operations::{Op, Operation, Operations};
 
 use crate::tape::{Code, Input, Register, Step, Tape, apply};
 use crate::values::{Entry, Indices, Values};

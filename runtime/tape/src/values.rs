@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
-use symplectic_compiler::formula::System;
-use symplectic_compiler::formula::graph::{Base, Index, Loop, LoopId, LoopRange};
-use symplectic_compiler::formula::syntax::Length;
+use symplectic_formula::System;
+use symplectic_formula::graph::{Base, Index, Loop, LoopId, LoopRange};
+use symplectic_formula::syntax::Length;
 
 /// The values of parameters and lengths.
 #[derive(Debug, Clone, Default)]

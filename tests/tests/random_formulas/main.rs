@@ -11,7 +11,7 @@ use symplectic::Hamiltonian;
 use symplectic::nalgebra::SVector;
 use symplectic::solver::{Derivatives, DualNumbers, SystemInDuals};
 use symplectic::system::Jacobian;
-use symplectic_compiler::formula;
+use symplectic_formula as formula;
 use symplectic_tests::references::Wide;
 
 use generator::{Formula, formulas};

@@ -3,11 +3,11 @@
 use symplectic::Scalar;
 use symplectic::nalgebra::SVector;
 use symplectic::num_traits::{One, Zero};
-use symplectic_compiler::formula::System;
-use symplectic_compiler::formula::derivative::{Scatter, gradient};
-use symplectic_compiler::formula::evaluate::{Evaluator, Point, Real};
-use symplectic_compiler::formula::function::Elementary;
-use symplectic_compiler::formula::graph::{Half, Number, integer};
+use symplectic_formula::System;
+use symplectic_formula::derivative::{Scatter, gradient};
+use symplectic_formula::evaluate::{Evaluator, Point, Real};
+use symplectic_formula::function::Elementary;
+use symplectic_formula::graph::{Half, Number, integer};
 use symplectic_tests::references::Wide;
 
 /// A number of 71 digits.

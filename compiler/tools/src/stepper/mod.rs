@@ -16,8 +16,8 @@ use self::template::fill;
 use crate::language::table::{Entry, Flow, Table};
 use symplectic_compiler::Error;
 use symplectic_compiler::Tableau;
-use symplectic_compiler::formula::{Structure, System};
 use symplectic_compiler::order::HamiltonianClass;
+use symplectic_formula::{Structure, System};
 
 /// A language of steppers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,7 +79,7 @@ impl Stepper {
     /// ```
     /// use symplectic_compiler::derive;
     /// use symplectic_tools::Stepper;
-    /// use symplectic_compiler::formula::{Structure, System};
+    /// use symplectic_formula::{Structure, System};
     ///
     /// let mut pendulum = System::read("pendulum", "Pendulum { g: 9.81 } q: [a], p: [pa]; H = pa^2/2 - g cos(a)")?;
     /// let structure = Structure::of(&mut pendulum);

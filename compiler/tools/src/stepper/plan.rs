@@ -3,12 +3,12 @@
 use super::SteppedClass;
 use crate::language::table::{Entry, Flow, Table, weight};
 use symplectic_compiler::emit::Rounded;
-use symplectic_compiler::formula::{Kinetic, Structure, System};
 use symplectic_compiler::inside::left_out;
 use symplectic_compiler::inside::{Known, Relative};
 use symplectic_compiler::order::HamiltonianClass;
 use symplectic_compiler::schedule::{Class, Node, StepGraph};
 use symplectic_compiler::{Error, ErrorKind};
+use symplectic_formula::{Kinetic, Structure, System};
 
 /// A step.
 pub(super) enum Plan<'t> {

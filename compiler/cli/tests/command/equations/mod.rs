@@ -8,7 +8,7 @@ use std::fs;
 use serde_json::Value as Json;
 use symplectic::nalgebra::{DVector, SVector};
 use symplectic::{Error, Hamiltonian, Lagrangian, State, System, Vector, consistent_momentum};
-use symplectic_compiler::formula::{self, Form, Structure, description};
+use symplectic_formula::{Form, Structure, description};
 
 use self::reader::{Values, World, constraints, solve};
 use super::run::stdout;
@@ -174,7 +174,8 @@ fn printed(name: &str, text: &str) -> Vec<Printed> {
             constraints: lines("constraints"),
         });
     }
-    let mut system = formula::System::read_as(Form::of(text), "text", text).expect("a system");
+    let mut system =
+        symplectic_formula::System::read_as(Form::of(text), "text", text).expect("a system");
     let structure = Structure::of(&mut system);
     let page = description::page(&system, &structure);
     let block = page.split("```").nth(1).expect("a block");

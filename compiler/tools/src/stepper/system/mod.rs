@@ -1,6 +1,6 @@
 //! The functions of a stepper's system, from a formula.
 //!
-//! The order of evaluation is that of [`operations`](symplectic_compiler::formula::operations), as in the code of the macros.
+//! The order of evaluation is that of [`operations`](symplectic_formula::operations), as in the code of the macros.
 
 mod names;
 mod writer;
@@ -10,16 +10,16 @@ use self::writer::Writer;
 use super::Stepper;
 use super::languages::formulas::{Field, FieldShape, Formulas, formulas};
 use super::template::fill;
-use symplectic_compiler::formula::derivative::{Scatter, gradient};
-use symplectic_compiler::formula::display::Notation;
-use symplectic_compiler::formula::graph::{Half, Id, integer};
-use symplectic_compiler::formula::operations::Operations;
-use symplectic_compiler::formula::statements::Goal;
-use symplectic_compiler::formula::structure::each_once;
-use symplectic_compiler::formula::syntax::Length;
-use symplectic_compiler::formula::{Layout, Shape, Structure, System};
 use symplectic_compiler::{Error, ErrorKind};
 use symplectic_exact::rounding::to_f64;
+use symplectic_formula::derivative::{Scatter, gradient};
+use symplectic_formula::display::Notation;
+use symplectic_formula::graph::{Half, Id, integer};
+use symplectic_formula::operations::Operations;
+use symplectic_formula::statements::Goal;
+use symplectic_formula::structure::each_once;
+use symplectic_formula::syntax::Length;
+use symplectic_formula::{Layout, Shape, Structure, System};
 
 /// Refuses systems that are more than a formula of H.
 pub(super) fn check(system: &System) -> Result<(), Error> {

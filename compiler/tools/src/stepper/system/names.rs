@@ -2,8 +2,8 @@
 
 use super::super::languages::formulas::{Count, Formulas};
 use super::super::template::fill;
-use symplectic_compiler::formula::syntax::Length;
-use symplectic_compiler::formula::{Shape, System};
+use symplectic_formula::syntax::Length;
+use symplectic_formula::{Shape, System};
 
 /// The names of a system, of its lengths and of its parameters.
 pub(super) struct Names {

@@ -7,14 +7,14 @@ use num_traits::Zero;
 use super::super::languages::formulas::Formulas;
 use super::super::template::fill;
 use super::names::Names;
-use symplectic_compiler::formula::display::index_letter;
-use symplectic_compiler::formula::function::Elementary;
-use symplectic_compiler::formula::graph::{Base, Coordinate, Half, Index, LoopId, LoopRange};
-use symplectic_compiler::formula::operations::{Op, Operation, Operations};
-use symplectic_compiler::formula::statements::{Goal, Statement, statements};
-use symplectic_compiler::formula::syntax::Length;
-use symplectic_compiler::formula::{Shape, System};
 use symplectic_exact::rounding::to_f64;
+use symplectic_formula::display::index_letter;
+use symplectic_formula::function::Elementary;
+use symplectic_formula::graph::{Base, Coordinate, Half, Index, LoopId, LoopRange};
+use symplectic_formula::operations::{Op, Operation, Operations};
+use symplectic_formula::statements::{Goal, Statement, statements};
+use symplectic_formula::syntax::Length;
+use symplectic_formula::{Shape, System};
 
 /// A writer of statements.
 pub(super) struct Writer<'a> {
