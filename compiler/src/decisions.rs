@@ -197,7 +197,7 @@ fn compare(tableau: &Tableau) -> Vec<Difference> {
 /// `SYMPLECTIC_SEEDS=0..5000` compares more definitions.
 #[test]
 #[ignore = "thorough"]
-fn eight_times_the_bits_decide_the_same() {
+fn stability_decisions_do_not_change_with_eight_times_the_bits() {
     let (mut tried, mut compared, mut open, mut differences) = (0, 0, 0, Vec::new());
     for seed in seeds(0..80) {
         tried += 1;

@@ -93,7 +93,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn statistics_of_known_numbers() {
+    fn drift_statistics_of_known_numbers_are_right() {
         let found = sample(4, &[1.0, 3.0]);
         assert_eq!((found.mean, found.spread), (2.0, 2.0_f64.sqrt()));
         assert!((found.significance - 2.0).abs() < 1e-15);

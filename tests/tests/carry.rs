@@ -43,7 +43,7 @@ fn compare<M: Method>(method: M, units: f64) -> Result<(), Error> {
 }
 
 #[test]
-fn steps_in_a_row_are_steps_begun_anew() -> Result<(), Error> {
+fn consecutive_steps_agree_with_restarted_ones() -> Result<(), Error> {
     compare(TwoAtEachEnd, 0.0)?;
     compare(StoermerVerlet, 0.0)?;
     compare(SymplecticEuler, 0.0)?;

@@ -46,7 +46,7 @@ fn compensated_sums_leave_a_small_random_walk() -> Result<(), Error> {
 
 /// Other coefficients, and as exact: the same bounds.
 #[test]
-fn without_the_momentum_stages_it_is_as_small() -> Result<(), Error> {
+fn second_order_steps_leave_the_same_small_random_walk() -> Result<(), Error> {
     let second_order = ensemble(
         |start| Integrator::new(Gauss6, HenonHeiles, start, STEP_SIZE),
         &starts(),

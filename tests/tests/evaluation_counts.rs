@@ -35,7 +35,7 @@ fn stoermer_verlet_makes_one_force_evaluation_a_step_and_one_to_start() -> Resul
 }
 
 #[test]
-fn symplectic_euler_makes_one_of_each_a_step() -> Result<(), Error> {
+fn symplectic_euler_evaluates_velocity_and_force_once_a_step() -> Result<(), Error> {
     assert_eq!(evaluations(SymplecticEuler)?, (STEPS, STEPS, 0));
     Ok(())
 }
@@ -52,7 +52,7 @@ fn lobatto_3_makes_one_force_evaluation_a_sweep_and_one_at_the_end() -> Result<(
 }
 
 #[test]
-fn gauss_4_makes_four_of_each_a_sweep() -> Result<(), Error> {
+fn gauss_4_evaluates_velocity_and_force_four_times_a_sweep() -> Result<(), Error> {
     let (forces, velocities, sweeps) = evaluations(Gauss4)?;
     assert_eq!(forces, 4 * sweeps);
     assert_eq!(velocities, 4 * sweeps + 1);
@@ -60,7 +60,7 @@ fn gauss_4_makes_four_of_each_a_sweep() -> Result<(), Error> {
 }
 
 #[test]
-fn a_new_state_and_a_new_step_size_cost_what_they_must() -> Result<(), Error> {
+fn a_new_state_costs_a_force_evaluation_and_a_new_step_size_none() -> Result<(), Error> {
     let counts = Counts::default();
     let system = Counting::new(kepler::Kepler, &counts);
     let start = kepler::start::<f64>(0.6);
@@ -152,7 +152,7 @@ impl System<Vector2<f64>> for Whole<'_> {
 }
 
 #[test]
-fn a_method_that_is_explicit_for_separable_systems_iterates_for_others_and_gets_there()
+fn verlet_iterates_on_a_general_system_and_ends_at_the_same_state()
 -> Result<(), Error> {
     let counts = Counts::default();
     let start = kepler::start::<f64>(0.6);

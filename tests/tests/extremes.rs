@@ -74,7 +74,7 @@ fn run<M: Method + ProvedFor<S::Class>, S: System<V>, V: Vector<Scalar = f64>>(
 }
 
 #[test]
-fn an_oscillator_from_slow_to_stiff() -> Result<(), Error> {
+fn an_oscillator_has_its_known_outcome_from_slow_to_stiff() -> Result<(), Error> {
     for exponent in -8..=8 {
         let omega = 10f64.powi(exponent);
         let begin = || State::new(0.0, Vector1::new(1.0), Vector1::new(omega));
@@ -120,7 +120,7 @@ fn spring_pendulum(omega: f64) -> impl System<Vector2<f64>, Class = Separable> {
 }
 
 #[test]
-fn a_stiff_spring_pendulum() -> Result<(), Error> {
+fn a_stiff_spring_pendulum_has_its_known_outcomes() -> Result<(), Error> {
     for omega in [1e4, 1e6] {
         let begin = || State::new(0.0, Vector2::new(1.0, 0.0), Vector2::new(0.0, 1.0));
         // Resolved, all is well: the energy of the spring is as small as the rounding of its length allows.
@@ -154,7 +154,7 @@ fn a_stiff_spring_pendulum() -> Result<(), Error> {
 }
 
 #[test]
-fn orbits_that_nearly_collide() -> Result<(), Error> {
+fn near_collisions_keep_the_energy_only_in_steps_that_resolve_them() -> Result<(), Error> {
     // e = 0.999: with steps that resolve the pericentre, the energy returns after it.
     let outcome = run(Gauss4, Kepler, start(0.999), 2.5e-6, 8_000)?;
     assert!(
@@ -218,7 +218,7 @@ fn a_head_on_collision_ends_in_an_error() -> Result<(), Error> {
 }
 
 #[test]
-fn huge_and_tiny_numbers() -> Result<(), Error> {
+fn steps_do_not_depend_on_the_scale_of_the_state() -> Result<(), Error> {
     // Scaling H by s² and the state by s leaves the orbit as it is.
     for scale in [1e-300, 1e-150, 1e150, 1e300] {
         let begin = State::new(0.0, Vector1::new(scale), Vector1::new(0.0));
@@ -252,7 +252,7 @@ fn huge_and_tiny_numbers() -> Result<(), Error> {
 }
 
 #[test]
-fn there_and_back_again() -> Result<(), Error> {
+fn symmetric_methods_return_to_the_start() -> Result<(), Error> {
     fn returns<M: Method>(method: M) -> Result<f64, Error> {
         let begin = start::<f64>(0.6);
         let mut integrator = Integrator::new(method, Kepler, begin.clone(), 0.01)?;
@@ -273,7 +273,7 @@ fn there_and_back_again() -> Result<(), Error> {
 
 /// In singles the energy error is that of singles.
 #[test]
-fn a_run_in_singles() -> Result<(), Error> {
+fn the_energy_error_in_single_precision_is_small() -> Result<(), Error> {
     let mut integrator = Integrator::new(Gauss4, Kepler, start::<f32>(0.6), 0.05)?;
     let before = integrator.energy().expect("known");
     integrator.integrate_to(50.0)?;
@@ -283,7 +283,7 @@ fn a_run_in_singles() -> Result<(), Error> {
 }
 
 #[test]
-fn steps_that_are_none_are_refused() -> Result<(), Error> {
+fn step_sizes_that_are_zero_or_not_finite_are_refused() -> Result<(), Error> {
     let integrator = |step_size: f64| {
         let begin = State::new(0.0, SVector::<f64, 1>::zeros(), SVector::zeros());
         Integrator::new(Gauss4, oscillator(1.0), begin, step_size).map(|_| ())

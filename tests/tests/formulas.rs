@@ -22,7 +22,7 @@ symplectic::hamiltonian! {
 }
 
 #[test]
-fn what_a_formula_conserves_is_ready_to_be_observed() {
+fn conserved_quantities_of_a_formula_can_be_observed() {
     let masses = [1.0, 0.5, 0.25];
     let planets = formulas::Planets::<3>::new(masses);
     let q = SMatrix::<f64, 3, 3>::from_fn(|i, j| (i * i + 2 * j) as f64 + 0.3);
@@ -392,7 +392,7 @@ fn derivatives_are_those_of_the_energy() {
 }
 
 #[test]
-fn what_is_missing_at_run_time_is_an_error_of_the_integrator() {
+fn missing_parameters_at_run_time_are_refused() {
     let start = || {
         State::new(
             0.0,

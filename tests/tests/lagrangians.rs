@@ -107,7 +107,7 @@ symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
 
 /// The pendulum on a spring in polar coordinates swings as in Cartesian ones.
 #[test]
-fn coordinates_make_no_difference() {
+fn polar_and_cartesian_lagrangians_have_the_same_motion() {
     let omega = 10.0;
     let (r, f, vr, vf) = (1.1, -1.0_f64, 0.2, 0.5);
     let polar = lagrangians::PolarSpringPendulum { omega };

@@ -38,7 +38,7 @@ fn is_of(name: &str, module: &str) -> bool {
 }
 
 #[test]
-fn an_explicit_scene_has_no_solver_in_it() -> Result<(), Box<dyn Error>> {
+fn an_explicit_scene_links_no_solver() -> Result<(), Box<dyn Error>> {
     let explicit = functions(env!("CARGO_BIN_EXE_explicit_scene"))?;
     let implicit = functions(env!("CARGO_BIN_EXE_implicit_scene"))?;
     let of = |names: &BTreeSet<String>, module: &str| -> Vec<String> {
@@ -101,7 +101,7 @@ fn an_explicit_formula_has_only_its_velocity_and_force_in_it() -> Result<(), Box
 
 /// No force and no constraint: no code for them.
 #[test]
-fn a_scene_without_constraints_has_nothing_of_them_in_it() -> Result<(), Box<dyn Error>> {
+fn a_scene_without_constraints_links_no_code_for_them() -> Result<(), Box<dyn Error>> {
     for program in [
         env!("CARGO_BIN_EXE_explicit_scene"),
         env!("CARGO_BIN_EXE_implicit_scene"),

@@ -201,7 +201,7 @@ fn a_method_from_a_file_steps_like_the_one_from_its_basis_and_nodes() -> Result<
 }
 
 #[test]
-fn a_file_says_what_it_was_derived_from() {
+fn a_method_from_a_file_states_its_definition() {
     let gauss = "basis: polynomial(4), nodes: gauss(4)";
     assert_eq!(GaussFromFile::DEFINITION, gauss);
     assert_eq!(GaussFromRule::DEFINITION, gauss);
@@ -282,7 +282,7 @@ macro_rules! with_function {
 with_function!(FromAnotherMacro, 1 + t);
 
 #[test]
-fn what_another_macro_puts_in_is_one_operand() {
+fn an_expression_from_another_macro_is_one_operand() {
     assert_eq!(
         FromAnotherMacro::DEFINITION,
         "basis: [1, 2*t + 2], nodes: [0, 1]"

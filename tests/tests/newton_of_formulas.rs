@@ -174,7 +174,7 @@ where
 }
 
 #[test]
-fn no_evaluations_are_made_for_differences() -> Result<(), Error> {
+fn newton_of_a_formula_makes_no_evaluations_for_differences() -> Result<(), Error> {
     fn check<V, S>(system: impl Fn() -> S, n: usize) -> Result<(), Error>
     where
         V: Vector<Scalar = f64>,

@@ -154,7 +154,7 @@ fn momentum_and_angular_momentum_are_conserved_to_rounding() -> Result<(), Error
 }
 
 #[test]
-fn the_planets_are_where_they_belong() -> Result<(), Error> {
+fn the_planets_keep_their_semi_major_axes() -> Result<(), Error> {
     // Semi-major axes from the energy of each planet and the Sun, against those of the planets' orbits in AU; the data
     // are osculating, hence the per cent.
     let axes = [5.20, 9.55, 19.2, 30.1, 39.5];

@@ -36,7 +36,7 @@ fn first(state: &Point) -> f64 {
 }
 
 #[test]
-fn points_have_the_order_of_what_finds_them() -> Result<(), Error> {
+fn poincare_points_have_the_order_of_the_step_or_of_the_dense_output() -> Result<(), Error> {
     let by_steps = section(Event::rising(first).by_steps(), 0.25)?;
     let dense = section(Event::rising(first), 0.25)?;
     assert_eq!((by_steps.len(), dense.len()), (50, 50));

@@ -94,7 +94,7 @@ where
 }
 
 #[test]
-fn the_library_comes_as_near_as_the_orbits_let_it() -> Result<(), Box<dyn Error>> {
+fn errors_to_the_references_stay_within_rounding() -> Result<(), Box<dyn Error>> {
     let springs = |omega: f64, time: f64, step: f64| {
         let system = fput_springs::FputSprings { omega };
         error(

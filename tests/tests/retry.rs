@@ -14,7 +14,7 @@ fn stiff_for_a_while() -> impl System<Vector1<f64>, Class = Separable> {
 }
 
 #[test]
-fn a_stiff_while_is_passed_by_shorter_steps() -> Result<(), Error> {
+fn split_steps_pass_a_stiff_interval() -> Result<(), Error> {
     const END: f64 = 10.0;
     let begin = || State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
     let mut fine = Integrator::new(Gauss8, stiff_for_a_while(), begin(), 1.0 / 64.0)?;
@@ -48,7 +48,7 @@ fn a_stiff_while_is_passed_by_shorter_steps() -> Result<(), Error> {
 }
 
 #[test]
-fn what_cannot_be_passed_leaves_everything_as_it_was() -> Result<(), Error> {
+fn a_failed_retry_leaves_state_and_statistics_unchanged() -> Result<(), Error> {
     // Straight into the centre.
     let begin = State::new(0.0, Vector2::new(1.0, 0.0), Vector2::new(0.0, 0.0));
     let mut integrator = Integrator::new(Gauss4, Kepler, begin, 0.05)?;

@@ -186,7 +186,7 @@ fn no_splitting_of_the_catalogue_is_left_out() {
 
 /// The matrices that the macro leaves to the compiler of Rust are those of the tableau.
 #[test]
-fn the_matrices_of_a_long_splitting_are_made_of_its_weights() {
+fn matrices_of_a_long_splitting_are_those_of_its_tableau() {
     let entry = catalogue::find("triple-jump-10").expect("known");
     let tableau = entry.derive().expect("derived");
     let doubles = tableau.to_f64();

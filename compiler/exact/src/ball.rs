@@ -275,7 +275,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn operations_enclose(a in -99i64..99, b in 1i64..40, c in -99i64..99, d in 1i64..40, k in -90i64..90) {
+        fn ball_operations_enclose_the_exact_result(a in -99i64..99, b in 1i64..40, c in -99i64..99, d in 1i64..40, k in -90i64..90) {
             let (x, y) = (ratio(a, b), ratio(c, d));
             let scale = if k < 0 { ratio(1, 1) / ratio(2, 1).pow(-k as i32) } else { ratio(2, 1).pow(k as i32) };
             let (i, j) = (Ball::quotient(&x, 40), Ball::quotient(&y, 40).shifted(k));

@@ -150,7 +150,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn it_is_the_one_of_euclid(
+        fn modular_gcd_of_polynomials_equals_the_euclidean_one(
             a in prop::collection::vec(-9i64..9, 0..5),
             b in prop::collection::vec(-9i64..9, 0..5),
             common in prop::collection::vec(-1i64 << 40..1 << 40, 0..5),

@@ -375,7 +375,7 @@ mod tests {
     }
 
     #[test]
-    fn blocks_of_known_matrices() {
+    fn diagonalisation_finds_the_blocks_of_known_matrices() {
         check(&[&[2]], &[(2, 0)]);
         check(&[&[0, -1], &[1, 0]], &[(0, 1)]);
         check(&[&[1, 1], &[0, 3]], &[(1, 0), (3, 0)]);
@@ -388,7 +388,7 @@ mod tests {
     }
 
     #[test]
-    fn blocks_of_squares() {
+    fn squared_blocks_are_those_of_the_squared_matrix() {
         let check = |entries: &[&[i64]], expected: &[(i64, i64)]| {
             let matrix = matrix(entries);
             let blocks = diagonalise(&matrix).expect("diagonalisable").squared();
@@ -402,7 +402,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_too_few_eigenvectors_is_none() {
+    fn diagonalisation_refuses_defective_matrices() {
         assert!(diagonalise(&matrix(&[&[0, 1], &[0, 0]])).is_none());
         assert!(diagonalise(&matrix(&[&[1, 1], &[0, 1]])).is_none());
     }

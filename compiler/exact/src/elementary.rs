@@ -412,7 +412,7 @@ mod tests {
     }
 
     #[test]
-    fn known_values() {
+    fn elementary_functions_agree_with_known_digits() {
         agrees(
             &pi(200),
             "314159265358979323846264338327950288419716939937510",
@@ -457,7 +457,7 @@ mod tests {
     }
 
     #[test]
-    fn functions_outside_their_domain() {
+    fn elementary_functions_return_none_outside_their_domain() {
         let (minus, zero) = (point(&ratio(-1, 1), 20), point(&ratio(0, 1), 20));
         assert!(ln(&minus).is_none() && ln(&zero).is_none() && sqrt(&minus).is_none());
         assert!(root(&minus, 3).is_some() && root(&minus, 0).is_none());
@@ -473,7 +473,7 @@ mod tests {
     }
 
     #[test]
-    fn waves_meet_their_extrema() {
+    fn sine_and_cosine_of_intervals_include_their_extrema() {
         let between = |a: i64, b: i64| Interval {
             low: BigInt::from(a) << 20u32,
             high: BigInt::from(b) << 20u32,
@@ -499,7 +499,7 @@ mod tests {
     }
 
     #[test]
-    fn many_places_agree_with_few() {
+    fn enclosures_in_many_places_lie_within_those_in_few() {
         let x = parse("355/113").expect("a rational");
         let functions: [fn(&Interval) -> Option<Interval>; 5] =
             [exp, ln, |x| Some(sin(x)), |x| Some(cos(x)), sqrt];
@@ -525,7 +525,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn doubles_lie_within(n in -40_000i64..40_000, spread in 0i64..1_000_000_000) {
+        fn enclosures_contain_the_values_of_doubles(n in -40_000i64..40_000, spread in 0i64..1_000_000_000) {
             let x = ratio(n, 1000);
             let mut i = point(&x, 60);
             i.low -= spread;
@@ -545,7 +545,7 @@ mod tests {
         }
 
         #[test]
-        fn identities_hold(n in 1i64..1_000_000, d in 1i64..1000, bits in 20u32..300) {
+        fn enclosures_satisfy_the_identities_of_elementary_functions(n in 1i64..1_000_000, d in 1i64..1000, bits in 20u32..300) {
             let x = ratio(n, d);
             let i = point(&x, bits);
             let (s, c) = (sin(&i), cos(&i));

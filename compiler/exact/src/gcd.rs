@@ -78,7 +78,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn it_is_the_one_of_the_binary_algorithm(
+        fn gcd_of_integers_equals_the_binary_one(
             a in prop::collection::vec(any::<u32>(), 0..90),
             b in prop::collection::vec(any::<u32>(), 0..90),
             common in prop::collection::vec(any::<u32>(), 0..60),
@@ -92,7 +92,7 @@ mod tests {
 
     /// Fibonacci numbers, whose quotients are all 1, and extremely large quotients.
     #[test]
-    fn extreme_quotients() {
+    fn gcd_is_right_for_extreme_quotients() {
         let (mut a, mut b) = (BigInt::one(), BigInt::one());
         while b.bits() < 5000 {
             (a, b) = (b.clone(), a + b);

@@ -337,7 +337,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn operations_enclose(a in -50i64..50, b in 1i64..40, c in -50i64..50, d in 1i64..40, spread in 0i64..9) {
+        fn interval_operations_enclose_the_exact_result(a in -50i64..50, b in 1i64..40, c in -50i64..50, d in 1i64..40, spread in 0i64..9) {
             let (x, y) = (ratio(a, b), ratio(c, d));
             let around = |v: &BigRational| {
                 let mut i = Interval::enclosing(v, 12);

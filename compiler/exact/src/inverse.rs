@@ -103,7 +103,7 @@ mod tests {
 
     /// Hilbert's matrix of size 4: its inverse has the integers 16, −120, …, and its determinant is 1/6048000.
     #[test]
-    fn the_inverse_of_a_matrix_of_hilbert() {
+    fn the_inverse_of_the_hilbert_matrix_has_its_known_integers() {
         let entry = |i: i64, j: i64| ratio(1, i + j + 1);
         let rows = [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| entry(i, j)));
         let rows: Vec<&[BigRational]> = rows.iter().map(|row| &row[..]).collect();
@@ -131,7 +131,7 @@ mod tests {
 
     /// Rows are exchanged where a pivot vanishes, and the sign of the determinant follows.
     #[test]
-    fn a_pivot_that_vanishes() {
+    fn rows_are_exchanged_where_a_pivot_vanishes() {
         let [zero, two, three] = [0, 2, 3].map(|x| ratio(x, 1));
         let matrix: [&[BigRational]; 2] = [&[zero.clone(), two], &[three, zero]];
         let inverse = Inverse::of(enclosing(&matrix, 64)).expect("regular");
@@ -142,7 +142,7 @@ mod tests {
 
     /// No precision proves a singular matrix regular; a nearly singular one needs more places than the first that are tried.
     #[test]
-    fn matrices_that_are_singular_or_nearly_so() {
+    fn inverses_of_nearly_singular_matrices_need_more_places() {
         let [one, two, four] = [1, 2, 4].map(|x| ratio(x, 1));
         let singular: [&[BigRational]; 2] = [&[one.clone(), two.clone()], &[two.clone(), four]];
         assert!(Inverse::of(enclosing(&singular, 192)).is_none());

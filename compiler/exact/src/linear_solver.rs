@@ -158,7 +158,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn solutions_solve(entries in prop::collection::vec((-9i64..10, 1i64..5), 20)) {
+        fn the_linear_solver_satisfies_the_equations(entries in prop::collection::vec((-9i64..10, 1i64..5), 20)) {
             let rationals: Vec<BigRational> = entries.iter().map(|&(n, d)| ratio(n, d)).collect();
             let rows: Vec<Polynomial> = rationals[..16].chunks(4).map(Polynomial::from_rationals).collect();
             let right = Polynomial::from_rationals(&rationals[16..]);

@@ -94,7 +94,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn an_inverse_or_a_vanishing_combination(entries in prop::collection::vec(-3i64..4, 16)) {
+        fn elimination_returns_an_inverse_or_a_null_vector(entries in prop::collection::vec(-3i64..4, 16)) {
             let matrix: Rows = entries.chunks(4).map(|row| row.iter().map(|&x| ratio(x, 1)).collect()).collect();
             let dot = |i: usize, v: &[BigRational]| -> BigRational { (0..4).map(|k| &v[k] * &matrix[k][i]).sum() };
             match inverse(&matrix) {

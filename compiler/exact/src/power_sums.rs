@@ -54,7 +54,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn sums_and_polynomials_belong_together(roots in prop::collection::vec(-9i64..9, 1..6)) {
+        fn power_sums_and_polynomials_determine_each_other(roots in prop::collection::vec(-9i64..9, 1..6)) {
             let polynomial = roots.iter().fold(Polynomial::one(), |p, &c| &p * &Polynomial::from_integers(&[-c, 1]));
             let sums = power_sums(&polynomial.scale(&ratio(3, 7)), 8);
             for (k, sum) in (0..).zip(&sums) {

@@ -128,7 +128,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn rationals_are_found_behind_residues(n in -1000i64..1000, d in 1i64..1000) {
+        fn rationals_are_reconstructed_from_residues(n in -1000i64..1000, d in 1i64..1000) {
             let residues = Residues::new(BigInt::from(2_147_483_647));
             let value = ratio(n, d);
             let inverse = value.denom().modpow(&BigInt::from(2_147_483_645), residues.modulus());
@@ -136,7 +136,7 @@ mod tests {
         }
 
         #[test]
-        fn division_by_a_monic_polynomial(a in prop::collection::vec(0i64..97, 0..8), b in prop::collection::vec(0i64..97, 0..5)) {
+        fn quotient_and_remainder_by_a_monic_polynomial_multiply_back(a in prop::collection::vec(0i64..97, 0..8), b in prop::collection::vec(0i64..97, 0..5)) {
             let residues = Residues::new(BigInt::from(97));
             let integers = |v: &[i64]| residues.reduce(&v.iter().map(|&x| BigInt::from(x)).collect::<Vec<_>>());
             let a = integers(&a);

@@ -314,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn overflow_and_underflow() {
+    fn values_beyond_the_range_round_to_infinity_or_zero() {
         assert_eq!(to_f64(&(exact(f64::MAX) * ratio(2, 1))), f64::INFINITY);
         assert_eq!(to_f64(&(exact(5e-324) / ratio(2, 1))), 0.0);
         assert_eq!(to_f64(&(exact(5e-324) * ratio(3, 4))), 5e-324);

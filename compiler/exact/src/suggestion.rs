@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn suggestions_are_names_of_the_list_and_no_words_of_the_sentence() {
+    fn suggestions_are_listed_names_and_not_words_of_the_sentence() {
         let listed = "symplectic, symmetric, order(separable) == 6, order >= 4, order(perturbed) >= (8, 4), stable_to(2), or a list, …";
         for (name, meant) in [
             ("symetric", "; did you mean `symmetric`?"),

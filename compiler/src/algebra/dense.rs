@@ -317,7 +317,7 @@ mod tests {
 
     /// A row that extends the previous one, one that repeats it, one that does neither, and a row of zeros.
     #[test]
-    fn rows_that_go_on_are_summed_from_where_they_do() {
+    fn row_sums_reuse_the_sum_of_the_row_that_they_extend() {
         let algebra = Dense::new(Rationals, 6);
         let rows = [
             [1, 0, 0, 0, 0, 0],

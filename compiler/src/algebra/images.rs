@@ -89,7 +89,7 @@ mod tests {
     use crate::arithmetic::rational::ratio;
 
     #[test]
-    fn images_are_homomorphisms() {
+    fn modular_images_are_homomorphisms() {
         let two = Polynomial::from_integers(&[2]);
         let algebraic = NumberField::rationals().square_root(&two).expect("small");
         let algebraic = algebraic.field.cosine(7).expect("small").field;

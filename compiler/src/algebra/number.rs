@@ -333,7 +333,7 @@ mod tests {
 
     /// At these lengths an early enclosure often meets the middle between two decimals by chance.
     #[test]
-    fn near_ties_are_not_taken_for_ties() {
+    fn decimals_next_to_a_tie_are_rounded_correctly() {
         let gauss = crate::derive("polynomial(8)", "gauss(8)").expect("derived");
         for digits in [55, 56, 57, 58, 59, 60, 61, 62, 121, 122, 123] {
             for number in gauss.numbers().iter() {

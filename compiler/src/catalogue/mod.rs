@@ -360,7 +360,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_unique() {
+    fn names_of_the_catalogue_are_unique() {
         let mut names: Vec<String> = entries().map(|entry| entry.name).collect();
         let count = names.len();
         names.sort();

@@ -305,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn conditions_are_as_many_as_in_the_literature() {
+    fn numbers_of_order_conditions_agree_with_the_literature() {
         assert_eq!(
             counts(&Claim::Separable(8), false),
             [2, 1, 2, 3, 6, 9, 18, 30]

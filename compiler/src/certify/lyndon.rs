@@ -118,7 +118,7 @@ mod tests {
     /// Dimensions of the free Lie algebras: Witt's formula for two letters of degree 1; 1, 1, 2, 4, 8 for the
     /// odd letters in odd degrees (McLachlan & Quispel 2002).
     #[test]
-    fn lyndon_words_are_as_many_as_the_free_lie_algebra_has_dimensions() {
+    fn numbers_of_lyndon_words_are_dimensions_of_the_free_lie_algebra() {
         let count = |alphabet: &Alphabet, degree| alphabet.lyndon(degree).len();
         let splitting = Alphabet::splitting();
         let counts: Vec<usize> = (1..=10).map(|n| count(&splitting, n)).collect();

@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn small_problems_by_hand() {
+    fn minimax_solves_small_problems_known_by_hand() {
         // |y − 1| and |y + 1|: the midpoint.
         let two = rows(&[(-1, &[1], 1), (1, &[1], 1)]);
         let found = minimax(&two).expect("small");

@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_solution_is_not_proved() {
+    fn the_proof_fails_for_points_that_are_not_solutions() {
         let square = triple_jump();
         let mut center = square.solve(&near(), BITS).expect("convergence");
         center[0] += BigInt::one() << (BITS - 60);

@@ -27,7 +27,7 @@ fn spans_constants(polynomials: &[Polynomial]) -> bool {
 }
 
 #[test]
-fn what_cannot_be_derived_is_refused_at_its_place() {
+fn derive_refuses_singular_definitions_at_the_place() {
     let cases = [
         (
             "polynomial(2)",

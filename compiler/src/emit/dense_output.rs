@@ -298,7 +298,7 @@ mod tests {
 
     /// Weights that are not interpolatory, even by a small perturbation, and nodes that coincide.
     #[test]
-    fn other_methods_have_none() {
+    fn methods_with_weights_that_do_not_interpolate_have_no_dense_output() {
         for definition in [
             "basis: [1, cos(pi*t), sin(pi*t)], nodes: [0, 1/2, 1]",
             "a: [[1/4, 1/4 - sqrt(3)/6], [1/4 + sqrt(3)/6, 1/4]], b: [1/2 + 1e-40, 1/2 - 1e-40]",

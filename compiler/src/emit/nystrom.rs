@@ -144,7 +144,7 @@ mod tests {
 
     /// Gauss with two stages: ν = μ̃-weighted products of a = [[1/4, 1/4 − √3/6], [1/4 + √3/6, 1/4]].
     #[test]
-    fn the_matrix_of_gauss_2() {
+    fn the_second_order_matrix_of_gauss_2_is_its_closed_form() {
         let tableau = crate::derive("polynomial(2)", "gauss(2)").expect("derived");
         let numbers = tableau.numbers();
         let graph = StepGraph::new(Class::Separable, &tableau.exact, &numbers);

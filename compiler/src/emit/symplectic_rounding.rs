@@ -259,7 +259,7 @@ mod tests {
 
     #[test]
     #[ignore = "thorough"]
-    fn they_are_next_to_the_exact_ones() {
+    fn symplectic_rounding_moves_coefficients_by_at_most_a_unit() {
         pairs(|name, fraction, mu, fraction_tilde, mu_tilde| {
             let larger = mu.double.abs().max(mu_tilde.double.abs());
             for (fraction, mu) in [(fraction, mu), (fraction_tilde, mu_tilde)] {

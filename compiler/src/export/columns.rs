@@ -41,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn combining_marks_take_no_column() {
+    fn combining_marks_have_width_zero() {
         assert_eq!(width("b̃_1"), 3);
         assert_eq!(right("c̃", 3), "  c̃");
         assert_eq!(left("ã", 3), "ã  ");

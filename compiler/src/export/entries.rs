@@ -326,7 +326,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn long_values_are_shown_where_they_differ() {
+    fn long_values_are_shortened_around_their_difference() {
         let (one, other) = (
             format!("{}7{}", "3".repeat(500), "3".repeat(500)),
             "3".repeat(1001),

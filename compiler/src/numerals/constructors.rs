@@ -61,7 +61,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn types_name_their_lists() {
+    fn names_of_types_give_the_names_of_lists() {
         let list = |name| list_of(name);
         assert_eq!(list("coef_a_type").as_deref(), Some("a"));
         assert_eq!(list("rk4_coefficients_a12").as_deref(), Some("a12"));

@@ -284,7 +284,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bits_are_doubles() {
+    fn hexadecimal_bits_are_read_as_doubles() {
         for double in [
             0.0,
             1.0,

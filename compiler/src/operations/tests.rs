@@ -343,7 +343,7 @@ fn orders_of_compositions_are_known() {
 }
 
 #[test]
-fn what_cannot_be_composed_is_refused() {
+fn concatenate_refuses_empty_and_too_deep_compositions() {
     let refused =
         |methods: &[(&Constant, &Tableau)]| Tableau::concatenate(methods).expect_err("refused");
     assert!(matches!(refused(&[]), ErrorKind::Definition { .. }));

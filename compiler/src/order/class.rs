@@ -24,7 +24,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn classes_are_told_apart_by_their_trees() {
+    fn each_hamiltonian_class_contains_the_right_trees() {
         let classes = |text: &str| {
             let tree: BicolouredTree = text.parse().expect(text);
             HamiltonianClass::ALL.map(|class| class.contains(&tree))

@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn symplectic_methods_have_no_such_order() {
+    fn symplectic_methods_have_an_unbounded_order_of_symplecticity() {
         let lobatto = crate::derive("polynomial(3)", "lobatto(3)").expect("derived");
         let Exact::Nodes(pair) = &*lobatto.exact else {
             panic!("classical nodes");
@@ -269,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn the_defects_are_what_elementary_weights_say() {
+    fn symplecticity_defects_agree_with_elementary_weights() {
         let rational = |n: i64, d: i64| BigRational::new(n.into(), d.into());
         let pair = explicit_runge_kutta("rk4");
         let weights = |text: &str| {

@@ -339,7 +339,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_tree_is_refused_where_it_is_wrong() {
+    fn malformed_trees_are_refused_at_the_position() {
         let unexpected = |expected, position| TreeError::Unexpected { expected, position };
         for (text, error) in [
             ("", unexpected("`q` or `p`", 1)),

@@ -205,7 +205,7 @@ mod tests {
 
     /// The determinants of X of theory (Jay, 1996, and our own computation in 55 digits).
     #[test]
-    fn determinants_of_known_methods() {
+    fn constraint_determinants_agree_with_the_literature() {
         for (definition, determinant) in [
             ("basis: polynomial(2), nodes: lobatto(2)", "0.5"),
             ("basis: polynomial(3), nodes: lobatto(3)", "0.0208333"),
@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn what_refutes_it_is_named() {
+    fn methods_that_cannot_keep_constraints_name_the_witness() {
         for (definition, witness) in [
             ("basis: polynomial(1), nodes: [1/2]", "a_11 = 1/2"),
             ("basis: polynomial(2), nodes: gauss(2)", "a_11 = "),

@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_refutation_is_one_only_where_no_stages_can_coincide() {
+    fn explicitness_is_refuted_only_if_no_stages_can_coincide() {
         let gauss = crate::derive("polynomial(2)", "gauss(2)")
             .expect("derived")
             .properties()

@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn methods_of_order_2_that_are_symmetric_and_of_order_1() {
+    fn symmetric_methods_have_nonholonomic_order_2_and_others_order_1() {
         for (definition, witness) in [
             (
                 "basis: polynomial(1), nodes: gauss(1)",
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn what_would_lose_its_order_is_refused() {
+    fn methods_that_lose_order_with_nonholonomic_rows_are_refused() {
         for (definition, witness) in [
             ("basis: polynomial(2), nodes: gauss(2)", "order 2 at most"),
             (

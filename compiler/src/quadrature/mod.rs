@@ -326,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn nodes_come_sorted_and_lists_are_rules() {
+    fn listed_nodes_are_sorted_and_give_the_known_rules() {
         assert_eq!(rule("[1, 0, 1/3]").name(), "0, 1/3, 1");
         assert_eq!(rule("0, 1/2, 1").algebra(), rule("lobatto(3)").algebra());
         assert_eq!(

@@ -461,7 +461,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_wrong_with_a_requirement_is_said_where_it_is() {
+    fn malformed_requirements_are_refused_at_the_column() {
         for (text, message) in [
             (
                 "order >=",

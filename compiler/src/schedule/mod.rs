@@ -485,7 +485,7 @@ mod tests {
     /// b = (1/2, 1/2, −1/2) and a_ij = μ_ij b_j with rows (0 0 0), (2 0 0), (2 1 1) of μ: the last two
     /// momentum stages coincide, then their velocities cancel in Q3, so that Q2 = Q3.
     #[test]
-    fn stages_that_coincide_because_others_do_are_one() {
+    fn stages_that_coincide_through_others_are_merged() {
         let basis = "403/6 - 16052/9*t + 13702*t^2 - 416320/9*t^3 + 232960/3*t^4 - 190976/3*t^5 + 60928/3*t^6, \
                      23/6 - 1144/9*t + 3742/3*t^2 - 48896/9*t^3 + 104000/9*t^4 - 34816/3*t^5 + 39424/9*t^6, \
                      -155/6 + 6604/9*t - 18514/3*t^2 + 209216/9*t^3 - 392960/9*t^4 + 119296/3*t^5 - 125440/9*t^6";

@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn roots_that_are_close_are_told_apart() {
+    fn close_roots_are_separated() {
         let tiny = crate::arithmetic::rounding::exact(2f64.powi(-100));
         let near = Polynomial::from_rationals(&[-(ratio(1, 1) + &tiny), ratio(1, 1)]);
         let cells = Cells::new(&[

@@ -272,7 +272,7 @@ mod tests {
 
     /// Ends from the traces of products of 81, 125 and 625 matrices in arithmetic of 80 digits; the traces are ±2 there.
     #[test]
-    fn long_compositions() {
+    fn stable_intervals_of_long_compositions_agree_with_products() {
         for (name, end) in [
             ("triple-jump-10", "1.2538295503375377928"),
             ("suzuki-8", "3.1415275035205379284"),
@@ -284,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_decided_is_left_open() {
+    fn halves_leave_asymmetric_and_touching_methods_undecided() {
         // Not palindromic.
         assert!(known("ruth-1983").first_stable_interval().is_none());
         // Not a splitting.

@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn as_many_digits_are_shown_as_tell_the_ends_apart() {
+    fn ends_of_an_interval_are_shown_with_the_digits_that_differ() {
         let cubic = |constant: BigRational| [-constant, ratio(0, 1), ratio(0, 1), ratio(1, 1)];
         let tiny = BigRational::new(1.into(), num_bigint::BigInt::from(10).pow(30));
         let interval = between(&cubic(ratio(2, 1)), &cubic(ratio(2, 1) + tiny));

@@ -461,14 +461,14 @@ mod tests {
     }
 
     #[test]
-    fn double_roots_are_not_told_apart() {
+    fn isolation_refuses_double_roots() {
         assert_eq!(found(&[4, -4, 1], 0).map(|i| i.len()), None);
         // (3x − 1)²(x² + 1)
         assert_eq!(found(&[1, -6, 10, -6, 9], 0).map(|i| i.len()), None);
     }
 
     #[test]
-    fn roots_that_lie_close_are_told_apart_or_seen_not_to_be_there() {
+    fn isolation_separates_close_roots_and_rejects_close_complex_pairs() {
         // (x² + 1)(9x² − 6x + 1 ∓ 2⁻¹⁰⁰), with roots (1 ± 2⁻⁵⁰)/3 or none.
         for (sign, count) in [(-1, 2), (1, 0)] {
             let offset = ratio(sign, 1) / ratio(2, 1).pow(100);

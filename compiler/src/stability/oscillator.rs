@@ -395,7 +395,7 @@ mod tests {
     }
 
     #[test]
-    fn the_product_of_flows_is_what_the_resolvent_says() {
+    fn the_product_of_flows_agrees_with_the_resolvent() {
         for pair in [splitting(), splitting().exchanged()] {
             let flows = pair.flows().expect("a splitting");
             let polynomial = |list: &Vec<BigRational>| Some(Polynomial::from_rationals(list));

@@ -338,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn values_on_the_imaginary_axis() {
+    fn a_polynomial_on_the_imaginary_axis_splits_into_real_and_imaginary() {
         // (1 + x + x² + x³ + x⁴)(iy) = 1 − y² + y⁴ + iy(1 − y²)
         let (f, g) = Polynomial::from_integers(&[1; 5]).on_imaginary_axis();
         assert_eq!(f, Polynomial::from_integers(&[1, -1, 1]));

@@ -33,7 +33,7 @@ fn runge_kutta(a: &[&[&str]], b: &[&str]) -> (Stability, RungeKuttaStability) {
 }
 
 #[test]
-fn the_examples_of_the_theory() {
+fn stability_of_textbook_methods_agrees_with_the_theory() {
     let verlet = derived("polynomial(2)", "lobatto(2)");
     assert_eq!(verlet.trace.to_string(), "2 − ν²");
     assert_eq!(verlet.intervals_text(), "(0, 2)");
@@ -95,7 +95,7 @@ fn gauss_is_stable_for_all_steps() {
 }
 
 #[test]
-fn explicit_runge_kutta_methods() {
+fn explicit_runge_kutta_methods_have_their_known_stability() {
     let (euler, rk) = runge_kutta(&[&["0"]], &["1"]);
     assert_eq!(rk.function.to_string(), "z + 1");
     assert!(rk.imaginary.is_zero() && !rk.a_stable && rk.at_infinity.is_none());
@@ -128,7 +128,7 @@ fn explicit_runge_kutta_methods() {
 }
 
 #[test]
-fn implicit_runge_kutta_methods() {
+fn implicit_runge_kutta_methods_have_their_known_stability() {
     let (euler, rk) = runge_kutta(&[&["1"]], &["1"]);
     assert!(rk.a_stable && rk.l_stable && euler.p_stable);
     assert_eq!(rk.function.to_string(), "1/(1 − z)");
@@ -226,7 +226,7 @@ fn diagonally_implicit(gamma: &Polynomial) -> RungeKuttaStability {
 }
 
 #[test]
-fn methods_over_a_field() {
+fn methods_over_a_number_field_have_their_known_stability() {
     for sign in [-1, 1] {
         let gamma = Polynomial::from_rationals(&[ratio(1, 1), ratio(sign, 2)]);
         let rk = diagonally_implicit(&gamma);
@@ -296,7 +296,7 @@ fn both_kinds_of_polynomials_agree() {
 
 /// A budget with enough operations for the exact arithmetic, and one with too few.
 #[test]
-fn the_budget_decides_the_evidence_and_nothing_else() {
+fn the_budget_changes_the_evidence_only() {
     for (basis, nodes) in [
         ("1, exp(t), exp(2*t), t", "0, 1/3, 2/3, 1"),
         ("1, cos(pi*t), sin(pi*t), t, t^2", "0, 1/4, 1/2, 3/4, 1"),
@@ -403,7 +403,7 @@ fn a_number_whose_double_is_zero_is_not_zero() {
 
 /// Pairs that are not symplectic, and a pair whose stages have no solution at a point where the matrix is defined.
 #[test]
-fn pairs_that_are_not_symplectic() {
+fn stability_of_nonsymplectic_pairs_uses_the_determinant() {
     // Two stages: Heun's method for both q and p.
     let (heun, _) = runge_kutta(&[&["0", "0"], &["1", "0"]], &["1/2", "1/2"]);
     // det = (1 − x/2)² + x = 1 + x²/4: unstable for all steps.
@@ -602,7 +602,7 @@ fn splitting(kick: &str, drift: &str) -> Stability {
 
 /// A kick and a drift are inserted that are so small that the first stable steps do not change in 12 digits.
 #[test]
-fn tiny_kicks_move_no_end_far() {
+fn tiny_kicks_do_not_move_the_stable_interval() {
     let near = splitting("pi, 1 - pi", "e, 1 - e").intervals[0]
         .high
         .decimal(12);
@@ -708,7 +708,7 @@ fn more_digits_do_not_change_the_first_ones() {
 
 /// The difference of large numbers that cancel is not zero.
 #[test]
-fn large_numbers_that_cancel_leave_something() {
+fn a_difference_of_large_numbers_is_not_taken_for_zero() {
     for size in ["exp(1000)", "exp(2000)", "(10^200)^2*pi"] {
         let found = splitting(&format!("{size}, 1, -{size}"), "pi, 1 - pi, 0");
         let trace = found.trace.to_string();
@@ -732,7 +732,7 @@ fn large_numbers_that_cancel_leave_something() {
 
 /// A third of a step is moved by 5e-701, which is the difference of large numbers: two end points stay distinct.
 #[test]
-fn numbers_that_are_small_by_cancellation_are_seen() {
+fn a_small_difference_of_large_numbers_keeps_end_points_distinct() {
     let tiny = "(sqrt((10^350)^4 + 1) - (10^350)^2)";
     let found = splitting(
         &format!("1/6, 1/3 + {tiny}, 1/3 - {tiny}, 1/6"),

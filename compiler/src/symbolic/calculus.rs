@@ -264,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn known_integrals() {
+    fn integrals_have_their_known_closed_forms() {
         let cases = [
             ("1", "t"),
             ("t^2 - t/3", "t^3/3 - t^2/6"),

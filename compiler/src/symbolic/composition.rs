@@ -173,7 +173,7 @@ mod tests {
     use crate::symbolic::function::tests::function;
 
     #[test]
-    fn what_cannot_be_integrated_is_refused() {
+    fn functions_outside_the_integrable_class_are_refused() {
         let t = Function::variable();
         let square = t.power(2).expect("small");
         let class = |result: Result<Function, ErrorKind>| {

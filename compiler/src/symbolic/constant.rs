@@ -269,7 +269,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn the_form_of_a_constant_tells_rationals_and_multiples_of_pi() {
+    fn rational_and_linear_in_pi_constants_are_recognised_by_their_form() {
         let linear = |text: &str| {
             let parts = constant(text).linear_in_pi();
             parts.map(|(rational, pi)| format!("{rational} {pi}"))

@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_too_large_or_too_small_is_refused_alike() {
+    fn constants_that_are_too_large_or_too_small_are_refused() {
         let read = |text: &str| {
             let input = Input { name: "test", text };
             parse_list(input).and_then(|list| list[0].constant(input))

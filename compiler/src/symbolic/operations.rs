@@ -320,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn limits_and_zeros_are_errors() {
+    fn operations_refuse_division_by_zero_and_huge_results() {
         let pi = Constant::pi();
         assert_eq!(Constant::zero().inverse(), Err(ErrorKind::DivisionByZero));
         assert!(matches!(pi.power(3000), Err(ErrorKind::Magnitude { .. })));

@@ -255,7 +255,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn perfect_powers_and_symmetries_fold() {
+    fn perfect_powers_and_symmetries_are_simplified() {
         let cases = [
             ("sqrt(9/4)", "3/2"),
             ("sqrt(12)", "2*sqrt(3)"),

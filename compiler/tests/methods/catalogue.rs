@@ -9,7 +9,7 @@ fn derived(name: &str) -> Tableau {
 
 #[test]
 #[ignore = "thorough"]
-fn methods_coincide_where_it_is_said_and_nowhere_else() {
+fn only_methods_listed_as_the_same_have_equal_coefficients() {
     let all: Vec<_> = catalogue::entries()
         .map(|entry| (entry.derive().expect("derived"), entry))
         .collect();

@@ -232,7 +232,7 @@ fn methods_for_perturbed_systems_have_their_last_order() {
 }
 
 #[test]
-fn what_does_not_fit_is_told_at_its_part() {
+fn wrong_claims_and_digits_are_refused_at_the_key() {
     let wrong = |from: &str, to: &str| {
         assert!(JUMP.contains(from), "{from}");
         refused(&JUMP.replace(from, to))

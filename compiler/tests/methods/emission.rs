@@ -27,7 +27,7 @@ fn an_explicit_method_is_straight_line_code() {
 }
 
 #[test]
-fn the_ends_of_a_step_are_not_solved_for() {
+fn lobatto_3_is_emitted_with_explicit_end_stages() {
     let code = emitted(&derived("polynomial(3)", "lobatto(3)"), "Lobatto3");
     expect_file!["emitted/lobatto_3.rs"].assert_eq(&code);
 }

@@ -128,7 +128,7 @@ proptest! {
 }
 
 #[test]
-fn what_is_wrong_with_the_parts_together_has_a_place() {
+fn an_incomplete_provenance_is_refused_at_the_place() {
     for (text, place) in [
         ("[provenance]\nbasis = \"polynomial(2)\"\n", "[provenance]"),
         ("[provenance]\nnodes = \"gauss(2)\"\n", "[provenance]"),

@@ -139,7 +139,7 @@ fn round_trip(definition: &Definition, digits: usize) -> Result<bool, String> {
 
 #[test]
 #[ignore = "thorough"]
-fn what_is_written_is_accepted_again() {
+fn files_with_extreme_functions_are_read_back() {
     for function in ["exp(750*t)", "exp(800*t)", "cosh(1000*t)"] {
         for switches in [
             &[][..],
@@ -159,7 +159,7 @@ fn what_is_written_is_accepted_again() {
 /// `SYMPLECTIC_SEEDS=0..5000` tries more definitions.
 #[test]
 #[ignore = "thorough"]
-fn what_is_written_of_stretched_definitions_is_accepted_again() {
+fn files_of_random_stretched_definitions_are_read_back() {
     let seeds = seeds(0..40);
     let count = seeds.end - seeds.start;
     let written = seeds.filter(|&seed| {

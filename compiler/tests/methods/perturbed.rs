@@ -159,7 +159,7 @@ fn methods_for_quadratic_kinetic_energies_are_certified_in_each_power() {
 }
 
 #[test]
-fn twins_lose_the_order() {
+fn perturbed_coefficients_lose_the_order() {
     let simpson = "kick: [1/6, 2/3], drift: [1/2], symmetric: true";
     assert_eq!(proved(&define(simpson)), [4, 2]);
     // Kicks that sum to 1 and are symmetric no longer make Simpson's rule.
@@ -244,7 +244,7 @@ fn a_claimed_order_is_certified_and_the_rest_verified() {
 }
 
 #[test]
-fn requirements_name_the_word() {
+fn a_failed_requirement_on_the_perturbed_order_names_the_word() {
     let saba = known("saba-3");
     for held in [
         "order(perturbed) == (6, 2)",

@@ -30,7 +30,7 @@ fn refused_reading(text: &str) -> Error {
 }
 
 #[test]
-fn files_that_are_no_tables_are_refused_at_the_place() {
+fn files_that_are_not_tables_are_refused_at_the_place() {
     let text = toml_text();
     // What is replaced by what, what the message says, and what it points at.
     let cases = [
@@ -377,7 +377,7 @@ fn change_digits(name: &str, text: &str, after: &str, stride: usize) -> usize {
 
 #[test]
 #[ignore = "thorough"]
-fn every_digit_of_every_value_is_looked_at() {
+fn every_changed_digit_of_a_file_is_found() {
     assert!(change_digits("t.toml", &toml_text(), "stages", 1) > 100);
     assert!(change_digits("t.json", &json_text(), "stages", 1) > 100);
 }
@@ -386,7 +386,7 @@ fn every_digit_of_every_value_is_looked_at() {
 /// and a printed digit of a definition with a claim may be wrong: a warning says so.
 #[test]
 #[ignore = "thorough"]
-fn digits_of_the_catalogue_are_looked_at() {
+fn changed_digits_in_files_of_the_catalogue_are_found() {
     const ALL: [&str; 10] = [
         "symplectic-euler",
         "symplectic-euler-adjoint",

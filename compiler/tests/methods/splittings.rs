@@ -160,7 +160,7 @@ fn the_convention_is_that_of_the_papers() {
 }
 
 #[test]
-fn neighbours_merge_and_what_is_zero_at_an_end_is_no_step() {
+fn adjacent_flows_merge_and_zero_steps_at_the_ends_are_dropped() {
     let same = |one: &str, other: &str| {
         let (one, other) = (define(one), define(other));
         assert!(
@@ -238,7 +238,7 @@ fn holds(definition: &str, requirement: &str) -> Result<(), symplectic_compiler:
 }
 
 #[test]
-fn symmetry_and_symplecticity_for_separable_systems() {
+fn splittings_are_symplectic_if_separable_and_palindromes_symmetric() {
     let decided = |text: &str| {
         let properties = define(text).separable_properties();
         [
@@ -289,7 +289,7 @@ fn symmetry_and_symplecticity_for_separable_systems() {
 }
 
 #[test]
-fn compositions_by_name() {
+fn a_named_composition_is_the_one_written_by_hand() {
     let jump = define("base: velocity-verlet, weights: triple_jump(4)");
     assert!(jump.has_coefficients_of(&known("forest-ruth-1990")));
     assert_eq!(jump.stages(), 4);
@@ -367,7 +367,7 @@ fn weights_of_a_composition_are_certified() {
 }
 
 #[test]
-fn orders_of_the_schemes() {
+fn named_compositions_have_their_proved_orders() {
     let order = |text: &str| {
         let tableau = Definition::parse(text)
             .and_then(|definition| definition.derive(&Limits { stages: 40 }))
@@ -403,7 +403,7 @@ fn orders_of_the_schemes() {
 }
 
 #[test]
-fn what_is_derived_from_splittings_is_derived_again() {
+fn compositions_and_adjoints_of_splittings_are_derived_again() {
     let verlet = known("velocity-verlet");
     let half = Constant::whole(2).inverse().expect("1/2");
     let twice = Tableau::concatenate(&[(&half, &verlet), (&half, &verlet)]).expect("composed");
@@ -435,7 +435,7 @@ fn what_is_derived_from_splittings_is_derived_again() {
 }
 
 #[test]
-fn what_is_wrong_is_said_where_it_stands() {
+fn malformed_splittings_are_refused_at_the_place() {
     for (text, expected) in [
         (
             "kick: [1/2, 1/2], drift: 1",

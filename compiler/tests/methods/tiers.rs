@@ -382,7 +382,7 @@ fn files_of_every_tier_are_read_and_checked() {
 }
 
 #[test]
-fn every_digit_of_other_tiers_is_looked_at() {
+fn changed_digits_in_files_of_other_tiers_are_found() {
     for (text, _) in DEFINITIONS.iter().skip(4).step_by(6) {
         let file = toml::write(&define(text), 8);
         let start = file.find("tier = ").expect("a tier");
@@ -431,7 +431,7 @@ fn weights_go_with_their_nodes() {
 }
 
 #[test]
-fn factors_of_functions_do_not_matter() {
+fn constant_factors_of_basis_functions_do_not_change_the_method() {
     for (with, without) in [
         ("[1, pi*t, exp(-t)]", "[1, t, exp(-t)]"),
         ("[e, cos(pi*t)*e, sin(pi*t)]", "[1, cos(pi*t), sin(pi*t)]"),
@@ -444,7 +444,7 @@ fn factors_of_functions_do_not_matter() {
 }
 
 #[test]
-fn tiny_numbers_are_not_taken_for_zero() {
+fn a_coefficient_of_1e_434_is_not_zero() {
     let tiny = define("a: [[pi*exp(-1000)]], b: [1 + 1/2^53 + pi*exp(-1000)]");
     assert_eq!(tiny.tier(), Tier::Enclosure);
     assert_eq!(tiny.properties().first_row_zero.evidence, Evidence::Refuted);

@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_extrapolated() {
+    fn the_cost_is_not_extrapolated() {
         let curve = curve("a", &[(1e-4, 10.0), (1e-6, 1e3)]);
         assert_eq!(curve.cost(1e-3), Cost::AtMost { seconds: 10.0 });
         assert_eq!(curve.cost(1e-7), Cost::NotReached { best: 1e-6 });
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lucky_error_does_not_count() {
+    fn an_accidentally_small_error_does_not_count() {
         let curve = curve("a", &[(1e-2, 1.0), (1e-9, 2.0), (1e-3, 3.0), (1e-4, 10.0)]);
         let Cost::Between { seconds } = curve.cost(3e-4) else {
             panic!("{:?}", curve.cost(3e-4));

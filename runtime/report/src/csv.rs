@@ -189,7 +189,7 @@ mod tests {
     use crate::tests::measurements;
 
     #[test]
-    fn rows_of_all_outcomes() {
+    fn the_csv_has_a_row_for_every_outcome() {
         let csv = measurements().csv().expect("memory takes all");
         expect![[r#"
             problem,method,step_size,tolerance,outcome,error,energy_error,drifts,seconds,repetitions,steps,evaluations,mean_iterations,most_iterations,message
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_of_all_verdicts_and_limits() {
+    fn the_csv_has_a_row_for_every_verdict_and_limit() {
         let csv = measurements().verdicts_csv().expect("memory takes all");
         expect![[r#"
             table,problem,method,verdict,error,energy_error,steps,proved_stable,message

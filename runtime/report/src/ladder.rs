@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_are_a_decade_apart_whatever_the_order() {
+    fn the_ladder_reduces_the_error_tenfold_for_any_order() {
         for order in [2, 4, 8, 16] {
             let points = walk(|h| Some(0.05 * h.powi(order)));
             let errors: Vec<f64> = points.iter().filter_map(|point| point.1).collect();
@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn it_ends_where_rounding_takes_over() {
+    fn the_ladder_ends_where_rounding_dominates() {
         let points = walk(|h| Some(h.powi(4) + 1e-10));
         let finest = points[points.len() - 1].0;
         assert!(
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn it_goes_on_below_failures_and_nonsense() {
+    fn the_ladder_continues_below_failed_and_inaccurate_runs() {
         let points = walk(|h| (h < 0.3).then_some(if h < 0.1 { h * h * h } else { 7.0 }));
         assert_eq!(points[0], (1.0, None));
         assert_eq!(points[2], (0.25, Some(7.0)));
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn listed_ones_are_taken_as_they_are() {
+    fn a_listed_ladder_has_the_given_step_sizes() {
         let mut descent = Ladder::Halve {
             first: 1.0,
             halvings: 2,

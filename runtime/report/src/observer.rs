@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn an_energy_that_is_not_a_number_is_no_error_of_zero() {
+    fn a_nan_energy_is_not_an_error_of_zero() {
         let energy = |state: &State<Vector1<f64>>| (state.q[0] - 1.0).sqrt();
         let mut observer = Observer::new(Some(&energy), core::iter::empty(), &state(0.0, 2.0), 1.0);
         for (time, q) in [(0.2, 0.0), (0.4, 2.0), (1.0, 2.0)] {

@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn the_best_of_each_kind_and_two_by_name() {
+    fn roles_go_to_the_best_of_each_kind_and_to_verlet() {
         let mut found = measurements();
         let expected = [
             (Role::BestImplicit, "Gauss 4"),

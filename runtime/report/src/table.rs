@@ -93,7 +93,7 @@ mod tests {
     use crate::tests::measurements;
 
     #[test]
-    fn the_table_of_a_small_study() {
+    fn the_table_of_a_small_study_has_the_recorded_text() {
         expect![[r#"
             | problem | method | 10⁻³ | 10⁻⁶ | 10⁻⁹ | 10⁻¹² |
             | --- | --- | ---: | ---: | ---: | ---: |

@@ -166,7 +166,7 @@ fn oscillator() -> Problem<Vector1<f64>, impl System<Vector1<f64>, Class = Separ
 }
 
 #[test]
-fn a_study_of_an_oscillator() {
+fn a_study_of_an_oscillator_measures_all_its_curves() {
     let problem = oscillator()
         .method(Verlet)
         .run("Gauss", |system, start, h| {
@@ -208,7 +208,7 @@ fn a_study_of_an_oscillator() {
 }
 
 #[test]
-fn what_fails_is_kept_with_its_error() {
+fn failed_runs_are_kept_with_their_errors() {
     let problem = oscillator()
         .on_ladder(Ladder::Halve {
             first: 10.0,
@@ -258,7 +258,7 @@ fn what_fails_is_kept_with_its_error() {
 }
 
 #[test]
-fn what_would_take_too_long_is_skipped_and_said_to_be() {
+fn runs_beyond_the_budget_are_skipped_with_the_reason() {
     let none = Settings {
         budget: Duration::from_nanos(1),
         ..settings()

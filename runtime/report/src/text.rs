@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn powers() {
+    fn powers_of_ten_are_written_with_superscripts() {
         assert_eq!(
             [0, 1, -3, 12].map(power_of_ten),
             ["1", "10", "10⁻³", "10¹²"]
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn two_digits() {
+    fn numbers_are_written_with_two_digits() {
         let found = [0.0, 1.0, 0.25, 0.031, 12.3, 1.26e-9, 123.0].map(scientific);
         assert_eq!(
             found,
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn times() {
+    fn times_are_written_with_three_digits_and_a_unit() {
         let found = [2.5, 0.034, 0.000_5, 1.2345e-7, 0.9999e-3, 123e-6].map(seconds);
         assert_eq!(
             found,
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn thousands() {
+    fn thousands_are_grouped_by_thin_spaces() {
         assert_eq!(grouped(1_234_567), "1\u{202f}234\u{202f}567");
         assert_eq!(grouped(12), "12");
     }

@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn methods_take_turns() {
+    fn repetitions_of_methods_alternate() {
         let order = round(&[2, 0, 3]);
         assert_eq!(order, [(0, 0), (2, 0), (0, 1), (2, 1), (2, 2)]);
         assert_eq!(round(&[]), []);

@@ -335,7 +335,7 @@ mod tests {
     }
 
     #[test]
-    fn each_kind_is_told_from_the_others() {
+    fn verdicts_distinguish_accurate_bounded_and_unstable_runs() {
         // Störmer–Verlet has an amplitude error of ν²/8 and a phase error of ν³/24 per step; it is unstable from ν = 2
         // on.
         let found = [0.01, 1.0, 2.5].map(|nu| oscillator(Verlet, nu));
@@ -377,7 +377,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_number_is_not_stable() {
+    fn a_run_with_a_nan_energy_is_unstable() {
         let system = acceleration::<Vector1<f64>, _>(|_, q, acceleration| *acceleration = -q)
             .with_energy(|time, q, _| if time > 0.25 { f64::NAN } else { q[0] });
         let start = State::from_arrays(0.0, [1.0], [0.0]);

@@ -80,7 +80,7 @@ mod tests {
     use super::outer_root;
 
     #[test]
-    fn roots_are_those_of_convex_functions() {
+    fn roots_of_convex_functions_are_found() {
         let square = |p: f64| [p * p / 2.0, p];
         let shifted = |p: f64| [(p - 3.0) * (p - 3.0) / 2.0 - 1.0, p - 3.0];
         let relativistic = |p: f64| [(1.0 + p * p).sqrt(), p / (1.0 + p * p).sqrt()];

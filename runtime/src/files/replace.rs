@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn a_write_that_fails_leaves_the_file_and_no_part() {
+    fn a_failed_write_keeps_the_old_file_and_no_partial_one() {
         let folder = folder("replace");
         let path = folder.join("file");
         replace_file(&path, |out| out.write_all(b"whole")).expect("written");

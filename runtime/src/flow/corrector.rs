@@ -298,7 +298,7 @@ mod tests {
 
     /// For drift–kick–drift, the third-order corrector of Wisdom, Holman & Touma has a = √(7/40), b = 1/(48 a).
     #[test]
-    fn one_pair_is_that_of_the_paper() {
+    fn the_third_order_corrector_has_the_weights_of_the_paper() {
         let place = (7.0_f64 / 40.0).sqrt();
         let terms = end_terms(1, &[(1.0, 0.5)]);
         assert!((weights(&[place], &terms)[0] * 48.0 * place - 1.0).abs() < 1e-15);

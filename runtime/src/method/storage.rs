@@ -291,7 +291,7 @@ mod tests {
     use nalgebra::Vector3;
 
     #[test]
-    fn every_component_is_looked_at() {
+    fn is_finite_finds_a_nonfinite_number_in_any_component() {
         for (number, finite) in [
             (0.0, true),
             (-0.0, true),

@@ -332,7 +332,7 @@ mod tests {
 
     /// Checks every function against differences of order 4, along both parameters, and checks the same values and slopes in lanes.
     #[test]
-    fn derivatives() {
+    fn hyperdual_derivatives_agree_with_differences() {
         fn check(name: &str, f: impl Fn(HyperDual) -> HyperDual) {
             let at = |a: f64, b: f64| {
                 // x(a, b) has derivatives with respect to both parameters and a mixed derivative.
@@ -380,7 +380,7 @@ mod tests {
 
     /// Each lane holds the dual number of its double, also at zeros of either sign.
     #[test]
-    fn lanes() {
+    fn dual_numbers_in_lanes_are_those_of_doubles() {
         fn f<T: Scalar>(x: T) -> T {
             (x.abs() + T::one()).ln() * x.sin().exp() / (x * x + T::one()).sqrt()
         }

@@ -319,7 +319,7 @@ mod tests {
     }
 
     #[test]
-    fn singular_matrices_are_told() {
+    fn elimination_refuses_singular_matrices() {
         let mut elimination = Elimination::new(3, 2);
         assert!(!elimination.factor(|i, j| (i * j) as f64));
         assert!(!elimination.factor(|i, j| if i == j { f64::NAN } else { 1.0 }));
@@ -327,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn complex_numbers() {
+    fn elimination_solves_complex_equations() {
         let mut elimination = Elimination::new(2, 1);
         let number = |re: f64, im: f64| Complex { re, im };
         let matrix = [

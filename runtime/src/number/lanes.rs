@@ -579,7 +579,7 @@ mod tests {
     }
 
     #[test]
-    fn the_larger_is_not_a_number_where_one_is_not() {
+    fn the_larger_of_two_lanes_is_nan_if_one_is_nan() {
         check(F64x2::larger_by_bits, F64x2::larger_by_sums);
         check(F64x4::larger_by_bits, F64x4::larger_by_sums);
         check(F64x8::larger_by_bits, F64x8::larger_by_sums);

@@ -196,7 +196,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sums_leave_nothing_out() {
+    fn two_sum_splits_a_sum_without_error() {
         for (a, b) in [(1.0, 1e-20), (1e-20, 1.0), (0.1, 0.2), (-3.0, 3.0 + 1e-15)] {
             let (sum, rest) = two_sum(a, b);
             assert_eq!(sum, a + b);

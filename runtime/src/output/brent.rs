@@ -171,7 +171,7 @@ mod tests {
 
     /// Where interpolation fails, bisection takes over and the search terminates.
     #[test]
-    fn ugly_functions_end() {
+    fn the_search_for_a_zero_ends_for_ill_behaved_functions() {
         let (root, count) = zero((-1.0, 2.0), |t| if t < 1.0 / 3.0 { -1.0 } else { 1.0 });
         assert!(
             (root - 1.0 / 3.0).abs() < 1e-15 && count < 120,

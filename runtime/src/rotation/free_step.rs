@@ -127,7 +127,7 @@ mod tests {
 
     /// Compares both formulas of κ, and its derivative with difference quotients.
     #[test]
-    fn kappa_and_its_derivative() {
+    fn kappa_has_its_closed_form_and_derivative() {
         let closed = |square: f64| {
             let half: f64 = Scalar::sqrt(square) / 2.0;
             (1.0 - half / Scalar::tan(half)) / square
@@ -144,7 +144,7 @@ mod tests {
 
     /// The equation holds, and its derivative agrees with difference quotients.
     #[test]
-    fn the_equation_of_a_step() {
+    fn the_step_equation_is_solved_and_differentiated() {
         let moments = Vector3::new(1.0, 2.0, 0.7);
         let w = Vector3::new(0.5, -1.1, 0.8);
         let (_, slope) = equation(&moments, &w);

@@ -446,7 +446,7 @@ mod tests {
     }
 
     #[test]
-    fn the_widest_registers_are_taken_and_all_have_the_same_bits() {
+    fn the_widest_registers_are_used_and_all_give_the_same_bits() {
         let (avx2, avx512) = match registers::UNKNOWN {
             true => (Avx2::detect().is_some(), Avx512::detect().is_some()),
             false => (false, false),

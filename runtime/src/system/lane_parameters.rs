@@ -82,7 +82,7 @@ mod tests {
     use super::LaneParameter;
 
     #[test]
-    fn only_numbers_differ() {
+    fn lanes_may_differ_in_numbers_but_not_in_indices_or_lengths() {
         let first = (vec![[1.0, 2.0]], vec![(0, 1)]);
         let mut lanes = (first.0.in_all_lanes(), first.1.in_all_lanes());
         assert_eq!(vec![[3.0, 4.0]].set_lane(1, &mut lanes.0), Some(()));

@@ -55,7 +55,7 @@ fn the_step_density_is_that_of_the_last_step() -> Result<(), Error> {
 
 /// The figures of an independent program, to two digits: 8.8e-4, 6.9e-4, 7.6e-4, and 1.2e-3, 6.8e-2, 0.18.
 #[test]
-fn the_energy_does_not_drift_and_with_steps_by_the_state_before_it_does() -> Result<(), Error> {
+fn reversible_steps_keep_the_energy_and_one_sided_steps_do_not() -> Result<(), Error> {
     let orbits = [1_u32, 100, 300];
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let error = |state: &State<Vector2<f64>>| energy(state) + 0.5;
@@ -283,7 +283,7 @@ fn a_general_hamiltonian_keeps_its_energy() -> Result<(), Error> {
 }
 
 #[test]
-fn methods_know_where_they_are_symmetric() {
+fn methods_state_for_which_systems_they_are_symmetric() {
     fn symmetry<M: Method>(_: M) -> (bool, bool) {
         let Symmetry { general, separable } = M::SYMMETRY;
         (general, separable)

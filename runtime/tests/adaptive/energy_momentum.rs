@@ -88,7 +88,7 @@ fn energy_and_angular_momentum_are_conserved() -> Result<(), Error> {
 }
 
 #[test]
-fn the_order_at_the_time_that_is_reached() -> Result<(), Error> {
+fn the_state_at_the_reached_time_has_order_two() -> Result<(), Error> {
     let errors = [(0.01, 100), (0.005, 200), (0.0025, 400)].map(|(size, steps)| {
         let mut run = EnergyMomentumIntegrator::new(Midpoint(Attraction), pericentre(0.5), size)
             .expect("a run");
@@ -164,7 +164,7 @@ impl DiscreteLagrangian for About {
 }
 
 #[test]
-fn rounding_of_the_positions_ends_no_run() -> Result<(), Error> {
+fn rounding_errors_of_positions_do_not_end_a_run() -> Result<(), Error> {
     // The same orbit far from the origin, and in steps that are short beside the distance.
     for (x, size) in [(1e4, 0.01), (1e6, 0.01), (0.0, 1e-5), (0.0, 1e-7)] {
         let mut start = pericentre(0.5);
@@ -209,7 +209,7 @@ fn a_free_particle_conserves_the_energy_by_every_step() -> Result<(), Error> {
 }
 
 #[test]
-fn bad_input() {
+fn bad_step_sizes_and_states_are_refused() {
     let start = || pericentre(0.5);
     for size in [0.0, f64::NAN] {
         let made = EnergyMomentumIntegrator::new(Midpoint(Ring), start(), size);

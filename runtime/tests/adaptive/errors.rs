@@ -27,7 +27,7 @@ impl Monitor for Parabola {
 }
 
 #[test]
-fn bad_epsilons() {
+fn an_epsilon_that_is_zero_or_not_finite_is_refused() {
     for epsilon in [0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let monitor = DistancePower(1.5);
         let made = Integrator::adaptive(VelocityVerlet, Kepler, monitor, pericentre(0.9), epsilon);
@@ -60,7 +60,7 @@ impl Monitor for Cliff {
 }
 
 #[test]
-fn a_monitor_that_fails_later_leaves_the_state_alone() -> Result<(), Error> {
+fn a_monitor_that_fails_in_a_run_leaves_the_state_unchanged() -> Result<(), Error> {
     let free = acceleration(|_, _: &Vector1<f64>, acceleration| acceleration[0] = 0.0);
     let start = State::from_arrays(0.0, [0.0], [1.0]);
     let mut run = Integrator::adaptive(VelocityVerlet, free, Cliff, start, 0.3)?;
@@ -102,7 +102,7 @@ fn a_monitor_that_vanishes_is_named() -> Result<(), Error> {
 }
 
 #[test]
-fn a_density_that_is_not_positive_leaves_the_state_alone() -> Result<(), Error> {
+fn a_density_that_is_not_positive_leaves_the_state_unchanged() -> Result<(), Error> {
     // σ grows so fast that z = 1/σ − ε σ'/(2σ) is negative.
     let free = acceleration(|_, _: &Vector1<f64>, acceleration| acceleration[0] = 0.0);
     let start = State::from_arrays(0.0, [1.0], [3.0]);
@@ -121,7 +121,7 @@ fn a_density_that_is_not_positive_leaves_the_state_alone() -> Result<(), Error> 
 }
 
 #[test]
-fn a_step_that_fails_leaves_the_density_alone() -> Result<(), Error> {
+fn a_failed_step_leaves_the_step_density_unchanged() -> Result<(), Error> {
     // The force is NaN beyond 1.
     let edge = acceleration(|_, q: &Vector1<f64>, acceleration| {
         acceleration[0] = 0.0 * (1.0 - q[0]).sqrt();
@@ -183,7 +183,7 @@ impl Hamiltonian for Unsaid {
 }
 
 #[test]
-fn a_transformed_hamiltonian_hides_no_constraint_and_no_friction() {
+fn a_transformed_hamiltonian_refuses_constraints_and_friction() {
     let start = State::from_arrays(0.0, [1.0], [0.5]);
     for (constraints, friction, sound) in [(0, 0.0, true), (1, 0.0, false), (0, 0.5, false)] {
         let system = || Unsaid {
@@ -208,7 +208,7 @@ fn a_transformed_hamiltonian_hides_no_constraint_and_no_friction() {
 }
 
 #[test]
-fn messages_say_what_where_and_what_to_do() {
+fn messages_name_the_cause_the_time_and_a_remedy() {
     let monitor = Error::Monitor {
         time: 2.0,
         value: -1.0,

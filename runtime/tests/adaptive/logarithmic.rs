@@ -54,7 +54,7 @@ fn compositions_of_position_verlet_have_the_exact_kepler_orbit() -> Result<(), E
 }
 
 #[test]
-fn orders_in_time() -> Result<(), Error> {
+fn logarithmic_steps_have_the_order_of_the_method() -> Result<(), Error> {
     fn errors<M: Method + ProvedFor<Separable>>(method: M, size: f64) -> Result<Vec<f64>, Error> {
         let sizes = [size, size / 2.0, size / 4.0].into_iter();
         let errors =

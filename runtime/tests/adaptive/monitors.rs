@@ -127,7 +127,7 @@ symplectic::hamiltonian! {
 
 /// |F|^{-3/4} = |q|^{3/2}: the same steps.
 #[test]
-fn the_force_tells_the_distance_of_a_kepler_orbit() -> Result<(), Error> {
+fn a_power_of_the_force_gives_the_steps_of_a_power_of_the_distance() -> Result<(), Error> {
     let by_force = ForcePower {
         system: FromFormula,
         exponent: 0.75,

@@ -107,7 +107,7 @@ fn shallow_crossings_within_steps_are_found() -> Result<(), Error> {
 }
 
 #[test]
-fn events_are_missed_by_no_run_that_goes_on() -> Result<(), Error> {
+fn a_run_in_pieces_misses_no_events() -> Result<(), Error> {
     let mut run = gauss()?;
     let apocentre = Event::falling(|state: &Orbit| state.q.dot(&state.p));
     let mut count = 0;
@@ -122,7 +122,7 @@ fn events_are_missed_by_no_run_that_goes_on() -> Result<(), Error> {
 }
 
 #[test]
-fn walls_throw_back() -> Result<(), Error> {
+fn a_ball_bounces_off_a_wall_in_variable_steps() -> Result<(), Error> {
     // A ball that falls and bounces, with steps that are short near the floor.
     let ball = acceleration(|_, _: &Vector1<f64>, acceleration| acceleration[0] = -1.0)
         .with_energy(|_, q, p| p[0] * p[0] / 2.0 + q[0]);

@@ -43,7 +43,7 @@ where
 }
 
 #[test]
-fn orders_in_time() -> Result<(), Error> {
+fn poincare_steps_have_the_order_of_the_method() -> Result<(), Error> {
     fn errors<M, W>(method: M, monitor: fn() -> W, size: f64) -> Vec<f64>
     where
         M: Method + ProvedFor<General>,

@@ -263,7 +263,7 @@ fn steps_are_split_among_many() -> Result<(), Error> {
 
 /// The velocity of a system with unit masses is not asked for, and the steps are the same.
 #[test]
-fn unit_masses_are_no_other_system() -> Result<(), Error> {
+fn declared_unit_masses_give_the_same_steps() -> Result<(), Error> {
     fn check<M: Method>(method: M) -> Result<(), Error> {
         let start = State::new(0.5, Vector2::new(0.3, -0.2), Vector2::new(0.1, 1.0));
         let mut known = Integrator::new(method, Unit::<1>, start.clone(), 0.01)?;

@@ -97,7 +97,7 @@ fn forces_are_those_of_the_energy() {
 
 /// Written out, particle by particle.
 #[test]
-fn ends_are_what_they_are_called() {
+fn walls_free_ends_and_rings_have_their_forces() {
     let q = DVector::from_vec(vec![1.0, 3.0, 7.0]);
     let [walls, free, ring] = chains(Springs).map(|chain| force(&chain, 0.0, &q));
     assert_eq!(walls.as_slice(), [1.0, 2.0, -11.0]);

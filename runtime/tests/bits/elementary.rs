@@ -129,7 +129,7 @@ fn several_angles_at_once_have_the_bits_of_each() {
 }
 
 #[test]
-fn what_is_not_ordinary_is_as_everywhere() {
+fn elementary_functions_follow_the_standard_at_special_values() {
     let (nan, infinity) = (f64::NAN, f64::INFINITY);
     for (found, expected) in [
         (Scalar::sin(0.0), 0.0),

@@ -106,7 +106,7 @@ type Function<L> = (fn(L) -> L, fn(f64) -> f64);
 
 /// Elementary functions in lanes are those of the doubles.
 #[test]
-fn functions_are_taken_lane_by_lane() {
+fn elementary_functions_in_lanes_are_those_of_doubles() {
     fn check<L: Lanes>() {
         let value = |lane: usize| 0.1 + 0.05 * lane as f64;
         let x = L::from_fn(value);
@@ -201,7 +201,7 @@ fn third_force_is_named<S: System<Vector1<f64>>, N: Solver<Vector1<f64>, S>>(
 }
 
 #[test]
-fn what_is_not_finite_is_named_with_its_stage() -> Result<(), Error> {
+fn a_nonfinite_force_in_lanes_is_named_with_its_stage() -> Result<(), Error> {
     let start = || State::new(0.0, SVector::from([0.9]), SVector::from([1.0]));
     third_force_is_named(Integrator::new(Gauss3, Wall, start(), 0.15)?);
     third_force_is_named(Integrator::new(Gauss3, Wall, start(), 0.15)?.with_solver(SimdFixedPoint));
@@ -301,7 +301,7 @@ where
 
 #[test]
 #[ignore = "thorough"]
-fn halves_at_once_are_those_in_turn_up_to_rounding() -> Result<(), Error> {
+fn simultaneous_halves_agree_with_alternating_ones_to_rounding() -> Result<(), Error> {
     fn check<M: Method + ProvedFor<General>>(method: M) -> Result<(), Error> {
         let q = SVector::from([0.5, -0.3, 0.9]);
         let p = SVector::from([1.0, 0.25, -0.5]);
@@ -324,7 +324,7 @@ fn halves_at_once_are_those_in_turn_up_to_rounding() -> Result<(), Error> {
 
 /// For a separable system there would be twice as many sweeps at once.
 #[test]
-fn halves_of_separable_systems_are_taken_in_turn() -> Result<(), Error> {
+fn halves_of_separable_systems_are_iterated_alternately() -> Result<(), Error> {
     let start = perihelion();
     let mut in_turn =
         Integrator::new(Gauss3, Kepler, start.clone(), 0.03)?.with_solver(SimdFixedPoint);
@@ -445,7 +445,7 @@ fn evaluations_are_counted_for_every_stage() -> Result<(), Error> {
 
 /// Lanes at once that are not finite are named too.
 #[test]
-fn what_is_not_finite_at_once_is_named_with_its_stage() -> Result<(), Error> {
+fn a_nonfinite_force_of_simultaneous_halves_is_named_with_its_stage() -> Result<(), Error> {
     /// H = p²/2 + q²/2, beyond q = 1 nothing.
     struct Disc;
 
@@ -523,7 +523,7 @@ impl SeparableHamiltonian for UnitKepler {
 
 /// Without their velocities the second-order lanes give the same bits, at the ends of steps and inside.
 #[test]
-fn unit_masses_change_no_bit_of_second_order_lanes() -> Result<(), Error> {
+fn unit_masses_keep_the_bits_of_second_order_lanes() -> Result<(), Error> {
     fn check<M: Method>(method: M) -> Result<(), Error> {
         check_with::<Compensated, M>(method)?;
         check_with::<Plain, M>(method)

@@ -110,21 +110,21 @@ macro_rules! check {
 
 #[test]
 #[ignore = "thorough"]
-fn positions_alone_have_not_settled_where_they_were_no_numbers() -> Result<(), Error> {
+fn position_stages_that_were_nan_have_not_converged() -> Result<(), Error> {
     check!(|made| made);
     Ok(())
 }
 
 #[test]
 #[ignore = "thorough"]
-fn stages_in_lanes_have_not_settled_where_they_were_no_numbers() -> Result<(), Error> {
+fn stages_in_lanes_that_were_nan_have_not_converged() -> Result<(), Error> {
     check!(|made: Integrator<_, _, _, _>| made.with_solver(SimdFixedPoint));
     Ok(())
 }
 
 #[test]
 #[ignore = "thorough"]
-fn stages_one_by_one_have_not_settled_where_they_were_no_numbers() -> Result<(), Error> {
+fn scalar_stages_that_were_nan_have_not_converged() -> Result<(), Error> {
     check!(|made: Integrator<_, _, _, _>| made.with_solver(FixedPoint));
     Ok(())
 }

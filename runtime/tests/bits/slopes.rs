@@ -55,7 +55,7 @@ impl<const SHARED: bool> Hamiltonian for Bell<'_, SHARED> {
 }
 
 #[test]
-fn what_is_shared_is_evaluated_once() -> Result<(), Error> {
+fn subexpressions_of_both_slopes_are_evaluated_once() -> Result<(), Error> {
     type Run = (State<Vector1<f64>>, Statistics, u64);
     fn run<M: Method + ProvedFor<General>, const SHARED: bool>(method: M) -> Result<Run, Error> {
         let count = Cell::new(0);

@@ -116,7 +116,7 @@ fn check<M: ProvedFor<Separable> + SymmetricFor<Separable> + Sync>(method: M, ep
 }
 
 #[test]
-fn trajectories_have_the_bits_that_they_have_alone() {
+fn adaptive_trajectories_have_the_bits_of_single_runs() {
     check(StoermerVerlet, 0.02);
     check(Gauss2, 0.05);
 }

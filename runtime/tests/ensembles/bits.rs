@@ -111,7 +111,7 @@ where
 const SYSTEM: HenonHeiles = HenonHeiles { amplitude: 0.02 };
 
 #[test]
-fn splittings() {
+fn splittings_in_lanes_have_the_bits_of_single_runs() {
     let starts = starts(13, 100);
     check_sums(SymplecticEuler, SYSTEM, &starts, 0.01);
     check_sums(StoermerVerlet, SYSTEM, &starts, 0.1);
@@ -152,7 +152,7 @@ fn short_runs_on_any_number_of_threads() {
 
 /// Two registers of AVX-512: they are the lanes of a build for it.
 #[test]
-fn sixteen_lanes() {
+fn sixteen_lanes_have_the_bits_of_single_runs() {
     // One of them escapes in its lane, and the last lanes are empty.
     let starts = starts(37, 20);
     let ensemble = || Ensemble::new(Yoshida6, SYSTEM, starts.clone(), 0.1).expect("starts");
@@ -171,7 +171,7 @@ fn sixteen_lanes() {
 }
 
 #[test]
-fn coupled_stages() {
+fn coupled_stages_in_lanes_have_the_bits_of_single_runs() {
     let starts = starts(5, 100);
     check_sums(Gauss4, SYSTEM, &starts, 0.1);
     check_sums(Lobatto3, SYSTEM, &starts, 0.1);
@@ -179,7 +179,7 @@ fn coupled_stages() {
 }
 
 #[test]
-fn systems_that_are_not_separable() {
+fn nonseparable_systems_in_lanes_have_the_bits_of_single_runs() {
     let start = |k: usize| State::from_arrays(0.0, [0.1 * k as f64], [0.3]);
     let starts: Vec<_> = (0..7).map(start).collect();
     check_sums(ForestRuth.accept_lower_order(), Product, &starts, 0.01);
@@ -202,7 +202,7 @@ symplectic::hamiltonian! {
 }
 
 #[test]
-fn friction_and_constraints() {
+fn systems_with_friction_or_constraints_have_the_bits_of_single_runs() {
     let start = |k: usize| State::from_arrays(0.0, [0.1 * k as f64, 0.7], [0.3, 0.1]);
     let starts: Vec<_> = (0..11).map(start).collect();
     check_sums(ForestRuth, Damped::default(), &starts, 0.1);
@@ -215,7 +215,7 @@ fn friction_and_constraints() {
 }
 
 #[test]
-fn dynamic_vectors_short_and_long() {
+fn dynamic_vectors_in_lanes_have_the_bits_of_single_runs() {
     for dimension in [3, 70] {
         let start = |k: usize| {
             let q = DVector::from_fn(dimension, |i, _| 0.3 * ((i * k) as f64 + 0.5).sin());
@@ -227,7 +227,7 @@ fn dynamic_vectors_short_and_long() {
 }
 
 #[test]
-fn closures_are_taken_one_by_one() {
+fn closures_in_an_ensemble_have_the_bits_of_single_runs() {
     let pendulum = acceleration(|_time, q: &Vector1<f64>, a: &mut Vector1<f64>| a[0] = -q[0].sin());
     let start = |k: usize| State::from_arrays(0.0, [0.2 * k as f64], [0.0]);
     let starts: Vec<_> = (0..5).map(start).collect();
@@ -236,7 +236,7 @@ fn closures_are_taken_one_by_one() {
 }
 
 #[test]
-fn times_of_their_own() {
+fn starts_at_different_times_have_the_bits_of_single_runs() {
     let mut starts = starts(11, 100);
     for (k, start) in starts.iter_mut().enumerate() {
         start.time = [0.5, 0.5, 0.75][k / 4];
@@ -250,7 +250,7 @@ fn times_of_their_own() {
 }
 
 #[test]
-fn solvers_that_are_named() {
+fn chosen_solvers_in_an_ensemble_have_the_bits_of_single_runs() {
     let starts = starts(5, 100);
     let make = |start| Integrator::new(Gauss4, SYSTEM, start, 0.1);
     let end = |rows: &[(Bits, ())], expected: &[(Bits, ())]| assert_eq!(rows, expected);
@@ -293,7 +293,7 @@ fn solvers_that_are_named() {
 }
 
 #[test]
-fn families_with_parameters_of_their_own() {
+fn families_with_different_parameters_have_the_bits_of_single_runs() {
     let families: Vec<(HenonHeiles, Vec<_>)> =
         [(0.0, 5), (0.01, 1), (0.02, 3), (0.03, 0), (0.04, 9)]
             .into_iter()
@@ -382,7 +382,7 @@ fn a_system_with_other_bits_in_lanes_goes_one_by_one() {
 }
 
 #[test]
-fn threads_and_order() {
+fn rows_come_in_order_for_any_number_of_threads() {
     // Several batches, and groups that are not full.
     let starts = starts(1030, 50);
     let make = |start: State<Vector2<f64>>| Integrator::new(StoermerVerlet, SYSTEM, start, 0.1);

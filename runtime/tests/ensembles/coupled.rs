@@ -94,7 +94,7 @@ fn orbits(count: u32) -> Vec<State<SVector<f64, 2>>> {
 
 #[test]
 #[ignore = "thorough"]
-fn second_order_systems() {
+fn second_order_systems_have_the_bits_of_single_runs() {
     // With unit masses, and one that leaves; with velocities that are computed.
     check!(
         SYSTEM,
@@ -111,7 +111,7 @@ fn second_order_systems() {
 }
 
 #[test]
-fn methods_of_other_kinds() {
+fn other_kinds_of_methods_have_the_bits_of_single_runs() {
     check!(Kepler, orbits(9), 0.05, Tang, Askew, Twins, RadauIIA);
     // With fewer forces than velocities there is no place for positions only: these trajectories run one by one.
     let starts = orbits(9);
@@ -142,7 +142,7 @@ fn points(count: usize) -> Vec<State<Vector1<f64>>> {
 
 #[test]
 #[ignore = "thorough"]
-fn separable_systems() {
+fn separable_systems_have_the_bits_of_single_runs() {
     check!(
         Relativistic,
         points(19),
@@ -163,7 +163,7 @@ symplectic::hamiltonian! {
 
 #[test]
 #[ignore = "thorough"]
-fn systems_that_are_not_separable() {
+fn nonseparable_systems_have_the_bits_of_single_runs() {
     let start = |k: usize| State::from_arrays(0.5, [0.1 * k as f64, 0.2], [0.3, 0.1 * k as f64]);
     let starts: Vec<_> = (0..19).map(start).collect();
     check!(Swing, starts, 0.1, Midpoint, Gauss4, Gauss18, Twins);
@@ -172,7 +172,7 @@ fn systems_that_are_not_separable() {
 
 #[test]
 #[ignore = "thorough"]
-fn tableaux_at_run_time_of_systems_that_are_not_separable() {
+fn run_time_tableaux_step_nonseparable_systems_in_lanes() {
     let start = |k: usize| State::from_arrays(0.5, [0.1 * k as f64, 0.2], [0.3, 0.1 * k as f64]);
     let starts: Vec<_> = (0..19).map(start).collect();
     for tableau in [tableau(Midpoint), tableau(Gauss4), tableau(Gauss18)] {
@@ -197,7 +197,7 @@ fn tableaux_at_run_time_of_systems_that_are_not_separable() {
 
 #[test]
 #[ignore = "thorough"]
-fn dynamic_vectors() {
+fn dynamic_vectors_have_the_bits_of_single_runs() {
     for dimension in [1, 3, 20] {
         let start = |k: usize| {
             let q = DVector::from_fn(dimension, |i, _| 0.3 * ((i * k) as f64 + 0.5).sin());
@@ -209,7 +209,7 @@ fn dynamic_vectors() {
 }
 
 #[test]
-fn tolerances_and_bounds() {
+fn tolerances_and_sweep_bounds_hold_in_lanes() {
     let starts = orbits(18);
     // Some of these tolerances are out of reach where positions are large.
     for (tolerance, sweeps) in [
@@ -296,7 +296,7 @@ impl SeparableHamiltonian for BySize<'_> {
 }
 
 #[test]
-fn nearly_all_steps_are_taken_in_lanes() {
+fn nearly_all_steps_run_in_full_lanes() {
     let counts = Mutex::new([0; 129]);
     // Sixteen for every thread.
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
@@ -336,7 +336,7 @@ fn gauss(count: usize, threads: usize, first: usize) -> (Vec<(Bits, ())>, usize)
 }
 
 #[test]
-fn any_number_of_threads_and_a_resumed_run() {
+fn rows_are_the_same_for_any_threads_and_after_a_restart() {
     let make = |start| Integrator::new(Gauss4, Kepler, start, 0.05);
     let expected = alone(&orbits(80), make, |run| {
         (run.take_steps(60).map(|_| ()), ())

@@ -44,7 +44,7 @@ fn the_trajectory_that_cannot_start_is_named() {
 }
 
 #[test]
-fn no_starts_no_step_size_no_part() {
+fn an_ensemble_refuses_empty_starts_bad_step_sizes_and_bad_parts() {
     let error = Ensemble::new(StoermerVerlet, SYSTEM, starts(0, 100), 0.1);
     assert_eq!(error.expect_err("empty"), EnsembleError::Empty);
     for size in [f64::NAN, 0.0, f64::INFINITY] {
@@ -67,7 +67,7 @@ fn no_starts_no_step_size_no_part() {
 }
 
 #[test]
-fn bins_have_a_bound() {
+fn a_histogram_refuses_bad_bins_and_limits() {
     for (low, high, bins) in [
         (0.0, 1.0, 0),
         (0.0, 1.0, usize::MAX),

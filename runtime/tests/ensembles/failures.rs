@@ -59,7 +59,7 @@ fn check<M: Method + ProvedFor<Separable>>(method: M, escape: usize, size: f64, 
 
 #[test]
 #[ignore = "thorough"]
-fn neighbours_go_on_to_the_bit() {
+fn neighbours_of_failed_trajectories_keep_their_bits() {
     for escape in [2, 5] {
         check(StoermerVerlet, escape, 0.1, Retry::Never);
         check(ForestRuth, escape, 0.1, Retry::Never);
@@ -72,7 +72,7 @@ fn neighbours_go_on_to_the_bit() {
 
 /// The steps before the failure are fewer than those after which a group is saved.
 #[test]
-fn neighbours_of_early_failures_go_on_to_the_bit() {
+fn neighbours_of_early_failures_keep_their_bits() {
     let mut starts = starts(23, 100);
     for start in starts.iter_mut().skip(3).step_by(7) {
         start.p *= 12.0;
@@ -89,7 +89,7 @@ fn neighbours_of_early_failures_go_on_to_the_bit() {
 }
 
 #[test]
-fn the_error_says_when() {
+fn the_error_of_a_trajectory_has_its_time_and_step() {
     let ensemble = Ensemble::new(StoermerVerlet, SYSTEM, starts(8, 4), 0.1).expect("starts");
     let mut errors = Vec::new();
     ensemble.integrate_to(60.0, |row| {
@@ -106,7 +106,7 @@ fn the_error_says_when() {
 }
 
 #[test]
-fn what_is_wrong_with_a_run_is_in_every_row() {
+fn an_error_of_the_whole_run_is_in_every_row() {
     let ensemble = Ensemble::new(ForestRuth, SYSTEM, starts(6, 100), 0.1).expect("starts");
     let mut rows = Vec::new();
     ensemble.integrate_to(f64::NAN, keep(&mut rows, 0));
@@ -154,7 +154,7 @@ fn a_run_in_lanes_to_one_far_time_is_stopped_on_its_way() {
 }
 
 #[test]
-fn events_of_each() {
+fn events_in_an_ensemble_are_those_of_single_runs() {
     let starts = starts(9, 4);
     let section = Event::rising(|state: &State<Vector2<f64>>| state.q[0]);
     let run = |points: &mut Vec<Vec<u64>>, run: &mut Integrator<_, _, _>| {

@@ -156,7 +156,7 @@ fn orbits() -> Families<Kepler, Vector2<f64>> {
 }
 
 #[test]
-fn explicit_steps() {
+fn explicit_steps_of_formulas_have_the_bits_of_single_runs() {
     // Three or four forces a step, hundred steps, two groups, and as many at times.
     let orbits = orbits();
     assert!(check(ForestRuth, &orbits, 0.05) > 2 * 3 * 100);
@@ -173,7 +173,7 @@ fn explicit_steps() {
 }
 
 #[test]
-fn coupled_stages() {
+fn coupled_stages_of_formulas_have_the_bits_of_single_runs() {
     let orbits = orbits();
     assert!(check(Gauss4, &orbits, 0.05) > 4 * 3 * 100);
     let bells = families(|x| {
@@ -217,7 +217,7 @@ fn lists_of_pairs_are_the_same_in_all_lanes() {
 }
 
 #[test]
-fn families_that_do_not_join_run_in_lanes_of_their_own() {
+fn families_with_different_pairs_do_not_share_lanes() {
     let line = vec![(0, 1), (1, 2), (2, 3)];
     for others in [
         [vec![(0, 1), (1, 2), (0, 3)], line.clone()],
@@ -244,7 +244,7 @@ fn families_that_do_not_join_run_in_lanes_of_their_own() {
 }
 
 #[test]
-fn lengths_with_the_names_of_the_code() {
+fn formulas_may_name_lengths_like_the_emitted_code() {
     let sites = families(|x| {
         let mut system = sites::Sites::new([1.0 + x, 2.0], [x], [0.1, x], [0.2], [0.3; 3]);
         system.a_spare_one += x;
@@ -254,7 +254,7 @@ fn lengths_with_the_names_of_the_code() {
 }
 
 #[test]
-fn functions_of_parameters_are_in_lanes_only_if_systems_differ() {
+fn parameters_are_lanes_only_if_the_systems_differ() {
     let springs = |step: f64| {
         let spring = |k: u32| {
             let start = State::from_arrays(0.0, [0.3 + 0.01 * f64::from(k)], [0.1]);

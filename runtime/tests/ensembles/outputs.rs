@@ -15,7 +15,7 @@ symplectic::hamiltonian! {
 }
 
 #[test]
-fn oscillators_are_where_they_should_be() {
+fn oscillators_of_an_ensemble_have_their_closed_form() {
     let family = |k: u32| {
         let omega = 1.0 + 0.1 * f64::from(k);
         let starts = (1..=5).map(|a| State::from_arrays(0.0, [f64::from(a)], [0.0]));
@@ -47,7 +47,7 @@ fn oscillators_are_where_they_should_be() {
 
 /// Two passes in whole numbers of sixteenths, exact: an independent formula.
 #[test]
-fn moments_of_numbers_that_are_exact() {
+fn moments_agree_with_exact_sums() {
     let numbers: Vec<f64> = (0..100).map(|k| f64::from((k * 37) % 64) / 16.0).collect();
     let mut moments = Moments::new(2);
     for x in &numbers {
@@ -187,7 +187,7 @@ fn files(archive: &[u8]) -> Vec<(String, Vec<u8>)> {
 
 #[cfg(feature = "npz")]
 #[test]
-fn a_file_for_numpy() {
+fn an_npz_file_holds_the_rows_and_facts() {
     use symplectic::ensemble::Npz;
 
     let starts = (0..3).map(|k| State::from_arrays(0.0, [f64::from(k)], [-0.5]));
@@ -342,7 +342,7 @@ fn arrays_are_joined_along_their_first_index() {
 
 #[cfg(feature = "npz")]
 #[test]
-fn nothing_comes_after_an_array_in_part() {
+fn a_partly_written_array_ends_the_npz_file() {
     /// A disk with room for this number of bytes.
     struct Full(usize);
 
@@ -376,7 +376,7 @@ fn nothing_comes_after_an_array_in_part() {
 /// Two groups with a trajectory that fails: what is read is what was written, with the facts.
 #[cfg(feature = "parquet")]
 #[test]
-fn a_table_for_databases() {
+fn a_parquet_file_holds_the_rows_and_errors() {
     use parquet::file::reader::{FileReader, SerializedFileReader};
     use parquet::record::RowAccessor;
     use symplectic::ensemble::{Parquet, ParquetColumn, Row};

@@ -143,21 +143,21 @@ fn check<M: Method + ProvedFor<Separable> + Copy>(method: M) -> usize {
 }
 
 #[test]
-fn explicit_steps() {
+fn families_with_explicit_steps_share_lanes() {
     // Three groups of four stages, 200 steps: those that fail repeat them alone.
     let in_lanes = check(ForestRuth);
     assert!(in_lanes > 3 * 3 * 200, "{in_lanes}");
 }
 
 #[test]
-fn coupled_stages() {
+fn families_with_coupled_stages_share_lanes() {
     // Two groups, and five trajectories alone.
     let in_lanes = check(Gauss4);
     assert!(in_lanes > 2 * 4 * 2 * 200, "{in_lanes}");
 }
 
 #[test]
-fn tableaux_at_run_time() {
+fn families_with_run_time_tableaux_share_lanes() {
     for tableau in [tableau(ForestRuth), tableau(Gauss4)] {
         let in_lanes = AtomicUsize::new(0);
         let make = |system, start| Integrator::at_run_time(&tableau, system, start, 0.1);

@@ -64,7 +64,7 @@ symplectic::hamiltonian! {
 }
 
 #[test]
-fn another_run_is_refused() {
+fn a_checkpoint_of_another_ensemble_is_refused() {
     let checkpoint = ensemble(40, 0.02, 0.1).checkpoint(5).expect("f64");
     let what = |mut other: Run| match other.restore(&checkpoint) {
         Err(CheckpointError::OtherRun { what, .. }) => {
@@ -155,7 +155,7 @@ fn go_on(path: &std::path::Path, hold: bool) -> Moments {
 /// What is killed: it does nothing unless [`a_killed_ensemble_goes_on`] has set the variable.
 #[cfg(feature = "serde")]
 #[test]
-fn to_be_killed() {
+fn helper_process_that_is_killed() {
     if let Some(path) = std::env::var_os("SYMPLECTIC_ENSEMBLE") {
         go_on(path.as_ref(), true);
     }
@@ -169,7 +169,7 @@ fn a_killed_ensemble_goes_on() {
     let path = folder.join("kept");
     let program = std::env::current_exe().expect("this program");
     let mut child = std::process::Command::new(program)
-        .args(["--exact", "restart::to_be_killed"])
+        .args(["--exact", "restart::helper_process_that_is_killed"])
         .env("SYMPLECTIC_ENSEMBLE", &path)
         .stdout(std::process::Stdio::null())
         .spawn()
@@ -200,7 +200,7 @@ fn a_killed_ensemble_goes_on() {
 
 /// Two signs that change: sums of products of their bits with odd numbers would not.
 #[test]
-fn mirrored_starts_are_other_starts() {
+fn a_checkpoint_distinguishes_starts_of_opposite_sign() {
     let make = |mirrored: usize| {
         let mut starts = starts(40, 100);
         for start in &mut starts[mirrored..=mirrored] {
@@ -229,7 +229,7 @@ fn mirrored_starts_are_other_starts() {
 }
 
 #[test]
-fn a_part_of_a_resumed_ensemble_begins_where_it_was() {
+fn a_part_of_a_resumed_ensemble_begins_at_the_checkpoint() {
     let whole = rows(&ensemble(40, 0.02, 0.1), 0);
     let checkpoint = ensemble(40, 0.02, 0.1).checkpoint(17).expect("f64");
     for (part, first) in [(0, 10), (1, 17), (2, 20), (3, 30)] {

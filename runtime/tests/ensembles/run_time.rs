@@ -49,7 +49,7 @@ macro_rules! check {
 
 #[test]
 #[ignore = "thorough"]
-fn every_trajectory_has_the_bits_that_it_has_alone() {
+fn trajectories_of_run_time_tableaux_have_the_bits_of_single_runs() {
     // Some of them escape, in their lane.
     let starts = starts(21, 6);
     for tableau in [

@@ -124,7 +124,7 @@ fn near<const N: usize>(found: &SVector<f64, N>, expected: &SVector<f64, N>) {
 
 /// Systems that are not separable, by a fixed-point iteration and by Newton's.
 #[test]
-fn implicit_methods() -> Result<(), Error> {
+fn implicit_methods_step_displacements_of_nonseparable_systems() -> Result<(), Error> {
     let system = Tangent::new(Coupled);
     let begin = State::from_arrays(0.0, [0.4], [0.3]);
     let ends = [(1.0, 0.0), (0.3, -2.0)].map(|(dq, dp)| {
@@ -194,7 +194,7 @@ fn the_generating_function_is_that_of_the_step() -> Result<(), Error> {
 
 /// With compensated sums an implicit method keeps the orbit beside a displacement that is longer by ten orders of magnitude.
 #[test]
-fn long_displacements() -> Result<(), Error> {
+fn a_long_displacement_does_not_disturb_the_orbit() -> Result<(), Error> {
     let system = Tangent::new(SpringAndHill);
     let begin = State::from_arrays(0.0, [0.5, 0.0], [0.0, 0.0]);
     let mut alone = Integrator::new(Gauss4, SpringAndHill, begin.clone(), 0.1)?;
@@ -212,7 +212,7 @@ fn long_displacements() -> Result<(), Error> {
 
 /// A force that depends on time.
 #[test]
-fn driven_systems() -> Result<(), Error> {
+fn displacements_of_driven_systems_agree_with_differences() -> Result<(), Error> {
     let driven = HenonHeiles { amplitude: 0.1 };
     let system = Tangent::new(driven);
     let begin = henon_heiles(0.1, 0.2, 0.1);
@@ -229,7 +229,7 @@ fn driven_systems() -> Result<(), Error> {
 
 /// Bodies in the columns of a matrix, and vectors whose dimension is known at run time.
 #[test]
-fn vectors_of_every_kind() -> Result<(), Error> {
+fn displacements_work_in_matrices_and_dynamic_vectors() -> Result<(), Error> {
     let system = Tangent::new(Plane::<2> { k: 1.0 });
     let matrix = Matrix2::new;
     let begin = State::new(0.0, matrix(1.0, 0.0, 0.2, 0.5), matrix(0.0, 0.1, 0.3, 0.0));
@@ -283,7 +283,7 @@ where
 
 /// Closed forms: a rotation, and the growth by eᵗ.
 #[test]
-fn linear_systems() -> Result<(), Error> {
+fn megno_of_linear_systems_has_its_closed_form() -> Result<(), Error> {
     let start = || State::from_arrays(0.0, [0.3], [0.1]);
     let oscillator = megno(Linear { s: 1.0 }, start(), 1000.0, 0.05)?;
     assert!(oscillator.mean().abs() < 1e-4, "{oscillator:?}");
@@ -308,7 +308,7 @@ fn linear_systems() -> Result<(), Error> {
 
 /// The displacement of a pendulum that swings grows like t: 2.
 #[test]
-fn quasi_periodic_orbits_have_two() -> Result<(), Error> {
+fn megno_of_a_quasi_periodic_orbit_is_two() -> Result<(), Error> {
     let pendulum = megno(
         Pendulum,
         State::from_arrays(0.0, [1.0], [0.0]),
@@ -322,7 +322,7 @@ fn quasi_periodic_orbits_have_two() -> Result<(), Error> {
 
 /// Lengths far beyond squares of doubles, backward in time, and at other times.
 #[test]
-fn megno_of_other_lengths_and_times() -> Result<(), Error> {
+fn megno_does_not_depend_on_the_length_of_the_displacement() -> Result<(), Error> {
     let system = Tangent::new(STILL);
     let run = |length: f64, size: f64, every: usize| {
         let displacement = (
@@ -353,7 +353,7 @@ fn megno_of_other_lengths_and_times() -> Result<(), Error> {
 /// In lanes and alone, with the same bits; chaotic orbits apart from the others.
 #[test]
 #[ignore = "thorough"]
-fn in_ensembles() -> Result<(), Box<dyn std::error::Error>> {
+fn megno_in_ensembles_has_the_bits_of_single_runs() -> Result<(), Box<dyn std::error::Error>> {
     let system = Tangent::new(STILL);
     let displacement = (&Vector2::new(0.6, 0.3), &Vector2::new(-0.2, 0.7));
     let begins: Vec<_> = (0..20)
@@ -497,7 +497,7 @@ fn indicators_of_an_ensemble_resume_with_the_same_bits() -> Result<(), Box<dyn s
 }
 
 #[test]
-fn bad_input() -> Result<(), Error> {
+fn bad_displacements_and_dimensions_are_refused() -> Result<(), Error> {
     let system = Tangent::new(STILL);
     let begin = henon_heiles(0.1, 0.0, 0.1);
     let (zero, some) = (Vector2::zero(), Vector2::new(1.0, 0.0));

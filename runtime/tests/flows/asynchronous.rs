@@ -136,7 +136,7 @@ fn the_order_is_two() -> Result<(), Error> {
 }
 
 #[test]
-fn with_one_step_for_all_it_is_velocity_verlet() -> Result<(), Error> {
+fn asynchronous_steps_of_equal_size_are_velocity_verlet() -> Result<(), Error> {
     let verlet = run(StoermerVerlet, whole(), start(), 10.0, 200)?;
     let found = by_elements([1.0; 2], 0.05, 10.0)?;
     assert!(distance(&found, &verlet) < 1e-12);
@@ -168,7 +168,7 @@ fn momentum_is_conserved_and_energy_bounded() -> Result<(), Error> {
 }
 
 #[test]
-fn steps_go_back() -> Result<(), Error> {
+fn asynchronous_steps_are_reversible() -> Result<(), Error> {
     let step = Asynchronous::new(Chain::new([0.07, 0.03]), N)?;
     let mut run = FlowIntegrator::new(step, start(), 0.2)?;
     run.integrate_to(20.0)?;

@@ -162,7 +162,7 @@ fn orbits_of_every_kind_end_where_the_closed_forms_say() {
 
 /// The phase has the error of the period for each period.
 #[test]
-fn a_million_periods() {
+fn the_phase_error_of_a_drift_grows_linearly_with_the_periods() {
     let orbit = Orbit::Ellipse(1.3, 0.3);
     let period = std::f64::consts::TAU * (1.3_f64.powi(3) / MU).sqrt();
     for periods in [1.0, 1e3, 1e6] {
@@ -289,7 +289,7 @@ fn angular_momentum_has_no_drift_for_any_mass() {
 
 /// A line through the centre is the limit of thin ellipses: it turns back.
 #[test]
-fn a_fall_turns_back_at_the_centre() {
+fn a_radial_fall_turns_back_at_the_centre() {
     let line = |time| Orbit::Ellipse(1.3, 1.0).at(time);
     let found = drifted(line(-0.7), 1.4).expect("an orbit");
     assert!(difference(found, line(0.7)) < 1e-13);
@@ -300,7 +300,7 @@ fn a_fall_turns_back_at_the_centre() {
 
 /// Where the first guess of the universal anomaly is so far that one of Stumpff's functions overflows before the others.
 #[test]
-fn long_flows_of_hyperbolas() {
+fn long_hyperbolic_drifts_end_at_their_closed_form() {
     let orbit = Orbit::Hyperbola(0.8, 2.0);
     for from in [-0.9, -0.3] {
         let start = orbit.at(from);
@@ -329,7 +329,7 @@ fn a_flow_that_loses_half_of_the_digits_is_an_error() {
 }
 
 #[test]
-fn what_has_no_end_is_an_error_and_leaves_the_state() {
+fn a_drift_without_an_end_is_refused_and_leaves_the_state() {
     let mut drift = KeplerDrift::new(&[1.0; 2], &[1.0; 2]).expect("a drift");
     let start = |q: f64, p: f64| {
         State::<DVector<f64>>::from_slices(

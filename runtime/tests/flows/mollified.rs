@@ -57,7 +57,7 @@ fn worst(flow: impl Flow<V>, frequency: f64, size: f64) -> Result<f64, Error> {
 
 /// Where a step is one or two halves of a fast period the impulse method gains energy without a bound.
 #[test]
-fn resonances_are_gone() -> Result<(), Error> {
+fn mollified_steps_stay_bounded_at_resonances() -> Result<(), Error> {
     let frequency = 20.0;
     for halves in [1.0, 2.0] {
         let size = halves * PI / frequency;

@@ -67,7 +67,7 @@ fn states_inside_steps_have_the_error_of_a_step() -> Result<(), Error> {
 
 /// The ends of a step are its states to the bit, and nearby states are near.
 #[test]
-fn a_state_of_the_last_step() -> Result<(), Error> {
+fn states_inside_the_last_step_join_its_ends() -> Result<(), Error> {
     let mut run = heated(7)?;
     assert_eq!(run.state_at(0.0), Err(Error::NoStep));
     let start = run.step()?.clone();
@@ -186,7 +186,7 @@ impl Flow<V> for Walled {
 }
 
 #[test]
-fn a_step_that_fails_takes_no_draw() -> Result<(), Error> {
+fn a_failed_step_uses_no_random_numbers() -> Result<(), Error> {
     let bath = OrnsteinUhlenbeck::new(0.0, 1.0, [1.0], 1)?;
     let step = Palindrome::new(bath, Walled(Drift::new(Well)));
     let mut run = FlowIntegrator::new(step, point(1.0, 1.0), 0.2)?;

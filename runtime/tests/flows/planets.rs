@@ -204,7 +204,7 @@ fn the_second_part_of_heliocentric_coordinates_is_exact() {
 }
 
 #[test]
-fn coordinates_go_back_and_forth() {
+fn jacobi_and_heliocentric_coordinates_are_inverted() {
     let masses = masses(0.3);
     let state = start(masses);
     let jacobi = Jacobi::new(G, &masses).expect("bodies");

@@ -159,7 +159,7 @@ fn perturbed_systems_have_two_orders() {
 }
 
 #[test]
-fn three_parts_by_a_palindrome() {
+fn palindromes_of_three_parts_have_orders_two_and_four() {
     let exact = exact(0.6, 0.3);
     let step = Palindrome::new(Rotation, Palindrome::new(Squeeze(0.6), Quartic(0.3)));
     near(slope(step, &exact, 200), 2.0);
@@ -219,7 +219,7 @@ impl<F: Flow<V>> Flow<V> for Counted<'_, F> {
 }
 
 #[test]
-fn flows_of_one_part_that_meet_are_one() {
+fn adjacent_flows_of_one_part_are_merged() {
     let counts = [const { Cell::new(0) }; 2];
     let parts = || {
         let kick = Counted(Quartic(0.5), &counts[1]);

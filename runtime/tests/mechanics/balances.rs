@@ -39,7 +39,7 @@ fn runge_kutta(
 /// The mean energy of the five units of time before t = 500, 1000, 1500 with h = 0.1, less the energy at t: Figure 2.
 #[test]
 #[ignore = "thorough"]
-fn the_energies_of_figure_two() {
+fn mean_energies_agree_with_figure_two() {
     let mut run = Integrator::new(Gauss3, Ring::new(), ring_start(), 0.1).expect("a run");
     let exact = [500.0, 1000.0, 1500.0].map(|time| {
         run.integrate_to(time).expect("steps");
@@ -125,7 +125,7 @@ fn the_balance_of_angular_momentum_is_exact() {
 
 /// The work differs from the change of the energy by an error of the order of the method.
 #[test]
-fn the_balance_of_energy_has_the_order() {
+fn the_energy_balance_has_the_order_of_the_method() {
     let defect = |size: f64| -> f64 {
         let start = State::from_arrays(0.0, [0.9, 0.2], [0.3, 0.5]);
         let mut run = Integrator::new(Gauss2, Ring { gamma: 0.25 }, start, size).expect("a run");
@@ -173,7 +173,7 @@ fn supplies_add_up_to_integrals() -> Result<(), Error> {
 
 /// Friction takes J (1 − e^{−γt}) of the angular momentum, up to an error of order 4; the balance of the steps is exact.
 #[test]
-fn the_angular_momentum_that_friction_takes() -> Result<(), Error> {
+fn friction_removes_angular_momentum_to_order_four() -> Result<(), Error> {
     let errors = [0.1, 0.05].map(|size: f64| {
         let ring = Ring { gamma: 0.25 };
         let mut run = Integrator::new(Gauss2, ring, ring_start(), size).expect("a run");
@@ -192,7 +192,7 @@ fn the_angular_momentum_that_friction_takes() -> Result<(), Error> {
 
 /// The stages are found once more, from rest, by fixed-point iteration: the evaluations of a step with its stages over those of a step.
 #[test]
-fn stages_cost_evaluations() -> Result<(), Error> {
+fn a_step_with_stages_repeats_the_stage_iteration() -> Result<(), Error> {
     let evaluations = std::cell::Cell::new(0_u32);
     let count = || evaluations.set(evaluations.get() + 1);
     let system = symplectic::separable::<SVector<f64, 1>, _, _>(
@@ -236,7 +236,7 @@ impl DiracSystem for Valley {}
 
 /// For Lagrangians too: methods of Runge and Kutta, Galerkin paths with more nodes than functions, and the rules of Dirac mechanics.
 #[test]
-fn balances_of_lagrangians() -> Result<(), Error> {
+fn lagrangian_steps_balance_angular_momentum_and_energy() -> Result<(), Error> {
     type Plane = State<Vector2<f64>>;
     /// Checks the balance of the angular momentum, and returns the defect of that of the energy. `step` returns the state and the energy after a
     /// step, with its stages.
@@ -323,7 +323,7 @@ fn balances_of_lagrangians() -> Result<(), Error> {
 
 /// With rows the impulses of the constraints are in no stage. A symmetry along the rows keeps its balance: the heading of a rolling disk.
 #[test]
-fn the_balance_of_a_heading() -> Result<(), Error> {
+fn a_symmetry_along_nonholonomic_rows_keeps_its_balance() -> Result<(), Error> {
     let mut run = DiracIntegrator::new(DiracRule::Midpoint, Braked, disk_start(), 0.1)?;
     for _ in 0..20 {
         let before = run.state().p;

@@ -99,7 +99,7 @@ fn circuit_error(rule: DiracRule, size: f64) -> f64 {
 }
 
 #[test]
-fn orders_on_the_circuit() {
+fn dirac_rules_have_their_orders_on_a_circuit() {
     assert_order(2.0, 10, |size| circuit_error(DiracRule::Trapezoid, size));
     assert_order(2.0, 10, |size| circuit_error(DiracRule::Midpoint, size));
     assert_order(1.0, 160, |size| circuit_error(DiracRule::AtEnd, size));
@@ -108,7 +108,7 @@ fn orders_on_the_circuit() {
 /// KCL and the primary constraints with each rule, KVL of the loop of capacitors with trapezoids, the energy of linear elements at the middle.
 #[test]
 #[ignore = "thorough"]
-fn what_the_circuit_conserves() {
+fn circuit_steps_keep_kirchhoff_laws_and_energy() {
     let circuit = Circuit { beta: 0.0 };
     for rule in [DiracRule::Trapezoid, DiracRule::Midpoint, DiracRule::AtEnd] {
         let start = circuit_start(circuit);
@@ -181,7 +181,7 @@ fn driven_charge(time: f64) -> f64 {
 
 /// Forces that depend on the velocity and the time.
 #[test]
-fn orders_on_a_driven_circuit_with_a_resistor() {
+fn dirac_rules_have_their_orders_on_a_driven_circuit() {
     let error = |rule, composed, size| {
         let start = circuit_start(LINEAR);
         let run = if composed {
@@ -224,7 +224,7 @@ impl DiracSystem for InUnits {
 
 /// Nanoseconds and years, a charge of 10⁻⁹: the steps are the same.
 #[test]
-fn units_change_nothing() {
+fn circuit_steps_do_not_depend_on_units() {
     let mut run = DiracIntegrator::new(DiracRule::Trapezoid, LINEAR, circuit_start(LINEAR), 0.05);
     let expected = run
         .as_mut()
@@ -263,7 +263,7 @@ fn nonlinear_end(rule: DiracRule, order: u32, size: f64) -> State<Vector4<f64>> 
 /// Compositions of the trapezoidal rule have their order, for it keeps the condition on positions at both ends. The midpoint rule takes the error of
 /// that condition from one end to the other with the opposite sign, which is not near the identity: compositions have order 2.
 #[test]
-fn orders_of_compositions_on_a_nonlinear_circuit() {
+fn only_compositions_of_trapezoids_keep_their_order_on_a_circuit() {
     let exact = nonlinear_end(DiracRule::Trapezoid, 6, 1.0 / 64.0);
     let error = |rule, order, size: f64| {
         let end = nonlinear_end(rule, order, size);
@@ -337,7 +337,7 @@ fn symmetric_rules_go_back() {
 
 /// Starts off a primary constraint, and off the condition on positions; a position that nothing determines.
 #[test]
-fn starts_that_are_wrong() {
+fn circuit_starts_off_the_constraints_are_refused() {
     let circuit = Circuit { beta: 0.0 };
     let mut start = circuit_start(circuit);
     start.p[2] = 0.125;
@@ -376,7 +376,7 @@ fn starts_that_are_wrong() {
 }
 
 #[test]
-fn what_momenta_obey() {
+fn primary_constraints_of_a_circuit_are_found() {
     let circuit = Circuit { beta: 0.0 };
     let q = circuit_start(circuit).q;
     let found = primary_constraints(&circuit, 0.0, &q, &V4::zeros()).expect("finite");

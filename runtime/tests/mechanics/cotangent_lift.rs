@@ -190,7 +190,7 @@ fn steps_commute_with_lifts_of_symmetries() -> Result<(), Error> {
 
 /// Cartesian coordinates of a place that is far away: the derivatives by r and by the angle differ in size as much.
 #[test]
-fn units_change_nothing() -> Result<(), Error> {
+fn cotangent_lifts_do_not_depend_on_units() -> Result<(), Error> {
     struct Cartesian;
     impl PointTransformation for Cartesian {
         type Vector<T: Scalar> = V2<T>;

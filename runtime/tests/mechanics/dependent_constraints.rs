@@ -38,7 +38,7 @@ const fn name(name: &'static str, member: Option<usize>) -> Option<ConstraintNam
 /// Planes at an angle ε have `G Gᵀ = (1 1; 1 1 + ε²)`, whose second pivot is ε². For ε = 2⁻²³ that is below 2⁻⁴⁰ = 4096 units of rounding,
 /// for ε = 2⁻¹⁹ above.
 #[test]
-fn planes_that_are_nearly_parallel() {
+fn constraints_of_nearly_parallel_planes_are_dependent() {
     let start = || State::from_arrays(0.0, [0.0; 3], [0.0, 0.0, 1.0]);
     let state: State<Vector3<f64>> = State {
         time: 3.0,
@@ -75,7 +75,7 @@ fn planes_that_are_nearly_parallel() {
 
 /// The bead reaches the cross at the end of step 8.
 #[test]
-fn a_cross_in_the_middle_of_a_run() {
+fn constraints_that_become_dependent_end_the_run() {
     fn check<M: Method + ProvedFor<symplectic::Constrained<symplectic::Separable>>>(method: M) {
         let start: State<Vector3<f64>> = State::from_arrays(0.0, [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]);
         let mut run = Integrator::new(method, Cross, start, 0.125).expect("a run");
@@ -104,7 +104,7 @@ fn a_cross_in_the_middle_of_a_run() {
 
 /// A triangle whose corners lie on a line: one of its rods is redundant to first order, the last.
 #[test]
-fn a_member_of_a_family() {
+fn the_dependent_member_of_a_family_is_named() {
     let frame = Frame::new(vec![(0, 1), (1, 2), (0, 2)], vec![1.0, 1.0, 2.0]);
     let q = DVector::from_vec(vec![0.0, 0.0, 1.0, 0.0, 2.0, 0.0]);
     let state = State::new(0.0, q.clone(), q * 0.0);

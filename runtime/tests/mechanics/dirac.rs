@@ -402,7 +402,7 @@ impl DiracSystem for Rows {
 }
 
 #[test]
-fn rows_that_are_wrong() {
+fn dirac_steps_refuse_dependent_or_wrong_rows() {
     let start = State::from_arrays(0.0, [0.0, 0.0], [1.0, 0.0]);
     let new = |rows, start| DiracIntegrator::new(DiracRule::Midpoint, rows, start, 0.1);
     let mut run = new(Rows::Equal, start.clone()).expect("a run");

@@ -178,7 +178,7 @@ fn check<M, S, B, const R: usize, const N: usize>(
 }
 
 #[test]
-fn one_step_is_both_hamiltonian_forms() {
+fn a_dirac_step_satisfies_both_hamiltonian_forms() {
     // z' = y x' = 0.5 · 0.8 (1 + x²/4)
     let pz = 0.5 * 0.8 * (1.0 + 0.36 / 4.0);
     let start = State::from_arrays(0.0, [0.6, 0.5, -0.1], [0.8, 0.9, pz]);
@@ -187,14 +187,14 @@ fn one_step_is_both_hamiltonian_forms() {
 }
 
 #[test]
-fn one_step_with_two_rows_is_both_hamiltonian_forms() {
+fn a_dirac_step_with_two_rows_satisfies_both_hamiltonian_forms() {
     check(Midpoint, FreeDisk, (Disk, rows_of_the_disk), disk_start());
     check(Trapezoid, FreeDisk, (Disk, rows_of_the_disk), disk_start());
 }
 
 /// H_pp may be singular, if the velocity along the row depends on a momentum.
 #[test]
-fn a_degenerate_hamiltonian_with_a_row() {
+fn a_row_can_determine_the_velocity_of_a_degenerate_hamiltonian() {
     // z' = y x' = 0.5 · 0.6
     let start = State::from_arrays(0.0, [0.6, 0.5, -0.1], [0.8, 0.9, 0.3]);
     check(Midpoint, FreeDegenerate, (BoundDegenerate, row), start);

@@ -136,7 +136,7 @@ where
 
 /// At the middle: Gauss with one stage, also where the kinetic energy depends on the place. With trapezoids: Störmer–Verlet.
 #[test]
-fn familiar_methods() {
+fn midpoint_and_trapezoid_lagrangians_are_gauss_1_and_verlet() {
     let middle = difference(Midpoint, DoublePendulum, AtOnePoint(0.5), double_start());
     assert!(middle < 1e-12, "{middle:e}");
     let ends = difference(StoermerVerlet, Kepler, Trapezoid, perihelion());
@@ -168,7 +168,7 @@ fn assert_order<L, V>(
 }
 
 #[test]
-fn orders() {
+fn discrete_lagrangians_have_their_orders() {
     let start = double_start();
     let mut run = Integrator::new(Gauss6, DoublePendulum, start.clone(), 0.02).expect("a run");
     let reference = &run.integrate_to(1.0).expect("steps").clone();
@@ -197,7 +197,7 @@ fn orders() {
 
 /// Steps of a composition at their times, and vectors on the heap.
 #[test]
-fn lagrangians_that_depend_on_time() {
+fn time_dependent_discrete_lagrangians_keep_their_order() {
     let start = State::from_arrays(0.0, [1.0], [0.3]);
     let mut run = Integrator::new(Gauss6, Shaken, start, 0.02).expect("a run");
     let reference = &run.integrate_to(1.0).expect("steps").clone();
@@ -252,7 +252,7 @@ impl DiscreteLagrangian for Simpson {
 /// Ld = h (v²/2a + b cos q1) is the step q1 = q0 + ahp0, p1 = p0 − bh sin q1 of explicit partitioned methods (Marsden & West, 2.6.4, which
 /// prints b for 1/a and 1/a for b).
 #[test]
-fn drift_and_kick() -> Result<(), Error> {
+fn a_drift_kick_lagrangian_steps_by_its_closed_form() -> Result<(), Error> {
     struct DriftAndKick(f64, f64);
     impl DiscreteLagrangian for DriftAndKick {
         type Vector<T: Scalar> = V1<T>;
@@ -273,7 +273,7 @@ fn drift_and_kick() -> Result<(), Error> {
 
 /// A Galerkin method whose inner point is found in the code of Ld: Lobatto IIIA–IIIB with three stages, of order 4.
 #[test]
-fn an_extremum_inside() {
+fn a_discrete_lagrangian_with_an_inner_point_is_lobatto_3() {
     let start = State::from_arrays(0.0, [1.0], [0.4]);
     let pendulum = || {
         separable::<V1<f64>, _, _>(
@@ -326,7 +326,7 @@ fn the_order_of_a_discrete_lagrangian_is_that_of_its_steps() {
 }
 
 #[test]
-fn self_adjoint_or_not() {
+fn the_self_adjoint_defect_vanishes_for_symmetric_lagrangians_only() {
     let (q0, q1) = (V2::from([1.0, -0.4]), V2::from([1.1, -0.2]));
     let path = DiscretePath {
         time: 0.0,
@@ -355,7 +355,7 @@ fn self_adjoint_or_not() {
 
 /// The angular momentum of Kepler's problem; and J⁺ − J⁻, the change of Ld, for translations, which are no symmetry.
 #[test]
-fn momentum_maps() {
+fn symmetries_of_a_discrete_lagrangian_conserve_momentum() {
     let mut run = VariationalIntegrator::new(Trapezoid, perihelion(), 0.02).expect("a run");
     for _ in 0..10_000 {
         let State { q, p, .. } = run.step().expect("a step");
@@ -432,7 +432,7 @@ fn dragged(drag: f64) -> impl System<V2<f64>, Class = symplectic::General> {
 }
 
 #[test]
-fn forces_and_the_balance_of_momentum() {
+fn discrete_forces_balance_the_momentum() {
     let start = State::from_arrays(0.0, [1.0, 0.2], [-0.3, 0.9]);
     let (alpha, drag) = (0.5, 0.4);
     // At the middle: Gauss with one stage of the forced system.
@@ -486,7 +486,7 @@ impl<L: DiscreteLagrangian<Vector<f64> = V2<f64>>> DiscreteLagrangian for Equiva
 
 /// Strong and weak equivalence (Marsden & West, §2.1.2): the same momenta; the same positions.
 #[test]
-fn equivalence() {
+fn equivalent_discrete_lagrangians_give_the_same_positions() {
     let end = |weak: f64, strong: f64| {
         let lagrangian = Equivalent(Trapezoid, weak, strong);
         let mut start = perihelion();
@@ -527,7 +527,7 @@ fn equivalence() {
 
 /// Ld of a step, and the sum over the steps of a composition.
 #[test]
-fn the_action_of_a_step() {
+fn the_action_of_a_step_is_the_discrete_lagrangian() {
     let mut run = VariationalIntegrator::new(Trapezoid, perihelion(), 0.02).expect("a run");
     assert_eq!(run.action(), None);
     let end = run.step().expect("a step").clone();
@@ -584,7 +584,7 @@ impl DiscreteLagrangian for Bounded {
 }
 
 #[test]
-fn errors() {
+fn degenerate_discrete_lagrangians_are_refused() {
     let start = State::from_arrays(0.0, [1.0, 2.0], [0.5, 0.5]);
     let degenerate = [
         ([[1.0, 0.0], [0.0, 0.0]], 1),

@@ -64,7 +64,7 @@ pub(crate) fn bead(a: f64, b: f64) -> Space {
 
 #[test]
 #[ignore = "thorough"]
-fn conserved_quantities() -> Result<(), Error> {
+fn every_integrator_conserves_its_momentum_maps() -> Result<(), Error> {
     let angular = |state: &Plane| state.q.perp(&state.p);
     let distance = |state: &Plane| state.q.norm();
     // Constraints: the angular momentum about the vertical, and about another axis.
@@ -167,7 +167,7 @@ fn vortices(a: f64, b: f64) -> State<V6<f64>> {
 }
 
 #[test]
-fn symplectic_steps() -> Result<(), Error> {
+fn every_symplectic_integrator_passes_the_symplecticity_check() -> Result<(), Error> {
     const BOUND: f64 = 1e-11;
     let near = |state: Plane| {
         move |a: f64, b: f64| {
@@ -240,7 +240,7 @@ fn symplectic_steps() -> Result<(), Error> {
 
 /// On two directions the form of `T*SO(3)` is `η·dΠ' − η'·dΠ + Π·(η×η')`.
 #[test]
-fn the_form_of_a_top() {
+fn the_symplectic_form_of_a_top_is_that_of_the_cotangent_bundle() {
     const STEP: f64 = 1e-5;
     let difference = |one: RotationState, other: RotationState| {
         let (one, other) = (one.canonical(), other.canonical());
@@ -268,7 +268,7 @@ fn the_form_of_a_top() {
 }
 
 #[test]
-fn equivariant_steps() -> Result<(), Error> {
+fn every_integrator_commutes_with_symmetries() -> Result<(), Error> {
     let stretched = |state: &Plane| State::new(state.time, state.q * 2.0, state.p / 2.0);
     let discrete = VariationalIntegrator::new(Trapezoid, perihelion(), 0.05)?;
     let particle =
@@ -354,7 +354,7 @@ fn equivariant_steps() -> Result<(), Error> {
 
 /// A check takes no step, and a state that is refused is an error.
 #[test]
-fn checks_leave_the_integrator_alone() -> Result<(), Error> {
+fn checks_do_not_advance_the_integrator() -> Result<(), Error> {
     let top = RotationIntegrator::new(LOPSIDED, top_start(), 0.1)?;
     top.symplecticity_defect(tops)?;
     assert_eq!((top.steps(), top.present()), (0, &top_start()));

@@ -162,7 +162,7 @@ fn constrained_steps_of_an_adaptive_run_do_not_fail_if_the_first_did_not() -> Re
 
 /// In an ensemble every trajectory has the bits that it has alone, also with repeated steps.
 #[test]
-fn trajectories_of_an_ensemble_are_repeated_as_alone() -> Result<(), Error> {
+fn repeated_steps_in_an_ensemble_have_the_bits_of_single_runs() -> Result<(), Error> {
     let starts: Vec<_> = (0..20)
         .map(|k| {
             let angle = 0.3 * f64::from(k);

@@ -54,7 +54,7 @@ where
 
 /// The order is that for general Hamiltonians, and not one higher.
 #[test]
-fn orders_with_a_force_of_momenta() {
+fn methods_have_their_general_order_with_a_force_of_momenta() {
     let ring = || Ring { gamma: 0.25 };
     let mut run = Integrator::new(Gauss4, ring(), ring_start(), 1.0 / 256.0).expect("a run");
     let end = run.integrate_to(2.0).expect("steps").clone();
@@ -75,7 +75,7 @@ fn orders_with_a_force_of_momenta() {
 
 /// A force of the time leaves the system separable, and splittings explicit: against the closed form.
 #[test]
-fn orders_with_a_force_of_the_time() {
+fn methods_have_their_order_with_a_force_of_time() {
     let exact = |time: f64| {
         // x = F/(1 − ω²) (cos ωt − cos t)
         let (omega, factor) = (0.5, 1.0 / 0.75);
@@ -137,7 +137,7 @@ pub fn swing() -> State<Vector3<f64>> {
 
 /// With constraints the balance of momentum is exact too.
 #[test]
-fn forces_and_constraints() {
+fn the_momentum_balance_is_exact_with_constraints() {
     fn check<M: Method + ProvedFor<symplectic::Constrained<symplectic::General>>>(method: M) {
         let mut run = Integrator::new(method, Resisted::new(), swing(), 0.1).expect("a run");
         let vertical =
@@ -171,7 +171,7 @@ symplectic::composition! {
 
 /// It turns at a constant rate ω and slows down: x + iy = u (e^{(iω − c)t} − 1)/(iω − c).
 #[test]
-fn forces_and_nonholonomic_constraints() {
+fn methods_have_their_order_with_forces_and_nonholonomic_rows() {
     let exact = |time: f64| {
         let (u, omega, c) = (1.5_f64, 2.0, 0.3);
         let (sin, cos) = (omega * time).sin_cos();
@@ -269,7 +269,7 @@ symplectic::hamiltonian! {
 
 #[test]
 #[ignore = "thorough"]
-fn forces_on_numbered_coordinates() -> Result<(), Error> {
+fn forces_between_listed_pairs_are_those_by_hand() -> Result<(), Error> {
     let pairs = [(0, 1), (1, 2), (3, 0)];
     let beads = Beads::new(pairs.to_vec());
     let q = DVector::from_fn(8, |k, _| (0.3 * k as f64).sin());
@@ -317,7 +317,7 @@ symplectic::hamiltonian! {
 
 /// Newton's matrix contains the derivative of the force by the momentum.
 #[test]
-fn newton_with_stiff_friction() -> Result<(), Error> {
+fn newton_steps_a_stiff_force_of_momenta() -> Result<(), Error> {
     let start = State::from_arrays(0.0, [1.0], [-1e-6]);
     let mut run = Integrator::new(Gauss3, Stiff::new(), start, 0.1)?.by_newton();
     run.integrate_to(10.0)?;

@@ -134,7 +134,7 @@ fn chains_keep_their_links_and_momenta() -> Result<(), Error> {
 }
 
 #[test]
-fn molecules_from_data() -> Result<(), Error> {
+fn molecules_from_data_keep_their_momentum_and_bonds() -> Result<(), Error> {
     let water = Molecules::new(
         vec![16.0, 1.0, 1.0],
         vec![(0, 1), (0, 2), (1, 2)],
@@ -211,7 +211,7 @@ fn a_pair_outside_is_refused() {
 
 /// Each of the two points has half of the force.
 #[test]
-fn constraints_with_components() -> Result<(), Error> {
+fn each_component_of_a_constraint_has_its_multiplier() -> Result<(), Error> {
     assert_eq!(Hamiltonian::constraints(&Pinned::default()), 2);
     let q = SMatrix::<f64, 2, 2>::from([[1.0, 0.5], [1.0, 0.5]]);
     let mut run = Integrator::new(
@@ -227,7 +227,7 @@ fn constraints_with_components() -> Result<(), Error> {
 }
 
 #[test]
-fn friction_from_a_formula() -> Result<(), Error> {
+fn friction_of_a_formula_has_its_closed_form() -> Result<(), Error> {
     let start = State::from_arrays(0.0, [1.0], [0.0]);
     let mut run = Integrator::new(ForestRuth, Damped::default(), start, 0.05)?;
     let x = run.integrate_to(10.0)?.to_arrays().0[0];

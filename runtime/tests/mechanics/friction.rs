@@ -143,7 +143,7 @@ fn volumes_shrink_by_the_trace_of_the_rates() {
 
 /// The rates of a list belong to the components of every vector, here the columns.
 #[test]
-fn rates_of_vectors() {
+fn friction_rates_apply_to_the_components_of_each_vector() {
     let p = Matrix2::new(1.0, 3.0, 2.0, 4.0);
     let start = State::new(0.0, Matrix2::zeros(), p);
     let mut run = Integrator::new(ForestRuth, OneWay::<2>, start, 0.5).expect("a run");
@@ -155,7 +155,7 @@ fn rates_of_vectors() {
 
 /// The largest growth by friction is that of the middle kicks, (1 − 2^⅓)/(2 (2 − 2^⅓)) of a step.
 #[test]
-fn the_growth_of_negative_kicks() {
+fn friction_growth_is_that_of_the_negative_kicks() {
     let (rate, size) = (3.0, 0.25);
     assert_eq!(friction_growth(StoermerVerlet, rate, size), 0.0);
     let root = 2.0_f64.cbrt();
@@ -218,7 +218,7 @@ fn the_energy_decays_as_it_should() {
 
 /// Without friction the steps are those of a separable system, to the last bit.
 #[test]
-fn no_friction_changes_nothing() {
+fn zero_friction_gives_the_bits_of_the_separable_system() {
     struct Undamped;
 
     impl symplectic::SeparableHamiltonian for Undamped {
@@ -247,7 +247,7 @@ fn no_friction_changes_nothing() {
 
 /// Dense output knows the friction: the values inside a step have order 4.
 #[test]
-fn inside_a_step() {
+fn dense_output_with_friction_has_order_four() {
     let error = |size: f64| {
         let mut run = Integrator::new(ForestRuth, Ring(1.0), start(), size).expect("a run");
         run.step().expect("a step");
@@ -319,7 +319,7 @@ symplectic::hamiltonian! {
 }
 
 #[test]
-fn a_flow_of_the_user() {
+fn a_friction_flow_of_the_user_keeps_the_order() {
     let start: State<Line<f64>> = State::from_arrays(0.0, [1.5], [0.5]);
     let mut exact =
         Integrator::new(Gauss4, MolassesByStages, start.clone(), 1.0 / 64.0).expect("a run");
@@ -367,7 +367,7 @@ symplectic::hamiltonian! {
 
 /// The applied force of a formula is in its force, and counts once between the steps too.
 #[test]
-fn an_applied_force_beside_friction() {
+fn an_applied_force_with_friction_counts_once() {
     let start: State<Line<f64>> = State::from_arrays(0.0, [0.3], [0.5]);
     let run =
         |size| Integrator::new(ForestRuth, DrivenWithFriction, start.clone(), size).expect("a run");

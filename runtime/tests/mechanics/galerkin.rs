@@ -18,7 +18,7 @@ symplectic::tableau! {
 }
 
 #[test]
-fn galerkin_orders() {
+fn galerkin_methods_have_their_orders() {
     macro_rules! each {
         ($($method:ident $steps:literal $order:literal;)*) => {$(
             let particle = Particle { friction: 0.0 };

@@ -111,7 +111,7 @@ fn derivatives_are_the_other_ends() -> Result<(), Error> {
 
 /// Values in closed form, and the value of Type II by the other algorithm.
 #[test]
-fn values() -> Result<(), Error> {
+fn generating_functions_of_given_ends_have_known_values() -> Result<(), Error> {
     let (h, q0, q1) = (0.25, Vector1::new(0.7), Vector1::new(0.9));
     let start = State::from_arrays(0.0, [0.7], [0.1]);
     let run = Integrator::new(StoermerVerlet, Oscillator, start, h)?;
@@ -134,7 +134,7 @@ fn values() -> Result<(), Error> {
 /// The weights of forces and velocities of a splitting differ; the value by stages and that by Newton's iteration agree. If H depends on time
 /// there is no single energy of a stage.
 #[test]
-fn splittings() -> Result<(), Error> {
+fn generating_functions_of_splittings_agree_with_newton() -> Result<(), Error> {
     let (q0, p1) = (Vector2::new(0.5, -0.2), Vector2::new(0.3, 0.6));
     let run = Integrator::new(ForestRuth, Swing, State::new(0.0, q0, p1), 0.2)?;
     let found = run.type_two(&q0, &p1)?;
@@ -157,7 +157,7 @@ fn splittings() -> Result<(), Error> {
 
 /// The present state is a step already: nothing has to be found, whatever its size.
 #[test]
-fn ends_of_a_known_step() -> Result<(), Error> {
+fn the_ends_of_a_known_step_give_its_start() -> Result<(), Error> {
     for size in [1e-6, 1e-3, 0.3] {
         let start: State<Plane> = State::from_arrays(0.0, [0.8, 0.3], [0.2, 0.7]);
         let mut run = Integrator::new(Gauss2, Twisted, start.clone(), size)?;
@@ -174,7 +174,7 @@ fn ends_of_a_known_step() -> Result<(), Error> {
 /// With two steps of Störmer–Verlet of size k = h/2, ∂q1/∂p0 = 2k(1 − k²/2) vanishes at k = √2. With one, ∂q1/∂q0 = 1 − h²/2 does so at
 /// h = √2, and ∂p1/∂p0 too. A degenerate H has no Type I at all.
 #[test]
-fn where_the_ends_do_not_determine_the_step() -> Result<(), Error> {
+fn ends_that_do_not_determine_the_step_are_refused() -> Result<(), Error> {
     let root = 2.0_f64.sqrt();
     let (one, other) = (Vector1::new(0.7), Vector1::new(0.9));
     let start = || State::from_arrays(0.0, [0.7], [0.1]);
@@ -231,7 +231,7 @@ symplectic::hamiltonian! { pub Root q: [x], p: [px]; H = sqrt(1 + px^2) }
 
 /// Faster than light: no momentum leads so far. Wrong vectors are refused.
 #[test]
-fn ends_that_no_step_has() -> Result<(), Error> {
+fn unreachable_ends_are_refused() -> Result<(), Error> {
     let start = State::from_arrays(0.0, [0.0], [0.5]);
     let run = Integrator::new(Gauss2, Root, start, 0.1)?;
     let outcome = run.type_one(&Vector1::new(0.0), &Vector1::new(0.2));
@@ -278,7 +278,7 @@ symplectic::hamiltonian! { pub Displaced q: [x], p: [px]; H = (px^2 + x^2)/2 + x
 /// The force `k(x0 − x)` of a stiff spring near rest has rounding errors of the size of `k x0`, which exceed those of the momentum. Near
 /// zero there are no positions to compare a residual with.
 #[test]
-fn ends_known_to_the_rounding_of_the_step() -> Result<(), Error> {
+fn ends_with_rounding_errors_of_the_step_are_solved() -> Result<(), Error> {
     for (k, size) in [(100.0, 0.1), (1e6, 1e-3)] {
         let start = State::from_arrays(0.0, [1.0], [0.0]);
         let run = Integrator::new(StoermerVerlet, Spring { k }, start, size)?;
@@ -313,7 +313,7 @@ symplectic::hamiltonian! { pub Quartic { a } q: [x], p: [px]; H = px^2/(2 a) + a
 
 /// Each momentum has its own difference, which moves the end even where the momentum is zero; each position its own rounding error.
 #[test]
-fn ends_of_any_size() -> Result<(), Error> {
+fn ends_are_solved_for_masses_of_any_size() -> Result<(), Error> {
     for heavy in [1e10, 1e-10, 1e30] {
         let masses = Masses { a: 1.0, b: heavy };
         let start: State<Plane> = State::from_arrays(0.0, [0.3, 0.7], [0.5, 0.0]);

@@ -58,7 +58,7 @@ fn by_lagrangian(start: State<Vector2<f64>>) -> Result<End, Error> {
 }
 
 #[test]
-fn what_a_step_adds() -> Result<(), Error> {
+fn a_step_adds_its_generating_function_to_the_solution() -> Result<(), Error> {
     let start = start(Vector2::zeros(), Vector2::zeros());
     let mut solution = DiscreteHamiltonJacobi::new(&start);
     let mut run = Integrator::new(Lobatto3, Twisted, start, H)?;
@@ -120,11 +120,11 @@ fn check(run: impl Fn(State<Vector2<f64>>) -> Result<End, Error> + Copy) -> Resu
 }
 
 #[test]
-fn derivatives_of_a_run_of_gauss() -> Result<(), Error> {
+fn hamilton_jacobi_gradients_of_a_gauss_run_are_its_end() -> Result<(), Error> {
     check(by_gauss)
 }
 
 #[test]
-fn derivatives_of_a_run_of_a_discrete_lagrangian() -> Result<(), Error> {
+fn hamilton_jacobi_gradients_of_a_lagrangian_run_are_its_end() -> Result<(), Error> {
     check(by_lagrangian)
 }

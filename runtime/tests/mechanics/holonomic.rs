@@ -131,7 +131,7 @@ fn symmetric_steps_go_back_and_others_do_not() {
 /// A step of the adjoint undoes a step of symplectic Euler, for every class. Half steps of both are RATTLE in one order. In the other order
 /// their middle is on the constraints, too.
 #[test]
-fn the_adjoint_of_symplectic_euler() -> Result<(), Error> {
+fn the_adjoint_undoes_a_constrained_step_of_symplectic_euler() -> Result<(), Error> {
     fn undone<S, C, V>(system: S, start: &State<V>) -> Result<f64, Error>
     where
         V: Vector<Scalar = f64>,
@@ -238,7 +238,7 @@ fn the_energy_does_not_drift() {
 
 /// A pendulum that hangs at rest stays there: forces and impulses cancel, and what rounding leaves of them is no motion.
 #[test]
-fn equilibrium_stays() {
+fn a_pendulum_in_equilibrium_stays_at_rest() {
     let start: State<Vector2<f64>> = State::from_arrays(0.0, [0.6, -0.8], [0.0, 0.0]);
     let turned = Turned(Vector2::new(0.6, -0.8));
     let mut run = Integrator::new(Lobatto4, turned, start.clone(), 0.1).expect("a run");
@@ -283,7 +283,7 @@ symplectic::hamiltonian! {
 
 /// Farther than a pendulum is long, there is no step.
 #[test]
-fn a_step_that_is_too_long() {
+fn a_constrained_step_without_a_solution_is_refused() {
     let start: State<Vector2<f64>> = State::from_arrays(0.0, [1.0, 0.0], [0.0, -1.0]);
     let mut run = Integrator::new(Rattle, Pendulum, start.clone(), 3.0).expect("a run");
     let error = run.step().expect_err("no step");
@@ -301,7 +301,7 @@ fn a_step_that_is_too_long() {
 
 /// A run that is saved and restored has the bits of the run that goes on.
 #[test]
-fn restart_to_the_bit() {
+fn a_restored_constrained_run_has_the_same_bits() {
     for method_steps in [3, 10] {
         let mut run =
             Integrator::new(Lobatto3, DoubleSpherical, double_start(), 0.1).expect("a run");
@@ -419,7 +419,7 @@ impl symplectic::System<Vector2<f64>> for FailsOnce {
 
 /// A step that does not succeed from extrapolated stages is tried from its start.
 #[test]
-fn extrapolation_is_no_risk() {
+fn a_step_that_fails_from_extrapolation_is_repeated_from_its_start() {
     let start: State<Vector2<f64>> = State::from_arrays(0.0, [1.0, 0.0], [0.0, -1.0]);
     let system = FailsOnce(std::cell::Cell::new(u32::MAX));
     let mut run = Integrator::new(Lobatto4, system, start, 0.1).expect("a run");
@@ -438,7 +438,7 @@ fn extrapolation_is_no_risk() {
 /// A velocity that is linear in the momentum at the start, and affine elsewhere. The error of the energy does not grow, and is of order 2:
 /// the steps resolve the gyration of frequency 20.
 #[test]
-fn magnetic_fields() {
+fn constrained_motion_in_a_magnetic_field_keeps_its_energy() {
     let errors = |steps: u32| {
         let start: State<SVector<f64, 3>> = State::from_arrays(0.0, [0.0; 3], [0.0, 1.0, 0.0]);
         let size = 20.0 / f64::from(steps);

@@ -118,7 +118,7 @@ symplectic::hamiltonian! { Quotient q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 
 
 /// A derivative whose emitted form has no value at a kink is no number there, never a wrong one.
 #[test]
-fn second_derivatives_at_a_kink_are_their_limits_or_no_numbers() {
+fn second_derivatives_at_a_kink_are_limits_or_nan() {
     macro_rules! second {
         ($system:expr) => {{
             let mut jacobian = Jacobian::<f64>::new(2, usize::MAX);

@@ -131,7 +131,7 @@ where
 }
 
 #[test]
-fn orders() {
+fn lagrangian_steps_have_the_order_of_the_method() {
     macro_rules! each {
         ($($method:ident $steps:literal $order:literal;)*) => {$(
             let particle = Particle { friction: 0.1 };
@@ -147,7 +147,7 @@ fn orders() {
 }
 
 #[test]
-fn orders_where_l_depends_on_time() {
+fn time_dependent_lagrangians_keep_the_order() {
     let start = State::from_arrays(0.0, [1.0], [0.5]);
     macro_rules! each {
         ($($method:ident $steps:literal $order:literal;)*) => {$(
@@ -222,7 +222,7 @@ symplectic::hamiltonian! {
 }
 
 #[test]
-fn a_lagrangian_that_is_linear_in_velocities() -> Result<(), Error> {
+fn steps_linear_in_velocities_are_those_of_the_reduced_hamiltonian() -> Result<(), Error> {
     let (a, b) = ([1.0, 0.3], [-0.5, -0.2]);
     let q = SVector::from([a[0], a[1], b[0], b[1]]);
     let mut run = Run::from_velocity(Gauss2, Vortices, 0.0, q, SVector::zeros(), 0.1)?;
@@ -260,7 +260,7 @@ symplectic::lagrangian! {
 }
 
 #[test]
-fn formulas() -> Result<(), Error> {
+fn a_lagrangian_formula_takes_the_steps_of_the_one_by_hand() -> Result<(), Error> {
     let (by_hand, formula) = (Particle { friction: 0.1 }, FromFormula { friction: 0.1 });
     let start = near_perihelion();
     let p = formula.momentum_of_velocity(0.0, &start.q, &Vector2::new(0.1, 0.6));
@@ -389,7 +389,7 @@ fn a_lagrangian_that_is_degenerate_at_rest_is_stepped() -> Result<(), Error> {
 }
 
 #[test]
-fn errors() {
+fn degenerate_and_nonfinite_lagrangians_are_errors() {
     let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.0]);
     let run = |strange| Run::new(Gauss2, Wrong { strange }, start.clone(), 0.1).expect("a start");
     let singular = Run::new(Gauss2, Wrong { strange: false }, start.clone(), 0.1);
@@ -478,7 +478,7 @@ impl Lagrangian for Charge {
 
 /// At rest the velocities are rounding errors, and so are their changes.
 #[test]
-fn rest() -> Result<(), Error> {
+fn a_charge_at_rest_stays_at_rest() -> Result<(), Error> {
     for strength in [1.0, 1e3, 1e6] {
         let (charge, q) = (Charge { strength }, Vector2::new(3.7, -0.2));
         let p = momentum_of_velocity(&charge, 0.0, &q, &Vector2::zeros())?;
@@ -500,7 +500,7 @@ impl Lagrangian for Exponential {
 }
 
 #[test]
-fn a_lagrangian_that_is_not_finite_at_rest() -> Result<(), Error> {
+fn a_lagrangian_that_is_infinite_at_rest_starts_from_a_velocity() -> Result<(), Error> {
     let (q, v) = (SVector::from([0.0]), SVector::from([1.0]));
     let mut run = Run::from_velocity(Gauss3, Exponential, 0.0, q, v, 0.1)?;
     assert_eq!(run.velocity()?, v);
@@ -524,7 +524,7 @@ impl Lagrangian for Nothing {
 }
 
 #[test]
-fn no_coordinates() -> Result<(), Error> {
+fn a_lagrangian_without_coordinates_advances_the_time() -> Result<(), Error> {
     let start = State::new(0.0, DVector::zeros(0), DVector::zeros(0));
     let mut run = Run::new(Gauss2, Nothing, start, 0.1)?;
     assert_eq!(run.integrate_to(1.0)?.time, 1.0);

@@ -28,7 +28,7 @@ fn gradients(q: &Vector6) -> SMatrix<f64, 2, 6> {
 
 /// λ = S⁻¹ (G M⁻¹ force + v·∂²φ·v) with S = G M⁻¹ Gᵀ, of the double spherical pendulum.
 #[test]
-fn multipliers_in_closed_form() -> Result<(), Error> {
+fn multipliers_of_a_double_pendulum_have_their_closed_form() -> Result<(), Error> {
     let (masses, force) = (Vector6::from(MASSES), Vector6::from(WEIGHTS));
     let mut run = Integrator::new(Lobatto4, DoubleSpherical, double_start(), 0.05)?;
     for _ in 0..50 {

@@ -96,7 +96,7 @@ fn steps_are_those_of_the_textbook() -> Result<(), Error> {
 }
 
 #[test]
-fn without_a_shift_it_is_verlet() -> Result<(), Error> {
+fn newmark_with_beta_zero_is_verlet() -> Result<(), Error> {
     let mut newmark = run(0.0, &near(0.0, 0.0), 0.1)?;
     let mut verlet = Integrator::new(StoermerVerlet, Well, near(0.0, 0.0), 0.1)?;
     let end = newmark.take_steps(1000)?;
@@ -105,7 +105,7 @@ fn without_a_shift_it_is_verlet() -> Result<(), Error> {
 }
 
 #[test]
-fn order_two() -> Result<(), Error> {
+fn newmark_has_order_two_for_every_beta() -> Result<(), Error> {
     let mut reference = Integrator::new(Gauss4, Well, near(0.0, 0.0), 0.01)?;
     let reference = reference.integrate_to(2.0)?.clone();
     for beta in BETAS {
@@ -252,7 +252,7 @@ fn average_acceleration_is_stable() -> Result<(), Error> {
 
 /// With a force of the time: closed form, order 2, and vectors on the heap.
 #[test]
-fn forces_of_the_time() -> Result<(), Error> {
+fn newmark_has_order_two_with_a_force_of_time() -> Result<(), Error> {
     #[derive(Clone, Copy)]
     struct OnTheHeap;
     impl Hamiltonian for OnTheHeap {
@@ -301,7 +301,7 @@ fn forces_of_the_time() -> Result<(), Error> {
 }
 
 #[test]
-fn refusals() -> Result<(), Error> {
+fn newmark_refuses_bad_beta_step_sizes_and_masses() -> Result<(), Error> {
     for value in [f64::NEG_INFINITY, f64::INFINITY] {
         let outcome = Newmark::new(Well, value, 0.1);
         assert_eq!(outcome.err(), Some(Error::NewmarkBeta { value }));
@@ -340,7 +340,7 @@ fn refusals() -> Result<(), Error> {
 
 /// The force overflows, its derivative does not.
 #[test]
-fn forces_that_overflow() -> Result<(), Error> {
+fn newmark_refuses_a_force_that_overflows() -> Result<(), Error> {
     symplectic::hamiltonian! { Quartic q: [x], p: [px]; H = px^2/2 + x^4/4 }
     let newmark = Newmark::new(Quartic, 0.25, 0.1)?;
     let far = State::from_arrays(0.0, [1e110], [0.0]);

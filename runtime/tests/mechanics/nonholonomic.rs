@@ -118,7 +118,7 @@ macro_rules! orders {
 }
 
 #[test]
-fn orders_on_the_oscillator() {
+fn nonholonomic_methods_have_their_orders_on_an_oscillator() {
     let exact = oscillator_exact(1.0);
     let error =
         |end: &State<Vector3<f64>>| distance(&end.q, &exact.q).max(distance(&end.p, &exact.p));
@@ -130,7 +130,7 @@ fn orders_on_the_oscillator() {
 
 /// v' = ℓω², v² + (I + ℓ²)ω² = C²: the speed is C tanh(ℓC(t − t0)/(I + ℓ²)).
 #[test]
-fn orders_on_the_sleigh_whose_masses_depend_on_the_place() {
+fn nonholonomic_methods_have_their_orders_on_a_sleigh() {
     let (a, speed, rate) = (0.3, -0.4, 1.1_f64);
     let start = State::new(
         0.0,
@@ -302,7 +302,7 @@ fn a_consistent_momentum_is_the_nearest_one() {
 
 /// A run that is saved and restored has the bits of the run that goes on.
 #[test]
-fn restart_to_the_bit() {
+fn a_restored_nonholonomic_run_has_the_same_bits() {
     let new = || Integrator::new(Midpoint4, Oscillator, oscillator_start(), 0.1).expect("a run");
     let (mut run, mut other) = (new(), new());
     run.take_steps(7).expect("steps");

@@ -73,7 +73,7 @@ fn formulas_are_the_systems_by_hand() -> Result<(), Error> {
 
 /// A family of constraints: one for each index.
 #[test]
-fn a_family_of_constraints() -> Result<(), Error> {
+fn a_family_has_one_nonholonomic_constraint_for_each_index() -> Result<(), Error> {
     let system = Followers::<3>;
     assert_eq!(Hamiltonian::nonholonomic_constraints(&system), 3);
     let q = SMatrix::from_column_slice(&[1.0, 0.5, 0.3, 0.8, -0.2, 1.0]);

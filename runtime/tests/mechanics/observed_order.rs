@@ -38,7 +38,7 @@ fn check<L: DiscreteLagrangian>(
 }
 
 #[test]
-fn orders_of_quadratures() {
+fn observed_orders_of_quadratures_are_the_known_ones() {
     symplectic::hamiltonian! {
         Swinging
         q: [x], p: [px];
@@ -62,7 +62,7 @@ fn orders_of_quadratures() {
 
 /// With the time, and over vectors on the heap.
 #[test]
-fn a_lagrangian_of_the_time() {
+fn observed_order_of_a_time_dependent_lagrangian_is_two() {
     let fixed = orbit(Shaken, State::from_arrays(0.0, [1.0], [0.3]));
     let shaken = |time| {
         let state = fixed(time)?;
@@ -73,7 +73,7 @@ fn a_lagrangian_of_the_time() {
 
 /// The discrete forces count: with half of `h f` at each end the order is 2, with all of it at the start 1.
 #[test]
-fn forces_count() {
+fn observed_order_depends_on_the_discrete_forces() {
     #[derive(Clone, Copy)]
     struct Drag {
         end: f64,
@@ -115,7 +115,7 @@ fn forces_count() {
 }
 
 #[test]
-fn what_has_no_order() {
+fn an_orbit_that_does_not_solve_the_equations_has_no_order() {
     let free = |time: f64| Ok(State::from_arrays(time, [time], [1.0]));
     let ask = |h| observed_order(&Pendulum(0.5), free, 1.0, h);
     assert_eq!(ask(0.0), Err(Error::StepSize { value: 0.0 }));

@@ -157,7 +157,7 @@ fn assert_orders<B: RigidBody>(body: &B, reference: &Numbers) {
 
 /// R(t) = exp(tπ/I1) R0 exp(tλe3), λ = Π3 (1/I3 − 1/I1), where I1 = I2.
 #[test]
-fn a_free_symmetric_top() {
+fn steps_of_a_free_symmetric_top_have_their_orders() {
     let body = FreeBody::new(1.0, 1.0, 0.4);
     let RotationState {
         attitude, momentum, ..
@@ -170,7 +170,7 @@ fn a_free_symmetric_top() {
 
 /// A sphere turns about its momentum, and a step of any size below half a turn does so exactly.
 #[test]
-fn a_sphere() {
+fn a_sphere_turns_exactly_in_steps_of_any_size() {
     let start = RotationState::new(0.0, attitude(ANGLES), Vector3::new(1.0, -2.0, 2.0));
     let mut run = RotationIntegrator::new(FreeBody::new(1.0, 1.0, 1.0), start, 1.0).expect("a run");
     let turn = UnitQuaternion::new(start.momentum * 7.0);
@@ -180,7 +180,7 @@ fn a_sphere() {
 }
 
 #[test]
-fn a_free_body_with_three_moments() {
+fn steps_of_a_free_asymmetric_body_have_their_orders() {
     let moments = Vector3::new(1.0, 1.4, 0.8);
     let weightless = HeavyTop {
         weight: 0.0,
@@ -190,7 +190,7 @@ fn a_free_body_with_three_moments() {
 }
 
 #[test]
-fn heavy_tops() {
+fn steps_of_heavy_tops_have_their_orders() {
     for body in [LAGRANGE, LOPSIDED] {
         assert_orders(&body, &by_angles(&body, 0.0));
     }
@@ -198,7 +198,7 @@ fn heavy_tops() {
 
 /// The same tops in R⁹ with six constraints.
 #[test]
-fn heavy_tops_by_their_columns() {
+fn heavy_tops_with_constraints_end_where_rotations_do() {
     for body in [LAGRANGE, LOPSIDED] {
         let reference = by_angles(&body, 0.0);
         assert_order(2.0, &reference, 80, |steps| {
@@ -227,7 +227,7 @@ impl RigidBody for Shaken {
 
 /// A torque that depends on time: at the ends of every step of a composition.
 #[test]
-fn torques_at_their_times() {
+fn time_dependent_torques_keep_the_orders() {
     assert_orders(&Shaken(0.5), &by_angles(&LOPSIDED, 0.5));
     let mut run = RotationIntegrator::new(Shaken(0.5), start(), 0.1).expect("a run");
     run.step().expect("a step");
@@ -265,7 +265,7 @@ fn a_free_step_is_that_of_its_discrete_lagrangian() {
 /// After 10⁵ steps: RᵀR = 1 to rounding; the momentum in space to the last bit, or about the vertical to rounding; no drift of the energy.
 #[test]
 #[ignore = "thorough"]
-fn what_is_conserved() {
+fn rotations_keep_orthogonality_momentum_and_energy() {
     fn orthogonality(state: &RotationState) -> f64 {
         let r = state.attitude.to_rotation_matrix().into_inner();
         (r.transpose() * r - Matrix3::identity()).norm()
@@ -331,7 +331,7 @@ impl RigidBody for Broken {
 }
 
 #[test]
-fn errors() {
+fn steps_of_half_a_turn_and_bad_bodies_are_refused() {
     let start = RotationState::new(0.0, UnitQuaternion::identity(), Vector3::new(0.0, 0.0, 3.2));
     let sphere = FreeBody::new(1.0, 1.0, 1.0);
     let mut run = RotationIntegrator::new(sphere, start, 1.0).expect("a run");

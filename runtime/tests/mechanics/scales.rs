@@ -39,7 +39,7 @@ impl symplectic::System<Vector2<f64>> for Pivot {
 
 /// Near the origin, φ has rounding errors of ε|pivot|², far above ε|∂φ/∂q||q|.
 #[test]
-fn pendulums_that_pass_the_origin() {
+fn constraints_hold_where_a_pendulum_passes_the_origin() {
     fn check<M: Method + ProvedFor<Constrained<Separable>>>(
         method: M,
         (pivot, q): ([f64; 2], [f64; 2]),
@@ -99,7 +99,7 @@ impl symplectic::System<Vector2<f64>> for Electron {
 
 /// Differences of the velocity are taken at the scale of the momentum.
 #[test]
-fn small_momenta() {
+fn small_momenta_keep_their_constraint() {
     let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 1e-22]);
     let mut run = Integrator::new(Rattle, Electron, start, 1e-11).expect("a run");
     let end = run.take_steps(100).expect("steps");

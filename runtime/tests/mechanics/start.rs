@@ -222,7 +222,7 @@ fn a_configuration_where_the_gradient_vanishes_ends_the_run() {
 }
 
 #[test]
-fn consistent_states() {
+fn consistent_projects_onto_the_constraints() {
     let read = State::from_arrays(0.0, [0.6, -0.79], [0.8, 0.61]);
     let state: State<Vector2<f64>> = consistent(&Pendulum, read).expect("near by");
     assert!((state.q.norm() - 1.0).abs() < 1e-15 && state.q.dot(&state.p).abs() < 1e-15);
@@ -257,7 +257,7 @@ fn rounding_errors_at_rest_are_consistent() {
 
 /// What is not finite is no dependent constraint.
 #[test]
-fn what_is_not_finite_is_named() {
+fn a_nonfinite_constraint_is_named() {
     let broken = Point {
         gradients: |_| [[f64::NAN, 0.0], [0.0; 2], [0.0; 2]],
         ..CIRCLE
@@ -344,7 +344,7 @@ fn a_run_goes_on_after_misplaced_gradients() {
 
 /// Constraints and friction of a system whose class has none are not left out in silence.
 #[test]
-fn the_class_says_what_there_is() {
+fn constraints_and_friction_missing_from_the_class_are_refused() {
     struct Said {
         constraints: usize,
         friction: f64,

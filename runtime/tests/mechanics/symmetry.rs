@@ -32,7 +32,7 @@ fn near(a: f64, b: f64) -> State<Vector2<f64>> {
 
 /// Along a family of steps `dL_d = p1·dq1 − p0·dq0`, `dH_d⁺ = p0·dq0 + q1·dp1` and `dH_d⁻ = −q0·dp0 − p1·dq1`.
 #[test]
-fn generating_functions_of_three_types() -> Result<(), Error> {
+fn generating_functions_of_three_types_have_their_differentials() -> Result<(), Error> {
     let step = |a: f64| -> Result<_, Error> {
         let start = near(a, 0.3 * a);
         let mut run = Integrator::new(Gauss3, Twisted, start.clone(), 0.25)?;

@@ -205,14 +205,14 @@ where
 }
 
 #[test]
-fn constrained_steps() {
+fn constrained_steps_refuse_resized_results() {
     refuses::<_, Constrained<Separable>>(StoermerVerlet);
     refuses::<_, Constrained<Separable>>(Lobatto3);
     refuses::<_, Constrained<General>>(Lobatto3);
 }
 
 #[test]
-fn nonholonomic_steps() {
+fn nonholonomic_steps_refuse_resized_results() {
     refuses::<_, Nonholonomic<Separable>>(Midpoint);
     refuses::<_, Nonholonomic<Separable>>(StoermerVerlet);
     refuses::<_, Nonholonomic<General>>(Midpoint);
@@ -220,7 +220,7 @@ fn nonholonomic_steps() {
 
 /// Of the nodes 0, 1/4 and 1/2 the second is the first with a wrong force, and the third the first with a wrong velocity.
 #[test]
-fn the_stage_is_named() -> Result<(), Error> {
+fn a_resized_result_is_named_with_its_stage() -> Result<(), Error> {
     let stage = |from: f64, fault| -> Result<_, Error> {
         let system = Particle::<Constrained<General>>::new(fault, from + 4.0);
         let mut run = Integrator::new(Lobatto3, system, start(), 0.5)?;
@@ -237,7 +237,7 @@ fn the_stage_is_named() -> Result<(), Error> {
 
 /// RATTLE has its stages of the momentum at t = 1.55. At t = 1.6 the velocity is that of the hidden constraint.
 #[test]
-fn no_stage_is_named_outside_the_stages() -> Result<(), Error> {
+fn a_resized_result_outside_the_stages_is_named_without_a_stage() -> Result<(), Error> {
     let system = Particle::<Constrained<Separable>>::new(Fault::Velocity(3), 1.58);
     let mut run = Integrator::new(StoermerVerlet, system, start(), 0.1)?;
     let error = run.integrate_to(2.0).map(|_| ()).expect_err("resized");
@@ -258,7 +258,7 @@ fn no_stage_is_named_outside_the_stages() -> Result<(), Error> {
 
 /// The state at the end has a wrong force, and the error is that of a state.
 #[test]
-fn dense_output() -> Result<(), Error> {
+fn dense_output_refuses_resized_results() -> Result<(), Error> {
     fn check<M, C>(method: M) -> Result<(), Error>
     where
         M: Method + ProvedFor<C>,
@@ -293,7 +293,7 @@ fn dense_output() -> Result<(), Error> {
 }
 
 #[test]
-fn functions_of_states() {
+fn functions_of_states_refuse_resized_results() {
     for to in WRONG {
         for (fault, what) in [
             (Fault::Velocity(to), Quantity::Velocity),
@@ -312,7 +312,7 @@ fn functions_of_states() {
 }
 
 #[test]
-fn the_applied_force_of_balances() -> Result<(), Error> {
+fn balances_refuse_a_resized_applied_force() -> Result<(), Error> {
     fn check<M, C>(method: M) -> Result<(), Error>
     where
         M: Method + ProvedFor<C>,
@@ -335,7 +335,7 @@ fn the_applied_force_of_balances() -> Result<(), Error> {
 }
 
 #[test]
-fn kicks_with_friction_and_their_dense_output() -> Result<(), Error> {
+fn kicks_with_friction_refuse_resized_results() -> Result<(), Error> {
     for to in WRONG {
         let system = Particle::<Damped>::new(Fault::Kick(to), 0.0);
         let mut run = Integrator::new(StoermerVerlet, system, start(), 0.1)?;
@@ -432,7 +432,7 @@ impl Lagrangian for WithGradient {
 }
 
 #[test]
-fn gradients_of_lagrangians() {
+fn resized_gradients_of_lagrangians_are_refused() {
     for to in WRONG {
         for (by_velocity, by_position, what) in
             [(to, 2, Quantity::Momentum), (2, to, Quantity::Force)]
@@ -449,7 +449,7 @@ fn gradients_of_lagrangians() {
 }
 
 #[test]
-fn forces_of_lagrangians() -> Result<(), Error> {
+fn resized_forces_of_lagrangians_are_refused() -> Result<(), Error> {
     for to in WRONG {
         let v = DVector::from_vec(vec![0.5, 0.0]);
         let error = momentum_of_velocity(&Forced { to }, 0.0, &start().q, &v).expect_err("resized");
@@ -484,7 +484,7 @@ fn forces_of_lagrangians() -> Result<(), Error> {
 
 /// The first evaluation of a wrong dimension ends the search for the velocity.
 #[test]
-fn the_search_for_a_velocity_ends() {
+fn the_search_for_a_velocity_refuses_resized_results() {
     struct Counted(Cell<u32>);
 
     impl Lagrangian for Counted {
@@ -534,7 +534,7 @@ impl Hamiltonian for Resized {
 }
 
 #[test]
-fn the_shift_of_newmark() -> Result<(), Error> {
+fn newmark_refuses_a_resized_force() -> Result<(), Error> {
     for to in WRONG {
         let newmark = Newmark::new(Resized { to }, 0.25, 0.1)?;
         let error = newmark.shift(&start()).expect_err("resized");

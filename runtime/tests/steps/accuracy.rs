@@ -7,7 +7,7 @@ use symplectic::nalgebra::Vector1;
 use symplectic::{Error, Integrator, Method, State, separable};
 
 #[test]
-fn verlet_on_the_oscillator_is_the_matrix_it_should_be() -> Result<(), Error> {
+fn a_verlet_step_of_the_oscillator_is_its_exact_matrix() -> Result<(), Error> {
     // (q, p) ↦ ((1 − h²/2) q + h p, −h(1 − h²/4) q + (1 − h²/2) p), all exact in f64 for h = 1/2.
     let oscillator =
         separable::<Vector1<f64>, _, _>(|_, p, velocity| *velocity = *p, |_, q, force| *force = -q);

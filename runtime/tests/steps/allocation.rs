@@ -81,7 +81,7 @@ impl<T: Scalar> Vector for Counted<T> {
 
 /// Memory for what is between the steps is made once in a run, not once in a step or for an event.
 #[test]
-fn looking_into_steps_makes_no_vectors() -> Result<(), Error> {
+fn dense_output_and_events_do_not_allocate() -> Result<(), Error> {
     fn check<M: Method>(method: M) -> Result<(), Error> {
         let start = State::new(0.0, Counted::new(vec![1.0; 5]), Counted::new(vec![0.0; 5]));
         let mut integrator = Integrator::new(method, Pendulum::default(), start, 0.1)?;
@@ -118,7 +118,7 @@ fn looking_into_steps_makes_no_vectors() -> Result<(), Error> {
 
 /// Nor do events of a list, with output between them, found by steps, and with states that are reset.
 #[test]
-fn resets_at_events_make_no_vectors() -> Result<(), Error> {
+fn resets_at_events_do_not_allocate() -> Result<(), Error> {
     fn check<M: Method>(method: M) -> Result<(), Error> {
         let start = State::new(0.0, Counted::new(vec![1.0; 5]), Counted::new(vec![0.0; 5]));
         let mut integrator = Integrator::new(method, Pendulum::default(), start, 0.1)?;
@@ -151,7 +151,7 @@ fn resets_at_events_make_no_vectors() -> Result<(), Error> {
 }
 
 #[test]
-fn steps_make_no_vectors() -> Result<(), Error> {
+fn steps_do_not_allocate() -> Result<(), Error> {
     fn check<M: Method>(method: M, memory: u64) -> Result<(), Error> {
         let start = State::new(0.0, Counted::new(vec![1.0; 5]), Counted::new(vec![0.0; 5]));
         let (count, integrator) = made(|| Integrator::new(method, Pendulum::default(), start, 0.1));
@@ -180,7 +180,7 @@ fn steps_make_no_vectors() -> Result<(), Error> {
 
 /// In blocks, and by themselves.
 #[test]
-fn steps_of_a_chain_make_no_vectors() -> Result<(), Error> {
+fn steps_of_a_chain_do_not_allocate() -> Result<(), Error> {
     struct Springs;
     impl Bonds for Springs {
         fn tension<T: Scalar>(&self, _time: T, stretch: T) -> T {
@@ -230,7 +230,7 @@ impl DiscreteLagrangian for Particle {
 }
 
 #[test]
-fn steps_of_a_discrete_lagrangian_make_no_vectors() -> Result<(), Error> {
+fn steps_of_a_discrete_lagrangian_do_not_allocate() -> Result<(), Error> {
     let start = || State::new(0.0, Counted::new(vec![1.0]), Counted::new(vec![0.0]));
     let (made_by_new, run) = made(|| VariationalIntegrator::new(Particle, start(), 0.1));
     assert!(made_by_new > 4);
@@ -242,7 +242,7 @@ fn steps_of_a_discrete_lagrangian_make_no_vectors() -> Result<(), Error> {
 }
 
 #[test]
-fn steps_of_newmark_make_no_vectors() -> Result<(), Error> {
+fn steps_of_newmark_do_not_allocate() -> Result<(), Error> {
     struct Pendulums;
     impl SeparableHamiltonian for Pendulums {
         type Vector<T: Scalar> = Counted<T>;
@@ -271,7 +271,7 @@ fn steps_of_newmark_make_no_vectors() -> Result<(), Error> {
 }
 
 #[test]
-fn steps_of_flows_make_no_vectors() -> Result<(), Error> {
+fn steps_of_flows_do_not_allocate() -> Result<(), Error> {
     let start = State::new(0.0, Counted::new(vec![1.0; 5]), Counted::new(vec![0.0; 5]));
     let (drift, kick) = (
         Drift::new(Pendulum::default()),
@@ -292,7 +292,7 @@ fn steps_of_flows_make_no_vectors() -> Result<(), Error> {
 }
 
 #[test]
-fn steps_of_variable_size_make_no_vectors() -> Result<(), Error> {
+fn steps_of_variable_size_do_not_allocate() -> Result<(), Error> {
     struct Line;
     impl SeparableHamiltonian for Line {
         type Vector<T: Scalar> = Counted<T>;

@@ -141,7 +141,7 @@ fn the_order_for_general_systems_is_the_lower_one() -> Result<(), Error> {
 }
 
 #[test]
-fn without_a_polynomial_of_the_stages_it_is_the_cubic_one() -> Result<(), Error> {
+fn dense_output_without_a_stage_polynomial_is_cubic_hermite() -> Result<(), Error> {
     fn check<M: Method>(method: M, order: u32) -> Result<(), Error> {
         let start = exact(Kepler, &perihelion(), 0.7)?;
         let start = State { time: 0.0, ..start };
@@ -158,7 +158,7 @@ fn without_a_polynomial_of_the_stages_it_is_the_cubic_one() -> Result<(), Error>
 
 /// Nodes of more stages than the basis has polynomials carry a polynomial of their own.
 #[test]
-fn more_nodes_than_functions() -> Result<(), Error> {
+fn dense_output_exists_with_more_nodes_than_functions() -> Result<(), Error> {
     let start = exact(Kepler, &perihelion(), 0.7)?;
     let found = interpolation(Tang, || Kepler, &start);
     assert!(matches!(found, Interpolation::Stages { .. }), "{found:?}");
@@ -242,7 +242,7 @@ fn eight_stages_lose_no_digits() -> Result<(), Error> {
 
 /// In single precision too.
 #[test]
-fn singles_and_dynamic_vectors() -> Result<(), Error> {
+fn dense_output_works_in_single_precision_and_dynamic_vectors() -> Result<(), Error> {
     let start = State::new(
         0.0,
         SVector::<f32, 2>::new(0.4, 0.0),
@@ -274,7 +274,7 @@ fn singles_and_dynamic_vectors() -> Result<(), Error> {
 }
 
 #[test]
-fn what_has_no_inside() -> Result<(), Error> {
+fn dense_output_is_refused_before_a_step_and_outside_it() -> Result<(), Error> {
     let mut integrator = Integrator::new(Gauss3, Kepler, perihelion(), 0.1)?;
     assert_eq!(integrator.dense().err(), Some(Error::NoStep));
     integrator.step()?;

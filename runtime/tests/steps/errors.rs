@@ -86,7 +86,7 @@ where
 }
 
 #[test]
-fn bad_step_sizes() -> Result<(), Error> {
+fn step_sizes_that_are_zero_or_not_finite_are_refused() -> Result<(), Error> {
     for value in [0.0, -0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let error = Integrator::new(StoermerVerlet, Product, point(1.0, 0.0), value)
             .expect_err("no step size");
@@ -99,7 +99,7 @@ fn bad_step_sizes() -> Result<(), Error> {
 }
 
 #[test]
-fn bad_states() -> Result<(), Error> {
+fn states_of_wrong_dimension_or_not_finite_are_refused() -> Result<(), Error> {
     let dynamic = |q: &[f64], p: &[f64]| {
         let state = State::new(0.0, DVector::from_row_slice(q), DVector::from_row_slice(p));
         Integrator::new(StoermerVerlet, Pendulum::default(), state, 0.1)
@@ -334,7 +334,7 @@ fn a_result_that_overflows_is_named() -> Result<(), Error> {
 }
 
 #[test]
-fn running_out_of_the_domain_while_iterating_is_no_convergence() -> Result<(), Error> {
+fn leaving_the_domain_while_iterating_is_reported_as_divergence() -> Result<(), Error> {
     // Finite at the start and at the first new stage value (0.5), not at the second (1).
     let system = hamiltonian::<Point, _, _>(
         |_, q, _p, velocity| {
@@ -427,7 +427,7 @@ fn iteration_over_states_ends_with_the_error() -> Result<(), Error> {
 }
 
 #[test]
-fn messages_say_what_where_and_what_to_do() {
+fn messages_name_the_cause_the_step_and_a_remedy() {
     let error = Error::NonFinite {
         time: 1.5,
         step_size: 0.1,

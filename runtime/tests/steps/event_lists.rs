@@ -88,7 +88,7 @@ fn output_and_events_come_in_the_order_of_time() -> Result<(), Error> {
 }
 
 #[test]
-fn lists_of_all_kinds() -> Result<(), Error> {
+fn events_are_given_as_arrays_slices_vectors_and_tuples() -> Result<(), Error> {
     let array = [0.2, 0.8, 0.4].map(|time| Event::crossing(at(time)));
     let order = |shown: Vec<Shown>| shown.iter().filter_map(|shown| shown.0).collect::<Vec<_>>();
     assert_eq!(order(shown(1.0, 0.5, &[], &array)?), [0, 2, 1]);
@@ -105,7 +105,7 @@ fn lists_of_all_kinds() -> Result<(), Error> {
 
 /// At the end, at the start, and where there is nothing to be integrated.
 #[test]
-fn ends_and_starts() -> Result<(), Error> {
+fn output_and_events_at_the_ends_of_a_run_are_shown_in_order() -> Result<(), Error> {
     let event = Event::crossing(at(1.0));
     assert_eq!(
         shown(1.0, 0.3, &[1.0], &event)?,
@@ -166,7 +166,7 @@ fn ends_and_starts() -> Result<(), Error> {
 
 /// A ball that bounces, with output between: heights by the closed form, and the number of impacts before each.
 #[test]
-fn a_bouncing_ball_with_output() -> Result<(), Error> {
+fn output_of_a_bouncing_ball_agrees_with_the_closed_form() -> Result<(), Error> {
     const KEPT: f64 = 0.7;
     let fall = (2.0 * 50.0 / 9.8_f64).sqrt();
     let height = |time: f64| {
@@ -219,7 +219,7 @@ fn a_bouncing_ball_with_output() -> Result<(), Error> {
 
 /// Handlers that break, with and without a changed state, and that make a bad state.
 #[test]
-fn what_handlers_leave_behind() -> Result<(), Error> {
+fn a_handler_that_breaks_leaves_a_valid_state() -> Result<(), Error> {
     let run = |change: f64, stop: bool| {
         let at_rest = acceleration::<Vector1<f64>, _>(|_, _, acceleration| acceleration[0] = 0.0);
         let mut integrator = Integrator::new(Gauss4, at_rest, rest(), 0.5)?;
@@ -256,7 +256,7 @@ fn what_handlers_leave_behind() -> Result<(), Error> {
 
 /// Kicks at a section, of dynamic vectors, in steps that are taken in parts.
 #[test]
-fn resets_in_parts_of_steps() -> Result<(), Error> {
+fn resets_at_events_work_in_split_steps() -> Result<(), Error> {
     let kepler = acceleration::<DVector<f64>, _>(|_, q: &DVector<f64>, acceleration| {
         acceleration.copy_from(&(q * -q.norm().powi(-3)));
     });
@@ -287,7 +287,7 @@ fn resets_in_parts_of_steps() -> Result<(), Error> {
 
 /// Two functions of one type, one by steps: their states have the order of what finds them.
 #[test]
-fn each_event_is_found_in_its_own_way() -> Result<(), Error> {
+fn events_by_steps_and_by_dense_output_have_their_orders() -> Result<(), Error> {
     type Plane = State<Vector2<f64>>;
     let circle = acceleration::<Vector2<f64>, _>(|_, q, acceleration| *acceleration = -q);
     let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 1.0]);

@@ -89,7 +89,7 @@ proptest! {
 
     /// All three zeros are found, in their order and with their directions, if no panel holds both extrema.
     #[test]
-    fn zeros_of_cubic_motions(
+    fn all_zeros_of_cubic_motions_are_found_in_order(
         cubic in cubic(), steps in 1..30_u32, backward: bool, by_steps: bool,
     ) {
         let (from, to) = if backward { (3.2, 0.0) } else { (0.0, 3.2) };
@@ -118,7 +118,7 @@ proptest! {
 
     /// A flight from zero and back: the zero after the start is found, however near it is.
     #[test]
-    fn zeros_after_a_start_on_zero(
+    fn the_next_zero_after_a_start_on_zero_is_found(
         power in -9.0..0.0_f64, height in -1.0..1.0_f64, step_size in 0.01..4.0_f64, by_steps: bool,
     ) {
         let back = 10.0_f64.powf(power);
@@ -135,7 +135,7 @@ proptest! {
 
 /// Dips between the places that are looked at.
 #[test]
-fn two_zeros_between_places() -> Result<(), Error> {
+fn two_zeros_between_samples_are_found() -> Result<(), Error> {
     let at_rest = || acceleration::<Vector1<f64>, _>(|_, _, acceleration| acceleration[0] = 0.0);
     let start = State::from_arrays(0.0, [0.0], [0.0]);
     for width in [1e-1, 1e-2, 1e-4] {

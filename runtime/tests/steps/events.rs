@@ -126,7 +126,7 @@ fn bad_output_times_take_no_step() -> Result<(), Error> {
 
 /// The perihelia are at the times 2πk.
 #[test]
-fn events_are_found_to_the_order_of_what_finds_them() -> Result<(), Error> {
+fn events_have_the_order_of_the_step_or_of_the_dense_output() -> Result<(), Error> {
     let mut errors = Vec::new();
     for event in [Event::rising(outward), Event::rising(outward).by_steps()] {
         let mut integrator = Integrator::new(Gauss8, Kepler, perihelion(), 0.1)?;
@@ -147,7 +147,7 @@ fn events_are_found_to_the_order_of_what_finds_them() -> Result<(), Error> {
 }
 
 #[test]
-fn directions() -> Result<(), Error> {
+fn events_of_each_direction_are_found_forward_and_backward() -> Result<(), Error> {
     let times = |event: Event<fn(&Point) -> f64>, step_size: f64| {
         let mut integrator = Integrator::new(Gauss8, Kepler, perihelion(), step_size)?;
         let mut times = Vec::new();
@@ -192,7 +192,7 @@ fn several_events_in_a_step() -> Result<(), Error> {
 }
 
 #[test]
-fn a_zero_where_it_is_looked_for_is_one_event() -> Result<(), Error> {
+fn a_zero_at_a_sample_is_a_single_event() -> Result<(), Error> {
     let mut integrator = Integrator::new(Gauss2, Kepler, perihelion(), 0.25)?;
     let mut times = Vec::new();
     let event = Event::crossing(|state: &Point| state.time - 0.5);
@@ -211,7 +211,7 @@ fn a_zero_where_it_is_looked_for_is_one_event() -> Result<(), Error> {
 }
 
 #[test]
-fn events_that_are_no_numbers_and_searches_that_end() -> Result<(), Error> {
+fn a_nan_event_is_an_error_and_a_search_can_be_stopped() -> Result<(), Error> {
     let mut integrator = Integrator::new(Gauss2, Kepler, perihelion(), 0.25)?;
     let event = Event::crossing(|state: &Point| (0.6 - state.time).sqrt());
     let error = integrator
@@ -348,7 +348,7 @@ fn observers_keep_the_largest_deviation() -> Result<(), Error> {
 }
 
 #[test]
-fn states_of_slices() {
+fn slices_of_different_length_are_refused_as_a_state() {
     let wrong = State::<Vector1<f64>>::from_slices(0.0, &[1.0], &[]);
     assert_eq!(
         wrong,

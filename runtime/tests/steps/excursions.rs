@@ -105,7 +105,7 @@ fn other_methods_find_all_shallow_crossings_that_they_resolve() {
 
 /// The orbit of a Gauss method stays within the unit circle, and the interpolation does not.
 #[test]
-fn nothing_is_found_where_the_method_does_not_go() {
+fn excursions_of_the_interpolation_alone_are_not_events() {
     for size in [2.0, 1.0, 0.5] {
         for level in [1.0 + 1e-9, 1.00001] {
             assert!(found(Gauss4, size, level, false).is_empty());

@@ -155,7 +155,7 @@ fn the_derivatives_are_the_momentum_before_and_the_position_after() -> Result<()
 }
 
 #[test]
-fn differences_say_the_same() -> Result<(), Error> {
+fn generating_functions_agree_with_differences() -> Result<(), Error> {
     macro_rules! check {
         ($method:ident) => {
             let product = defect_by_differences($method, &Product, PRODUCT, 0.25)?;
@@ -430,7 +430,7 @@ fn vectors_and_scalars_of_all_kinds_have_it() -> Result<(), Error> {
 }
 
 #[test]
-fn one_clock_will_do_and_two_will_not() -> Result<(), Box<dyn StdError>> {
+fn generating_functions_of_driven_systems_need_equal_nodes() -> Result<(), Box<dyn StdError>> {
     let (q, p) = (Vector1::new(dual(0.5, 1.0)), Vector1::new(dual(0.3, 0.0)));
     let driven = separable::<Vector1<Dual>, _, _>(
         |_, p, velocity| *velocity = *p,
@@ -461,7 +461,7 @@ fn one_clock_will_do_and_two_will_not() -> Result<(), Box<dyn StdError>> {
 }
 
 #[test]
-fn what_cannot_be_answered_is_an_error() {
+fn generating_functions_refuse_bad_input() {
     let [one, none, infinite] = [1.0, f64::NAN, f64::INFINITY].map(Vector1::new);
     let pendulum = Pendulum::default();
     let ask = |q: &Vector1<f64>, p: &Vector1<f64>, h| {

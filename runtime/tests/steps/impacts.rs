@@ -57,7 +57,7 @@ fn bounces(
 /// The times are a geometric series, which ends at 18.1015; the ball is never below the floor. From a start at −18.1015 it ends at
 /// zero, near which times have many more digits than states between the steps.
 #[test]
-fn impacts_accumulate() -> Result<(), Error> {
+fn accumulating_impacts_end_at_the_limit_of_their_times() -> Result<(), Error> {
     let fall = (2.0 * 50.0 / GRAVITY).sqrt();
     let end = fall * 1.7 / 0.3;
     let floor: fn(&Ball) -> f64 = height;
@@ -100,7 +100,7 @@ fn impacts_accumulate() -> Result<(), Error> {
 
 /// In singles, the rounding of which is far coarser than that of the time.
 #[test]
-fn impacts_accumulate_in_singles() -> Result<(), Error> {
+fn accumulating_impacts_end_in_single_precision() -> Result<(), Error> {
     type Single = State<Vector1<f32>>;
     for (floor, kept) in [(0.0_f32, 0.3_f32), (0.0, 0.7), (0.0, 0.9), (10.0, 0.7)] {
         let height = move |ball: &Single| f64::from(ball.q[0] - floor);
@@ -140,7 +140,7 @@ fn impacts_accumulate_in_singles() -> Result<(), Error> {
 
 /// Thrown up from the floor, back in 2 v/g, within the first step.
 #[test]
-fn a_flight_within_a_step_is_seen() -> Result<(), Error> {
+fn a_flight_within_one_step_is_an_event() -> Result<(), Error> {
     let floor: fn(&Ball) -> f64 = height;
     for event in [
         Event::falling(floor),
@@ -206,7 +206,7 @@ fn flights_are_seen_in_all_directions() -> Result<(), Error> {
 
 /// A start is no event, except of a wall that the state goes into.
 #[test]
-fn starts_on_zero() -> Result<(), Error> {
+fn a_start_on_zero_is_an_event_only_of_a_wall_that_it_enters() -> Result<(), Error> {
     let floor: fn(&Ball) -> f64 = height;
     let find = |event: Event<fn(&Ball) -> f64>, velocity: f64| {
         let start = ball(0.0, velocity);
@@ -262,7 +262,7 @@ fn a_ball_that_stays_down_rests() -> Result<(), Error> {
 
 /// A handler that does not turn the state at a wall is stopped, and the state is not behind it.
 #[test]
-fn no_way_through_a_wall() -> Result<(), Error> {
+fn a_handler_that_does_not_reflect_at_a_wall_ends_the_run() -> Result<(), Error> {
     let mut integrator = Integrator::new(StoermerVerlet, falling_ball(), ball(1.0, 0.0), 0.1)?;
     let mut count = 0;
     let event = Event::wall(height);
@@ -383,7 +383,7 @@ fn gradient(function: Floor, state: &Point) -> Vector2<f64> {
 
 /// Two balls in a box, without gravity: every wall and every impact of the two, in their order.
 #[test]
-fn several_walls_at_once() -> Result<(), Error> {
+fn impacts_on_several_walls_come_in_order() -> Result<(), Error> {
     let free =
         acceleration::<Vector2<f64>, _>(|_, _, acceleration| *acceleration = Vector2::zeros());
     // At the walls −1 and 1 both at the time 2/3, in the middle both at 5/3, and so on.

@@ -69,7 +69,7 @@ where
 }
 
 #[test]
-fn it_finds_what_the_fixed_point_iteration_finds() -> Result<(), Error> {
+fn newton_finds_the_stages_of_the_fixed_point_iteration() -> Result<(), Error> {
     fn check<M: Method + ProvedFor<General>>(method: M) -> Result<(), Error> {
         let kepler = perihelion();
         let distance = compare(method, || Kepler, &kepler, 0.05)?;
@@ -87,7 +87,7 @@ fn it_finds_what_the_fixed_point_iteration_finds() -> Result<(), Error> {
 
 /// There is nothing to iterate in an explicit method.
 #[test]
-fn explicit_methods_stay_what_they_are() -> Result<(), Error> {
+fn newton_leaves_explicit_methods_unchanged() -> Result<(), Error> {
     let start = || perihelion();
     let mut expected = Integrator::new(StoermerVerlet, Kepler, start(), 0.01)?;
     let mut newton = Integrator::new(StoermerVerlet, Kepler, start(), 0.01)?.by_newton();
@@ -131,7 +131,7 @@ fn oscillators_of_any_stiffness_take_few_iterations() -> Result<(), Error> {
 
 /// The stiffness goes round with the pendulum: derivatives at one point of a step converge as long as h²ω is small.
 #[test]
-fn a_stiff_spring_pendulum() -> Result<(), Error> {
+fn newton_steps_a_stiff_spring_pendulum() -> Result<(), Error> {
     for omega in [1e4, 1e6] {
         for h in [25.0 / omega, 0.25 / f64::sqrt(omega)] {
             let begin = || State::new(0.0, Vector2::new(1.0, 0.0), Vector2::new(0.0, 1.0));
@@ -167,7 +167,7 @@ fn a_stiff_spring_pendulum() -> Result<(), Error> {
 
 /// A pendulum on a spring of stiffness k = 3·10⁷ from rest, `h²k/4 = 750`: the momenta shrink to their rounding error by 1/751 a sweep.
 #[test]
-fn changes_at_the_level_of_rounding_are_the_last() -> Result<(), Error> {
+fn newton_stops_at_changes_of_the_size_of_rounding() -> Result<(), Error> {
     fn check<R: symplectic::Summation>() -> Result<(), Error> {
         let start = State::new(0.0, Vector2::new(1.0, 0.0), Vector2::new(0.0, 0.0));
         let system = spring_pendulum(3e7_f64.sqrt());
@@ -234,7 +234,7 @@ fn the_noise_of_evaluations_is_measured() -> Result<(), Error> {
 
 /// A force in single precision: the stages stand still at its errors, and no smaller step would help.
 #[test]
-fn noisy_evaluations_are_told_from_divergence() -> Result<(), Error> {
+fn noisy_evaluations_are_reported_as_stagnation() -> Result<(), Error> {
     let system = || {
         separable::<Vector1<f64>, _, _>(
             |_, p, velocity| *velocity = *p,
@@ -424,7 +424,7 @@ impl Hamiltonian for Rotors {
 }
 
 #[test]
-fn general_systems_that_are_stiff() -> Result<(), Error> {
+fn newton_steps_stiff_general_systems() -> Result<(), Error> {
     fn check<M: Method + ProvedFor<General>>(method: M, stiffness: f64) -> Result<(), Error> {
         let start = || State::new(0.0, chain_start().q * 1e-3, DVector::zeros(24));
         let integrator = || Integrator::new(method, Rotors(stiffness), start(), 0.1);
@@ -697,7 +697,7 @@ fn dual_numbers_give_the_derivatives() -> Result<(), Error> {
 
 /// A light body round a heavy one that moves: its momentum is less than a unit in the last place of the other one's.
 #[test]
-fn a_light_body_beside_a_heavy_one_is_as_exact_as_alone() {
+fn a_light_body_near_a_heavy_one_keeps_its_accuracy() {
     type Bodies = SVector<f64, 4>;
     let energy_error = |heavy: f64| {
         let system = separable::<Bodies, _, _>(
@@ -740,7 +740,7 @@ symplectic::tableau! {
 
 /// All increments are extrapolated, also if there are more forces than unknowns. With a tolerance the steps show their starting values.
 #[test]
-fn one_pendulum_is_stepped_as_each_of_two() -> Result<(), Error> {
+fn one_pendulum_takes_the_steps_of_each_of_two() -> Result<(), Error> {
     let end = |count: usize| {
         let pendula = acceleration(|_time, q: &DVector<f64>, acceleration| {
             acceleration.zip_apply(q, |a, q| *a = -q.sin());

@@ -92,7 +92,7 @@ fn length(parameter: &'static str, found: usize, expected: usize) -> Error {
 }
 
 #[test]
-fn masses_are_as_many_as_bodies() {
+fn a_wrong_number_of_masses_is_refused() {
     for found in [0, 1, 3, 7] {
         let error = Integrator::new(StoermerVerlet, masses(found), start(6), 0.01).err();
         assert_eq!(error, Some(length("m", found, 2)));
@@ -119,7 +119,7 @@ fn the_dimension_is_a_multiple_of_the_components() {
 }
 
 #[test]
-fn pairs_are_pairs_of_bodies() {
+fn pairs_out_of_range_are_refused() {
     let net = |springs: Vec<(usize, usize)>, stiffness: usize, rows: &[usize]| {
         let coupling = rows.iter().map(|&row| vec![1.0; row]).collect();
         let net = Net::new(springs, vec![1.0; stiffness], coupling);
@@ -161,7 +161,7 @@ fn pairs_are_pairs_of_bodies() {
 }
 
 #[test]
-fn pairs_of_a_system_of_fixed_length() {
+fn pairs_of_a_system_of_fixed_length_are_checked() {
     let three = |springs: Vec<(usize, usize)>, count: usize| {
         let start = State::from_arrays(0.0, [0.0, 1.0, 3.0], [0.0; 3]);
         let system = Three::new(springs, vec![[1.0, 2.0]; count]);

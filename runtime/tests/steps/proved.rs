@@ -104,7 +104,7 @@ fn a_nystrom_method_takes_masses_of_any_kind() -> Result<(), Error> {
 
 /// The case of the report: a splitting on `H = p²(1 + q²)/2 + q²/2`, which compiles with the word only.
 #[test]
-fn a_splitting_is_taken_for_a_general_system_on_a_word() -> Result<(), Error> {
+fn a_splitting_steps_a_general_system_if_lower_order_is_accepted() -> Result<(), Error> {
     let system = || {
         hamiltonian::<V, _, _>(
             |_, q, p, v| v[0] = p[0] * (1.0 + q[0] * q[0]),
@@ -124,7 +124,7 @@ fn a_splitting_is_taken_for_a_general_system_on_a_word() -> Result<(), Error> {
 }
 
 #[test]
-fn the_word_changes_no_bit() -> Result<(), Error> {
+fn accept_lower_order_keeps_the_bits() -> Result<(), Error> {
     let oscillator = || acceleration::<V, _>(|_, q, a| a[0] = -q[0]);
     let mut plain = Integrator::new(ForestRuth, oscillator(), start(), 0.1)?;
     let mut word = Integrator::new(ForestRuth.accept_lower_order(), oscillator(), start(), 0.1)?;

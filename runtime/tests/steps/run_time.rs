@@ -101,7 +101,7 @@ fn steps_of_general_systems_are_those_of_emitted_methods() -> Result<(), Error> 
 }
 
 #[test]
-fn both_clocks_are_those_of_emitted_methods() -> Result<(), Error> {
+fn run_time_tableaux_use_the_nodes_of_emitted_methods() -> Result<(), Error> {
     let start = State::from_arrays(0.25, [0.3], [0.7]);
     same(StoermerVerlet, || Driven, &start)?;
     same(ForestRuth, || Driven, &start)?;
@@ -391,7 +391,7 @@ fn a_step_that_fails_leaves_the_state() -> Result<(), Error> {
 }
 
 #[test]
-fn what_goes_with_an_integrator_goes_with_this_one() -> Result<(), Box<dyn std::error::Error>> {
+fn a_run_time_integrator_copies_restarts_and_changes_solvers() -> Result<(), Box<dyn std::error::Error>> {
     for tableau in [tableau(Gauss4), tableau(ForestRuth)] {
         let run = || Integrator::at_run_time(&tableau, kepler(), ellipse(), 0.02);
         // Another copy, another solver, a checkpoint: the same bits.

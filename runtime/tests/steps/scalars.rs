@@ -175,7 +175,7 @@ fn closures_are_systems() -> Result<(), Error> {
 }
 
 #[test]
-fn no_degrees_of_freedom_are_no_trouble() -> Result<(), Error> {
+fn systems_without_degrees_of_freedom_advance_the_time() -> Result<(), Error> {
     fn steps<M: Method, V: Vector>(method: M, nothing: V) -> Result<(), Error> {
         let start = State::new(0.0, nothing.clone(), nothing);
         let mut integrator = Integrator::new(method, Pendulum::default(), start, 0.5)?;
@@ -190,7 +190,7 @@ fn no_degrees_of_freedom_are_no_trouble() -> Result<(), Error> {
 }
 
 #[test]
-fn the_functions_of_f32_and_f64_are_what_they_say() {
+fn functions_of_f32_and_f64_satisfy_their_identities() {
     fn check<T: Scalar>(tolerance: f64) {
         let x = T::from_f64(0.5);
         let one = T::one();

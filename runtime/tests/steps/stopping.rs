@@ -98,7 +98,7 @@ fn both_halves_of_a_general_system_are_within_it() -> Result<(), Error> {
 }
 
 #[test]
-fn a_tolerance_that_is_none_is_refused() -> Result<(), Error> {
+fn a_tolerance_that_is_negative_or_not_finite_is_refused() -> Result<(), Error> {
     let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
     let mut integrator = Integrator::plain(Gauss2, Pendulum::default(), start.clone(), 0.1)?;
     integrator.set_tolerance(1e-3)?;
@@ -134,7 +134,7 @@ impl SeparableHamiltonian for Wall {
 }
 
 #[test]
-fn what_is_not_finite_is_not_within_a_tolerance() -> Result<(), Error> {
+fn a_nonfinite_stage_is_not_within_a_tolerance() -> Result<(), Error> {
     fn check<N: Solver<Vector1<f64>, Wall>>(
         mut integrator: Integrator<Gauss2, Wall, Vector1<f64>, Plain, N>,
     ) -> Result<(), Error> {

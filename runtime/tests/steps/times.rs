@@ -80,7 +80,7 @@ fn times_are_not_summed_up() -> Result<(), Error> {
 }
 
 #[test]
-fn backward_is_the_way_back() -> Result<(), Error> {
+fn integration_backward_returns_to_the_start() -> Result<(), Error> {
     let mut integrator = Integrator::new(Midpoint, Pendulum::default(), point(1.0, 0.5), 0.1)?;
     integrator.integrate_to(3.0)?;
     integrator.integrate_to(0.0)?;
@@ -89,7 +89,7 @@ fn backward_is_the_way_back() -> Result<(), Error> {
 }
 
 #[test]
-fn observers_see_every_step_and_no_start() -> Result<(), Error> {
+fn observers_see_every_step_but_not_the_start() -> Result<(), Error> {
     let mut seen = Vec::new();
     let mut integrator = verlet(0.0, 0.25)?;
     integrator.integrate_with(1.0, |state| seen.push(state.clone()))?;
@@ -105,7 +105,7 @@ fn observers_see_every_step_and_no_start() -> Result<(), Error> {
 }
 
 #[test]
-fn ends_that_cannot_be_reached() -> Result<(), Error> {
+fn unreachable_end_times_and_step_counts_are_refused() -> Result<(), Error> {
     let mut integrator = verlet(1.0, 0.1)?;
     for end in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let error = integrator.integrate_to(end).expect_err("no such time");

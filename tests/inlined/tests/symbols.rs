@@ -20,7 +20,7 @@ fn operations(program: &str) -> Result<Vec<String>, Box<dyn Error>> {
 }
 
 #[test]
-fn no_operation_in_wide_registers_is_a_call() -> Result<(), Box<dyn Error>> {
+fn operations_in_wide_registers_are_inlined() -> Result<(), Box<dyn Error>> {
     assert_eq!(
         operations(env!("CARGO_BIN_EXE_formulas"))?,
         Vec::<String>::new()

@@ -129,7 +129,7 @@ mod tests {
 
     /// The closed form obeys the equations solved by hand, and the integrator with constraints follows it.
     #[test]
-    fn two_formulations_have_the_motion() {
+    fn the_closed_form_solves_both_formulations() {
         for time in [0.3, 1.1, 7.0] {
             let (before, here, after) = (exact(time - 1e-4), exact(time), exact(time + 1e-4));
             let (mut velocity, mut force) = (Vector4::zeros(), Vector4::zeros());

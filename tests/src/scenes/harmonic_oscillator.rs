@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn the_closed_form_is_where_the_integrator_is() {
+    fn the_closed_form_agrees_with_the_integrator() {
         let (found, expected) = (check::end(SYSTEM, start(), 0.125, 10.0), exact(3.0, 10.0));
         assert!((found.q - expected.q).norm() < 1e-13);
         assert!((found.p - expected.p).norm() < 1e-13);

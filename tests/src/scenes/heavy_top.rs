@@ -127,7 +127,7 @@ mod tests {
 
     /// The angles stay away from the poles up to the time of the reference.
     #[test]
-    fn the_poles_are_far() {
+    fn the_euler_angles_stay_away_from_the_poles() {
         let mut run = Integrator::new(
             Gauss6,
             EulerAngles::default(),

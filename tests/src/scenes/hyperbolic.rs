@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn the_closed_form_is_where_the_integrator_is() {
+    fn the_closed_form_agrees_with_the_integrator() {
         let (found, expected) = (check::end(Hyperbolic, start(), 0.125, 4.0), exact(4.0));
         assert!((found.q[0] / expected.q[0] - 1.0).abs() < 1e-13);
         assert!((found.p[0] / expected.p[0] - 1.0).abs() < 1e-13);

@@ -155,7 +155,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_iteration_ends_wherever_it_is() {
+    fn the_closed_form_is_finite_at_all_times_and_eccentricities() {
         for eccentricity in [0.0, 0.1, 0.6, 0.9, 0.999, 1.0 - 1e-9] {
             for i in 0..20_000 {
                 // A golden-ratio walk over times of all sizes.

@@ -235,7 +235,7 @@ mod tests {
     use crate::scenes::check;
 
     #[test]
-    fn it_needs_nothing() {
+    fn the_stated_needs_are_true() {
         check::needs(NEEDS, &OuterSolarSystem, &start());
     }
 }

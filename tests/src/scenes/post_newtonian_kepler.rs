@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn the_pericentre_moves_on() {
+    fn the_pericentre_advances_by_the_known_angle() {
         let system = PostNewtonianKepler {
             epsilon: 1e-6,
             mass_ratio: 0.25,

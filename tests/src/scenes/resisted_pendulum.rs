@@ -77,7 +77,7 @@ mod tests {
 
     /// The orders against the motion in angles, with drag and without, and not one higher.
     #[test]
-    fn constrained_orders() {
+    fn constrained_methods_have_their_orders_with_drag() {
         fn slope<M>(method: M, drag: f64, order: f64, steps: [u64; 3])
         where
             M: Method + ProvedFor<Constrained<General>> + Copy,

@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn the_breather_breathes() {
+    fn the_breather_has_its_energy_and_motion() {
         // The breather of the differential equation has the energy 16w, and at its centre q = 4 atan(w/ω sin ωt), ω² =
         // 1 − w².
         let start = start();

@@ -95,7 +95,7 @@ mod tests {
     use symplectic::SeparableHamiltonian;
 
     #[test]
-    fn a_system_is_the_same_without_its_type() {
+    fn an_erased_system_has_the_same_velocity_and_force() {
         let start: State<SVector<f64, 2>> = kepler::start(0.6);
         let (system, any) = (Erased::new(kepler::Kepler), erased(&start));
         let (mut velocity, mut force) = (SVector::zeros(), SVector::zeros());

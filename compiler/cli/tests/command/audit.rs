@@ -48,7 +48,7 @@ fn library_row(file: &str, name: &str, convention: &str) -> Row {
 /// The whole audit: what is found for the libraries, and that all of it is seen in steps of the pendulum too.
 #[test]
 #[ignore = "thorough"]
-fn the_libraries_differ_from_their_claims_where_it_is_known() {
+fn the_audit_finds_exactly_the_known_deviations_of_the_libraries() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let [json, page] = ["audit.json", "audit.html"].map(|name| folder.join(name));
     let output = symplectic(&[
@@ -183,7 +183,7 @@ fn the_libraries_differ_from_their_claims_where_it_is_known() {
 
 /// A page names its sources apart, links only to addresses of the web, and decimals without an exact method have no right places.
 #[test]
-fn pages_keep_sources_apart() {
+fn audit_page_lists_each_source_separately_and_links_only_to_the_web() {
     let text = |version: &str, convention: &str, numbers: &str| {
         format!(
             "library = \"L\"\nversion = \"{version}\"\nsource = \"javascript:alert(1)\"\nconvention = \"{convention}\"\n[[table]]\nname = \"T\"\norder = 1\nclass = \"separable\"\n[table.numbers]\n{numbers}\n"
@@ -209,7 +209,7 @@ fn pages_keep_sources_apart() {
 
 /// pyHamSys drifts first by the same letters where its README says so.
 #[test]
-fn the_order_of_chi_decides() {
+fn the_convention_decides_whether_pyhamsys_kicks_or_drifts_first() {
     let claim = "order = 4\nclass = \"separable\"";
     let numbers = "a = [\"1\", \"0\"]\nb = [\"1/2\", \"1/2\"]";
     let [kick, drift] = ["pyhamsys", "pyhamsys-drift-first"].map(|convention| {
@@ -330,7 +330,7 @@ fn claims_for_every_hamiltonian_are_observed() {
 
 /// Whether the proof has the claimed order depends on who goes first, and on each digit.
 #[test]
-fn order_of_flows_and_digits_decide() {
+fn the_first_flow_and_every_digit_decide_the_proved_order() {
     let drifts = r#"["0.515352837431122936", "-0.085782019412973646", "0.441583023616466524", "0.128846158365384185"]"#;
     let kicks = r#"["0.134496199277431089", "-0.224819803079420806", "0.756320000515668291", "0.334003603286321425"]"#;
     let claim = "order = 4\nclass = \"nystrom\"";
@@ -392,7 +392,7 @@ fn order_of_flows_and_digits_decide() {
 
 /// The table RK42 of RungeKutta.jl has order 1 for one wrong entry: Butcher (2016), p. 102, has 2 in its place.
 #[test]
-fn one_entry_costs_three_orders() {
+fn one_wrong_entry_lowers_the_order_of_rk42_from_four_to_one() {
     let claim = "convention = \"rungekutta.jl\"";
     let row = |entry| {
         let numbers = format!(
@@ -436,7 +436,7 @@ fn lobatto_weights_bound_the_order() {
 
 /// A method that has more than its library claims is a row, and so is one that has no order at all.
 #[test]
-fn wrong_claims_are_rows() {
+fn the_audit_reports_claims_that_are_too_low_or_too_high() {
     let verlet = "a = [\"1\", \"0\"]\nahat = [\"1/2\", \"1/2\"]";
     let row = |order| {
         table(

@@ -27,7 +27,7 @@ fn checked(file: &str) -> (Option<i32>, String, String) {
 }
 
 #[test]
-fn what_is_written_is_checked() {
+fn check_accepts_written_files_and_finds_a_changed_digit() {
     for format in ["toml", "json"] {
         let text = stdout(&["show", "lobatto-3", "--format", format]);
         let path = file(&format!("good.{format}"), text.as_bytes());
@@ -83,7 +83,7 @@ fn what_is_written_is_checked() {
 }
 
 #[test]
-fn what_is_no_table_file_is_bad_input() {
+fn check_refuses_files_that_are_not_tables() {
     let good = stdout(&["show", "midpoint", "--format", "toml"]);
     let folder = env!("CARGO_TARGET_TMPDIR").to_owned();
     // The first two bytes of all in this order are the mark of UTF-16.

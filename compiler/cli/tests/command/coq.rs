@@ -15,7 +15,7 @@ const LIBRARY: [&str; 5] = ["Definitions", "Orders", "Symplectic", "Tables", "No
 const NO_AXIOM: &str = "Closed under the global context\n";
 
 #[test]
-fn form() {
+fn coq_theorems_have_the_recorded_text() {
     for method in ["gauss-2", "symplectic-euler", "gauss-4", "position-verlet"] {
         let version = concat!("symplectic ", env!("CARGO_PKG_VERSION"));
         let text = theorem(method).replace(version, "symplectic VERSION");
@@ -33,7 +33,7 @@ fn an_order_that_takes_too_long_is_lowered() {
 }
 
 #[test]
-fn what_is_not_known_exactly_is_refused() {
+fn coq_export_refuses_coefficients_that_are_not_exact() {
     for (method, reason) in [
         ("fourier-3", "contain pi, e or such"),
         ("blanes-moan-2002-s6", "known by enclosures, not exactly"),

@@ -9,7 +9,7 @@ use crate::run::{failure, stdout};
 use expect_test::expect_file;
 
 #[test]
-fn forms() {
+fn emitted_steppers_have_the_recorded_text() {
     for (method, language, end) in [
         ("stormer-verlet", "c", "c"),
         ("ruth-1983", "rust", "rs"),
@@ -27,7 +27,7 @@ fn forms() {
 }
 
 #[test]
-fn what_cannot_be_written_is_refused() {
+fn emit_refuses_methods_that_it_cannot_write() {
     let refusal = |arguments: &[&str]| {
         let (status, message) = failure(&[&["emit"], arguments].concat());
         assert_eq!(status, Some(2), "{message}");
@@ -219,7 +219,7 @@ print('ok')
 ";
 
 #[test]
-fn coupled_stages_of_systems_that_are_not_keplers() {
+fn emitted_coupled_stages_step_a_chain_and_a_nonseparable_system() {
     for (method, options) in [
         ("gauss-2", &[][..]),
         ("gauss-4", &[]),
@@ -238,7 +238,7 @@ fn coupled_stages_of_systems_that_are_not_keplers() {
 
 /// A force is kept for the next step of its own state only, whatever list it was in.
 #[test]
-fn a_carried_force_is_a_copy() {
+fn an_emitted_stepper_copies_the_force_it_carries() {
     let folder = folder("carried");
     let main = "
 import stepper

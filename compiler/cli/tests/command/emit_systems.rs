@@ -202,7 +202,7 @@ fn kinked() -> Case {
 }
 
 #[test]
-fn forms_of_systems() {
+fn emitted_systems_have_the_recorded_text() {
     for (case, name, language, end) in [
         (kepler("stormer-verlet"), "kepler", "c", "c"),
         (planets(), "planets", "rust", "rs"),
@@ -286,7 +286,7 @@ fn elementary_functions_are_those_of_the_runtime_up_to_rounding() {
 
 /// A twin: another value of the parameter gives other bits.
 #[test]
-fn parameters_are_felt() {
+fn another_value_of_a_parameter_changes_the_bits() {
     let case = kepler("stormer-verlet");
     let other = runtime!(case, Verlet, Kepler::new(), SVector<f64, 2>);
     let folder = folder("felt");

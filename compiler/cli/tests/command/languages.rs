@@ -11,7 +11,7 @@ use symplectic_compiler::{Coefficients, Tableau, catalogue};
 use symplectic_tools::Language;
 
 #[test]
-fn forms() {
+fn exported_tables_have_the_recorded_text() {
     for (method, format, end) in [
         ("lobatto-3", "latex", "tex"),
         ("gauss-2", "c", "c"),
@@ -39,7 +39,7 @@ fn forms() {
 }
 
 #[test]
-fn what_a_library_cannot_run_is_refused() {
+fn exports_refuse_methods_that_the_library_cannot_run() {
     for (method, format, reason) in [
         ("gauss-2", "sundials", "its stages need one another"),
         ("lobatto-3", "sundials", "this one is implicit"),

@@ -124,7 +124,7 @@ fn a_file_is_refined() {
 /// One order more, one wrong digit, kicks and drifts exchanged: refused with the place.
 #[test]
 #[ignore = "thorough"]
-fn twins_are_refused() {
+fn refine_refuses_a_higher_order_a_wrong_digit_and_exchanged_lists() {
     for (path, text) in FILES.iter() {
         let file = parsed(text);
         let name = file["name"].as_str().expect("a name");
@@ -155,7 +155,7 @@ fn twins_are_refused() {
 }
 
 #[test]
-fn text_is_for_people() {
+fn refine_prints_a_readable_report() {
     let path_of = path;
     let path = path_of("mclachlan-1995-ss9");
     expect![[r#"
@@ -231,7 +231,7 @@ weights = ["0.41449077", "0.41449077", "-0.65796309", "0.41449077", "0.41449077"
 "#;
 
 #[test]
-fn json_is_for_programs() {
+fn refine_writes_the_report_as_json() {
     let path = written("suzuki", WEIGHTS);
     expect![[r#"
         {
@@ -324,7 +324,7 @@ fn exact_and_perturbed_methods_are_refined() {
 const VERLET: &str = "[claim]\nclass = \"separable\"\norder = 2\n\n[printed]\nkick = [\"0.5\", \"0.5\"]\ndrift = [\"1\", \"0\"]\n";
 
 #[test]
-fn what_is_no_such_file_is_told() {
+fn refine_refuses_malformed_files_at_the_place() {
     let told = |name: &str, from: &str, to: &str| {
         assert!(VERLET.contains(from), "{from}");
         refused(name, &VERLET.replace(from, to), Some(2))
@@ -437,7 +437,7 @@ fn what_is_no_such_file_is_told() {
 }
 
 #[test]
-fn digits_that_are_not_those_of_a_method_are_told() {
+fn refine_refuses_digits_that_belong_to_no_method() {
     let told = |name: &str, from: &str, to: &str| {
         assert!(VERLET.contains(from), "{from}");
         refused(name, &VERLET.replace(from, to), Some(1))

@@ -249,7 +249,7 @@ fn wrong_digits_are_named() {
 
 /// With one free node, another method is near in which ten numbers are a little off: they are not to blame.
 #[test]
-fn one_wrong_entry_of_a_collocation_table_is_named_alone() {
+fn refine_names_only_the_wrong_entry_of_a_collocation_table() {
     let exact = derive("basis: polynomial(3), nodes: [1/7, 2/5, 6/7]");
     let right = arrays(&exact, 16, false);
     let found = refined("nodes-right", &file("general", 3, &["collocation"], &right));
@@ -335,7 +335,7 @@ fn explicit_pairs_are_splittings() {
 /// Radau IA and Lobatto IIIB are the partners of collocation methods, here without these.
 #[test]
 #[ignore = "thorough"]
-fn partners_of_collocation_are_found_alone() {
+fn refine_recognises_partners_of_collocation_methods() {
     for (nodes, order, properties) in [
         ("lobatto(3)", 4, &["symmetric"][..]),
         ("lobatto(5)", 8, &["symmetric"]),
@@ -464,7 +464,7 @@ fn numbers_are_recognised_once_they_are_refined() {
 
 #[test]
 #[ignore = "thorough"]
-fn tables_of_no_construction_are_certified() {
+fn refine_certifies_tables_without_a_known_construction() {
     for (name, order, properties, arrays) in [
         ("symplectic", 4, &["symplectic"][..], SYMPLECTIC),
         ("pair", 2, &["symplectic"], PAIR),

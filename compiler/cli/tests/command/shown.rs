@@ -394,7 +394,7 @@ fn list_shows_every_method_and_rule() {
 }
 
 #[test]
-fn a_long_definition_widens_no_line_but_its_own() {
+fn a_long_definition_widens_only_its_own_line() {
     let text = stdout(&["list"]);
     let width = |name: &str| {
         let line = text
@@ -408,7 +408,7 @@ fn a_long_definition_widens_no_line_but_its_own() {
 }
 
 #[test]
-fn a_reader_that_goes_away_is_no_error() {
+fn a_closed_output_pipe_is_not_an_error() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_symplectic"))
         .args(["show", "gauss-10", "--format", "json", "--digits", "400"])
         .stdout(Stdio::piped())

@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn large_coefficients_are_no_obstacle() {
+    fn polynomials_with_large_coefficients_are_factored() {
         let big = |n: &str| -> BigInt { n.parse().expect("digits") };
         let f = Polynomial::new(
             vec![

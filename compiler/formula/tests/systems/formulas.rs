@@ -43,7 +43,7 @@ const FPUT: &str = "Fput { beta: 1 }
     H = sum(i: p[i]^2 / 2) + sum(bonds d: d^2/2 + beta d^4/4)";
 
 #[test]
-fn the_code_of_the_three_examples() {
+fn code_of_the_example_formulas_has_the_recorded_text() {
     for (text, name) in [
         (DOUBLE_PENDULUM, "double_pendulum"),
         (PLANETS, "planets"),
@@ -77,7 +77,7 @@ fn numbers_without_parameters_are_doubles_in_lanes_too() {
 }
 
 #[test]
-fn what_is_found_in_a_formula() {
+fn the_structure_of_a_formula_is_recognised() {
     let kinetic = |h: &str| {
         read(&format!(
             "S {{ m: 2, A: [2, 2] }} q: [x, y], p: [px, py]; H = {h}"
@@ -320,7 +320,7 @@ fn smooth_and_finite_formulas_are_accepted() {
 
 /// Dampers between pairs leave the total momentum alone, and a rotation does not see a central force.
 #[test]
-fn what_applied_forces_conserve() {
+fn applied_forces_keep_only_the_invariants_that_are_proved() {
     for (text, proved) in [
         (
             "P { dampers: pairs } q: [..], p: [..]; H = sum(i: p[i]^2/2)
@@ -348,7 +348,7 @@ fn what_applied_forces_conserve() {
 
 /// The class, the equations and the second derivatives with a force.
 #[test]
-fn a_forced_system() {
+fn a_formula_with_a_force_has_the_recorded_code_and_equations() {
     let (read, structure) = read(
         "Drone { c: 0.1, g: 9.81 } q: [x, y], p: [px, py];
          H = (px^2 + py^2)/2 + g y force: { y = -c py |[px, py]|, x = -c px |[px, py]| + sin(t) }",
@@ -482,7 +482,7 @@ fn degenerate_and_polynomial_hamiltonians_are_found() {
 }
 
 #[test]
-fn nothing_is_found_that_does_not_hold() {
+fn symmetries_that_do_not_hold_are_not_reported() {
     let springs = read("S q: [3], p: [3]; bonds: free; H = |p|^2/2 + sum(bonds d: d^2/2)").1;
     assert!(springs.rotations.is_empty());
     let line = read("S q: [2], p: [2]; H = |p|^2/2 + sum(i in 0..1: (q[i+1] - q[i])^2)").1;
@@ -676,7 +676,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
 
     #[test]
-    fn derivatives_of_random_formulas(formula in formulas(5), values in prop::array::uniform4(-1.5..1.5_f64)) {
+    fn derivatives_of_random_formulas_agree_with_differences(formula in formulas(5), values in prop::array::uniform4(-1.5..1.5_f64)) {
         derivatives_are_right(&formula, values)?;
     }
 }

@@ -160,7 +160,7 @@ fn kinks_in_sums_over_bodies_and_bonds_are_examined() {
 }
 
 #[test]
-fn other_clauses_are_as_smooth_as_they_have_to_be() {
+fn constraints_and_forces_with_kinks_are_accepted_if_smooth_enough() {
     let read = |rest: &str| is_read(&format!("P q: [x, y], p: [px, py]{rest}"));
     let h = "; H = (px^2 + py^2)/2";
     assert!(read(&format!("{h} constraints: {{ rod = |x|^3 + y - 1 }}")));
@@ -266,7 +266,7 @@ fn a_conserved_quantity_is_infinite_where_a_length_in_it_is_a_divisor() {
 
 /// What is never negative is its absolute value: `(x² + y²)/|x² + y²|` would be 0/0 at the origin.
 #[test]
-fn a_size_of_a_sum_of_squares_has_no_kink() {
+fn an_expression_that_is_never_negative_has_no_kink() {
     for term in [
         "|x^2 + y^2|",
         "max(x^2 + y^2, 0)",

@@ -27,7 +27,7 @@ const DOUBLE_PENDULUM: &str = "DoublePendulum { g: 9.81 }
 
 /// Velocities in a force are written with momenta.
 #[test]
-fn forces_of_velocities() {
+fn forces_of_velocities_are_written_with_momenta() {
     let force = |text: &str| {
         let (read, _) = lagrangian(text);
         read.applied_forces(Notation::Text).join("; ")
@@ -41,7 +41,7 @@ fn forces_of_velocities() {
 }
 
 #[test]
-fn the_code_of_the_double_pendulum() {
+fn code_of_the_double_pendulum_has_the_recorded_text() {
     let (read, structure) = lagrangian(DOUBLE_PENDULUM);
     expect_file!["emitted/lagrangian_double_pendulum.rs"].assert_eq(&code(&read, &structure));
 }
@@ -95,7 +95,7 @@ fn the_code_is_that_of_the_hamiltonian() {
 }
 
 #[test]
-fn masses_in_cartesian_velocities_come_out_short() {
+fn the_transform_of_cartesian_velocities_is_short() {
     let cartesian = "S { l: 1, m, g: 9.81 } q: [a, b], v: [va, vb];
         let x1 = l cos(a) va; let y1 = l sin(a) va;
         let x2 = x1 + l cos(b) vb; let y2 = y1 + l sin(b) vb;
@@ -109,7 +109,7 @@ fn masses_in_cartesian_velocities_come_out_short() {
 }
 
 #[test]
-fn what_is_found_in_a_lagrangian() {
+fn the_structure_of_a_lagrangian_is_recognised() {
     let regularity = |(read, _): (System, Structure)| read.lagrangian.map(|known| known.legendre);
     let single = |l: &str| lagrangian(&format!("S {{ m: 2 }} q: [4], v: [4]; L = {l} - |q|^2"));
     // Constant masses, proved; products of velocities only; masses that are set later.
@@ -141,7 +141,7 @@ fn what_is_found_in_a_lagrangian() {
 
 /// L that is not quadratic in the velocities is taken as it is.
 #[test]
-fn lagrangians_without_a_hamiltonian() {
+fn a_lagrangian_without_a_closed_hamiltonian_is_accepted_as_it_is() {
     let text = "Particle { m: 1, c: 1, drag: 0 } q: [x, y], v: [vx, vy];
         L = -m c^2 sqrt(1 - (vx^2 + vy^2)/c^2) - (x^2 + y^2)/2
         force: { x = -drag vx, y = -drag vy }";
@@ -249,7 +249,7 @@ fn wrong_lagrangians_are_refused_at_their_place() {
 }
 
 #[test]
-fn what_a_text_gives() {
+fn a_text_is_recognised_as_hamiltonian_or_lagrangian() {
     let l = [DOUBLE_PENDULUM, "S q: [x], v: [vx];", "S q: [x] L = x^2"];
     assert!(l.iter().all(|text| Form::of(text) == Form::Lagrangian));
     let h = [
@@ -407,7 +407,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 
     #[test]
-    fn hamiltonians_of_random_lagrangians((n, formula) in lagrangians(), values in prop::collection::vec(-1.5..1.5_f64, 10)) {
+    fn hamiltonians_of_random_lagrangians_are_their_transforms((n, formula) in lagrangians(), values in prop::collection::vec(-1.5..1.5_f64, 10)) {
         the_transform_is_right(n, &formula, &values)?;
     }
 }

@@ -141,7 +141,7 @@ fn last_line_under(text: &str) -> String {
 }
 
 #[test]
-fn words_of_the_language_are_no_names() {
+fn reserved_words_are_refused_as_names() {
     for word in [
         "t",
         "pi",
@@ -266,7 +266,7 @@ fn statements(text: &str) -> String {
 }
 
 #[test]
-fn a_vector_of_one_component_is_a_number_where_one_is_meant() {
+fn a_vector_of_one_component_is_read_as_a_number() {
     let written = "P { k: [1] } q: [1], p: [1]; H = p[0]^2/(2 k[0]) + k[0] q[0]^2/2 - cos(q[0]) + q[0] q[0]^3 + 2 q[0]";
     for h in [
         "p^2/(2 k) + k q^2/2 - cos(q) + q q^3 + 2 q",
@@ -322,7 +322,7 @@ fn formulas_are_read_as_they_are_printed() {
 
 /// The length of the coordinates, and ranges in the notation of other languages.
 #[test]
-fn lengths_and_ranges_of_sums_have_an_answer() {
+fn errors_about_lengths_and_ranges_show_the_right_notation() {
     let named = "P<N> q: [N], p: [N]; H = sum(i: p[i]^2/2) + sum(i < j: cos(q[i] - q[j]))/(2 N)";
     let counted = named.replace("(2 N)", "(2 sum(i: 1))");
     assert_eq!(code(named), code(&counted));

@@ -304,7 +304,7 @@ mod tests {
         }
 
         #[test]
-        fn what_is_displayed_is_the_number(coefficients in prop::collection::vec((-9i64..10, 1i64..5), 6)) {
+        fn a_displayed_element_has_the_value_of_the_number(coefficients in prop::collection::vec((-9i64..10, 1i64..5), 6)) {
             let rationals: Vec<BigRational> = coefficients.iter().map(|&(n, d)| ratio(n, d)).collect();
             for field in fields() {
                 let x = field.reduce(&Polynomial::from_rationals(&rationals));

@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn roots_of_irrational_numbers() {
+    fn square_roots_of_field_elements_extend_the_field_only_if_needed() {
         let (k, roots) = with_square_roots(&[2]);
         // √(8 + 4√2) = 2 √(2 + √2)
         let nested = k

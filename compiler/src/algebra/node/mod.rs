@@ -271,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn an_element_that_vanishes_at_a_node_is_no_unit() {
+    fn an_element_that_vanishes_at_a_node_has_no_inverse() {
         let k = algebra();
         let f = Polynomial::from_integers(&[-2, 3]);
         assert_eq!(k.inverse(&f), Err(f.clone()));
@@ -295,7 +295,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn inverses_invert(c in prop::collection::vec(-9i64..9, 4)) {
+        fn an_inverse_times_its_element_is_one(c in prop::collection::vec(-9i64..9, 4)) {
             let k = algebra();
             let f = Polynomial::from_integers(&c);
             match k.inverse(&f) {

@@ -42,7 +42,7 @@ fn all_methods_are_certified() {
 }
 
 #[test]
-fn digits_that_are_wrong_in_print_are_told() {
+fn certify_counts_the_wrong_digits_of_published_methods() {
     let wrong = |name: &str| {
         let method = method(name);
         let found = certify(&method.splitting(), &method.claim()).expect(name);
@@ -59,7 +59,7 @@ fn digits_that_are_wrong_in_print_are_told() {
 }
 
 #[test]
-fn what_looks_exact_in_print_stays_exact() {
+fn certify_keeps_printed_fractions_exact() {
     let fixed = |name: &str| -> Vec<(String, String)> {
         let method = method(name);
         let found = certify(&method.splitting(), &method.claim()).expect(name);
@@ -100,7 +100,7 @@ fn rational_methods_are_exact() {
 }
 
 #[test]
-fn answers_do_not_depend_on_earlier_questions() {
+fn enclosures_do_not_depend_on_the_order_of_the_calls() {
     let method = method("BlanesMoan2002S6");
     let new = || certify(&method.splitting(), &method.claim()).expect("certified");
     let (first, second) = (new(), new());

@@ -151,7 +151,7 @@ fn mclachlan_atela_4_is_not_of_order_4_for_separable_hamiltonians() {
 }
 
 #[test]
-fn bad_input_is_told() {
+fn certify_refuses_bad_input_with_the_reason() {
     let texts = |list: &[&str]| -> Vec<Printed> {
         list.iter()
             .map(|text| Printed::parse(text).expect(text))

@@ -90,7 +90,7 @@ mod tests {
 
     /// Gauss methods are decoupled for both classes, Lobatto pairs for separable systems.
     #[test]
-    fn which_methods_are_decoupled() {
+    fn gauss_methods_are_decoupled_and_lobatto_pairs_if_separable() {
         let check = |name: &str, [general, separable]: [bool; 2]| {
             let tableau = catalogue::find(name)
                 .expect("known")

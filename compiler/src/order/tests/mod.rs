@@ -283,7 +283,7 @@ fn simplifying_assumptions_give_the_order_of_the_catalogue() {
 
 /// The theorem does not require symplecticity; without it, the theorem may give less than enumeration.
 #[test]
-fn simplifying_assumptions_say_nothing_wrong_about_other_methods() {
+fn simplifying_assumptions_never_overstate_the_order_of_other_methods() {
     let options = OrderOptions {
         limit: 6,
         all_conditions: true,

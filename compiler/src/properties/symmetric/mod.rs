@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn stages_that_nothing_tells_apart_are_searched() {
+    fn symmetry_of_indistinguishable_stages_is_decided_by_search() {
         let symmetric = twins(ratio(1, 4)).properties().symmetric;
         assert!(symmetric.holds);
         assert_eq!(symmetric.evidence, Evidence::Verified { bits: SEARCH_BITS });

@@ -66,7 +66,7 @@ mod tests {
     use super::hexadecimal;
 
     #[test]
-    fn hexadecimal_constants() {
+    fn c_constants_are_written_in_exact_hexadecimal() {
         for (value, expected) in [
             (0.0, "0x0p+0"),
             (1.0, "0x1p+0"),

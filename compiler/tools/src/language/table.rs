@@ -436,7 +436,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn identifiers() {
+    fn names_become_valid_identifiers() {
         assert_eq!(identifier("blanes-moan-s6"), "blanes_moan_s6");
         assert_eq!(identifier("Größe 2"), "gr_e_2");
         assert_eq!(identifier("2nd"), "method_2nd");

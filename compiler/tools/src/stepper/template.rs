@@ -31,7 +31,7 @@ mod tests {
     use super::fill;
 
     #[test]
-    fn values_are_filled_in_once() {
+    fn template_values_are_not_expanded_again() {
         let values = [("a", "@b@"), ("b", "2")];
         assert_eq!(fill("x@a@y@b@z", &values), "x@b@y2z");
         assert_eq!(fill("me@home, @c@ @b@ @", &values), "me@home, @c@ 2 @");

@@ -382,7 +382,7 @@ fn notations_are_exact() {
 
 /// The first thing that is not a number is named at its place, and so is what does not fit.
 #[test]
-fn what_is_no_table_is_refused_at_its_place() {
+fn import_refuses_text_that_is_not_a_table_at_the_place() {
     let deep = format!("a = {}1; b = [1]", "(".repeat(200));
     let doubled: String = (1..20)
         .map(|i| format!("x{i} = x{0} + x{0}\n", i + 1))
@@ -484,7 +484,7 @@ fn what_is_no_table_is_refused_at_its_place() {
 
 /// What is not certain is refused, with its place and the reason.
 #[test]
-fn what_may_mean_something_else_is_refused() {
+fn import_refuses_ambiguous_notation() {
     use Library::{Mathematica, Nodepy, Sciml, Sundials};
     let chain = format!("a = [{}w]\nb = [1]", "a.".repeat(300_000));
     let arrows = format!("a[] = {{{}w}}; ahat[] = {{1}};", "a->".repeat(100_000));
@@ -767,7 +767,7 @@ fn what_may_mean_something_else_is_refused() {
 
 /// What was refused or read otherwise once, beside what is refused now.
 #[test]
-fn what_is_certain_is_read() {
+fn import_reads_unambiguous_notation() {
     let two = |first: &str, second: &str| {
         let text = format!("kick: [{first}], drift: [{second}]");
         let definition = Definition::parse(&text).expect("parsed");

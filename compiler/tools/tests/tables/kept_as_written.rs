@@ -137,7 +137,7 @@ fn a_forced_change_names_its_condition() {
 
 /// A structure that the digits only nearly have does not change them where the claim holds without it.
 #[test]
-fn a_claim_that_holds_as_printed_changes_no_number() {
+fn a_claim_that_holds_as_printed_keeps_every_number() {
     for (claimed, exact) in [
         // Nearly a palindrome: 0.23456785 would round to both.
         (

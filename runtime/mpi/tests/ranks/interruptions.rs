@@ -79,7 +79,7 @@ fn a_damaged_block_is_run_again() {
 
 /// Ranks that may write files of 32 KiB at most: the first blocks are smaller, the last ones larger.
 #[test]
-fn what_was_complete_stays_when_the_disk_is_full() {
+fn complete_blocks_remain_if_the_disk_is_full() {
     let Some(folder) = folder("full") else {
         return;
     };

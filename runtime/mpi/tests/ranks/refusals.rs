@@ -8,7 +8,7 @@ use crate::launch::{empty_folder, folder, run, summary};
 use crate::program::{BLOCKS, STEP, TRAJECTORIES, blocks, pendulums};
 
 #[test]
-fn no_blocks_empty_blocks_and_half_of_an_ensemble() {
+fn blocks_refuse_a_wrong_count_and_a_resumed_ensemble() {
     let folder = empty_folder("counts");
     let ensemble = pendulums(STEP);
     for count in [0, TRAJECTORIES + 1] {
@@ -31,7 +31,7 @@ fn no_blocks_empty_blocks_and_half_of_an_ensemble() {
 
 /// Every rank says it, and no block changes.
 #[test]
-fn a_folder_of_another_run() {
+fn every_rank_refuses_a_folder_of_another_run() {
     let Some(folder) = folder("other") else {
         return;
     };
@@ -71,7 +71,7 @@ fn a_folder_of_another_run() {
 }
 
 #[test]
-fn a_rank_with_another_ensemble_or_with_rows_that_are_missing() {
+fn all_ranks_fail_if_one_has_another_ensemble_or_misses_rows() {
     for (mode, words) in [
         ("half on rank 1", ["rank 1", "rank 0: the step size"]),
         (
@@ -95,7 +95,7 @@ fn a_rank_with_another_ensemble_or_with_rows_that_are_missing() {
 
 /// An MPI that grants more threads than asked for is welcome to.
 #[test]
-fn mpi_for_one_thread() {
+fn ranks_refuse_an_mpi_for_one_thread() {
     let Some(folder) = folder("single") else {
         return;
     };

@@ -387,7 +387,7 @@ mod tests {
     }
 
     #[test]
-    fn what_failed_is_on_the_page_with_its_error() {
+    fn the_page_shows_failed_runs_with_their_errors() {
         let page = measurements().page();
         assert!(page.contains("2 runs failed or were skipped"), "{page}");
         assert!(page.contains("the stages did not converge, &quot;so&quot; &lt;it&gt; says"));

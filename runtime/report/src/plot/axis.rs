@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn round_numbers() {
+    fn a_linear_axis_has_round_labels() {
         let axis = Axis::linear("t", [0.0, 100.0].into_iter()).expect("values");
         assert_eq!(labels(&axis), ["0", "50", "100"]);
         let axis = Axis::linear("t", [-0.012, 0.03].into_iter()).expect("values");

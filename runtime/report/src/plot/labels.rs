@@ -182,14 +182,14 @@ mod tests {
     };
 
     #[test]
-    fn one_alone_is_to_the_right_of_its_point() {
+    fn a_single_label_is_to_the_right_of_its_point() {
         let found = place(&[("Verlet", (100.0, 100.0))], &[], &[], &FRAME, 1e3);
         assert_eq!(found[0].left, 108.0);
         assert_eq!(found[0].top, 100.0 - HEIGHT / 2.0);
     }
 
     #[test]
-    fn texts_of_many_points_at_one_place_are_apart_and_inside() {
+    fn labels_of_crowded_points_do_not_overlap_and_stay_inside() {
         let names: Vec<String> = (0..14).map(|k| format!("method number {k}")).collect();
         let labels: Vec<(&str, (f64, f64))> = names
             .iter()
@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn a_column_keeps_the_order_and_the_distance() {
+    fn labels_in_a_column_keep_their_order_and_distance() {
         let labels: Vec<(&str, (f64, f64))> = [150.0, 149.0, 148.0, 40.0, 299.0, 298.0]
             .map(|y| ("name", (280.0, y)))
             .into();
@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn curves_are_left_free() {
+    fn labels_avoid_curves() {
         // A line to the right of the point.
         let curve = vec![(100.0, 100.0), (400.0, 100.0)];
         let found = place(&[("Verlet", (100.0, 100.0))], &[curve], &[], &FRAME, 1e3);
@@ -239,13 +239,13 @@ mod tests {
     }
 
     #[test]
-    fn at_the_right_border_it_goes_to_the_left() {
+    fn a_label_at_the_right_border_moves_inside() {
         let found = place(&[("Verlet", (395.0, 100.0))], &[], &[], &FRAME, 1e3);
         assert!(found[0].is_within(&FRAME));
     }
 
     #[test]
-    fn a_taken_place_is_left_free() {
+    fn a_label_avoids_an_occupied_place() {
         let label = [("Verlet", (100.0, 100.0))];
         let first = place(&label, &[], &[], &FRAME, 1e3);
         let second = place(&label, &[], &first, &FRAME, 1e3);

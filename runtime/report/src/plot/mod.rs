@@ -366,14 +366,14 @@ mod tests {
     }
 
     #[test]
-    fn nothing_to_draw_is_no_plot() {
+    fn a_study_without_curves_has_no_plots() {
         let mut found = measurements();
         found.problems[0].curves.clear();
         assert!(found.plots().is_empty());
     }
 
     #[test]
-    fn names_of_files() {
+    fn names_of_problems_become_names_of_files() {
         assert_eq!(file_name("Hénon–Heiles, E = 1/8"), "henon-heiles-e-1-8");
         assert_eq!(file_name("(q² + 1)"), "q-1");
     }

@@ -80,7 +80,7 @@ fn a_momentum_on_an_energy_surface_has_the_energy() {
 }
 
 #[test]
-fn impossible_starts_are_told_or_left_out() {
+fn impossible_starts_are_refused_or_left_out() {
     let folder = folder("impossible");
     let values = "[-0.1, 0, 0.2]";
     let formula = HENON.replace(values, "[0.1, 0.7, 0.2]");

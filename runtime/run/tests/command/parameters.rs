@@ -18,7 +18,7 @@ fn lines(table: &str, with_parameter: bool) -> Vec<String> {
 
 /// Every trajectory is that of a run in which all have its parameter, to the bit: ends, energies, numbers of steps.
 #[test]
-fn a_grid_of_a_parameter() {
+fn trajectories_on_a_grid_of_a_parameter_have_the_bits_of_single_runs() {
     let folder = folder("parameters");
     for method in ["blanes-moan-2002-s10", "gauss-4"] {
         for sums in ["plain", "compensated"] {
@@ -44,7 +44,7 @@ fn a_grid_of_a_parameter() {
 
 /// The frequency of each oscillator is its own, whether it is an entry of an array or a column of a table.
 #[test]
-fn entries_of_arrays_and_columns_of_tables() {
+fn parameters_are_read_from_arrays_and_columns() {
     let folder = folder("parameters-columns");
     let setup = r#"
         system = "Oscillators { k: [..] } q: [..], p: [..]; H = sum(i: p[i]^2/2 + k[i] q[i]^2/2)"
@@ -90,7 +90,7 @@ fn entries_of_arrays_and_columns_of_tables() {
 }
 
 #[test]
-fn random_parameters_and_parts() {
+fn random_parameters_are_the_same_in_parts() {
     let folder = folder("parameters-random");
     let setup = PENDULUM
         .replace(

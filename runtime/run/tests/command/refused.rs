@@ -290,7 +290,7 @@ fn wrong_files_are_refused_at_their_place() {
 
 /// What would lose something, or take all memory, is refused before anything is run.
 #[test]
-fn nothing_is_lost_and_nothing_is_endless() {
+fn setups_that_overwrite_files_or_exceed_memory_are_refused() {
     let folder = folder("refused");
     fs::write(folder.join("starts.csv"), "a,pa\n1,0\n").expect("a file");
     fs::create_dir_all(folder.join("there.csv")).expect("a folder");

@@ -73,7 +73,7 @@ fn shallow_crossings_in_large_steps_are_all_found() {
 }
 
 #[test]
-fn zeros_are_those_of_the_solution() {
+fn crossings_of_a_section_are_those_of_the_solution() {
     let folder = folder("section");
     let of = |section: &str| csv(&folder, &OSCILLATORS.replace(r#"{ of = "x" }"#, section));
     check(&of(r#"{ of = "x" }"#), zeros(1.5 * PI, TAU));
@@ -216,7 +216,7 @@ fn sections_do_not_depend_on_the_rest_of_the_formula() {
 
 /// What the tape of a section cannot hold is refused with the reason.
 #[test]
-fn indices_and_lengths_of_sections() {
+fn sections_out_of_range_or_too_long_are_refused() {
     let folder = folder("section-long");
     let beads = r#"
         system = "Beads q: [..; 2], p: [..; 2]; H = sum(i: |p[i]|^2/2 + |q[i]|^2/2)"

@@ -112,7 +112,7 @@ output = { file = "out.csv" }
 }
 
 #[test]
-fn orbits_close() {
+fn kepler_orbits_close_after_a_period() {
     let folder = folder("kepler");
     // Of semi-major axis 1, from the pericentre: the eccentricity is 1 − q.
     let setup = r#"
@@ -177,7 +177,7 @@ fn three_bodies_end_where_the_emitted_method_does() {
 }
 
 #[test]
-fn a_system_that_is_not_separable() {
+fn a_nonseparable_system_ends_where_the_emitted_method_does() {
     let setup = r#"
         system = "Product q: [x], p: [px]; H = (x^2 + 1)(px^2 + 1)/2"
         method = { basis = "polynomial(2)", nodes = "gauss(2)" }
@@ -205,7 +205,7 @@ fn a_system_that_is_not_separable() {
 
 /// H = Σ p²/2 + (Σ_i Σ_j A_ij q_i q_j)/2: a free sum in a sum. From q = (1, 0) with A = [[2, -1], [-1, 2]] the frequencies are 1 and √3.
 #[test]
-fn a_sum_in_a_sum() {
+fn a_nested_sum_has_its_closed_form() {
     let folder = folder("sums");
     let setup = |end: f64| {
         format!(
@@ -226,7 +226,7 @@ fn a_sum_in_a_sum() {
 }
 
 #[test]
-fn what_is_accepted_of_lower_order_runs() {
+fn a_method_of_lower_order_runs_if_accepted() {
     let setup = PENDULUM
         .replace("pa^2/2", "pa^4/4")
         .replace(

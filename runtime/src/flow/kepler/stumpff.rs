@@ -70,7 +70,7 @@ mod tests {
 
     /// Compares with closed forms where they do not cancel, and with the series near 0.
     #[test]
-    fn they_are_the_functions_of_stumpff() {
+    fn stumpff_functions_agree_with_their_closed_forms() {
         for k in 1..400 {
             let x = 0.05 * f64::from(k);
             let (c2, c3) = any(x * x);

@@ -151,7 +151,7 @@ mod tests {
     use super::{SIDES, next};
 
     #[test]
-    fn both_continue_parabolas_and_miss_other_sequences_by_opposite_errors() {
+    fn both_extrapolations_are_exact_for_parabolas_with_opposite_errors() {
         let errors = |power: i32| {
             let value = |step: usize| (-1.0 - step as f64).powi(power);
             SIDES.map(|weights| next(weights, value))

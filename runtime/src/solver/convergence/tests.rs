@@ -146,7 +146,7 @@ fn alike<const N: usize>(changes: [f64; N]) -> [[f64; 2]; N] {
 }
 
 #[test]
-fn what_stagnates_has_one_sweep_more_at_half_of_all_times() {
+fn a_stagnating_iteration_has_one_sweep_more_at_half_of_the_times() {
     let changes = alike([1e12, 1e6, 10.0, 1.0, 1.0, 1.0, 1.0]);
     assert_eq!(sweeps::<Separable, false>(&changes, &[1.0], false), Ok(5));
     assert_eq!(sweeps::<Separable, false>(&changes, &[1.0], true), Ok(6));
@@ -159,7 +159,7 @@ fn what_stagnates_has_one_sweep_more_at_half_of_all_times() {
 }
 
 #[test]
-fn what_stagnates_after_another_step_has_one_sweep_more_at_half_of_all_times() {
+fn a_warm_stagnating_iteration_has_one_sweep_more_at_half_of_the_times() {
     let changes = alike([1e12, 1e6, 10.0, 4.0, 5.0, 3.0, 3.0]);
     let after = |dither_last_sweep: bool, bound: usize| {
         let mut script = Scripted::<false>::new(&changes, &[1.0], time(dither_last_sweep));
@@ -175,7 +175,7 @@ fn what_stagnates_after_another_step_has_one_sweep_more_at_half_of_all_times() {
 }
 
 #[test]
-fn the_sweep_more_does_not_depend_on_how_many_there_were() {
+fn the_extra_sweep_does_not_depend_on_the_number_of_sweeps() {
     let near = [60.0, 50.0, 40.0, 30.0, 20.0, 10.0, 5.0, 6.0, 6.0, 6.0];
     for far in 1..=20 {
         // Each ends when a change at the level of rounding has grown; with more than sixteen sweeps, when two have.
@@ -195,7 +195,7 @@ fn the_sweep_more_does_not_depend_on_how_many_there_were() {
 }
 
 #[test]
-fn an_iteration_is_begun_once_whatever_its_bound_is() {
+fn an_iteration_begins_once_for_any_bound() {
     fn check<const STOPS_AT_ROUNDING: bool>(bound: usize) {
         let changes = alike([1e3, 100.0, 60.0, 60.0, 60.0, 60.0]);
         let mut script = Scripted::<STOPS_AT_ROUNDING>::new(&changes, &[1.0], time(false));
@@ -223,7 +223,7 @@ fn an_iteration_is_begun_once_whatever_its_bound_is() {
 }
 
 #[test]
-fn what_is_not_a_number_ends_no_iteration_after_another() {
+fn nan_changes_do_not_end_a_warm_iteration() {
     for [q, p] in [[f64::NAN, f64::NAN], [f64::NAN, 1.0], [1.0, f64::NAN]] {
         let mut changes = alike([1e12, 1e6, 10.0]).to_vec();
         changes.extend([[q, p]; 20]);
@@ -234,7 +234,7 @@ fn what_is_not_a_number_ends_no_iteration_after_another() {
 }
 
 #[test]
-fn the_coin_falls_as_often_on_either_side_whatever_the_steps_are() {
+fn the_dither_is_unbiased_and_uncorrelated_for_any_step_size() {
     for size in [0.125, 0.1, 488.0, 1e-7, 1.0 / 3.0, -0.39] {
         for start in [0.0, 1e3, 2.5e6] {
             let dither_last_sweep = |step: u32| dither_last_sweep(start + f64::from(step) * size);
@@ -250,7 +250,7 @@ fn the_coin_falls_as_often_on_either_side_whatever_the_steps_are() {
 }
 
 #[test]
-fn changes_far_from_rounding_are_not_looked_at_in_the_first_sweeps() {
+fn changes_far_above_rounding_are_not_taken_for_noise_in_early_sweeps() {
     // At the third sweep the change would count as noise: 2^-10 of the first, not shrinking, but above rounding errors.
     let far = 5e3;
     let changes = alike([1e12, far, far, far, far, far, far, far, far, 1.0, 1.0]);
@@ -300,7 +300,7 @@ fn noise_may_be_amplified_after_it_was_rounding() {
 }
 
 #[test]
-fn noise_is_noise_where_the_sweeps_before_it_were_not_looked_at() {
+fn noise_is_recognised_after_sweeps_that_were_not_measured() {
     let mut changes = alike([1e12, 1e9, 1e6, 1e3, 50.0]).to_vec();
     changes.extend([[200.0; 2]; 30]);
     let settled = |kept: WarmStart| {
@@ -385,7 +385,7 @@ fn a_tolerance_is_not_waited_for_where_the_next_change_would_be_a_unit() {
 }
 
 #[test]
-fn what_is_not_a_number_is_within_no_tolerance() {
+fn nan_changes_are_not_within_a_tolerance() {
     let mut changes = alike([1e12, 1e9]).to_vec();
     changes.extend([[f64::NAN; 2]; 20]);
     for kept in [WarmStart::default(), stages([1.0; 2])] {
@@ -398,7 +398,7 @@ fn what_is_not_a_number_is_within_no_tolerance() {
 }
 
 #[test]
-fn what_runs_away_shows_the_change_before() {
+fn a_diverging_iteration_reports_its_last_finite_change() {
     let residual = |changes: &[[f64; 2]]| match sweeps::<Separable, false>(changes, &[1.0], false) {
         Err(Failure::NoConvergence { residual, .. }) => residual,
         other => panic!("{other:?}"),
@@ -491,7 +491,7 @@ fn an_iteration_after_another_ends_at_the_same_sweep() {
 }
 
 #[test]
-fn a_hasty_iteration_of_what_was_small_looks_at_the_tenth_sweep() {
+fn a_hasty_iteration_of_growing_values_checks_at_the_tenth_sweep() {
     let changes = alike([
         1e12, 1e9, 1e6, 30.0, 30.0, 30.0, 30.0, 30.0, 30.0, 30.0, 30.0, 30.0,
     ]);
@@ -542,7 +542,7 @@ fn a_hasty_iteration_waits_for_the_slower_half() {
 }
 
 #[test]
-fn a_half_that_is_near_is_looked_at_beside_one_that_is_far() {
+fn both_halves_must_be_near_for_a_hasty_end() {
     let changes = [
         [1e12, 1e12],
         [100.0, 1e6],
@@ -559,7 +559,7 @@ fn a_half_that_is_near_is_looked_at_beside_one_that_is_far() {
 }
 
 #[test]
-fn values_that_were_large_once_leave_no_bound_that_is_too_wide() {
+fn values_that_shrink_narrow_the_rounding_bound() {
     // The values shrink from 10⁶ to 1 together with the changes: 50 units of 10⁶ are many units of 1.
     let scales = [1e6, 1.0];
     let changes = alike([1e12, 5e7, 1e4, 1.0, 0.5]);

@@ -49,7 +49,7 @@ mod tests {
     use crate::number::{F64x2, Scalar};
 
     #[test]
-    fn what_is_not_a_number_is_not_lost() {
+    fn a_nan_change_is_kept_in_its_lane() {
         let changes = [[1.0, 0.5], [2.0, 0.0], [0.25, 3.0]];
         let all_noted = |changes: &[[f64; 2]]| {
             let changes = changes.iter().map(|&change| F64x2::from_array(change));

@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn peers_come_to_the_same_end() {
+    fn peers_end_at_the_same_state() {
         let begin = Begin::<SVector<f64, 2>, 4>::new(&start(), 8.0);
         let equations = Equations::<_, 2>(HenonHeiles);
         let first = ode_solvers(&equations, &begin, 1e-11, None).expect("it is not stiff");

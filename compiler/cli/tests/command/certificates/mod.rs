@@ -42,7 +42,7 @@ fn folder(name: &str) -> PathBuf {
 
 #[test]
 #[ignore = "thorough"]
-fn the_catalogue_is_right() {
+fn the_checker_accepts_every_certificate_of_the_catalogue() {
     let Some((right, text)) = python(&["tableaux/check_certificate.py"]) else {
         return;
     };
@@ -62,7 +62,7 @@ fn the_catalogue_is_right() {
 
 /// The first file is short, and alone it proves the claims that need no other. It names the others and is not satisfied.
 #[test]
-fn the_first_file_alone_says_what_it_did_not_check() {
+fn the_checker_without_its_other_files_names_the_unchecked_claims() {
     let program =
         std::fs::read_to_string(root().join("tableaux/check_certificate.py")).expect("the program");
     assert!(program.lines().count() <= 500);
@@ -185,7 +185,7 @@ fn a_table_has_the_properties_of_its_certificate() {
 
 /// Files that claim more than they prove, and files that are no certificates: each is rejected in one line that says why.
 #[test]
-fn what_is_not_proved_and_what_is_no_certificate_is_rejected() {
+fn the_checker_rejects_unproved_claims_and_damaged_certificates() {
     let read =
         |name: &str| std::fs::read_to_string(root().join("tableaux/certificates").join(name));
     let gauss = read("gauss-2.json").expect("a certificate");
@@ -603,7 +603,7 @@ fn symmetry_in_another_order_of_the_stages_is_checked() {
 /// The order 11 of Gauss with 4 stages, with a tree of the next order that is violated. For other Hamiltonians the trees are too many, and the
 /// simplifying assumptions prove 8.
 #[test]
-fn an_order_that_trees_are_too_many_for_is_not_believed() {
+fn the_checker_rejects_order_11_of_gauss_4_with_too_many_trees() {
     let gauss = std::fs::read_to_string(root().join("tableaux/certificates/gauss-4.json"))
         .expect("a certificate");
     let general =
@@ -642,7 +642,7 @@ fn an_order_that_trees_are_too_many_for_is_not_believed() {
 
 /// A splitting with π whose last drift is zero: a flow of no length is none, so that the others are a palindrome.
 #[test]
-fn a_flow_of_no_length_with_pi_is_none() {
+fn the_checker_drops_a_drift_of_length_zero_with_pi() {
     let text = stdout(&[
         "derive",
         "--kick",
@@ -677,7 +677,7 @@ fn a_flow_of_no_length_with_pi_is_none() {
 /// Two steps of a half: the trace is a square less 2. Where it touches -2, the double step is -1: the certificate does not cover its stability,
 /// and the program does not check such a claim.
 #[test]
-fn a_trace_that_touches_two_is_not_checked() {
+fn the_checker_skips_stability_where_the_trace_touches_two() {
     let folder = folder("touching");
     let [table, file] = ["twice.toml", "twice.json"].map(|name| folder.join(name));
     let definition = "[provenance]\nbase = \"saba-2\"\nweights = \"1/2, 1/2\"\n";

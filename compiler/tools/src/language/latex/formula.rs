@@ -221,7 +221,7 @@ mod tests {
     use symplectic_exact::rational::ratio;
 
     #[test]
-    fn exact_forms() {
+    fn exact_numbers_are_written_in_latex() {
         for (text, expected) in [
             ("1/2 - sqrt(3)/6", "\\frac{1}{2} - \\frac{\\sqrt{3}}{6}"),
             ("-1/24", "-\\frac{1}{24}"),
@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn polynomials() {
+    fn polynomials_are_written_in_latex() {
         let shown = |f: Polynomial| polynomial(&f, "x");
         assert_eq!(
             shown(Polynomial::from_integers(&[0, -1, 2])),
@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn widths() {
+    fn widths_of_latex_formulas_count_what_is_printed() {
         for (formula, expected) in [
             ("12", 2.0),
             ("-0.5", 4.1),

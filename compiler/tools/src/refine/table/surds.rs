@@ -117,7 +117,7 @@ mod tests {
 
     #[test]
     #[ignore = "thorough"]
-    fn surds_have_one_root() {
+    fn entries_are_recognised_as_surds_with_one_common_root() {
         // (3 + √3)/6 and −√3/3.
         let crouzeix = found(&["0.788675134595", "-0.577350269190"]).expect("surds");
         assert_eq!(crouzeix, ["(3 + (1)*sqrt(3))/6", "(0 + (-1)*sqrt(3))/3"]);

@@ -134,7 +134,7 @@ mod tests {
     use super::{free, plain, snake};
 
     #[test]
-    fn names() {
+    fn names_become_free_identifiers_in_snake_case() {
         assert_eq!(snake("DoublePendulum"), "double_pendulum");
         assert_eq!(snake("Henon_Heiles"), "henon_heiles");
         assert_eq!(snake("NBody"), "nbody");
