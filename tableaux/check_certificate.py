@@ -10,7 +10,7 @@ method, and what is claimed of them. From the coefficients alone this file prove
   * the doubles: none is nearer to the exact coefficient;
   * that a method is `symplectic` and `symmetric` or not;
   * the `order` for each class of Hamiltonians: all order conditions up to it, from trees that this file makes itself, and that of
-    `violated`, a tree of the next order, does not hold. With more than MOST_TREES trees of one order, FURTHER has another proof.
+    `violated`, a tree of the next order, does not hold. With more than MAX_TREES trees of one order, FURTHER has another proof.
 
 The files of FURTHER check the other claims. If one is missing, the output says "not checked here" and which file is needed. The exit
 status is 0 if nothing is wrong, 1 if something is wrong, 2 if a claim is not checked.  HLW: Hairer, Lubich & Wanner, Geometric numerical integration
@@ -39,9 +39,9 @@ FURTHER = {  # Claims, and the files in the folder `checker` with a function of 
 CLASSES = ("general", "separable", "nystrom")  # Any H; T(p) + U(q); the same with a quadratic T.
 NOT_COVERED = {"symplectic", "symmetric", "palindrome", "stability", "order (perturbed)", *(f"order ({kind})" for kind in CLASSES)}
 
-MOST_TREES, MOST_VERTICES = 1000, 60  # Of one order, and of a tree in a file.
-MOST_BYTES, MOST_STAGES = 1 << 24, 64  # Of a file and of a method.
-MOST_DEGREE, MOST_DIGITS = 100, 3000  # Of polynomials that define nodes and fields, and of their coefficients, all as long as the longest.
+MAX_TREES, MAX_VERTICES = 1000, 60  # Of one order, and of a tree in a file.
+MAX_BYTES, MAX_STAGES = 1 << 24, 64  # Of a file and of a method.
+MAX_DEGREE, MAX_DIGITS = 100, 3000  # Of polynomials that define nodes and fields, and of their coefficients, all as long as the longest.
 UNIT = 1 << 250  # Irrational roots are known between two neighbouring multiples of 1/UNIT.
 TIE = Fraction(1, 1 << 240)  # What is nearer to the middle between two decimals may be rounded to both.
 
@@ -121,8 +121,8 @@ def common_divisor(f, g):
 def definition(texts):
     """A polynomial that defines nodes or a field. Of its multiples, it is the one with coprime whole coefficients."""
     f = rationals(texts)
-    demand(1 < len(f) <= MOST_DEGREE, f"a polynomial of degree 1 to {MOST_DEGREE - 1}")
-    demand(len(f) * max(map(len, texts)) <= MOST_DIGITS, f"a polynomial with at most {MOST_DIGITS} digits")
+    demand(1 < len(f) <= MAX_DEGREE, f"a polynomial of degree 1 to {MAX_DEGREE - 1}")
+    demand(len(f) * max(map(len, texts)) <= MAX_DIGITS, f"a polynomial with at most {MAX_DIGITS} digits")
     demand(f[-1] > 0 and primitive(f) == f, "a polynomial with coprime whole coefficients")
     return primitive(f)
 
@@ -336,7 +336,7 @@ def read_tree(text):
             child, size = tree()
             copies = int(tokens.pop()[1:]) if re.match(r"\^[1-9]", tokens[-1]) else 1
             children, vertices = children + [child] * copies, vertices + size * copies
-            demand(vertices <= MOST_VERTICES, f"a tree with at most {MOST_VERTICES} vertices")
+            demand(vertices <= MAX_VERTICES, f"a tree with at most {MAX_VERTICES} vertices")
             separator = tokens.pop()
             demand(separator in (",", "]"), wrong)
         return (colour, tuple(sorted(children))), vertices
@@ -388,7 +388,7 @@ def check_order(of, residual, kind, claim):
     if kind in of.solved:
         demand(order <= of.solved[kind], f"{what}, from the conditions that were solved")
         return f"{kind} {order}"
-    while checked < order and len(trees(checked + 1, kind)) <= MOST_TREES:
+    while checked < order and len(trees(checked + 1, kind)) <= MAX_TREES:
         checked += 1
         for tree in trees(checked, kind):
             demand(residual(tree) == 0, f"{what}, tree {tree}")
@@ -415,7 +415,7 @@ def method_of(certificate):
     kind, weights = numbers["kind"], {"q": certificate["b"], "p": certificate["b_tilde"]}
     matrices = {"q": certificate["a"], "p": certificate["a_tilde"]} if layout == "matrices" else {}
     count = len(numbers["polynomial"]) - 1 if kind == "nodes" else stages if kind == "levels" else len(certificate["b"])
-    demand(0 < stages == count and (stages <= MOST_STAGES or kind == "levels"), f"{stages} stages, of at most {MOST_STAGES}")
+    demand(0 < stages == count and (stages <= MAX_STAGES or kind == "levels"), f"{stages} stages, of at most {MAX_STAGES}")
     if kind in ("solution", "levels") and not matrices:
         return further(kind, numbers, layout, weights)
     if kind == "nodes" and matrices:
@@ -468,7 +468,7 @@ def check(text):
     return certificate, exact, done + [f"{name} not covered" for name in missing]
 
 def content(path):
-    demand(path.stat().st_size <= MOST_BYTES and path.is_file(), f"a file of at most {MOST_BYTES} bytes")
+    demand(path.stat().st_size <= MAX_BYTES and path.is_file(), f"a file of at most {MAX_BYTES} bytes")
     return path.read_text(encoding="utf-8")
 
 def verdict(path):

@@ -151,7 +151,7 @@ macro_rules! if_alloc {
 
 /// Doubles side by side.
 pub mod simd {
-    pub use crate::number::{DefaultLanes, F64x2, F64x4, F64x8, F64x16, Lanes, MOST_LANES};
+    pub use crate::number::{DefaultLanes, F64x2, F64x4, F64x8, F64x16, Lanes, MAX_LANES};
 }
 
 /// What emitted code names; not for people.

@@ -8,7 +8,7 @@ from check_certificate import Stages, check_members, demand, ends, field
 
 from .solutions import between
 
-MOST_STEPS = 1000
+MAX_STEPS = 1000
 
 
 def levels(numbers, layout, weights):
@@ -21,7 +21,7 @@ def levels(numbers, layout, weights):
         check_members(level, ("polynomial", "root", "weights"))
         number = field(level["polynomial"], level["root"])
         fractions = [number(x) for x in level["weights"]]
-        demand(0 < len(steps) * len(fractions) <= MOST_STEPS, f"at most {MOST_STEPS} steps")
+        demand(0 < len(steps) * len(fractions) <= MAX_STEPS, f"at most {MAX_STEPS} steps")
         raises = sum(fractions) == 1 and sum(prod([x] * order, start=x) for x in fractions) == 0
         demand(fractions == fractions[::-1] and raises, f"a level to order {order + 2}")
         values.append([between(*ends(x)) for x in fractions])

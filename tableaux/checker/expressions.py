@@ -12,7 +12,7 @@ OPERATORS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mu
 SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 CONTEXT = Context(prec=120)  # Of roots.
 NEAR = Fraction(1, 10**60)  # What roots may be wrong by.
-MOST_BITS = 100_000
+MAX_BITS = 100_000
 
 
 def root(name, x):
@@ -40,7 +40,7 @@ def evaluated(text, nu=Fraction(0)):
                 return root(name, of(x))
             case ast.BinOp(left=x, op=ast.Pow(), right=ast.Constant(value=int(power))):
                 x = of(x)
-                demand(max(x.numerator.bit_length(), x.denominator.bit_length()) * power <= MOST_BITS, f"small powers in {text:.99}")
+                demand(max(x.numerator.bit_length(), x.denominator.bit_length()) * power <= MAX_BITS, f"small powers in {text:.99}")
                 return x**power
             case ast.BinOp(left=x, op=op, right=y) if type(op) in OPERATORS:
                 return OPERATORS[type(op)](of(x), of(y))

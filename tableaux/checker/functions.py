@@ -7,7 +7,7 @@ from itertools import accumulate
 
 from check_certificate import UNIT, Number, common_divisor, demand, ends, field, primitive, product
 
-MOST_DEGREE = 40
+MAX_DEGREE = 40
 TERMS = 120  # Of an alternating series.
 
 
@@ -118,7 +118,7 @@ def functions(numbers):
     x = Fraction(math.floor(x[0] * UNIT), UNIT), Fraction(math.ceil(x[1] * UNIT), UNIT)
 
     def read(pair):
-        demand(len(pair) == 2 and all(len(f) <= MOST_DEGREE for f in pair), "a numerator and a denominator of bounded degree")
+        demand(len(pair) == 2 and all(len(f) <= MAX_DEGREE for f in pair), "a numerator and a denominator of bounded degree")
         return Quotient(x, *([number(c) for c in f] for f in pair))
 
     return read

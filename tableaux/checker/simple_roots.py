@@ -6,7 +6,7 @@ from fractions import Fraction
 from check_certificate import demand, over_one_denominator, value
 
 NARROW = Fraction(1, 1 << 160)  # The distance between the ends of a root,
-MOST_CELLS = 1000  # and the number of intervals that are looked at for all of them.
+MAX_CELLS = 1000  # and the number of intervals that are looked at for all of them.
 
 
 class Undecided(Exception):
@@ -22,7 +22,7 @@ def with_whole_ends(f):
 def simple_roots(f):
     """The ends of all positive roots in order. A coefficient is a pair of whole ends. Where f is not known to have no root, it is monotone."""
     found, rest = [], [(Fraction(0), above_roots(f))]
-    for _ in range(MOST_CELLS):
+    for _ in range(MAX_CELLS):
         if not rest:
             return found
         low, high = rest.pop()

@@ -10,8 +10,8 @@ from check_certificate import Number, Stages, check_members, demand, rationals, 
 from .rootings import rootings, unrooted
 from .splittings import base_conditions, base_residual, flows, is_palindrome, product_of, splitting_conditions, splitting_residual
 
-MOST_ORDER = {"separable": 10, "nystrom": 8, "composition": 10, "perturbed": 24}
-MOST_UNKNOWNS = 40
+MAX_ORDER = {"separable": 10, "nystrom": 8, "composition": 10, "perturbed": 24}
+MAX_UNKNOWNS = 40
 EDGE = Fraction(2, 10**38)  # Of the box in which the solution is proved to be.
 PLACES = 400
 UNIT = 1 << PLACES  # The ends of intervals are whole multiples of 1/UNIT.
@@ -83,11 +83,11 @@ class Solution:
         needed = ("kind", "class", "orders", "unknowns", "conditions", "box", "inverse")
         check_members(numbers, (*needed, *(("weights",) if self.kind == "composition" else ())))
         decimals = numbers["unknowns"]
-        demand(self.kind in MOST_ORDER and 0 < len(self.orders) <= 24, "conditions of a class that is known")
-        demand(0 < min(self.orders) and max(self.orders) <= MOST_ORDER[self.kind], "conditions of an order that is bounded")
+        demand(self.kind in MAX_ORDER and 0 < len(self.orders) <= 24, "conditions of a class that is known")
+        demand(0 < min(self.orders) and max(self.orders) <= MAX_ORDER[self.kind], "conditions of an order that is bounded")
         demand(self.orders == sorted(self.orders, reverse=True), "orders that do not grow with the power of eps")
         demand(len(self.orders) == 1 or self.kind == "perturbed", "one order")
-        demand(0 < len(decimals) <= MOST_UNKNOWNS, f"between 1 and {MOST_UNKNOWNS} unknowns")
+        demand(0 < len(decimals) <= MAX_UNKNOWNS, f"between 1 and {MAX_UNKNOWNS} unknowns")
         demand(len(numbers["conditions"]) == len(decimals), f"{len(numbers['conditions'])} conditions, as many as unknowns")
         self.layout, self.affine = layout, {colour: [self.vector(x, decimals) for x in list_] for colour, list_ in weights.items()}
         demand(len(weights["q"]) == len(weights["p"]), "lists of one length")

@@ -10,11 +10,11 @@ from fractions import Fraction
 from functools import lru_cache
 from itertools import combinations, zip_longest
 
-from check_certificate import MOST_TREES, Element, demand, is_not_zero, residuals, trees, whole
+from check_certificate import MAX_TREES, Element, demand, is_not_zero, residuals, trees, whole
 
 from .functions import Quotient
 
-MOST_WORDS = 20000  # Of one length, and of all that an order needs.
+MAX_WORDS = 20000  # Of one length, and of all that an order needs.
 
 
 def is_zero(x):
@@ -67,7 +67,7 @@ def is_lyndon(word):
 @lru_cache(maxsize=None)
 def splitting_words(degree, kicks):
     """The Lyndon words of this length with this number of 'p'."""
-    demand(math.comb(degree, kicks) <= MOST_WORDS, "orders with fewer words")
+    demand(math.comb(degree, kicks) <= MAX_WORDS, "orders with fewer words")
     chosen = combinations(range(degree), kicks)
     words = (tuple("p" if k in places else "q" for k in range(degree)) for places in chosen)
     return [word for word in words if is_lyndon(word)]
@@ -81,7 +81,7 @@ def splitting_conditions(orders, step):
         for kicks in range(degree + 1)
         if degree == 1 or (0 < kicks < degree and degree <= orders[min(kicks, len(orders)) - 1])
     ]
-    demand(sum(math.comb(*kind) for kind in kinds) <= MOST_WORDS, "orders with fewer words")
+    demand(sum(math.comb(*kind) for kind in kinds) <= MAX_WORDS, "orders with fewer words")
     for kind in kinds:
         yield from splitting_words(*kind)
 
@@ -152,7 +152,7 @@ def by_trees(of, orders):
 
     def higher(degree, power):
         found = trees(degree, "separable")
-        demand(len(found) <= MOST_TREES, "orders with fewer trees")
+        demand(len(found) <= MAX_TREES, "orders with fewer trees")
         return (tree for tree in found if kicks(tree) <= power)
 
     kicks = lambda tree: (tree[0] == "p") + sum(map(kicks, tree[1]))

@@ -11,14 +11,14 @@ from check_certificate import (
 from .functions import Quotient, trimmed
 from .simple_roots import Undecided, sign, simple_roots, with_whole_ends
 
-MOST_STAGES = 40
+MAX_STAGES = 40
 
 
 def stability(of, certificate):
     """The trace, and all step sizes for which the stages exist and all powers of the step are bounded."""
     claim = certificate["stability"]
     check_members(claim, ("intervals",), ("numerator", "denominator", "chain"))
-    demand(of.s <= MOST_STAGES, f"at most {MOST_STAGES} stages")
+    demand(of.s <= MAX_STAGES, f"at most {MAX_STAGES} stages")
     determinant, step = one_step(of)
     trace = [simple(c) for c in combined(step["11"], 1, step["22"], 1)]
     if of.matrices:
@@ -62,7 +62,7 @@ def combined(f, x, g, y):
 
 def check_chain(chain, f):
     """Checks Sturm's chain: the first member has the roots of f, each once; then its derivative, and negative remainders down to a number."""
-    demand(isinstance(chain, list) and 1 < len(chain) <= 2 * MOST_STAGES * 3, "a chain of a bounded length")
+    demand(isinstance(chain, list) and 1 < len(chain) <= 2 * MAX_STAGES * 3, "a chain of a bounded length")
     demand(all(type(c) is int for g in chain for c in g), "a chain of whole numbers")
     first, divides = chain[0], lambda g, f: not any(remainder(f, g)[0])
     # The first multiplies the derivative of f to a multiple of f if all roots of f are among its own.

@@ -152,8 +152,7 @@ impl System<Vector2<f64>> for Whole<'_> {
 }
 
 #[test]
-fn verlet_iterates_on_a_general_system_and_ends_at_the_same_state()
--> Result<(), Error> {
+fn verlet_iterates_on_a_general_system_and_ends_at_the_same_state() -> Result<(), Error> {
     let counts = Counts::default();
     let start = kepler::start::<f64>(0.6);
     let mut whole = Integrator::new(

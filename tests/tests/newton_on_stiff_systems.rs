@@ -5,7 +5,7 @@
 use symplectic_tests::stiff_steps::grid;
 
 /// Sweeps, where full Newton in doubles needs at most [`EASY`] iterations.
-const MOST_SWEEPS: u32 = 30;
+const MAX_SWEEPS: u32 = 30;
 
 const EASY: u32 = 5;
 
@@ -20,7 +20,7 @@ fn steps_are_as_right_as_rounding_lets_them_be() {
         }
         let is_easy = outcome.in_full.is_some_and(|iterations| iterations <= EASY);
         match &outcome.sweeps {
-            Ok(sweeps) => assert!(!is_easy || *sweeps <= MOST_SWEEPS, "{outcome:?}"),
+            Ok(sweeps) => assert!(!is_easy || *sweeps <= MAX_SWEEPS, "{outcome:?}"),
             Err(_) => assert!(!is_easy, "{outcome:?}"),
         }
         // The unit is the bound, to first order, of one rounding in each place.

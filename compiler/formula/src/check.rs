@@ -4,7 +4,7 @@ use num_traits::One;
 
 use super::derivative::{Scatter, directional, gradient};
 use super::evaluate::{Evaluator, Point};
-use super::graph::{Base, Coordinate, Graph, Half, Id, Index, MOST_LOOPS, Node, Number, integer};
+use super::graph::{Base, Coordinate, Graph, Half, Id, Index, MAX_LOOPS, Node, Number, integer};
 use super::structure::{Kinetic, Structure, goes_over_all};
 use super::syntax::{Length, Name};
 use super::system::{Invariant, Layout, Shape, System};
@@ -37,8 +37,8 @@ impl System {
         if self.graph.overflowed() {
             let kind = ErrorKind::ExpressionSize {
                 what: "its number of sums in one another",
-                size: MOST_LOOPS + 1,
-                limit: MOST_LOOPS,
+                size: MAX_LOOPS + 1,
+                limit: MAX_LOOPS,
             };
             return Err(kind.into());
         }

@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::display::{MOST_CHARACTERS, Notation, Strength, Texts, index_letter};
-use super::graph::{Id, LoopId, MOST_LOOPS};
+use super::display::{MAX_CHARACTERS, Notation, Strength, Texts, index_letter};
+use super::graph::{Id, LoopId, MAX_LOOPS};
 use super::system::{Layout, System};
 
 /// A part that occurs more than once in several formulas has a name if it has more characters; in LaTeX, twice as many.
@@ -31,7 +31,7 @@ impl System {
         let (mut texts, mut common) = (Texts::new(), Vec::new());
         for id in below {
             let mut text = self.write(id, notation, &texts);
-            if text.0.len() > MOST_CHARACTERS {
+            if text.0.len() > MAX_CHARACTERS {
                 text.0 = "…".to_owned();
             } else if uses[&id] > 1 && text.0.chars().count() > long {
                 let name = self.name_of_part(letter, common.len() + 1, id, notation);
@@ -69,7 +69,7 @@ impl System {
     /// The name of a part in common, with the indices on which its value depends: `s1(i, j)`.
     fn name_of_part(&self, letter: char, number: usize, id: Id, notation: Notation) -> String {
         let depends = self.graph.depends(id);
-        let loops = (0..MOST_LOOPS).map(LoopId);
+        let loops = (0..MAX_LOOPS).map(LoopId);
         let indices: Vec<String> = loops
             .filter(|&over| depends.changes_in(over))
             .map(index_letter)

@@ -10,7 +10,7 @@ use super::modular::{Modular, Points};
 use super::system::System;
 
 /// The highest degree that is tested.
-const MOST_DEGREE: usize = 32;
+const MAX_DEGREE: usize = 32;
 
 /// The degree of H as a polynomial in positions and momenta; `None` if H is not visibly a polynomial.
 pub fn degree(system: &System) -> Option<usize> {
@@ -70,7 +70,7 @@ fn as_written(graph: &Graph, root: Id) -> Option<usize> {
             Node::Total(_, body) => known[body],
             _ => return None,
         };
-        if degree > MOST_DEGREE {
+        if degree > MAX_DEGREE {
             return None;
         }
         known.insert(id, degree);

@@ -138,7 +138,7 @@ fn apart(graph: &mut Graph, loops: &[LoopId], over: LoopId, body: Id) -> (LoopId
     new.depth = depths.max().map_or(0, |deepest| deepest + 1);
     match graph.add_loop(new) {
         Some(other) => (other, graph.rename(body, over, other)),
-        // More loops than are allowed: see `MOST_LOOPS`.
+        // More loops than are allowed: see `MAX_LOOPS`.
         None => (over, body),
     }
 }

@@ -14,12 +14,12 @@ use super::syntax::Length;
 use super::system::{Layout, Legendre, Shape, System};
 
 /// Most second derivatives that are shown.
-const MOST_LINES: usize = 2_000;
+const MAX_LINES: usize = 2_000;
 /// Longest page.
-const MOST_CHARACTERS: usize = 8_000;
+const MAX_CHARACTERS: usize = 8_000;
 
 /// Longest display on a page.
-const MOST_KATEX: usize = 2_000;
+const MAX_KATEX: usize = 2_000;
 
 impl System {
     /// The Lagrangian that H was derived from.
@@ -69,7 +69,7 @@ impl System {
             for first in gradient(&mut copy.graph, self.energy, &[], Number::one(), row) {
                 let (value, loops) = (first.value, &first.loops);
                 for second in gradient(&mut copy.graph, value, loops, Number::one(), column) {
-                    is_cut_off = parts.len() == MOST_LINES;
+                    is_cut_off = parts.len() == MAX_LINES;
                     if is_cut_off {
                         break 'all;
                     }
@@ -122,7 +122,7 @@ pub fn page(system: &System, structure: &Structure) -> String {
         let constraints = system.constraint_equations(Notation::Text).join("\n");
         text = format!("{text}\n\n{constraints}");
     }
-    if text.len() > MOST_CHARACTERS {
+    if text.len() > MAX_CHARACTERS {
         text = "The formula is too long to be shown.".to_owned();
     }
     let facts = facts(system, structure).join("; ");
@@ -153,7 +153,7 @@ pub(super) fn displays(lines: &[String]) -> String {
         }
         display.push_str("$$\n");
     }
-    match display.len() <= MOST_KATEX {
+    match display.len() <= MAX_KATEX {
         true => display + "\n",
         false => String::new(),
     }

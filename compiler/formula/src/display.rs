@@ -33,7 +33,7 @@ pub(super) enum Strength {
 pub(super) type Texts = HashMap<Id, (String, Strength)>;
 
 /// Longest formula that is written out.
-pub(super) const MOST_CHARACTERS: usize = 20_000;
+pub(super) const MAX_CHARACTERS: usize = 20_000;
 
 impl System {
     /// A node as a formula.
@@ -41,7 +41,7 @@ impl System {
         let mut texts = Texts::new();
         for next in self.graph.below([id]) {
             let text = self.write(next, notation, &texts);
-            if text.0.len() > MOST_CHARACTERS {
+            if text.0.len() > MAX_CHARACTERS {
                 return "…".to_owned();
             }
             texts.insert(next, text);

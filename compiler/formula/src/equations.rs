@@ -14,7 +14,7 @@ use super::syntax::Length;
 use super::system::{Constraint, Layout, Parameter, Shape, System};
 
 /// Most coordinates whose derivatives are listed one by one if they are zero.
-const MOST_LISTED: usize = 64;
+const MAX_LISTED: usize = 64;
 
 impl System {
     /// Hamilton's equations, a line for each part, without the constraints.
@@ -188,7 +188,7 @@ impl System {
             Length::Fixed(n) if parts.iter().all(single) => {
                 let every = parts.len() == n * self.layout.components();
                 let is_named = matches!(self.layout, Layout::Named(_));
-                (n <= MOST_LISTED || every || is_named).then_some(n)
+                (n <= MAX_LISTED || every || is_named).then_some(n)
             }
             _ => None,
         }

@@ -38,7 +38,7 @@ pub struct Point<R> {
 }
 
 /// The largest number of nodes that are computed.
-const MOST_NODES: usize = 3_000_000;
+const MAX_NODES: usize = 3_000_000;
 
 /// The values of nodes at a point.
 pub struct Evaluator<'a, R> {
@@ -59,7 +59,7 @@ impl<'a, R: Real> Evaluator<'a, R> {
             point,
             values: HashMap::new(),
             indices: HashMap::new(),
-            budget: MOST_NODES,
+            budget: MAX_NODES,
         }
     }
 

@@ -213,11 +213,11 @@ impl Dependence {
 }
 
 /// The largest number of factors of a product; a longer product becomes a product of products.
-const MOST_FACTORS: usize = 8;
+const MAX_FACTORS: usize = 8;
 /// The longest numeric power that is evaluated, in bits.
-const MOST_BITS: u64 = 4096;
+const MAX_BITS: u64 = 4096;
 /// The largest number of loops of a formula.
-pub const MOST_LOOPS: usize = 64;
+pub const MAX_LOOPS: usize = 64;
 
 /// The nodes of formulas.
 #[derive(Debug, Clone, Default)]
@@ -253,7 +253,7 @@ impl Graph {
     /// The index of a loop; `None` if there are too many.
     pub fn add_loop(&mut self, new: Loop) -> Option<LoopId> {
         let found = self.loops.iter().position(|known| *known == new);
-        if found.is_none() && self.loops.len() == MOST_LOOPS {
+        if found.is_none() && self.loops.len() == MAX_LOOPS {
             self.overflowed = true;
             return None;
         }
@@ -480,11 +480,11 @@ impl Graph {
     }
 
     fn product_of(&mut self, factors: Vec<(Id, Number)>) -> Id {
-        if factors.len() <= MOST_FACTORS {
+        if factors.len() <= MAX_FACTORS {
             return self.add(Node::Product(factors));
         }
         let parts = factors
-            .chunks(MOST_FACTORS)
+            .chunks(MAX_FACTORS)
             .map(<[_]>::to_vec)
             .collect::<Vec<_>>();
         let parts = parts.into_iter().map(|part| {
@@ -958,7 +958,7 @@ fn bits(index: &Index) -> u64 {
 /// Whether a numeric power is short enough.
 fn is_short(base: &Number, power: i64) -> bool {
     let bits = base.numer().bits() + base.denom().bits();
-    bits.saturating_mul(power.unsigned_abs()) <= MOST_BITS
+    bits.saturating_mul(power.unsigned_abs()) <= MAX_BITS
 }
 
 fn whole_power(base: &Number, power: i64) -> Number {

@@ -10,7 +10,7 @@ use super::syntax::Length;
 use super::system::System;
 
 /// The largest number of momenta for which second derivatives are examined.
-const MOST_MOMENTA: usize = 60;
+const MAX_MOMENTA: usize = 60;
 
 /// A pivot below this, relative to its row and column, counts as zero.
 const ROUNDING: f64 = 1e-11;
@@ -41,7 +41,7 @@ impl MomentumHessian {
         }
         let components = system.layout.components();
         if let Length::Fixed(count) = system.layout.length()
-            && count * components > MOST_MOMENTA
+            && count * components > MAX_MOMENTA
         {
             return MomentumHessian::Unknown;
         }

@@ -88,9 +88,9 @@ pub(super) fn flat(graph: &mut Graph, sign: i64, id: Id, kept: &[Id]) -> Vec<(Nu
 }
 
 /// The greatest depth of formulas whose sums are written out.
-const MOST_DEPTH: usize = 500;
+const MAX_DEPTH: usize = 500;
 /// The largest number of nodes of a graph in which sums are written out.
-const MOST_NODES: usize = 200_000;
+const MAX_NODES: usize = 200_000;
 
 /// Writes out sums over velocities.
 #[derive(Default)]
@@ -116,7 +116,7 @@ impl Unroll {
         if let Some(&known) = self.known.get(&key) {
             return Some(known);
         }
-        if self.depth >= MOST_DEPTH || graph.size() > MOST_NODES {
+        if self.depth >= MAX_DEPTH || graph.size() > MAX_NODES {
             return None;
         }
         self.depth += 1;

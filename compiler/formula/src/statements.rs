@@ -101,7 +101,7 @@ struct Block {
 }
 
 /// Greatest nesting depth of an expression in the code.
-const MOST_DEPTH: usize = 32;
+const MAX_DEPTH: usize = 32;
 
 impl Plan<'_> {
     fn name(&mut self) -> usize {
@@ -326,7 +326,7 @@ impl Plan<'_> {
             if !seen.insert(next) || block.scope.named.contains(&next) {
                 continue;
             }
-            deep |= depth > MOST_DEPTH;
+            deep |= depth > MAX_DEPTH;
             order.push(next);
             open.extend(
                 self.operations
@@ -346,7 +346,7 @@ impl Plan<'_> {
                 && !self.operations.get(next).is_leaf()
                 && !self.operations.is_division(next);
             let often = block.uses.get(&next).copied().unwrap_or(0) > 1;
-            if is_wanted && (often || count % MOST_DEPTH == 0) && !block.scope.named.contains(&next)
+            if is_wanted && (often || count % MAX_DEPTH == 0) && !block.scope.named.contains(&next)
             {
                 match block.turns.get(&next) {
                     Some(&turn) => self.turns(block, turn),

@@ -150,7 +150,7 @@ impl Symmetries {
 }
 
 /// The largest number of terms into which a formula is split.
-const MOST_TERMS: usize = 100_000;
+const MAX_TERMS: usize = 100_000;
 
 /// The surroundings of a term.
 #[derive(Clone)]
@@ -170,7 +170,7 @@ pub(super) fn terms(
     let mut steps = 0;
     while let Some((id, factor, around)) = open.pop() {
         steps += 1;
-        if steps > MOST_TERMS {
+        if steps > MAX_TERMS {
             return None;
         }
         let node = graph.node(id).clone();

@@ -8,9 +8,9 @@ use super::function::Elementary;
 use super::graph::{Graph, Id, Node, Number, integer};
 
 /// The largest number of terms into which a formula is expanded.
-const MOST_TERMS: usize = 128;
+const MAX_TERMS: usize = 128;
 /// The largest number of simplification rounds.
-const MOST_ROUNDS: usize = 128;
+const MAX_ROUNDS: usize = 128;
 
 /// Factors with their exponents.
 type Factors = BTreeMap<Id, Number>;
@@ -25,7 +25,7 @@ pub(super) fn shortened(graph: &mut Graph, id: Id) -> Id {
         return id;
     };
     let mut found = false;
-    for _ in 0..MOST_ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         let Some(shorter) = addition(graph, &terms) else {
             break;
         };
@@ -76,7 +76,7 @@ fn expanded(graph: &Graph, id: Id) -> Option<Terms> {
             }
             _ => Terms::from([(vec![(id, Number::one())], Number::one())]),
         };
-        if terms.len() > MOST_TERMS {
+        if terms.len() > MAX_TERMS {
             return None;
         }
         known.insert(id, terms);
@@ -103,7 +103,7 @@ fn multiplied(a: &Terms, b: &Terms) -> Option<Terms> {
             add(&mut product, factors.into_iter().collect(), factor * other);
         }
     }
-    (product.len() <= MOST_TERMS).then_some(product)
+    (product.len() <= MAX_TERMS).then_some(product)
 }
 
 /// The terms with a pair of cosines and a pair of sines replaced by one cosine.

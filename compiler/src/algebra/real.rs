@@ -18,14 +18,14 @@ pub const ZERO_BITS: u32 = 1280;
 /// Binary places of smallness up to which no extra places are added.
 const USUAL_BITS: u64 = 256;
 /// The most binary places that are added for tiny numbers.
-const MOST_FINENESS: u32 = 1 << 14;
+const MAX_FINENESS: u32 = 1 << 14;
 
 /// The binary places beyond the usual ones at which a number begins, from those at which it does.
 pub(crate) fn beyond_usual(places: u64) -> u32 {
     let beyond = places.saturating_sub(USUAL_BITS);
     u32::try_from(beyond)
-        .unwrap_or(MOST_FINENESS)
-        .min(MOST_FINENESS)
+        .unwrap_or(MAX_FINENESS)
+        .min(MAX_FINENESS)
 }
 
 /// Binary places to which a number is compared with ties when it is rounded.
@@ -65,7 +65,7 @@ impl Operation {
             Operation::Constant(constant) => beyond_usual(constant.fineness()),
             Operation::Certified(..) => 0,
             Operation::Add(x, y) | Operation::Subtract(x, y) => x.fineness().max(y.fineness()),
-            Operation::Multiply(x, y) => (x.fineness() + y.fineness()).min(MOST_FINENESS),
+            Operation::Multiply(x, y) => (x.fineness() + y.fineness()).min(MAX_FINENESS),
             Operation::Inverse(x) => x.fineness(),
         }
     }

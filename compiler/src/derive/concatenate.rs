@@ -42,7 +42,7 @@ pub(crate) fn concatenate(parts: &[(&Constant, &Exact)]) -> Result<Exact, ErrorK
         let needed = needed.into_iter().flatten();
         let stages = parts.iter().map(|(_, exact)| exact.stages()).sum();
         let words = longest(fractions.iter().copied()) + longest(needed.clone());
-        let short = work(stages, words) <= MOST_WORK;
+        let short = work(stages, words) <= MAX_WORK;
         let fractions = fractions.iter().copied();
         short.then(|| Constants::containing(fractions.chain(needed)))?
     });
@@ -58,7 +58,7 @@ pub(crate) fn concatenate(parts: &[(&Constant, &Exact)]) -> Result<Exact, ErrorK
 
 /// The products of machine words for all products of two coefficients beyond which exact arithmetic with all that follows
 /// takes more than two seconds or so.
-const MOST_WORK: u64 = 300_000;
+const MAX_WORK: u64 = 300_000;
 
 /// The products of machine words for a product of each coefficient of a matrix with another.
 fn work(stages: usize, words: u64) -> u64 {

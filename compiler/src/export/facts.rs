@@ -4,7 +4,7 @@ use super::json::evidence;
 use crate::evidence::evidence_text;
 use crate::order::{ClassOrder, HamiltonianClass, PerturbedOrder, PowerOrder, SymplecticityOrder};
 use crate::properties::Property;
-use crate::stability::{EndPoint, MOST_STAGES, RungeKuttaStability, Stability, StableSteps};
+use crate::stability::{EndPoint, MAX_STAGES, RungeKuttaStability, Stability, StableSteps};
 use crate::tableau::Tableau;
 
 /// A value in a file.
@@ -137,7 +137,7 @@ pub fn separable_only(tableau: &Tableau) -> Vec<(&'static str, &'static str, Pro
 
 /// The note about a part of stability that is left out, with the reason.
 fn omitted(what: &str) -> String {
-    format!("{what}: more than {MOST_STAGES} stages")
+    format!("{what}: more than {MAX_STAGES} stages")
 }
 
 fn class_order(found: &ClassOrder) -> Fact {

@@ -39,11 +39,11 @@ pub const MAX_DIGITS: usize = 10_000;
 /// A matrix entry for `s` algebraic nodes is a sum of `s²` products of numbers with as many digits.
 pub fn most_digits(tableau: &Tableau) -> usize {
     /// A bound on the square of the digits times the cube of the stages.
-    const MOST_WORK: u64 = 2_000_000_000_000;
+    const MAX_WORK: u64 = 2_000_000_000_000;
     match &*tableau.exact {
         Exact::Nodes(_) => {
             let stages = tableau.stages().max(1) as u64;
-            let digits = (MOST_WORK / stages.saturating_pow(3)).isqrt();
+            let digits = (MAX_WORK / stages.saturating_pow(3)).isqrt();
             // Rounded down to hundreds, but at least the number that is always allowed.
             usize::try_from(digits / 100 * 100).map_or(MAX_DIGITS, |n| n.clamp(100, MAX_DIGITS))
         }

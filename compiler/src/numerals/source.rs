@@ -46,7 +46,7 @@ impl Assigned {
 }
 
 /// The largest number of names before a value: `a = b = 1` has two.
-const MOST_TOGETHER: usize = 64;
+const MAX_TOGETHER: usize = 64;
 
 const AGAIN: &str = "has a value already; a file holds one table";
 const CHANGED: &str = "is changed later; write the numbers that it has in the end";
@@ -204,7 +204,7 @@ impl<'a> Source<'a> {
             _ => return None,
         };
         // `a = b = 1`
-        for _ in 0..MOST_TOGETHER {
+        for _ in 0..MAX_TOGETHER {
             let name = self.tokens.get(value).map(|found| &found.token);
             let next = name.filter(|name| matches!(name, Token::Name(_)) && !self.fortran);
             let next = next.and_then(|_| self.brackets(value));

@@ -479,7 +479,7 @@ fn decimal(text: &str, marks: &[&str]) -> (Option<Value>, usize) {
 /// The part after `0x` of a hexadecimal floating constant, and its length.
 fn hexadecimal(text: &str) -> (Option<Value>, usize) {
     /// Numbers of a table have no more digits.
-    const MOST: usize = 64;
+    const MAX_DIGITS: usize = 64;
     let hex = |from: usize| {
         let rest = &text[from..];
         from + rest
@@ -507,7 +507,7 @@ fn hexadecimal(text: &str) -> (Option<Value>, usize) {
         }
         end = stop;
     }
-    let numerator = (digits.len() <= MOST)
+    let numerator = (digits.len() <= MAX_DIGITS)
         .then(|| BigInt::parse_bytes(digits.as_bytes(), 16))
         .flatten();
     let places = i64::try_from(places).unwrap_or(0);

@@ -18,10 +18,10 @@ use crate::symbolic::Constant;
 const BITS: u32 = 512;
 
 /// With more fractions that are not rational, exact arithmetic would take long.
-const MOST_EXACT_STEPS: usize = 24;
+const MAX_EXACT_STEPS: usize = 24;
 
 /// The largest number of letters. Words of more would take long.
-const MOST_LETTERS: usize = 32;
+const MAX_LETTERS: usize = 32;
 
 /// A step of a composition.
 pub(crate) struct Step<'a> {
@@ -36,7 +36,7 @@ pub(crate) struct Step<'a> {
 /// How it is known that the composition has this order with any methods of order 1, of which some are symmetric; `None` if it is not.
 pub(crate) fn has_order(steps: &[Step<'_>], symmetric: &[bool], order: usize) -> Option<Evidence> {
     let letters = letters(symmetric, order);
-    if letters.len() > MOST_LETTERS {
+    if letters.len() > MAX_LETTERS {
         return None;
     }
     let methods: Vec<(usize, bool)> = steps.iter().map(|s| (s.method, s.adjoint)).collect();
@@ -45,7 +45,7 @@ pub(crate) fn has_order(steps: &[Step<'_>], symmetric: &[bool], order: usize) ->
     if fractions.iter().all(|x| x.as_rational().is_some()) {
         return holds_over(&Rationals, over, order);
     }
-    let field = match steps.len() <= MOST_EXACT_STEPS {
+    let field = match steps.len() <= MAX_EXACT_STEPS {
         true => Constants::containing(fractions.iter().copied()),
         false => None,
     };

@@ -20,16 +20,16 @@ use crate::partitioned::{LowerTriangular, Partitioned};
 pub(super) const MAX_ORDER: usize = 20;
 
 /// The largest number of products of a coefficient and a stage, for all trees: half a minute with rationals.
-const MOST_PRODUCTS: usize = 10_000_000;
+const MAX_PRODUCTS: usize = 10_000_000;
 
 /// The same if numbers are expressions, about 500 bytes each, which are stored with their enclosures: 2 GB.
-const MOST_EXPRESSIONS: usize = 4_000_000;
+const MAX_EXPRESSIONS: usize = 4_000_000;
 
 /// The largest number of products of elements of a field.
 pub(super) fn most_products<F: Field>(field: &F) -> usize {
     match field.keeps_operands() {
-        false => MOST_PRODUCTS,
-        true => MOST_EXPRESSIONS,
+        false => MAX_PRODUCTS,
+        true => MAX_EXPRESSIONS,
     }
 }
 

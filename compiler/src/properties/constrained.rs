@@ -112,7 +112,7 @@ fn equal_stages<A: StageAlgebra>(examined: &Examined<'_, A>) -> Option<(usize, u
 }
 
 /// With more stages the rational functions of an elimination may become too long.
-const MOST_STAGES: usize = 12;
+const MAX_STAGES: usize = 12;
 
 /// Whether `det X = 0` by exact arithmetic, which needs a field of constants whose equations are decided.
 ///
@@ -122,7 +122,7 @@ fn is_singular<A: StageAlgebra>(examined: &Examined<'_, A>) -> bool {
     let pair = examined.pair;
     let (algebra, stages) = (&*pair.algebra, pair.algebra.stages());
     let field = algebra.constants();
-    if algebra.verified_bits().is_some() || field.is_costly() && stages > MOST_STAGES {
+    if algebra.verified_bits().is_some() || field.is_costly() && stages > MAX_STAGES {
         return false;
     }
     let one = algebra.constant(&BigRational::one());

@@ -35,7 +35,7 @@ impl<P: RealPolynomial> Cells<P> {
         let finest = roots
             .iter()
             .filter_map(|root| root.polynomial.finest_bits());
-        let finest = finest.min().unwrap_or(MOST_BITS);
+        let finest = finest.min().unwrap_or(MAX_BITS);
         // Distinct positive numbers: with enough places, enclosures separate them from each other and from zero.
         let enclosures = loop {
             let enclosed = |root: PositiveRoot<P>| (root.enclose(bits), root);
@@ -73,7 +73,7 @@ impl<P: RealPolynomial> Cells<P> {
 /// Binary places of the first enclosures.
 const FIRST_BITS: u32 = 32;
 /// Binary places of the last enclosures, for numbers that are known to any precision.
-const MOST_BITS: u32 = 1 << 16;
+const MAX_BITS: u32 = 1 << 16;
 
 /// A short rational strictly between two rationals.
 fn between(low: &BigRational, high: &BigRational) -> BigRational {

@@ -38,7 +38,7 @@ impl StabilityInterval {
 /// Digits of an end without a short exact form.
 pub(super) const SHOWN_DIGITS: usize = 12;
 /// How often the digits are doubled to distinguish two ends.
-const MOST_DOUBLINGS: u32 = 7;
+const MAX_DOUBLINGS: u32 = 7;
 
 /// The digits with which the ends of ascending intervals are shown: enough to distinguish each from the ends beside it.
 ///
@@ -51,7 +51,7 @@ fn distinguishing_digits(intervals: &[StabilityInterval]) -> Vec<usize> {
         if low.exact().is_some() && low.exact() == high.exact() {
             continue;
         }
-        let mut enough = (0..=MOST_DOUBLINGS).map(|n| SHOWN_DIGITS << n);
+        let mut enough = (0..=MAX_DOUBLINGS).map(|n| SHOWN_DIGITS << n);
         if let Some(enough) = enough.find(|&n| low.decimal(n) != high.decimal(n)) {
             digits[last - 1] = digits[last - 1].max(enough);
             digits[last] = enough;

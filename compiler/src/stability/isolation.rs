@@ -87,7 +87,7 @@ pub(super) fn monotonic_within(
     let mut found = Vec::new();
     let whole = local(coefficients, &low, &high, bits, precision);
     let words = coefficients.len().pow(2) * (precision / 64 + OVERHEAD) as usize;
-    let mut left = (MOST_WORDS / words).max(FEWEST_PARTS);
+    let mut left = (MAX_WORDS / words).max(FEWEST_PARTS);
     // The leftmost interval on top.
     let mut pending = vec![(low, high, bits, whole)];
     while let Some((low, high, bits, shifted)) = pending.pop() {
@@ -265,7 +265,7 @@ const HALVINGS: u32 = 32;
 const COARSE: u32 = 192;
 
 /// Sums of machine words that may be spent on one interval: about a tenth of a second.
-const MOST_WORDS: usize = 1 << 25;
+const MAX_WORDS: usize = 1 << 25;
 /// The number of parts of an interval that are examined in any case.
 const FEWEST_PARTS: usize = 1 << 12;
 /// The overhead of one addition, in machine words.

@@ -49,7 +49,7 @@ pub(crate) use fraction::superscript;
 pub use fraction::{Coefficient, RationalFunction, Variable};
 pub use intervals::StabilityInterval;
 pub use runge_kutta::RungeKuttaStability;
-pub use stable_steps::{MOST_STAGES, StableSteps};
+pub use stable_steps::{MAX_STAGES, StableSteps};
 
 /// Linear stability of a method.
 #[derive(Debug, Clone)]

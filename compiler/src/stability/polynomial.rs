@@ -228,7 +228,7 @@ fn positive_roots_by_sturm(polynomial: &Polynomial) -> Option<Vec<Root>> {
     let longest = coefficients.iter().map(BigInt::bits).max().unwrap_or(0);
     // The coefficients of the remainders are as long as a determinant.
     let words = longest * coefficients.len() as u64 / 64;
-    if words * coefficients.len() as u64 > MOST_WORDS {
+    if words * coefficients.len() as u64 > MAX_WORDS {
         return None;
     }
     let positive = |root: &Root| match root {
@@ -247,7 +247,7 @@ fn positive_roots_by_sturm(polynomial: &Polynomial) -> Option<Vec<Root>> {
 }
 
 /// The words of all remainders in Sturm's sequence beyond which the search takes seconds.
-const MOST_WORDS: u64 = 1 << 13;
+const MAX_WORDS: u64 = 1 << 13;
 
 /// Number of coefficients beyond which quadratic roots are not searched for: factoring would take longer than
 /// everything else.

@@ -5,12 +5,12 @@ use crate::evidence::{Evidence, evidence_text};
 
 /// The largest number of stages for which all stable steps are computed. The real roots of polynomials of twice that degree take
 /// a second or two; with 82 stages they take several. [`Tableau::stability`](crate::Tableau::stability) has no such bound.
-pub const MOST_STAGES: usize = 36;
+pub const MAX_STAGES: usize = 36;
 
 /// The stable steps of a method, computed in bounded time.
 #[derive(Debug, Clone)]
 pub enum StableSteps {
-    /// All stable steps, for a method of at most [`MOST_STAGES`] stages.
+    /// All stable steps, for a method of at most [`MAX_STAGES`] stages.
     All(Box<Stability>),
     /// The [first interval](crate::Tableau::first_stable_interval) of a longer method.
     First {
@@ -24,7 +24,7 @@ pub enum StableSteps {
         /// The bits of the enclosures.
         bits: u32,
     },
-    /// Not computed: the method has more than [`MOST_STAGES`] stages, and is not a palindromic splitting, or enclosures
+    /// Not computed: the method has more than [`MAX_STAGES`] stages, and is not a palindromic splitting, or enclosures
     /// do not decide where its first interval ends.
     NotComputed,
 }

@@ -13,7 +13,7 @@ use crate::order::{
 };
 use crate::properties::{Properties, SeparableProperties};
 use crate::schedule::Evaluations;
-use crate::stability::{MOST_STAGES, Stability, StabilityInterval, StableSteps};
+use crate::stability::{MAX_STAGES, Stability, StabilityInterval, StableSteps};
 
 /// What has been decided so far.
 #[derive(Debug, Clone, Default)]
@@ -175,7 +175,7 @@ impl Tableau {
     /// # Ok::<(), symplectic_compiler::Error>(())
     /// ```
     pub fn stable_steps(&self) -> StableSteps {
-        if self.stages() <= MOST_STAGES {
+        if self.stages() <= MAX_STAGES {
             let stability = self.stability();
             return match stability.evidence {
                 Evidence::Undecided { bits } => StableSteps::NotDecided { bits },

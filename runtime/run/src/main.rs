@@ -336,7 +336,7 @@ fn read_system(file: &File<'_>, setup: &Setup) -> Result<(System, Structure), Er
 }
 
 /// Largest exact number of steps.
-const MOST_STEPS_OF_A_RUN: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
+const MAX_STEPS_OF_A_RUN: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
 
 /// The output times; `None` for the end only.
 fn times(file: &File<'_>, setup: &Setup) -> Result<Option<Vec<f64>>, Error> {
@@ -360,7 +360,7 @@ fn times(file: &File<'_>, setup: &Setup) -> Result<Option<Vec<f64>>, Error> {
         );
         Err(file.error(span, message))
     };
-    let too_many = |time: f64| ((time - start) / size).abs() > MOST_STEPS_OF_A_RUN;
+    let too_many = |time: f64| ((time - start) / size).abs() > MAX_STEPS_OF_A_RUN;
     let refused_as_too_many = |time: f64, span| {
         let message =
             format!("from {start:?} to {time:?} there are more than 2^53 steps of {size:?}");

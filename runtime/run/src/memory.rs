@@ -1,16 +1,16 @@
 //! The memory that a run needs, which is bounded before anything is computed.
 
 /// Largest memory of a run in bytes.
-const MOST: u128 = 4_000_000_000;
+const MAX_BYTES: u128 = 4_000_000_000;
 
 /// Why the starts need too much memory; each consists of a number of coordinates and parameters.
 pub(super) fn fault_of_starts(starts: usize, numbers: usize) -> Option<String> {
     let needed = of_starts(starts, numbers);
-    (needed > MOST).then(|| {
+    (needed > MAX_BYTES).then(|| {
         format!(
             "the starts need about {} GB of memory, and at most {} are allowed: split the run into several files",
             gigabytes(needed),
-            gigabytes(MOST)
+            gigabytes(MAX_BYTES)
         )
     })
 }
@@ -25,19 +25,19 @@ pub(super) fn fault_of_states(
     let fixed = of_starts(starts, numbers);
     let states = of_states(starts, times, dimension);
     let needed = fixed + states.div_ceil(parts as u128);
-    (needed > MOST).then(|| {
-        let enough = states.div_ceil(MOST.saturating_sub(fixed).max(1));
+    (needed > MAX_BYTES).then(|| {
+        let enough = states.div_ceil(MAX_BYTES.saturating_sub(fixed).max(1));
         format!(
             "the run needs about {} GB of memory, and at most {} are allowed: give fewer `times`, or run at least {enough} parts, with `--shard 0/{enough}` and so on",
             gigabytes(needed),
-            gigabytes(MOST)
+            gigabytes(MAX_BYTES)
         )
     })
 }
 
 /// How many states of a section a run may keep, beside its starts.
 pub(super) fn most_states((starts, numbers): (usize, usize), dimension: usize) -> usize {
-    let left = MOST.saturating_sub(of_starts(starts, numbers));
+    let left = MAX_BYTES.saturating_sub(of_starts(starts, numbers));
     usize::try_from(left / of_states(1, 1, dimension)).unwrap_or(usize::MAX)
 }
 
@@ -49,7 +49,7 @@ pub(super) fn fault_of_section(most: usize, trajectories: usize) -> String {
     };
     format!(
         "the section has more than {most} states, and {} GB of memory are allowed: give an `end` nearer to the start{parts}",
-        gigabytes(MOST)
+        gigabytes(MAX_BYTES)
     )
 }
 

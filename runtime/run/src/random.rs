@@ -22,7 +22,7 @@ pub(super) fn uniform(seed: u64, draw: u64) -> f64 {
 }
 
 /// No draw of [`normal`] is larger: √(−2 ln 2⁻⁵³) < 8.6.
-pub(super) const MOST_DEVIATIONS: f64 = 9.0;
+pub(super) const MAX_DEVIATIONS: f64 = 9.0;
 
 /// Draw number `draw` from the standard normal distribution (Box–Muller).
 pub(super) fn normal(seed: u64, draw: u64) -> f64 {

@@ -12,7 +12,7 @@ use toml::{Spanned, Table, Value};
 use crate::keys;
 
 /// Largest number of starts of a run, of its times, and of the values of a coordinate.
-pub(super) const MOST: usize = 1 << 22;
+pub(super) const MAX_COUNT: usize = 1 << 22;
 
 /// The contents of a setup file.
 #[derive(Debug, Deserialize)]
@@ -348,9 +348,9 @@ impl Evenly {
     pub(super) fn numbers(self) -> Result<Vec<f64>, String> {
         let Evenly { from, to, count } = self;
         let count = usize::try_from(count).ok();
-        let Some(count) = count.filter(|count| (1..=MOST).contains(count)) else {
+        let Some(count) = count.filter(|count| (1..=MAX_COUNT).contains(count)) else {
             return Err(format!(
-                "the count is {}: it must be from 1 to {MOST}",
+                "the count is {}: it must be from 1 to {MAX_COUNT}",
                 self.count
             ));
         };

@@ -5,7 +5,7 @@ use toml::{Table, Value};
 
 use crate::counted;
 use crate::derived::Rule;
-use crate::random::MOST_DEVIATIONS;
+use crate::random::MAX_DEVIATIONS;
 use crate::setup::{Evenly, found, number};
 
 const EXPECTED: &str = "expected a number, { from, to, count }, { values = [...] }, { uniform = [low, high] } or { normal = [mean, deviation] }";
@@ -135,7 +135,7 @@ impl Spec {
                 "the standard deviation is {deviation:?}: it must not be negative"
             )),
             Spec::Normal([mean, deviation])
-                if !(mean.abs() + MOST_DEVIATIONS * deviation).is_finite() =>
+                if !(mean.abs() + MAX_DEVIATIONS * deviation).is_finite() =>
             {
                 Some(format!(
                     "the standard deviation {deviation:?} is too large: values overflow"

@@ -18,7 +18,7 @@ use crate::keys::advice;
 use crate::memory;
 use crate::parameters::{self, Varied};
 use crate::random;
-use crate::setup::{self, File, Grid, MOST, Setup, Starts};
+use crate::setup::{self, File, Grid, MAX_COUNT, Setup, Starts};
 use crate::spec::Spec;
 
 /// The names of all components of the position and the momentum, and of the parameters that vary between trajectories.
@@ -370,10 +370,10 @@ impl Reader<'_> {
             .iter()
             .try_fold(count, |total: usize, length| total.checked_mul(*length))
             .and_then(|total| total.checked_add(before));
-        let fault = match total.filter(|total| *total <= MOST) {
+        let fault = match total.filter(|total| *total <= MAX_COUNT) {
             Some(total) => memory::fault_of_starts(total, width),
             None => Some(format!(
-                "more than {MOST} starts: split the run into several files"
+                "more than {MAX_COUNT} starts: split the run into several files"
             )),
         };
         if let Some(fault) = fault {

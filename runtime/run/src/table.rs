@@ -14,7 +14,7 @@ use symplectic_compiler::{Error, ErrorKind};
 use symplectic_formula::{Parameter, Shape};
 
 use crate::output::{Fact, Point, Results, Seen, points};
-use crate::setup::MOST;
+use crate::setup::MAX_COUNT;
 use crate::starts::{Coordinates, Reader, listed};
 use crate::trajectory::Trajectory;
 
@@ -25,7 +25,7 @@ const GROUP: usize = 1 << 16;
 const CELLS: usize = 1 << 22;
 
 /// Largest size of a file of starts.
-const MOST_BYTES: u64 = 1 << 31;
+const MAX_BYTES: u64 = 1 << 31;
 
 /// A line of a table of results: a state of a trajectory.
 struct Line<'a> {
@@ -232,9 +232,9 @@ impl Reader<'_> {
                 "not a file on a disk: write the starts to a file",
             ));
         }
-        if about.len() > MOST_BYTES {
+        if about.len() > MAX_BYTES {
             let message =
-                format!("longer than {MOST_BYTES} bytes: split the file into several files");
+                format!("longer than {MAX_BYTES} bytes: split the file into several files");
             return Err(refused(path, message));
         }
         match path.extension().and_then(|extension| extension.to_str()) {
@@ -265,7 +265,7 @@ impl Reader<'_> {
         let mut rows = Vec::new();
         for (number, record) in reader.records().enumerate() {
             let record = record.map_err(|error| refused(path, error))?;
-            if number == MOST {
+            if number == MAX_COUNT {
                 return Err(refused(path, too_many()));
             }
             let cells = record
@@ -282,7 +282,7 @@ impl Reader<'_> {
         let file = File::open(path).map_err(|error| refused(path, error))?;
         let reader = SerializedFileReader::new(file).map_err(|error| refused(path, error))?;
         let about = reader.metadata().file_metadata();
-        if about.num_rows() > MOST as i64 {
+        if about.num_rows() > MAX_COUNT as i64 {
             return Err(refused(path, too_many()));
         }
         let fields = about.schema().get_fields();
@@ -302,7 +302,7 @@ impl Reader<'_> {
         let mut rows = Vec::new();
         for (number, record) in records.enumerate() {
             let record = record.map_err(unread)?;
-            if number == MOST {
+            if number == MAX_COUNT {
                 return Err(refused(path, too_many()));
             }
             let fields = record.get_column_iter().map(|(_, field)| field);
@@ -399,7 +399,7 @@ fn row(
 }
 
 fn too_many() -> String {
-    format!("more than {MOST} starts: split the file into several files")
+    format!("more than {MAX_COUNT} starts: split the file into several files")
 }
 
 /// The number in a cell of a Parquet file; integers only if they are exact in double precision.

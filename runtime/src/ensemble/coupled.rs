@@ -16,7 +16,7 @@ use crate::system::System;
 /// Number of steps between checks whether the run is stopped.
 const BLOCK: u64 = 1 << 10;
 /// Largest number of steps between attempts in lanes.
-const MOST_PAUSE: u32 = 63;
+const MAX_PAUSE: u32 = 63;
 
 /// The trajectories of a group in lanes.
 pub(super) struct Coupled<'g, 'a, M, S, V, R, N, L, A, F, W, J>
@@ -193,7 +193,7 @@ where
         };
         if tries {
             self.last_pause = match settled {
-                0 => (2 * self.last_pause + 1).min(MOST_PAUSE),
+                0 => (2 * self.last_pause + 1).min(MAX_PAUSE),
                 _ => 0,
             };
             self.pause = self.last_pause;

@@ -36,7 +36,7 @@ pub struct Histogram {
 }
 
 /// Largest number of bins.
-const MOST_BINS: usize = 1 << 24;
+const MAX_BINS: usize = 1 << 24;
 
 /// A histogram as deserialized, before it is checked.
 #[cfg(feature = "serde")]
@@ -72,7 +72,7 @@ impl TryFrom<Written> for Histogram {
 }
 
 fn check(low: f64, high: f64, bins: usize) -> Result<(), EnsembleError> {
-    match (1..=MOST_BINS).contains(&bins) && low < high && (high - low).is_finite() {
+    match (1..=MAX_BINS).contains(&bins) && low < high && (high - low).is_finite() {
         true => Ok(()),
         false => Err(EnsembleError::Histogram { low, high, bins }),
     }

@@ -51,9 +51,9 @@ mod by_threads {
     /// Duration up to which the next batch runs while rows are shown: if these end the run, it is wasted.
     const SHORT: Duration = Duration::from_millis(100);
     /// Largest number of places in a batch, for each thread; one share is always allowed.
-    const MOST_PLACES: usize = 1 << 12;
+    const MAX_PLACES: usize = 1 << 12;
     /// Largest number of shares in a batch, for each thread.
-    const MOST_SHARES: usize = 1 << 6;
+    const MAX_SHARES: usize = 1 << 6;
 
     /// Shares that run at the same time, in order; the lists are reused.
     struct Batch<E, T> {
@@ -115,7 +115,7 @@ mod by_threads {
         mut show: impl FnMut(&mut Vec<T>) -> ControlFlow<()>,
     ) {
         let threads = rayon::current_num_threads();
-        let largest = threads * (MOST_PLACES / share.max(1)).clamp(1, MOST_SHARES);
+        let largest = threads * (MAX_PLACES / share.max(1)).clamp(1, MAX_SHARES);
         let ended = AtomicBool::new(false);
         let mut show_batch = |batch: &mut Batch<E, T>| {
             for held in &mut batch.shares[..batch.count] {

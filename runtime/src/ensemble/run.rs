@@ -20,7 +20,7 @@ const FEW_STEPS: f64 = 4.0;
 /// Number of steps after which a thread reports, roughly.
 const SHARE: f64 = (1_u64 << 16) as f64;
 /// The largest number of groups that a thread runs before it reports.
-const MOST_GROUPS: usize = 1 << 5;
+const MAX_GROUPS: usize = 1 << 5;
 
 /// How trajectories run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -306,7 +306,7 @@ where
             job.run(places, rows);
         };
         // A thread reports after a number of steps.
-        let share = width * ((SHARE / steps.max(1.0)) as usize / width).clamp(1, MOST_GROUPS);
+        let share = width * ((SHARE / steps.max(1.0)) as usize / width).clamp(1, MAX_GROUPS);
         self.show_all(share, fill, show)
     }
 

@@ -82,7 +82,7 @@ pub struct Corrector<A, B> {
 }
 
 /// The largest number of pairs. With 8 pairs and steps of a sixth of the shortest period, the first-order error is about 10⁻¹¹ε.
-const MOST: u32 = 8;
+const MAX_PAIRS: u32 = 8;
 
 /// The spacing of the `a_i`.
 const SPACING: f64 = 0.5;
@@ -97,7 +97,7 @@ impl<A, B> Corrector<A, B> {
     where
         M: Splits + SymmetricFor<Separable> + ProvedFor<Damped>,
     {
-        if !(1..=MOST).contains(&pairs) {
+        if !(1..=MAX_PAIRS).contains(&pairs) {
             return Err(Error::FlowParameter {
                 what: "number of pairs of a corrector",
                 index: 0,

@@ -44,7 +44,7 @@ pub struct Linear {
 }
 
 /// The largest number of durations that are kept.
-const MOST: usize = 64;
+const MAX_EXPONENTIALS: usize = 64;
 
 impl Linear {
     /// The flow of `z' = Az` for this matrix A, with 2n rows and columns.
@@ -160,7 +160,7 @@ impl Linear {
             return Ok(found);
         }
         let exponential = exponential(self.size, &self.matrix, h)?;
-        if self.exponentials.len() == MOST {
+        if self.exponentials.len() == MAX_EXPONENTIALS {
             self.exponentials.clear();
         }
         self.exponentials.push((h, exponential));

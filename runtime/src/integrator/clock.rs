@@ -118,7 +118,7 @@ impl RemainingSteps {
 
 /// Checks that the number of steps from `start` to `end` can be counted.
 pub(crate) fn check_count(start: f64, end: f64, step_size: f64) -> Result<(), Error> {
-    if ((end - start) / step_size).abs() < MOST_STEPS {
+    if ((end - start) / step_size).abs() < MAX_STEPS {
         Ok(())
     } else {
         Err(Error::StepCount {
@@ -130,7 +130,7 @@ pub(crate) fn check_count(start: f64, end: f64, step_size: f64) -> Result<(), Er
 }
 
 /// Numbers of steps below this bound are exact as doubles.
-const MOST_STEPS: f64 = (1_u64 << 53) as f64;
+const MAX_STEPS: f64 = (1_u64 << 53) as f64;
 
 /// The smallest number of equal steps from `start` to `end` that are no longer than `|step_size|`, and their size.
 fn uniform(start: f64, end: f64, step_size: f64) -> Result<(u64, f64), Error> {
@@ -146,7 +146,7 @@ fn uniform(start: f64, end: f64, step_size: f64) -> Result<(u64, f64), Error> {
     // steps can exceed it by the roundings of both times, the step size, the difference and the quotient.
     let doubt = f64::EPSILON * (2.0 * ratio + ((start.abs() + end.abs()) / step_size).abs());
     let count = Float::ceil(ratio - doubt).max(1.0);
-    if count < MOST_STEPS {
+    if count < MAX_STEPS {
         Ok((count as u64, span / count))
     } else {
         Err(Error::StepCount {

@@ -15,7 +15,7 @@ pub enum Retry {
     #[default]
     Never,
     /// The step is repeated as 2, 4, … up to 2^`halvings` equal steps. If all attempts fail, it fails with the error of the whole step.
-    /// `halvings` is limited to [`Retry::MOST_HALVINGS`].
+    /// `halvings` is limited to [`Retry::MAX_HALVINGS`].
     ///
     /// A method with variable steps is not the symplectic map that it is with equal steps. Use this for rare
     /// stiff phases; [`Statistics::rejected`](crate::Statistics::rejected) counts them. Convergence of the
@@ -28,13 +28,13 @@ pub enum Retry {
 
 impl Retry {
     /// Bound on the work of one step: 65 536 steps instead of one.
-    pub const MOST_HALVINGS: u32 = 16;
+    pub const MAX_HALVINGS: u32 = 16;
 
     /// The number of parts of the step in each attempt.
     pub(crate) fn parts(self) -> impl Iterator<Item = u32> {
         let halvings = match self {
             Self::Never => 0,
-            Self::Split { halvings } => halvings.min(Self::MOST_HALVINGS),
+            Self::Split { halvings } => halvings.min(Self::MAX_HALVINGS),
         };
         (1..=halvings).map(|halving| 1 << halving)
     }

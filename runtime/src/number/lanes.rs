@@ -10,7 +10,7 @@ use crate::number::{Scalar, larger_or_nan};
 
 /// The largest number of [`Lanes`].
 #[doc(hidden)]
-pub const MOST_LANES: usize = 16;
+pub const MAX_LANES: usize = 16;
 
 /// Several doubles side by side, in one register of the processor if its registers are wide enough.
 ///
@@ -261,7 +261,7 @@ macro_rules! lanes {
             }
 
             #[cfg_attr(not(debug_assertions), inline(always))]
-            fn from_lanes(numbers: &[f64; MOST_LANES]) -> Self {
+            fn from_lanes(numbers: &[f64; MAX_LANES]) -> Self {
                 Self::from_fn(|lane| numbers[lane])
             }
 

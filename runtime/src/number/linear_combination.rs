@@ -398,7 +398,7 @@ mod tests {
     use crate::number::{Compensated, Plain};
 
     /// Numbers of many sizes; a few are not finite.
-    fn numbers(seed: u64, count: usize) -> [f64; MOST] {
+    fn numbers(seed: u64, count: usize) -> [f64; MAX_COUNT] {
         let mut state = seed;
         array(0.0, |index| {
             state = state
@@ -414,7 +414,7 @@ mod tests {
     }
 
     /// More numbers than a row of the widest registers has, several times.
-    const MOST: usize = 75;
+    const MAX_COUNT: usize = 75;
 
     fn compare<R: Summation>(count: usize, run: impl Fn(AddProducts<'_, R, f64>)) {
         for seed in 0..10 {
@@ -436,7 +436,7 @@ mod tests {
 
     #[test]
     fn kicks_have_the_same_bits_in_all_registers() {
-        for count in 0..MOST {
+        for count in 0..MAX_COUNT {
             if let Some(avx2) = Avx2::detect() {
                 compare::<Plain>(count, |work| avx2.run(work));
                 compare::<Compensated>(count, |work| avx2.run(work));

@@ -20,7 +20,7 @@ pub(crate) mod vector;
 pub(crate) mod words;
 
 pub use coefficient::{Coefficient, Coefficients, exact, rounded};
-pub use lanes::{F64x2, F64x4, F64x8, Lanes, MOST_LANES};
+pub use lanes::{F64x2, F64x4, F64x8, Lanes, MAX_LANES};
 pub(crate) use lanes::{WideF64x4, WideF64x8, WidestF64x8};
 pub use linear_combination::{
     advance, combine, copy, copy_to, factors, increment, reset, scale, scale_all, total, transform,

@@ -7,7 +7,7 @@ use num_traits::{Float, One, Zero};
 
 use crate::number::registers::Work;
 use crate::number::words::{Visit, words};
-use crate::number::{Coefficient, MOST_LANES};
+use crate::number::{Coefficient, MAX_LANES};
 
 /// A real number, or a type that behaves like one: f32, f64, a dual number, SIMD lanes.
 ///
@@ -60,7 +60,7 @@ pub trait Scalar:
     /// A constant with these numbers in its lanes; the first number, if there are no lanes.
     #[doc(hidden)]
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn from_lanes(numbers: &[f64; MOST_LANES]) -> Self {
+    fn from_lanes(numbers: &[f64; MAX_LANES]) -> Self {
         Self::from_f64(numbers[0])
     }
 

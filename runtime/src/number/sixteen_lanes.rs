@@ -6,7 +6,7 @@ use crate::number::array::array;
 use crate::number::lanes::operators;
 use crate::number::registers::Work;
 use crate::number::words::{Visit, words};
-use crate::number::{F64x8, Lanes, MOST_LANES, Scalar, larger_or_nan};
+use crate::number::{F64x8, Lanes, MAX_LANES, Scalar, larger_or_nan};
 
 // Functions of halves are called by name: a closure or a function item of more than one instruction may not be inlined.
 macro_rules! by_halves {
@@ -51,7 +51,7 @@ macro_rules! sixteen {
             const FOUND: bool = $half::FOUND;
 
             #[cfg_attr(not(debug_assertions), inline(always))]
-            fn from_lanes(numbers: &[f64; MOST_LANES]) -> Self {
+            fn from_lanes(numbers: &[f64; MAX_LANES]) -> Self {
                 Self::from_fn(|lane| numbers[lane])
             }
 

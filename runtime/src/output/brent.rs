@@ -95,7 +95,7 @@ pub(crate) fn negative_near_minimum<E>(
     let mut at_x = function(x)?;
     let (mut w, mut v, mut at_w, mut at_v) = (x, x, at_x, at_x);
     let (mut step, mut before) = (0.0_f64, 0.0_f64);
-    for _ in 0..MOST_STEPS_TO_MINIMUM {
+    for _ in 0..MAX_STEPS_TO_MINIMUM {
         if at_x < 0.0 {
             return Ok(Some(x));
         }
@@ -137,7 +137,7 @@ pub(crate) fn negative_near_minimum<E>(
 }
 
 /// Golden sections alone need 40 steps.
-const MOST_STEPS_TO_MINIMUM: u32 = 100;
+const MAX_STEPS_TO_MINIMUM: u32 = 100;
 
 #[cfg(test)]
 mod tests {

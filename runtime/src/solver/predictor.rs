@@ -5,21 +5,21 @@ use core::marker::PhantomData;
 use crate::method::{HalfTableau, StageTableau};
 
 /// The largest number of stages whose starting values are computed directly.
-pub(crate) const MOST: usize = 16;
+pub(crate) const MAX_STAGES: usize = 16;
 
 /// The columns of `μ E`. The matrix `E` extrapolates the increments of one half to the next step, and `μ` turns them into stage values
 /// of the other half. The product is rounded to doubles, because it only gives starting values.
-pub(crate) type StartingColumns = [[f64; MOST]; MOST];
+pub(crate) type StartingColumns = [[f64; MAX_STAGES]; MAX_STAGES];
 
 /// Whether the increments of a half can be extrapolated, and are few enough for [`starting_columns`].
 pub(crate) const fn starts_at_once(half: &HalfTableau) -> bool {
-    !half.extrapolation.is_empty() && half.extrapolation.len() <= MOST
+    !half.extrapolation.is_empty() && half.extrapolation.len() <= MAX_STAGES
 }
 
 /// The product of the matrix with these columns and the extrapolation matrix of a half; zero if the half does not
 /// [start at once](starts_at_once).
 pub(crate) const fn starting_columns(matrix: &[&[f64]], half: &HalfTableau) -> StartingColumns {
-    let mut product = [[0.0; MOST]; MOST];
+    let mut product = [[0.0; MAX_STAGES]; MAX_STAGES];
     if !starts_at_once(half) {
         return product;
     }
@@ -29,7 +29,7 @@ pub(crate) const fn starting_columns(matrix: &[&[f64]], half: &HalfTableau) -> S
         let mut j = 0;
         while j < matrix.len() {
             let mut i = 0;
-            while i < matrix[j].len() && i < MOST {
+            while i < matrix[j].len() && i < MAX_STAGES {
                 product[k][i] += matrix[j][i] * extrapolation[k][j];
                 i += 1;
             }
@@ -44,9 +44,9 @@ pub(crate) const fn starting_columns(matrix: &[&[f64]], half: &HalfTableau) -> S
 pub(crate) const fn weighted(columns: &StartingColumns, weights: &[f64]) -> StartingColumns {
     let mut product = *columns;
     let mut k = 0;
-    while k < MOST && k < weights.len() {
+    while k < MAX_STAGES && k < weights.len() {
         let mut i = 0;
-        while i < MOST {
+        while i < MAX_STAGES {
             product[k][i] *= weights[k];
             i += 1;
         }

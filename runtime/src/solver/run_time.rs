@@ -6,7 +6,7 @@ use num_traits::Zero;
 
 use crate::error::Quantity;
 use crate::method::relax::{LinearCombination, relax_by};
-use crate::method::run_time::{Coupled, Half, MOST, Row, coupled};
+use crate::method::run_time::{Coupled, Half, MAX_EVALUATIONS, Row, coupled};
 use crate::method::storage::{first_non_finite, first_non_finite_of};
 use crate::method::{
     EvaluationCounts, Failure, HalfChange, Outcome, RunTimeStages, StageChange, Step,
@@ -265,12 +265,12 @@ fn total<R: Summation, V: Vector>(
     });
 }
 
-/// `vectors_i = Σ_j matrix_ij vectors_j`, for at most [`MOST`] vectors.
+/// `vectors_i = Σ_j matrix_ij vectors_j`, for at most [`MAX_EVALUATIONS`] vectors.
 fn transform<V: Vector>(vectors: &mut [V], matrix: &[alloc::vec::Vec<f64>]) {
-    let count = vectors.len().min(MOST);
+    let count = vectors.len().min(MAX_EVALUATIONS);
     let lengths = vectors.iter().map(|vector| vector.as_slice().len());
     let n = lengths.min().unwrap_or(0);
-    let mut old = [V::Scalar::zero(); MOST];
+    let mut old = [V::Scalar::zero(); MAX_EVALUATIONS];
     for i in 0..n {
         for (old, vector) in old.iter_mut().zip(&*vectors) {
             *old = vector.as_slice()[i];

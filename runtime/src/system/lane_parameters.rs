@@ -3,7 +3,7 @@
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
 
-use crate::number::MOST_LANES;
+use crate::number::MAX_LANES;
 
 /// A parameter of a system: a number, an array of parameters, or a pair of indices.
 pub trait LaneParameter {
@@ -18,10 +18,10 @@ pub trait LaneParameter {
 }
 
 impl LaneParameter for f64 {
-    type InLanes = [Self; MOST_LANES];
+    type InLanes = [Self; MAX_LANES];
 
     fn in_all_lanes(&self) -> Self::InLanes {
-        [*self; MOST_LANES]
+        [*self; MAX_LANES]
     }
 
     fn set_lane(&self, lane: usize, lanes: &mut Self::InLanes) -> Option<()> {

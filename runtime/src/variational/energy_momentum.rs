@@ -99,7 +99,7 @@ const LAST_CHANGE: f64 = 1e-9;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Largest ratio of the sizes of two successive steps.
-const MOST_CHANGE: f64 = 2.0;
+const MAX_CHANGE: f64 = 2.0;
 
 impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
     /// An integrator at `state`, with a first step of size `step_size`, which is negative to go backward.
@@ -287,7 +287,7 @@ impl<L: DiscreteLagrangian> EnergyMomentumSteps<L> {
             size += changes[n];
             residual = (changed / way).max(Float::abs(changes[n] / size));
             let ratio = size / before;
-            if !(1.0 / MOST_CHANGE..=MOST_CHANGE).contains(&ratio) {
+            if !(1.0 / MAX_CHANGE..=MAX_CHANGE).contains(&ratio) {
                 break;
             }
             if residual <= LAST_CHANGE {

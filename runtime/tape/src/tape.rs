@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use symplectic::Scalar;
-use symplectic::simd::MOST_LANES;
+use symplectic::simd::MAX_LANES;
 use symplectic_formula::System;
 use symplectic_formula::graph::Id;
 
@@ -113,7 +113,7 @@ enum Held {
     /// Of one trajectory.
     Own(Arc<[f64]>),
     /// Of the trajectory in each lane.
-    InLanes(Arc<[[f64; MOST_LANES]]>),
+    InLanes(Arc<[[f64; MAX_LANES]]>),
 }
 
 impl From<&[f64]> for Parameters {
@@ -139,12 +139,12 @@ impl Parameters {
 
     /// The parameters of several trajectories, each in its lane.
     pub(crate) fn join<'a>(all: impl Iterator<Item = &'a Self>) -> Option<Self> {
-        let mut joined: Vec<[f64; MOST_LANES]> = Vec::new();
+        let mut joined: Vec<[f64; MAX_LANES]> = Vec::new();
         for (lane, parameters) in all.enumerate() {
             let Held::Own(own) = &parameters.0 else {
                 return None;
             };
-            joined.resize(own.len(), [f64::NAN; MOST_LANES]);
+            joined.resize(own.len(), [f64::NAN; MAX_LANES]);
             for (numbers, own) in joined.iter_mut().zip(own.iter()) {
                 *numbers.get_mut(lane)? = *own;
             }

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use symplectic::emitted::LaneWork;
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{SVector, Vector2};
-use symplectic::simd::{F64x16, Lanes, MOST_LANES};
+use symplectic::simd::{F64x16, Lanes, MAX_LANES};
 use symplectic::{
     AtRunTime, Compensated, Hamiltonian, Integrator, Method, ProvedFor, Scalar, Separable, State,
     System, Vector,
@@ -19,7 +19,7 @@ use crate::systems::{Bits, alone, keep, on_threads, words};
 #[derive(Clone, Debug)]
 struct Cubic<'a> {
     /// a, for each lane.
-    strengths: [f64; MOST_LANES],
+    strengths: [f64; MAX_LANES],
     /// The number of forces evaluated in sixteen lanes.
     in_lanes: &'a AtomicUsize,
 }
@@ -85,7 +85,7 @@ fn families(in_lanes: &AtomicUsize) -> Vec<(Cubic<'_>, Starts)> {
         };
         let count = 1 + usize::from(family < 2);
         let system = Cubic {
-            strengths: [strength; MOST_LANES],
+            strengths: [strength; MAX_LANES],
             in_lanes,
         };
         families.push((system, (next..next + count).map(start).collect()));

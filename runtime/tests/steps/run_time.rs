@@ -391,7 +391,8 @@ fn a_step_that_fails_leaves_the_state() -> Result<(), Error> {
 }
 
 #[test]
-fn a_run_time_integrator_copies_restarts_and_changes_solvers() -> Result<(), Box<dyn std::error::Error>> {
+fn a_run_time_integrator_copies_restarts_and_changes_solvers()
+-> Result<(), Box<dyn std::error::Error>> {
     for tableau in [tableau(Gauss4), tableau(ForestRuth)] {
         let run = || Integrator::at_run_time(&tableau, kepler(), ellipse(), 0.02);
         // Another copy, another solver, a checkpoint: the same bits.

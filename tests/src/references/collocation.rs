@@ -41,7 +41,7 @@ impl std::error::Error for NoConvergence {}
 const TOLERANCE: f64 = 1e-38;
 
 /// Maximum number of sweeps.
-const MOST_SWEEPS: u32 = 200;
+const MAX_SWEEPS: u32 = 200;
 
 impl Collocation {
     /// The method with these coefficients; `None` if one is not a decimal.
@@ -106,7 +106,7 @@ impl Collocation {
             (vec![state.q.clone(); stages], vec![state.p.clone(); stages]);
         let mut velocities = vec![state.q.zeros_like(); stages];
         let mut forces = velocities.clone();
-        for _ in 0..MOST_SWEEPS {
+        for _ in 0..MAX_SWEEPS {
             for i in 0..stages {
                 system.force(time, &positions[i], &momenta[i], &mut forces[i]);
             }

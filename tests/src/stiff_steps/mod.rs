@@ -23,7 +23,7 @@ use systems::{Fput, HangingChain, Steps, Stiff};
 const STEPS: u32 = 3;
 
 /// Maximum number of full Newton iterations.
-const MOST_ITERATIONS: u32 = 60;
+const MAX_ITERATIONS: u32 = 60;
 
 /// Positions beyond this indicate an unstable method: hω is outside its stability interval and states grow by powers of
 /// it. The start is of order one.
@@ -142,7 +142,7 @@ fn in_full<M: Method, S: Stiff<N> + 'static, const N: usize>(
     let system = Watched::new(problem.system);
     let integrator = Integrator::plain(method, system, start, h).ok()?;
     let mut integrator = integrator.with_solver(FullNewton);
-    integrator.set_max_iterations(MOST_ITERATIONS);
+    integrator.set_max_iterations(MAX_ITERATIONS);
     for _ in 0..STEPS {
         integrator.step().ok()?;
     }
@@ -192,7 +192,7 @@ where
     let (guess, notes) = (Rc::clone(&watched.guess), Rc::clone(&watched.notes));
     watched.is_reference = true;
     let mut reference = Integrator::plain(method, watched, start, h)?.with_solver(FullNewton);
-    reference.set_max_iterations(MOST_ITERATIONS);
+    reference.set_max_iterations(MAX_ITERATIONS);
     let mut bound = vec![0.0; 2 * N];
     for _ in 0..STEPS {
         let state = integrator.step()?.clone();

@@ -4,7 +4,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::values::counted;
-use super::{Elaborator, MOST_EXPONENT, MOST_JOINED_EXPONENT, Value};
+use super::{Elaborator, MAX_EXPONENT, MAX_JOINED_EXPONENT, Value};
 use crate::function::{Elementary, Function};
 use crate::graph::{Id, Node, Number, integer};
 use crate::parse::{JUMPS, constant, unknown_function};
@@ -202,11 +202,11 @@ impl Elaborator<'_> {
         };
         match number {
             Some(number) => {
-                let large = integer(MOST_EXPONENT);
-                if number.abs() > large || *number.denom() > MOST_EXPONENT.into() {
+                let large = integer(MAX_EXPONENT);
+                if number.abs() > large || *number.denom() > MAX_EXPONENT.into() {
                     let kind = ErrorKind::Type {
                         found: format!("the exponent `{}`", self.text(exponent)),
-                        expected: format!("one up to {MOST_EXPONENT}"),
+                        expected: format!("one up to {MAX_EXPONENT}"),
                     };
                     return self.error(exponent, kind);
                 }
@@ -247,11 +247,11 @@ impl Elaborator<'_> {
         if let Node::Product(factors) = self.graph.node(inner)
             && factors
                 .iter()
-                .any(|(_, e)| e.abs() > integer(MOST_JOINED_EXPONENT))
+                .any(|(_, e)| e.abs() > integer(MAX_JOINED_EXPONENT))
         {
             let kind = ErrorKind::Type {
                 found: format!("a power of `{}` with a huge exponent", self.text(at)),
-                expected: format!("exponents up to {MOST_JOINED_EXPONENT}"),
+                expected: format!("exponents up to {MAX_JOINED_EXPONENT}"),
             };
             return self.error(at, kind);
         }

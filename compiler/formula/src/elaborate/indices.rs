@@ -2,7 +2,7 @@
 
 use num_traits::ToPrimitive;
 
-use super::{Elaborator, MOST_COMPONENTS, Value};
+use super::{Elaborator, MAX_COMPONENTS, Value};
 use crate::graph::{Base, Coordinate, Index, LoopRange, Number};
 use crate::parse::constant;
 use crate::syntax::{Expression, Kind, Length};
@@ -70,7 +70,7 @@ impl Elaborator<'_> {
                             value = Value::Scalar(id);
                             continue;
                         }
-                        (Some(Length::Fixed(columns)), None) if *columns <= MOST_COMPONENTS => {
+                        (Some(Length::Fixed(columns)), None) if *columns <= MAX_COMPONENTS => {
                             let row = (0..*columns as i64).map(|column| {
                                 self.graph
                                     .parameter(k, vec![index.clone(), Index::number(column)])

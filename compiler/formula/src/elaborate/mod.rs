@@ -24,13 +24,13 @@ use symplectic_exact::error::FormulaError;
 use symplectic_exact::input::Input;
 
 /// The longest array that is written out if it is used as a whole.
-const MOST_COMPONENTS: usize = 64;
+const MAX_COMPONENTS: usize = 64;
 /// The largest exponent, and the largest denominator of an exponent.
-const MOST_EXPONENT: i64 = 1000;
+const MAX_EXPONENT: i64 = 1000;
 /// The largest exponent of powers of powers.
-const MOST_JOINED_EXPONENT: i64 = 1_000_000;
+const MAX_JOINED_EXPONENT: i64 = 1_000_000;
 /// The largest number of nodes of a graph.
-const MOST_NODES: usize = 1_000_000;
+const MAX_NODES: usize = 1_000_000;
 
 /// A value: a number, or an array.
 #[derive(Debug, Clone)]

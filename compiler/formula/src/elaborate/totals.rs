@@ -11,26 +11,26 @@ use symplectic_exact::error::FormulaError;
 use symplectic_exact::error::{Error, ErrorKind};
 
 /// The largest number of distinct sums in a formula.
-const MOST_SUMS: usize = 16;
+const MAX_SUMS: usize = 16;
 /// The deepest nesting of abbreviations with arguments.
-const MOST_NESTED: usize = 64;
+const MAX_NESTED: usize = 64;
 /// The largest number of abbreviations with arguments that are written out.
-const MOST_EXPANSIONS: usize = 10_000;
+const MAX_EXPANSIONS: usize = 10_000;
 
 impl Elaborator<'_> {
     pub(super) fn new_loop(&mut self, range: LoopRange, at: &Expression) -> Result<LoopId, Error> {
         let depth = self.loops.len();
         match self.graph.add_loop(Loop { range, depth }) {
             // Derivatives need more loops.
-            Some(id) if self.graph.count_loops() <= MOST_SUMS => {
+            Some(id) if self.graph.count_loops() <= MAX_SUMS => {
                 self.loops.push(id);
                 Ok(id)
             }
             _ => {
                 let kind = ErrorKind::ExpressionSize {
                     what: "its number of different sums",
-                    size: MOST_SUMS + 1,
-                    limit: MOST_SUMS,
+                    size: MAX_SUMS + 1,
+                    limit: MAX_SUMS,
                 };
                 self.error(at, kind)
             }
@@ -80,14 +80,14 @@ impl Elaborator<'_> {
             return self.error(at, kind);
         }
         self.expansions += 1;
-        if self.nested >= MOST_NESTED || self.expansions > MOST_EXPANSIONS {
+        if self.nested >= MAX_NESTED || self.expansions > MAX_EXPANSIONS {
             let kind = ErrorKind::ExpressionSize {
                 what: "its number of abbreviations in one another",
                 size: self.expansions.max(self.nested),
-                limit: if self.nested >= MOST_NESTED {
-                    MOST_NESTED
+                limit: if self.nested >= MAX_NESTED {
+                    MAX_NESTED
                 } else {
-                    MOST_EXPANSIONS
+                    MAX_EXPANSIONS
                 },
             };
             return self.error(at, kind);

@@ -1,6 +1,6 @@
 //! Values with their shapes, names, and errors about them.
 
-use super::{Elaborator, MOST_COMPONENTS, MOST_NODES, Momenta, Value};
+use super::{Elaborator, MAX_COMPONENTS, MAX_NODES, Momenta, Value};
 use crate::function::ELEMENTARY;
 use crate::graph::{Base, Coordinate, Half, Id, Index, Loop, LoopRange, Node};
 use crate::parse::{VECTOR_FUNCTIONS, suggestion, unknown_function};
@@ -80,7 +80,7 @@ impl Elaborator<'_> {
     /// A short array as the vector or the matrix of its entries.
     pub(super) fn whole(&mut self, value: Value) -> Value {
         let fixed = |length: &Length| match length {
-            Length::Fixed(n) if *n <= MOST_COMPONENTS => Some(*n),
+            Length::Fixed(n) if *n <= MAX_COMPONENTS => Some(*n),
             _ => None,
         };
         match &value {
@@ -143,11 +143,11 @@ impl Elaborator<'_> {
     }
 
     pub(super) fn value(&mut self, written: &Expression) -> Result<Value, Error> {
-        if self.graph.size() > MOST_NODES {
+        if self.graph.size() > MAX_NODES {
             let kind = ErrorKind::ExpressionSize {
                 what: "its number of different parts",
                 size: self.graph.size(),
-                limit: MOST_NODES,
+                limit: MAX_NODES,
             };
             return self.error(written, kind);
         }

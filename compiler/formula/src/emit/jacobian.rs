@@ -14,7 +14,7 @@ use crate::operations::Operations;
 use crate::structure::Split;
 
 /// Greatest number of second derivatives that are written out. With more, the Jacobian is left to dual numbers and differences.
-const MOST_PARTS: usize = 2_000;
+const MAX_PARTS: usize = 2_000;
 
 impl Emitter<'_> {
     /// The second derivatives and their bandwidth, for Newton's iteration: methods of the trait.
@@ -38,7 +38,7 @@ impl Emitter<'_> {
         for (matrix, of, sign, row, column) in blocks {
             let sign = Number::from_integer(sign.into());
             for first in gradient(&mut self.system.graph, of, &[], sign, row) {
-                if parts.len() > MOST_PARTS {
+                if parts.len() > MAX_PARTS {
                     break;
                 }
                 let loops: Vec<LoopId> = first.loops.clone();
@@ -74,7 +74,7 @@ impl Emitter<'_> {
                 .iter()
                 .any(|&id| matches!(self.system.graph.node(id), Node::User(_, 3.., _)))
         };
-        if parts.len() > MOST_PARTS || parts.iter().any(|(_, _, part)| third(&part.value)) {
+        if parts.len() > MAX_PARTS || parts.iter().any(|(_, _, part)| third(&part.value)) {
             return TokenStream::new();
         }
         let roots: Vec<Id> = parts.iter().map(|(_, _, part)| part.value).collect();

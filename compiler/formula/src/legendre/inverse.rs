@@ -6,7 +6,7 @@ use super::half;
 use crate::graph::{Graph, Id, Number, integer};
 
 /// The largest block that is inverted by its adjugate.
-const MOST_BY_ADJUGATE: usize = 3;
+const MAX_BY_ADJUGATE: usize = 3;
 
 /// A symmetric matrix M and a vector r.
 #[derive(Clone)]
@@ -35,7 +35,7 @@ impl Block {
     pub fn energy(self, graph: &mut Graph, zero: Zero<'_>) -> Result<Id, (usize, Id)> {
         let mut scratch = graph.clone();
         match self.clone().eliminated(&mut scratch, zero) {
-            Ok(_) if self.residuals.len() <= MOST_BY_ADJUGATE => Ok(self.by_adjugate(graph)),
+            Ok(_) if self.residuals.len() <= MAX_BY_ADJUGATE => Ok(self.by_adjugate(graph)),
             found => {
                 *graph = scratch;
                 found

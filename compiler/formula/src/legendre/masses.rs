@@ -11,10 +11,10 @@ use crate::system::System;
 use crate::trigonometry::shortened;
 
 /// The largest number of velocities that are examined one by one.
-const MOST_VELOCITIES: usize = 64;
+const MAX_VELOCITIES: usize = 64;
 
 /// The largest number of coupled velocities.
-const MOST_COUPLED: usize = 16;
+const MAX_COUPLED: usize = 16;
 
 /// The mass matrix: of all velocities, or of the velocities of each body of a sum.
 pub(super) struct Masses {
@@ -45,7 +45,7 @@ impl Masses {
             return None;
         };
         let components = system.layout.components();
-        if count * components > MOST_VELOCITIES {
+        if count * components > MAX_VELOCITIES {
             return None;
         }
         let single = |parts: &[Scatter]| {
@@ -122,7 +122,7 @@ impl Masses {
             matrix,
         };
         let blocks = masses.blocks();
-        let large = |block: &Vec<usize>| block.len() > MOST_COUPLED && !masses.is_diagonal(block);
+        let large = |block: &Vec<usize>| block.len() > MAX_COUPLED && !masses.is_diagonal(block);
         (!blocks.iter().any(large)).then_some(masses)
     }
 

@@ -13,13 +13,13 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use num_traits::{Signed, ToPrimitive, Zero};
 
-use self::series::{Coefficient, MOST_POWERS, Series, Value};
+use self::series::{Coefficient, MAX_POWERS, Series, Value};
 use super::function::Elementary;
 use super::graph::{Graph, Id, Node, Number, integer};
 use symplectic_exact::rounding::to_f64;
 
 /// The largest number of products of two terms of series for one formula.
-const MOST_PRODUCTS: usize = 10_000_000;
+const MAX_PRODUCTS: usize = 10_000_000;
 
 /// Where a formula may be less smooth than its parts.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -149,7 +149,7 @@ fn vanish_together(graph: &Graph, zeros: &[Id], work: &mut usize) -> bool {
         for id in graph.below(zeros.iter().copied()) {
             let value = match graph.node(id) {
                 Node::Coordinate(_) => Value::line(at, 1.0),
-                _ if *work > MOST_PRODUCTS => Value::Unknown,
+                _ if *work > MAX_PRODUCTS => Value::Unknown,
                 _ => {
                     let of = |x| &values[&x];
                     let value = compute(graph, id, line, Powers::Given, of);
@@ -171,7 +171,7 @@ fn vanish_together(graph: &Graph, zeros: &[Id], work: &mut usize) -> bool {
         let values = values(root);
         zeros.iter().all(|zero| values[zero].vanishes())
     });
-    vanish || *work > MOST_PRODUCTS
+    vanish || *work > MAX_PRODUCTS
 }
 
 fn is_variable(graph: &Graph, id: Id) -> bool {
@@ -313,7 +313,7 @@ impl<'a> Lines<'a> {
     }
 
     fn smoothness(&mut self, kink: &Kink, order: u32) -> Smoothness {
-        if self.work > MOST_PRODUCTS {
+        if self.work > MAX_PRODUCTS {
             return Smoothness::TooLong;
         }
         let mut changed: BTreeSet<Id> = BTreeSet::new();
@@ -330,7 +330,7 @@ impl<'a> Lines<'a> {
         let mut along = Vec::new();
         for &direction in directions {
             let sides = [true, false].map(|side| self.value(kink, &changed, (direction, side)));
-            if self.work > MOST_PRODUCTS {
+            if self.work > MAX_PRODUCTS {
                 return Smoothness::TooLong;
             }
             let [Value::Series(right), Value::Series(left)] = sides else {
@@ -386,7 +386,7 @@ impl<'a> Lines<'a> {
             let value = compute(self.graph, id, line, Powers::Given, of);
             self.work += products(self.graph, id, &value, of);
             plain.insert(id, value);
-            if self.work > MOST_PRODUCTS {
+            if self.work > MAX_PRODUCTS {
                 return Value::Unknown;
             }
         }
@@ -407,7 +407,7 @@ impl<'a> Lines<'a> {
                     value
                 }
             };
-            if self.work > MOST_PRODUCTS {
+            if self.work > MAX_PRODUCTS {
                 return Value::Unknown;
             }
             new.insert(id, value);
@@ -447,7 +447,7 @@ fn products<'v>(graph: &Graph, id: Id, value: &Value, of: impl Fn(Id) -> &'v Val
     let terms: usize = operands.sum();
     match graph.node(id) {
         Node::Sum(..) | Node::Total(..) => 1 + terms,
-        _ => 1 + terms * value.size() * MOST_POWERS,
+        _ => 1 + terms * value.size() * MAX_POWERS,
     }
 }
 

@@ -10,9 +10,9 @@ use crate::graph::{Number, integer};
 /// Terms from this exponent on are dropped.
 const LAST: i64 = 8;
 /// The largest number of terms.
-const MOST_TERMS: usize = 40;
+const MAX_TERMS: usize = 40;
 /// The largest number of terms of the series of a function.
-pub(super) const MOST_POWERS: usize = 16;
+pub(super) const MAX_POWERS: usize = 16;
 /// A coefficient below this, relative to the terms that it is the sum of, counts as zero.
 const ROUNDING: f64 = 1e-13;
 
@@ -83,7 +83,7 @@ impl Series {
         }
         sums.retain(|_, sum| !sum.is_zero());
         let last = sums.keys().find(|&exponent| *exponent >= integer(LAST));
-        let last = last.or_else(|| sums.keys().nth(MOST_TERMS)).cloned();
+        let last = last.or_else(|| sums.keys().nth(MAX_TERMS)).cloned();
         if let Some(last) = last {
             order = Some(order.map_or(last.clone(), |order| order.min(last)));
         }
@@ -183,7 +183,7 @@ impl Series {
     /// `Σ f_j δʲ` for this series δ, which vanishes at τ = 0.
     fn inserted(&self, coefficient: impl Fn(usize) -> f64) -> Self {
         let (mut sum, mut power) = (Series::default(), Series::line(1.0, 0.0));
-        for j in 0..=MOST_POWERS {
+        for j in 0..=MAX_POWERS {
             sum = sum.add(&power.times(coefficient(j)));
             power = power.multiply(self);
             if power.terms.is_empty() {
@@ -368,7 +368,7 @@ impl Value {
             Ln => match self {
                 Value::Series(series) => match series.terms().next() {
                     Some((exponent, _)) if exponent.is_zero() => self.function(|x| {
-                        let terms = (1..=MOST_POWERS).map(|j| -(-x).powi(-(j as i32)) / j as f64);
+                        let terms = (1..=MAX_POWERS).map(|j| -(-x).powi(-(j as i32)) / j as f64);
                         std::iter::once(x.abs().ln()).chain(terms).collect()
                     }),
                     Some(_) => Value::Infinite,
@@ -410,7 +410,7 @@ impl Value {
 /// Derivatives divided by the factorials.
 fn divided(derivative: impl Fn(usize) -> f64) -> Vec<f64> {
     let mut factorial = 1.0;
-    let terms = (0..=MOST_POWERS).map(|j| {
+    let terms = (0..=MAX_POWERS).map(|j| {
         factorial *= j.max(1) as f64;
         derivative(j) / factorial
     });

@@ -251,14 +251,14 @@ fn convention(library: Library) -> String {
 /// The number of correct decimal places for an error.
 fn places(error: &BigRational) -> u32 {
     /// More than in any table.
-    const MOST: u32 = 200;
+    const MAX_PLACES: u32 = 200;
     let half = BigRational::new(BigInt::one(), 2.into());
     if error.is_zero() {
-        return MOST;
+        return MAX_PLACES;
     }
     let right =
         |places: u32| *error <= &half / BigRational::from_integer(BigInt::from(10).pow(places));
-    (1..=MOST)
+    (1..=MAX_PLACES)
         .take_while(|&places| right(places))
         .last()
         .unwrap_or(0)

@@ -138,8 +138,8 @@ fn class_order(found: &ClassOrder) -> Option<Fact> {
 }
 
 /// The most digits of a chain, and of one of its numbers: Python reads no longer ones.
-const MOST_DIGITS: usize = 1_000_000;
-const MOST_DIGITS_OF_NUMBER: usize = 4000;
+const MAX_DIGITS: usize = 1_000_000;
+const MAX_DIGITS_OF_NUMBER: usize = 4000;
 
 /// Sturm's chain of the polynomial that vanishes at `ν² ≠ 0` where the stages have no unique solution or the trace is 2 or −2; `None` if it
 /// is too long.
@@ -160,7 +160,7 @@ fn chain(stages: &Polynomial, numerator: &Polynomial, denominator: &Polynomial) 
         let numbers = f.numerators().iter();
         List(numbers.map(|c| Literal(c.to_string())).collect())
     };
-    let short = total <= MOST_DIGITS && longest <= MOST_DIGITS_OF_NUMBER;
+    let short = total <= MAX_DIGITS && longest <= MAX_DIGITS_OF_NUMBER;
     short.then(|| List(chain.iter().map(row).collect()))
 }
 

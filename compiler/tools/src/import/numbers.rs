@@ -243,7 +243,7 @@ impl Numbers {
         /// The allowed residual of a condition, in units of the largest error of a coefficient.
         const UNITS: i64 = 50;
         /// The highest order of conditions for every `H` that are evaluated: 4 116 at this order, five times as many at the next.
-        const MOST_GENERAL: usize = 7;
+        const MAX_GENERAL: usize = 7;
         let all = self.all();
         let error = all.iter().map(|value| &value.error).max();
         let error = error.cloned().unwrap_or_default() * ratio(UNITS, 1);
@@ -258,7 +258,7 @@ impl Numbers {
         let general = match self {
             // Without colours, alternating colours are all trees.
             Numbers::RungeKutta { momenta: None, .. } => separable.clone(),
-            _ => within(HamiltonianClass::General, MOST_GENERAL.min(separable.0 + 1)),
+            _ => within(HamiltonianClass::General, MAX_GENERAL.min(separable.0 + 1)),
         };
         [general, separable, nystrom]
     }

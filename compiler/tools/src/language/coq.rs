@@ -20,7 +20,7 @@ use symplectic_exact::polynomial::Polynomial;
 /// Wider lists have one item per line.
 const WIDEST: usize = 100;
 /// The greatest number of trees times the squares of the stages and of the field's degree; beyond it Coq would take minutes.
-const MOST_WORK: usize = 6_000_000;
+const MAX_WORK: usize = 6_000_000;
 
 pub(super) fn write(table: &Table<'_>) -> Result<String, Error> {
     let no_theorem = |reason| Error::from(ErrorKind::NoTheorem { reason });
@@ -260,7 +260,7 @@ fn affordable(class: HamiltonianClass, order: usize, each: usize) -> usize {
     while trees.order() < order {
         let next = trees.order() + 1;
         number += trees.count(next);
-        if number.saturating_mul(each) > MOST_WORK {
+        if number.saturating_mul(each) > MAX_WORK {
             break;
         }
         trees.grow(next);

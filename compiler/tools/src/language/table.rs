@@ -404,7 +404,7 @@ const KEYWORDS: &[&str] = &[
 ];
 
 /// The most letters of a name, less than the 63 of Fortran because more may follow.
-const MOST_LETTERS: usize = 40;
+const MAX_LETTERS: usize = 40;
 
 /// A name of letters, digits and single underscores that begins with a letter and is not a keyword.
 fn identifier(name: &str) -> String {
@@ -416,7 +416,7 @@ fn identifier(name: &str) -> String {
             found.push('_');
         }
     }
-    found.truncate(MOST_LETTERS);
+    found.truncate(MAX_LETTERS);
     let found = found.trim_end_matches('_');
     if found.starts_with(|c: char| c.is_ascii_alphabetic()) && !KEYWORDS.contains(&found) {
         found.to_owned()
@@ -444,6 +444,6 @@ mod tests {
         for keyword in ["lambda", "None", "end", "class"] {
             assert!(identifier(keyword).starts_with("method_"));
         }
-        assert_eq!(identifier(&"long".repeat(20)).len(), MOST_LETTERS);
+        assert_eq!(identifier(&"long".repeat(20)).len(), MAX_LETTERS);
     }
 }

@@ -45,7 +45,7 @@ pub enum SteppedClass {
 const DIGITS: usize = 17;
 
 /// The largest number of sweeps over coupled stages.
-const MOST_SWEEPS: usize = 100;
+const MAX_SWEEPS: usize = 100;
 
 impl Stepper {
     /// Writes a stepper. Without a class, it is for separable Hamiltonians if the method then consists of drifts and kicks, and
@@ -142,7 +142,7 @@ impl Stepper {
             Plan::Coupled(coupled) => {
                 template = notation.coupled;
                 stages = coupled.matrices[0].1.len().to_string();
-                sweeps = MOST_SWEEPS.to_string();
+                sweeps = MAX_SWEEPS.to_string();
                 values.extend([("stages", &stages[..]), ("sweeps", &sweeps)]);
                 ("tables", tables(notation, coupled, &names))
             }

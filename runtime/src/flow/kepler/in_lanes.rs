@@ -6,7 +6,7 @@ use super::stumpff;
 use crate::number::Lanes;
 
 /// The number of iterations in lanes; lanes that have not converged then are solved one at a time.
-const MOST: u32 = 6;
+const MAX_ITERATIONS: u32 = 6;
 
 /// The iteration is of order 6: after a smaller relative change the next iterate is exact up to rounding.
 const LAST_CHANGE: f64 = 1e-4;
@@ -39,7 +39,7 @@ pub(super) fn changes<L: Lanes>(orbit: &Orbit<L>, h: f64) -> Result<Change<L>, (
     } = *orbit;
     let zeta = orbit.zeta();
     let mut s = anomaly(beta, inverse, [radial, zeta], step);
-    let mut left = MOST;
+    let mut left = MAX_ITERATIONS;
     // A converged lane keeps its iterate until the last lane has converged.
     let ([g0, g1, g2, g3], change, unsettled) = loop {
         let psi = beta * s * s;

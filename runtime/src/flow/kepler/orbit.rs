@@ -22,7 +22,7 @@ pub(super) enum NoEnd {
 pub(super) type Change<T> = [T; 4];
 
 /// Periods after which half of the digits of the phase are lost; likewise the ratio of the terms of a sum to the sum.
-const MOST_PERIODS: f64 = (1_u64 << 26) as f64;
+const MAX_PERIODS: f64 = (1_u64 << 26) as f64;
 
 /// The ratio of the terms of a sum to the sum, up to which the sum has its digits.
 pub(super) const LARGEST_CANCELLATION: f64 = 6.0;
@@ -150,7 +150,7 @@ impl Orbit<f64> {
         let terms =
             distance * (1.0 + change[0].abs()) + g.abs() * libm::hypot(libm::hypot(x, y), z);
         // The position at the end has half of its digits, and all is finite.
-        let found = terms < end * MOST_PERIODS && change.iter().all(|x| x.is_finite());
+        let found = terms < end * MAX_PERIODS && change.iter().all(|x| x.is_finite());
         found.then_some(change).ok_or(NoEnd::NotFound)
     }
 
@@ -236,7 +236,7 @@ impl Orbit<f64> {
         }
         let period = self.period();
         let periods = Float::round(h / period);
-        if periods.abs() >= MOST_PERIODS {
+        if periods.abs() >= MAX_PERIODS {
             return Err(NoEnd::Periods(periods.abs()));
         }
         Ok(if periods == 0.0 {

@@ -4,7 +4,7 @@ use super::stumpff;
 use crate::number::Scalar;
 
 /// The maximum number of iterations: each halves the previous change, and this exceeds the number of bits and exponents.
-const MOST: u32 = 1200;
+const MAX_ITERATIONS: u32 = 1200;
 
 /// A point of an orbit: the distance r with its derivatives by the universal anomaly s, and β. The derivative of the time is r.
 #[derive(Clone, Copy, Debug)]
@@ -92,7 +92,7 @@ impl Path {
         }
         let mut s = low + (high - low) / 2.0;
         let mut before = high - low;
-        for _ in 0..MOST {
+        for _ in 0..MAX_ITERATIONS {
             let (late, slope, _) = at(s);
             if late < 0.0 {
                 low = s;

@@ -37,7 +37,7 @@ const ERROR: f64 = 1e-8;
 const CONDITION: f64 = 1e6;
 
 /// Largest number of stages: the condition of larger matrices is too bad.
-const MOST_STAGES: usize = 64;
+const MAX_STAGES: usize = 64;
 
 /// Maximum number of sweeps of the eigenvalue iteration, for each row.
 const SWEEPS: usize = 100;
@@ -45,7 +45,7 @@ const SWEEPS: usize = 100;
 impl Decoupling {
     /// Decouples stages with the coefficients `a_ij` and `ã_ij`; `None` if that is impossible or loses too many digits.
     pub fn new(a: &[Vec<f64>], a_tilde: &[Vec<f64>], separable: bool) -> Option<Self> {
-        if a.len().max(a_tilde.len()) > MOST_STAGES {
+        if a.len().max(a_tilde.len()) > MAX_STAGES {
             return None;
         }
         if separable {

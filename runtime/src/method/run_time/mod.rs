@@ -13,7 +13,7 @@ use core::fmt::Write as _;
 pub use error::TableauError;
 pub use plan::{RunTimePlan, RunTimeStages};
 use schedule::NO_STAGES;
-pub(crate) use schedule::{Coupled, Half, Kind, MOST, Row, Schedule, Splitting};
+pub(crate) use schedule::{Coupled, Half, Kind, MAX_EVALUATIONS, Row, Schedule, Splitting};
 
 use crate::method::{ConstrainedStep, Method, Orders, ProvedFor};
 use crate::number::{Coefficient, Coefficients};

@@ -76,7 +76,7 @@ pub struct Half {
 pub type Row = Vec<(usize, f64)>;
 
 /// Maximum number of evaluations whose increments are extrapolated, as in emitted methods.
-pub const MOST: usize = 16;
+pub const MAX_EVALUATIONS: usize = 16;
 
 /// Distinct evaluations of both halves with their matrices.
 struct Graph {
@@ -331,7 +331,7 @@ fn extrapolation(evaluations: &[Evaluation]) -> Vec<Vec<f64>> {
         .map(|evaluation| evaluation.time)
         .collect();
     let are_apart = |i: usize| times[..i].iter().all(|time| *time != times[i]);
-    if times.len() > MOST || !(0..times.len()).all(are_apart) {
+    if times.len() > MAX_EVALUATIONS || !(0..times.len()).all(are_apart) {
         return Vec::new();
     }
     let lagrange = |j: usize, x: f64| {

@@ -11,7 +11,7 @@ use crate::integrator::last_step::LastEvent;
 use crate::output::at_times::Output;
 
 /// Largest number of events in a row that follow each other within [`SHORTEST`].
-const MOST_IN_A_ROW: u32 = 1000;
+const MAX_IN_A_ROW: u32 = 1000;
 
 /// A flight shorter than this, relative to the step, does not end a row of events.
 const SHORTEST: f64 = 1.0 / 16_384.0;
@@ -299,7 +299,7 @@ impl<'e, E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'e, E, S> {
         {
             let near = |last: &LastEvent| (time - last.time).abs() <= SHORTEST * step.abs();
             let count = self.last.filter(near).map_or(0, |last| last.count);
-            if next.unseen || count == MOST_IN_A_ROW {
+            if next.unseen || count == MAX_IN_A_ROW {
                 let value = self.events.value(index, &self.shown);
                 let failed = match self.events.kind(index).wall && value < 0.0 {
                     true => Error::BehindWall { time, index, value },

@@ -23,10 +23,10 @@ const NOISY: f64 = 16.0;
 const FLOOR: f64 = 0.25;
 
 /// Maximal number of noise measurements in one attempt.
-const MOST_MEASUREMENTS: u32 = 4;
+const MAX_MEASUREMENTS: u32 = 4;
 
 /// Maximal number of sweeps of an attempt with the derivatives at one point, if those at every stage are available.
-pub(super) const MOST_SWEEPS: u32 = 16;
+pub(super) const MAX_SWEEPS: u32 = 16;
 
 /// Steps that use the derivatives at every stage after a step that needed them.
 const STEPS_IN_FULL: u32 = 16;
@@ -148,7 +148,7 @@ where
             // The noise with derivatives at one point may be larger than necessary.
             let may_be_noise = !attempt.gives_up || is_within(settling::<Separable>(&change));
             let is_noise = is_within(settling::<T::Class>(&change))
-                || may_be_noise && history.may_be_noise() && measurements < MOST_MEASUREMENTS && {
+                || may_be_noise && history.may_be_noise() && measurements < MAX_MEASUREMENTS && {
                     measurements += 1;
                     work.evaluations += 2 * sweeps.evaluations();
                     let [q, p] = sweeps.noise()?;
@@ -164,7 +164,7 @@ where
                 once_more = true;
             }
         }
-        let is_late = iteration >= MOST_SWEEPS || history.progress.slow >= SLOW;
+        let is_late = iteration >= MAX_SWEEPS || history.progress.slow >= SLOW;
         let is_far = settling::<T::Class>(&change) > ROUNDING * V::Scalar::EPSILON;
         if attempt.gives_up && (is_late && is_far || sweeps.is_slow()) {
             return Err(history.failure(iteration));

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use num_traits::Zero;
 
 use super::coefficients::{HalfCoefficients, StageCoefficients};
-use super::convergence::{Attempt, MOST_SWEEPS, size};
+use super::convergence::{Attempt, MAX_SWEEPS, size};
 use super::every_stage::{EveryStage, NOT_FINITE};
 use super::linear_solver::{Coupling, LinearSolver};
 use super::memory::{NewtonMemory, Workspace, rows};
@@ -523,7 +523,7 @@ where
         let forecast = num_traits::Float::ln(ROUNDING * V::Scalar::EPSILON / size)
             / num_traits::Float::ln(contraction);
         let is_bad =
-            contraction >= 1.0 || f64::from(self.sweeps) + forecast > f64::from(MOST_SWEEPS);
+            contraction >= 1.0 || f64::from(self.sweeps) + forecast > f64::from(MAX_SWEEPS);
         if is_bad && self.since > 1 {
             self.slow = self.renewed;
             self.renewed = true;

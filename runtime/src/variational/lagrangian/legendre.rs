@@ -139,7 +139,7 @@ pub(super) fn velocity_near<L: Lagrangian>(
         }
         stalled +=
             u32::from(changed <= STATIONARY * size && changed > last / 2.0 && changed < 2.0 * last);
-        if changed <= 4.0 * f64::EPSILON * size || stalled == MOST_STALLED {
+        if changed <= 4.0 * f64::EPSILON * size || stalled == MAX_STALLED {
             return Ok(velocity);
         }
         last = changed;
@@ -150,6 +150,6 @@ pub(super) fn velocity_near<L: Lagrangian>(
 /// Changes below this, relative to the velocity, that no longer decrease are rounding errors of `∂L/∂v`.
 const STATIONARY: f64 = 1e-9;
 /// Number of such changes after which the iteration has stagnated.
-const MOST_STALLED: u32 = 4;
+const MAX_STALLED: u32 = 4;
 /// Maximum number of iterations and halvings together.
 const MAX_ITERATIONS: u32 = 1000;

@@ -10,10 +10,10 @@ use symplectic_tests::peers::{Equations, dop853};
 
 /// Largest number of steps of a peer with step size control, about a second; beyond it the run counts as failed. No
 /// problem here needs that many, but in a close encounter a loose tolerance leads to ever shorter steps.
-const MOST_STEPS: usize = 500_000;
+const MAX_STEPS: usize = 500_000;
 
 /// Largest number of steps of a peer with a given step size.
-const MOST_EQUAL_STEPS: usize = 100_000_000;
+const MAX_EQUAL_STEPS: usize = 100_000_000;
 
 /// A start with `N` components, as an array for the peers.
 struct Begin<V, const M: usize> {
@@ -92,7 +92,7 @@ where
     let ladder = Ladder::Descend { first: step_size };
     let name = "Forest–Ruth (diff-equations)";
     problem.peer(name, ladder, move |step_size, _observe| {
-        let method = SymplecticIntegrator::ruth_forest(step_size).max_steps(MOST_EQUAL_STEPS);
+        let method = SymplecticIntegrator::ruth_forest(step_size).max_steps(MAX_EQUAL_STEPS);
         let problem = IVP::hamiltonian(&equations, 0.0, begin.end, begin.values).method(method);
         let solution = problem.t_eval([begin.end]).solve();
         finish(&begin, solution.map_err(|error| format!("{error:?}"))?)
@@ -110,7 +110,7 @@ where
     V: Vector<Scalar = f64>,
     S: symplectic::System<SVector<f64, N>>,
 {
-    let (start, most_steps) = (begin.values, MOST_STEPS as u32);
+    let (start, most_steps) = (begin.values, MAX_STEPS as u32);
     let mut solver = dop853(equations, start, begin.end, tolerance, most_steps);
     let statistics = solver.integrate().map_err(|error| error.to_string())?;
     if let Some(observe) = observe {
@@ -141,7 +141,7 @@ where
     let method = ExplicitRungeKutta::dop853()
         .rtol(tolerance)
         .atol(tolerance)
-        .max_steps(MOST_STEPS);
+        .max_steps(MAX_STEPS);
     let problem = IVP::ode(equations, 0.0, begin.end, begin.values).method(method);
     let solution = problem.t_eval([begin.end]).solve();
     finish(begin, solution.map_err(|error| format!("{error:?}"))?)

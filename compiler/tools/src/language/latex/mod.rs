@@ -8,7 +8,7 @@ use self::legend::Legend;
 use super::table::{Entry, Table, comments};
 
 /// For methods with more stages, drifts and kicks in two columns replace the matrices.
-const MOST_COLUMNS: usize = 8;
+const MAX_COLUMNS: usize = 8;
 /// The digits in a line of text: 345 pt in the class `article`, 5 pt each.
 const LINE: f64 = 69.0;
 
@@ -17,7 +17,7 @@ pub(super) fn write(table: &Table<'_>) -> String {
     let halves = halves(table, &mut legend);
     let widths: Vec<f64> = halves.iter().map(Half::width).collect();
     let wide = widths.iter().any(|&width| width > LINE);
-    let many = table.tableau.stages() > MOST_COLUMNS;
+    let many = table.tableau.stages() > MAX_COLUMNS;
     let mut legend_of_flows = Legend::new(table);
     let flows = flows(table, &mut legend_of_flows).filter(|_| wide || many);
     if flows.is_some() {

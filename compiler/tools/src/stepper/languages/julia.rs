@@ -110,7 +110,7 @@ pub(super) const FORMULAS: Formulas = Formulas {
         "B_TILDE",
         "Base",
         "C",
-        "MOST_SWEEPS",
+        "MAX_SWEEPS",
         "MU",
         "MU_TILDE",
         "STAGES",

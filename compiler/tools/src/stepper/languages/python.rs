@@ -86,7 +86,7 @@ pub(super) const FORMULAS: Formulas = Formulas {
         "B",
         "B_TILDE",
         "C",
-        "MOST_SWEEPS",
+        "MAX_SWEEPS",
         "MU",
         "MU_TILDE",
         "STAGES",

@@ -26,7 +26,7 @@
 #include <stddef.h>
 
 enum { GAUSS_2_OK, GAUSS_2_NOT_FINITE, GAUSS_2_DOES_NOT_CONVERGE };
-enum { GAUSS_2_STAGES = 2, GAUSS_2_MOST_SWEEPS = 100 };
+enum { GAUSS_2_STAGES = 2, GAUSS_2_MAX_SWEEPS = 100 };
 
 /* Doubles of memory in n dimensions. */
 #define GAUSS_2_DOUBLES(n) ((5 + 4 * GAUSS_2_STAGES) * (n))
@@ -147,7 +147,7 @@ static inline int gauss_2_step(gauss_2_state *s, const gauss_2_system *system, d
         if (moved >= least) stalled++;
         if (moved == 0.0 || (stalled >= 2 && fmin(moved_q, moved_p) <= 64.0 * DBL_EPSILON)) break;
         least = fmin(least, moved);
-        if (++sweeps == GAUSS_2_MOST_SWEEPS) return GAUSS_2_DOES_NOT_CONVERGE;
+        if (++sweeps == GAUSS_2_MAX_SWEEPS) return GAUSS_2_DOES_NOT_CONVERGE;
     }
     for (size_t k = 0; k < GAUSS_2_STAGES; k++) {
         for (size_t i = 0; i < s->n; i++) {

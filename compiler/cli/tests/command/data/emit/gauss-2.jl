@@ -18,7 +18,7 @@
 module Gauss2
 
 const STAGES = 2
-const MOST_SWEEPS = 100
+const MAX_SWEEPS = 100
 const C = [
     0.2113248654051871, # 1/2 - sqrt(3)/6 = 0.21132486540518712
     0.7886751345948129, # 1/2 + sqrt(3)/6 = 0.78867513459481288
@@ -84,7 +84,7 @@ function step!(s::State, velocity!, force!, t, h)
         end
         least = min(least, moved)
         sweeps += 1
-        sweeps == MOST_SWEEPS && return :does_not_converge
+        sweeps == MAX_SWEEPS && return :does_not_converge
     end
     for k in 1:STAGES, i in eachindex(s.q)
         s.q[i], s.q_low[i] = add(s.q[i], s.q_low[i], s.drift[k][i])

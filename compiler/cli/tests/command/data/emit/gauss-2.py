@@ -18,7 +18,7 @@ import math
 import sys
 
 STAGES = 2
-MOST_SWEEPS = 100
+MAX_SWEEPS = 100
 C = [
     0.2113248654051871,  # 1/2 - sqrt(3)/6 = 0.21132486540518712
     0.7886751345948129,  # 1/2 + sqrt(3)/6 = 0.78867513459481288
@@ -84,7 +84,7 @@ def step(state, velocity, force, t, h):
             break
         least = min(least, moved)
         sweeps += 1
-        if sweeps == MOST_SWEEPS:
+        if sweeps == MAX_SWEEPS:
             raise DoesNotConverge("the stages do not converge: take a smaller step")
     for k in range(STAGES):
         for i in range(len(state.q)):

@@ -35,7 +35,7 @@ pub enum Failure {
 }
 
 const STAGES: usize = 2;
-const MOST_SWEEPS: usize = 100;
+const MAX_SWEEPS: usize = 100;
 
 const C: [f64; STAGES] = [
     0.2113248654051871, // 1/2 - sqrt(3)/6 = 0.21132486540518712
@@ -97,7 +97,7 @@ impl<const N: usize> State<N> {
             }
             least = least.min(moved);
             sweeps += 1;
-            if sweeps == MOST_SWEEPS {
+            if sweeps == MAX_SWEEPS {
                 return Err(Failure::DoesNotConverge);
             }
         };
