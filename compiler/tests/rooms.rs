@@ -103,6 +103,19 @@ fn of_list(list: &str) -> Vec<String> {
     found
 }
 
+/// The names after as many `super::` as lead from a file to the root.
+fn through_super(file: &str, text: &str) -> Vec<String> {
+    let depth = file.trim_end_matches("/mod.rs").split('/').count();
+    let path = "super::".repeat(depth);
+    let code = text.split("#[cfg(test)]\nmod tests {").next();
+    let code = code.unwrap_or(text).lines();
+    let code = code.filter(|line| !line.trim_start().starts_with("//"));
+    let starts = code.flat_map(|line| line.match_indices(&path).map(move |(at, _)| &line[at..]));
+    let names = starts.map(|rest| rest[path.len()..].trim_start_matches('{'));
+    let names = names.filter(|rest| !rest.starts_with("super::"));
+    names.map(name).collect()
+}
+
 /// What is wrong with the imports of a file in a room.
 fn faults(file: &str, text: &str) -> Vec<String> {
     let room = file.split(['/', '.']).next().unwrap_or(file);
@@ -112,7 +125,9 @@ fn faults(file: &str, text: &str) -> Vec<String> {
         None => true,
         Some(level) => import != room && level >= own && !together(import),
     };
-    let wrong = imports(text).into_iter().filter(wrong);
+    let mut all = imports(text);
+    all.extend(through_super(file, text));
+    let wrong = all.into_iter().filter(wrong);
     wrong
         .map(|import| format!("{file} imports crate::{import}"))
         .collect()
@@ -149,6 +164,12 @@ fn an_import_that_runs_up_is_found() {
     assert_eq!(count("order/mod.rs", "    crate::Limits::default()"), 1);
     let list = "use crate::{\n    Definition,\n    error::{Error, ErrorKind},\n    tableau,\n};";
     assert_eq!(count("order/mod.rs", list), 2);
+    // By way of the parents.
+    assert_eq!(count("order/mod.rs", "use super::tableau::Tableau;"), 1);
+    assert_eq!(count("order/tree.rs", "use super::tableau::Tableau;"), 0);
+    let twice = "use super::super::tableau::Tableau;";
+    assert_eq!(count("order/tree.rs", twice), 1);
+    assert_eq!(count("basis.rs", "use super::emit;"), 1);
     // The one pair that needs each other.
     assert_eq!(count("symbolic/zero.rs", "use crate::algebra::Field;"), 0);
     assert_eq!(

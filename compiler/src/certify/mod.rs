@@ -51,29 +51,43 @@ mod splitting;
 mod structure;
 mod system;
 
-pub use affine::Affine;
-pub use certificate::Enclosed;
 pub use certificate::{Certificate, Fixed};
 pub use conditions::{Claim, Condition, Conditions, MAX_ORDER, MAX_PERTURBED_ORDER};
 pub use digits::Digits;
 pub use error::CertifyError;
-pub use linear::inverse;
-pub use linear::middle;
 pub(crate) use lyndon::split_lyndon;
 pub use lyndon::{Alphabet, Word};
-pub use lyndon::{DRIFT, KICK};
-pub use minimax::{Best, Row, minimax};
-pub use newton::{Equations, Square};
-pub use printed::decimal_text;
 pub use printed::{MAX_DIGITS, Printed};
-pub use proof::Proof;
-pub use search::PROOF_BITS;
 pub use search::{certify, certify_composition};
-pub use selection::pivots;
-pub use settle::{Settled, settle};
 pub use splitting::{MAX_STAGES, Splitting};
 pub use structure::{Coefficient, Structure};
+
+// What `symplectic-tools` needs: see `crate::inside`.
+#[doc(hidden)]
+pub use affine::Affine;
+#[doc(hidden)]
+pub use certificate::Enclosed;
+#[doc(hidden)]
+pub use linear::{inverse, middle};
+#[doc(hidden)]
+pub use lyndon::{DRIFT, KICK};
+#[doc(hidden)]
+pub use minimax::{Best, Row, minimax};
+#[doc(hidden)]
+pub use newton::{Equations, Square};
+#[doc(hidden)]
+pub use printed::decimal_text;
+#[doc(hidden)]
+pub use proof::Proof;
+#[doc(hidden)]
+pub use search::PROOF_BITS;
+#[doc(hidden)]
+pub use selection::pivots;
+#[doc(hidden)]
+pub use settle::{Settled, settle};
+#[doc(hidden)]
 pub use structure::{Target, Unknown};
+#[doc(hidden)]
 pub use system::{Kind, Step, System};
 
 #[cfg(test)]

@@ -383,12 +383,23 @@ impl Problem {
                 known.get_or_init(|| exact)
             }
         };
-        Ok(match (self.exchange, self.adjoint) {
+        Ok(self.of_construction(exact))
+    }
+
+    /// The coefficients, if they have been derived.
+    pub fn known_exact(&self) -> Option<Arc<Exact>> {
+        let exact = self.construction.exact.get()?;
+        Some(self.of_construction(exact))
+    }
+
+    /// The coefficients, from those of the construction.
+    fn of_construction(&self, exact: &Arc<Exact>) -> Arc<Exact> {
+        match (self.exchange, self.adjoint) {
             (false, false) => Arc::clone(exact),
             (true, false) => Arc::new((**exact).clone().exchanged()),
             (false, true) => Arc::new(exact.adjoint()),
             (true, true) => Arc::new((**exact).clone().exchanged().adjoint()),
-        })
+        }
     }
 }
 

@@ -206,12 +206,13 @@ mod tests {
     use crate::catalogue;
     use crate::schedule::Class;
 
-    /// Every pair of complementary coefficients of every symplectic method whose weights are nonzero.
-    fn pairs(mut check: impl FnMut(&str, Fraction<'_>, Rounded, Fraction<'_>, Rounded)) -> usize {
+    /// Every pair of complementary coefficients of every symplectic method with so many stages whose weights are nonzero.
+    fn pairs(
+        stages: usize,
+        mut check: impl FnMut(&str, Fraction<'_>, Rounded, Fraction<'_>, Rounded),
+    ) -> usize {
         let mut methods = 0;
-        // At most the number of stages that the macros take.
-        let usual = |entry: &catalogue::Entry| entry.stages <= crate::Limits::default().stages;
-        for entry in catalogue::entries().filter(usual) {
+        for entry in catalogue::entries().filter(|entry| entry.stages <= stages) {
             let tableau = entry.derive().expect("derived");
             let numbers = tableau.numbers();
             let known = Known::new(&tableau);
@@ -241,10 +242,14 @@ mod tests {
         methods
     }
 
-    #[test]
-    #[ignore = "thorough"]
-    fn rounded_methods_are_symplectic_exactly() {
-        let methods = pairs(|name, _, mu, _, mu_tilde| {
+    /// The number of stages that the macros take.
+    fn usual() -> usize {
+        crate::Limits::default().stages
+    }
+
+    /// Checks the methods with so many stages; returns their number.
+    fn symplectic(stages: usize) -> usize {
+        pairs(stages, |name, _, mu, _, mu_tilde| {
             assert_eq!(
                 exact(mu.double) + exact(mu_tilde.double),
                 ratio(1, 1),
@@ -253,14 +258,26 @@ mod tests {
             let [single, single_tilde] = [mu, mu_tilde].map(|mu| exact(mu.single.into()));
             assert_eq!(single + single_tilde, ratio(1, 1), "{name}");
             assert_eq!(mu.low, -mu_tilde.low, "{name}");
-        });
+        })
+    }
+
+    #[test]
+    fn rounded_methods_with_two_stages_are_symplectic_exactly() {
+        let methods = symplectic(2);
+        assert!(methods > 10, "{methods}");
+    }
+
+    #[test]
+    #[ignore = "thorough"]
+    fn rounded_methods_are_symplectic_exactly() {
+        let methods = symplectic(usual());
         assert!(methods > 100, "{methods}");
     }
 
     #[test]
     #[ignore = "thorough"]
     fn symplectic_rounding_moves_coefficients_by_at_most_a_unit() {
-        pairs(|name, fraction, mu, fraction_tilde, mu_tilde| {
+        pairs(usual(), |name, fraction, mu, fraction_tilde, mu_tilde| {
             let larger = mu.double.abs().max(mu_tilde.double.abs());
             for (fraction, mu) in [(fraction, mu), (fraction_tilde, mu_tilde)] {
                 let enclosure = quotient(fraction, 256).expect("a quotient");
@@ -276,7 +293,7 @@ mod tests {
     #[ignore = "thorough"]
     fn correctly_rounded_methods_are_not_symplectic() {
         let mut broken = 0;
-        pairs(|_, mu, _, mu_tilde, _| {
+        pairs(usual(), |_, mu, _, mu_tilde, _| {
             let [mu, mu_tilde] = [mu, mu_tilde].map(|mu| match mu.0.is_zero() {
                 true => 0.0,
                 false => round(mu).expect("rounded").double,

@@ -23,9 +23,11 @@ pub mod toml;
 pub use crate::expression::without_mark;
 pub use encoding::read_text;
 pub(crate) use entries::compare;
+#[doc(hidden)]
 pub use entries::first_line;
+#[doc(hidden)]
 pub use facts::{Fact, separable_only};
-pub use format::Format;
+pub(crate) use format::Format;
 
 /// The default number of significant digits of decimals in JSON and TOML.
 pub const DEFAULT_DIGITS: usize = 40;

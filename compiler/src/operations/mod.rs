@@ -33,10 +33,11 @@ impl Tableau {
             None => format!("{PREFIX}{name}"),
         };
         let exact = Arc::new(self.exact.adjoint());
-        let mut adjoint = match self.known_problem() {
-            Some(problem) => Tableau::of(problem.adjoint(), exact),
-            None => Tableau::read(self.provenance.definition.adjoint(), exact),
-        };
+        let definition = self.provenance.definition.adjoint();
+        let mut adjoint = Tableau::read(definition, exact);
+        if let Some(problem) = self.known_problem() {
+            adjoint = adjoint.with_problem(problem.adjoint());
+        }
         // The inverse of a map of order p with −h for h is one too.
         adjoint.given.clone_from(&self.given);
         adjoint.name = self.name().map(renamed);

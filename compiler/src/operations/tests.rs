@@ -5,11 +5,12 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::algebra::{Constants, Field};
+use crate::arithmetic::polynomial::Polynomial;
 use crate::evidence::Evidence;
 use crate::export::toml;
 use crate::expression::{Input, parse_list};
 use crate::order::OrderOptions;
-use crate::{Definition, Limits, Tier, check};
+use crate::{Basis, Definition, Limits, QuadratureRule, Tier, check};
 
 fn constant(text: &str) -> Constant {
     let input = Input { name: "test", text };
@@ -194,6 +195,61 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn definitions_of_a_composition_and_its_adjoint_derive_them_again() {
+    let (third, rest) = (constant("1/3"), constant("2/3"));
+    let exchanged = define(METHODS[3]);
+    let composition = Tableau::concatenate(&[(&third, &define(VERLET)), (&rest, &exchanged)]);
+    let composition = composition.expect("composed");
+    for tableau in [composition.adjoint(), composition] {
+        let derived = define(&tableau.provenance().definition.to_string());
+        assert_eq!(derived, tableau);
+        assert!(same(&derived, &tableau));
+        let written = toml::write(&tableau, 20);
+        assert_eq!(check("t.toml", &written, &Limits::default()), Ok(tableau));
+    }
+}
+
+/// The adjoint of a method from a file has the text of the file, whatever has been asked of the method before.
+#[test]
+fn the_adjoint_of_a_method_from_a_file_does_not_depend_on_what_was_read_before() {
+    let written = toml::write(&define(VERLET), 20);
+    let written = written.replace("\"polynomial(2)\"", "\"polynomial( 2 )\"");
+    let read = toml::read("t.toml", &written, &Limits::default()).expect("a file");
+    assert!(read.provenance().definition.to_string().contains("( 2 )"));
+    let before = read.adjoint();
+    read.scale(&constant("1/2")).expect("scaled");
+    assert_eq!(read.adjoint(), before);
+    assert_eq!(read.adjoint().adjoint(), read);
+}
+
+/// Two rules with one name: their methods are two methods.
+#[test]
+fn methods_with_equal_definitions_and_other_coefficients_are_two_parts() {
+    let method = |roots: [i64; 3]| {
+        let nodes = Polynomial::from_integers(&roots);
+        let rule = QuadratureRule::with_nodes("mine".to_owned(), &nodes).expect("nodes");
+        crate::derive_from(&Basis::monomials(2), &rule).expect("derived")
+    };
+    // t² − t + 3/16 = 0 and t² − t + 2/9 = 0.
+    let (one, other) = (method([3, -16, 16]), method([2, -9, 9]));
+    assert!(!one.has_coefficients_of(&other));
+    let half = constant("1/2");
+    for (next, count) in [(&other, 2), (&one, 1)] {
+        let both = Tableau::concatenate(&[(&half, &one), (&half, next)]).expect("composed");
+        assert_eq!(both.parts().expect("parts").methods.len(), count);
+    }
+}
+
+#[test]
+fn other_coefficients_have_proofs_of_their_own() {
+    let heun = define(METHODS[5]);
+    assert!(!heun.properties().symplectic.holds);
+    let gauss = define("basis: polynomial(2), nodes: gauss(2)");
+    let changed = heun.with_exact(gauss.exact().clone());
+    assert!(changed.properties().symplectic.holds);
 }
 
 #[test]

@@ -51,9 +51,10 @@ pub use modified::ModifiedTerm;
 pub(crate) use modified::modified_equation;
 pub use observed::Pendulum;
 pub(crate) use observed::observed_order;
-pub use perturbed::listed;
+pub(crate) use perturbed::listed;
 pub(crate) use perturbed::perturbed_order;
 pub use perturbed::{PerturbedOrder, PowerOrder, ViolatedWord};
+#[doc(hidden)]
 pub use plan::Plan;
 pub use report::{ClassOrder, OrderReport, ViolatedCondition};
 pub use simplifying::SimplifyingAssumptions;
@@ -61,6 +62,7 @@ pub(crate) use simplifying::simplifying_assumptions;
 pub(crate) use symplecticity::symplecticity_order;
 pub use symplecticity::{SymplecticityOrder, SymplecticityViolation};
 pub use tree::{BicolouredTree, Colour, TreeError};
+#[doc(hidden)]
 pub use weights::one_of_each_rooting;
 
 use num_rational::BigRational;

@@ -205,7 +205,7 @@ mod tests {
 
     /// The determinants of X of theory (Jay, 1996, and our own computation in 55 digits).
     #[test]
-    fn constraint_determinants_agree_with_the_literature() {
+    fn constraint_determinants_agree_with_known_digits() {
         for (definition, determinant) in [
             ("basis: polynomial(2), nodes: lobatto(2)", "0.5"),
             ("basis: polynomial(3), nodes: lobatto(3)", "0.0208333"),

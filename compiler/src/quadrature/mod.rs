@@ -124,10 +124,11 @@ impl QuadratureRule {
         })
     }
 
-    /// The interpolatory rule whose nodes are the roots of a polynomial.
+    /// The interpolatory rule whose nodes are the roots of a polynomial. Its `name` must be the text that is read as these nodes.
     ///
     /// # Errors
     /// Where the roots are not distinct reals in `[0, 1]`.
+    #[doc(hidden)]
     pub fn with_nodes(name: String, polynomial: &Polynomial) -> Result<Self, ErrorKind> {
         let algebra = Arc::new(NodeAlgebra::new(polynomial)?);
         if let Some(outside) = first_outside(&algebra) {

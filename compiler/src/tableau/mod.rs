@@ -88,9 +88,14 @@ impl Tableau {
 
     /// The method of a problem with the coefficients derived for it.
     pub(crate) fn of(problem: Problem, exact: Arc<Exact>) -> Self {
+        Tableau::read(problem.definition(), exact).with_problem(problem)
+    }
+
+    /// The same tableau with the problem that its definition gives.
+    pub(crate) fn with_problem(self, problem: Problem) -> Self {
         Tableau {
-            problem: OnceLock::from(Ok(problem.clone())),
-            ..Tableau::read(problem.definition(), exact)
+            problem: OnceLock::from(Ok(problem)),
+            ..self
         }
     }
 
@@ -130,6 +135,14 @@ impl Tableau {
     /// What it is derived from, if that has been read.
     pub(crate) fn known_problem(&self) -> Option<&Problem> {
         self.problem.get().and_then(|read| read.as_ref().ok())
+    }
+
+    /// Whether this may be the method of a problem with the same definition: as far as both have been derived, the coefficients are equal.
+    fn may_be(&self, problem: &Problem) -> bool {
+        match (&*self.exact, problem.known_exact().as_deref()) {
+            (Exact::Reals(_), Some(Exact::Reals(_))) | (_, None) => true,
+            (own, Some(other)) => own == other,
+        }
     }
 
     /// The methods and steps from which it is built, derived at the first call.
@@ -185,13 +198,14 @@ impl Tableau {
         &self.exact
     }
 
-    /// The same tableau with other coefficients.
+    /// A tableau with the same name, definition and source, and other coefficients. Nothing is known about them yet.
     #[doc(hidden)]
     #[must_use]
     pub fn with_exact(self, exact: Exact) -> Self {
         Tableau {
-            exact: Arc::new(exact),
-            ..self
+            name: self.name,
+            provenance: self.provenance.clone(),
+            ..Tableau::read(self.provenance.definition, Arc::new(exact))
         }
     }
 

@@ -35,7 +35,9 @@ impl Parts {
         let mut substeps = Vec::new();
         for Step { fraction, method } in problem.steps()?.unwrap_or_default() {
             let definition = method.definition();
-            let same = |known: &Tableau| known.provenance.definition == definition;
+            let same = |known: &Tableau| {
+                known.provenance.definition == definition && known.may_be(&method)
+            };
             let number = match methods.iter().position(same) {
                 Some(number) => number,
                 None => {

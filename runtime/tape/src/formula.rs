@@ -36,7 +36,8 @@ pub struct Tapes {
 }
 
 impl Tapes {
-    /// Differentiates a system and unrolls its loops. Friction damps momenta from the time `start` on.
+    /// Differentiates a system and unrolls its loops. Friction damps momenta from the time `start` on. The names of constraints are kept
+    /// until the program ends.
     ///
     /// # Errors
     ///
@@ -188,7 +189,8 @@ pub struct Formula<C, const FORCED: bool = false> {
 }
 
 impl<C, const FORCED: bool> Formula<C, FORCED> {
-    /// The system of one trajectory, with the parameters that vary between trajectories.
+    /// The system of one trajectory, with the parameters that vary between trajectories. Its class `C` must be that of the formula: for
+    /// `Separable`, H is T(p) + U(q) (`Structure::split`).
     pub fn new(tapes: Arc<Tapes>, parameters: Parameters) -> Self {
         Formula {
             tapes,

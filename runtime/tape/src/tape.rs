@@ -104,7 +104,7 @@ pub struct Tape {
     pub(crate) registers: usize,
 }
 
-/// The parameters that vary between trajectories.
+/// The parameters that vary between trajectories. Where one is missing it is NaN, and a step fails.
 #[derive(Debug, Clone)]
 pub struct Parameters(Held);
 
@@ -132,8 +132,11 @@ impl Parameters {
     #[inline(always)]
     fn get<T: Scalar>(&self, k: usize) -> T {
         match &self.0 {
-            Held::Own(numbers) => T::from_f64(numbers[k]),
-            Held::InLanes(numbers) => T::from_lanes(&numbers[k]),
+            Held::Own(numbers) => T::from_f64(numbers.get(k).copied().unwrap_or(f64::NAN)),
+            Held::InLanes(numbers) => match numbers.get(k) {
+                Some(numbers) => T::from_lanes(numbers),
+                None => T::from_f64(f64::NAN),
+            },
         }
     }
 

@@ -369,7 +369,7 @@ mod tests {
     }
 
     #[test]
-    fn only_quadratic_functions_of_nodes_of_degree_4_have_a_short_form() {
+    fn a_node_of_degree_4_has_no_short_form_and_a_quadratic_function_has() {
         // Gauss(4): z² = (3 ± 2√(6/5))/28 with z = x − 1/2.
         let m = Polynomial::from_integers(&[1, -20, 90, -140, 70]);
         let k = NodeAlgebra::new(&m).expect("nodes");

@@ -116,6 +116,16 @@ fn rootings_are_equivalent_for_symplectic_methods() {
     assert_eq!(text, "476 of 476\n");
 }
 
+/// Every digit of one certificate, and some of another, changed.
+#[test]
+fn the_checker_refutes_every_changed_digit_of_symplectic_euler() {
+    let arguments = "compiler/cli/tests/command/certificates/mutations.py tableaux all-of symplectic-euler sampled 97 saba-2";
+    let Some((_, text)) = python(&arguments.split_whitespace().collect::<Vec<_>>()) else {
+        return;
+    };
+    assert_eq!(text, "144 changes\n");
+}
+
 /// Every digit of ten certificates, and some of their tables and of other files, changed.
 #[test]
 #[ignore = "thorough"]
