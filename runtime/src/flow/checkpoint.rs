@@ -5,14 +5,15 @@ use super::memory::Memory;
 use super::{Flow, Span};
 use crate::integrator::clock::Clock;
 use crate::integrator::fingerprint::hash;
+use crate::integrator::last_step::LastEvent;
 use crate::integrator::{Checkpoint, CheckpointError};
 use crate::number::Vector;
 use crate::number::words::{Visit, Words, vector_words, words};
 use crate::state::State;
 
 impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
-    /// All that the run needs to [continue](Self::restore) from here with the same bits: state, step size, clock, last step, and the
-    /// [memory](Flow::memory) of the flow. See [`Checkpoint`].
+    /// All that the run needs to [continue](Self::restore) from here with the same bits: state, step size, clock, last step, last event, and
+    /// the [memory](Flow::memory) of the flow. See [`Checkpoint`].
     ///
     /// The flow itself is not stored. It is identified by a hash of a trial step from the present state; the trial changes nothing.
     ///
@@ -71,6 +72,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
             return Err(CheckpointError::OtherSystem);
         }
         (self.step_size, self.clock) = (saved.step_size, saved.clock);
+        self.last_event = saved.last_event;
         Ok(())
     }
 
@@ -78,6 +80,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
         Saved {
             step_size: self.step_size,
             clock: self.clock,
+            last_event: self.last_event,
             run_state: self.stepper.run_state.clone(),
         }
     }
@@ -107,6 +110,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowSteps<V, F> {
 struct Saved<V> {
     step_size: f64,
     clock: Clock,
+    last_event: Option<LastEvent>,
     run_state: RunState<V>,
 }
 
@@ -119,7 +123,7 @@ impl<V: Vector<Scalar = f64>> Words for Saved<V> {
             last,
             memory,
         } = &mut self.run_state;
-        words!(visit: *time, self.step_size, self.clock, statistics.steps, *last, *memory);
+        words!(visit: *time, self.step_size, self.clock, statistics.steps, *last, *memory, self.last_event);
         for vector in [q, p, &mut before.0, &mut before.1] {
             vector_words(core::slice::from_mut(vector), visit);
         }

@@ -3,8 +3,10 @@
 use super::memory::Memory;
 use super::{Flow, FlowError, Span};
 use crate::error::{Error, Quantity};
+#[cfg(feature = "alloc")]
+use crate::integrator::DenseSteps;
 use crate::integrator::validation::{check_state, check_step_size};
-use crate::integrator::{DenseSteps, Equal, Run, Statistics, Stepper};
+use crate::integrator::{Equal, Run, Statistics, Stepper};
 use crate::method::storage::is_finite;
 use crate::number::words::{Visit, Words, words};
 use crate::number::{Vector, copy};
@@ -158,6 +160,10 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> Stepper for FlowSteps<V, F> {
         &self.run_state.state
     }
 
+    fn into_state(self) -> State<V> {
+        self.run_state.state
+    }
+
     fn statistics(&self) -> &Statistics {
         &self.run_state.statistics
     }
@@ -214,6 +220,8 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> Stepper for FlowSteps<V, F> {
     }
 }
 
+/// Without memory of the flow, looks would change its random numbers.
+#[cfg(feature = "alloc")]
 impl<V: Vector<Scalar = f64>, F: Flow<V>> DenseSteps for FlowSteps<V, F> {
     type Vector = V;
     /// The present memory of the flow, during a shorter step.

@@ -142,8 +142,8 @@ pub enum CheckpointError {
 
 impl Checkpoint {
     /// The format of this version: a new number for every change of the order of the words of any run. Format 2: planets carry the
-    /// round-off of their centre of mass.
-    pub(super) const FORMAT: u32 = 2;
+    /// round-off of their centre of mass. Format 3: runs of a flow carry their last event.
+    pub(super) const FORMAT: u32 = 3;
 
     /// The method of a flow.
     const OF_FLOW: &str = "steps of a flow";

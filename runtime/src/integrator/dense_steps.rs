@@ -45,7 +45,7 @@ pub trait DenseSteps: Stepper<State = State<Self::Vector>> {
         out: &mut State<Self::Vector>,
     ) -> Result<(), Error>;
 
-    /// [`look`](Self::look) by a step of the method from the start of the last step.
+    /// [`look`](Self::look) by a step of the method from the start of the last step; it needs no preparation.
     ///
     /// # Errors
     ///
@@ -56,6 +56,7 @@ pub trait DenseSteps: Stepper<State = State<Self::Vector>> {
         scratch: &mut Self::Scratch,
         out: &mut State<Self::Vector>,
     ) -> Result<(), Error> {
+        self.prepare(scratch)?;
         self.look(time, scratch, out)
     }
 

@@ -1,7 +1,10 @@
 //! Who chooses the sizes of the steps.
 
 /// Who chooses the sizes of the steps of a [`Stepper`](super::Stepper): the run ([`Equal`]) or the stepper ([`Own`]).
-pub trait Pace: sealed::Sealed {}
+pub trait Pace: sealed::Sealed {
+    /// Whether the stepper chooses.
+    const OWN: bool;
+}
 
 /// The run chooses the sizes: all steps are equal.
 #[derive(Clone, Copy, Debug)]
@@ -11,8 +14,13 @@ pub struct Equal;
 #[derive(Clone, Copy, Debug)]
 pub struct Own;
 
-impl Pace for Equal {}
-impl Pace for Own {}
+impl Pace for Equal {
+    const OWN: bool = false;
+}
+
+impl Pace for Own {
+    const OWN: bool = true;
+}
 
 mod sealed {
     pub trait Sealed {}

@@ -346,6 +346,10 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Stepper
         &self.step_memory.state
     }
 
+    fn into_state(self) -> State<V> {
+        self.step_memory.state
+    }
+
     fn statistics(&self) -> &Statistics {
         &self.step_memory.statistics
     }

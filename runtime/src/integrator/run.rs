@@ -227,7 +227,7 @@ impl<S: Stepper> Run<S> {
         while remaining.left > 0 && seen.is_continue() {
             let passes = |state: &_, statistics: &_| sight.passes(state, statistics);
             match self.stepper.take_while(remaining, passes) {
-                Ok(true) => {}
+                Ok(true) => return Ok(ControlFlow::Continue(())),
                 Ok(false) => seen = sight.see(&mut self.stepper)?,
                 Err(error) => {
                     let (size, time) = (remaining.size, remaining.next_time());
@@ -263,7 +263,7 @@ impl<S: Stepper> Run<S> {
 
     /// Returns the present state and drops the run.
     pub fn into_state(self) -> S::State {
-        self.stepper.state().clone()
+        self.stepper.into_state()
     }
 
     /// The statistics of all steps so far.

@@ -84,6 +84,14 @@ pub trait Stepper {
     /// The present state.
     fn state(&self) -> &Self::State;
 
+    /// Returns the present state and drops the stepper.
+    fn into_state(self) -> Self::State
+    where
+        Self: Sized,
+    {
+        self.state().clone()
+    }
+
     /// The time of the present state.
     #[inline]
     fn time(&self) -> f64 {
@@ -142,7 +150,7 @@ pub trait Stepper {
         Ok(true)
     }
 
-    /// The approximate size of the next step, negative in a run backward, if the stepper has its [`Own`](super::Own) pace.
+    /// The approximate size of the next step, negative in a run backward; asked only of a stepper with its [`Own`](super::Own) pace.
     fn own_step_size(&self) -> Option<f64> {
         None
     }
@@ -167,7 +175,7 @@ pub(super) fn advance_in_time<S: Stepper + ?Sized>(
     size: f64,
     end: f64,
 ) -> Result<(), Error> {
-    if stepper.own_step_size().is_none() && end == stepper.time() {
+    if !S::Pace::OWN && end == stepper.time() {
         return Err(Error::TimeResolution {
             time: end,
             step_size: size,

@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 
 use crate::error::Error;
 use crate::integrator::clock::check_count;
-use crate::integrator::{DenseSteps, Run};
+use crate::integrator::{DenseSteps, Pace, Run};
 #[cfg(feature = "alloc")]
 use crate::number::registers::Work;
 #[cfg(feature = "alloc")]
@@ -50,7 +50,7 @@ impl<S: DenseSteps> Run<S> {
         let mut output = Output::new(&self.stepper, self.direction());
         output.show(&mut self.stepper, &mut rest, &mut observe)?;
         while let Some(&time) = rest.first() {
-            if self.stepper.own_step_size().is_none() {
+            if !S::Pace::OWN {
                 self.take_most_before(time)?;
             }
             self.step_shown_to(|stepper| output.show(stepper, &mut rest, &mut observe))?;
@@ -73,10 +73,10 @@ impl<S: DenseSteps> Run<S> {
     /// Checks the times of [`integrate_at`](Self::integrate_at).
     pub(crate) fn check_times(&self, times: &[f64]) -> Result<(), Error> {
         let end = check_times(self.direction(), times, self.start_of_last_step(), None)?;
-        match self.stepper.own_step_size() {
+        match S::Pace::OWN {
             // The number of steps is not known in advance.
-            Some(_) => Ok(()),
-            None => check_count(self.stepper.time(), end, self.step_size),
+            true => Ok(()),
+            false => check_count(self.stepper.time(), end, self.step_size),
         }
     }
 
@@ -87,7 +87,7 @@ impl<S: DenseSteps> Run<S> {
         end: f64,
         mut observe: impl FnMut(&S::State),
     ) -> Result<(), Error> {
-        if self.stepper.own_step_size().is_none() {
+        if !S::Pace::OWN {
             let ended = self.steps_to(end, |run, size, time| {
                 run.advance(size, time)?;
                 observe(run.state());
@@ -110,9 +110,10 @@ impl<S: DenseSteps> Run<S> {
         is_after(self.direction(), end, self.stepper.time())
     }
 
-    /// The sign of the step size.
+    /// A number with the sign of the steps: the approximate size of the next one.
     pub(crate) fn direction(&self) -> f64 {
-        self.stepper.own_step_size().unwrap_or(self.step_size)
+        let own = S::Pace::OWN.then(|| self.stepper.own_step_size());
+        own.flatten().unwrap_or(self.step_size)
     }
 
     /// Start time of the last step; the present time if there is no last step or it went in the other direction.
@@ -127,7 +128,7 @@ impl<S: DenseSteps> Run<S> {
 
 /// Whether `time` comes after `other` in the direction whose sign `direction` has.
 pub(crate) fn is_after(direction: f64, time: f64, other: f64) -> bool {
-    if direction > 0.0 {
+    if direction.is_sign_positive() {
         time > other
     } else {
         time < other

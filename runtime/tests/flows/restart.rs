@@ -1,8 +1,8 @@
 //! Runs of flows that are interrupted.
 
 use symplectic::flow::{Drift, FlowIntegrator, Kick, Palindrome};
-use symplectic::nalgebra::Vector2;
-use symplectic::{CheckpointError, Error, Integrator, State, acceleration};
+use symplectic::nalgebra::{Vector1, Vector2};
+use symplectic::{CheckpointError, Error, Event, Integrator, State, acceleration};
 
 use super::output::{Well, heated};
 use crate::common::methods::StoermerVerlet;
@@ -32,6 +32,26 @@ fn a_run_goes_on_with_the_same_bits() -> Result<(), Box<dyn std::error::Error>> 
             assert_eq!(other.integrate_to(7.0)?, whole.integrate_to(7.0)?);
             assert_eq!(other.steps(), whole.steps());
         }
+    }
+    Ok(())
+}
+
+/// A search from an event starts on it; a restored run knows.
+#[test]
+fn a_restored_run_does_not_find_the_last_event_again() -> Result<(), Box<dyn std::error::Error>> {
+    for seed in 0..20 {
+        let event = Event::rising(|state: &State<Vector1<f64>>| state.q[0]);
+        let mut whole = heated(seed)?;
+        let found = whole.find_event(50.0, &event)?.expect("a zero");
+        whole.set_state(found.clone())?;
+        let checkpoint = whole.checkpoint();
+        let mut resumed = heated(seed)?;
+        resumed.restore(&checkpoint)?;
+        assert_eq!(resumed.checkpoint(), checkpoint);
+        assert_eq!(
+            resumed.find_event(80.0, &event)?,
+            whole.find_event(80.0, &event)?
+        );
     }
     Ok(())
 }

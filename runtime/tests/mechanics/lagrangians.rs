@@ -311,19 +311,20 @@ impl Lagrangian for Bent {
     }
 }
 
+/// A vortex in the potential |q|²/2: L = (x y' − y x' − |q|²)/2.
+struct Vortex;
+impl Lagrangian for Vortex {
+    type Vector<T: Scalar> = V2<T>;
+
+    fn lagrangian<T: Scalar>(&self, _: T, q: &V2<T>, v: &V2<T>) -> T {
+        (q[0] * v[1] - q[1] * v[0] - q.dot(q)) * T::from_f64(0.5)
+    }
+}
+
 /// Silent before: Störmer–Verlet did not move, Lobatto methods and a nonlinear a cost the order, and any momentum was taken.
 #[test]
 #[ignore = "thorough"]
 fn steps_that_leave_primary_constraints_are_errors() -> Result<(), Error> {
-    /// A vortex in the potential |q|²/2: L = (x y' − y x' − |q|²)/2.
-    struct Vortex;
-    impl Lagrangian for Vortex {
-        type Vector<T: Scalar> = V2<T>;
-
-        fn lagrangian<T: Scalar>(&self, _: T, q: &V2<T>, v: &V2<T>) -> T {
-            (q[0] * v[1] - q[1] * v[0] - q.dot(q)) * T::from_f64(0.5)
-        }
-    }
     fn first_error<M: Method + ProvedFor<General>>(method: M) -> Option<Error> {
         let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.5]);
         let mut run = Run::new(method, Vortex, start.clone(), 0.1).expect("linear");
@@ -367,6 +368,26 @@ fn steps_that_leave_primary_constraints_are_errors() -> Result<(), Error> {
         Run::new(Gauss2, Vortex, off, 0.1).err(),
         Some(Error::PrimaryConstraint { component, value })
     );
+    Ok(())
+}
+
+#[test]
+fn a_run_refuses_a_state_off_its_primary_constraints() -> Result<(), Error> {
+    let on = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.5]);
+    let mut run = Run::new(Gauss2, Vortex, on.clone(), 0.1)?;
+    let off = State::from_arrays(0.0, [1.0, 0.0], [0.0, 7.0]);
+    assert_eq!(
+        run.set_state(off),
+        Err(Error::PrimaryConstraint {
+            component: 1,
+            value: 6.5
+        })
+    );
+    assert_eq!(run.state(), &on);
+    let expected = Run::new(Gauss2, Vortex, on.clone(), 0.1)?.step()?.clone();
+    assert_eq!(run.step()?, &expected);
+    run.set_state(on)?;
+    assert_eq!(run.step()?, &expected);
     Ok(())
 }
 

@@ -1,6 +1,7 @@
 //! The whole interface of a run, for every stepper: one row each.
 
 use core::fmt::Debug;
+use core::marker::PhantomData;
 use core::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -12,8 +13,8 @@ use symplectic::variational::{
     VariationalIntegrator,
 };
 use symplectic::{
-    DenseSteps, Equal, Error, Event, Integrator, Moment, PhasePoint, Retry, Run, Scalar, State,
-    Statistics, StepMap, Stepper, Vector, acceleration,
+    DenseSteps, Equal, Error, Event, Integrator, Moment, Own, Pace, PhasePoint, RemainingSteps,
+    Retry, Run, Scalar, State, Statistics, StepMap, Stepper, Vector, acceleration,
 };
 
 use crate::dirac::{Vortices, vortices_start};
@@ -300,6 +301,158 @@ fn every_run_that_can_be_followed_has_output_and_events() {
     followed_run("adaptive", || {
         Integrator::adaptive(Verlet, kepler(), DistancePower(1.5), start(), 0.1)
     });
+}
+
+/// A free particle with the pace `P`, by hand.
+#[derive(Clone)]
+struct Straight<P> {
+    state: State<Vector1<f64>>,
+    before: Option<State<Vector1<f64>>>,
+    statistics: Statistics,
+    /// What it says of its steps.
+    own: Option<f64>,
+    pace: PhantomData<P>,
+}
+
+fn straight<P: Pace>(size: f64, own: Option<f64>) -> Result<Run<Straight<P>>, Error> {
+    let stepper = Straight {
+        state: State::from_arrays(0.0, [0.0], [1.0]),
+        before: None,
+        statistics: Statistics::default(),
+        own,
+        pace: PhantomData,
+    };
+    Run::of(stepper, size)
+}
+
+impl<P: Pace> Stepper for Straight<P> {
+    type State = State<Vector1<f64>>;
+    type Pace = P;
+    type Saved = ();
+
+    fn state(&self) -> &Self::State {
+        &self.state
+    }
+
+    fn statistics(&self) -> &Statistics {
+        &self.statistics
+    }
+
+    fn statistics_mut(&mut self) -> &mut Statistics {
+        &mut self.statistics
+    }
+
+    fn set_state(&mut self, state: &Self::State) -> Result<(), Error> {
+        self.state = state.clone();
+        self.before = None;
+        Ok(())
+    }
+
+    fn advance(&mut self, size: f64, end: f64) -> Result<(), Error> {
+        let (size, end) = match P::OWN {
+            true => (0.1, self.state.time + 0.1),
+            false => (size, end),
+        };
+        self.before = Some(self.state.clone());
+        self.state.q += size * self.state.p;
+        self.state.time = end;
+        self.statistics.steps += 1;
+        Ok(())
+    }
+
+    /// Forgets to count the steps of the run.
+    fn take_while(
+        &mut self,
+        steps: &mut RemainingSteps,
+        mut goes_on: impl FnMut(&Self::State, &Statistics) -> bool,
+    ) -> Result<bool, Error> {
+        let mut copy = *steps;
+        while let Some((size, end)) = copy.next() {
+            self.advance(size, end)?;
+            copy.tick();
+            if !goes_on(&self.state, &self.statistics) {
+                *steps = copy;
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    fn own_step_size(&self) -> Option<f64> {
+        self.own
+    }
+
+    fn save(&self) {}
+
+    fn go_back(&mut self, _saved: &()) {}
+}
+
+impl<P: Pace> DenseSteps for Straight<P> {
+    type Vector = Vector1<f64>;
+    /// The time of the state before the step.
+    type Scratch = Option<f64>;
+
+    fn scratch(&self) -> Option<f64> {
+        None
+    }
+
+    fn last_span(&self) -> Option<(f64, f64)> {
+        Some((self.before.as_ref()?.time, self.state.time))
+    }
+
+    fn write_start(&self, out: &mut State<Vector1<f64>>) {
+        out.clone_from(self.before.as_ref().unwrap_or(&self.state));
+    }
+
+    fn prepare(&self, scratch: &mut Option<f64>) -> Result<(), Error> {
+        let before = self.before.as_ref().ok_or(Error::NoStep)?;
+        *scratch = Some(before.time);
+        Ok(())
+    }
+
+    fn look(
+        &mut self,
+        time: f64,
+        scratch: &mut Option<f64>,
+        out: &mut State<Vector1<f64>>,
+    ) -> Result<(), Error> {
+        self.write_start(out);
+        assert_eq!(*scratch, Some(out.time), "not prepared");
+        out.q += (time - out.time) * out.p;
+        out.time = time;
+        Ok(())
+    }
+
+    fn slopes(
+        &mut self,
+        state: &State<Vector1<f64>>,
+        _size: f64,
+        velocity: &mut Vector1<f64>,
+        force: &mut Vector1<f64>,
+    ) {
+        *velocity = state.p;
+        force.fill(0.0);
+    }
+}
+
+#[test]
+fn steppers_by_hand_that_can_be_followed_have_output_and_events() -> Result<(), Error> {
+    followed_run("equal", || straight::<Equal>(0.1, None));
+    followed_run("own", || straight::<Own>(1.0, Some(0.1)));
+    // The pace says who chooses the sizes, whatever the stepper says of them.
+    followed_run("equal, with a size", || straight::<Equal>(0.1, Some(-3.0)));
+    followed_run("own, without a size", || straight::<Own>(0.1, None));
+    // The end of a run with equal steps is exact.
+    let mut run = straight::<Equal>(0.1, Some(-3.0))?;
+    let never = Event::rising(|_: &State<_>| -1.0);
+    assert_eq!(run.find_event(1.05, &never)?, None);
+    assert_eq!((run.state().time, run.steps()), (1.05, 11));
+    // A size that has vanished still has a sign.
+    let mut run = straight::<Own>(1.0, Some(0.0))?;
+    let mut seen = Vec::new();
+    run.integrate_at(&[0.0, 0.05, 0.25], |state| seen.push(state.time))?;
+    assert_eq!(seen, [0.0, 0.05, 0.25]);
+    Ok(())
 }
 
 /// A particle that a wall at 0 repels, L = v²/2 − 1/√q; not a number behind the wall.

@@ -392,14 +392,14 @@ mod files {
         text.as_object_mut().expect("fields").remove("format");
         text["checksum"] = checksum(&text).into();
         assert!(read(&text)?.is_ok());
-        text["format"] = 3.into();
+        text["format"] = 4.into();
         text["checksum"] = checksum(&text).into();
         let Err(error) = read(&text)? else {
             panic!("a later format");
         };
         let error = error.to_string();
         assert!(
-            error.starts_with("the checkpoint has format 3 and was written by version 0.0.9"),
+            error.starts_with("the checkpoint has format 4 and was written by version 0.0.9"),
             "{error}"
         );
         Ok(())

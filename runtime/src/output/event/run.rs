@@ -7,7 +7,7 @@ use super::search::{Search, Stop};
 use super::{Event, Moment};
 use crate::error::Error;
 use crate::integrator::sight::Sight;
-use crate::integrator::{DenseSteps, Run, Statistics};
+use crate::integrator::{DenseSteps, Pace, Run, Statistics};
 use crate::output::at_times::{check_times, is_after};
 
 impl<S: DenseSteps> Run<S> {
@@ -118,13 +118,12 @@ impl<S: DenseSteps> Run<S> {
         events: &E,
         mut handle: F,
     ) -> Result<Option<B>, Error> {
-        let own_pace = self.stepper.own_step_size().is_some();
-        if own_pace && !end.is_finite() {
+        if S::Pace::OWN && !end.is_finite() {
             return Err(Error::EndTime { value: end });
         }
         let (present, step) = (self.stepper.time(), self.size_to(end));
         // A stepper with its own pace may be beyond the end.
-        let before = match own_pace {
+        let before = match S::Pace::OWN {
             true => self.start_of_last_step(),
             false => present,
         };
@@ -143,7 +142,7 @@ impl<S: DenseSteps> Run<S> {
                         search: &mut search,
                         handle: &mut handle,
                     };
-                    match own_pace {
+                    match S::Pace::OWN {
                         true => self.pass_in_sight(end, &mut searching),
                         false => self.integrate_in_sight(end, &mut searching),
                     }
@@ -190,8 +189,10 @@ impl<S: DenseSteps> Run<S> {
 
     /// Approximate size of the next step towards `end`.
     fn size_to(&self, end: f64) -> f64 {
-        let equal = || self.step_size.abs().copysign(end - self.stepper.time());
-        self.stepper.own_step_size().unwrap_or_else(equal)
+        match S::Pace::OWN {
+            true => self.direction(),
+            false => self.step_size.abs().copysign(end - self.stepper.time()),
+        }
     }
 }
 

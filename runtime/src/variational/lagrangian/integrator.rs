@@ -399,7 +399,14 @@ impl<L: Lagrangian> Stepper for LagrangianSteps<L> {
 
     /// Newton's iteration begins where it began in the first step of this stepper.
     fn set_state(&mut self, state: &Self::State) -> Result<(), Error> {
-        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
+        let State { time, q, p } = state;
+        check_state(*time, q, p, self.state.q.dimension())?;
+        if let Some(constraint) = &mut self.constraint
+            && let Some((component, value)) =
+                constraint.violation_at_start(&self.lagrangian, *time, q, p)
+        {
+            return Err(Error::PrimaryConstraint { component, value });
+        }
         self.state.copy_from(state);
         self.stages.forget();
         self.action = None;

@@ -50,6 +50,22 @@ impl<L: Lagrangian> LinearConstraint<L> {
         }))
     }
 
+    /// [`violation`](Self::violation) at a new start, as if there had been no terms before; a violation changes nothing.
+    pub(super) fn violation_at_start(
+        &mut self,
+        lagrangian: &L,
+        time: f64,
+        q: &L::Vector<f64>,
+        p: &L::Vector<f64>,
+    ) -> Option<(usize, f64)> {
+        let before = core::mem::take(&mut self.size);
+        let found = self.violation(lagrangian, time, q, p);
+        if found.is_some() {
+            self.size = before;
+        }
+        found
+    }
+
     /// The component in which `p` deviates most from `a(q)`, and the deviation; `None` if it is a rounding error.
     pub(super) fn violation(
         &mut self,
