@@ -19,11 +19,11 @@ where
     R: Summation,
     N: Solver<V, S>,
 {
-    /// All that the run needs to [continue](Self::restore) from here with the same bits: see [`Checkpoint`].
+    /// All that the run needs to [continue](crate::adaptive::Adaptive#method.restore) from here with the same bits: see [`Checkpoint`].
     ///
     /// # Errors
     ///
-    /// Those of [`Integrator::checkpoint`](crate::Integrator::checkpoint).
+    /// Those of [`Integrator::checkpoint`](crate::Integrator#method.checkpoint).
     pub fn checkpoint(&self) -> Result<Checkpoint, CheckpointError> {
         let Controller {
             epsilon,

@@ -35,6 +35,12 @@ use crate::system::System;
 /// The order in ε is that of the method: t is the sum of the step sizes. Steps are explicit if the method is. Each step costs one
 /// additional derivative of the [`Monitor`], and one velocity unless it [is the momentum](crate::Masses::Unit).
 ///
+/// # Errors of a step
+///
+/// Those of an [`Integrator`]; [`Error::Monitor`] if `∇σ·q'/σ` is not finite, or if dual numbers evaluate it and σ is not positive;
+/// [`Error::StepDensity`] if z is no longer positive, or `ε/z` overflows. State and step density are then unchanged. All other methods:
+/// [`Run`].
+///
 /// # Back to the start
 ///
 /// [`reverse`](Self::reverse) reverses the direction of the run. The first step back has exactly the size of the last step. The sizes of the
@@ -43,7 +49,7 @@ use crate::system::System;
 /// # Output
 ///
 /// Output does not change the steps. A run ends with the first step that reaches or passes its end time. States at times inside a step come
-/// from the [dense output](Integrator::dense), or from a shorter step with the same start.
+/// from the [dense output](crate::Integrator#method.dense), or from a shorter step with the same start.
 ///
 /// ```
 /// use symplectic::adaptive::DistancePower;
@@ -138,7 +144,8 @@ impl<M: Method, S: System<V>, V: Vector<Scalar = f64>> Integrator<M, S, V> {
     ///
     /// # Errors
     ///
-    /// Those of [`new`](Integrator::new), with [`Error::StepSize`] for ε; [`Error::Monitor`] if σ is not finite and positive at the start.
+    /// Those of [`new`](crate::Integrator#method.new), with [`Error::StepSize`] for ε; [`Error::Monitor`] if σ is not finite and positive
+    /// at the start.
     pub fn adaptive<W: Monitor>(
         method: M,
         system: S,

@@ -31,11 +31,11 @@ where
         self.integrate_with(end, |_| ())
     }
 
-    /// Like [`integrate_to`](Self::integrate_to), and calls `observe` with the state after every step.
+    /// Like [`integrate_to`](crate::adaptive::Adaptive#method.integrate_to), and calls `observe` with the state after every step.
     ///
     /// # Errors
     ///
-    /// As for [`integrate_to`](Self::integrate_to).
+    /// As for [`integrate_to`](crate::adaptive::Adaptive#method.integrate_to).
     pub fn integrate_with<F: FnMut(&State<V>)>(
         &mut self,
         end: f64,

@@ -231,7 +231,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         }
     }
 
-    /// Sets the retry policy for failed steps: see [`Integrator::set_retry`](crate::Integrator::set_retry).
+    /// Sets the retry policy for failed steps: see [`Integrator::set_retry`](crate::Integrator::set_retry). It is that of the integrators,
+    /// not of other runs made from them by [`each_as`](Self::each_as).
     pub const fn set_retry(&mut self, retry: Retry) {
         self.retry = retry;
     }

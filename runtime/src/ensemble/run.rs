@@ -186,7 +186,8 @@ where
     }
 
     /// [`each`](Self::each) for runs of any [`Stepper`]: `make` constructs the [`Run`] of a trajectory from its integrator, for example with
-    /// [reversible steps of variable size](crate::adaptive::Adaptive). [`set_retry`](Self::set_retry) has no effect on those.
+    /// [reversible steps of variable size](crate::adaptive::Adaptive). [`set_retry`](Self::set_retry) has an effect only
+    /// if `make` returns the integrator itself, not on a run that `make` constructs from it.
     ///
     /// If `make` fails, the row has its error and the start. A [checkpoint](Self::checkpoint) does not store `make` and `work`: pass the
     /// same ones again.

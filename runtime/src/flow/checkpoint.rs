@@ -12,8 +12,8 @@ use crate::number::words::{Visit, Words, vector_words, words};
 use crate::state::State;
 
 impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowIntegrator<V, F> {
-    /// All that the run needs to [continue](Self::restore) from here with the same bits: state, step size, clock, last step, last event, and
-    /// the [memory](Flow::memory) of the flow. See [`Checkpoint`].
+    /// All that the run needs to [continue](crate::flow::FlowIntegrator#method.restore) from here with the same bits: state, step size,
+    /// clock, last step, last event, and the [memory](Flow::memory) of the flow. See [`Checkpoint`].
     ///
     /// The flow itself is not stored. It is identified by a hash of a trial step from the present state; the trial changes nothing.
     ///

@@ -16,6 +16,10 @@ use crate::state::State;
 ///
 /// Sums are not compensated. Steps do not allocate unless the flows do. A failed step is not [split](crate::Retry). A clone, if the flow
 /// can be cloned, continues with the same bits. [`set_state`](Run::set_state) leaves the [memory](Flow::memory) of the flow as it is.
+/// So after a [wall](crate::Event::wall), or a search that failed, position, momentum and time are those of the event or of the state
+/// before the step, but the memory of the flow is that after the step. All other methods: [`Run`].
+///
+/// The errors of a step are [`Error::Flow`], [`Error::NonFinite`] and [`Error::TimeResolution`].
 ///
 /// A state inside the last step is that of a shorter step of the flow from its start. It has the error of a step and costs as much. The
 /// shorter step has the direction of the step, so it works for flows that cannot go backward. It starts with the memory of the start of the

@@ -156,7 +156,8 @@ pub trait Flow<V: Vector> {
     /// Passes each 64-bit word that the flow keeps between calls to `visit`, which may replace it; always in the same order. An
     /// [`OrnsteinUhlenbeck`] bath has one word, the number of its draws. A flow that depends only on the span and the state has none.
     ///
-    /// [Checkpoints](FlowIntegrator::checkpoint) store them. A [partial step](FlowIntegrator::state_at) and a step that fails put them back.
+    /// [Checkpoints](crate::flow::FlowIntegrator#method.checkpoint) store them. A [partial step](FlowIntegrator::state_at) and a step that
+    /// fails put them back.
     ///
     /// ```
     /// use symplectic::flow::{Flow, FlowError, Span};

@@ -250,7 +250,7 @@ impl Checkpoint {
 }
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
-    /// A checkpoint from which the run can [continue](Self::restore) with the same bits.
+    /// A checkpoint from which the run can [continue](crate::Integrator#method.restore) with the same bits.
     ///
     /// # Errors
     ///

@@ -28,10 +28,10 @@ pub(super) type MemoryOf<M, S, V, N> = <PlanOf<M, S, V> as Plan>::Memory<V, S, N
 
 /// An integrator: a method that steps a system from a state.
 ///
-/// [`new`](Integrator::new) allocates all memory. A step that fails from what earlier steps left, such as extrapolated stages, is taken once
-/// more as the first step of a new integrator: see [`Statistics::rejected`]. The errors of a step are [`Error::NoConvergence`],
-/// [`Error::NonFinite`], [`Error::EvaluationDimension`] and [`Error::TimeResolution`]; with a Newton iteration also
-/// [`Error::SingularMatrix`].
+/// [`new`](crate::Integrator#method.new) allocates all memory. A step that fails from what earlier steps left, such as extrapolated stages,
+/// is taken once more as the first step of a new integrator: see [`Statistics::rejected`]. The errors of a step are
+/// [`Error::NoConvergence`], [`Error::NonFinite`], [`Error::EvaluationDimension`] and [`Error::TimeResolution`]; with a Newton iteration
+/// also [`Error::SingularMatrix`]. All other methods: [`Run`].
 ///
 /// ```
 /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
@@ -87,11 +87,11 @@ impl<M: Method, S: System<V>, V: Vector> Integrator<M, S, V> {
 }
 
 impl<M: Method, S: System<V>, V: Vector> Integrator<M, S, V, Plain> {
-    /// [`new`](Integrator::new) with [`Plain`] sums.
+    /// [`new`](crate::Integrator#method.new) with [`Plain`] sums.
     ///
     /// # Errors
     ///
-    /// As for [`new`](Integrator::new).
+    /// As for [`new`](crate::Integrator#method.new).
     ///
     /// ```
     /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
@@ -158,7 +158,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// needs more sweeps gains less than a factor of 1.2 per sweep.
     pub const DEFAULT_MAX_ITERATIONS: u32 = Stopping::DEFAULT.max_iterations;
 
-    /// The values from which states inside a step are interpolated, and the order of the interpolation: see [`dense`](Self::dense).
+    /// The values from which states inside a step are interpolated, and the order of the interpolation: see
+    /// [`dense`](crate::Integrator#method.dense).
     ///
     /// ```
     /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
@@ -172,11 +173,11 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// ```
     pub const INTERPOLATION: Interpolation = <PlanOf<M, S, V> as Plan>::INTERPOLATION;
 
-    /// [`new`](Integrator::new) with the sums given by the type.
+    /// [`new`](crate::Integrator#method.new) with the sums given by the type.
     ///
     /// # Errors
     ///
-    /// As for [`new`](Integrator::new).
+    /// As for [`new`](crate::Integrator#method.new).
     pub fn with_summation(
         _method: M,
         system: S,

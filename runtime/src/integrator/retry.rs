@@ -8,7 +8,10 @@ use super::stepper::advance_in_time;
 use super::{Run, Stepper};
 use crate::error::Error;
 
-/// The reaction of a [`Run`] if the stages of a step do not converge or a result is NaN or infinite.
+/// The reaction of a [`Run`] with equal steps if the stages of a step do not converge or a result is NaN or infinite.
+///
+/// It has no effect on runs of a [flow](crate::flow::FlowIntegrator), whose noise would be another one, and on steps with
+/// [stages](crate::variational::LagrangianIntegrator#method.step_with_stages).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Retry {
     /// The step fails, with the error.

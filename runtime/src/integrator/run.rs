@@ -17,7 +17,8 @@ use crate::error::Error;
 /// A step allocates nothing. A step that fails leaves the state and the counts unchanged.
 ///
 /// The run chooses equal steps unless the stepper has its [own](super::Own) pace. The time after `k` steps is computed as `start + k h`, not
-/// as a sum. The count starts again when the step size or the state is set and when [`integrate_to`](Self::integrate_to) ends.
+/// as a sum. The count starts again when the step size or the state is set and when [`integrate_to`](crate::Integrator#method.integrate_to)
+/// ends.
 #[derive(Clone)]
 pub struct Run<S> {
     pub(crate) stepper: S,
@@ -301,11 +302,11 @@ impl<S: Stepper<Pace = Equal>> Run<S> {
         outcome.map(|()| self.stepper.state())
     }
 
-    /// [`integrate_to`](Self::integrate_to) that calls `observe` with the state after every step.
+    /// [`integrate_to`](crate::Integrator#method.integrate_to) that calls `observe` with the state after every step.
     ///
     /// # Errors
     ///
-    /// As for [`integrate_to`](Self::integrate_to).
+    /// As for [`integrate_to`](crate::Integrator#method.integrate_to).
     ///
     /// ```
     /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
@@ -351,7 +352,8 @@ impl<S: Stepper<Pace = Equal>> Run<S> {
         Ok(())
     }
 
-    /// Sets the reaction to a failed step; the default is [`Retry::Never`].
+    /// Sets the reaction to a failed step; the default is [`Retry::Never`]. It has no effect if the stepper refuses to be
+    /// [split](Stepper::may_split), as a flow does.
     ///
     /// ```
     /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }

@@ -10,7 +10,7 @@ use crate::state::State;
 use crate::system::{Frictionless, System};
 
 impl<S: System<V, Class: Frictionless>, V: Vector> Integrator<AtRunTime, S, V> {
-    /// [`new`](Integrator::new) with a method that is known only at run time, and with
+    /// [`new`](crate::Integrator#method.new) with a method that is known only at run time, and with
     /// [`Compensated`](crate::Compensated) sums.
     ///
     /// On separable systems an explicit tableau takes drifts and kicks. Coupled stages use the iteration of
@@ -19,8 +19,9 @@ impl<S: System<V, Class: Frictionless>, V: Vector> Integrator<AtRunTime, S, V> {
     ///
     /// # Errors
     ///
-    /// Those of [`new`](Integrator::new), and [`Error::SeparableTableau`] if the system is not separable and the tableau has a lower
-    /// order there or is not symplectic: see [`RunTimeTableau::accept_lower_order`]. With constraints also [`Error::NoConstrainedSteps`].
+    /// Those of [`new`](crate::Integrator#method.new), and [`Error::SeparableTableau`] if the system is not separable and the tableau has a
+    /// lower order there or is not symplectic: see [`RunTimeTableau::accept_lower_order`]. With constraints also
+    /// [`Error::NoConstrainedSteps`].
     ///
     /// ```
     /// use symplectic::nalgebra::Vector1;

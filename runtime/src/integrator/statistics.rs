@@ -2,7 +2,8 @@
 
 use crate::method::StepStatistics;
 
-/// Counts over all steps taken; a failed step changes none of them.
+/// Counts over all steps taken; a failed step changes none of them. Other steppers than those of an [`Integrator`](crate::Integrator) and
+/// of its [`adaptive`](crate::Integrator::adaptive) runs count only steps, and attempts that were [split](crate::Retry).
 ///
 /// ```
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
@@ -25,7 +26,8 @@ use crate::method::StepStatistics;
 pub struct Statistics {
     /// Steps taken; for a [split](crate::Retry::Split) step, its parts.
     pub steps: u64,
-    /// Failed attempts that were repeated with shorter steps, another solver, or the starting values of a first step.
+    /// Failed attempts that were repeated with shorter steps. With the steps of an [`Integrator`](crate::Integrator) also those that were
+    /// repeated with another solver or the starting values of a first step.
     pub rejected: u64,
     /// Fixed-point sweeps; 0 for an explicit method.
     pub iterations: u64,

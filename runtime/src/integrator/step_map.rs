@@ -23,7 +23,8 @@ impl<V: Vector> PhasePoint for State<V> {
     }
 }
 
-/// The next step of an integrator as a map of states, and checks of this map for tests. The integrator itself takes no step.
+/// The next step of an integrator as a map of states, and checks of this map for tests. The integrator itself takes no step. For a stepper
+/// with its [own](crate::Own) pace it is the first step of a new run from each state.
 ///
 /// With constraints it is a map of the constrained phase space: all states must satisfy them, see [`consistent`](crate::consistent).
 ///
@@ -49,7 +50,7 @@ pub trait StepMap {
     /// The present state.
     fn present(&self) -> &Self::State;
 
-    /// The state one step after `state`.
+    /// The state one step after `state`, the first of a new run from there.
     ///
     /// # Errors
     ///

@@ -8,8 +8,8 @@ use crate::system::{Damped, General, Separable};
 ///
 /// The macros implement it if the compiler proves two things for class `C`. The order is as high as on the narrower classes, and the step
 /// is symplectic if it is on those. Every method implements it for [`Separable`](crate::Separable). A splitting is symplectic for separable
-/// Hamiltonians only and does not implement it for [`General`](crate::General), so [`Integrator::new`](crate::Integrator::new) does not
-/// compile for a general system. [`Method::accept_lower_order`] lifts this restriction.
+/// Hamiltonians only and does not implement it for [`General`](crate::General), so [`Integrator::new`](crate::Integrator#method.new) does
+/// not compile for a general system. [`Method::accept_lower_order`] lifts this restriction.
 ///
 /// Every method also implements it for `()`, which is not a class. If a method implemented it for one class only, rustc would infer that
 /// class from the method and report an error in the system.

@@ -7,8 +7,8 @@ use crate::number::larger_or_nan;
 /// Examples: the energy and the [work](crate::variational::StagesOfStep::work) of an applied force; a momentum map and
 /// its [impulse](crate::variational::StagesOfStep::impulse). Without supply it is an [`Invariant`](crate::Invariant).
 ///
-/// [`step_with_stages`](crate::Integrator::step_with_stages) returns the supply of each step. For Gauss methods it needs two to four times
-/// as many evaluations as a step, for explicit methods many more.
+/// [`step_with_stages`](crate::Integrator#method.step_with_stages) returns the supply of each step. For Gauss methods it needs two to four
+/// times as many evaluations as a step, for explicit methods many more.
 ///
 /// ```
 /// use symplectic::State;

@@ -63,7 +63,7 @@ impl<V: Vector> Ends<V> {
         Self(None)
     }
 
-    /// Evaluates the derivatives for the last step of an stepper.
+    /// Evaluates the derivatives for the last step of a stepper.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn evaluate<M: Method, S: System<V>, R: Summation, N: Solver<V, S>>(
         &mut self,

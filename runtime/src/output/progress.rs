@@ -26,12 +26,12 @@ impl<T> Progress<'_, T> {
 }
 
 impl<S: Stepper<Pace = Equal>> Run<S> {
-    /// [`integrate_to`](Self::integrate_to) that calls `report` after every step. If `report` breaks with a value, the
+    /// [`integrate_to`](crate::Integrator#method.integrate_to) that calls `report` after every step. If `report` breaks with a value, the
     /// integration stops and returns that value; otherwise it returns `None` at `end`.
     ///
     /// # Errors
     ///
-    /// Those of [`integrate_to`](Self::integrate_to).
+    /// Those of [`integrate_to`](crate::Integrator#method.integrate_to).
     ///
     /// ```
     /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }

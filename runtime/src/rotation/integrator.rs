@@ -14,7 +14,10 @@ use crate::method::symmetric_steps::{Part, SymmetricSteps};
 
 /// Integrates a [`RigidBody`] by the symplectic method on SO(3) described in [`rotation`](crate::rotation). A step
 /// allocates nothing and evaluates the torque once; a composition evaluates it once per substep. A failed step leaves
-/// the state untouched.
+/// the state untouched. All other methods: [`Run`].
+///
+/// The errors of a step are [`Error::HalfTurn`] for a rotation by π or more, [`Error::NoEndOfStep`] if Newton's iteration does not
+/// converge, [`Error::NonFinite`] for a torque, and [`Error::TimeResolution`].
 ///
 /// ```
 /// symplectic::composition! { Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] } }
@@ -88,12 +91,12 @@ impl<B: RigidBody> RotationIntegrator<B> {
         Self::by(SymmetricSteps::ONE, body, state, step_size)
     }
 
-    /// [`new`](Self::new) with a [`composition!`](crate::composition) of Störmer–Verlet steps, and with its order for
-    /// general Hamiltonians, `M::ORDERS.general`.
+    /// [`new`](crate::rotation::RotationIntegrator#method.new) with a [`composition!`](crate::composition) of Störmer–Verlet steps, and
+    /// with its order for general Hamiltonians, `M::ORDERS.general`.
     ///
     /// # Errors
     ///
-    /// Those of [`new`](Self::new). Other methods do not compile:
+    /// Those of [`new`](crate::rotation::RotationIntegrator#method.new). Other methods do not compile:
     ///
     /// ```compile_fail,E0277
     /// symplectic::composition! { Sixth { base: lobatto-3, weights: triple_jump(6) } }

@@ -181,8 +181,8 @@ pub struct Separable;
 /// Splittings whose order is proved for separable Hamiltonians step such systems, with the exact flow of the friction in
 /// every kick. The order is preserved. If all γ are equal, a step of size h shrinks dq∧dp and the momentum maps of symmetries of H by
 /// `e^{−γh}` exactly. Negative kicks grow by `e^{γ|τ|}`, see [`friction_growth`](crate::friction_growth): for stiff friction choose a
-/// method whose kicks are positive. For any other method [`Integrator::new`](crate::Integrator::new) does not compile; there any friction
-/// can be part of [`Hamiltonian::force`](crate::Hamiltonian::force) of a system of class [`General`].
+/// method whose kicks are positive. For any other method [`Integrator::new`](crate::Integrator#method.new) does not compile; there any
+/// friction can be part of [`Hamiltonian::force`](crate::Hamiltonian::force) of a system of class [`General`].
 ///
 /// ```compile_fail,E0277
 /// use symplectic::{Integrator, State};
@@ -221,7 +221,7 @@ impl Class for Separable {
 ///
 /// The constraints are in [`Hamiltonian::constraint_values`](crate::Hamiltonian::constraint_values). Methods that are `constrained` step
 /// such systems. They are Lobatto IIIA–IIIB (with two stages RATTLE), other pairs with stages at both ends, symplectic Euler and its
-/// adjoint, and compositions. For any other method [`Integrator::new`](crate::Integrator::new) does not compile.
+/// adjoint, and compositions. For any other method [`Integrator::new`](crate::Integrator#method.new) does not compile.
 ///
 /// `Constrained<Damped>` is not a class: friction is part of the force of a system of class `Constrained<General>`.
 ///
@@ -251,8 +251,8 @@ impl<C: Class + Unconstrained> Class for Constrained<C> {
 /// The rows of the m×n matrix `w` are in [`Hamiltonian::nonholonomic_rows`](crate::Hamiltonian::nonholonomic_rows). Methods that are
 /// `nonholonomic` step such systems by the discrete Lagrange–d'Alembert–Pontryagin principle (Leok & Ohsawa, arXiv:0810.0740). These are
 /// symmetric methods of order 2, compositions of one of them, and methods of order 1. Examples of the first are the implicit midpoint rule
-/// and Lobatto IIIA–IIIB with two stages. A method of any other order would lose its order, and [`Integrator::new`](crate::Integrator::new)
-/// does not compile:
+/// and Lobatto IIIA–IIIB with two stages. A method of any other order would lose its order, and
+/// [`Integrator::new`](crate::Integrator#method.new) does not compile:
 ///
 /// ```compile_fail,E0277
 /// use symplectic::nalgebra::Vector2;

@@ -38,6 +38,12 @@ use crate::state::State;
 /// when the equations hold up to the rounding of q1. A free particle, which conserves its energy with steps of every size, keeps its step
 /// size.
 ///
+/// # Errors of a step
+///
+/// [`Error::NoEnergyStep`] if Newton's iteration finds no step that conserves the discrete energy; [`Error::NoEndOfStep`],
+/// [`Error::IrregularLagrangian`] and [`Error::NonFinite`] if a step of the previous size has no end; [`Error::EvaluationDimension`] and
+/// [`Error::TimeResolution`]. The state is then unchanged. All other methods: [`Run`].
+///
 /// ```
 /// use symplectic::nalgebra::SVector;
 /// use symplectic::variational::{DiscreteLagrangian, EnergyMomentumIntegrator};

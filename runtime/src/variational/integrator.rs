@@ -34,6 +34,11 @@ use crate::state::State;
 /// For n components, an iteration takes n² evaluations of `Ld` with its derivatives and the elimination of a full matrix. The end of the
 /// step takes n evaluations. A step allocates no memory. A step that fails leaves the state unchanged.
 ///
+/// # Errors of a step
+///
+/// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::EvaluationDimension`] and
+/// [`Error::TimeResolution`]. All other methods: [`Run`].
+///
 /// ```
 /// use symplectic::nalgebra::SVector;
 /// use symplectic::variational::{DiscreteLagrangian, VariationalIntegrator};
@@ -93,13 +98,15 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
         Self::by(SymmetricSteps::ONE, lagrangian, state, step_size)
     }
 
-    /// [`new`](Self::new) with the steps of a composition of Störmer–Verlet steps, made by [`composition!`](crate::composition). It has the
-    /// order of that composition for general Hamiltonians, `M::ORDERS.general`, if `Ld` has order 2 and is self-adjoint.
+    /// [`new`](crate::variational::VariationalIntegrator#method.new) with the steps of a composition of Störmer–Verlet steps, made by
+    /// [`composition!`](crate::composition). It has the order of that composition for general Hamiltonians, `M::ORDERS.general`, if `Ld`
+    /// has order 2 and is self-adjoint.
     ///
     /// # Errors
     ///
-    /// As for [`new`](Self::new); [`Error::NotSelfAdjoint`] if the [defect](super::DiscretePath::self_adjoint_defect) of a path from the start
-    /// is not a rounding error. Does not compile with another method.
+    /// As for [`new`](crate::variational::VariationalIntegrator#method.new); [`Error::NotSelfAdjoint`] if the
+    /// [defect](super::DiscretePath::self_adjoint_defect) of a path from the start is not a rounding error. Does not compile with another
+    /// method.
     pub fn composed<M: StoermerVerletSteps>(
         _method: M,
         lagrangian: L,
@@ -153,7 +160,8 @@ impl<L: DiscreteLagrangian> VariationalIntegrator<L> {
         Self::of(stepper, step_size)
     }
 
-    /// `Ld(q0, q1)` of the last step, or of the last part of a [split](crate::Retry) step; for a composition the sum over its substeps. `None` before the first step.
+    /// `Ld(q0, q1)` of the last step, or of the last part of a [split](crate::Retry) step; for a composition the sum over its substeps.
+    /// `None` before the first step.
     pub const fn action(&self) -> Option<f64> {
         self.stepper.action
     }

@@ -40,9 +40,9 @@ fn a_run_goes_on_with_the_same_bits() -> Result<(), Box<dyn std::error::Error>> 
 #[test]
 fn a_restored_run_does_not_find_the_last_event_again() -> Result<(), Box<dyn std::error::Error>> {
     for seed in 0..20 {
-        let event = Event::rising(|state: &State<Vector1<f64>>| state.q[0]);
+        let event = Event::rising(|state: &State<Vector1<f64>>| state.p[0]);
         let mut whole = heated(seed)?;
-        let found = whole.find_event(50.0, &event)?.expect("a zero");
+        let found = whole.find_event(50.0, &event)?.expect("a turn");
         whole.set_state(found.clone())?;
         let checkpoint = whole.checkpoint();
         let mut resumed = heated(seed)?;

@@ -311,6 +311,8 @@ struct Straight<P> {
     statistics: Statistics,
     /// What it says of its steps.
     own: Option<f64>,
+    /// Whether it counts the steps that it takes for a run.
+    counts: bool,
     pace: PhantomData<P>,
 }
 
@@ -320,6 +322,7 @@ fn straight<P: Pace>(size: f64, own: Option<f64>) -> Result<Run<Straight<P>>, Er
         before: None,
         statistics: Statistics::default(),
         own,
+        counts: true,
         pace: PhantomData,
     };
     Run::of(stepper, size)
@@ -360,7 +363,6 @@ impl<P: Pace> Stepper for Straight<P> {
         Ok(())
     }
 
-    /// Forgets to count the steps of the run.
     fn take_while(
         &mut self,
         steps: &mut RemainingSteps,
@@ -374,6 +376,9 @@ impl<P: Pace> Stepper for Straight<P> {
                 *steps = copy;
                 return Ok(false);
             }
+        }
+        if self.counts {
+            *steps = copy;
         }
         Ok(true)
     }
@@ -442,8 +447,15 @@ fn steppers_by_hand_that_can_be_followed_have_output_and_events() -> Result<(), 
     // The pace says who chooses the sizes, whatever the stepper says of them.
     followed_run("equal, with a size", || straight::<Equal>(0.1, Some(-3.0)));
     followed_run("own, without a size", || straight::<Own>(0.1, None));
-    // The end of a run with equal steps is exact.
+    // The run ends, and exactly, also if its steps are not counted.
     let mut run = straight::<Equal>(0.1, Some(-3.0))?;
+    run = Run::of(
+        Straight {
+            counts: false,
+            ..run.stepper().clone()
+        },
+        0.1,
+    )?;
     let never = Event::rising(|_: &State<_>| -1.0);
     assert_eq!(run.find_event(1.05, &never)?, None);
     assert_eq!((run.state().time, run.steps()), (1.05, 11));

@@ -314,7 +314,8 @@ fn check_gradients<V: Vector, S: System<V>>(
 /// q ← q − M⁻¹ G(q)ᵀ μ with φ(q) = 0,    then    p ← p − G(q)ᵀ ν with G(q) ∂H/∂p(q, p) = 0
 /// ```
 ///
-/// An integrator does not project by itself: [`Integrator::new`](crate::Integrator::new) refuses a state that is not on the constraints.
+/// An integrator does not project by itself: [`Integrator::new`](crate::Integrator#method.new) refuses a state that is not on the
+/// constraints.
 ///
 /// # Errors
 ///

@@ -33,8 +33,8 @@ pub(super) fn check_start<V: Vector, S: System<V>>(
 /// p ← p − w(q)ᵀν    with w(q) ∂H/∂p(q, p) = 0
 /// ```
 ///
-/// An integrator does not project by itself: [`Integrator::new`](crate::Integrator::new) refuses a state whose velocity does not obey the
-/// constraints.
+/// An integrator does not project by itself: [`Integrator::new`](crate::Integrator#method.new) refuses a state whose velocity does not obey
+/// the constraints.
 ///
 /// # Errors
 ///

@@ -18,8 +18,8 @@ pub use list::Events;
 /// g is evaluated after every step. If its sign has changed, the step has an event.
 ///
 /// 1. A step is passed over if g at both of its ends exceeds four times its largest change in this step and in the one before.
-/// 2. Otherwise g is evaluated on the [dense output](crate::Integrator::dense) at 2, 4 and 8 points. The step is passed over as soon as all
-///    values exceed four times the largest change between neighbouring points.
+/// 2. Otherwise g is evaluated on the [dense output](crate::Integrator#method.dense) at 2, 4 and 8 points. The step is passed over as soon
+///    as all values exceed four times the largest change between neighbouring points.
 /// 3. Otherwise the derivatives of g along the flow and the values show where g may turn. If it may turn within twice that change from
 ///    zero, or if the values change sign more than once, steps of the method decide: from the start of the step to each point.
 ///

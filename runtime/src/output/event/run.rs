@@ -11,15 +11,19 @@ use crate::integrator::{DenseSteps, Pace, Run, Statistics};
 use crate::output::at_times::{check_times, is_after};
 
 impl<S: DenseSteps> Run<S> {
-    /// [`integrate_to`](Run::integrate_to) that calls `observe` with the state at every event, in order. If `observe` breaks with a value,
-    /// the integration ends and returns that value; otherwise it returns `None`. It ends after the step that contains the event, or at the
-    /// event if it is a [`wall`](Event::wall).
+    /// [`integrate_to`](crate::Integrator#method.integrate_to) that calls `observe` with the state at every event, in order. If `observe`
+    /// breaks with a value, the integration ends and returns that value; otherwise it returns `None`. It ends after the step that contains
+    /// the event, or at the event if it is a [`wall`](Event::wall).
+    ///
+    /// A stepper with its [own](crate::Own) pace takes the steps up to the one that reaches or passes `end`, and the present state is then
+    /// that after this step. Events after `end` in this step are reported too, so that a run that continues misses none. At a wall or a
+    /// changed state an [adaptive](crate::adaptive::Adaptive) run begins anew, with the step density 1/σ there.
     ///
     /// # Errors
     ///
-    /// Those of [`integrate_to`](Run::integrate_to) and of [`look`](DenseSteps::look). [`Error::EventValue`] if the
+    /// Those of [`integrate_to`](crate::Integrator#method.integrate_to) and of [`look`](DenseSteps::look). [`Error::EventValue`] if the
     /// function is NaN; the present state is then the state before the step. [`Error::EventsAccumulate`], see
-    /// [`Event`].
+    /// [`Event`]. [`Error::OutputTime`] if `end` lies before the last step of a stepper with its own pace.
     pub fn integrate_with_events<
         G: Fn(&S::State) -> f64,
         B,
@@ -54,7 +58,7 @@ impl<S: DenseSteps> Run<S> {
         self.integrate_with_events(end, event, |state| ControlFlow::Break(state.clone()))
     }
 
-    /// [`integrate_to`](Run::integrate_to) that calls `handle` with the states at the output times and at the events
+    /// [`integrate_to`](crate::Integrator#method.integrate_to) that calls `handle` with the states at the output times and at the events
     /// of a list, in order of time.
     ///
     /// At equal times output comes first, then the events in the order of the list. The handler may change the state at

@@ -51,6 +51,11 @@ use crate::variational::two_ends::dot;
 /// For n components and m constraints, an iteration eliminates a full matrix of 2(n + m) rows. It takes n(2n + 1) evaluations of L at each
 /// point of the rule and at the end. A step allocates no memory. A step that fails leaves the state unchanged.
 ///
+/// # Errors of a step
+///
+/// [`Error::ContradictoryStep`], [`Error::UndeterminedPosition`], [`Error::DependentConstraints`], [`Error::MovingGradients`],
+/// [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::EvaluationDimension`] and [`Error::TimeResolution`]. All other methods: [`Run`].
+///
 /// ```
 /// use symplectic::nalgebra::SVector;
 /// use symplectic::system::Gradients;
@@ -130,13 +135,14 @@ impl<L: DiracSystem> DiracIntegrator<L> {
         Self::by(SymmetricSteps::ONE, rule, system, state, step_size)
     }
 
-    /// [`new`](Self::new) with the steps of a composition of Störmer–Verlet steps, made by [`composition!`](crate::composition). With the
-    /// rule [`Trapezoid`](DiracRule::Trapezoid) it has the order of that composition for general Hamiltonians, `M::ORDERS.general`. For
-    /// regular Lagrangians and those linear in the velocities it also has this order with [`Midpoint`](DiracRule::Midpoint).
+    /// [`new`](crate::variational::DiracIntegrator#method.new) with the steps of a composition of Störmer–Verlet steps, made by
+    /// [`composition!`](crate::composition). With the rule [`Trapezoid`](DiracRule::Trapezoid) it has the order of that composition for
+    /// general Hamiltonians, `M::ORDERS.general`. For regular Lagrangians and those linear in the velocities it also has this order with
+    /// [`Midpoint`](DiracRule::Midpoint).
     ///
     /// # Errors
     ///
-    /// As for [`new`](Self::new). Does not compile with another method.
+    /// As for [`new`](crate::variational::DiracIntegrator#method.new). Does not compile with another method.
     pub fn composed<M: StoermerVerletSteps>(
         _method: M,
         rule: DiracRule,

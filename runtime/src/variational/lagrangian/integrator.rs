@@ -33,8 +33,9 @@ use crate::variational::two_ends::dot;
 /// A degenerate L is refused, because steps leave its primary constraints. The exception is `L = a(q)·v − H(q)` with a linear, for which
 /// Gauss methods stay on `p = a(q)`; every step is checked. [`DiracIntegrator`](super::super::DiracIntegrator) takes other degenerate ones.
 ///
-/// Without a force the step has the discrete Lagrangian `Ld = h Σ_i b_i L(Q_i, V_i)`, whose value is [`action`](Self::action). It is
-/// symplectic, and conserves the momentum maps of linear symmetries of L.
+/// Without a force the step has the discrete Lagrangian `Ld = h Σ_i b_i L(Q_i, V_i)`, whose value is
+/// [`action`](crate::variational::LagrangianIntegrator#method.action). It is symplectic, and conserves the momentum maps of linear
+/// symmetries of L.
 ///
 /// # Cost
 ///
@@ -42,6 +43,12 @@ use crate::variational::two_ends::dot;
 /// For s stages and n components, a new matrix takes s n(2n + 1) evaluations of L by hyper-dual numbers and the elimination of a full
 /// matrix of size sn. An iteration takes s evaluations of L with its [gradient](Lagrangian::gradient), or s n by hyper-dual numbers. A step
 /// allocates no memory. A step that fails leaves the state unchanged.
+///
+/// # Errors of a step
+///
+/// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::EvaluationDimension`] and
+/// [`Error::TimeResolution`]; [`Error::DegenerateLagrangian`] if L is linear in v and the step leaves `p = ∂L/∂v`. A new state off
+/// `p = ∂L/∂v` is then refused with [`Error::PrimaryConstraint`]. All other methods: [`Run`].
 ///
 /// ```
 /// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
@@ -119,7 +126,8 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
     ///
     /// # Errors
     ///
-    /// As for [`new`](Self::new), and [`Error::NoConstants`]. For r > s an L that is linear in v is refused too.
+    /// As for [`new`](crate::variational::LagrangianIntegrator#method.new), and [`Error::NoConstants`]. For r > s an L that is linear in v
+    /// is refused too.
     ///
     /// ```
     /// symplectic::tableau! { Rectangular { basis: polynomial(2), quadrature: gauss(3) } }
@@ -177,12 +185,12 @@ impl<L: Lagrangian> LagrangianIntegrator<L> {
         Self::of(stepper, step_size)
     }
 
-    /// [`new`](Self::new) with the momentum `∂L/∂v` of the velocity `v`, where Newton's iteration begins; that of [`new`](Self::new) begins
-    /// at rest.
+    /// [`new`](crate::variational::LagrangianIntegrator#method.new) with the momentum `∂L/∂v` of the velocity `v`, where Newton's iteration
+    /// begins; that of [`new`](crate::variational::LagrangianIntegrator#method.new) begins at rest.
     ///
     /// # Errors
     ///
-    /// As for [`new`](Self::new), and [`Error::NonFiniteState`] if the momentum is not finite.
+    /// As for [`new`](crate::variational::LagrangianIntegrator#method.new), and [`Error::NonFiniteState`] if the momentum is not finite.
     pub fn from_velocity<M: Method + ProvedFor<General>>(
         _method: M,
         lagrangian: L,
