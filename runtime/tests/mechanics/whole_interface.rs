@@ -459,6 +459,13 @@ fn steppers_by_hand_that_can_be_followed_have_output_and_events() -> Result<(), 
     let never = Event::rising(|_: &State<_>| -1.0);
     assert_eq!(run.find_event(1.05, &never)?, None);
     assert_eq!((run.state().time, run.steps()), (1.05, 11));
+    // A look by a step needs no preparation.
+    let mut run = straight::<Equal>(0.1, None)?;
+    run.step()?;
+    let (mut stepper, mut state) = (run.stepper().clone(), run.state().clone());
+    let mut scratch = stepper.scratch();
+    stepper.look_by_step(0.05, &mut scratch, &mut state)?;
+    assert_eq!((state.time, state.q[0]), (0.05, 0.05));
     // A size that has vanished still has a sign.
     let mut run = straight::<Own>(1.0, Some(0.0))?;
     let mut seen = Vec::new();
