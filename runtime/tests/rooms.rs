@@ -1,10 +1,14 @@
 //! The rooms of the runtime: imports run downward, and nothing is imported through the root.
 
-use std::fs;
+#[path = "../../tests/imports.rs"]
+mod imports;
+
 use std::path::{Path, PathBuf};
 
+use imports::{Rooms, files};
+
 /// The rooms from the lowest to the highest. Those on one line do not import each other.
-const ROOMS: &[&[&str]] = &[
+const LEVELS: &[&[&str]] = &[
     &["error"],
     &["number"],
     &["state"],
@@ -33,67 +37,16 @@ const UPWARD: &[(&str, &str)] = &[
     ("method/constrained/of_dimension.rs", "solver"),
 ];
 
-fn level(room: &str) -> Option<usize> {
-    ROOMS.iter().position(|rooms| rooms.contains(&room))
-}
-
-fn files(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("a folder") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            files(&path, found);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            found.push(path);
-        }
-    }
-}
-
-/// The first names after `crate::` in code, not in comments. After `$crate::` an exported macro names what it needs in another crate.
-fn imports(text: &str) -> Vec<&str> {
-    let code = text
-        .lines()
-        .filter(|line| !line.trim_start().starts_with("//"));
-    code.flat_map(|line| line.match_indices("crate::").map(move |(at, _)| (line, at)))
-        .filter(|(line, at)| !line[..*at].ends_with('$'))
-        .map(|(line, at)| {
-            let rest = &line[at + "crate::".len()..];
-            let end = rest.find(|c: char| !(c.is_alphanumeric() || c == '_'));
-            &rest[..end.unwrap_or(rest.len())]
-        })
-        .collect()
-}
-
-/// What is wrong with the imports of a file in a room.
-fn faults(file: &str, text: &str) -> Vec<String> {
-    let room = file.split(['/', '.']).next().unwrap_or(file);
-    let own = level(room).unwrap_or_else(|| panic!("{file} is in no room"));
-    let wrong = |import: &&str| match level(import) {
-        None => true,
-        Some(level) => *import != room && level >= own && !UPWARD.contains(&(file, import)),
-    };
-    let wrong = imports(text).into_iter().filter(wrong);
-    wrong
-        .map(|import| format!("{file} imports crate::{import}"))
-        .collect()
-}
+const ROOMS: Rooms = Rooms {
+    levels: LEVELS,
+    may: |file, import| UPWARD.contains(&(file, import)),
+    is_of_tests: |_| false,
+};
 
 #[test]
 fn imports_run_downward() {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut all = Vec::new();
-    files(&source, &mut all);
-    let mut found = Vec::new();
-    let mut seen = 0;
-    for path in all {
-        let file = path.strip_prefix(&source).expect("below the source");
-        let file = file.to_string_lossy().replace('\\', "/");
-        if file == "lib.rs" {
-            continue;
-        }
-        let text = fs::read_to_string(&path).expect("text");
-        seen += imports(&text).len();
-        found.extend(faults(&file, &text));
-    }
+    let (found, seen) = ROOMS.faults_in(&source);
     assert_eq!(found, Vec::<String>::new());
     assert!(seen > 300, "{seen}");
 }
@@ -101,18 +54,24 @@ fn imports_run_downward() {
 #[test]
 fn an_import_that_runs_up_is_found() {
     let up = "use crate::solver::FixedPoint;\n";
-    assert_eq!(faults("method/step.rs", up).len(), 1);
-    assert_eq!(faults("integrator/mod.rs", up).len(), 0);
+    assert_eq!(ROOMS.faults("method/step.rs", up).len(), 1);
+    assert_eq!(ROOMS.faults("integrator/mod.rs", up).len(), 0);
     assert_eq!(
-        faults("output/dense.rs", "use crate::variational::x;").len(),
+        ROOMS
+            .faults("output/dense.rs", "use crate::variational::x;")
+            .len(),
         1
     );
     assert_eq!(
-        faults("number/scalar.rs", "    crate::Vector::new()").len(),
+        ROOMS
+            .faults("number/scalar.rs", "    crate::Vector::new()")
+            .len(),
         1
     );
     assert_eq!(
-        faults("number/scalar.rs", "/// [`x`](crate::solver::x)\n").len(),
+        ROOMS
+            .faults("number/scalar.rs", "/// [`x`](crate::solver::x)\n")
+            .len(),
         0
     );
 }

@@ -206,7 +206,8 @@ mod tests {
     use crate::catalogue;
     use crate::schedule::Class;
 
-    /// Every pair of complementary coefficients of every symplectic method with so many stages whose weights are nonzero.
+    /// Calls `check` with every pair of complementary coefficients of the symplectic methods with at most `stages` stages and nonzero weights.
+    /// Returns the number of methods.
     fn pairs(
         stages: usize,
         mut check: impl FnMut(&str, Fraction<'_>, Rounded, Fraction<'_>, Rounded),
@@ -247,7 +248,7 @@ mod tests {
         crate::Limits::default().stages
     }
 
-    /// Checks the methods with so many stages; returns their number.
+    /// Checks that the two coefficients of every pair have the sum 1, for methods with at most `stages` stages. Returns their number.
     fn symplectic(stages: usize) -> usize {
         pairs(stages, |name, _, mu, _, mu_tilde| {
             assert_eq!(
