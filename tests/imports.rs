@@ -1,4 +1,4 @@
-//! The imports inside a package, for the tests that they run downward: `compiler/tests/rooms.rs` and `runtime/tests/rooms.rs`.
+//! The imports inside a package, for the tests that they run downward: `compiler/tests/rooms.rs` and `runtime/core/tests/rooms.rs`.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -9,17 +9,17 @@ use rustc_demangle::demangle;
 
 /// The modules of the library with what only implicit methods need.
 const SOLVERS: [&str; 3] = [
-    "symplectic::method::change::",
-    "symplectic::method::coupled::",
-    "symplectic::solver::",
+    "symplectic_core::method::change::",
+    "symplectic_core::method::coupled::",
+    "symplectic_core::solver::",
 ];
 
 /// The modules with what only constraints, friction and Lagrangians need.
 const MECHANICS: [&str; 4] = [
-    "symplectic::method::constrained::",
-    "symplectic::method::nonholonomic::",
-    "symplectic::method::damped::",
-    "symplectic::variational::",
+    "symplectic_core::method::constrained::",
+    "symplectic_core::method::nonholonomic::",
+    "symplectic_core::method::damped::",
+    "symplectic_core::variational::",
 ];
 
 /// The names of the functions in a program, without their hashes.
@@ -53,17 +53,17 @@ fn an_explicit_scene_links_no_solver() -> Result<(), Box<dyn Error>> {
     }
     // The same searches find the solver where it is, and the drifts and kicks where those are.
     for module in [
-        "symplectic::method::coupled::",
-        "symplectic::solver::nystrom::",
+        "symplectic_core::method::coupled::",
+        "symplectic_core::solver::nystrom::",
     ] {
         assert!(!of(&implicit, module).is_empty(), "{module}");
     }
-    let splitting = "symplectic::method::splitting::";
+    let splitting = "symplectic_core::method::splitting::";
     assert!(!of(&explicit, splitting).is_empty() && of(&implicit, splitting).is_empty());
     // The one that the types choose brings neither Newton's iteration nor that of other scalars.
     for module in [
-        "symplectic::solver::newton::",
-        "symplectic::solver::fixed_point::",
+        "symplectic_core::solver::newton::",
+        "symplectic_core::solver::fixed_point::",
     ] {
         assert_eq!(of(&implicit, module), Vec::<String>::new(), "{module}");
     }
@@ -71,7 +71,7 @@ fn an_explicit_scene_links_no_solver() -> Result<(), Box<dyn Error>> {
     let library = |names: &BTreeSet<String>| {
         names
             .iter()
-            .filter(|name| name.contains("symplectic::"))
+            .filter(|name| name.contains("symplectic"))
             .count()
     };
     assert!(library(&explicit) < library(&implicit));
@@ -88,7 +88,7 @@ fn an_explicit_formula_has_only_its_velocity_and_force_in_it() -> Result<(), Box
         assert!(!has(&explicit, module), "{module}");
     }
     // In the other program the same search finds all of them.
-    assert!(has(&newton, "symplectic::solver::newton::"));
+    assert!(has(&newton, "symplectic_core::solver::newton::"));
     for function in ["energy", "second_derivatives", "half_bandwidth"] {
         let of_formula = |name: &String| {
             name.contains("HenonHeiles") && name.contains(&format!(">::{function}"))

@@ -28,7 +28,7 @@ fn the_catalogue_of_the_book_is_what_the_tool_lists() {
 /// The sections of the documentation of `hamiltonian!` that describe its language, as a page of the book: without links into the library.
 fn language() -> String {
     let source = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("../../runtime/src/system/hamiltonian_macro.rs");
+        .join("../../runtime/core/src/system/hamiltonian_macro.rs");
     let text = fs::read_to_string(source).expect("the documentation of the macro");
     let lines = text.lines().filter_map(|line| line.strip_prefix("///"));
     let lines = lines.map(|line| line.strip_prefix(' ').unwrap_or(line));

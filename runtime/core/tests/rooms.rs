@@ -1,6 +1,6 @@
-//! The rooms of the runtime: imports run downward, and nothing is imported through the root.
+//! The rooms of the core: imports run downward, and nothing is imported through the root.
 
-#[path = "../../tests/imports.rs"]
+#[path = "../../../tests/imports.rs"]
 mod imports;
 
 use std::path::{Path, PathBuf};
@@ -79,7 +79,7 @@ fn an_import_that_runs_up_is_found() {
 /// One style of module files: a module with parts is `folder/mod.rs`, not `folder.rs` beside `folder/`.
 #[test]
 fn a_module_with_parts_is_a_folder() {
-    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let mut all = Vec::new();
     for package in ["compiler", "macros", "runtime", "tests"] {
         files(&workspace.join(package), &mut all);

@@ -1,0 +1,101 @@
+//! The core of the package `symplectic`: systems, methods, solvers of coupled stages, and the run of a stepper
+//!
+//! Programs depend on `symplectic`, which gives all names of this package. Generated code names `::symplectic`, too.
+
+#![no_std]
+
+// Generated code names everything `::symplectic::…`; with this it compiles inside the crate too.
+#[allow(unused_extern_crates)]
+extern crate self as symplectic;
+
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
+#[cfg(feature = "std")]
+extern crate std;
+
+mod error;
+mod state;
+
+pub mod adaptive;
+#[cfg(feature = "alloc")]
+pub mod ensemble;
+#[cfg(feature = "std")]
+pub mod files;
+pub mod flow;
+mod integrator;
+mod method;
+mod number;
+pub mod output;
+pub mod rotation;
+pub mod solver;
+pub mod system;
+#[cfg(feature = "alloc")]
+pub mod tangent;
+#[cfg(feature = "alloc")]
+pub mod variational;
+
+pub use error::{ConstraintName, Error, Quantity};
+#[cfg(feature = "alloc")]
+pub use integrator::{Checkpoint, CheckpointError};
+pub use integrator::{
+    DenseSteps, Equal, Integrator, Own, Pace, Partitioned, PhasePoint, RemainingSteps, Retry, Run,
+    Statistics, StepMap, Stepper,
+};
+#[cfg(feature = "alloc")]
+pub use method::{AtRunTime, RunTimeCoefficients, RunTimeTableau, TableauError};
+#[cfg(feature = "alloc")]
+pub use method::{ConstraintForce, consistent, consistent_momentum, constraint_force};
+pub use method::{
+    LowerOrder, Method, Orders, ProvedFor, Splits, StoermerVerletSteps, SymmetricFor, composition,
+    friction_growth, splitting, tableau,
+};
+pub use nalgebra;
+pub use num_traits;
+pub use number::{Compensated, Plain, Scalar, Summation, Vector};
+pub use output::{Event, Events, Invariant, Moment, Progress};
+pub use state::{State, Timed};
+pub use system::{
+    Class, Damped, General, Hamiltonian, Lagrangian, Masses, Separable, SeparableHamiltonian,
+    System, acceleration, hamiltonian, lagrangian, separable,
+};
+#[cfg(feature = "alloc")]
+pub use system::{Constrained, Nonholonomic};
+
+/// Code that needs vectors on the heap.
+#[cfg(feature = "alloc")]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! if_alloc {
+    ($($code:tt)*) => { $($code)* };
+}
+
+/// Omits code that needs vectors on the heap: this build has no allocator.
+#[cfg(not(feature = "alloc"))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! if_alloc {
+    ($($code:tt)*) => {};
+}
+
+/// Doubles side by side.
+pub mod simd {
+    pub use crate::number::{DefaultLanes, F64x2, F64x4, F64x8, F64x16, Lanes, MAX_LANES};
+}
+
+/// What emitted code names; not for people.
+#[doc(hidden)]
+pub mod emitted {
+    #[cfg(feature = "alloc")]
+    pub use alloc::vec::Vec;
+
+    pub use num_traits::{One, Zero};
+
+    pub use crate::method::*;
+    pub use crate::number::*;
+    pub use crate::output::invariants;
+    pub use crate::solver::*;
+    pub use crate::system::chain::{Bonds, Chain};
+    pub use crate::system::*;
+    pub use crate::{chain_system, if_alloc};
+}
