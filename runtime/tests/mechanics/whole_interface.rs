@@ -88,9 +88,14 @@ fn run_of_any_pace<S, N>(
         "{name}"
     );
     assert!(
-        matches!(new().take_steps(1 << 53), Err(Error::StepCount { .. })),
+        fails_with(new().take_steps(1 << 53), "more than 2^53 steps"),
         "{name}"
     );
+}
+
+/// Whether it is an error with these words: each stepper has its own type of error.
+fn fails_with<T>(outcome: Result<T, impl std::error::Error>, words: &str) -> bool {
+    outcome.is_err_and(|error| error.to_string().contains(words))
 }
 
 /// A run with equal steps of size 0.1, from a start at the time 0; `late` is the start at a time that no step changes.
@@ -155,15 +160,12 @@ fn run_of_equal_steps<S, N>(
     // Errors leave everything as it is.
     let mut run = new();
     assert!(
-        matches!(run.integrate_to(f64::NAN), Err(Error::EndTime { .. })),
+        fails_with(run.integrate_to(f64::NAN), "the end time is NaN"),
         "{name}"
     );
     assert_eq!((run.steps(), run.state()), (0, start), "{name}");
     run.set_state(late.clone()).expect(name);
-    assert!(
-        matches!(run.step(), Err(Error::TimeResolution { .. })),
-        "{name}"
-    );
+    assert!(fails_with(run.step(), "does not change the time"), "{name}");
     assert_eq!((run.steps(), run.state()), (0, late), "{name}");
 }
 
@@ -191,7 +193,7 @@ where
     let middle = (seen[3].q.as_slice()[0] + seen[4].q.as_slice()[0]) / 2.0;
     assert!((found[2].q.as_slice()[0] - middle).abs() < 0.01, "{name}");
     let again = run.integrate_at(&[0.0], |_| ());
-    assert!(matches!(again, Err(Error::OutputTime { .. })), "{name}");
+    assert!(fails_with(again, "the output time 0"), "{name}");
     // An event at that time, and a wall.
     let event = Event::rising(|state: &State<S::Vector>| state.time - inside);
     let (mut run, last) = (new(), seen[8].time);
@@ -330,6 +332,7 @@ fn straight<P: Pace>(size: f64, own: Option<f64>) -> Result<Run<Straight<P>>, Er
 
 impl<P: Pace> Stepper for Straight<P> {
     type State = State<Vector1<f64>>;
+    type Error = Error;
     type Pace = P;
     type Saved = ();
 
@@ -553,6 +556,7 @@ fn own(start: &State<Vector1<f64>>, fault: Fault) -> Result<Run<Pendulum>, Error
 
 impl Stepper for Pendulum {
     type State = State<Vector1<f64>>;
+    type Error = Error;
     type Pace = Equal;
     type Saved = Self;
 

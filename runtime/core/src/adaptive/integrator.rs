@@ -355,6 +355,7 @@ where
     N: Solver<V, S>,
 {
     type State = State<V>;
+    type Error = Error;
     type Pace = Own;
     /// Parts of a step would not be symmetric.
     type Saved = ();

@@ -232,7 +232,7 @@ where
     /// # Ok(())
     /// # }
     /// ```
-    pub fn each_as<T: Stepper<State = State<V>>, A: Send>(
+    pub fn each_as<T: Stepper<State = State<V>, Error = Error>, A: Send>(
         &self,
         make: impl Fn(Integrator<M, S, V, R, N>) -> Result<Run<T>, Error> + Sync,
         output: impl Fn(usize) -> A + Sync,

@@ -975,7 +975,8 @@ pub enum Error {
 
 impl Error {
     /// Whether it is the error of a step that may succeed if it is shorter.
-    pub(crate) const fn depends_on_the_size(&self) -> bool {
+    #[must_use]
+    pub const fn depends_on_the_size(&self) -> bool {
         matches!(
             self,
             Self::NoConvergence { .. }

@@ -156,6 +156,7 @@ pub(super) const fn failed(failure: FlowError, span: Span, step: u64) -> Error {
 
 impl<V: Vector<Scalar = f64>, F: Flow<V>> Stepper for FlowSteps<V, F> {
     type State = State<V>;
+    type Error = Error;
     type Pace = Equal;
     /// A step with noise is not repeated.
     type Saved = ();

@@ -28,9 +28,11 @@ pub trait DenseSteps: Stepper<State = State<Self::Vector>> {
     /// # Errors
     ///
     /// [`Error::NoStep`] and those of the method.
-    fn prepare(&self, scratch: &mut Self::Scratch) -> Result<(), Error> {
+    fn prepare(&self, scratch: &mut Self::Scratch) -> Result<(), Self::Error> {
         let _ = scratch;
-        self.last_span().map(|_| ()).ok_or(Error::NoStep)
+        self.last_span()
+            .map(|_| ())
+            .ok_or_else(|| Error::NoStep.into())
     }
 
     /// Writes the state at a time inside the last step, for which the memory was [prepared](Self::prepare).
@@ -43,7 +45,7 @@ pub trait DenseSteps: Stepper<State = State<Self::Vector>> {
         time: f64,
         scratch: &mut Self::Scratch,
         out: &mut State<Self::Vector>,
-    ) -> Result<(), Error>;
+    ) -> Result<(), Self::Error>;
 
     /// [`look`](Self::look) by a step of the method from the start of the last step; it needs no preparation.
     ///
@@ -55,7 +57,7 @@ pub trait DenseSteps: Stepper<State = State<Self::Vector>> {
         time: f64,
         scratch: &mut Self::Scratch,
         out: &mut State<Self::Vector>,
-    ) -> Result<(), Error> {
+    ) -> Result<(), Self::Error> {
         self.prepare(scratch)?;
         self.look(time, scratch, out)
     }

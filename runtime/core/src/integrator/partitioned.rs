@@ -339,6 +339,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Stepper
     for Partitioned<M, S, V, R, N>
 {
     type State = State<V>;
+    type Error = Error;
     type Pace = Equal;
     /// With the round-off of the state.
     type Saved = (State<V>, (V, V), Statistics);
@@ -404,6 +405,10 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Stepper
         self.step_memory.copy_state(state);
         self.step_memory.low = low.clone();
         self.step_memory.statistics = *statistics;
+    }
+
+    fn may_split(&self, error: &Error) -> bool {
+        error.depends_on_the_size()
     }
 }
 

@@ -6,7 +6,6 @@ use core::ops::ControlFlow;
 use super::clock::RemainingSteps;
 use super::stepper::advance_in_time;
 use super::{Run, Stepper};
-use crate::error::Error;
 
 /// The reaction of a [`Run`] with equal steps if the stages of a step do not converge or a result is NaN or infinite.
 ///
@@ -50,9 +49,9 @@ impl<S: Stepper> Run<S> {
         &mut self,
         size: f64,
         time: f64,
-        error: Error,
-        see: &mut impl FnMut(&mut S) -> Result<ControlFlow<B>, Error>,
-    ) -> Result<ControlFlow<B>, Error> {
+        error: S::Error,
+        see: &mut impl FnMut(&mut S) -> Result<ControlFlow<B>, S::Error>,
+    ) -> Result<ControlFlow<B>, S::Error> {
         if !self.is_to_be_split(&error) {
             return Err(error);
         }
@@ -67,7 +66,12 @@ impl<S: Stepper> Run<S> {
 
     /// Repeats a step that failed with `error` in parts, if it is to be retried; returns the number of parts.
     #[cold]
-    pub(super) fn take_again(&mut self, size: f64, time: f64, error: Error) -> Result<u32, Error> {
+    pub(super) fn take_again(
+        &mut self,
+        size: f64,
+        time: f64,
+        error: S::Error,
+    ) -> Result<u32, S::Error> {
         if !self.is_to_be_split(&error) {
             return Err(error);
         }
@@ -83,7 +87,7 @@ impl<S: Stepper> Run<S> {
         Err(error)
     }
 
-    fn is_to_be_split(&self, error: &Error) -> bool {
+    fn is_to_be_split(&self, error: &S::Error) -> bool {
         self.retry != Retry::Never && self.stepper.may_split(error)
     }
 
@@ -93,8 +97,8 @@ impl<S: Stepper> Run<S> {
         size: f64,
         end: f64,
         parts: u32,
-        see: &mut impl FnMut(&mut S) -> Result<ControlFlow<B>, Error>,
-    ) -> Result<ControlFlow<B>, Error> {
+        see: &mut impl FnMut(&mut S) -> Result<ControlFlow<B>, S::Error>,
+    ) -> Result<ControlFlow<B>, S::Error> {
         let mut seen = ControlFlow::Continue(());
         let part = size / f64::from(parts);
         let start = self.stepper.time();

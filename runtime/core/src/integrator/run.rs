@@ -50,7 +50,7 @@ impl<S: Stepper> Run<S> {
     /// # Errors
     ///
     /// Those of the method, and [`Error::TimeResolution`]; the state is then unchanged.
-    pub fn step(&mut self) -> Result<&S::State, Error> {
+    pub fn step(&mut self) -> Result<&S::State, S::Error> {
         self.advance(self.step_size, self.clock.next())?;
         self.clock.tick();
         Ok(self.stepper.state())
@@ -79,7 +79,7 @@ impl<S: Stepper> Run<S> {
     /// # Ok(())
     /// # }
     /// ```
-    pub fn take_steps(&mut self, count: u64) -> Result<&S::State, Error> {
+    pub fn take_steps(&mut self, count: u64) -> Result<&S::State, S::Error> {
         let (time, size) = (self.stepper.time(), self.step_size);
         check_count(time, time + size * count as f64, size)?;
         let mut remaining = self.steps_left(count);
@@ -93,8 +93,8 @@ impl<S: Stepper> Run<S> {
     pub(crate) fn steps_to<B>(
         &mut self,
         end: f64,
-        mut take: impl FnMut(&mut Self, f64, f64) -> Result<ControlFlow<B>, Error>,
-    ) -> Result<ControlFlow<B>, Error> {
+        mut take: impl FnMut(&mut Self, f64, f64) -> Result<ControlFlow<B>, S::Error>,
+    ) -> Result<ControlFlow<B>, S::Error> {
         let mut remaining = self.steps_to_time(end)?;
         let mut outcome = Ok(ControlFlow::Continue(()));
         while let Some((size, time)) = remaining.next_step() {
@@ -110,8 +110,8 @@ impl<S: Stepper> Run<S> {
     /// Takes one step as [`step`](Self::step) does, and calls `see` after each of its parts.
     pub(crate) fn step_shown_to(
         &mut self,
-        mut see: impl FnMut(&mut S) -> Result<(), Error>,
-    ) -> Result<(), Error> {
+        mut see: impl FnMut(&mut S) -> Result<(), S::Error>,
+    ) -> Result<(), S::Error> {
         let (size, time) = (self.step_size, self.clock.next());
         let outcome = self.advance_in_sight(size, time, &mut |stepper| {
             see(stepper)?;
@@ -125,7 +125,7 @@ impl<S: Stepper> Run<S> {
     }
 
     /// Takes steps in blocks, all or all but a few of those that end before `time`.
-    pub(crate) fn take_most_before(&mut self, time: f64) -> Result<(), Error> {
+    pub(crate) fn take_most_before(&mut self, time: f64) -> Result<(), S::Error> {
         // The quotient is wrong by rounding.
         let whole = (time - self.stepper.time()) / self.step_size - 2.0;
         if whole < 2.0 {
@@ -140,7 +140,7 @@ impl<S: Stepper> Run<S> {
 
     /// Takes one step of size `size` to the time `time`, split if it has to be. The caller advances the clock.
     #[inline]
-    pub(crate) fn advance(&mut self, size: f64, time: f64) -> Result<(), Error> {
+    pub(crate) fn advance(&mut self, size: f64, time: f64) -> Result<(), S::Error> {
         match advance_in_time(&mut self.stepper, size, time) {
             Ok(()) => Ok(()),
             Err(error) => self.take_again(size, time, error).map(|_| ()),
@@ -153,8 +153,8 @@ impl<S: Stepper> Run<S> {
         &mut self,
         size: f64,
         time: f64,
-        see: &mut impl FnMut(&mut S) -> Result<ControlFlow<B>, Error>,
-    ) -> Result<ControlFlow<B>, Error> {
+        see: &mut impl FnMut(&mut S) -> Result<ControlFlow<B>, S::Error>,
+    ) -> Result<ControlFlow<B>, S::Error> {
         match advance_in_time(&mut self.stepper, size, time) {
             Ok(()) => see(&mut self.stepper),
             Err(error) => self.take_again_in_sight(size, time, error, see),
@@ -166,8 +166,8 @@ impl<S: Stepper> Run<S> {
     pub(crate) fn take_next_again(
         &mut self,
         remaining: &mut RemainingSteps,
-        error: Error,
-    ) -> Result<(), Error> {
+        error: S::Error,
+    ) -> Result<(), S::Error> {
         self.take_again(remaining.size, remaining.next_time(), error)?;
         remaining.tick();
         Ok(())
@@ -175,7 +175,7 @@ impl<S: Stepper> Run<S> {
 
     /// Takes one step, never split.
     #[cfg(feature = "alloc")]
-    pub(crate) fn step_at_once(&mut self) -> Result<(), Error> {
+    pub(crate) fn step_at_once(&mut self) -> Result<(), S::Error> {
         advance_in_time(&mut self.stepper, self.step_size, self.clock.next())?;
         self.clock.tick();
         Ok(())
@@ -199,7 +199,10 @@ impl<S: Stepper> Run<S> {
 
     /// Takes all remaining steps.
     #[inline]
-    pub(crate) fn take_remaining(&mut self, remaining: &mut RemainingSteps) -> Result<(), Error> {
+    pub(crate) fn take_remaining(
+        &mut self,
+        remaining: &mut RemainingSteps,
+    ) -> Result<(), S::Error> {
         while let Err(error) = self.stepper.take(remaining) {
             self.take_next_again(remaining, error)?;
         }
@@ -211,7 +214,7 @@ impl<S: Stepper> Run<S> {
         &mut self,
         end: f64,
         sight: &mut impl Sight<S, B>,
-    ) -> Result<ControlFlow<B>, Error> {
+    ) -> Result<ControlFlow<B>, S::Error> {
         let mut remaining = self.steps_to_time(end)?;
         let outcome = self.take_in_sight(&mut remaining, sight);
         self.restart_clock();
@@ -223,7 +226,7 @@ impl<S: Stepper> Run<S> {
         &mut self,
         remaining: &mut RemainingSteps,
         sight: &mut impl Sight<S, B>,
-    ) -> Result<ControlFlow<B>, Error> {
+    ) -> Result<ControlFlow<B>, S::Error> {
         let mut seen = ControlFlow::Continue(());
         while remaining.left > 0 && seen.is_continue() {
             let passes = |state: &_, statistics: &_| sight.passes(state, statistics);
@@ -251,12 +254,12 @@ impl<S: Stepper> Run<S> {
     /// # Errors
     ///
     /// Those of a new run, for example [`Error::Dimension`] and [`Error::NonFiniteState`]; the state is then unchanged.
-    pub fn set_state(&mut self, state: S::State) -> Result<(), Error> {
+    pub fn set_state(&mut self, state: S::State) -> Result<(), S::Error> {
         self.copy_state(&state)
     }
 
     /// [`set_state`](Self::set_state) by a copy.
-    pub(crate) fn copy_state(&mut self, state: &S::State) -> Result<(), Error> {
+    pub(crate) fn copy_state(&mut self, state: &S::State) -> Result<(), S::Error> {
         self.stepper.set_state(state)?;
         self.restart_clock();
         Ok(())
@@ -295,7 +298,7 @@ impl<S: Stepper<Pace = Equal>> Run<S> {
     ///
     /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that after the
     /// last successful step.
-    pub fn integrate_to(&mut self, end: f64) -> Result<&S::State, Error> {
+    pub fn integrate_to(&mut self, end: f64) -> Result<&S::State, S::Error> {
         let mut remaining = self.steps_to_time(end)?;
         let outcome = self.take_remaining(&mut remaining);
         self.restart_clock();
@@ -326,7 +329,7 @@ impl<S: Stepper<Pace = Equal>> Run<S> {
         &mut self,
         end: f64,
         mut observe: F,
-    ) -> Result<&S::State, Error> {
+    ) -> Result<&S::State, S::Error> {
         let ControlFlow::Continue(()) = self.steps_to(end, |run, size, time| {
             run.advance(size, time)?;
             observe(run.state());

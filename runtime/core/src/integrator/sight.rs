@@ -3,7 +3,6 @@
 use core::ops::ControlFlow;
 
 use super::{Statistics, Stepper};
-use crate::error::Error;
 
 /// What is to be seen in the steps of a run: output and events.
 pub(crate) trait Sight<S: Stepper, B> {
@@ -11,10 +10,10 @@ pub(crate) trait Sight<S: Stepper, B> {
     fn passes(&mut self, state: &S::State, statistics: &Statistics) -> bool;
 
     /// Sees the last step, unless it passes.
-    fn see(&mut self, stepper: &mut S) -> Result<ControlFlow<B>, Error>;
+    fn see(&mut self, stepper: &mut S) -> Result<ControlFlow<B>, S::Error>;
 
     /// Sees the last step if it does not pass.
-    fn see_or_pass(&mut self, stepper: &mut S) -> Result<ControlFlow<B>, Error> {
+    fn see_or_pass(&mut self, stepper: &mut S) -> Result<ControlFlow<B>, S::Error> {
         match self.passes(stepper.state(), stepper.statistics()) {
             true => Ok(ControlFlow::Continue(())),
             false => self.see(stepper),

@@ -1,7 +1,6 @@
 //! The step of an integrator as a map of states: whether it is symplectic, and equivariant under a symmetry.
 
 use super::{Run, Stepper};
-use crate::error::Error;
 use crate::number::{Scalar, Vector};
 use crate::state::State;
 
@@ -47,6 +46,9 @@ pub trait StepMap {
     /// The state of the integrator.
     type State: PhasePoint;
 
+    /// The error of a step.
+    type Error;
+
     /// The present state.
     fn present(&self) -> &Self::State;
 
@@ -55,7 +57,7 @@ pub trait StepMap {
     /// # Errors
     ///
     /// Those of a new integrator at `state`, and of its step.
-    fn step_from(&self, state: Self::State) -> Result<Self::State, Error>;
+    fn step_from(&self, state: Self::State) -> Result<Self::State, Self::Error>;
 
     /// How much the step changes `ω = dq∧dp` on two directions, relative to the size of its terms: zero up to about 10⁻¹¹ for a symplectic
     /// step.
@@ -69,7 +71,7 @@ pub trait StepMap {
     fn symplecticity_defect(
         &self,
         mut family: impl FnMut(f64, f64) -> Self::State,
-    ) -> Result<f64, Error> {
+    ) -> Result<f64, Self::Error> {
         let prototype = self.present().canonical();
         let vectors = || (prototype.q.zeros_like(), prototype.q.zeros_like());
         // The directions before and after the step, each a change of q and one of p.
@@ -117,7 +119,7 @@ pub trait StepMap {
     fn equivariance_defect(
         &self,
         mut act: impl FnMut(&Self::State) -> Self::State,
-    ) -> Result<f64, Error>
+    ) -> Result<f64, Self::Error>
     where
         Self::State: Clone,
     {
@@ -160,12 +162,13 @@ fn form<V: Vector>([(q, p), (other_q, other_p)]: &[(V, V); 2]) -> (V::Scalar, f6
 
 impl<S: Stepper<State: PhasePoint> + Clone> StepMap for Run<S> {
     type State = S::State;
+    type Error = S::Error;
 
     fn present(&self) -> &S::State {
         self.state()
     }
 
-    fn step_from(&self, state: S::State) -> Result<S::State, Error> {
+    fn step_from(&self, state: S::State) -> Result<S::State, S::Error> {
         let mut run = self.clone();
         run.set_state(state)?;
         run.step()?;

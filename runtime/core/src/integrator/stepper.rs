@@ -22,6 +22,7 @@ use crate::state::Timed;
 ///
 /// impl Stepper for Pendulum {
 ///     type State = State<Vector1<f64>>;
+///     type Error = Error;
 ///     type Pace = Equal;
 ///     type Saved = Self;
 ///
@@ -75,6 +76,9 @@ pub trait Stepper {
     /// The state.
     type State: Timed;
 
+    /// The error of a step: [`Error`], or one that contains it if the method can fail in other ways.
+    type Error: core::error::Error + From<Error> + Send + Sync + 'static;
+
     /// Who chooses the sizes of the steps: [`Equal`](super::Equal) or [`Own`](super::Own).
     type Pace: Pace;
 
@@ -109,7 +113,7 @@ pub trait Stepper {
     /// # Errors
     ///
     /// Those of a new stepper at this state; nothing is then changed.
-    fn set_state(&mut self, state: &Self::State) -> Result<(), Error>;
+    fn set_state(&mut self, state: &Self::State) -> Result<(), Self::Error>;
 
     /// Takes a step of size `size` to the time `end`, which is not the present time, and counts it. A stepper with its [`Own`](super::Own)
     /// pace ignores both.
@@ -117,7 +121,7 @@ pub trait Stepper {
     /// # Errors
     ///
     /// Those of the method; the state is then unchanged.
-    fn advance(&mut self, size: f64, end: f64) -> Result<(), Error>;
+    fn advance(&mut self, size: f64, end: f64) -> Result<(), Self::Error>;
 
     /// Takes all these steps. They have the bits of single steps.
     ///
@@ -125,7 +129,7 @@ pub trait Stepper {
     ///
     /// Those of [`advance`](Self::advance) and [`Error::TimeResolution`]; the step that failed is then the next of `steps`.
     #[inline]
-    fn take(&mut self, steps: &mut RemainingSteps) -> Result<(), Error> {
+    fn take(&mut self, steps: &mut RemainingSteps) -> Result<(), Self::Error> {
         self.take_while(steps, |_, _| true).map(|_| ())
     }
 
@@ -139,7 +143,7 @@ pub trait Stepper {
         &mut self,
         steps: &mut RemainingSteps,
         mut goes_on: impl FnMut(&Self::State, &Statistics) -> bool,
-    ) -> Result<bool, Error> {
+    ) -> Result<bool, Self::Error> {
         while let Some((size, end)) = steps.next() {
             advance_in_time(self, size, end)?;
             steps.tick();
@@ -161,10 +165,11 @@ pub trait Stepper {
     /// Returns to what was saved.
     fn go_back(&mut self, saved: &Self::Saved);
 
-    /// Whether a step that failed with this error may be [split](super::Retry) into shorter ones. By default it may if the error depends on
-    /// the step size.
-    fn may_split(&self, error: &Error) -> bool {
-        error.depends_on_the_size()
+    /// Whether a step that failed with this error may be [split](super::Retry) into shorter ones. By default it may not. Most
+    /// methods answer with [`Error::depends_on_the_size`].
+    fn may_split(&self, error: &Self::Error) -> bool {
+        let _ = error;
+        false
     }
 }
 
@@ -174,12 +179,10 @@ pub(super) fn advance_in_time<S: Stepper + ?Sized>(
     stepper: &mut S,
     size: f64,
     end: f64,
-) -> Result<(), Error> {
+) -> Result<(), S::Error> {
     if !S::Pace::OWN && end == stepper.time() {
-        return Err(Error::TimeResolution {
-            time: end,
-            step_size: size,
-        });
+        let (time, step_size) = (end, size);
+        return Err(Error::TimeResolution { time, step_size }.into());
     }
     stepper.advance(size, end)
 }

@@ -44,7 +44,7 @@ impl<S: DenseSteps> Run<S> {
         &mut self,
         times: &[f64],
         mut observe: F,
-    ) -> Result<&S::State, Error> {
+    ) -> Result<&S::State, S::Error> {
         self.check_times(times)?;
         let mut rest = times;
         let mut output = Output::new(&self.stepper, self.direction());
@@ -64,7 +64,7 @@ impl<S: DenseSteps> Run<S> {
     ///
     /// [`Error::NoStep`] before the first step and after every call that discards it, such as a new state or a failed step;
     /// [`Error::OutsideStep`]; those of the dense output of the stepper.
-    pub fn state_at(&mut self, time: f64) -> Result<S::State, Error> {
+    pub fn state_at(&mut self, time: f64) -> Result<S::State, S::Error> {
         let mut output = Output::new(&self.stepper, self.direction());
         output.look_at(&mut self.stepper, time)?;
         Ok(output.state)
@@ -86,7 +86,7 @@ impl<S: DenseSteps> Run<S> {
         &mut self,
         end: f64,
         mut observe: impl FnMut(&S::State),
-    ) -> Result<(), Error> {
+    ) -> Result<(), S::Error> {
         if !S::Pace::OWN {
             let ended = self.steps_to(end, |run, size, time| {
                 run.advance(size, time)?;
@@ -97,7 +97,7 @@ impl<S: DenseSteps> Run<S> {
         }
         let before = self.start_of_last_step();
         if !end.is_finite() || is_after(self.direction(), before, end) {
-            return Err(Error::OutputTime { time: end, before });
+            return Err(Error::OutputTime { time: end, before }.into());
         }
         while self.is_before(end) {
             observe(self.step()?);
@@ -184,7 +184,7 @@ impl<S: DenseSteps> Output<S> {
 
     /// Sets `state` to the state at a time inside the last step.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn look_at(&mut self, stepper: &mut S, time: f64) -> Result<(), Error> {
+    pub(crate) fn look_at(&mut self, stepper: &mut S, time: f64) -> Result<(), S::Error> {
         if !self.evaluated {
             stepper.prepare(&mut self.scratch)?;
             self.evaluated = true;
@@ -193,13 +193,13 @@ impl<S: DenseSteps> Output<S> {
     }
 
     /// [`look_at`](Self::look_at) by a step of the method.
-    pub(crate) fn look_by_step(&mut self, stepper: &mut S, time: f64) -> Result<(), Error> {
+    pub(crate) fn look_by_step(&mut self, stepper: &mut S, time: f64) -> Result<(), S::Error> {
         stepper.look_by_step(time, &mut self.scratch, &mut self.state)
     }
 
     /// [`look_at`](Self::look_at) for runs side by side, in the registers of their lanes.
     #[cfg(feature = "alloc")]
-    pub(crate) fn look_together(&mut self, stepper: &mut S, time: f64) -> Result<(), Error> {
+    pub(crate) fn look_together(&mut self, stepper: &mut S, time: f64) -> Result<(), S::Error> {
         <S::Vector as Vector>::Scalar::in_registers(Look {
             output: self,
             stepper,
@@ -220,7 +220,7 @@ impl<S: DenseSteps> Output<S> {
         stepper: &mut S,
         times: &mut &[f64],
         observe: &mut impl FnMut(&S::State),
-    ) -> Result<(), Error> {
+    ) -> Result<(), S::Error> {
         self.evaluated = false;
         while let Some((&time, rest)) = times.split_first() {
             let present = stepper.time();
@@ -249,7 +249,7 @@ struct Look<'a, S: DenseSteps> {
 
 #[cfg(feature = "alloc")]
 impl<S: DenseSteps> Work for Look<'_, S> {
-    type Output = Result<(), Error>;
+    type Output = Result<(), S::Error>;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> Self::Output {

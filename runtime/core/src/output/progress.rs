@@ -2,7 +2,6 @@
 
 use core::ops::ControlFlow;
 
-use crate::error::Error;
 use crate::integrator::{Equal, Run, Statistics, Stepper};
 
 /// Progress of an integration, reported by [`Run::integrate_while`] after every step; `T` is the type of the state.
@@ -60,7 +59,7 @@ impl<S: Stepper<Pace = Equal>> Run<S> {
         &mut self,
         end: f64,
         mut report: F,
-    ) -> Result<Option<B>, Error> {
+    ) -> Result<Option<B>, S::Error> {
         let (mut step, steps) = (0, self.steps_to_time(end)?.left);
         let ended = self.steps_to(end, |run, size, time| {
             run.advance(size, time)?;

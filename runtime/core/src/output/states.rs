@@ -2,7 +2,6 @@
 
 use core::iter::FusedIterator;
 
-use crate::error::Error;
 use crate::integrator::{Run, Stepper};
 
 impl<S: Stepper> Run<S> {
@@ -52,7 +51,7 @@ impl<S: Stepper> States<'_, S> {
 }
 
 impl<S: Stepper> Iterator for States<'_, S> {
-    type Item = Result<S::State, Error>;
+    type Item = Result<S::State, S::Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
         if self.failed {

@@ -196,6 +196,7 @@ impl<B: RigidBody> RotationSteps<B> {
 
 impl<B: RigidBody> Stepper for RotationSteps<B> {
     type State = RotationState;
+    type Error = Error;
     type Pace = Equal;
     type Saved = Present;
 
@@ -239,6 +240,10 @@ impl<B: RigidBody> Stepper for RotationSteps<B> {
 
     fn go_back(&mut self, saved: &Present) {
         self.present = *saved;
+    }
+
+    fn may_split(&self, error: &Error) -> bool {
+        error.depends_on_the_size()
     }
 }
 

@@ -161,6 +161,7 @@ impl<L: DiscreteLagrangian> EnergyMomentumIntegrator<L> {
 
 impl<L: DiscreteLagrangian> Stepper for EnergyMomentumSteps<L> {
     type State = State<L::Vector<f64>>;
+    type Error = Error;
     type Pace = Own;
     /// A step is not split: its size is the unknown.
     type Saved = ();

@@ -57,7 +57,7 @@ use crate::variational::regular::{Singular, largest};
 /// # Ok(())
 /// # }
 /// ```
-pub trait GeneratingFunctions: StepMap<State = State<Self::Vector>> {
+pub trait GeneratingFunctions: StepMap<State = State<Self::Vector>, Error = Error> {
     /// The vectors of a state.
     type Vector: Vector<Scalar = f64>;
 

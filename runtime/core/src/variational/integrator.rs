@@ -233,6 +233,7 @@ impl<L: DiscreteLagrangian> VariationalSteps<L> {
 
 impl<L: DiscreteLagrangian> Stepper for VariationalSteps<L> {
     type State = State<L::Vector<f64>>;
+    type Error = Error;
     type Pace = Equal;
     type Saved = (Self::State, Option<f64>, Statistics);
 
@@ -279,6 +280,10 @@ impl<L: DiscreteLagrangian> Stepper for VariationalSteps<L> {
     fn go_back(&mut self, (state, action, statistics): &Self::Saved) {
         self.state.copy_from(state);
         (self.action, self.statistics) = (*action, *statistics);
+    }
+
+    fn may_split(&self, error: &Error) -> bool {
+        error.depends_on_the_size()
     }
 }
 

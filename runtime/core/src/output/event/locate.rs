@@ -26,7 +26,7 @@ impl<E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'_, E, S> {
         index: usize,
         start: f64,
         ahead: [Option<f64>; 2],
-    ) -> Result<(), Error> {
+    ) -> Result<(), S::Error> {
         let at_start = self.tracks.as_ref()[index];
         let mut track = at_start;
         let mut changed = false;
@@ -56,7 +56,7 @@ impl<E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'_, E, S> {
         at_start: Track,
         track: &mut Track,
         [start, middle, end]: [f64; 3],
-    ) -> Result<(), Error> {
+    ) -> Result<(), S::Error> {
         let side = at_start.side;
         let first = side * at_start.value;
         let [second, third] = track.ahead.map(|value| side * value);
@@ -65,7 +65,8 @@ impl<E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'_, E, S> {
             return Ok(());
         }
         let by_steps = self.by_steps;
-        let mut value = |time| Ok(side * self.value_at(stepper, index, time, by_steps)?);
+        let mut value =
+            |time| Ok::<_, S::Error>(side * self.value_at(stepper, index, time, by_steps)?);
         // A single extremum lies next to the smallest of the three values.
         let between = if second <= third && second <= first {
             (start, end)
@@ -98,7 +99,7 @@ impl<E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'_, E, S> {
         index: usize,
         track: &mut Track,
         between: (f64, f64),
-    ) -> Result<(), Error> {
+    ) -> Result<(), S::Error> {
         let kind = self.events.kind(index);
         if kind.matches(track.side) {
             let side = track.side;
@@ -124,7 +125,7 @@ impl<E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'_, E, S> {
         track: &Track,
         (from, to): (f64, f64),
         by_steps: bool,
-    ) -> Result<Option<f64>, Error> {
+    ) -> Result<Option<f64>, S::Error> {
         let mut start = from;
         if track.on_zero {
             match self.departure(stepper, index, track, (from, to), by_steps)? {
@@ -166,7 +167,7 @@ impl<E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'_, E, S> {
         track: &Track,
         (from, to): (f64, f64),
         by_steps: bool,
-    ) -> Result<Option<f64>, Error> {
+    ) -> Result<Option<f64>, S::Error> {
         let mut width = to - from;
         for _ in 0..HALVINGS {
             width *= 0.5;
@@ -189,9 +190,9 @@ impl<E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'_, E, S> {
         index: usize,
         time: f64,
         by_steps: bool,
-    ) -> Result<f64, Error> {
+    ) -> Result<f64, S::Error> {
         self.look_at(stepper, time, by_steps)?;
-        self.value(index)
+        Ok(self.value(index)?)
     }
 
     /// Sets `output.state` to the state at a time inside the last step.
@@ -200,7 +201,7 @@ impl<E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'_, E, S> {
         stepper: &mut S,
         time: f64,
         by_steps: bool,
-    ) -> Result<(), Error> {
+    ) -> Result<(), S::Error> {
         if by_steps {
             let taken = self.output.look_by_step(stepper, time);
             if taken.is_ok() || self.needs_steps {

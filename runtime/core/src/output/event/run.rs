@@ -33,7 +33,7 @@ impl<S: DenseSteps> Run<S> {
         end: f64,
         event: &Event<G>,
         mut observe: F,
-    ) -> Result<Option<B>, Error> {
+    ) -> Result<Option<B>, S::Error> {
         self.integrate_through(end, &[], event, |moment| match moment {
             Moment::Event { state, .. } => observe(state),
             Moment::Output(_) => ControlFlow::Continue(()),
@@ -54,7 +54,7 @@ impl<S: DenseSteps> Run<S> {
         &mut self,
         end: f64,
         event: &Event<G>,
-    ) -> Result<Option<S::State>, Error> {
+    ) -> Result<Option<S::State>, S::Error> {
         self.integrate_with_events(end, event, |state| ControlFlow::Break(state.clone()))
     }
 
@@ -121,9 +121,9 @@ impl<S: DenseSteps> Run<S> {
         times: &[f64],
         events: &E,
         mut handle: F,
-    ) -> Result<Option<B>, Error> {
+    ) -> Result<Option<B>, S::Error> {
         if S::Pace::OWN && !end.is_finite() {
-            return Err(Error::EndTime { value: end });
+            return Err(Error::EndTime { value: end }.into());
         }
         let (present, step) = (self.stepper.time(), self.size_to(end));
         // A stepper with its own pace may be beyond the end.
@@ -132,7 +132,7 @@ impl<S: DenseSteps> Run<S> {
             false => present,
         };
         if is_after(step, before, end) {
-            return Err(Error::OutputTime { time: end, before });
+            return Err(Error::OutputTime { time: end, before }.into());
         }
         check_times(step, times, before, Some(end))?;
         let mut search = Search::new(events, times, &self.stepper, self.last_event, step);
@@ -180,7 +180,7 @@ impl<S: DenseSteps> Run<S> {
         &mut self,
         end: f64,
         sight: &mut impl Sight<S, B>,
-    ) -> Result<ControlFlow<B>, Error> {
+    ) -> Result<ControlFlow<B>, S::Error> {
         while self.is_before(end) {
             self.step()?;
             let seen = sight.see_or_pass(&mut self.stepper)?;
@@ -206,7 +206,7 @@ struct Searching<'a, 'e, E: Events<S::Vector> + ?Sized, S: DenseSteps, F> {
     handle: &'a mut F,
 }
 
-impl<E, S, F, B> Sight<S, Stop<B>> for Searching<'_, '_, E, S, F>
+impl<E, S, F, B> Sight<S, Stop<B, S::Error>> for Searching<'_, '_, E, S, F>
 where
     E: Events<S::Vector> + ?Sized,
     S: DenseSteps,
@@ -217,7 +217,7 @@ where
         self.search.passes(state, statistics.iterations)
     }
 
-    fn see(&mut self, stepper: &mut S) -> Result<ControlFlow<Stop<B>>, Error> {
+    fn see(&mut self, stepper: &mut S) -> Result<ControlFlow<Stop<B, S::Error>>, S::Error> {
         let seen = self.search.step(stepper, self.handle);
         Ok(seen.unwrap_or_else(|error| self.search.fail(stepper, error)))
     }

@@ -6,7 +6,6 @@ use super::list::EventList;
 use super::locate::SMALL;
 use super::search::{Search, place};
 use super::track::{DEEPEST, Track, sign};
-use crate::error::Error;
 use crate::integrator::DenseSteps;
 
 /// An extremum at a distance from zero of at most this number of differences is looked for by steps of the method.
@@ -94,7 +93,7 @@ impl Track {
 
 impl<E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'_, E, S> {
     /// Whether the interpolation leaves open which events the last step has, so that steps of the method decide.
-    pub(super) fn is_open(&mut self, stepper: &mut S, span: (f64, f64)) -> Result<bool, Error> {
+    pub(super) fn is_open(&mut self, stepper: &mut S, span: (f64, f64)) -> Result<bool, S::Error> {
         let (count, finest) = (self.tracks.as_ref().len(), self.samples.next_multiple_of(2));
         self.tracks.as_mut().iter_mut().for_each(Track::begin_scan);
         if count == 0 || self.samples == 1 {
@@ -136,7 +135,7 @@ impl<E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'_, E, S> {
         index: usize,
         span: (f64, f64),
         points: u32,
-    ) -> Result<bool, Error> {
+    ) -> Result<bool, S::Error> {
         let track = self.tracks.as_ref()[index];
         let mut slopes = [0.0; 2];
         for (slope, time) in slopes.iter_mut().zip([span.0, span.1]) {

@@ -58,15 +58,15 @@ pub(super) struct Search<'e, E: EventList<S::Vector> + ?Sized, S: DenseSteps> {
 }
 
 /// Why a search does not continue with the next step.
-pub(super) enum Stop<B> {
+pub(super) enum Stop<B, E> {
     /// The search restarts from the state that the handler received.
     Reset,
     /// The handler broke the search; the flag says whether the state that it received becomes the present state.
     Broken(B, bool),
-    Failed(Error),
+    Failed(E),
 }
 
-type Seen<B> = ControlFlow<Stop<B>>;
+type Seen<B, E> = ControlFlow<Stop<B, E>>;
 
 impl<'e, E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'e, E, S> {
     /// A search from the present state of the stepper, after the event `last`; `direction` has the sign of the step size.
@@ -107,7 +107,7 @@ impl<'e, E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'e, E, S> {
     }
 
     /// Starts at the present state of the stepper; `step` is the approximate size of the next step.
-    pub(super) fn start(&mut self, stepper: &mut S, step: f64) -> Result<(), Error> {
+    pub(super) fn start(&mut self, stepper: &mut S, step: f64) -> Result<(), S::Error> {
         self.shown.copy_from(stepper.state());
         for index in 0..self.tracks.as_ref().len() {
             self.output.state.copy_from(stepper.state());
@@ -180,7 +180,7 @@ impl<'e, E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'e, E, S> {
         &mut self,
         stepper: &mut S,
         handle: &mut impl FnMut(Moment<'_, S::Vector>) -> ControlFlow<B>,
-    ) -> Result<Seen<B>, Error> {
+    ) -> Result<Seen<B, S::Error>, S::Error> {
         let (start, end) = stepper.last_span().ok_or(Error::NoStep)?;
         self.output.evaluated = false;
         self.by_steps = self.is_open(stepper, (start, end))?;
@@ -231,7 +231,7 @@ impl<'e, E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'e, E, S> {
         stepper: &mut S,
         time: f64,
         by_steps: bool,
-    ) -> Result<(), Error> {
+    ) -> Result<(), S::Error> {
         if time == stepper.time() {
             self.output.state.copy_from(stepper.state());
             return Ok(());
@@ -241,7 +241,7 @@ impl<'e, E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'e, E, S> {
 
     /// Ends the search with an error. The state returns to the start of the last step, because its end may lie behind a
     /// wall that was not found.
-    pub(super) fn fail<B>(&mut self, stepper: &mut S, error: Error) -> Seen<B> {
+    pub(super) fn fail<B>(&mut self, stepper: &mut S, error: S::Error) -> Seen<B, S::Error> {
         stepper.write_start(&mut self.shown);
         ControlFlow::Break(Stop::Failed(error))
     }
@@ -252,7 +252,7 @@ impl<'e, E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'e, E, S> {
         stepper: &mut S,
         end: f64,
         handle: &mut impl FnMut(Moment<'_, S::Vector>) -> ControlFlow<B>,
-    ) -> Result<Seen<B>, Error> {
+    ) -> Result<Seen<B, S::Error>, S::Error> {
         loop {
             let next = self.next();
             let until = next.map_or(end, |(_, next)| next.time);
@@ -292,7 +292,7 @@ impl<'e, E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'e, E, S> {
         &mut self,
         (time, step): (f64, f64),
         handle: &mut impl FnMut(Moment<'_, S::Vector>) -> ControlFlow<B>,
-    ) -> Seen<B> {
+    ) -> Seen<B, S::Error> {
         let mut reset = false;
         while let Some((index, next)) = self.next()
             && next.time == time
@@ -305,7 +305,7 @@ impl<'e, E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'e, E, S> {
                     true => Error::BehindWall { time, index, value },
                     false => Error::EventsAccumulate { time, index, count },
                 };
-                return ControlFlow::Break(Stop::Failed(failed));
+                return ControlFlow::Break(Stop::Failed(failed.into()));
             }
             let track = &mut self.tracks.as_mut()[index];
             track.pop();
@@ -341,7 +341,7 @@ impl<'e, E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'e, E, S> {
         stepper: &mut S,
         until: f64,
         handle: &mut impl FnMut(Moment<'_, S::Vector>) -> ControlFlow<B>,
-    ) -> Result<Seen<B>, Error> {
+    ) -> Result<Seen<B, S::Error>, S::Error> {
         while let Some((&time, rest)) = self.times.split_first()
             && !self.output.is_after(time, until)
         {
@@ -361,7 +361,7 @@ impl<'e, E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'e, E, S> {
     }
 
     /// Stores the values at `self.output.state`, the middle (0) or the end (1) of the panel.
-    fn look_ahead(&mut self, place: usize) -> Result<(), Error> {
+    fn look_ahead(&mut self, place: usize) -> Result<(), S::Error> {
         for index in 0..self.tracks.as_ref().len() {
             self.tracks.as_mut()[index].ahead[place] = self.value(index)?;
         }

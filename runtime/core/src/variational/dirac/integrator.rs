@@ -264,6 +264,7 @@ impl<L: DiracSystem> DiracSteps<L> {
 
 impl<L: DiracSystem> Stepper for DiracSteps<L> {
     type State = State<L::Vector<f64>>;
+    type Error = Error;
     type Pace = Equal;
     type Saved = (Self::State, L::Vector<f64>, Statistics);
 
@@ -308,5 +309,9 @@ impl<L: DiracSystem> Stepper for DiracSteps<L> {
         self.state.copy_from(state);
         copy(&mut self.velocity, velocity);
         self.statistics = *statistics;
+    }
+
+    fn may_split(&self, error: &Error) -> bool {
+        error.depends_on_the_size()
     }
 }

@@ -390,6 +390,7 @@ impl<L: Lagrangian> LagrangianSteps<L> {
 
 impl<L: Lagrangian> Stepper for LagrangianSteps<L> {
     type State = State<L::Vector<f64>>;
+    type Error = Error;
     type Pace = Equal;
     type Saved = (Self::State, Option<f64>, Statistics);
 
@@ -441,6 +442,10 @@ impl<L: Lagrangian> Stepper for LagrangianSteps<L> {
         self.state.copy_from(state);
         self.begin_as_first();
         (self.action, self.statistics) = (*action, *statistics);
+    }
+
+    fn may_split(&self, error: &Error) -> bool {
+        error.depends_on_the_size()
     }
 }
 
