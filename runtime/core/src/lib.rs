@@ -14,6 +14,8 @@ extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
+mod classes;
+mod contract;
 mod error;
 mod state;
 
@@ -35,6 +37,12 @@ pub mod tangent;
 #[cfg(feature = "alloc")]
 pub mod variational;
 
+pub use classes::friction_growth;
+#[cfg(feature = "alloc")]
+pub use classes::{ConstraintForce, consistent, consistent_momentum, constraint_force};
+pub use contract::{
+    LowerOrder, Method, Orders, ProvedFor, Splits, StoermerVerletSteps, SymmetricFor,
+};
 pub use error::{ConstraintName, Error, Quantity};
 #[cfg(feature = "alloc")]
 pub use integrator::{Checkpoint, CheckpointError};
@@ -44,12 +52,7 @@ pub use integrator::{
 };
 #[cfg(feature = "alloc")]
 pub use method::{AtRunTime, RunTimeCoefficients, RunTimeTableau, TableauError};
-#[cfg(feature = "alloc")]
-pub use method::{ConstraintForce, consistent, consistent_momentum, constraint_force};
-pub use method::{
-    LowerOrder, Method, Orders, ProvedFor, Splits, StoermerVerletSteps, SymmetricFor, composition,
-    friction_growth, splitting, tableau,
-};
+pub use method::{composition, splitting, tableau};
 pub use nalgebra;
 pub use num_traits;
 pub use number::{Compensated, Plain, Scalar, Summation, Vector};
@@ -91,6 +94,8 @@ pub mod emitted {
 
     pub use num_traits::{One, Zero};
 
+    pub use crate::classes::*;
+    pub use crate::contract::*;
     pub use crate::method::*;
     pub use crate::number::*;
     pub use crate::output::invariants;

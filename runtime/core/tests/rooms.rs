@@ -12,9 +12,10 @@ const LEVELS: &[&[&str]] = &[
     &["error"],
     &["number"],
     &["state"],
-    &["system"],
+    &["contract"],
     &["method"],
     &["solver"],
+    &["classes", "system"],
     &["integrator"],
     &["output", "rotation", "tangent", "variational"],
     &["adaptive", "flow"],
@@ -22,19 +23,11 @@ const LEVELS: &[&[&str]] = &[
     &["files"],
 ];
 
-/// The imports that run up. A system chooses how it is stepped: its class the plan of a method, and its type the solver.
+/// The imports that run up: the contract names tableaux that are read at run time.
 const UPWARD: &[(&str, &str)] = &[
-    ("system/class.rs", "method"),
-    ("system/over_vectors.rs", "method"),
-    ("system/over_vectors.rs", "solver"),
-    ("system/closures.rs", "solver"),
-    ("system/chain/mod.rs", "solver"),
-    // The system without its friction is a system.
-    ("method/damped.rs", "solver"),
-    // With its rows for gradients it is one too.
-    ("method/nonholonomic/rows.rs", "solver"),
-    // With its dimensions checked it is one, too.
-    ("method/constrained/of_dimension.rs", "solver"),
+    ("contract/lane_stages.rs", "method"),
+    ("contract/plan.rs", "method"),
+    ("contract/storage.rs", "method"),
 ];
 
 const ROOMS: Rooms = Rooms {

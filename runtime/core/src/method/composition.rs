@@ -2,15 +2,14 @@
 
 use core::marker::PhantomData;
 
+use crate::contract::storage::{is_finite, stored_words};
+use crate::contract::{
+    Class, EvaluationObserver, Failure, Outcome, Plan, Possible, Solver, StageStorage, Step,
+    StepStatistics, Stopping, System, WarmStart,
+};
 use crate::error::Quantity;
 use crate::method::diagnosis::{FirstFault, culprit};
-use crate::method::storage::{is_finite, stored_words};
-use crate::method::{
-    EvaluationObserver, Failure, Outcome, Plan, Possible, Solver, StageStorage, Step,
-    StepStatistics, Stopping, WarmStart,
-};
 use crate::number::{Coefficient, Summation, Vector};
-use crate::system::{Class, System};
 
 /// A substep `Φ_{γh}` of a composition.
 #[derive(Clone, Copy, Debug)]

@@ -3,17 +3,16 @@
 use core::marker::PhantomData;
 
 #[cfg(feature = "alloc")]
-use crate::method::LaneStep;
+use crate::contract::LaneStep;
 #[cfg(feature = "alloc")]
-use crate::method::tableau::eliminates;
-use crate::method::{
+use crate::contract::tableau::eliminates;
+use crate::contract::{
     Failure, Inside, Interpolation, Outcome, Plan, Possible, Solver, StageTableau, Step,
-    StepStatistics, Stopping, WarmStart,
+    StepStatistics, Stopping, System, WarmStart,
 };
 #[cfg(feature = "alloc")]
 use crate::number::Lanes;
 use crate::number::{Summation, Vector};
-use crate::system::System;
 
 /// The plan of a step with stages that depend on each other: a [`Solver`] finds them.
 #[derive(Clone, Copy, Debug)]

@@ -1,10 +1,9 @@
 //! The cause of a failed step, with details for the user.
 
+use crate::contract::storage::is_finite;
+use crate::contract::{Class, EvaluationObserver, Failure, Solver, StageStorage, Step, System};
 use crate::error::{Error, Quantity};
-use crate::method::storage::is_finite;
-use crate::method::{EvaluationObserver, Failure, Solver, StageStorage, Step};
 use crate::number::Vector;
-use crate::system::{Class, System};
 
 /// A fault of an evaluation.
 #[derive(Clone, Copy)]

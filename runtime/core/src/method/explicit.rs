@@ -2,12 +2,11 @@
 
 use core::marker::PhantomData;
 
-use crate::method::{
+use crate::contract::{
     EvaluationObserver, Failure, Outcome, Plan, Possible, Solver, StagePlan, StageStorage, Step,
-    StepStatistics, Stopping, WarmStart,
+    StepStatistics, Stopping, System, WarmStart,
 };
 use crate::number::{Summation, Vector};
-use crate::system::System;
 
 /// The plan of a step in which every stage is computed from the previous ones. Its code contains no solver.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,9 @@
 //! What the macros emit for a splitting whose matrices are too large to write out.
 
-use crate::method::{Failure, Outcome, Plan, Solver, Step, StepStatistics, Stopping, WarmStart};
+use crate::contract::{
+    Failure, General, Outcome, Plan, Solver, Step, StepStatistics, Stopping, System, WarmStart,
+};
 use crate::number::{Summation, Vector};
-use crate::system::{General, System};
 
 /// The lower triangular matrix with the entry `weights[j]` in row `i` for `j < i`, and for `j = i` if `own`; the other entries are `zero`.
 /// These are `a` and `ã` of a splitting.
@@ -42,7 +43,7 @@ pub const fn rows<T, const N: usize>(matrix: &[[T; N]; N]) -> [&[T]; N] {
 }
 
 /// The plan for general Hamiltonians of a splitting with more than 36 stages: it does not exist. Code that steps a system with such a
-/// Hamiltonian by the method does not compile, because the plan is not [`Possible`](crate::method::Possible).
+/// Hamiltonian by the method does not compile, because the plan is not [`Possible`](crate::contract::Possible).
 ///
 /// Such a step would have to solve for every stage, and the method would still have order 1 or 2.
 #[derive(Clone, Copy, Debug)]

@@ -2,44 +2,12 @@
 
 use core::marker::PhantomData;
 
-use crate::error::Quantity;
-use crate::method::{
-    EvaluationObserver, Evaluations, Failure, Outcome, Plan, Possible, Solver, Span, StageStorage,
-    Step, StepStatistics, Stopping, WarmStart,
+use crate::contract::{
+    Class, EvaluationObserver, Evaluations, Failure, KickDrift, Outcome, Plan, Possible, Solver,
+    Span, StageStorage, Step, StepStatistics, Stopping, System, WarmStart,
 };
-use crate::number::{Coefficient, Summation, Vector, advance};
-use crate::system::{Class, System};
-
-/// How the kicks and drifts of a splitting are applied. `()` adds the force and the velocity of the system.
-pub trait KickDrift {
-    /// Adds `(h weight) force` to the momentum.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn kick<R: Summation, V: Vector, S: System<V>>(
-        &mut self,
-        h: f64,
-        weight: Coefficient,
-        _system: &S,
-        _q: &V,
-        force: &V,
-        (p, p_low): (&mut V, &mut V),
-    ) {
-        advance::<R, V>(p, p_low, h, weight, force);
-    }
-
-    /// Adds `(h weight) velocity` to the position.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn drift<R: Summation, V: Vector>(
-        &mut self,
-        h: f64,
-        weight: Coefficient,
-        velocity: &V,
-        (q, q_low): (&mut V, &mut V),
-    ) {
-        advance::<R, V>(q, q_low, h, weight, velocity);
-    }
-}
-
-impl KickDrift for () {}
+use crate::error::Quantity;
+use crate::number::{Coefficient, Summation, Vector};
 
 /// How a splitting takes one step of a system of one [`Class`]. Every evaluation enters the later stages with its full weight, so it is
 /// applied to the state at once, and no stage is stored.

@@ -1,6 +1,6 @@
 //! The steps of a composition of Störmer–Verlet, taken with another symmetric method of order 2.
 
-use crate::method::{ConstrainedStep, StoermerVerletSteps};
+use crate::contract::{ConstrainedStep, StoermerVerletSteps};
 
 /// The fractions `γ_1, …, γ_m` of a composition of Störmer–Verlet steps.
 ///

@@ -3,13 +3,15 @@
 use core::fmt;
 use core::marker::PhantomData;
 
-use crate::error::Quantity;
-use crate::method::{
-    Failure, Inside, Outcome, Solver, StageStorage, StageTableau, Step, StepStatistics, Stopping,
-    WarmStart,
+use crate::contract::{
+    Class, Failure, Inside, Outcome, OverEveryScalar, Solver, StageStorage, StageTableau, Step,
+    StepStatistics, Stopping, System, SystemInLanes, WarmStart,
 };
 #[cfg(feature = "alloc")]
-use crate::method::{LaneStep, RunTimeStages, StageVisit};
+use crate::contract::{LaneStep, StageVisit};
+use crate::error::Quantity;
+#[cfg(feature = "alloc")]
+use crate::method::RunTimeStages;
 use crate::number::Lanes;
 use crate::number::registers::{self, Avx2, Avx512, Work};
 use crate::number::vector::{same, same_mut};
@@ -23,7 +25,6 @@ use crate::solver::stages_in_lanes::in_registers::InRegisters;
 use crate::solver::stages_in_lanes::sweeps;
 #[cfg(feature = "alloc")]
 use crate::solver::trajectories_in_lanes;
-use crate::system::{Class, OverEveryScalar, System, SystemInLanes};
 
 /// The fastest fixed-point iteration for a method, a system and its scalar. It is the default of an
 /// [`Integrator`](crate::Integrator).
@@ -338,7 +339,8 @@ mod tests {
     use nalgebra::Vector2;
 
     use super::*;
-    use crate::method::{Coupled, Method};
+    use crate::contract::Method;
+    use crate::method::Coupled;
     use crate::number::{Compensated, Plain};
     use crate::solver::nystrom::NystromStages;
 

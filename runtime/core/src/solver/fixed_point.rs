@@ -2,22 +2,21 @@
 
 use core::marker::PhantomData;
 
+#[cfg(feature = "alloc")]
+use crate::contract::Class;
+use crate::contract::storage::aside;
+use crate::contract::{
+    EvaluationCounts, Failure, Inside, Outcome, Solver, StageChange, StagePlan, StageStorage,
+    StageTableau, Step, StepStatistics, Stopping, System, WarmStart,
+};
 use crate::error::Quantity;
 #[cfg(feature = "alloc")]
 use crate::method::RunTimeStages;
-use crate::method::storage::aside;
-use crate::method::{
-    EvaluationCounts, Failure, Inside, Outcome, Solver, StageChange, StagePlan, StageStorage,
-    StageTableau, Step, StepStatistics, Stopping, WarmStart,
-};
 use crate::number::summation::Overrelaxed;
 use crate::number::{Summation, Vector};
 use crate::solver::convergence::{Sweeps, settle};
 #[cfg(feature = "alloc")]
 use crate::solver::run_time::by_rows;
-#[cfg(feature = "alloc")]
-use crate::system::Class;
-use crate::system::System;
 
 /// Fixed-point iteration: each sweep computes new stages from the latest evaluations. It converges if the step size
 /// times the Lipschitz constant of the system is small.

@@ -13,7 +13,7 @@ pub(crate) mod stages_in_lanes;
 #[cfg(feature = "alloc")]
 pub(crate) mod trajectories_in_lanes;
 
-pub use crate::method::{
+pub use crate::contract::{
     Decoupling, EvaluationCounts, Failure, HalfChange, HalfTableau, Outcome, SecondOrderTableau,
     Solver, Span, StageChange, StagePolynomial, StageStorage, StageTableau, Step, StepStatistics,
     Stopping, StoredEvaluations, WarmStart,

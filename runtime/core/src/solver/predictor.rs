@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use crate::method::{HalfTableau, StageTableau};
+use crate::contract::{HalfTableau, StageTableau};
 
 /// The largest number of stages whose starting values are computed directly.
 pub(crate) const MAX_STAGES: usize = 16;

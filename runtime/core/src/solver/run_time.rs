@@ -4,19 +4,19 @@ use core::marker::PhantomData;
 
 use num_traits::Zero;
 
-use crate::error::Quantity;
-use crate::method::relax::{LinearCombination, relax_by};
-use crate::method::run_time::{Coupled, Half, MAX_EVALUATIONS, Row, coupled};
-use crate::method::storage::{first_non_finite, first_non_finite_of};
-use crate::method::{
-    EvaluationCounts, Failure, HalfChange, Outcome, RunTimeStages, StageChange, Step,
-    StepStatistics, Stopping, WarmStart,
+use crate::contract::relax::{LinearCombination, relax_by};
+use crate::contract::storage::{first_non_finite, first_non_finite_of};
+use crate::contract::{
+    Class, EvaluationCounts, Failure, HalfChange, Outcome, StageChange, Step, StepStatistics,
+    Stopping, System, WarmStart,
 };
+use crate::error::Quantity;
+use crate::method::RunTimeStages;
+use crate::method::run_time::{Coupled, Half, MAX_EVALUATIONS, Row, coupled};
 use crate::number::linear_combination::{shortest, sum_of_products, totals_by};
 use crate::number::summation::Overrelaxed;
 use crate::number::{Coefficient, Scalar, Summation, Vector, copy, scale};
 use crate::solver::convergence::{Sweeps, settle};
-use crate::system::{Class, System};
 
 /// Takes a step whose stages depend on each other: the iteration of [`FixedPoint`](crate::solver::FixedPoint) over rows of
 /// coefficients instead of straight-line code. Nothing is allocated.

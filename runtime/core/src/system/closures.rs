@@ -3,9 +3,10 @@
 use core::fmt;
 use core::marker::PhantomData;
 
+use crate::contract::{General, Masses, Separable, System};
 use crate::number::{Vector, copy};
 use crate::solver::FixedPoint;
-use crate::system::{General, Masses, Named, Separable, System};
+use crate::system::Named;
 
 /// A separable system given by two closures, `|time, p, velocity| …` and `|time, q, force| …`, which write their result
 /// into the last argument.

@@ -1,12 +1,12 @@
 //! Hamiltonian systems, written once for every scalar.
 
+use crate::contract::{Class, LaneWork, Masses, Separable, System, first};
+#[cfg(feature = "alloc")]
+use crate::contract::{Gradients, Jacobian};
 use crate::error::{ConstraintName, Error};
 use crate::number::{
     F64x2, F64x4, F64x8, Lanes, Scalar, Vector, WideF64x4, WideF64x8, WidestF64x8,
 };
-use crate::system::{Class, LaneWork, Masses, Separable, System, first};
-#[cfg(feature = "alloc")]
-use crate::system::{Gradients, Jacobian};
 
 /// A Hamiltonian system, given by the right-hand sides of Hamilton's equations
 ///

@@ -205,8 +205,9 @@ fn product(a: &[Vec<f64>], b: &[Vec<f64>]) -> Rows {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contract::{Method, StageTableau};
     use crate::method::run_time::Schedule;
-    use crate::method::{Coupled, Method, RunTimeCoefficients, StageTableau};
+    use crate::method::{Coupled, RunTimeCoefficients};
 
     symplectic::tableau! {
         Gauss2 { basis: polynomial(2), nodes: gauss(2) }

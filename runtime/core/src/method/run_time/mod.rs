@@ -15,9 +15,10 @@ pub use plan::{RunTimePlan, RunTimeStages};
 use schedule::NO_STAGES;
 pub(crate) use schedule::{Coupled, Half, Kind, MAX_EVALUATIONS, Row, Schedule, Splitting};
 
-use crate::method::{ConstrainedStep, Method, Orders, ProvedFor};
+use crate::contract::{
+    Class, ConstrainedStep, Frictionless, General, Method, Orders, ProvedFor, Separable,
+};
 use crate::number::{Coefficient, Coefficients};
-use crate::system::{Class, Frictionless, General, Separable};
 
 /// The coefficients of a method with s stages, each the double nearest to the exact number.
 ///

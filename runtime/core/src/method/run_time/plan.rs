@@ -4,15 +4,14 @@ use alloc::vec::Vec;
 use core::marker::PhantomData;
 
 use super::{Coupled, Kind, RunTimeTableau, Schedule, Splitting, coupled};
-use crate::error::Quantity;
-use crate::method::storage::{first_mismatch, first_non_finite, stored_words};
-use crate::method::{
-    EvaluationObserver, Evaluations, Failure, Inside, Interpolation, LaneStep, Outcome, Plan,
-    Possible, Solver, StagePart, StageStorage, StageVisit, Step, StepStatistics, Stopping,
-    WarmStart,
+use crate::contract::storage::{first_mismatch, first_non_finite, stored_words};
+use crate::contract::{
+    Class, EvaluationObserver, Evaluations, Failure, Inside, Interpolation, LaneStep, Outcome,
+    Plan, Possible, Solver, StagePart, StageStorage, StageVisit, Step, StepStatistics, Stopping,
+    System, WarmStart,
 };
+use crate::error::Quantity;
 use crate::number::{Coefficient, Lanes, Scalar, Summation, Vector, advance, copy};
-use crate::system::{Class, System};
 
 /// The plan of [`AtRunTime`](super::AtRunTime) for systems of one class.
 #[derive(Clone, Copy, Debug)]

@@ -352,7 +352,7 @@ fn extrapolation(evaluations: &[Evaluation]) -> Vec<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::Method;
+    use crate::contract::Method;
 
     symplectic::tableau! {
         Verlet { basis: polynomial(2), nodes: lobatto(2) }

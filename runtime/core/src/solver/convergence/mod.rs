@@ -1,10 +1,11 @@
 //! Fixed-point iteration of coupled stages until they have settled.
 
+use crate::contract::{
+    Class, EvaluationCounts, Failure, StageChange, StepStatistics, Stopping, WarmStart,
+};
 use crate::error::Quantity;
-use crate::method::{EvaluationCounts, Failure, StageChange, StepStatistics, Stopping, WarmStart};
 use crate::number::Scalar;
 use crate::number::dither::{dither_last_sweep, dither_side};
-use crate::system::Class;
 
 /// Changes up to this many units of EPSILON can be rounding errors: one sweep rounds s products, s sums and the
 /// evaluations, s ≤ 20 in practice. The change must also have stopped shrinking, so that an iteration that still

@@ -1,9 +1,8 @@
 //! Iterations with prescribed changes.
 
 use super::*;
-use crate::method::{EvaluationCounts, HalfChange};
+use crate::contract::{EvaluationCounts, General, HalfChange, Separable};
 use crate::number::dither::{dither_last_sweep, dither_side};
-use crate::system::{General, Separable};
 use alloc::vec;
 use alloc::vec::Vec;
 

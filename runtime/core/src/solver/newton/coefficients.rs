@@ -2,9 +2,9 @@
 
 use core::marker::PhantomData;
 
+use crate::contract::{Class, HalfTableau, StageTableau};
+use crate::method::RunTimeTableau;
 use crate::method::run_time::{self, Coupled};
-use crate::method::{HalfTableau, RunTimeTableau, StageTableau};
-use crate::system::Class;
 
 /// The coefficients of coupled stages, as Newton's iteration reads them:
 ///

@@ -3,11 +3,12 @@
 use super::coefficients::StageCoefficients;
 use super::linear_solver::LinearSolver;
 use super::sweep::ByIncrements;
-use crate::method::{Failure, HalfChange, StageChange, StepStatistics, Stopping, WarmStart};
+use crate::contract::{
+    Class, Failure, HalfChange, Separable, StageChange, StepStatistics, Stopping, System, WarmStart,
+};
 use crate::number::dither::dither_last_sweep;
 use crate::number::{Scalar, Summation, Vector};
 use crate::solver::convergence::{Progress, ROUNDING, STAGNATION, non_finite};
-use crate::system::{Class, Separable, System};
 
 /// The change stagnates if it has not halved in this many sweeps.
 ///

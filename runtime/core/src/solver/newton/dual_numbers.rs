@@ -3,8 +3,8 @@
 use num_dual::{Dual64, DualNum};
 
 use super::jacobian::{Derivatives, groups, scatter};
+use crate::contract::{Jacobian, System};
 use crate::number::{Scalar, Vector};
-use crate::system::{Jacobian, System};
 
 macro_rules! forward {
     ($($function:ident)*) => {

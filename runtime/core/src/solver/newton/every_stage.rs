@@ -3,11 +3,10 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use crate::contract::{Failure, Jacobian};
 use crate::error::Quantity;
-use crate::method::Failure;
 use crate::number::Scalar;
 use crate::number::elimination::Elimination;
-use crate::system::Jacobian;
 
 /// All stages of a step, for a [`LinearSolver`](crate::solver::LinearSolver) that evaluates the derivatives at each of them.
 #[derive(Clone, Copy, Debug)]

@@ -2,17 +2,17 @@
 
 use super::linear_solver::{BandOrDense, LinearSolver};
 use super::{AnalyticOrDifferences, Newton};
-use crate::error::Quantity;
-use crate::method::storage::stored_words;
-use crate::method::{
-    Failure, Inside, Outcome, RunTimeTableau, Solver, StageStorage, StageTableau, Step,
-    StepStatistics, Stopping, WarmStart,
+use crate::contract::storage::stored_words;
+use crate::contract::{
+    Class, Failure, Inside, Outcome, Solver, StageStorage, StageTableau, Step, StepStatistics,
+    Stopping, System, WarmStart,
 };
+use crate::error::Quantity;
+use crate::method::RunTimeTableau;
 use crate::number::{Summation, Vector};
 use crate::solver::FixedPoint;
 use crate::solver::fixed_point::by_stages;
 use crate::solver::run_time::by_rows;
-use crate::system::{Class, System};
 
 /// Steps that use Newton's iteration after a step in which the fixed-point iteration failed.
 const PATIENCE: u32 = 16;

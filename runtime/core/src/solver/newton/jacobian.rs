@@ -2,8 +2,8 @@
 
 use core::fmt::Debug;
 
+use crate::contract::{BandMatrix, Jacobian, System};
 use crate::number::{Scalar, Vector};
-use crate::system::{BandMatrix, Jacobian, System};
 
 /// A source of the derivatives of a system `S` over the vectors `V`.
 pub trait Derivatives<V: Vector, S: System<V>>: Copy + Debug + 'static {

@@ -6,11 +6,10 @@ use core::marker::PhantomData;
 
 use super::every_stage::{AllStages, EveryStage, NOT_FINITE};
 use super::jacobian::Derivatives;
-use crate::method::Failure;
+use crate::contract::{BandMatrix, Class, Failure, Jacobian, System};
 use crate::number::elimination::{Complex, Elimination};
 use crate::number::words::words;
 use crate::number::{Scalar, Vector, Visit, scalar_words};
-use crate::system::{BandMatrix, Class, Jacobian, System};
 
 /// Coupling between the parts of the unknown of a linear system: the factor `γ` in `(1 − γ J) x = r`.
 ///

@@ -8,12 +8,12 @@ use num_traits::Zero;
 
 use super::coefficients::{HalfCoefficients, StageCoefficients};
 use super::linear_solver::{LinearSolver, Parts};
+use crate::contract::storage::{first_mismatch, first_non_finite};
+use crate::contract::{Class, StageStorage, System};
 use crate::error::Quantity;
-use crate::method::storage::{first_mismatch, first_non_finite};
-use crate::method::{RunTimeTableau, StageStorage};
+use crate::method::RunTimeTableau;
 use crate::number::words::{show_vectors, words};
 use crate::number::{Vector, Visit, vector_words};
-use crate::system::{Class, System};
 
 /// The memory of a [`Newton`](crate::solver::Newton) iteration with the coefficients `T`.
 pub struct NewtonMemory<V: Vector, T, S: System<V>, L: LinearSolver<V, S>> {

@@ -21,12 +21,11 @@ pub use jacobian::{AnalyticOrDifferences, Derivatives, Differences};
 pub use linear_solver::{BandOrDense, Banded, Coupling, Dense, LinearSolver, Matrices, Parts};
 pub use memory::NewtonMemory;
 
-use crate::method::{
-    Failure, Inside, Outcome, Solver, StageTableau, Step, StepStatistics, Stopping,
-    StoredEvaluations, WarmStart,
+use crate::contract::{
+    Class, Failure, Inside, Outcome, Solver, StageTableau, Step, StepStatistics, Stopping,
+    StoredEvaluations, System, WarmStart,
 };
 use crate::number::{Summation, Vector};
-use crate::system::{Class, System};
 use coefficients::{Emitted, OfTableau, StageCoefficients};
 use convergence::settle;
 use sweep::ByIncrements;

@@ -9,12 +9,11 @@ use super::convergence::{Attempt, MAX_SWEEPS, size};
 use super::every_stage::{EveryStage, NOT_FINITE};
 use super::linear_solver::{Coupling, LinearSolver};
 use super::memory::{NewtonMemory, Workspace, rows};
+use crate::contract::storage::first_non_finite_of;
+use crate::contract::{Class, Failure, HalfChange, Outcome, StageChange, Step, System};
 use crate::error::Quantity;
-use crate::method::storage::first_non_finite_of;
-use crate::method::{Failure, HalfChange, Outcome, StageChange, Step};
 use crate::number::linear_combination::totals_by;
 use crate::number::{Scalar, Summation, Vector};
-use crate::system::{Class, System};
 
 /// A contraction rate above this makes the derivatives stale for the next step.
 const GOOD: f64 = 1.0 / 32.0;

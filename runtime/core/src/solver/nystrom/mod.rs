@@ -5,12 +5,12 @@ mod stages;
 use core::marker::PhantomData;
 
 pub use self::stages::NystromStages;
-use crate::error::Quantity;
-use crate::method::tableau::{Columns, eliminates};
-use crate::method::{
+use crate::contract::tableau::{Columns, eliminates};
+use crate::contract::{
     EvaluationCounts, Failure, Inside, Outcome, SecondOrderTableau, Solver, StageTableau, Step,
-    StepStatistics, Stopping, WarmStart,
+    StepStatistics, Stopping, System, SystemInLanes, SystemLanes, WarmStart,
 };
+use crate::error::Quantity;
 use crate::number::lanes::{lane_of, lanes};
 use crate::number::linear_combination::sum_of_products;
 use crate::number::summation::add;
@@ -24,7 +24,6 @@ use crate::solver::stages_in_lanes::sums::{
     self, StageValue, Sums, entry, extrapolate, scale_of, shortest, total, values,
 };
 use crate::solver::stages_in_lanes::sweeps::{ByLanes, take};
-use crate::system::{System, SystemInLanes, SystemLanes};
 
 /// Takes a step of a second-order system `q'' = M⁻¹ f(t, q)`, whose velocity `M⁻¹ p` is linear in the momentum. Only the positions are
 /// iterated, with the coefficients of a [`SecondOrderTableau`]. Methods without such coefficients, and systems that are not

@@ -1,10 +1,10 @@
 //! Memory of the Nyström form.
 
-use crate::error::Quantity;
-use crate::method::storage::stored_words;
+use crate::contract::storage::stored_words;
 #[cfg(feature = "alloc")]
-use crate::method::{StagePart, StageVisit};
-use crate::method::{StageStorage, StageTableau};
+use crate::contract::{StagePart, StageVisit};
+use crate::contract::{StageStorage, StageTableau};
+use crate::error::Quantity;
 use crate::number::Vector;
 use crate::solver::stages_in_lanes::stages::SimdStages;
 

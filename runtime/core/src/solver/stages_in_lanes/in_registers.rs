@@ -3,12 +3,11 @@
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
-use crate::method::{
+use crate::contract::{
     Decoupling, EvaluationCounts, HalfTableau, Outcome, SecondOrderTableau, StagePlan,
-    StageTableau, Step, StoredEvaluations, WarmStart,
+    StageTableau, Step, StoredEvaluations, System, SystemLanes, WarmStart,
 };
 use crate::number::{Summation, Vector};
-use crate::system::{System, SystemLanes};
 
 /// The stages of a method `P` in lanes `L`, as many as the method has.
 pub struct InRegisters<P, L>(PhantomData<(P, L)>);

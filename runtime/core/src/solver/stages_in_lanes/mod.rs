@@ -6,16 +6,16 @@ pub(crate) mod stages;
 pub(crate) mod sums;
 pub(crate) mod sweeps;
 
+use crate::contract::{
+    Class, Failure, Inside, Outcome, Solver, StageTableau, Step, StepStatistics, Stopping, System,
+    SystemInLanes, WarmStart,
+};
 #[cfg(feature = "alloc")]
 use crate::method::RunTimeStages;
-use crate::method::{
-    Failure, Inside, Outcome, Solver, StageTableau, Step, StepStatistics, Stopping, WarmStart,
-};
 use crate::number::{Summation, Vector};
 use crate::solver::stages_in_lanes::stages::SimdStages;
 use crate::solver::stages_in_lanes::sums::{entry, extend};
 use crate::solver::stages_in_lanes::sweeps::take;
-use crate::system::{Class, System, SystemInLanes};
 
 /// The iteration of [`FixedPoint`](crate::solver::FixedPoint) with the stages side by side in lanes: one evaluation of the
 /// system computes two, four or eight stages.

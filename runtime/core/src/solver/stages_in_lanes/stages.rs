@@ -1,10 +1,10 @@
 //! Memory of coupled stages in SIMD lanes.
 
-use crate::error::Quantity;
-use crate::method::storage::stored_words;
-use crate::method::{HalfTableau, StageStorage, StageTableau};
+use crate::contract::storage::stored_words;
+use crate::contract::{HalfTableau, StageStorage, StageTableau};
 #[cfg(feature = "alloc")]
-use crate::method::{StagePart, StageVisit};
+use crate::contract::{StagePart, StageVisit};
+use crate::error::Quantity;
 use crate::number::{Lanes, Vector};
 
 /// A vector of lanes.

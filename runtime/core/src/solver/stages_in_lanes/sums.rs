@@ -4,7 +4,7 @@ use core::mem;
 
 use num_traits::Zero;
 
-use crate::method::{HalfTableau, Inside, Outcome, StageTableau, Step};
+use crate::contract::{HalfTableau, Inside, Outcome, StageTableau, Step};
 use crate::number::lanes::{lane_of, lanes};
 use crate::number::linear_combination::{Products, sum_of, totals_by};
 use crate::number::summation::moved;

@@ -2,13 +2,13 @@
 
 use core::marker::PhantomData;
 
-use crate::error::Quantity;
-use crate::method::storage::aside;
-use crate::method::tableau::Columns;
-use crate::method::{
-    EvaluationCounts, Failure, HalfTableau, Outcome, StageStorage, StageTableau, Step,
-    StepStatistics, Stopping, WarmStart,
+use crate::contract::storage::aside;
+use crate::contract::tableau::Columns;
+use crate::contract::{
+    Class, EvaluationCounts, Failure, HalfTableau, Outcome, StageStorage, StageTableau, Step,
+    StepStatistics, Stopping, SystemInLanes, SystemLanes, WarmStart,
 };
+use crate::error::Quantity;
 use crate::number::summation::Overrelaxed;
 use crate::number::{Summation, Vector};
 use crate::solver::convergence::{Sweeps, settle};
@@ -18,9 +18,8 @@ use crate::solver::stages_in_lanes::stages::SimdStages;
 use crate::solver::stages_in_lanes::sums::{
     BasePlusSum, Sums, extrapolate, fill, scale, scale_of, sums, times, totals, values,
 };
-use crate::system::{Class, SystemInLanes, SystemLanes};
 
-/// [`Solver::take`](crate::method::Solver::take) with Gauss–Seidel sweeps, or with `JACOBI` sweeps.
+/// [`Solver::take`](crate::contract::Solver::take) with Gauss–Seidel sweeps, or with `JACOBI` sweeps.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn take<P, R, V, S, const JACOBI: bool>(
     step: &Step<'_, V>,

@@ -2,13 +2,12 @@
 
 use super::emitted::Emitted;
 use super::{BasePlusSum, LaneSweeps, Sums, keep, relax};
-use crate::method::{EvaluationCounts, StageTableau};
+use crate::contract::{Class, EvaluationCounts, StageTableau, System};
 use crate::number::summation::Overrelaxed;
 use crate::number::{Lanes, Summation, Vector, copy};
 use crate::solver::predictor::{Starting, starts_at_once};
 use crate::solver::stages_in_lanes::change::LaneMovement;
 use crate::solver::stages_in_lanes::sweeps::extrapolates;
-use crate::system::{Class, System};
 
 /// The evaluations of a step.
 pub(super) const fn counts<P: StageTableau>() -> EvaluationCounts {

@@ -6,17 +6,16 @@ use super::by_halves::{self, GaussSeidel, Jacobi};
 use super::second_order::{self, SecondOrder};
 use super::settle::settle;
 use super::{BasePlusSum, Sums, largest, relax, scalar, transform};
-use crate::method::tableau::{Columns, eliminates};
-use crate::method::{
-    HalfTableau, LaneOutcome, LaneStages, Outcome, StageTableau, Step, StepInLanes,
+use crate::contract::tableau::{Columns, eliminates};
+use crate::contract::{
+    Class, HalfTableau, LaneOutcome, LaneStages, Outcome, StageTableau, Step, StepInLanes, System,
 };
 use crate::number::linear_combination::{TermsOfComponents, scale, shortest, totals_by};
 use crate::number::registers::Work;
 use crate::number::{Coefficient, Lanes, Scalar, Summation, Vector, copy};
 use crate::solver::stages_in_lanes::sweeps::are_at_one_time;
-use crate::system::{Class, System};
 
-/// The [`LaneStep`](crate::method::LaneStep) of an emitted method.
+/// The [`LaneStep`](crate::contract::LaneStep) of an emitted method.
 pub(crate) fn take<P, R, W, S>(step: StepInLanes<'_, W, S>) -> Option<LaneOutcome<W::Scalar>>
 where
     P: StageTableau,

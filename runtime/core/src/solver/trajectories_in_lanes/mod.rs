@@ -15,7 +15,7 @@ pub(crate) use run_time::take_at_run_time;
 
 use num_traits::Zero;
 
-use crate::method::LaneStages;
+use crate::contract::LaneStages;
 use crate::number::linear_combination::{shortest, sum_of_products};
 use crate::number::summation::moved;
 use crate::number::{Lanes, Scalar, Summation, Vector};

@@ -6,8 +6,8 @@ use core::marker::PhantomData;
 use num_traits::Zero;
 
 use super::{BasePlusSum, LaneSweeps, Sums, keep, largest, relax, settle::settle, transform};
+use crate::contract::{Class, LaneMemory, LaneOutcome, LaneStages, StepInLanes, System};
 use crate::method::run_time::{Coupled, Half, Row, Schedule};
-use crate::method::{LaneMemory, LaneOutcome, LaneStages, StepInLanes};
 use crate::number::array::array;
 use crate::number::linear_combination::{shortest, sum_of_products, value};
 use crate::number::registers::Work;
@@ -15,9 +15,8 @@ use crate::number::summation::{Overrelaxed, moved};
 use crate::number::{Lanes, Scalar, Summation, Vector, copy};
 use crate::solver::run_time::CoupledStep;
 use crate::solver::stages_in_lanes::change::{LaneMovement, noted};
-use crate::system::{Class, System};
 
-/// The [`LaneStep`](crate::method::LaneStep) of a tableau at run time; `None` if stages are not coupled.
+/// The [`LaneStep`](crate::contract::LaneStep) of a tableau at run time; `None` if stages are not coupled.
 pub(crate) fn take_at_run_time<C, R, W, S>(
     step: StepInLanes<'_, W, S>,
 ) -> Option<LaneOutcome<W::Scalar>>

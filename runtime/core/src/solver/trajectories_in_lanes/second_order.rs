@@ -4,8 +4,8 @@ use core::marker::PhantomData;
 
 use super::emitted::{Emitted, increments, total};
 use super::{LaneSweeps, Sums, copy_lanes, largest, relax, scalar, transform};
-use crate::method::tableau::Columns;
-use crate::method::{EvaluationCounts, LaneStages, Outcome, StageTableau};
+use crate::contract::tableau::Columns;
+use crate::contract::{EvaluationCounts, LaneStages, Outcome, StageTableau, System};
 use crate::number::linear_combination::{shortest, sum_of_products};
 use crate::number::summation::{Terms, add};
 use crate::number::{Lanes, Plain, Scalar, Summation, Vector, copy};
@@ -13,7 +13,6 @@ use crate::solver::nystrom::{Start, position, tableau};
 use crate::solver::predictor::starts_at_once;
 use crate::solver::stages_in_lanes::change::LaneMovement;
 use crate::solver::stages_in_lanes::sums::StageValue;
-use crate::system::System;
 
 /// The evaluations of a step.
 pub(super) const fn counts<P: StageTableau, R: Summation>() -> EvaluationCounts {

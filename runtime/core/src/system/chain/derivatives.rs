@@ -1,8 +1,8 @@
 //! The second derivatives of a chain.
 
 use super::{Bonds, Chain, Ends};
+use crate::contract::Jacobian;
 use crate::number::Scalar;
-use crate::system::Jacobian;
 
 impl<B: Bonds> Chain<B> {
     /// Adds the second derivatives of H; returns `None` if the bonds do not provide theirs.

@@ -8,14 +8,15 @@ use core::marker::PhantomData;
 
 use num_traits::Zero;
 
+#[cfg(feature = "alloc")]
+use crate::contract::Jacobian;
+use crate::contract::{Masses, OverEveryScalar, Separable, System};
 use crate::error::Error;
 use crate::number::registers::{self, Widest, Work};
 use crate::number::rows::{Eight, Row, Single, WideEight, WidestEight};
 use crate::number::{Scalar, Vector, copy};
 use crate::solver::Automatic;
-#[cfg(feature = "alloc")]
-use crate::system::Jacobian;
-use crate::system::{Masses, Named, OverEveryScalar, Separable, System};
+use crate::system::Named;
 
 /// The forces on the particles of a [`Chain`].
 ///

@@ -1,0 +1,185 @@
+//! Steps of systems with holonomic constraints `φ(q) = 0` (Jay, 1996; Marsden & West, 2001, 3.5.6).
+//!
+//! ```text
+//! Q_i = q0 + h Σ_j a_ij velocity_j    P_i = p0 + h Σ_j ã_ij force_j    force_j = −∂H/∂q(Q_j, P_j) − G(Q_j)ᵀ Λ_j
+//! φ(Q_i) = 0, i = 2..s                q1 = Q_s    p1 = p0 + h Σ_i b_i force_i,   G(q1) ∂H/∂p(q1, p1) = 0
+//! ```
+//!
+//! With two stages of Lobatto IIIA–IIIB this is RATTLE.
+
+mod force;
+mod history;
+mod last_impulse;
+mod memory;
+mod metric;
+mod momentum_terms;
+mod newton;
+mod normal_matrix;
+mod of_dimension;
+mod resolution;
+mod start;
+mod step;
+
+pub(super) use force::add_to_force;
+pub use force::{ConstraintForce, constraint_force};
+pub(super) use last_impulse::LastImpulse;
+pub use memory::ConstrainedStages;
+pub(super) use metric::{Metric, Point};
+pub(super) use momentum_terms::MomentumTerms;
+pub(super) use of_dimension::{OfDimension, place_of_resized};
+pub(crate) use start::check_start;
+pub use start::consistent;
+pub(super) use start::{CONSISTENT, Examined, check_numbers};
+pub(super) use step::{NOISE, PATIENCE, ROUNDING, result, same_momentum, show_stages, stage};
+
+use core::marker::PhantomData;
+
+use crate::contract::{
+    Class, Constrained, ConstrainedStep, Failure, Method, Outcome, Plan, Solver, StageStorage,
+    StageView, Step, StepStatistics, Stopping, System, Unconstrained, WarmStart, check_no_friction,
+    check_no_rows,
+};
+use crate::error::Error;
+use crate::method::RunTimeTableau;
+use crate::method::composition::in_turn;
+use crate::number::{Scalar, Summation, Vector};
+use memory::Workspace;
+
+/// The plan of the method `M` for systems with holonomic constraints.
+#[derive(Debug)]
+pub struct ConstrainedPlan<M, C>(PhantomData<(M, C)>);
+
+impl<C: Class + Unconstrained> Class for Constrained<C> {
+    type Plan<M: Method> = ConstrainedPlan<M, C>;
+    const CONSTRAINED: bool = true;
+    const SEPARABLE: bool = C::SEPARABLE;
+}
+
+impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
+    type Class = Constrained<C>;
+    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = ConstrainedStages<V>;
+
+    fn prepare<V, S, N>(memory: &mut ConstrainedStages<V>, system: &S, time: f64, q: &V, p: &V)
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
+        let system = &OfDimension::new(system, q.dimension());
+        let steps = memory.steps::<M>();
+        memory.workspace = Some(Workspace::new(steps, system, time, q, p));
+    }
+
+    fn check<V, S>(system: &S, time: f64, q: &V, p: &V) -> Result<(), Error>
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+    {
+        check_no_friction(system, q)?;
+        check_no_rows(system)?;
+        check_start(system, time, q, p)
+    }
+
+    fn take<R: Summation, V: Vector, S: System<V, Class = Self::Class>, N: Solver<V, S>>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut ConstrainedStages<V>,
+        kept: WarmStart,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure> {
+        memory.take::<M, R, S>(step, system, kept, stopping, outcome, |_| {})
+    }
+
+    fn show_stages<R, V, S>(
+        step: &Step<'_, V>,
+        system: &S,
+        stopping: Stopping,
+        show: &mut dyn FnMut(StageView<'_, V>),
+    ) -> Option<Result<(), Failure>>
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+    {
+        let mut memory = ConstrainedStages::like(step.q);
+        Some(taken_once_more(step, |kept, outcome| {
+            memory.take::<M, R, S>(step, system, kept, stopping, outcome, show)
+        }))
+    }
+
+    fn steps_at_run_time(tableau: &RunTimeTableau) -> bool {
+        !tableau.holonomic().is_empty()
+    }
+
+    fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+    {
+        system.force(V::Scalar::from_f64(time), q, p, rate);
+        add_to_force(system, time, (q, p), rate);
+    }
+}
+
+impl<V: Vector> ConstrainedStages<V> {
+    /// Takes a step of the method `M`, of one tableau or of several, and shows their stages.
+    fn take<M: Method, R: Summation, S: System<V>>(
+        &mut self,
+        step: &Step<'_, V>,
+        system: &S,
+        kept: WarmStart,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+        mut show: impl FnMut(StageView<'_, V>),
+    ) -> Result<StepStatistics, Failure> {
+        let steps = self.steps::<M>();
+        let ConstrainedStages {
+            at_run_time: _,
+            workspace,
+            resized,
+            between: [q, q_low, p, p_low],
+        } = self;
+        let system = &OfDimension::new(system, step.q.dimension());
+        let workspace = workspace
+            .get_or_insert_with(|| Workspace::new(steps, system, step.time, step.q, step.p));
+        let between = Outcome { q, q_low, p, p_low };
+        let take = |(number, substep): (usize, &ConstrainedStep),
+                    part: &Step<'_, V>,
+                    kept: WarmStart,
+                    here: &mut Outcome<'_, V>| {
+            let tableau = substep.tableau;
+            let taken = workspace.take::<R, _>(
+                (number, tableau),
+                part,
+                system,
+                kept.evaluation,
+                stopping,
+                here,
+            );
+            let places = (&workspace.q[..], &workspace.p[..]);
+            let impulses = |stage| workspace.impulses_at(tableau, stage);
+            show_stages::<V, S>(tableau, part, places, impulses, &mut show);
+            taken
+        };
+        let place = |substep: &ConstrainedStep| (substep.start, substep.fraction);
+        let taken = in_turn(steps, place, step, kept, between, outcome, take);
+        *resized = system.resized();
+        taken
+    }
+}
+
+/// Repeats a step, with nothing kept from the previous one, to show its stages by `take`; discards its result.
+pub(super) fn taken_once_more<V: Vector>(
+    step: &Step<'_, V>,
+    take: impl FnOnce(WarmStart, Outcome<'_, V>) -> Result<StepStatistics, Failure>,
+) -> Result<(), Failure> {
+    let [mut q, mut q_low, mut p, mut p_low] = core::array::from_fn(|_| step.q.zeros_like());
+    let outcome = Outcome {
+        q: &mut q,
+        q_low: &mut q_low,
+        p: &mut p,
+        p_low: &mut p_low,
+    };
+    take(WarmStart::default(), outcome).map(|_| ())
+}

@@ -1,0 +1,96 @@
+//! States whose velocities obey the constraints.
+
+use super::rows::RowsAsGradients;
+use crate::classes::constrained::{CONSISTENT, Examined, OfDimension, check_numbers};
+use crate::contract::{Class, Nonholonomic, System, Unconstrained};
+use crate::error::Error;
+use crate::number::Vector;
+use crate::state::State;
+
+/// Checks that the velocity of a state obeys the constraints, and that these are independent.
+pub(super) fn check_start<V: Vector, S: System<V>>(
+    system: &S,
+    time: f64,
+    q: &V,
+    p: &V,
+) -> Result<(), Error> {
+    let system = &OfDimension::new(system, q.dimension());
+    let examined = system.check(time, Examined::new(system, time, q, p))?;
+    let (constraint, rate) = examined.momentum();
+    if rate <= CONSISTENT {
+        return Ok(());
+    }
+    Err(Error::InconsistentVelocity {
+        constraint,
+        name: system.constraint_name(constraint),
+        rate: examined.rate(constraint),
+    })
+}
+
+/// The state of a system with non-holonomic constraints that is nearest to `state` in the metric of its masses, at the same position:
+///
+/// ```text
+/// p ← p − w(q)ᵀν    with w(q) ∂H/∂p(q, p) = 0
+/// ```
+///
+/// An integrator does not project by itself: [`Integrator::new`](crate::Integrator#method.new) refuses a state whose velocity does not obey
+/// the constraints.
+///
+/// # Errors
+///
+/// [`Error::NoConsistentState`] if the iteration does not converge; [`Error::DependentConstraints`],
+/// [`Error::NonFiniteState`], [`Error::ResizedEvaluation`], and the errors of a system whose rows are wrong.
+///
+/// ```
+/// use symplectic::nalgebra::SVector;
+/// use symplectic::{Error, State, consistent_momentum};
+/// # use symplectic::{Hamiltonian, Masses, Nonholonomic, Scalar, Separable};
+/// # use symplectic::system::Gradients;
+/// # struct Skate;
+/// # impl Hamiltonian for Skate {
+/// #     type Class = Nonholonomic<Separable>;
+/// #     type Vector<T: Scalar> = SVector<T, 3>;
+/// #     const MASSES: Masses = Masses::Unit;
+/// #     fn velocity<T: Scalar>(&self, _: T, _: &SVector<T, 3>, p: &SVector<T, 3>, velocity: &mut SVector<T, 3>) {
+/// #         *velocity = *p;
+/// #     }
+/// #     fn force<T: Scalar>(&self, _: T, _: &SVector<T, 3>, _: &SVector<T, 3>, force: &mut SVector<T, 3>) {
+/// #         *force = SVector::zeros();
+/// #     }
+/// #     fn nonholonomic_constraints(&self) -> usize { 1 }
+/// #     fn nonholonomic_rows<T: Scalar>(&self, q: &SVector<T, 3>, rows: &mut Gradients<T>) {
+/// #         rows.set(0, 0, q[2].sin());
+/// #         rows.set(0, 1, -q[2].cos());
+/// #     }
+/// # }
+/// # fn main() -> Result<(), Error> {
+/// // A skate, x' sin a − y' cos a = 0, that points along y and is pushed along both axes.
+/// let pushed: State<SVector<f64, 3>> = State::from_arrays(0.0, [0.0, 0.0, std::f64::consts::FRAC_PI_2], [3.0, 2.0, 1.0]);
+/// let start = consistent_momentum(&Skate, pushed)?;
+/// assert!(start.p[0].abs() < 1e-15 && (start.p[1] - 2.0).abs() < 1e-15 && start.p[2] == 1.0);
+/// # Ok(())
+/// # }
+/// ```
+pub fn consistent_momentum<V, S, C>(system: &S, state: State<V>) -> Result<State<V>, Error>
+where
+    V: Vector,
+    S: System<V, Class = Nonholonomic<C>>,
+    C: Class + Unconstrained,
+{
+    let State { time, q, mut p } = state;
+    check_numbers(&q, &p)?;
+    let system = &RowsAsGradients(system);
+    let system = &OfDimension::new(system, q.dimension());
+    let mut examined = system.check(time, Examined::new(system, time, &q, &p))?;
+    let projected = examined.project_momentum(system, time, &q, &mut p);
+    system.check(time, projected)?;
+    let (constraint, rate) = examined.momentum();
+    if rate <= CONSISTENT {
+        check_numbers(&q, &p)?;
+        return Ok(State { time, q, p });
+    }
+    Err(Error::NoConsistentState {
+        value: 0.0,
+        rate: examined.rate(constraint),
+    })
+}

@@ -1,0 +1,66 @@
+//! What is known of a method by its type.
+
+use core::fmt::Debug;
+
+use crate::contract::{
+    ConstrainedStep, General, LowerOrder, Orders, Plan, ProvedFor, Separable, Symmetry,
+};
+use crate::number::Coefficients;
+
+/// A symplectic partitioned Runge–Kutta method: a type without fields, emitted from a proved tableau.
+///
+/// It can be run on separable systems, and on general systems if it is [`ProvedFor`] them.
+pub trait Method: ProvedFor<Separable> + ProvedFor<()> + Copy + Debug + 'static {
+    /// Name of the method.
+    const NAME: &'static str;
+    /// Number of stages s of the tableau; a plan may store fewer.
+    const STAGES: usize;
+    /// Its definition: `basis: polynomial(3), nodes: lobatto(3)`. The compiler derives the exact tableau from it again.
+    const DEFINITION: &'static str;
+    /// The coefficients, for computations outside the step; the plans have theirs in their code.
+    const COEFFICIENTS: Coefficients;
+    /// Its order for each class of Hamiltonians.
+    const ORDERS: Orders;
+    /// The Hamiltonians for which it is symmetric.
+    const SYMMETRY: Symmetry = Symmetry::NONE;
+    /// Whether it is refused for separable systems whose kinetic energy is not quadratic, because its order is lower there.
+    const NEEDS_QUADRATIC_KINETIC: bool = Self::ORDERS.nystrom > Self::ORDERS.separable;
+
+    /// Number of basis functions of the velocity inside a step. It is the number of stages, or less if the quadrature formula has more
+    /// nodes than the basis has functions.
+    const FUNCTIONS: usize = Self::STAGES;
+
+    /// Its steps for systems with holonomic constraints: one step, or those of a composition. Empty if it has none.
+    const CONSTRAINED: &'static [ConstrainedStep] = &[];
+
+    /// Its steps for systems with non-holonomic constraints: one step, or those of a composition. Empty if it has none.
+    const NONHOLONOMIC: &'static [ConstrainedStep] = &[];
+
+    /// The same method for every system, even if its order is lower or it is not symplectic.
+    ///
+    /// ```
+    /// symplectic::tableau! { ForestRuth { base: forest-ruth-1990 } }
+    /// use symplectic::nalgebra::Vector1;
+    /// use symplectic::{Error, Integrator, Method, State, hamiltonian};
+    ///
+    /// # fn main() -> Result<(), Error> {
+    /// let system = hamiltonian::<Vector1<f64>, _, _>(
+    ///     |_, q, p, velocity| velocity[0] = p[0] * (q[0] * q[0] + 1.0),
+    ///     |_, q, p, force| force[0] = -q[0] * (p[0] * p[0] + 1.0),
+    /// );
+    /// let start = State::from_arrays(0.0, [0.0], [1.0]);
+    /// assert_eq!((ForestRuth::ORDERS.separable, ForestRuth::ORDERS.general), (4, 1));
+    /// let mut integrator = Integrator::new(ForestRuth.accept_lower_order(), system, start, 0.1)?;
+    /// integrator.step()?;
+    /// # Ok(())
+    /// # }
+    /// ```
+    fn accept_lower_order(self) -> LowerOrder<Self> {
+        LowerOrder(self)
+    }
+
+    /// Its plan for systems with a general Hamiltonian.
+    type General: Plan<Class = General>;
+    /// Its plan for systems with a separable Hamiltonian.
+    type Separable: Plan<Class = Separable>;
+}

@@ -1,0 +1,74 @@
+//! What systems, methods and solvers know of each other: the traits that name each other, and the data of a step.
+
+pub(crate) mod change;
+pub(crate) mod class;
+mod constrained_tableau;
+#[cfg(feature = "alloc")]
+pub(crate) mod gradients;
+pub(crate) mod in_lanes;
+pub(crate) mod interpolation;
+#[cfg(feature = "alloc")]
+mod jacobian;
+mod kick_drift;
+#[cfg(feature = "alloc")]
+mod lane_stages;
+pub(crate) mod linearity;
+mod masses;
+mod method;
+mod plan;
+mod proved;
+pub(crate) mod relax;
+mod solver;
+mod stage_plan;
+mod stage_sums;
+mod step;
+mod stopping;
+pub(crate) mod storage;
+mod system;
+pub(crate) mod tableau;
+mod work;
+
+pub use change::{HalfChange, StageChange};
+pub use class::{
+    Class, Conservative, Damped, FreePositions, FreePositionsOrDamped, Frictionless, General,
+    Holonomic, HolonomicOrDamped, Separable, SplitClass, Unconstrained, UnconstrainedOrDamped,
+};
+#[cfg(feature = "alloc")]
+pub use class::{Constrained, Nonholonomic};
+pub use constrained_tableau::{ConstrainedStep, ConstrainedTableau};
+#[cfg(feature = "alloc")]
+pub use gradients::Gradients;
+#[cfg(feature = "alloc")]
+pub(crate) use gradients::Terms;
+pub use in_lanes::SystemLanes;
+pub(crate) use in_lanes::first;
+#[doc(hidden)]
+pub use in_lanes::{Join, LaneWork};
+pub use interpolation::{Inside, Interpolation};
+#[cfg(feature = "alloc")]
+pub use jacobian::{BandMatrix, Jacobian};
+pub use kick_drift::KickDrift;
+#[cfg(feature = "alloc")]
+pub use lane_stages::{
+    LaneMemory, LaneOutcome, LaneStages, LaneStep, StagePart, StageVisit, StepInLanes,
+};
+pub use masses::Masses;
+pub use method::Method;
+pub use plan::Plan;
+pub(crate) use plan::check_no_constraints;
+#[cfg(feature = "alloc")]
+pub(crate) use plan::{check_no_friction, check_no_holonomic_constraints, check_no_rows};
+pub use proved::{
+    LowerOrder, Orders, Possible, ProvedFor, Splits, StoermerVerletSteps, SymmetricFor, Symmetry,
+};
+pub use solver::Solver;
+pub use stage_plan::StagePlan;
+pub use stage_sums::{StageSums, StartingValues, Sweep};
+pub use step::{EvaluationCounts, EvaluationObserver, Outcome, Span, StageView, Step, WarmStart};
+pub use stopping::Stopping;
+pub use storage::{Evaluations, StageStorage, Stages};
+pub use system::{OverEveryScalar, System, SystemInLanes};
+pub use tableau::{
+    Decoupling, HalfTableau, SecondOrderTableau, StagePolynomial, StageTableau, StoredEvaluations,
+};
+pub use work::{Failure, StepStatistics};

@@ -1,0 +1,260 @@
+//! How a method takes one step.
+
+#[cfg(feature = "alloc")]
+use crate::contract::LaneStep;
+use crate::contract::{
+    Class, EvaluationObserver, Evaluations, Failure, Inside, Interpolation, KickDrift, Outcome,
+    Solver, Span, StageStorage, StageView, Step, StepStatistics, Stopping, System, WarmStart,
+};
+use crate::error::Error;
+#[cfg(feature = "alloc")]
+use crate::method::RunTimeTableau;
+#[cfg(feature = "alloc")]
+use crate::number::Lanes;
+use crate::number::{Scalar, Summation, Vector};
+
+/// How a [`Method`](crate::Method) takes one step of a system of one [`Class`]:
+///
+/// * by drifts and kicks ([`Splitting`]),
+/// * by other explicit stages ([`Explicit`]),
+/// * by coupled stages, which a [`Solver`] computes ([`Coupled`]),
+/// * by steps of other methods ([`Composition`]).
+///
+/// [`Splitting`]: crate::emitted::Splitting
+/// [`Explicit`]: crate::emitted::Explicit
+/// [`Coupled`]: crate::emitted::Coupled
+/// [`Composition`]: crate::emitted::Composition
+pub trait Plan {
+    /// The class of systems that it steps.
+    type Class: Class;
+    /// Its memory besides the state, allocated once and used for every step.
+    type Memory<V: Vector, S: System<V>, N: Solver<V, S>>: StageStorage<V>;
+
+    /// Number of evaluations in a step [in place](Self::take_in_place); `None` if the plan takes no steps in place.
+    const EVALUATIONS_IN_PLACE: Option<u32> = None;
+
+    /// Whether a step has no branch on a value. Then a step of a vector of lanes has in every lane the bits of a step of doubles.
+    const LANEWISE: bool = false;
+
+    /// Allocates in `memory` what depends on the system.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn prepare<V, S, N>(
+        _memory: &mut Self::Memory<V, S, N>,
+        _system: &S,
+        _time: f64,
+        _q: &V,
+        _p: &V,
+    ) where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
+    }
+
+    /// Checks that steps can begin at a state.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OtherClass`] if the system has constraints or friction that steps of this class ignore; [`Error::InconsistentStart`] and
+    /// others if there are constraints.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn check<V, S>(system: &S, _time: f64, q: &V, _p: &V) -> Result<(), Error>
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+    {
+        check_no_constraints(system)?;
+        check_no_friction(system, q)
+    }
+
+    /// Takes `step` and writes its result into `outcome`; returns the statistics of the step.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure`] if the stages cannot be found. The caller checks that the result is finite.
+    fn take<R: Summation, V: Vector, S: System<V, Class = Self::Class>, N: Solver<V, S>>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<V, S, N>,
+        kept: WarmStart,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure>;
+
+    /// Whether a tableau at run time has steps for systems of this class.
+    #[cfg(feature = "alloc")]
+    #[doc(hidden)]
+    fn steps_at_run_time(_tableau: &RunTimeTableau) -> bool {
+        true
+    }
+
+    /// Whether steps are taken [in lanes](Self::lane_step).
+    #[cfg(feature = "alloc")]
+    #[doc(hidden)]
+    #[inline]
+    fn goes_in_lanes<V, S, N>() -> bool
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
+        false
+    }
+
+    /// How it takes a step in lanes; `None` if that is impossible.
+    #[cfg(feature = "alloc")]
+    #[doc(hidden)]
+    #[inline]
+    fn lane_step<R, V, S, N, W, J>() -> Option<LaneStep<W, J>>
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+        W: Vector<Scalar: Lanes>,
+        J: System<W, Class = Self::Class>,
+    {
+        None
+    }
+
+    /// Takes a step from `state`, in place, with the evaluations [kept](WarmStart::evaluation) by the previous step. Does nothing if
+    /// [`EVALUATIONS_IN_PLACE`](Self::EVALUATIONS_IN_PLACE) is `None`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn take_in_place<R, V, S, N, K>(
+        _span: Span,
+        _system: &S,
+        _memory: &mut Self::Memory<V, S, N>,
+        _state: Outcome<'_, V>,
+        _kick_drift: &mut K,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+        K: KickDrift,
+    {
+    }
+
+    /// Takes `step` of a splitting with the kicks and drifts of `kick_drift`, and shows its evaluations to `observer`. Only for a plan that
+    /// [splits](crate::Splits).
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn take_by<R, V, S, K, W>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _evaluations: &mut Evaluations<V>,
+        _kept: WarmStart,
+        _outcome: Outcome<'_, V>,
+        _kick_drift: &mut K,
+        _witness: &mut W,
+    ) -> StepStatistics
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        K: KickDrift,
+        W: EvaluationObserver,
+    {
+        unreachable!("a plan that splits has this function, and no other is asked")
+    }
+
+    /// Repeats a step that failed, and shows its evaluations to `observer`; does nothing if they are in `memory` or have been shown.
+    fn observe<R, V, S, N, W>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _memory: &mut Self::Memory<V, S, N>,
+        _outcome: Outcome<'_, V>,
+        _witness: &mut W,
+    ) where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+        W: EvaluationObserver,
+    {
+    }
+
+    /// Repeats a step with new memory, and shows its stages. `None` if the stages follow from the position at its start and the momentum at
+    /// its end.
+    #[inline]
+    fn show_stages<R, V, S>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _stopping: Stopping,
+        _show: &mut dyn FnMut(StageView<'_, V>),
+    ) -> Option<Result<(), Failure>>
+    where
+        R: Summation,
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+    {
+        None
+    }
+
+    /// Writes p' at a state into `rate`: the force, including that of constraints.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+    {
+        system.force(V::Scalar::from_f64(time), q, p, rate);
+    }
+
+    /// How values inside a step are computed.
+    const INTERPOLATION: Interpolation = Interpolation::Hermite;
+
+    /// Adds to `q` and `p` their deviations from the straight line between the ends of the last step, if the
+    /// [stages](Interpolation::Stages) in `memory` determine them.
+    fn extend<V, S, N>(_memory: &Self::Memory<V, S, N>, _at: Inside<'_, V>, _q: &mut V, _p: &mut V)
+    where
+        V: Vector,
+        S: System<V, Class = Self::Class>,
+        N: Solver<V, S>,
+    {
+    }
+}
+
+/// Checks that a system whose class has no constraints has none.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn check_no_constraints<V: Vector, S: System<V>>(system: &S) -> Result<(), Error> {
+    check_no_holonomic_constraints(system)?;
+    check_no_rows(system)
+}
+
+/// Checks that a system whose class has no holonomic constraints has none.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn check_no_holonomic_constraints<V: Vector, S: System<V>>(
+    system: &S,
+) -> Result<(), Error> {
+    if system.constraints() == 0 {
+        return Ok(());
+    }
+    Err(Error::OtherClass {
+        what: "constraints",
+        class: "Constrained<Separable>` or `Constrained<General>",
+    })
+}
+
+/// Checks that a system whose class has no non-holonomic constraints has none.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn check_no_rows<V: Vector, S: System<V>>(system: &S) -> Result<(), Error> {
+    if system.nonholonomic_constraints() == 0 {
+        return Ok(());
+    }
+    Err(Error::OtherClass {
+        what: "non-holonomic constraints",
+        class: "Nonholonomic<Separable>` or `Nonholonomic<General>",
+    })
+}
+
+/// Checks that a system whose class has no friction has none.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn check_no_friction<V: Vector, S: System<V>>(system: &S, q: &V) -> Result<(), Error> {
+    if (0..q.dimension()).all(|component| system.friction(component) == 0.0) {
+        return Ok(());
+    }
+    Err(Error::OtherClass {
+        what: "friction",
+        class: "Damped",
+    })
+}

@@ -1,0 +1,279 @@
+//! Computes new values of coupled stages, and their change.
+
+use core::marker::PhantomData;
+use core::slice;
+
+use num_traits::Zero;
+
+use crate::contract::HalfChange;
+use crate::number::linear_combination::{Products, shortest, starts, sum_of};
+use crate::number::registers::{self, Widest, Work};
+use crate::number::rows::{Eight, Row, WideEight, WidestEight};
+use crate::number::summation::moved;
+use crate::number::{Lanes, Scalar, Summation, Vector};
+
+/// [`combine`](crate::emitted::combine) for a coupled stage: records the change of `out` in `change`.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn relax<R: Summation, V: Vector, const N: usize>(
+    out: &mut V,
+    base: &V,
+    low: &V,
+    factors: [V::Scalar; N],
+    terms: [&V; N],
+    change: &mut HalfChange,
+) {
+    let n = shortest([&*out, base, low]).min(shortest(terms));
+    let vectors = starts(terms, n);
+    let sum = LinearCombination {
+        count: || N,
+        factor: move |j: usize| factors[j],
+        vector: move |j: usize| vectors[j],
+    };
+    relax_by::<R, V>(out, (base, low), n, sum, change);
+}
+
+/// `Σ_j factor_j vector_j` over `count` terms.
+#[derive(Clone, Copy)]
+pub(crate) struct LinearCombination<C, F, W> {
+    /// A function, because it is a constant in generated code.
+    pub(crate) count: C,
+    pub(crate) factor: F,
+    pub(crate) vector: W,
+}
+
+/// The first `n` components of a stage, `out = base + low + sum`; records their change in `change`.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn relax_by<'a, R: Summation, V: Vector>(
+    out: &mut V,
+    (base, low): (&V, &V),
+    n: usize,
+    sum: LinearCombination<
+        impl Fn() -> usize + Copy,
+        impl Fn(usize) -> V::Scalar + Copy,
+        impl Fn(usize) -> &'a [V::Scalar] + Copy,
+    >,
+    change: &mut HalfChange,
+) {
+    let (out, base) = (&mut out.as_mut_slice()[..n], &base.as_slice()[..n]);
+    let low = &low.as_slice()[..n];
+    let mut local = *change;
+    let rest = relax_rows::<R, V::Scalar>(out, (base, low), sum, &mut local);
+    for i in rest..n {
+        let product = |j: usize| ((sum.factor)(j), (sum.vector)(j)[i]);
+        let new = value::<R, _>(base[i], low[i], (sum.count)(), product);
+        let new = moved(R::OVERRELAXED, out[i], new);
+        local.record(base[i], out[i], new);
+        out[i] = new;
+    }
+    // A local copy stays in registers; behind the reference it would be stored for every component.
+    *change = local;
+}
+
+/// [`relax_by`] with eight components side by side, for doubles; returns the index of the first remaining component.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn relax_rows<'a, R: Summation, T: Scalar>(
+    out: &mut [T],
+    (base, low): (&[T], &[T]),
+    sum: LinearCombination<
+        impl Fn() -> usize + Copy,
+        impl Fn(usize) -> T + Copy,
+        impl Fn(usize) -> &'a [T] + Copy,
+    >,
+    change: &mut HalfChange,
+) -> usize {
+    let (Some(out), Some(base), Some(low)) =
+        (T::doubles_mut(out), T::doubles(base), T::doubles(low))
+    else {
+        return 0;
+    };
+    let n = out.len() / Eight::WIDTH;
+    if n == 0 {
+        return 0;
+    }
+    let count = out.len();
+    let sum = LinearCombination {
+        count: sum.count,
+        factor: move |j: usize| double((sum.factor)(j)),
+        vector: move |j: usize| Eight::rows(T::doubles((sum.vector)(j)).unwrap_or(&[])),
+    };
+    let (out, base, low) = (Eight::rows_mut(out), Eight::rows(base), Eight::rows(low));
+    macro_rules! rows {
+        ($kind:ty) => {
+            Rows::<R, $kind, _> {
+                out: &mut out[..n],
+                base: &base[..n],
+                low: &low[..n],
+                sum,
+                kind: PhantomData,
+            }
+        };
+    }
+    // Constant conditions first: other numbers compile without this code.
+    let (difference, scale) = if registers::UNKNOWN && T::IS_DOUBLE && count >= registers::LONG {
+        match Widest::find() {
+            Widest::Build => rows!(Eight).run(),
+            Widest::Avx2(avx2) => avx2.run(rows!(WideEight)),
+            Widest::Avx512(avx512) => avx512.run(rows!(WidestEight)),
+        }
+    } else {
+        rows!(Eight).run()
+    };
+    change.join(difference, scale);
+    n * Eight::WIDTH
+}
+
+/// A number that is a double.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn double<T: Scalar>(number: T) -> f64 {
+    T::doubles(slice::from_ref(&number)).map_or(0.0, |number| number[0])
+}
+
+/// The rows of a stage, in registers `K`, the same number of each vector. The work returns the largest change and the largest number.
+struct Rows<'a, R, K, L> {
+    out: &'a mut [[f64; 8]],
+    base: &'a [[f64; 8]],
+    low: &'a [[f64; 8]],
+    sum: L,
+    kind: PhantomData<(R, K)>,
+}
+
+impl<'a, R, K, C, F, W> Work for Rows<'_, R, K, LinearCombination<C, F, W>>
+where
+    R: Summation,
+    K: Row<f64, Array = [f64; 8], Numbers: Lanes>,
+    C: Fn() -> usize,
+    F: Fn(usize) -> f64,
+    W: Fn(usize) -> &'a [[f64; 8]],
+{
+    type Output = (f64, f64);
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) -> (f64, f64) {
+        let zero = K::Numbers::zero();
+        let (mut difference, mut scale) = (zero, zero);
+        let n = self.out.len();
+        // A local copy: memory behind a reference would be read again after every store.
+        let (out, sum) = (self.out, self.sum);
+        let (base, low) = (&self.base[..n], &self.low[..n]);
+        for row in 0..n {
+            let start = K::load(&base[row]);
+            let products = AtRow::<K, _> {
+                row,
+                sum: &sum,
+                kind: PhantomData,
+            };
+            let new = value::<R, _>(start, K::load(&low[row]), (sum.count)(), products);
+            let old = K::load(&out[row]);
+            let new = moved(R::OVERRELAXED, old, new);
+            out[row] = K::store(new);
+            difference = difference.larger_or_nan((new - old).abs());
+            scale = scale.larger(start.abs()).larger(new.abs());
+        }
+        let difference = match difference.any_nan() {
+            true => f64::NAN,
+            false => difference.largest(),
+        };
+        (difference, scale.largest())
+    }
+}
+
+/// The products of one row. Not a closure: see [`Products`].
+struct AtRow<'a, K, L> {
+    row: usize,
+    sum: &'a L,
+    kind: PhantomData<K>,
+}
+
+impl<'a, K, C, F, W> Products<K::Numbers> for AtRow<'_, K, LinearCombination<C, F, W>>
+where
+    K: Row<f64, Array = [f64; 8]>,
+    F: Fn(usize) -> f64,
+    W: Fn(usize) -> &'a [[f64; 8]],
+{
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn product(&self, j: usize) -> (K::Numbers, K::Numbers) {
+        let factor = K::splat((self.sum.factor)(j));
+        (factor, K::load(&(self.sum.vector)(j)[self.row]))
+    }
+}
+
+/// One component of a stage, or eight components side by side.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn value<R: Summation, T: Scalar>(base: T, low: T, count: usize, products: impl Products<T>) -> T {
+    match count {
+        0 => base,
+        _ => base + sum_of(R::COMPENSATED.then_some(low), count, products),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::registers::{Avx2, Avx512};
+    use crate::number::summation::Overrelaxed;
+    use crate::number::{Compensated, Plain};
+
+    /// Five rows of pseudo-random numbers of many sizes.
+    fn rows(seed: u64) -> [[f64; 8]; 5] {
+        let mut state = seed;
+        [[(); 8]; 5].map(|row| {
+            row.map(|()| {
+                state = state
+                    .wrapping_mul(6_364_136_223_846_793_005)
+                    .wrapping_add(1);
+                let size = [1e-300, 1e-16, 1.0, 3e5, 1e150][(state >> 40) as usize % 5];
+                size * ((state >> 11) as f64 / 2_f64.powi(53) - 0.5)
+            })
+        })
+    }
+
+    /// The stage, its largest change and its largest number, as bits.
+    macro_rules! taken {
+        ($sums:ty, $kind:ty, $terms:expr, $work:ident => $run:expr) => {{
+            let mut out = rows(1);
+            let (base, low, terms) = (rows(2), rows(3), $terms);
+            let $work = Rows::<$sums, $kind, _> {
+                out: &mut out,
+                base: &base,
+                low: &low,
+                sum: LinearCombination {
+                    count: || terms.len(),
+                    factor: |j: usize| [0.3, -1.7, 1e-3][j],
+                    vector: |j: usize| &terms[j][..],
+                },
+                kind: PhantomData,
+            };
+            let (difference, scale): (f64, f64) = $run;
+            let stage = out.map(|row| row.map(f64::to_bits));
+            // NaN has many bit patterns.
+            (stage, difference.max(-1.0).to_bits(), scale.to_bits())
+        }};
+    }
+
+    macro_rules! compare {
+        ($sums:ty, $terms:expr) => {
+            let expected = taken!($sums, Eight, $terms, work => work.run());
+            if let Some(avx2) = Avx2::detect() {
+                assert_eq!(taken!($sums, WideEight, $terms, work => avx2.run(work)), expected);
+            }
+            if let Some(avx512) = Avx512::detect() {
+                assert_eq!(taken!($sums, WidestEight, $terms, work => avx512.run(work)), expected);
+            }
+        };
+    }
+
+    #[test]
+    fn stages_have_the_same_bits_in_all_registers() {
+        let with_nan = || {
+            let mut terms = rows(5);
+            terms[3][6] = f64::NAN;
+            terms
+        };
+        compare!(Plain, [rows(4), rows(5), rows(6)]);
+        compare!(Plain, [rows(4), with_nan(), rows(6)]);
+        compare!(Compensated, [rows(4), rows(5), rows(6)]);
+        compare!(Compensated, [rows(4)]);
+        compare!(Overrelaxed<Compensated>, [rows(4), with_nan()]);
+        compare!(Plain, [[[0.0; 8]; 5]; 0]);
+    }
+}

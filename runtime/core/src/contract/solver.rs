@@ -1,0 +1,151 @@
+//! How coupled stages are found.
+
+#[cfg(feature = "alloc")]
+use alloc::string::String;
+use core::fmt::Debug;
+
+#[cfg(feature = "alloc")]
+use crate::contract::{Class, LaneStep};
+use crate::contract::{
+    Failure, Inside, Outcome, StageStorage, StageTableau, Step, StepStatistics, Stopping, System,
+    WarmStart,
+};
+#[cfg(feature = "alloc")]
+use crate::number::Lanes;
+use crate::number::{Summation, Vector};
+
+/// Finds the stages of a [`Coupled`](crate::emitted::Coupled) plan, for a system `S` over the vectors `V`.
+///
+/// [`FixedPoint`](crate::solver::FixedPoint) is available for every system.
+pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
+    /// Whether it takes steps by Newton's iteration, always or if another one fails.
+    const IS_NEWTON: bool = false;
+
+    /// Whether a new integrator tests if the velocity is [linear](Step::linear_velocity) in the momentum.
+    const TRIES_LINEARITY: bool = false;
+
+    /// Its name in [checkpoints](crate::Checkpoint): by default that of the type without paths, such as `Newton<Dense<Differences>>`.
+    #[cfg(feature = "alloc")]
+    #[must_use]
+    fn name() -> String {
+        without_paths(core::any::type_name::<Self>())
+    }
+
+    /// Its memory for one plan, allocated once and used for every step.
+    type Memory<P: StageTableau>: StageStorage<V>;
+
+    /// Its memory for the coupled stages of a tableau that is known only at run time, for systems of class `C`. For a solver without
+    /// [`take_at_run_time`](Self::take_at_run_time) any storage does: `<FixedPoint as Solver<V, S>>::AtRunTime<C>`.
+    #[cfg(feature = "alloc")]
+    type AtRunTime<C: Class>: StageStorage<V>;
+
+    /// Takes `step` and writes its result into `outcome`; returns the statistics of the step.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure`] if the stages cannot be found. The caller checks that the result is finite.
+    fn take<P, R>(
+        step: &Step<'_, V>,
+        system: &S,
+        memory: &mut Self::Memory<P>,
+        kept: WarmStart,
+        stopping: Stopping,
+        outcome: Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure>
+    where
+        P: StageTableau,
+        R: Summation,
+        S: System<V, Class = P::Class>;
+
+    /// Takes a step of a tableau that is known only at run time and whose stages depend on each other. Does not compile for a solver that
+    /// does not support it.
+    ///
+    /// # Errors
+    ///
+    /// As for [`take`](Self::take).
+    #[cfg(feature = "alloc")]
+    fn take_at_run_time<C, R>(
+        _step: &Step<'_, V>,
+        _system: &S,
+        _memory: &mut Self::AtRunTime<C>,
+        _kept: WarmStart,
+        _stopping: Stopping,
+        _outcome: Outcome<'_, V>,
+    ) -> Result<StepStatistics, Failure>
+    where
+        C: Class,
+        R: Summation,
+        S: System<V, Class = C>,
+    {
+        const {
+            assert!(
+                size_of::<V>() == usize::MAX,
+                "this solver does not take tableaux at run time: take the default solver, `FixedPoint`, `Newton` or `FixedPointThenNewton`"
+            );
+        }
+        Ok(StepStatistics::default())
+    }
+
+    /// Whether several trajectories can run [in lanes](Self::lane_step).
+    #[cfg(feature = "alloc")]
+    #[doc(hidden)]
+    #[inline]
+    fn goes_in_lanes() -> bool {
+        false
+    }
+
+    /// [`Plan::lane_step`](crate::emitted::Plan::lane_step)
+    #[cfg(feature = "alloc")]
+    #[doc(hidden)]
+    #[inline]
+    fn lane_step<P, R, W, J>() -> Option<LaneStep<W, J>>
+    where
+        P: StageTableau,
+        R: Summation,
+        W: Vector<Scalar: Lanes>,
+        J: System<W, Class = P::Class>,
+    {
+        None
+    }
+
+    /// [`lane_step`](Self::lane_step) of a tableau at run time.
+    #[cfg(feature = "alloc")]
+    #[doc(hidden)]
+    #[inline]
+    fn lane_step_at_run_time<C, R, W, J>() -> Option<LaneStep<W, J>>
+    where
+        C: Class,
+        R: Summation,
+        W: Vector<Scalar: Lanes>,
+        J: System<W, Class = C>,
+    {
+        None
+    }
+
+    /// Adds to `q` and `p` their deviations from the straight line between the ends of the last step. These come from the
+    /// [polynomials](crate::solver::HalfTableau::polynomial) through the evaluations in `memory`.
+    fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V);
+}
+
+/// A type without the modules before its names: a checkpoint does not depend on where a type is defined.
+#[cfg(feature = "alloc")]
+fn without_paths(name: &str) -> String {
+    let words = name.split_inclusive([' ', ',', '<', '>', '(', ')', '[', ']', ';', '&']);
+    words
+        .map(|word| word.rsplit("::").next().unwrap_or(word))
+        .collect()
+}
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests {
+    use super::without_paths;
+
+    #[test]
+    fn names_of_solvers_have_no_paths() {
+        let name = "a::b::Newton<a::c::Banded<3, a::d::Differences>, (u8, x::Y)>";
+        assert_eq!(
+            without_paths(name),
+            "Newton<Banded<3, Differences>, (u8, Y)>"
+        );
+    }
+}
