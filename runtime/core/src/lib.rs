@@ -47,8 +47,8 @@ pub use error::{ConstraintName, Error, Quantity};
 #[cfg(feature = "alloc")]
 pub use integrator::{Checkpoint, CheckpointError};
 pub use integrator::{
-    DenseSteps, Equal, Integrator, Own, Pace, Partitioned, PhasePoint, RemainingSteps, Retry, Run,
-    Statistics, StepMap, Stepper,
+    DenseSteps, Equal, Integrator, NamedSteps, Own, Pace, Partitioned, PhasePoint, RemainingSteps,
+    Retry, Run, Statistics, StepMap, Stepper,
 };
 #[cfg(feature = "alloc")]
 pub use method::{AtRunTime, RunTimeCoefficients, RunTimeTableau, TableauError};

@@ -1,13 +1,13 @@
 //! Output of a run with steps of variable size.
 
-use super::integrator::Adaptive;
+use super::integrator::{Adaptive, AdaptiveSteps};
 use super::monitor::Monitor;
 use crate::error::Error;
-use crate::integrator::DenseSteps;
+use crate::integrator::{DenseSteps, NamedSteps};
 use crate::method::{Method, Solver};
 use crate::number::{Summation, Vector};
 use crate::state::State;
-use crate::system::System;
+use crate::system::{Named, System};
 
 impl<M, S, W, V, R, N> Adaptive<M, S, W, V, R, N>
 where
@@ -48,5 +48,21 @@ where
             self.stepper.look_by_step(end, &mut scratch, &mut state)?;
         }
         Ok(state)
+    }
+}
+
+impl<M, S, W, V, R, N> NamedSteps for AdaptiveSteps<M, S, W, V, R, N>
+where
+    M: Method,
+    S: System<V> + Named,
+    W: Monitor,
+    V: Vector<Scalar = f64>,
+    R: Summation,
+    N: Solver<V, S>,
+{
+    type System = S;
+
+    fn system(&self) -> &S {
+        self.system()
     }
 }

@@ -6,6 +6,7 @@ mod recording;
 mod replace;
 mod run;
 
+pub use crate::integrator::NamedSteps;
 pub use recording::Recording;
 pub use replace::{PeriodicFile, replace_file};
-pub use run::{NamedSteps, record_at, record_to};
+pub use run::{record_at, record_to};

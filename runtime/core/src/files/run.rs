@@ -4,13 +4,11 @@ use std::io;
 use std::path::Path;
 
 use super::Recording;
-use crate::adaptive::{AdaptiveSteps, Monitor};
 #[cfg(doc)]
 use crate::error::Error;
-use crate::integrator::{DenseSteps, Partitioned, Run};
-use crate::method::{Method, Solver};
-use crate::number::{Summation, Vector};
-use crate::system::{Named, System};
+use crate::integrator::{NamedSteps, Run};
+#[cfg(doc)]
+use crate::system::Named;
 
 /// Integrates to `end` and writes the start and the state after every step, with the [names](Named) of the system, as `.csv` or, with the
 /// feature `npz`, as `.npz`.
@@ -62,45 +60,4 @@ pub fn record_at<S: NamedSteps>(
     let outcome = run.integrate_at(times, |state| table.record(state));
     table.save(&path)?;
     outcome.map(|_| ()).map_err(io::Error::other)
-}
-
-/// The steps of a system with [names](Named), whose runs can be recorded: those of an [`Integrator`](crate::Integrator), or of an
-/// [`Adaptive`](crate::adaptive::Adaptive) run with steps of variable size.
-pub trait NamedSteps: DenseSteps<Vector: Vector<Scalar = f64>> {
-    /// The system.
-    type System: Named;
-
-    /// The system.
-    fn system(&self) -> &Self::System;
-}
-
-impl<M, S, V, R, N> NamedSteps for Partitioned<M, S, V, R, N>
-where
-    M: Method,
-    S: System<V> + Named,
-    V: Vector<Scalar = f64>,
-    R: Summation,
-    N: Solver<V, S>,
-{
-    type System = S;
-
-    fn system(&self) -> &S {
-        self.system()
-    }
-}
-
-impl<M, S, W, V, R, N> NamedSteps for AdaptiveSteps<M, S, W, V, R, N>
-where
-    M: Method,
-    S: System<V> + Named,
-    W: Monitor,
-    V: Vector<Scalar = f64>,
-    R: Summation,
-    N: Solver<V, S>,
-{
-    type System = S;
-
-    fn system(&self) -> &S {
-        self.system()
-    }
 }

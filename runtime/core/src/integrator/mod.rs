@@ -18,6 +18,7 @@ pub use clock::RemainingSteps;
 #[cfg(feature = "alloc")]
 pub(crate) use coupled_in_lanes::CoupledLanes;
 pub use dense_steps::DenseSteps;
+pub use named_steps::NamedSteps;
 pub use pace::{Equal, Own, Pace};
 pub(crate) use partitioned::PlanOf;
 pub use partitioned::{Integrator, Partitioned};
@@ -39,6 +40,7 @@ pub(crate) mod explicit_in_lanes;
 pub(crate) mod fingerprint;
 mod many_steps;
 mod memory;
+mod named_steps;
 mod one_step;
 mod partitioned;
 #[cfg(feature = "alloc")]
