@@ -61,21 +61,29 @@
 //!
 //! # Features
 //!
-//! * `std` (default): `tan`, inverse and hyperbolic functions, and all functions of singles, from the standard library, [`files`]; implies `alloc`.
-//! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), constraints, Newton's iteration, tableaux at run time, checkpoints, ensembles,
+//! * `std` (default): `tan`, inverse and hyperbolic functions, and all functions of singles, from the standard library; implies `alloc`.
+//! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), constraints, Newton's iteration, tableaux at run time, checkpoints,
 //!   tangent maps, variational integrators and generating functions; of `adaptive` and `flow` also [`adaptive::Logarithmic`],
 //!   [`adaptive::Poincare`], Kepler orbits, linear, mollified and asynchronous flows, and correctors.
 //! * `serde`: a [`Checkpoint`] can be written and read in any format; implies `alloc`.
 //! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and Newton's iteration takes derivatives by dual numbers; implies `std`.
 //! * `fma`: products in sums are rounded once, everywhere; very slow without the instruction.
-//! * `parallel`: the trajectories of an [`ensemble`] are shared among threads; implies `std`.
-//! * `npz`: ensembles and [recordings](files) are written to files for NumPy; implies `std`.
-//! * `parquet`: ensembles are written to tables of Apache Parquet; implies `std`.
+//! * `files`: the module [`files`], tables of a run and files that are replaced as a whole; implies `std`.
+//! * `ensembles`: the module [`ensemble`], many trajectories at once; implies `alloc`.
+//! * `parallel`: the trajectories of an ensemble are shared among threads; implies `ensembles` and `std`.
+//! * `npz`: [recordings](files) and ensembles are written to files for NumPy; implies `files`.
+//! * `parquet`: ensembles are written to tables of Apache Parquet; implies `ensembles` and `std`.
 //! * neither `std` nor `alloc`: `no_std` without an allocator; static vectors, the functions named under `std` from `libm`.
 
 #![no_std]
 
 pub use symplectic_core::*;
+#[cfg(feature = "ensembles")]
+#[doc(inline)]
+pub use symplectic_ensembles as ensemble;
+#[cfg(feature = "files")]
+#[doc(inline)]
+pub use symplectic_files as files;
 
 /// The Rust code of the README and of the book, compiled and run by `cargo test --doc`.
 #[cfg(doctest)]

@@ -20,11 +20,9 @@ mod error;
 mod state;
 
 pub mod adaptive;
-#[cfg(feature = "alloc")]
-pub mod ensemble;
-#[cfg(feature = "std")]
-pub mod files;
 pub mod flow;
+#[doc(hidden)]
+pub mod inside;
 mod integrator;
 mod method;
 mod number;

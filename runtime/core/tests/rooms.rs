@@ -19,8 +19,7 @@ const LEVELS: &[&[&str]] = &[
     &["integrator"],
     &["output", "rotation", "tangent", "variational"],
     &["adaptive", "flow"],
-    &["ensemble"],
-    &["files"],
+    &["inside"],
 ];
 
 /// The imports that run up: the contract names tableaux that are read at run time.

@@ -6,7 +6,7 @@ use std::fs::{self, File};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use symplectic::ensemble::{Ensemble, EnsembleCheckpoint, Npz, NpzArray, NpzValues};
+use symplectic::ensemble::{Ensemble, EnsembleCheckpoint, Npz, NpzArray, NpzValues, WriteEnsemble};
 use symplectic::simd::{DefaultLanes, Lanes};
 use symplectic::solver::Solver;
 use symplectic::{Compensated, Method, Summation, System, Vector};

@@ -7,7 +7,7 @@
 //! ```no_run
 //! use std::ops::ControlFlow;
 //! use symplectic::State;
-//! use symplectic::ensemble::Ensemble;
+//! use symplectic::ensemble::{Ensemble, WriteEnsemble};
 //! use symplectic_mpi::Blocks;
 //! use symplectic_mpi::mpi::{self, Threading, topology::SimpleCommunicator, traits::Communicator};
 //!

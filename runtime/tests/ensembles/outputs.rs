@@ -188,7 +188,7 @@ fn files(archive: &[u8]) -> Vec<(String, Vec<u8>)> {
 #[cfg(feature = "npz")]
 #[test]
 fn an_npz_file_holds_the_rows_and_facts() {
-    use symplectic::ensemble::Npz;
+    use symplectic::ensemble::{Npz, WriteEnsemble};
 
     let starts = (0..3).map(|k| State::from_arrays(0.0, [f64::from(k)], [-0.5]));
     let ensemble = Ensemble::new(Yoshida6, Oscillator { omega: 1.0 }, starts.collect(), 0.5);

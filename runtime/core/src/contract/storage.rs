@@ -55,7 +55,7 @@ pub trait StageStorage<V: Vector>: Sized + Clone {
         self.clone().words(visit);
     }
 
-    /// Shows `visit` the stages that can run [in lanes](crate::ensemble::Ensemble::in_lanes), if there are any.
+    /// Shows `visit` the stages that can run in lanes, if there are any.
     #[cfg(feature = "alloc")]
     #[doc(hidden)]
     fn stages(&mut self, _visit: &mut StageVisit<'_>) {}

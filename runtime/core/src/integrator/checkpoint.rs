@@ -149,7 +149,8 @@ impl Checkpoint {
     const OF_FLOW: &str = "steps of a flow";
 
     /// Whether it is the same except for the version that wrote it.
-    pub(crate) fn is_same_run(&self, other: &Self) -> bool {
+    #[doc(hidden)]
+    pub fn is_same_run(&self, other: &Self) -> bool {
         let version = self.version.clone();
         *self
             == Self {

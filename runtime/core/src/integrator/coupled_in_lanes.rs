@@ -31,7 +31,7 @@ struct StatesInLanes<W> {
 type Kind<M, S, V, R, N> = fn() -> (M, S, V, R, N);
 
 /// Runs of the same system and the same step size, at the same time.
-pub(crate) struct CoupledLanes<M, S, V, R, N, W: Vector, J> {
+pub struct CoupledLanes<M, S, V, R, N, W: Vector, J> {
     system: J,
     linear_velocity: bool,
     stopping: Stopping,
@@ -62,7 +62,7 @@ where
     W: Vector<Scalar: Lanes>,
 {
     /// Empty lanes for runs like this one, of a system with the parameters of each of them, in vectors like `zeros`.
-    pub(crate) fn like(run: &mut Integrator<M, S, V, R, N>, system: J, zeros: &W) -> Self {
+    pub fn like(run: &mut Integrator<M, S, V, R, N>, system: J, zeros: &W) -> Self {
         let vectors = || Box::new(core::array::from_fn(|_| zeros.clone()));
         let time = run.stepper.step_memory.state.time;
         Self {
@@ -88,7 +88,7 @@ where
 
     /// Begins runs at other states of the same time: each lane at the state that `start` returns for it. A run has to be
     /// [loaded](Self::load) before its first step in a lane.
-    pub(crate) fn begin<'s>(
+    pub fn begin<'s>(
         &mut self,
         first: &Integrator<M, S, V, R, N>,
         start: impl Fn(usize) -> &'s State<V>,
@@ -109,35 +109,30 @@ where
     }
 
     /// Sets the system, with the parameters of the run in each lane.
-    pub(crate) fn set_system(&mut self, system: J) {
+    pub fn set_system(&mut self, system: J) {
         self.system = system;
     }
 
     /// Velocity and force in all lanes.
-    pub(crate) fn evaluations(&self) -> [W; 2] {
+    pub fn evaluations(&self) -> [W; 2] {
         let [q, p, ..] = &*self.states.now;
         evaluations(&self.system, &State::new(self.time, q.clone(), p.clone()))
     }
 
     /// Whether a run can be in these lanes.
-    pub(crate) fn takes(&self, run: &Integrator<M, S, V, R, N>) -> bool {
+    pub fn takes(&self, run: &Integrator<M, S, V, R, N>) -> bool {
         // The last allowed sweep of a step is left to the run.
         run.stepper.step_memory.linear_velocity == self.linear_velocity
             && self.stopping.max_iterations > 1
     }
 
     /// Time of all runs in lanes.
-    pub(crate) const fn time(&self) -> f64 {
+    pub const fn time(&self) -> f64 {
         self.time
     }
 
     /// Copies a run into a lane; returns whether its next step, of this size, can be taken there.
-    pub(crate) fn load(
-        &mut self,
-        lane: usize,
-        run: &mut Integrator<M, S, V, R, N>,
-        size: f64,
-    ) -> bool {
+    pub fn load(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>, size: f64) -> bool {
         let step_memory = &mut run.stepper.step_memory;
         let StatesInLanes { now, other } = &mut self.states;
         let lanes = now.iter_mut().chain(other.iter_mut());
@@ -157,7 +152,7 @@ where
     }
 
     /// Copies a lane into its run.
-    pub(crate) fn store(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>) {
+    pub fn store(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>) {
         self.store_state(lane, run);
         self.memory.store(lane, &mut run.stepper.step_memory.memory);
         run.stepper.step_memory.kept = WarmStart {
@@ -168,7 +163,7 @@ where
     }
 
     /// Copies the state of a lane, and its statistics, into its run, but not the stages: the run has ended.
-    pub(crate) fn store_state(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>) {
+    pub fn store_state(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>) {
         let step_memory = &mut run.stepper.step_memory;
         let StatesInLanes { now, other } = &self.states;
         let lanes = now.iter().chain(other.iter());
@@ -200,7 +195,7 @@ where
     }
 
     /// Computes a step of the runs in the lanes `live`; returns the lanes in which it succeeds. The others are as before.
-    pub(crate) fn attempt(&mut self, size: f64, live: u32) -> u32 {
+    pub fn attempt(&mut self, size: f64, live: u32) -> u32 {
         let Some(taken) = self.take(size, live) else {
             return 0;
         };
@@ -233,7 +228,7 @@ where
     }
 
     /// Makes a computed step, to the time `time`, the present state. Lanes in which it failed have to be [loaded](Self::load) again.
-    pub(crate) fn accept(&mut self, size: f64, time: f64) {
+    pub fn accept(&mut self, size: f64, time: f64) {
         // With plain sums all low parts are zero.
         mem::swap(&mut self.states.now, &mut self.states.other);
         mem::swap(&mut self.memory.before, &mut self.memory.settled);
@@ -251,7 +246,7 @@ where
     }
 
     /// Sets the time after a step that every run has taken alone.
-    pub(crate) const fn go_to(&mut self, size: f64, time: f64) {
+    pub const fn go_to(&mut self, size: f64, time: f64) {
         self.last_size = size;
         self.last_time = mem::replace(&mut self.time, time);
     }

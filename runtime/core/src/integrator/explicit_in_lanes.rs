@@ -20,7 +20,7 @@ use crate::state::State;
 use crate::system::System;
 
 /// The state of a run at an earlier step, and the data that steps left behind there.
-pub(crate) struct SavedRun<V, T> {
+pub struct SavedRun<V, T> {
     step_memory: StepMemory<V, T>,
     clock: Clock,
 }
@@ -30,20 +30,18 @@ pub(crate) type SavedRunOf<M, S, V, N> = SavedRun<V, MemoryOf<M, S, V, N>>;
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Whether every lane of a step over lanes has the bits of a step of doubles.
-    pub(crate) const LANEWISE: bool = <PlanOf<M, S, V> as Plan>::LANEWISE;
+    #[doc(hidden)]
+    pub const LANEWISE: bool = <PlanOf<M, S, V> as Plan>::LANEWISE;
 
     /// Whether steps of several runs are taken in [`CoupledLanes`](crate::integrator::CoupledLanes).
-    pub(crate) fn goes_in_lanes() -> bool {
+    #[doc(hidden)]
+    pub fn goes_in_lanes() -> bool {
         <PlanOf<M, S, V> as Plan>::goes_in_lanes::<V, S, N>()
     }
 
-    /// The times of the steps.
-    pub(crate) const fn clock(&self) -> Clock {
-        self.clock
-    }
-
     /// A copy of the run to [return](Self::return_to) to.
-    pub(crate) fn saved(&self) -> SavedRunOf<M, S, V, N> {
+    #[doc(hidden)]
+    pub fn saved(&self) -> SavedRunOf<M, S, V, N> {
         SavedRun {
             step_memory: self.stepper.step_memory.clone(),
             clock: self.clock,
@@ -51,13 +49,15 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 
     /// Returns to a [saved](Self::saved) run.
-    pub(crate) fn return_to(&mut self, saved: SavedRunOf<M, S, V, N>) {
+    #[doc(hidden)]
+    pub fn return_to(&mut self, saved: SavedRunOf<M, S, V, N>) {
         (self.stepper.step_memory, self.clock) = (saved.step_memory, saved.clock);
     }
 
     /// An integrator for runs like this one, with the system of their lanes, in vectors like `zeros`; every lane still has to be
     /// [begun](Self::begin_together).
-    pub(crate) fn over_lanes<W: Vector<Scalar: Lanes>, J: System<W>>(
+    #[doc(hidden)]
+    pub fn over_lanes<W: Vector<Scalar: Lanes>, J: System<W>>(
         &self,
         system: J,
         zeros: &W,
@@ -92,11 +92,8 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
 {
     /// [`take_block`](Self::take_block) for runs side by side; returns `false` if one of them fails or is not finite. The warm starts of
     /// the other runs are then lost, and all have to [return](Self::return_to) to the start of the block.
-    pub(crate) fn take_block_together(
-        &mut self,
-        block: u64,
-        remaining: &mut RemainingSteps,
-    ) -> bool {
+    #[doc(hidden)]
+    pub fn take_block_together(&mut self, block: u64, remaining: &mut RemainingSteps) -> bool {
         let ready = self.stepper.step_memory.kept.evaluation && remaining.left > 1;
         if ready {
             let (run, remaining) = (&mut *self, &mut *remaining);
@@ -131,7 +128,8 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
     }
 
     /// [`step`](Self::step) for runs side by side; returns `false` if one of them fails or is not finite.
-    pub(crate) fn step_together(&mut self) -> bool {
+    #[doc(hidden)]
+    pub fn step_together(&mut self) -> bool {
         let succeeds = self.advance_together(self.step_size, self.clock.next());
         if succeeds {
             self.clock.tick();
@@ -140,15 +138,14 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
     }
 
     /// Sets the system, with the parameters of the run in each lane.
-    pub(crate) fn set_system(&mut self, system: J) {
+    #[doc(hidden)]
+    pub fn set_system(&mut self, system: J) {
         self.stepper.system = system;
     }
 
     /// Begins runs at other states of the same time: each lane at the state that `start` returns for it.
-    pub(crate) fn begin_together<'s, V: Vector + 's>(
-        &mut self,
-        start: impl Fn(usize) -> &'s State<V>,
-    ) {
+    #[doc(hidden)]
+    pub fn begin_together<'s, V: Vector + 's>(&mut self, start: impl Fn(usize) -> &'s State<V>) {
         let StepMemory {
             state,
             low,
@@ -171,12 +168,14 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
     }
 
     /// Velocity and force in all lanes.
-    pub(crate) fn evaluations_together(&self) -> [W; 2] {
+    #[doc(hidden)]
+    pub fn evaluations_together(&self) -> [W; 2] {
         evaluations(&self.stepper.system, &self.stepper.step_memory.state)
     }
 
     /// Writes the state of each lane, from the first on, to the `state` of an item.
-    pub(crate) fn write_lanes<V: Vector, T>(
+    #[doc(hidden)]
+    pub fn write_lanes<V: Vector, T>(
         &self,
         items: &mut [T],
         state: impl Fn(&mut T) -> &mut State<V>,
@@ -198,10 +197,9 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
     }
 
     /// Copies a run into each lane. The runs have to be at the same step.
-    pub(crate) fn set_lanes<'r, S, V, O>(
-        &mut self,
-        run: impl Fn(usize) -> &'r Integrator<M, S, V, R, O>,
-    ) where
+    #[doc(hidden)]
+    pub fn set_lanes<'r, S, V, O>(&mut self, run: impl Fn(usize) -> &'r Integrator<M, S, V, R, O>)
+    where
         S: System<V> + 'r,
         V: Vector + 'r,
         O: Solver<V, S> + 'r,
@@ -221,12 +219,14 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
     }
 
     /// The words of all lanes, for [`get_lane`](Self::get_lane).
-    pub(crate) fn words(&self) -> Vec<u64> {
+    #[doc(hidden)]
+    pub fn words(&self) -> Vec<u64> {
         words_of(&self.stepper.step_memory)
     }
 
     /// Copies a lane into a run, from the [words](Self::words) of all lanes.
-    pub(crate) fn get_lane<S: System<V>, V: Vector, O: Solver<V, S>>(
+    #[doc(hidden)]
+    pub fn get_lane<S: System<V>, V: Vector, O: Solver<V, S>>(
         &self,
         words: &[u64],
         lane: usize,
@@ -245,12 +245,12 @@ impl<M: Method, J: System<W>, W: Vector<Scalar: Lanes>, R: Summation, N: Solver<
 }
 
 /// The velocity and the force of a system at a state.
-pub(crate) fn evaluations<V: Vector, S: System<V>>(system: &S, state: &State<V>) -> [V; 2] {
+pub fn evaluations<V: Vector, S: System<V>>(system: &S, state: &State<V>) -> [V; 2] {
     V::Scalar::in_registers(Evaluate { system, state })
 }
 
 /// Whether velocity and force have the same bits in a lane and as doubles.
-pub(crate) fn is_same<W, V>(in_lanes: &[W; 2], lane: usize, alone: &[V; 2]) -> bool
+pub fn is_same<W, V>(in_lanes: &[W; 2], lane: usize, alone: &[V; 2]) -> bool
 where
     W: Vector<Scalar: Lanes>,
     V: Vector,

@@ -23,7 +23,7 @@ const fn joined(hash: u64, word: u64) -> u64 {
 
 /// Two hashes that identify a system. The first is of velocity and force at a state and at a second point, because symmetry may hide a
 /// parameter at the first. The other is of friction, constraints and rows at the second point.
-pub(crate) fn system_fingerprint<V: Vector, S: System<V>>(
+pub fn system_fingerprint<V: Vector, S: System<V>>(
     system: &S,
     time: f64,
     q: &V,

@@ -85,8 +85,9 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitio
     }
 
     /// Number of the remaining steps to take next: one, to provide an evaluation to continue from, or many in place.
+    #[doc(hidden)]
     #[inline]
-    pub(crate) fn block_of(&self, remaining: &RemainingSteps) -> u64 {
+    pub fn block_of(&self, remaining: &RemainingSteps) -> u64 {
         // The last step is taken separately, so that the state before it remains available.
         let block = (remaining.left - 1).min(block(self.step_memory.state.q.dimension()));
         match self.step_memory.kept.evaluation {
@@ -211,11 +212,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitio
 #[cfg(feature = "alloc")]
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Takes remaining steps until `left` are left.
-    pub(crate) fn take_until(
-        &mut self,
-        left: u64,
-        remaining: &mut RemainingSteps,
-    ) -> Result<(), Error> {
+    #[doc(hidden)]
+    pub fn take_until(&mut self, left: u64, remaining: &mut RemainingSteps) -> Result<(), Error> {
         while remaining.left > left {
             let block = (self.stepper.block_of(remaining)).min(remaining.left - left);
             if let Err(error) = self.stepper.take_block(block, remaining) {

@@ -16,7 +16,7 @@ pub(crate) mod stepper;
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use clock::RemainingSteps;
 #[cfg(feature = "alloc")]
-pub(crate) use coupled_in_lanes::CoupledLanes;
+pub use coupled_in_lanes::CoupledLanes;
 pub use dense_steps::DenseSteps;
 pub use named_steps::NamedSteps;
 pub use pace::{Equal, Own, Pace};

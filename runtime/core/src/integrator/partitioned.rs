@@ -197,7 +197,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 
     /// Checks the arguments of an integrator.
-    pub(crate) fn check(system: &S, state: &State<V>, step_size: f64) -> Result<(), Error> {
+    #[doc(hidden)]
+    pub fn check(system: &S, state: &State<V>, step_size: f64) -> Result<(), Error> {
         check_step_size(step_size)?;
         check_start(system, state)?;
         check_masses(system, state)?;
@@ -207,7 +208,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 
     /// An integrator whose arguments have been [checked](Self::check).
-    pub(crate) fn unchecked(system: S, state: State<V>, step_size: f64) -> Self {
+    #[doc(hidden)]
+    pub fn unchecked(system: S, state: State<V>, step_size: f64) -> Self {
         let clock = Clock::new(state.time, step_size);
         Self {
             stepper: Partitioned::unchecked(system, state),
@@ -304,6 +306,12 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitio
     /// The system.
     pub const fn system(&self) -> &S {
         &self.system
+    }
+
+    /// Sets the criterion by which the iteration of coupled stages stops.
+    #[doc(hidden)]
+    pub const fn set_stopping(&mut self, stopping: Stopping) {
+        self.stopping = stopping;
     }
 
     /// Writes p' at a state: see [`Plan::momentum_rate`].

@@ -139,8 +139,9 @@ impl<S: Stepper> Run<S> {
     }
 
     /// Takes one step of size `size` to the time `time`, split if it has to be. The caller advances the clock.
+    #[doc(hidden)]
     #[inline]
-    pub(crate) fn advance(&mut self, size: f64, time: f64) -> Result<(), S::Error> {
+    pub fn advance(&mut self, size: f64, time: f64) -> Result<(), S::Error> {
         match advance_in_time(&mut self.stepper, size, time) {
             Ok(()) => Ok(()),
             Err(error) => self.take_again(size, time, error).map(|_| ()),
@@ -148,8 +149,9 @@ impl<S: Stepper> Run<S> {
     }
 
     /// [`advance`](Self::advance) that calls `see` after the step until it breaks; after each part if the step has to be split.
+    #[doc(hidden)]
     #[inline]
-    pub(crate) fn advance_in_sight<B>(
+    pub fn advance_in_sight<B>(
         &mut self,
         size: f64,
         time: f64,
@@ -182,7 +184,8 @@ impl<S: Stepper> Run<S> {
     }
 
     /// The steps of [`take_steps`](Self::take_steps).
-    pub(crate) const fn steps_left(&self, count: u64) -> RemainingSteps {
+    #[doc(hidden)]
+    pub const fn steps_left(&self, count: u64) -> RemainingSteps {
         RemainingSteps {
             left: count,
             size: self.step_size,
@@ -193,16 +196,15 @@ impl<S: Stepper> Run<S> {
     }
 
     /// The steps of [`integrate_to`](Self::integrate_to).
-    pub(crate) fn steps_to_time(&self, end: f64) -> Result<RemainingSteps, Error> {
+    #[doc(hidden)]
+    pub fn steps_to_time(&self, end: f64) -> Result<RemainingSteps, Error> {
         RemainingSteps::between(self.stepper.time(), end, self.step_size)
     }
 
     /// Takes all remaining steps.
+    #[doc(hidden)]
     #[inline]
-    pub(crate) fn take_remaining(
-        &mut self,
-        remaining: &mut RemainingSteps,
-    ) -> Result<(), S::Error> {
+    pub fn take_remaining(&mut self, remaining: &mut RemainingSteps) -> Result<(), S::Error> {
         while let Err(error) = self.stepper.take(remaining) {
             self.take_next_again(remaining, error)?;
         }
@@ -283,6 +285,12 @@ impl<S: Stepper> Run<S> {
     /// The stepper.
     pub const fn stepper(&self) -> &S {
         &self.stepper
+    }
+
+    /// The stepper; the times of the next steps go on from the state that the run has left.
+    #[doc(hidden)]
+    pub const fn stepper_mut(&mut self) -> &mut S {
+        &mut self.stepper
     }
 
     pub(crate) fn restart_clock(&mut self) {

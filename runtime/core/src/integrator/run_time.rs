@@ -122,7 +122,8 @@ impl<S: System<V, Class: Frictionless>, V: Vector, R: Summation> Integrator<AtRu
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrator<M, S, V, R, N> {
     /// Sets the tableau in the memory of steps.
-    pub(crate) fn set_tableau(&mut self, tableau: &RunTimeTableau) {
+    #[doc(hidden)]
+    pub fn set_tableau(&mut self, tableau: &RunTimeTableau) {
         let Partitioned {
             system,
             step_memory: StepMemory { memory, state, .. },

@@ -11,7 +11,8 @@ use crate::state::State;
 use crate::system::linearity::non_linear_velocity;
 use crate::system::{Class, System};
 
-pub(crate) fn check_step_size(value: f64) -> Result<(), Error> {
+/// Checks that a step size is finite and not zero.
+pub fn check_step_size(value: f64) -> Result<(), Error> {
     if value.is_finite() && value != 0.0 {
         Ok(())
     } else {
@@ -95,7 +96,7 @@ fn first_clear_difference<V: Vector>(left: &V, right: &V) -> Option<usize> {
 }
 
 /// Checks that the velocity is linear in the momentum, for a method that has the order of these `orders` only then.
-pub(crate) fn check_quadratic_kinetic<M: Method, V: Vector, S: System<V>>(
+pub fn check_quadratic_kinetic<M: Method, V: Vector, S: System<V>>(
     orders: Option<Orders>,
     system: &S,
     state: &State<V>,
@@ -118,7 +119,7 @@ pub(crate) fn check_quadratic_kinetic<M: Method, V: Vector, S: System<V>>(
 
 /// Checks that a run-time tableau is valid for systems of this class.
 #[cfg(feature = "alloc")]
-pub(crate) fn check_orders<V: Vector, S: System<V>>(tableau: &RunTimeTableau) -> Result<(), Error> {
+pub fn check_orders<V: Vector, S: System<V>>(tableau: &RunTimeTableau) -> Result<(), Error> {
     if !<S::Class as Class>::Plan::<AtRunTime>::steps_at_run_time(tableau) {
         return Err(Error::NoConstrainedSteps);
     }

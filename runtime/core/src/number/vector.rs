@@ -59,7 +59,7 @@ pub trait Vector: Clone + Debug + PartialEq + 'static {
 
 /// The vector as a vector of type `W`, if `V` is the same type.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn same<V: Vector, W: Vector>(vector: &V) -> Option<&W> {
+pub fn same<V: Vector, W: Vector>(vector: &V) -> Option<&W> {
     (vector as &dyn Any).downcast_ref()
 }
 

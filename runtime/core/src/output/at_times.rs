@@ -71,7 +71,8 @@ impl<S: DenseSteps> Run<S> {
     }
 
     /// Checks the times of [`integrate_at`](Self::integrate_at).
-    pub(crate) fn check_times(&self, times: &[f64]) -> Result<(), Error> {
+    #[doc(hidden)]
+    pub fn check_times(&self, times: &[f64]) -> Result<(), Error> {
         let end = check_times(self.direction(), times, self.start_of_last_step(), None)?;
         match S::Pace::OWN {
             // The number of steps is not known in advance.
@@ -124,7 +125,8 @@ impl<S: DenseSteps> Run<S> {
 }
 
 /// Whether `time` comes after `other` in the direction whose sign `direction` has.
-pub(crate) fn is_after(direction: f64, time: f64, other: f64) -> bool {
+#[inline]
+pub fn is_after(direction: f64, time: f64, other: f64) -> bool {
     if direction.is_sign_positive() {
         time > other
     } else {
@@ -154,18 +156,19 @@ pub(crate) fn check_times(
 }
 
 /// Storage for states inside a step.
-pub(crate) struct Output<S: DenseSteps> {
+pub struct Output<S: DenseSteps> {
     scratch: S::Scratch,
     /// Whether `scratch` is prepared for the last step.
-    pub(crate) evaluated: bool,
-    pub(crate) state: S::State,
+    pub evaluated: bool,
+    /// The state inside the last step.
+    pub state: S::State,
     /// The sign of the step size.
     direction: f64,
 }
 
 impl<S: DenseSteps> Output<S> {
     /// Storage for states like the present one; `direction` has the sign of the step size.
-    pub(crate) fn new(stepper: &S, direction: f64) -> Self {
+    pub fn new(stepper: &S, direction: f64) -> Self {
         Self {
             scratch: stepper.scratch(),
             evaluated: false,
@@ -175,13 +178,13 @@ impl<S: DenseSteps> Output<S> {
     }
 
     /// Whether `time` comes after `other` in the direction of the steps.
-    pub(crate) fn is_after(&self, time: f64, other: f64) -> bool {
+    pub fn is_after(&self, time: f64, other: f64) -> bool {
         is_after(self.direction, time, other)
     }
 
     /// Sets `state` to the state at a time inside the last step.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn look_at(&mut self, stepper: &mut S, time: f64) -> Result<(), S::Error> {
+    pub fn look_at(&mut self, stepper: &mut S, time: f64) -> Result<(), S::Error> {
         if !self.evaluated {
             stepper.prepare(&mut self.scratch)?;
             self.evaluated = true;
@@ -190,13 +193,13 @@ impl<S: DenseSteps> Output<S> {
     }
 
     /// [`look_at`](Self::look_at) by a step of the method.
-    pub(crate) fn look_by_step(&mut self, stepper: &mut S, time: f64) -> Result<(), S::Error> {
+    pub fn look_by_step(&mut self, stepper: &mut S, time: f64) -> Result<(), S::Error> {
         stepper.look_by_step(time, &mut self.scratch, &mut self.state)
     }
 
     /// [`look_at`](Self::look_at) for runs side by side, in the registers of their lanes.
     #[cfg(feature = "alloc")]
-    pub(crate) fn look_together(&mut self, stepper: &mut S, time: f64) -> Result<(), S::Error> {
+    pub fn look_together(&mut self, stepper: &mut S, time: f64) -> Result<(), S::Error> {
         <S::Vector as Vector>::Scalar::in_registers(Look {
             output: self,
             stepper,
@@ -206,13 +209,13 @@ impl<S: DenseSteps> Output<S> {
 
     /// Removes the output times up to the time `present` from the list.
     #[cfg(feature = "alloc")]
-    pub(crate) fn skip(&self, times: &mut &[f64], present: f64) {
+    pub fn skip(&self, times: &mut &[f64], present: f64) {
         let seen = (times.iter()).take_while(|&&time| !self.is_after(time, present));
         *times = &times[seen.count()..];
     }
 
     /// Observes the states at the output times up to the present time and removes these times from the list.
-    pub(crate) fn show(
+    pub fn show(
         &mut self,
         stepper: &mut S,
         times: &mut &[f64],

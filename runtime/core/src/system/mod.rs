@@ -7,6 +7,8 @@ pub(crate) mod hamiltonian_macro;
 pub(crate) mod lagrangian;
 pub(crate) mod lagrangian_macro;
 pub(crate) mod lane_parameters;
+#[cfg(feature = "alloc")]
+pub(crate) mod lane_registers;
 mod lengths;
 mod named;
 mod over_vectors;

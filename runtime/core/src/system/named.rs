@@ -1,6 +1,6 @@
 //! Names of coordinates.
 
-/// A system whose coordinates have names, such as for the columns of [files](crate::files). Systems from a formula have those of the
+/// A system whose coordinates have names, such as for the columns of files. Systems from a formula have those of the
 /// formula. For a system by hand an empty `impl` gives `q[0]`, `q[1]`, … and `p[0]`, `p[1]`, …:
 ///
 /// ```

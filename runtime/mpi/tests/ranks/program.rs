@@ -7,7 +7,7 @@ use std::time::Duration;
 use std::{env, fs, process, thread};
 
 use symplectic::State;
-use symplectic::ensemble::{Ensemble, Npz};
+use symplectic::ensemble::{Ensemble, Npz, WriteEnsemble};
 use symplectic::nalgebra::Vector1;
 use symplectic_mpi::mpi::{self, Threading, traits::Communicator};
 use symplectic_mpi::{Blocks, Error};

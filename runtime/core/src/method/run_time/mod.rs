@@ -243,7 +243,8 @@ impl RunTimeTableau {
     }
 
     /// The orders, if the higher one requires a quadratic kinetic energy and a lower order is not accepted.
-    pub(crate) fn needs_quadratic_kinetic(&self) -> Option<Orders> {
+    #[doc(hidden)]
+    pub fn needs_quadratic_kinetic(&self) -> Option<Orders> {
         let Orders {
             separable, nystrom, ..
         } = self.data.orders;

@@ -100,7 +100,7 @@ pub struct Avx512(());
 impl Avx512 {
     /// `None` if the processor does not have it.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn detect() -> Option<Self> {
+    pub fn detect() -> Option<Self> {
         #[cfg(feature = "std")]
         if std::arch::is_x86_feature_detected!("avx512f")
             && std::arch::is_x86_feature_detected!("avx512dq")

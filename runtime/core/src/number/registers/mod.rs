@@ -78,7 +78,7 @@ pub(crate) const APART: bool = UNKNOWN
 
 /// The widest registers of a processor.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Widest {
+pub enum Widest {
     /// Those for which the program is compiled.
     Build,
     /// Four doubles.
@@ -90,7 +90,7 @@ pub(crate) enum Widest {
 impl Widest {
     /// Those of this processor.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn find() -> Self {
+    pub fn find() -> Self {
         if !APART {
             Self::Build
         } else if let Some(avx512) = Avx512::detect() {

@@ -12,7 +12,8 @@ macro_rules! none {
             pub struct $name(Infallible);
 
             impl $name {
-                pub(crate) const fn detect() -> Option<Self> {
+                /// `None`: the processor does not have it.
+                pub const fn detect() -> Option<Self> {
                     None
                 }
 

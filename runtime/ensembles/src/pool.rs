@@ -107,7 +107,7 @@ mod by_threads {
     /// that is no longer in use.
     ///
     /// `fill` appends a row for each place to the list; fewer rows end the run. So does `show`.
-    pub(in crate::ensemble) fn in_order<E: Send, T: Send>(
+    pub(crate) fn in_order<E: Send, T: Send>(
         (_whole, part): (&E, impl Fn(&Range<usize>, Option<E>) -> E),
         mut places: Range<usize>,
         share: usize,

@@ -3,7 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::EnsembleError;
+use crate::EnsembleError;
 
 /// A histogram with bins of equal width.
 ///

@@ -3,17 +3,17 @@
 use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
-use super::group::{Job, Task};
-use super::pool::{self, threads};
-use super::registers::width;
-use super::{Ensemble, Row, Wanted};
-use crate::error::Error;
-use crate::integrator::{Integrator, Run, Statistics, Stepper};
-use crate::method::{Method, RunTimeTableau, Solver};
-use crate::number::registers::Widest;
-use crate::number::{Lanes, Scalar, Summation, Vector};
-use crate::state::State;
-use crate::system::{Join, LaneWork, System};
+use crate::group::{Job, Task};
+use crate::pool::{self, threads};
+use crate::{Ensemble, Row, Wanted};
+use symplectic_core::inside::{Widest, width};
+use symplectic_core::simd::Lanes;
+use symplectic_core::solver::Solver;
+use symplectic_core::system::{Join, LaneWork};
+use symplectic_core::{
+    Error, Integrator, Method, Run, RunTimeTableau, Scalar, State, Statistics, Stepper, Summation,
+    System, Vector,
+};
 
 /// Number of steps below which lanes are slower with coupled stages.
 const FEW_STEPS: f64 = 4.0;
@@ -186,7 +186,7 @@ where
     }
 
     /// [`each`](Self::each) for runs of any [`Stepper`]: `make` constructs the [`Run`] of a trajectory from its integrator, for example with
-    /// [reversible steps of variable size](crate::adaptive::Adaptive). [`set_retry`](Self::set_retry) has an effect only
+    /// reversible steps of variable size. [`set_retry`](Self::set_retry) has an effect only
     /// if `make` returns the integrator itself, not on a run that `make` constructs from it.
     ///
     /// If `make` fails, the row has its error and the start. A [checkpoint](Self::checkpoint) does not store `make` and `work`: pass the
@@ -421,7 +421,8 @@ where
         let system = self.family_of(place).0.clone();
         let start = self.starts[place].clone();
         let mut run = Integrator::unchecked(system, start, self.step_size);
-        (run.stepper.stopping, run.retry) = (self.stopping, self.retry);
+        run.stepper_mut().set_stopping(self.stopping);
+        run.set_retry(self.retry);
         if let Some(tableau) = &self.tableau {
             run.set_tableau(tableau);
         }

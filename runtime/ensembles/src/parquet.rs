@@ -16,10 +16,9 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{Type, TypePtr};
 
-use super::{Ensemble, Row};
-use crate::method::{Method, Solver};
-use crate::number::{Summation, Vector};
-use crate::system::System;
+use crate::{Ensemble, Row};
+use symplectic_core::solver::Solver;
+use symplectic_core::{Method, Summation, System, Vector};
 
 /// The values of a column, one for each row of a group.
 #[derive(Clone, Debug, PartialEq)]

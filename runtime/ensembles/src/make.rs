@@ -4,17 +4,16 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
-use super::registers::widest;
-use super::{Ensemble, EnsembleError, Wanted};
-use crate::integrator::validation::{check_quadratic_kinetic, check_step_size};
-use crate::integrator::{Integrator, Retry};
-use crate::method::{AtRunTime, Method, ProvedFor, RunTimeTableau, Stopping};
-use crate::number::{Plain, Summation, Vector};
-use crate::state::State;
-use crate::system::System;
+use crate::{Ensemble, EnsembleError, Wanted};
+use symplectic_core::inside::{check_quadratic_kinetic, check_step_size, widest};
+use symplectic_core::solver::Stopping;
+use symplectic_core::{
+    AtRunTime, Integrator, Method, Plain, ProvedFor, Retry, RunTimeTableau, State, Summation,
+    System, Vector,
+};
 
 impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V> {
-    /// The trajectories of a system from `starts`, with [`Compensated`](crate::Compensated) sums; a negative
+    /// The trajectories of a system from `starts`, with [`Compensated`](symplectic_core::Compensated) sums; a negative
     /// `step_size` goes backward. Trajectories are numbered like their starts, from 0.
     ///
     /// # Errors

@@ -3,18 +3,14 @@
 use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
-use super::explicit::SideBySide;
-use super::registers::{may_be_found, width};
-use super::run::Way;
-use super::{Ensemble, Row};
-use crate::error::Error;
-use crate::integrator::explicit_in_lanes::{evaluations, is_same};
-use crate::integrator::{Integrator, Statistics};
-use crate::method::{Method, Solver};
-use crate::number::registers::Widest;
-use crate::number::{Lanes, Summation, Vector, WideF64x8, WidestF64x16};
-use crate::state::State;
-use crate::system::{Join, System};
+use crate::explicit::SideBySide;
+use crate::run::Way;
+use crate::{Ensemble, Row};
+use symplectic_core::inside::{evaluations, is_same, over_lanes_of, width};
+use symplectic_core::simd::Lanes;
+use symplectic_core::solver::Solver;
+use symplectic_core::system::Join;
+use symplectic_core::{Error, Integrator, Method, State, Statistics, Summation, System, Vector};
 
 /// The task of every trajectory.
 #[derive(Clone, Copy)]
@@ -124,26 +120,13 @@ where
         places: &mut Range<usize>,
         rows: &mut Vec<Row<V, A>>,
     ) -> ControlFlow<()> {
-        macro_rules! lanes {
-            ($lanes:ty) => {
-                S::over_lanes::<$lanes, _>(SideBySide {
-                    job: self,
-                    has_one_system: self.ensemble.has_one_system(&self.group_of(places)),
-                    places,
-                    rows,
-                })
-            };
-        }
-        // Constant conditions: other ensembles compile without this code.
-        let outcome = if const { may_be_found::<V, S>() } {
-            match self.ensemble.registers {
-                Widest::Build => lanes!(L),
-                Widest::Avx2(_) => lanes!(WideF64x8),
-                Widest::Avx512(_) => lanes!(WidestF64x16),
-            }
-        } else {
-            lanes!(L)
+        let work = SideBySide {
+            job: self,
+            has_one_system: self.ensemble.has_one_system(&self.group_of(places)),
+            places,
+            rows,
         };
+        let outcome = over_lanes_of::<V, S, L, _, _>(self.ensemble.registers, work);
         outcome.unwrap_or(ControlFlow::Continue(()))
     }
 }

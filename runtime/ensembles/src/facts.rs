@@ -2,10 +2,9 @@
 
 use alloc::string::String;
 
-use super::Ensemble;
-use crate::method::{Method, RunTimeTableau, Solver};
-use crate::number::{Summation, Vector};
-use crate::system::System;
+use crate::Ensemble;
+use symplectic_core::solver::Solver;
+use symplectic_core::{Method, RunTimeTableau, Summation, System, Vector};
 
 /// The origin of the numbers of a file.
 pub(super) struct Facts<'a> {

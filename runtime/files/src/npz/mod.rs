@@ -1,18 +1,10 @@
 //! Files for NumPy: `.npz`.
 
-use alloc::format;
-use alloc::string::String;
-use alloc::vec::Vec;
 use std::io::{self, Error, ErrorKind, Write};
 
 mod array;
 
 pub use array::{NpzArray, NpzValues};
-
-use super::{Ensemble, Row};
-use crate::method::{Method, Solver};
-use crate::number::{Summation, Vector};
-use crate::system::System;
 
 /// Writes a `.npz` file for `numpy.load`: named arrays in an uncompressed ZIP archive.
 ///
@@ -20,7 +12,7 @@ use crate::system::System;
 /// directory, after a killed run or on a full disk, is incomplete; `zip -FF` recovers its complete arrays.
 ///
 /// ```
-/// use symplectic::ensemble::Npz;
+/// use symplectic::files::Npz;
 ///
 /// # fn main() -> std::io::Result<()> {
 /// let mut file = Npz::new(Vec::new());
@@ -60,7 +52,7 @@ impl<W: Write> Npz<W> {
     ///
     /// I/O errors of the output, after which the file accepts no more arrays. [`ErrorKind::InvalidInput`] if the shape
     /// does not match the number of values, the name exists already, or the file would exceed 4 GiB. Write the
-    /// [shards](Ensemble::shard) of a large ensemble to separate files.
+    /// shards of a large ensemble to separate files.
     pub fn doubles(&mut self, name: &str, shape: &[usize], values: &[f64]) -> io::Result<()> {
         let bytes = values.iter().flat_map(|value| value.to_le_bytes());
         self.npy(name, "<f8", shape, values.len(), bytes)
@@ -113,73 +105,6 @@ impl<W: Write> Npz<W> {
                 self.letters(name, shape, &texts)
             }
         }
-    }
-
-    /// Writes the metadata of an ensemble: `method`, `definition`, `orders` (general, separable, with quadratic kinetic
-    /// energy), `step_size`, `sums`, `solver`, `tolerance` and the `version` of this library. For a tableau at run time
-    /// `definition` is `at run time`.
-    ///
-    /// # Errors
-    ///
-    /// As for [`doubles`](Self::doubles).
-    pub fn facts<M, S, V, R, N, L>(
-        &mut self,
-        ensemble: &Ensemble<M, S, V, R, N, L>,
-    ) -> io::Result<()>
-    where
-        M: Method,
-        S: System<V>,
-        V: Vector,
-        R: Summation,
-        N: Solver<V, S>,
-    {
-        let facts = ensemble.method_facts();
-        self.text("method", facts.method)?;
-        self.text("definition", facts.definition)?;
-        self.integers("orders", &[3], &facts.orders)?;
-        self.doubles("step_size", &[], &[facts.step_size])?;
-        self.text("sums", facts.sums)?;
-        self.text("solver", &facts.solver)?;
-        self.doubles("tolerance", &[], &[facts.tolerance])?;
-        self.text("version", env!("CARGO_PKG_VERSION"))
-    }
-
-    /// Writes rows, once per file: `trajectory`, `time`, `q` and `p` (row, component), `steps`; and for failed
-    /// trajectories their numbers, `failed`, and their errors, `error`.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`doubles`](Self::doubles); [`ErrorKind::InvalidInput`] also for rows of different dimensions.
-    pub fn rows<V: Vector<Scalar = f64>, A>(&mut self, rows: &[Row<V, A>]) -> io::Result<()> {
-        let count = rows.len();
-        let dimension = rows.first().map_or(0, |row| row.state.q.dimension());
-        let other =
-            |row: &&Row<V, A>| [&row.state.q, &row.state.p].map(V::dimension) != [dimension; 2];
-        if let Some(row) = rows.iter().find(other) {
-            return Err(invalid(format!(
-                "trajectory {} has another dimension than the first row, {dimension}: write them to files of their own",
-                row.trajectory
-            )));
-        }
-        let list = |of: fn(&Row<V, A>) -> u64| rows.iter().map(of).collect::<Vec<u64>>();
-        self.integers("trajectory", &[count], &list(|row| row.trajectory as u64))?;
-        let times: Vec<f64> = rows.iter().map(|row| row.state.time).collect();
-        self.doubles("time", &[count], &times)?;
-        let vectors = |of: fn(&Row<V, A>) -> &V| {
-            let components = rows.iter().flat_map(|row| of(row).as_slice());
-            components.copied().collect::<Vec<f64>>()
-        };
-        self.doubles("q", &[count, dimension], &vectors(|row| &row.state.q))?;
-        self.doubles("p", &[count, dimension], &vectors(|row| &row.state.p))?;
-        self.integers("steps", &[count], &list(|row| row.statistics.steps))?;
-        let of = |row: &Row<V, A>| {
-            let error = row.outcome.as_ref().err()?;
-            Some((row.trajectory as u64, format!("{error}")))
-        };
-        let (failed, errors): (Vec<u64>, Vec<String>) = rows.iter().filter_map(of).unzip();
-        self.integers("failed", &[failed.len()], &failed)?;
-        let errors: Vec<&str> = errors.iter().map(String::as_str).collect();
-        self.texts("error", &errors)
     }
 
     /// Writes the directory, flushes, and returns the output.

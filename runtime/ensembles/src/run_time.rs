@@ -2,25 +2,23 @@
 
 use alloc::vec::Vec;
 
-use super::{Ensemble, EnsembleError};
-use crate::integrator::validation::check_orders;
-use crate::method::{AtRunTime, RunTimeTableau};
-use crate::number::{Plain, Summation, Vector};
-use crate::state::State;
-use crate::system::{Frictionless, System};
+use crate::{Ensemble, EnsembleError};
+use symplectic_core::inside::check_orders;
+use symplectic_core::system::Frictionless;
+use symplectic_core::{AtRunTime, Plain, RunTimeTableau, State, Summation, System, Vector};
 
 impl<S: System<V, Class: Frictionless>, V: Vector> Ensemble<AtRunTime, S, V> {
-    /// [`new`](Ensemble::new) with a tableau at run time and with [`Compensated`](crate::Compensated) sums.
+    /// [`new`](Ensemble::new) with a tableau at run time and with [`Compensated`](symplectic_core::Compensated) sums.
     ///
     /// Trajectories run in lanes, whether the stages are explicit or coupled. Each has the same bits as if run alone in
-    /// [`Integrator::at_run_time`](crate::Integrator::at_run_time).
+    /// [`Integrator::at_run_time`](symplectic_core::Integrator::at_run_time).
     ///
     /// # Errors
     ///
     /// Those of [`new`](Ensemble::new). [`EnsembleError::All`] with
-    /// [`Error::SeparableTableau`](crate::Error::SeparableTableau) if the system is not separable and the tableau has a
+    /// [`Error::SeparableTableau`](symplectic_core::Error::SeparableTableau) if the system is not separable and the tableau has a
     /// lower order for such systems or is not symplectic. [`EnsembleError::Start`] with
-    /// [`Error::NotQuadraticKinetic`](crate::Error::NotQuadraticKinetic) for a Nyström method if the velocity is not
+    /// [`Error::NotQuadraticKinetic`](symplectic_core::Error::NotQuadraticKinetic) for a Nyström method if the velocity is not
     /// linear in the momentum.
     ///
     /// ```

@@ -3,13 +3,11 @@
 use alloc::format;
 use alloc::string::{String, ToString};
 
-use super::Ensemble;
-use crate::integrator::fingerprint::system_fingerprint;
-use crate::integrator::{Checkpoint, CheckpointError};
-use crate::method::{Method, Solver};
-use crate::number::{Lanes, Summation, Vector, scalar_words};
-use crate::state::State;
-use crate::system::System;
+use crate::Ensemble;
+use symplectic_core::inside::system_fingerprint;
+use symplectic_core::simd::Lanes;
+use symplectic_core::solver::{Solver, scalar_words};
+use symplectic_core::{Checkpoint, CheckpointError, Method, State, Summation, System, Vector};
 
 /// Progress of an ensemble: which rows are complete.
 ///

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use super::Recording;
 #[cfg(doc)]
-use crate::error::Error;
-use crate::integrator::{NamedSteps, Run};
+use symplectic_core::Error;
 #[cfg(doc)]
-use crate::system::Named;
+use symplectic_core::system::Named;
+use symplectic_core::{NamedSteps, Run};
 
 /// Integrates to `end` and writes the start and the state after every step, with the [names](Named) of the system, as `.csv` or, with the
 /// feature `npz`, as `.npz`.

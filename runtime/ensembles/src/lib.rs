@@ -1,7 +1,7 @@
 //! Ensembles: many trajectories at once, in SIMD lanes and on all cores.
 //!
 //! An [`Ensemble`] consists of a method, a system and many starts. Every trajectory has the same bits as if run alone in an
-//! [`Integrator`](crate::Integrator). They do not depend on the number of lanes and threads, or on how the ensemble is split or resumed.
+//! [`Integrator`](symplectic_core::Integrator). They do not depend on the number of lanes and threads, or on how the ensemble is split or resumed.
 //!
 //! | What | Where |
 //! |---|---|
@@ -15,7 +15,7 @@
 //! # Lanes
 //!
 //! A method advances one trajectory per [lane](Ensemble::in_lanes) at once, if the system is written for every
-//! [`Scalar`](crate::Scalar). The trajectories in the lanes have the same start time, consecutive numbers, and the same system. Systems
+//! [`Scalar`](symplectic_core::Scalar). The trajectories in the lanes have the same start time, consecutive numbers, and the same system. Systems
 //! of a formula without friction and applied forces may have different parameters in each lane. Their arrays must have the same lengths,
 //! and their lists of pairs the same pairs.
 //!
@@ -25,17 +25,17 @@
 //! [choose lanes](Ensemble::in_lanes). With narrower registers a single run, with the stages of one trajectory in lanes, is at least as
 //! fast.
 //!
-//! For [inlined](crate::Hamiltonian::INLINED) systems a new ensemble detects the registers of the processor: sixteen lanes with AVX-512,
+//! For [inlined](symplectic_core::Hamiltonian::INLINED) systems a new ensemble detects the registers of the processor: sixteen lanes with AVX-512,
 //! eight with AVX2. Other systems use the lanes of the build.
 //!
 //! All other trajectories run one at a time: with another solver, with constraints or with a composition of implicit methods; of
-//! closures and chains; of [tangent systems](crate::tangent::Tangent) with coupled stages; in fewer than four steps with coupled stages; of
+//! closures and chains; of [tangent systems](symplectic_core::tangent::Tangent) with coupled stages; in fewer than four steps with coupled stages; of
 //! [`each`](Ensemble::each) and [`each_as`](Ensemble::each_as). So do trajectories with
 //! [different systems](Ensemble::of_families), if these are written by hand, or are formulas with friction or applied forces.
 //!
 //! A system rounds differently in lanes if it depends on the number type, such as products of large matrices in nalgebra. So velocity
 //! and force are compared with those of doubles, at the first starts of a run and at one start in each set of lanes. Trajectories run one
-//! at a time if they differ. A system for every scalar must not [branch on a value](crate::Scalar), such as a magnitude: in lanes the
+//! at a time if they differ. A system for every scalar must not [branch on a value](symplectic_core::Scalar), such as a magnitude: in lanes the
 //! branch would apply to all trajectories, and few states are compared.
 //!
 //! # Threads
@@ -43,9 +43,15 @@
 //! With the feature `parallel` the threads of `rayon` share the trajectories. Without it there is one thread; the bits
 //! are the same. A thread runs many short trajectories before their rows are shown, and the next ones run meanwhile.
 //!
-//! Each thread has its own copy of the system, so a system need not be `Sync`. [`Newmark`](crate::variational::Newmark),
-//! [`Poincare`](crate::adaptive::Poincare) and [`Logarithmic`](crate::adaptive::Logarithmic), for example, are not. Their ensembles can be
+//! Each thread has its own copy of the system, so a system need not be `Sync`. `Newmark`, `Poincare` and `Logarithmic`, for example, are not. Their ensembles can be
 //! moved to another thread, but not shared: for a thread pool of your own write `pool.install(move || ensemble.take_steps(..))`.
+
+#![no_std]
+
+extern crate alloc;
+
+#[cfg(feature = "std")]
+extern crate std;
 
 #[cfg(feature = "serde")]
 mod as_bits;
@@ -64,6 +70,7 @@ mod npz;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod pool;
+#[cfg(test)]
 mod registers;
 mod row;
 mod run;
@@ -75,10 +82,12 @@ pub use error::EnsembleError;
 pub use histogram::Histogram;
 pub use moments::Moments;
 #[cfg(feature = "npz")]
-pub use npz::{Npz, NpzArray, NpzValues};
+pub use npz::WriteEnsemble;
 #[cfg(feature = "parquet")]
 pub use parquet::{Parquet, ParquetColumn};
 pub use row::Row;
+#[cfg(feature = "npz")]
+pub use symplectic_files::{Npz, NpzArray, NpzValues};
 
 use alloc::sync::Arc;
 use alloc::vec::Vec;
@@ -86,13 +95,12 @@ use core::fmt;
 use core::marker::PhantomData;
 use core::ops::Range;
 
-use crate::error::Error;
-use crate::integrator::Retry;
-use crate::method::{Method, RunTimeTableau, Solver, Stopping};
-use crate::number::registers::Widest;
-use crate::number::{Compensated, DefaultLanes, Lanes, Plain, Summation, Vector};
-use crate::state::State;
-use crate::system::System;
+use symplectic_core::inside::Widest;
+use symplectic_core::simd::{DefaultLanes, Lanes};
+use symplectic_core::solver::{Solver, Stopping};
+use symplectic_core::{
+    Compensated, Error, Method, Plain, Retry, RunTimeTableau, State, Summation, System, Vector,
+};
 
 /// Type parameters without stored values; `fn()` keeps the ensemble `Send` and `Sync`.
 type Kind<M, R, N, L> = fn() -> (M, R, N, L);
@@ -156,7 +164,7 @@ enum Wanted {
 }
 
 impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>, L: Lanes> Ensemble<M, S, V, Plain, N, L> {
-    /// Sets the tolerance of every trajectory: see [`Integrator::set_tolerance`](crate::Integrator::set_tolerance).
+    /// Sets the tolerance of every trajectory: see [`Integrator::set_tolerance`](symplectic_core::Integrator::set_tolerance).
     ///
     /// # Errors
     ///
@@ -178,12 +186,12 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         self.of_kind()
     }
 
-    /// The same ensemble with Newton's iteration: see [`Integrator::by_newton`](crate::Integrator::by_newton).
-    pub fn by_newton(self) -> Ensemble<M, S, V, R, crate::solver::Newton, L> {
+    /// The same ensemble with Newton's iteration: see [`Integrator::by_newton`](symplectic_core::Integrator::by_newton).
+    pub fn by_newton(self) -> Ensemble<M, S, V, R, symplectic_core::solver::Newton, L> {
         self.of_kind()
     }
 
-    /// The same ensemble with lanes of your choice, for example [`F64x4`](crate::simd::F64x4), in the registers of the build. Implicit
+    /// The same ensemble with lanes of your choice, for example [`F64x4`](symplectic_core::simd::F64x4), in the registers of the build. Implicit
     /// methods then use lanes even where these are not faster: in registers of fewer than eight doubles. The results are the same.
     ///
     /// ```
@@ -231,13 +239,13 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
         }
     }
 
-    /// Sets the retry policy for failed steps: see [`Integrator::set_retry`](crate::Integrator::set_retry). It is that of the integrators,
+    /// Sets the retry policy for failed steps: see [`Integrator::set_retry`](symplectic_core::Integrator::set_retry). It is that of the integrators,
     /// not of other runs made from them by [`each_as`](Self::each_as).
     pub const fn set_retry(&mut self, retry: Retry) {
         self.retry = retry;
     }
 
-    /// Sets the maximum number of sweeps per step: see [`Integrator::set_max_iterations`](crate::Integrator::set_max_iterations).
+    /// Sets the maximum number of sweeps per step: see [`Integrator::set_max_iterations`](symplectic_core::Integrator::set_max_iterations).
     pub const fn set_max_iterations(&mut self, max_iterations: u32) {
         self.stopping.max_iterations = if max_iterations == 0 {
             1

@@ -1,8 +1,5 @@
 //! Reads, checks and concatenates arrays of `.npz` files that this library wrote.
 
-use alloc::format;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 use std::io::{self, Error, ErrorKind};
 
 use super::{crc32, invalid};
@@ -10,7 +7,7 @@ use super::{crc32, invalid};
 /// An array of a `.npz` file.
 ///
 /// ```
-/// use symplectic::ensemble::{Npz, NpzArray, NpzValues};
+/// use symplectic::files::{Npz, NpzArray, NpzValues};
 ///
 /// # fn main() -> std::io::Result<()> {
 /// let mut file = Npz::new(Vec::new());

@@ -4,14 +4,11 @@
 
 use core::ops::ControlFlow;
 
-use super::group::{Attempt, Group, Member, Task};
-use crate::error::Error;
-use crate::integrator::CoupledLanes;
-use crate::method::{Method, Solver};
-use crate::number::{Lanes, Summation, Vector};
-use crate::output::at_times::Output;
-use crate::state::State;
-use crate::system::System;
+use crate::group::{Attempt, Group, Member, Task};
+use symplectic_core::inside::{CoupledLanes, Output};
+use symplectic_core::simd::Lanes;
+use symplectic_core::solver::Solver;
+use symplectic_core::{Error, Method, State, Summation, System, Vector};
 
 /// Number of steps between checks whether the run is stopped.
 const BLOCK: u64 = 1 << 10;
@@ -104,7 +101,8 @@ where
             return Attempt::Refused;
         };
         let mut count = 0;
-        while let Some((size, time)) = remaining.next_step() {
+        while let Some((size, time)) = remaining.next() {
+            remaining.tick();
             if count % BLOCK == 0 && self.group.ensemble.is_stopped() {
                 return Attempt::Stopped;
             }
@@ -122,26 +120,29 @@ where
         if run.check_times(times).is_err() {
             return Attempt::Refused;
         }
-        let (size, mut clock) = (run.step_size(), run.clock());
+        let mut steps = run.steps_left(u64::MAX);
         let see = self.see;
-        let mut output = Output::new(&run.stepper, size);
+        let mut output = Output::new(run.stepper(), run.step_size());
         let mut rest = times;
         for (lane, member) in self.group.members.iter_mut().enumerate() {
             let Member {
                 run, output: own, ..
             } = member;
             let mut seen = times;
-            member.outcome = output.show(&mut run.stepper, &mut seen, &mut |state| see(own, state));
+            member.outcome =
+                output.show(run.stepper_mut(), &mut seen, &mut |state| see(own, state));
             self.live &= !(u32::from(member.outcome.is_err()) << lane);
         }
         output.skip(&mut rest, self.lanes.time());
         let mut count = 0;
-        while !rest.is_empty() && self.live != 0 {
+        while !rest.is_empty()
+            && self.live != 0
+            && let Some((size, time)) = steps.next()
+        {
             if count % BLOCK == 0 && self.group.ensemble.is_stopped() {
                 return Attempt::Stopped;
             }
             count += 1;
-            let time = clock.next();
             let before = rest;
             let settled = self.step(size, time, |member| {
                 let Member {
@@ -154,7 +155,7 @@ where
                 });
                 outcome.map(|_| ())
             });
-            clock.tick();
+            steps.tick();
             output.skip(&mut rest, time);
             if rest.len() == before.len() {
                 continue;
@@ -168,7 +169,7 @@ where
                 } = &mut self.group.members[lane];
                 self.lanes.store(lane, run);
                 let mut seen = before;
-                *outcome = output.show(&mut run.stepper, &mut seen, &mut |state| see(own, state));
+                *outcome = output.show(run.stepper_mut(), &mut seen, &mut |state| see(own, state));
                 if outcome.is_err() {
                     self.live &= !(1 << lane);
                     self.ready &= !(1 << lane);

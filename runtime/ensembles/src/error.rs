@@ -1,8 +1,8 @@
 //! Errors of ensembles.
 
-use crate::error::Error;
+use core::fmt;
 
-crate::error::debug::debug_by_message!(EnsembleError);
+use symplectic_core::Error;
 
 /// The error type of ensembles and their statistics.
 #[derive(Clone, PartialEq, thiserror::Error)]
@@ -69,4 +69,11 @@ pub enum EnsembleError {
         /// The number of parts.
         count: usize,
     },
+}
+
+/// The message, as `unwrap` and a `main` that returns the error print it.
+impl fmt::Debug for EnsembleError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, formatter)
+    }
 }

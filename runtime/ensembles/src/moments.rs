@@ -3,7 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::error::Error;
+use symplectic_core::Error;
 
 /// Running mean and variance of the components of vectors, by Welford's recurrence (Technometrics 4, 1962, 419–420):
 ///

@@ -1,17 +1,13 @@
 //! A table of the states of a run.
 
-use alloc::format;
-use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 use std::io::{self, Error, ErrorKind, Write};
 use std::path::Path;
 
 use super::replace_file;
 #[cfg(feature = "npz")]
-use crate::ensemble::Npz;
-use crate::number::Vector;
-use crate::state::State;
-use crate::system::Named;
+use crate::npz::Npz;
+use symplectic_core::system::Named;
+use symplectic_core::{State, Vector};
 
 /// The states of one run with the names of their components, to be written as CSV or, with the feature `npz`, for NumPy.
 /// [`record_to`](super::record_to) does in one line what this example does:
@@ -271,7 +267,7 @@ mod tests {
     #[cfg(feature = "npz")]
     #[test]
     fn an_npz_file_has_an_array_for_each_name() {
-        use crate::ensemble::{NpzArray, NpzValues};
+        use crate::npz::{NpzArray, NpzValues};
 
         let mut table =
             Recording::from_start(&state(0.0), ["x", "y", "px", "py"]).expect("a table");

@@ -114,8 +114,6 @@ impl PeriodicFile {
 
 #[cfg(test)]
 mod tests {
-    use std::string::ToString;
-
     use super::*;
 
     fn folder(name: &str) -> PathBuf {

@@ -6,17 +6,15 @@
 use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
-use super::Row;
-use super::coupled::Coupled;
-use super::group::{Attempt, Group, Job, Task};
-use super::run::Way;
-use crate::integrator::{CoupledLanes, Integrator, Partitioned};
-use crate::method::{Method, Solver};
-use crate::number::vector::same;
-use crate::number::{Lanes, Scalar, Summation, Vector};
-use crate::output::at_times::{Output, is_after};
-use crate::state::State;
-use crate::system::{Join, LaneWork, System};
+use crate::Row;
+use crate::coupled::Coupled;
+use crate::group::{Attempt, Group, Job, Task};
+use crate::run::Way;
+use symplectic_core::inside::{CoupledLanes, Output, is_after, same};
+use symplectic_core::simd::Lanes;
+use symplectic_core::solver::Solver;
+use symplectic_core::system::{Join, LaneWork};
+use symplectic_core::{Integrator, Method, Partitioned, Scalar, State, Summation, System, Vector};
 
 /// Number of steps between checks whether the run is stopped.
 const BLOCK: u64 = 1 << 16;
@@ -245,13 +243,13 @@ where
         };
         // From where trajectories repeat steps: from `saved`, or else from their starts or the members.
         let (mut saved, mut begun) = (None, remaining);
-        while remaining.left > 0 {
+        while remaining.left() > 0 {
             if self.job.ensemble.is_stopped() {
                 return Attempt::Stopped;
             }
-            let block = self.lanes.stepper.block_of(&remaining);
-            let left = remaining.left - block;
-            if begun.left > remaining.left && begun.left - left > UNSAVED {
+            let block = self.lanes.stepper().block_of(&remaining);
+            let left = remaining.left() - block;
+            if begun.left() > remaining.left() && begun.left() - left > UNSAVED {
                 (saved, begun) = (Some(self.lanes.saved()), remaining);
             }
             if self.lanes.take_block_together(block, &mut remaining) {
@@ -323,7 +321,7 @@ where
                 self.see(index, start);
             }
         }
-        let mut output = Output::new(&self.lanes.stepper, direction);
+        let mut output = Output::new(self.lanes.stepper(), direction);
         let mut shown = self.group.start(0).clone();
         while !rest.is_empty() {
             if self.job.ensemble.is_stopped() {
@@ -386,7 +384,7 @@ where
                 // A zero time has the same sign as in a run of one trajectory.
                 true => present,
                 false => {
-                    output.look_together(&mut self.lanes.stepper, time).ok()?;
+                    output.look_together(self.lanes.stepper_mut(), time).ok()?;
                     &output.state
                 }
             };

@@ -5,11 +5,10 @@ use alloc::vec::Vec;
 use core::marker::PhantomData;
 use core::ops::Range;
 
-use super::{Ensemble, EnsembleError};
-use crate::method::{Method, Solver};
-use crate::number::{Lanes, Summation, Vector};
-use crate::state::State;
-use crate::system::System;
+use crate::{Ensemble, EnsembleError};
+use symplectic_core::simd::Lanes;
+use symplectic_core::solver::Solver;
+use symplectic_core::{Method, State, Summation, System, Vector};
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes>
     Ensemble<M, S, V, R, N, L>

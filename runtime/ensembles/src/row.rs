@@ -1,15 +1,13 @@
 //! Result of a trajectory.
 
-use crate::error::Error;
-use crate::integrator::Statistics;
-use crate::state::State;
+use symplectic_core::{Error, State, Statistics};
 
 /// The result of one trajectory of an ensemble.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row<V, A = ()> {
     /// Number of the trajectory, from 0.
     pub trajectory: usize,
-    /// Success, or the error that an [`Integrator`](crate::Integrator) returns, with its time.
+    /// Success, or the error that an [`Integrator`](symplectic_core::Integrator) returns, with its time.
     pub outcome: Result<(), Error>,
     /// The state at the end, or after the last successful step.
     pub state: State<V>,
