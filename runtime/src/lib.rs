@@ -21,7 +21,7 @@
 //! | Constraints, friction and other forces | [`Constrained`], [`consistent`], [`constraint_force`]; [`Nonholonomic`], [`consistent_momentum`]; [`Damped`], [`friction_growth`], [`Hamiltonian::applied_force`] |
 //! | Steps of variable size, for close encounters | [`Integrator::adaptive`]; [`adaptive`] |
 //! | A rigid body that turns about a point | [`rotation`] |
-//! | Splittings over flows of your own: harmonic, magnetic, damped, stochastic, Kepler | [`flow`] |
+//! | Splittings over flows of your own: harmonic, magnetic, damped, stochastic, Kepler | [`flow`], with the feature `flows` |
 //! | Discrete and degenerate Lagrangians, generating functions, stages and balances | [`variational`] |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`]; [`RunTimeTableau`] |
 //! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
@@ -65,6 +65,7 @@
 //! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), constraints, Newton's iteration, tableaux at run time, checkpoints,
 //!   tangent maps, variational integrators and generating functions; of `adaptive` and `flow` also [`adaptive::Logarithmic`],
 //!   [`adaptive::Poincare`], Kepler orbits, linear, mollified and asynchronous flows, and correctors.
+//! * `flows`: the module [`flow`].
 //! * `serde`: a [`Checkpoint`] can be written and read in any format; implies `alloc`.
 //! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and Newton's iteration takes derivatives by dual numbers; implies `std`.
 //! * `fma`: products in sums are rounded once, everywhere; very slow without the instruction.
@@ -84,6 +85,8 @@ pub use symplectic_ensembles as ensemble;
 #[cfg(feature = "files")]
 #[doc(inline)]
 pub use symplectic_files as files;
+#[cfg(feature = "flows")]
+pub use symplectic_flows as flow;
 
 /// The Rust code of the README and of the book, compiled and run by `cargo test --doc`.
 #[cfg(doctest)]

@@ -20,7 +20,6 @@ mod error;
 mod state;
 
 pub mod adaptive;
-pub mod flow;
 #[doc(hidden)]
 pub mod inside;
 mod integrator;

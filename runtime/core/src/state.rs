@@ -73,7 +73,8 @@ impl<V: Vector> State<V> {
     }
 
     /// Copies another state of the same dimension.
-    pub(crate) fn copy_from(&mut self, other: &Self) {
+    #[doc(hidden)]
+    pub fn copy_from(&mut self, other: &Self) {
         self.time = other.time;
         copy(&mut self.q, &other.q);
         copy(&mut self.p, &other.p);

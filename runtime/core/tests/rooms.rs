@@ -18,7 +18,7 @@ const LEVELS: &[&[&str]] = &[
     &["classes", "system"],
     &["integrator"],
     &["output", "rotation", "tangent", "variational"],
-    &["adaptive", "flow"],
+    &["adaptive"],
     &["inside"],
 ];
 

@@ -2,7 +2,7 @@
 
 use symplectic::adaptive::{Adaptive, DistancePower};
 use symplectic::ensemble::Ensemble;
-use symplectic::flow::{Drift, FlowIntegrator, Kick, Splitting};
+use symplectic::flow::{Drift, FlowSteps, Kick, Splitting};
 use symplectic::nalgebra::Vector2;
 use symplectic::{
     CheckpointError, Error, Event, Integrator, Method, ProvedFor, Separable, State, SymmetricFor,
@@ -149,7 +149,7 @@ fn a_resumed_ensemble_has_the_same_rows() {
 fn flows_in_an_ensemble_have_the_bits_of_single_runs() {
     let made = |start: &State<Vector>| {
         let step = Splitting::new(StoermerVerlet, Drift::new(Kepler), Kick::new(Kepler));
-        FlowIntegrator::new(step, start.clone(), 0.01)
+        FlowSteps::run(step, start.clone(), 0.01)
     };
     let starts = starts();
     let end = ensemble(StoermerVerlet, 0.01).each_as(

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use symplectic::flow::{Asynchronous, Elements, FlowError, FlowIntegrator, Substeps};
+use symplectic::flow::{Asynchronous, Elements, FlowError, FlowSteps, Substeps};
 use symplectic::nalgebra::{SMatrix, SVector};
 use symplectic::{Error, Quantity, Separable, State, System, separable};
 
@@ -114,7 +114,7 @@ fn start() -> State<V> {
 /// The state at `end` by steps of size `h`.
 fn by_elements(longest: [f64; 2], h: f64, end: f64) -> Result<State<V>, Error> {
     let step = Asynchronous::new(Chain::new(longest), N)?;
-    let mut run = FlowIntegrator::new(step, start(), h)?;
+    let mut run = FlowSteps::run(step, start(), h)?;
     run.integrate_to(end)?;
     Ok(run.into_state())
 }
@@ -150,7 +150,7 @@ fn asynchronous_steps_of_equal_size_are_velocity_verlet() -> Result<(), Error> {
 #[test]
 fn momentum_is_conserved_and_energy_bounded() -> Result<(), Error> {
     let step = Asynchronous::new(Chain::new([0.1, 0.1 / 3.7]), N)?;
-    let mut run = FlowIntegrator::new(step, start(), 0.2)?;
+    let mut run = FlowSteps::run(step, start(), 0.2)?;
     let (before, momentum) = (energy_of(&start()), start().p.sum());
     let mut worst = [0.0_f64; 2];
     let mut drift = 0.0_f64;
@@ -170,7 +170,7 @@ fn momentum_is_conserved_and_energy_bounded() -> Result<(), Error> {
 #[test]
 fn asynchronous_steps_are_reversible() -> Result<(), Error> {
     let step = Asynchronous::new(Chain::new([0.07, 0.03]), N)?;
-    let mut run = FlowIntegrator::new(step, start(), 0.2)?;
+    let mut run = FlowSteps::run(step, start(), 0.2)?;
     run.integrate_to(20.0)?;
     assert!(distance(run.state(), &start()) > 0.1);
     run.integrate_to(0.0)?;
@@ -183,7 +183,7 @@ fn a_step_is_symplectic() -> Result<(), Error> {
     let step = |z: &SVector<f64, { 2 * N }>| -> Result<SVector<f64, { 2 * N }>, Error> {
         let step = Asynchronous::new(Chain::new([0.3, 0.11]), N)?;
         let half = |first: usize| V::from_fn(|i, _| z[first + i]);
-        let mut run = FlowIntegrator::new(step, State::new(0.0, half(0), half(N)), 0.6)?;
+        let mut run = FlowSteps::run(step, State::new(0.0, half(0), half(N)), 0.6)?;
         let end = run.step()?;
         Ok(SVector::from_fn(|i, _| {
             if i < N { end.q[i] } else { end.p[i - N] }
@@ -214,9 +214,17 @@ fn a_step_is_symplectic() -> Result<(), Error> {
 fn an_element_is_evaluated_once_in_each_of_its_steps() -> Result<(), Error> {
     let (steps, end) = (50, 5.0);
     let step = Asynchronous::new(Chain::new([0.1, 0.025]), N)?;
-    let mut run = FlowIntegrator::new(Substeps::new(step, steps)?, start(), end)?;
+    let mut run = FlowSteps::run(Substeps::new(step, steps)?, start(), end)?;
     run.integrate_to(end)?;
-    for (bond, found) in run.flow().step.elements().evaluations.iter().enumerate() {
+    for (bond, found) in run
+        .stepper()
+        .flow()
+        .step
+        .elements()
+        .evaluations
+        .iter()
+        .enumerate()
+    {
         let in_each = if is_stiff(bond) { 4 } else { 1 };
         assert_eq!(found.get(), u64::from(steps) * in_each + 1, "bond {bond}");
     }
@@ -229,7 +237,7 @@ fn an_element_is_evaluated_once_in_each_of_its_steps() -> Result<(), Error> {
 fn a_step_that_fails_changes_nothing() -> Result<(), Error> {
     let mut chain = Chain::new([0.1, 0.03]);
     chain.breaks_at = 0.45;
-    let mut run = FlowIntegrator::new(Asynchronous::new(chain, N)?, start(), 0.1)?;
+    let mut run = FlowSteps::run(Asynchronous::new(chain, N)?, start(), 0.1)?;
     run.integrate_to(0.4)?;
     let before = run.state().clone();
     let error = run.step().err();
@@ -271,10 +279,10 @@ fn bad_elements_are_refused() -> Result<(), Error> {
     refused(|_| (), N - 1, "component of an element");
     // More steps than can be, and a state with other components.
     let fine = Asynchronous::new(Chain::new([0.1, 1e-12]), N)?;
-    let mut run = FlowIntegrator::new(fine, start(), 0.2)?;
+    let mut run = FlowSteps::run(fine, start(), 0.2)?;
     assert!(run.step().is_err());
     let larger = Asynchronous::new(Chain::new([0.1; 2]), N + 1)?;
-    let mut run = FlowIntegrator::new(larger, start(), 0.2)?;
+    let mut run = FlowSteps::run(larger, start(), 0.2)?;
     assert!(matches!(
         run.step(),
         Err(Error::Flow {

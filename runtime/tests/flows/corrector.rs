@@ -1,7 +1,7 @@
 //! Symplectic correctors: the error of first order in ε is gone from both ends of a run.
 
 use symplectic::flow::kepler::Jacobi;
-use symplectic::flow::{Corrector, FlowError, FlowIntegrator, OrnsteinUhlenbeck, Splitting};
+use symplectic::flow::{Corrector, FlowError, FlowSteps, OrnsteinUhlenbeck, Splitting};
 use symplectic::nalgebra::Vector1;
 use symplectic::{Damped, Error, ProvedFor, Separable, Splits, State, SymmetricFor};
 
@@ -24,7 +24,7 @@ where
             0 => start(),
             _ => corrector.to_kernel(&start(), size)?,
         };
-        let mut run = FlowIntegrator::new(step, start, size)?;
+        let mut run = FlowSteps::run(step, start, size)?;
         let end = run.integrate_to(END)?;
         let end = match pairs {
             0 => end.clone(),
@@ -106,7 +106,7 @@ fn planets_keep_their_energy() -> Result<(), Error> {
             Some(_) => corrector.to_kernel(&start, size)?,
             None => start.clone(),
         };
-        let mut run = FlowIntegrator::new(step, kernel, size)?;
+        let mut run = FlowSteps::run(step, kernel, size)?;
         let (before, mut worst) = (energy(masses, &inertial), 0.0_f64);
         for _ in 0..400 {
             let state = run.step()?;

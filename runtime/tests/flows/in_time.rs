@@ -1,7 +1,7 @@
 //! Parts that depend on time, in every place of a step.
 
 use symplectic::flow::{
-    Composed, Drift, Flow, FlowIntegrator, Gyration, Kick, Palindrome, Span, Splitting, Substeps,
+    Composed, Drift, Flow, FlowSteps, Gyration, Kick, Palindrome, Span, Splitting, Substeps,
 };
 use symplectic::nalgebra::{DVector, Vector1, Vector3};
 use symplectic::{Separable, State, System, acceleration, separable};
@@ -33,7 +33,7 @@ fn slope(flow: impl Flow<V> + Clone, steps: u32) -> f64 {
     let exact = run(Gauss5, pendulum(), start.clone(), END, 200).expect("a run");
     let [coarse, fine] = [steps, 2 * steps].map(|steps| {
         let size = END / f64::from(steps);
-        let mut run = FlowIntegrator::new(flow.clone(), start.clone(), size).expect("a run");
+        let mut run = FlowSteps::run(flow.clone(), start.clone(), size).expect("a run");
         distance(run.integrate_to(END).expect("steps"), &exact)
     });
     (coarse / fine).log2()
@@ -74,7 +74,7 @@ fn a_magnetic_field_may_depend_on_time() {
         let inner = Palindrome::new(Kick::new(free), Gyration::new(field));
         let step = Palindrome::new(Drift::new(free), inner);
         let start = State::new(0.0, Vector3::zeros(), Vector3::x());
-        let mut run = FlowIntegrator::new(step, start, END / f64::from(steps)).expect("a run");
+        let mut run = FlowSteps::run(step, start, END / f64::from(steps)).expect("a run");
         let v = run.integrate_to(END).expect("steps").p;
         let angle = END + END.powi(4) / 4.0;
         (v - Vector3::new(angle.cos(), -angle.sin(), 0.0)).norm()

@@ -1,7 +1,7 @@
 //! Kepler orbits against the closed forms of each kind.
 
 use symplectic::flow::kepler::KeplerDrift;
-use symplectic::flow::{Flow, FlowError, FlowIntegrator, Span};
+use symplectic::flow::{Flow, FlowError, FlowSteps, Span};
 use symplectic::nalgebra::{DVector, Rotation3, Vector3};
 use symplectic::simd::{F64x2, F64x4, F64x8, F64x16, Lanes};
 use symplectic::{Error, State};
@@ -359,7 +359,7 @@ fn a_drift_without_an_end_is_refused_and_leaves_the_state() {
         FlowError::Periods { body: 1, .. }
     ));
     let drift = KeplerDrift::new(&[1.0], &[1.0]).expect("a drift");
-    let mut run = FlowIntegrator::new(drift, start(1.0, 0.0), 0.1).expect("a run");
+    let mut run = FlowSteps::run(drift, start(1.0, 0.0), 0.1).expect("a run");
     let before = run.state().clone();
     let expected = FlowError::Dimension {
         expected: 3,

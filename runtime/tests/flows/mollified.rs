@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use symplectic::flow::{
-    Flow, FlowError, FlowIntegrator, Kick, Linear, MollifiedKick, Palindrome, Span, Splitting,
+    Flow, FlowError, FlowSteps, Kick, Linear, MollifiedKick, Palindrome, Span, Splitting,
 };
 use symplectic::nalgebra::{DMatrix, Matrix4, Vector1, Vector2, Vector4};
 use symplectic::{Error, State};
@@ -41,7 +41,7 @@ fn start(frequency: f64) -> State<V> {
 
 /// The largest error of the energy in 8000 steps, with an energy of about 0.5.
 fn worst(flow: impl Flow<V>, frequency: f64, size: f64) -> Result<f64, Error> {
-    let mut run = FlowIntegrator::new(flow, start(frequency), size)?;
+    let mut run = FlowSteps::run(flow, start(frequency), size)?;
     let stiffness = frequency * frequency;
     let energy = |state: &State<V>| {
         let (q, p) = (state.q, state.p);
@@ -84,7 +84,7 @@ fn the_order_is_two() -> Result<(), Error> {
     let exact = run(Gauss8, Both { stiffness }, start(frequency), end, 300)?;
     let error = |steps: u32, part: f64| -> Result<f64, Error> {
         let size = end / f64::from(steps);
-        let mut run = FlowIntegrator::new(step(frequency, part * size)?, start(frequency), size)?;
+        let mut run = FlowSteps::run(step(frequency, part * size)?, start(frequency), size)?;
         Ok(distance(run.integrate_to(end)?, &exact))
     };
     for part in [0.5, 1.0] {

@@ -1,7 +1,8 @@
 //! What is seen of a run between its steps, and that it changes no step.
 
 use symplectic::flow::{
-    Drift, Flow, FlowError, FlowIntegrator, Kick, OrnsteinUhlenbeck, Palindrome, Span, Splitting,
+    Drift, Flow, FlowError, FlowIntegrator, FlowSteps, Kick, OrnsteinUhlenbeck, Palindrome, Span,
+    Splitting,
 };
 use symplectic::nalgebra::Vector1;
 use symplectic::{Error, State};
@@ -20,7 +21,7 @@ symplectic::hamiltonian! {
 
 fn pendulum(size: f64) -> Result<FlowIntegrator<V, impl Flow<V> + Clone>, Error> {
     let (drift, kick) = (Drift::new(Well), Kick::new(Well));
-    FlowIntegrator::new(
+    FlowSteps::run(
         Splitting::new(ForestRuth, drift, kick),
         point(1.2, 0.3),
         size,
@@ -35,7 +36,7 @@ pub fn heated(seed: u64) -> Result<FlowIntegrator<V, Baoab>, Error> {
     let bath = OrnsteinUhlenbeck::new(0.5, 1.0, [1.0], seed)?;
     let (drift, kick) = (Drift::new(Well), Kick::new(Well));
     let step = Palindrome::new(kick, Palindrome::new(drift, bath));
-    FlowIntegrator::new(step, point(1.2, 0.3), 0.1)
+    FlowSteps::run(step, point(1.2, 0.3), 0.1)
 }
 
 #[test]
@@ -109,12 +110,12 @@ fn output_takes_no_random_numbers() -> Result<(), Error> {
     seen.integrate_at(&times, |_| {})?;
     plain.take_steps(seen.steps())?;
     assert_eq!(seen.state(), plain.state());
-    assert_eq!(seen.flow().inner.inner.draws(), seen.steps());
+    assert_eq!(seen.stepper().flow().inner.inner.draws(), seen.steps());
 
     // One that hides its draws has other numbers after an output.
     let forgetful = || {
         let bath = OrnsteinUhlenbeck::new(0.5, 1.0, [1.0], 7)?;
-        FlowIntegrator::new(Forgetful(bath), point(1.2, 0.3), 0.1)
+        FlowSteps::run(Forgetful(bath), point(1.2, 0.3), 0.1)
     };
     let (mut plain, mut seen) = (forgetful()?, forgetful()?);
     seen.integrate_at(&times, |_| {})?;
@@ -189,11 +190,11 @@ impl Flow<V> for Walled {
 fn a_failed_step_uses_no_random_numbers() -> Result<(), Error> {
     let bath = OrnsteinUhlenbeck::new(0.0, 1.0, [1.0], 1)?;
     let step = Palindrome::new(bath, Walled(Drift::new(Well)));
-    let mut run = FlowIntegrator::new(step, point(1.0, 1.0), 0.2)?;
+    let mut run = FlowSteps::run(step, point(1.0, 1.0), 0.2)?;
     run.step()?;
     run.step()?;
     assert!(matches!(run.step(), Err(Error::Flow { step: 3, .. })));
-    assert_eq!((run.flow().outer.draws(), run.steps()), (4, 2));
+    assert_eq!((run.stepper().flow().outer.draws(), run.steps()), (4, 2));
     assert_eq!(run.states().take(3).count(), 1);
     assert_eq!(run.state_at(0.3), Err(Error::NoStep));
     Ok(())

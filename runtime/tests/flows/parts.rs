@@ -1,7 +1,7 @@
 //! Ready flows, against closed forms and the same motion in canonical coordinates.
 
 use symplectic::flow::{
-    Damping, Drift, Flow, FlowError, FlowIntegrator, Gyration, Kick, Linear, OrnsteinUhlenbeck,
+    Damping, Drift, Flow, FlowError, FlowSteps, Gyration, Kick, Linear, OrnsteinUhlenbeck,
     Palindrome, Span,
 };
 use symplectic::nalgebra::{DMatrix, DVector, Rotation3, SMatrix, Vector1, Vector2, Vector3};
@@ -127,7 +127,7 @@ fn a_charge_moves_as_with_its_canonical_momentum() {
     let velocity = exact.p - potential(&exact.q);
     let [coarse, fine] = [200, 400].map(|steps| {
         let size = 5.0 / f64::from(steps);
-        let mut run = FlowIntegrator::new(boris(), State::new(0.0, q, v), size).expect("a run");
+        let mut run = FlowSteps::run(boris(), State::new(0.0, q, v), size).expect("a run");
         let end = run.integrate_to(5.0).expect("steps");
         (end.q - exact.q).norm() + (end.p - velocity).norm()
     });
@@ -209,8 +209,7 @@ fn the_rate_of_the_decay_is_exact_over_a_million_steps() {
     let ends = [(1.0, 0.0), (0.0, 1.0)].map(|(q, p)| {
         let free = Palindrome::new(Drift::new(spring()), Damping::new(rate).expect("a rate"));
         let step = Palindrome::new(Kick::new(spring()), free);
-        let mut run =
-            FlowIntegrator::new(step, State::from_arrays(0.0, [q], [p]), size).expect("a run");
+        let mut run = FlowSteps::run(step, State::from_arrays(0.0, [q], [p]), size).expect("a run");
         for _ in 0..steps {
             run.step().expect("a step");
         }
@@ -261,8 +260,7 @@ fn heated(size: f64, seed: u64) -> State<DVector<f64>> {
     );
     let step = Palindrome::new(kick, Palindrome::new(Drift::new(drift), bath));
     let zero = DVector::zeros(BODIES);
-    let mut run =
-        FlowIntegrator::new(step, State::new(0.0, zero.clone(), zero), size).expect("a run");
+    let mut run = FlowSteps::run(step, State::new(0.0, zero.clone(), zero), size).expect("a run");
     run.integrate_to(40.0).expect("steps");
     run.into_state()
 }

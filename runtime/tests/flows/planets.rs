@@ -1,7 +1,7 @@
 //! The splitting of Wisdom and Holman, against an integrator in inertial coordinates.
 
 use symplectic::flow::kepler::{Heliocentric, Jacobi};
-use symplectic::flow::{Flow, FlowError, FlowIntegrator, Span, Splitting, Substeps};
+use symplectic::flow::{Flow, FlowError, FlowSteps, Span, Splitting, Substeps};
 use symplectic::nalgebra::{DVector, SMatrix, Vector3};
 use symplectic::{
     Damped, Error, Integrator, ProvedFor, Separable, Splits, State, System, separable,
@@ -120,7 +120,7 @@ fn error<M: Splits + ProvedFor<Damped>>(
             let system = system.expect("bodies");
             let step = Splitting::new(method, system.drift(), system.kick());
             let start = system.from_inertial(&start(masses)).expect("a state");
-            let mut run = FlowIntegrator::new(step, start, size).expect("a run");
+            let mut run = FlowSteps::run(step, start, size).expect("a run");
             run.integrate_to(END).expect("steps");
             system.to_inertial(run.state())
         }
@@ -254,13 +254,13 @@ fn two_bodies_need_one_step() {
     let by_jacobi = |size: f64| {
         let step = Splitting::new(Leapfrog, jacobi.drift(), jacobi.kick());
         let start = jacobi.from_inertial(&start).expect("a state");
-        let mut run = FlowIntegrator::new(step, start, size).expect("a run");
+        let mut run = FlowSteps::run(step, start, size).expect("a run");
         jacobi.to_inertial(run.integrate_to(5.0).expect("steps"))
     };
     let by_pairs = |size: f64| {
         let step = Splitting::new(Leapfrog, pairs.drift(), pairs.kick());
         let start = pairs.from_inertial(&start).expect("a state");
-        let mut run = FlowIntegrator::new(step, start, size).expect("a run");
+        let mut run = FlowSteps::run(step, start, size).expect("a run");
         pairs.to_inertial(run.integrate_to(5.0).expect("steps"))
     };
     let kepler = separable::<DVector<f64>, _, _>(
@@ -291,7 +291,7 @@ fn the_centre_of_mass_moves_without_a_drift() {
     let start = State::<DVector<f64>>::from_slices(0.0, &q, &p).expect("a state");
     let jacobi = Jacobi::new(G, &masses).expect("bodies");
     let step = Splitting::new(Leapfrog, jacobi.drift(), jacobi.kick());
-    let mut run = FlowIntegrator::new(step, start, size).expect("a run");
+    let mut run = FlowSteps::run(step, start, size).expect("a run");
     let total: f64 = masses.iter().sum();
     run.take_steps(u64::from(STEPS)).expect("steps");
     // The first body is the centre of mass. Its end is rounded three times here: size·3000, the quotient, and the sum.
@@ -301,9 +301,9 @@ fn the_centre_of_mass_moves_without_a_drift() {
         assert!(error < 3.0 * f64::EPSILON, "{k}: {error:e}");
     }
     // The rest of the position is part of a checkpoint.
-    let checkpoint = run.checkpoint();
+    let checkpoint = run.checkpoint().expect("doubles");
     let step = Splitting::new(Leapfrog, jacobi.drift(), jacobi.kick());
-    let mut resumed = FlowIntegrator::new(step, run.state().clone(), size).expect("a run");
+    let mut resumed = FlowSteps::run(step, run.state().clone(), size).expect("a run");
     resumed.restore(&checkpoint).expect("the same run");
     let ends = [&mut run, &mut resumed].map(|run| run.take_steps(2000).expect("steps").clone());
     assert_eq!(ends[0], ends[1]);
@@ -323,7 +323,7 @@ fn planets_have_the_same_bits_wherever_the_centre_of_mass_is() {
             far.p.set_column(0, &Vector3::new(0.7, 0.3, -1.9));
             let [near, far] = [near, far].map(|start| {
                 let step = Splitting::new(Leapfrog, system.drift(), system.kick());
-                let mut run = FlowIntegrator::new(step, start, 0.01).expect("a run");
+                let mut run = FlowSteps::run(step, start, 0.01).expect("a run");
                 let end = run.take_steps(100).expect("steps");
                 [&end.q, &end.p].map(|all| all.columns(1, N - 1).into_owned())
             });

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use symplectic::flow::{
-    Composed, Drift, Flow, FlowError, FlowIntegrator, Kick, Palindrome, Span, Splitting, Substeps,
+    Composed, Drift, Flow, FlowError, FlowSteps, Kick, Palindrome, Span, Splitting, Substeps,
 };
 use symplectic::nalgebra::Vector1;
 use symplectic::{Damped, Error, Method, ProvedFor, Quantity, Splits, State, acceleration};
@@ -76,7 +76,7 @@ pub fn exact(squeeze: f64, quartic: f64) -> State<V> {
 
 fn end(flow: impl Flow<V>, steps: u32) -> State<V> {
     let size = END / f64::from(steps);
-    let mut run = FlowIntegrator::new(flow, start(), size).expect("a run");
+    let mut run = FlowSteps::run(flow, start(), size).expect("a run");
     run.integrate_to(END).expect("steps").clone()
 }
 
@@ -176,7 +176,7 @@ fn pendulum() -> impl symplectic::System<V, Class = symplectic::Separable> + Cop
 fn kicks_and_drifts_are_those_of_the_integrator() {
     let expected = run(ForestRuth, Pendulum::default(), point(1.2, 0.3), 10.0, 100).expect("a run");
     let step = Splitting::new(ForestRuth, Drift::new(pendulum()), Kick::new(pendulum()));
-    let mut flows = FlowIntegrator::new(step, point(1.2, 0.3), 0.1).expect("a run");
+    let mut flows = FlowSteps::run(step, point(1.2, 0.3), 0.1).expect("a run");
     let found = flows.integrate_to(10.0).expect("steps");
     assert!(distance(found, &expected) < 1e-13);
     assert_eq!(flows.steps(), 100);
@@ -191,7 +191,7 @@ fn kicks_may_depend_on_time() {
     fn slope(flow: impl Flow<V> + Clone, steps: u32) -> f64 {
         let [coarse, fine] = [steps, 2 * steps].map(|steps| {
             let size = 3.0 / f64::from(steps);
-            let mut run = FlowIntegrator::new(flow.clone(), point(1.0, 0.0), size).expect("a run");
+            let mut run = FlowSteps::run(flow.clone(), point(1.0, 0.0), size).expect("a run");
             distance(run.integrate_to(3.0).expect("steps"), &Driven::exact(3.0))
         });
         (coarse / fine).log2()
@@ -251,7 +251,7 @@ fn adjacent_flows_of_one_part_are_merged() {
 fn a_step_that_fails_leaves_the_state() {
     let wall = acceleration::<V, _>(|_, q, force| force[0] = 1.0 / (q[0] - 1.0).min(0.0).sqrt());
     let step = Splitting::new(ForestRuth, Drift::new(wall), Kick::new(wall));
-    let mut run = FlowIntegrator::new(step, point(0.5, 1.0), 0.1).expect("a run");
+    let mut run = FlowSteps::run(step, point(0.5, 1.0), 0.1).expect("a run");
     let before = run.state().clone();
     let failure = run.step().expect_err("a root of a negative number");
     let what = Quantity::Force;
@@ -261,7 +261,7 @@ fn a_step_that_fails_leaves_the_state() {
 
 #[test]
 fn bad_input_is_refused() {
-    let new = |state, size| FlowIntegrator::new(Rotation, state, size).map(|_| ());
+    let new = |state, size| FlowSteps::run(Rotation, state, size).map(|_| ());
     assert_eq!(
         new(point(0.0, 1.0), 0.0),
         Err(Error::StepSize { value: 0.0 })

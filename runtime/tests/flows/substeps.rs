@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
-use symplectic::flow::{Drift, FlowIntegrator, Kick, Linear, Splitting, Substeps};
+use symplectic::flow::{Drift, FlowSteps, Kick, Linear, Splitting, Substeps};
 use symplectic::nalgebra::{DMatrix, SVector};
 use symplectic::{Separable, State, System, separable};
 
@@ -62,7 +62,7 @@ fn slow_forces_are_evaluated_less_often() {
             Kick::new(chain(false, true, slow.clone())),
         );
         let all = Substeps::new(step, outer).expect("steps");
-        let mut run = FlowIntegrator::new(all, start.clone(), END).expect("a run");
+        let mut run = FlowSteps::run(all, start.clone(), END).expect("a run");
         run.integrate_to(END).expect("steps");
         (distance(run.state(), &exact), slow.get())
     };
@@ -93,7 +93,7 @@ fn slow_forces_are_evaluated_less_often() {
         let kick = Kick::new(chain(false, true, none()));
         let step = Splitting::new(StoermerVerlet, fast, kick);
         let size = END / f64::from(steps);
-        let mut run = FlowIntegrator::new(step, start.clone(), size).expect("a run");
+        let mut run = FlowSteps::run(step, start.clone(), size).expect("a run");
         distance(run.integrate_to(END).expect("steps"), &exact)
     });
     let slope = (coarse / fine).log2();

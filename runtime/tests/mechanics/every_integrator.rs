@@ -3,7 +3,7 @@
 use crate::methods::{Gauss2, TwoOfThree};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use symplectic::flow::{Drift, FlowIntegrator, Kick, Splitting};
+use symplectic::flow::{Drift, FlowIntegrator, FlowSteps, Kick, Splitting};
 use symplectic::nalgebra::{
     Matrix3, Rotation2, Rotation3, SVector, UnitQuaternion, Vector2, Vector3, Vector4,
 };
@@ -45,7 +45,7 @@ pub(crate) fn kepler_by_flows(
 {
     let attraction = acceleration(|_, q: &Vector2<f64>, out| *out = -q / q.norm().powi(3));
     let free = acceleration(|_, _q: &Vector2<f64>, out| *out = Vector2::zeros());
-    FlowIntegrator::new(
+    FlowSteps::run(
         Splitting::new(Verlet, Drift::new(free), Kick::new(attraction)),
         start,
         0.05,

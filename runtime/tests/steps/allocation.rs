@@ -12,7 +12,7 @@ use crate::common::systems::Pendulum;
 use crate::common::methods::{Midpoint, StoermerVerlet};
 use symplectic::adaptive::{DistancePower, Logarithmic, Poincare};
 use symplectic::emitted::{Bonds, Chain};
-use symplectic::flow::{Drift, FlowIntegrator, Kick, Splitting, Substeps};
+use symplectic::flow::{Drift, FlowSteps, Kick, Splitting, Substeps};
 use symplectic::variational::{DiscreteLagrangian, Newmark, VariationalIntegrator};
 use symplectic::{
     Error, Event, Integrator, Method, Moment, Scalar, SeparableHamiltonian, State, Vector,
@@ -278,7 +278,7 @@ fn steps_of_flows_do_not_allocate() -> Result<(), Error> {
         Kick::new(Pendulum::default()),
     );
     let step = Substeps::new(Splitting::new(StoermerVerlet, drift, kick), 3)?;
-    let mut integrator = FlowIntegrator::new(step, start, 0.1)?;
+    let mut integrator = FlowSteps::run(step, start, 0.1)?;
     integrator.step()?;
     let (count, outcome) = made(|| integrator.integrate_to(10.0).map(|_| ()));
     outcome?;

@@ -10,7 +10,7 @@ use std::hint::black_box;
 
 use cpu_time::ThreadTime;
 use symplectic::flow::kepler::{Heliocentric, Jacobi};
-use symplectic::flow::{Corrector, Flow, FlowIntegrator, Span, Splitting, Substeps};
+use symplectic::flow::{Corrector, Flow, FlowSteps, Span, Splitting, Substeps};
 use symplectic::nalgebra::{DVector, Rotation3, Vector3};
 use symplectic::{Damped, Error, ProvedFor, Separable, Splits, State, SymmetricFor};
 use symplectic_tests::scenes::outer_solar_system::{BODIES_AT_START, GRAVITATIONAL_CONSTANT};
@@ -210,7 +210,7 @@ fn million_years<M: Splits + SymmetricFor<Separable> + ProvedFor<Damped>>(
     };
     let step = Splitting::new(method, jacobi.drift(), jacobi.kick());
     let many = size * f64::from(MANY);
-    let mut run = FlowIntegrator::new(Substeps::new(step, MANY)?, start, many)?;
+    let mut run = FlowSteps::run(Substeps::new(step, MANY)?, start, many)?;
     let before = system.energy(&system.start);
     let mut largest = 0.0_f64;
     let blocks = (END / many).ceil() as u64;

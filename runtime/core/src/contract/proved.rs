@@ -45,7 +45,7 @@ pub trait ProvedFor<C> {}
 
 /// A method that consists of kicks and drifts on separable systems. The macros implement it.
 ///
-/// Kicks and drifts can be replaced: by the flow of [friction](Damped), or by [flows](crate::flow) of any two parts.
+/// Kicks and drifts can be replaced: by the flow of [friction](Damped), or by flows of any two parts.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not consist of kicks and drifts",
     label = "not a splitting",

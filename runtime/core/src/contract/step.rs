@@ -81,7 +81,8 @@ impl Span {
 
     /// The span of size `size` about the time `middle`.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) const fn about(middle: f64, size: f64) -> Self {
+    #[doc(hidden)]
+    pub const fn about(middle: f64, size: f64) -> Self {
         Self {
             time: middle - size / 2.0,
             size,

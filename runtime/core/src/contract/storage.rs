@@ -274,7 +274,7 @@ pub(crate) fn first_mismatch<V: Vector>(
 
 /// Whether every component is finite.
 #[inline]
-pub(crate) fn is_finite<V: Vector>(vector: &V) -> bool {
+pub fn is_finite<V: Vector>(vector: &V) -> bool {
     // Every step checks its result with this function, so it is branch-free and vectorises. Adding 1 to the exponent carries into the sign
     // bit only if the number is NaN or infinite.
     const SIGN: u64 = 1 << 63;

@@ -5,7 +5,7 @@ use super::phrases::Short;
 
 crate::error::debug::debug_by_message!(FlowError);
 
-/// The reason why a [`Flow`](crate::flow::Flow) failed; an integrator adds the step, in
+/// The reason why a `Flow` failed; an integrator adds the step, in
 /// [`Error::Flow`](crate::Error::Flow).
 #[derive(Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]

@@ -9,7 +9,7 @@ use crate::integrator::clock::Clock;
 use crate::integrator::fingerprint::system_fingerprint;
 use crate::integrator::last_step::LastEvent;
 use crate::integrator::memory::StepMemory;
-use crate::integrator::{Integrator, Retry, Statistics};
+use crate::integrator::{Integrator, Retry, Run, Statistics, Stepper};
 use crate::method::{Method, Solver, StageStorage, Stopping, WarmStart};
 use crate::number::words::{Visit, Words, words};
 use crate::number::{Scalar, Summation, Vector};
@@ -160,7 +160,8 @@ impl Checkpoint {
     }
 
     /// An empty checkpoint of a flow. `carried` is the number of words of the flow's own memory; flows with another number are told apart.
-    pub(crate) fn of_flow(dimension: usize, carried: usize) -> Self {
+    #[doc(hidden)]
+    pub fn of_flow(dimension: usize, carried: usize) -> Self {
         Self {
             format: Self::FORMAT,
             version: env!("CARGO_PKG_VERSION").to_string(),
@@ -185,14 +186,16 @@ impl Checkpoint {
     }
 
     /// Fills a checkpoint with the words that `show` shows.
-    pub(crate) fn filled(mut self, show: impl FnOnce(&mut Visit<'_>)) -> Self {
+    #[doc(hidden)]
+    pub fn filled(mut self, show: impl FnOnce(&mut Visit<'_>)) -> Self {
         let words = &mut self.words;
         show(&mut |word| words.extend_from_slice(&word.to_le_bytes()));
         self
     }
 
     /// Lets `take` replace its words by those of this checkpoint. It must have the same number of words, and the other fields of `own`.
-    pub(crate) fn read(
+    #[doc(hidden)]
+    pub fn read(
         &self,
         own: &Self,
         take: impl FnOnce(&mut Visit<'_>),
@@ -247,6 +250,43 @@ impl Checkpoint {
             ("solver", self.solver.clone()),
             ("dimension", self.dimension.to_string()),
         ]
+    }
+}
+
+/// A stepper of another package whose runs can be saved.
+pub trait Save: Stepper + Sized {
+    /// See [`Run::checkpoint`].
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Run::checkpoint`].
+    fn checkpoint(run: &mut Run<Self>) -> Result<Checkpoint, CheckpointError>;
+
+    /// See [`Run::restore`].
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Run::restore`].
+    fn restore(run: &mut Run<Self>, checkpoint: &Checkpoint) -> Result<(), CheckpointError>;
+}
+
+impl<S: Save> Run<S> {
+    /// All that the run needs to [continue](Self::restore) from here with the same bits: see [`Checkpoint`].
+    ///
+    /// # Errors
+    ///
+    /// [`CheckpointError::Scalar`].
+    pub fn checkpoint(&mut self) -> Result<Checkpoint, CheckpointError> {
+        S::checkpoint(self)
+    }
+
+    /// Continues from a checkpoint of a run of the same kind.
+    ///
+    /// # Errors
+    ///
+    /// [`CheckpointError`]; the run is then unchanged.
+    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
+        S::restore(self, checkpoint)
     }
 }
 

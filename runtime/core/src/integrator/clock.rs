@@ -7,7 +7,7 @@ use crate::number::words::{Visit, Words, words};
 
 /// The times `start + k size`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Clock {
+pub struct Clock {
     start: f64,
     size: f64,
     count: u64,

@@ -9,7 +9,7 @@ use crate::system::{Gradients, System};
 
 /// A hash of vectors. The upper half of each product is folded onto the lower half; otherwise it could miss changed signs of two
 /// components.
-pub(crate) fn hash<V: Vector>(vectors: &mut [V]) -> u64 {
+pub fn hash<V: Vector>(vectors: &mut [V]) -> u64 {
     let mut found = 0_u64;
     vector_words(vectors, &mut |word| found = joined(found, *word));
     found

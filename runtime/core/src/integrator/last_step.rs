@@ -14,7 +14,7 @@ pub(crate) struct LastStep<'a, V> {
 
 /// The last event found: a search that starts at its time starts on this event.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct LastEvent {
+pub struct LastEvent {
     pub(crate) time: f64,
     pub(crate) index: usize,
     /// The sign of the function before the event.

@@ -6,6 +6,7 @@ pub(crate) mod first_step;
 pub(crate) mod last_step;
 mod pace;
 pub(crate) mod partial_step;
+pub(crate) mod parts;
 pub(crate) mod retry;
 pub(crate) mod run;
 pub(crate) mod sight;

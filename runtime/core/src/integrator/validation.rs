@@ -169,12 +169,8 @@ pub(crate) fn check_start<V: Vector, S: System<V>>(
     check_declarations(system, state)
 }
 
-pub(crate) fn check_state<V: Vector>(
-    time: f64,
-    q: &V,
-    p: &V,
-    dimension: usize,
-) -> Result<(), Error> {
+/// Checks that a state is finite and has a dimension.
+pub fn check_state<V: Vector>(time: f64, q: &V, p: &V, dimension: usize) -> Result<(), Error> {
     let (position, momentum) = (q.dimension(), p.dimension());
     if position != dimension || momentum != dimension {
         return Err(Error::Dimension { position, momentum });

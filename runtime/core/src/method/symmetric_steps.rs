@@ -7,28 +7,30 @@ use crate::contract::{ConstrainedStep, StoermerVerletSteps};
 /// They apply to every symmetric method of order 2, because its compositions have the same order conditions (Hairer, Lubich & Wanner,
 /// *Geometric numerical integration*, V.3).
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SymmetricSteps(&'static [ConstrainedStep]);
+pub struct SymmetricSteps(&'static [ConstrainedStep]);
 
 /// A substep.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Part {
-    pub(crate) time: f64,
-    pub(crate) size: f64,
+pub struct Part {
+    /// Time at the start of the substep.
+    pub time: f64,
+    /// Its size.
+    pub size: f64,
     /// Time at the end of the substep.
-    pub(crate) end: f64,
+    pub end: f64,
 }
 
 impl SymmetricSteps {
     /// A single step, not a composition.
-    pub(crate) const ONE: Self = Self(&[]);
+    pub const ONE: Self = Self(&[]);
 
     /// The steps of `M`.
-    pub(crate) fn of<M: StoermerVerletSteps>() -> Self {
+    pub fn of<M: StoermerVerletSteps>() -> Self {
         Self(M::CONSTRAINED)
     }
 
     /// The substeps of the step of size `size` from `time` to `end`.
-    pub(crate) fn parts(self, time: f64, size: f64, end: f64) -> impl Iterator<Item = Part> {
+    pub fn parts(self, time: f64, size: f64, end: f64) -> impl Iterator<Item = Part> {
         let count = self.0.len().max(1);
         let at = move |number: usize, start: f64| match number {
             0 => time,

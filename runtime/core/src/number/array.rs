@@ -7,7 +7,7 @@
 
 /// Returns `[make(0), make(1), …]`; entries that are not yet computed are `blank`.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn array<T: Copy, const N: usize>(blank: T, mut make: impl FnMut(usize) -> T) -> [T; N] {
+pub fn array<T: Copy, const N: usize>(blank: T, mut make: impl FnMut(usize) -> T) -> [T; N] {
     let mut all = [blank; N];
     for (index, entry) in all.iter_mut().enumerate() {
         *entry = make(index);

@@ -65,7 +65,7 @@ pub(crate) fn moved<T: Scalar>(overrelaxed: bool, old: T, new: T) -> T {
 
 /// The rounded sum and its round-off (Knuth).
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
+pub fn two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
     let sum = a + b;
     let part = sum - a;
     (sum, (a - (sum - part)) + (b - part))
@@ -73,7 +73,7 @@ pub(crate) fn two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
 
 /// [`two_sum`] if `a` is at least as large as `b`, or is zero (Dekker).
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn fast_two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
+pub fn fast_two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
     let sum = a + b;
     (sum, b - (sum - a))
 }

@@ -12,9 +12,11 @@ pub trait Words {
 }
 
 /// Visits the words of several values, one after another.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! words {
     ($visit:ident: $($value:expr),+ $(,)?) => {
-        $( $crate::number::Words::words(&mut $value, $visit); )+
+        $( $crate::inside::Words::words(&mut $value, $visit); )+
     };
 }
 pub(crate) use words;
