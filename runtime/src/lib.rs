@@ -20,9 +20,9 @@
 //! | Numbers and vectors | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors), [`simd`] |
 //! | Constraints, friction and other forces | [`Constrained`], [`consistent`], [`constraint_force`]; [`Nonholonomic`], [`consistent_momentum`]; [`Damped`], [`friction_growth`], [`Hamiltonian::applied_force`] |
 //! | Steps of variable size, for close encounters | [`Integrator::adaptive`]; [`adaptive`] |
-//! | A rigid body that turns about a point | [`rotation`] |
-//! | Splittings over flows of your own: harmonic, magnetic, damped, stochastic, Kepler | [`flow`], with the feature `flows` |
-//! | Discrete and degenerate Lagrangians, generating functions, stages and balances | [`variational`] |
+//! | Splittings over flows of your own: harmonic, magnetic, damped, stochastic, Kepler | [`flow`], feature `flows` |
+//! | A rigid body that turns about a point | [`rotation`], feature `mechanics` |
+//! | Discrete and degenerate Lagrangians, generating functions, stages and balances | [`variational`], feature `mechanics` |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`]; [`RunTimeTableau`] |
 //! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
 //! | All integrators, and your own | [`Run`], [`Stepper`], [`DenseSteps`]; their tests: [`StepMap`] |
@@ -63,9 +63,10 @@
 //!
 //! * `std` (default): `tan`, inverse and hyperbolic functions, and all functions of singles, from the standard library; implies `alloc`.
 //! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), constraints, Newton's iteration, tableaux at run time, checkpoints,
-//!   tangent maps, variational integrators and generating functions; of `adaptive` and `flow` also [`adaptive::Logarithmic`],
+//!   tangent maps; of `adaptive` and `flow` also [`adaptive::Logarithmic`],
 //!   [`adaptive::Poincare`], Kepler orbits, linear, mollified and asynchronous flows, and correctors.
 //! * `flows`: the module [`flow`].
+//! * `mechanics`: rigid bodies and balances; with `alloc` also discrete and degenerate Lagrangians, generating functions and stages of steps.
 //! * `serde`: a [`Checkpoint`] can be written and read in any format; implies `alloc`.
 //! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and Newton's iteration takes derivatives by dual numbers; implies `std`.
 //! * `fma`: products in sums are rounded once, everywhere; very slow without the instruction.
@@ -87,6 +88,17 @@ pub use symplectic_ensembles as ensemble;
 pub use symplectic_files as files;
 #[cfg(feature = "flows")]
 pub use symplectic_flows as flow;
+#[cfg(feature = "mechanics")]
+pub use symplectic_mechanics::rotation;
+#[cfg(all(feature = "mechanics", feature = "alloc"))]
+pub use symplectic_mechanics::variational;
+
+/// Output of a run: states, dense output, events, invariants, balances, progress.
+pub mod output {
+    pub use symplectic_core::output::*;
+    #[cfg(feature = "mechanics")]
+    pub use symplectic_mechanics::Balance;
+}
 
 /// The Rust code of the README and of the book, compiled and run by `cargo test --doc`.
 #[cfg(doctest)]

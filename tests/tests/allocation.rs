@@ -17,7 +17,7 @@ use symplectic::solver::{
     Automatic, Banded, Dense, Differences, FixedPoint, FixedPointThenNewton, Newton, Solver,
 };
 use symplectic::system::{Conservative, Gradients};
-use symplectic::variational::{DiracIntegrator, DiracRule, DiracSystem, LagrangianIntegrator};
+use symplectic::variational::{DiracRule, DiracSteps, DiracSystem, LagrangianSteps};
 use symplectic::{
     Compensated, Error, Integrator, Lagrangian, Method, ProvedFor, Scalar, Separable, State,
     hamiltonian, separable,
@@ -207,9 +207,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             DVector::zeros(3),
         )
     };
-    let mut run = LagrangianIntegrator::new(Gauss4, Particles, start(), 0.1)?;
+    let mut run = LagrangianSteps::run(Gauss4, Particles, start(), 0.1)?;
     assert_eq!(counted_in(|| run.integrate_to(2.0).map(|_| ()))?, 0);
-    let mut run = DiracIntegrator::new(DiracRule::Trapezoid, Stopped, start(), 0.1)?;
+    let mut run = DiracSteps::run(DiracRule::Trapezoid, Stopped, start(), 0.1)?;
     assert_eq!(counted_in(|| run.integrate_to(2.0).map(|_| ()))?, 0);
 
     // Of a trajectory there is none: one list for a group of eight, and lanes for each share of 256 with about thirty vectors of stages.

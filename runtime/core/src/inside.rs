@@ -4,32 +4,48 @@ pub use crate::error::FlowError;
 
 #[cfg(feature = "alloc")]
 pub use crate::integrator::CoupledLanes;
+#[cfg(feature = "alloc")]
 pub use crate::integrator::checkpoint::Save;
 pub use crate::integrator::clock::Clock;
 #[cfg(feature = "alloc")]
 pub use crate::integrator::explicit_in_lanes::{SavedRun, evaluations, is_same};
-pub use crate::integrator::fingerprint::hash;
 #[cfg(feature = "alloc")]
-pub use crate::integrator::fingerprint::system_fingerprint;
+pub use crate::integrator::fingerprint::{hash, system_fingerprint};
+pub use crate::integrator::first_step::or_as_first_step;
 pub use crate::integrator::last_step::LastEvent;
 pub use crate::integrator::parts::{Parts, parts_of};
 #[cfg(feature = "alloc")]
 pub use crate::integrator::validation::check_orders;
-pub use crate::integrator::validation::{check_quadratic_kinetic, check_state, check_step_size};
+pub use crate::integrator::validation::{
+    check_quadratic_kinetic, check_start, check_state, check_step_size,
+};
 
-pub use crate::method::storage::is_finite;
-pub use crate::method::symmetric_steps::SymmetricSteps;
-pub use crate::method::{KickDrift, Outcome, Plan, Span, StageStorage};
+pub use crate::method::diagnosis::{Attempt, FirstFault};
+pub use crate::method::storage::{
+    first_mismatch, first_non_finite, first_non_finite_of, is_finite,
+};
+pub use crate::method::symmetric_steps::{Part, SymmetricSteps};
+pub use crate::method::{
+    EvaluationCounts, Evaluations, Failure, HalfChange, KickDrift, Outcome, Plan, Solver, Span,
+    StageChange, StagePlan, StageStorage, StageView, Step, Stopping, WarmStart,
+};
 
 pub use crate::number::array::array;
+pub use crate::number::dual::HyperDual;
+#[cfg(feature = "alloc")]
+pub use crate::number::elimination::Elimination;
 pub use crate::number::registers::{Avx2, Avx512, Widest};
-pub use crate::number::summation::{fast_two_sum, two_sum};
-pub use crate::number::vector::same;
-pub use crate::number::{Coefficient, Visit, Words, copy, vector_words};
+pub use crate::number::scalar::larger_or_nan;
+pub use crate::number::summation::{add_sum, fast_two_sum, two_sum};
+pub use crate::number::vector::{beside, same};
+pub use crate::number::{Coefficient, Coefficients, Visit, Words, copy, vector_words};
 
 pub use crate::output::at_times::{Output, is_after};
 
+pub use crate::solver::fixed_point::by_stages;
+
 #[cfg(feature = "alloc")]
 pub use crate::system::lane_registers::{may_be_found, over_lanes_of, widest, width};
+pub use crate::system::linearity::non_linear_velocity;
 
 pub use crate::words;

@@ -26,13 +26,10 @@ mod integrator;
 mod method;
 mod number;
 pub mod output;
-pub mod rotation;
 pub mod solver;
 pub mod system;
 #[cfg(feature = "alloc")]
 pub mod tangent;
-#[cfg(feature = "alloc")]
-pub mod variational;
 
 pub use classes::friction_growth;
 #[cfg(feature = "alloc")]

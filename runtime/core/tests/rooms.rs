@@ -17,7 +17,7 @@ const LEVELS: &[&[&str]] = &[
     &["solver"],
     &["classes", "system"],
     &["integrator"],
-    &["output", "rotation", "tangent", "variational"],
+    &["output", "tangent"],
     &["adaptive"],
     &["inside"],
 ];
@@ -50,7 +50,7 @@ fn an_import_that_runs_up_is_found() {
     assert_eq!(ROOMS.faults("integrator/mod.rs", up).len(), 0);
     assert_eq!(
         ROOMS
-            .faults("output/dense.rs", "use crate::variational::x;")
+            .faults("output/dense.rs", "use crate::tangent::x;")
             .len(),
         1
     );

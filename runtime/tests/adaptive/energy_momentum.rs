@@ -1,9 +1,7 @@
 //! Symplectic–energy–momentum steps.
 
 use symplectic::nalgebra::{SVector, Vector2};
-use symplectic::variational::{
-    DiscreteLagrangian, EnergyMomentumIntegrator, VariationalIntegrator,
-};
+use symplectic::variational::{DiscreteLagrangian, EnergyMomentumSteps, VariationalSteps};
 use symplectic::{Error, Scalar, State};
 
 use super::kepler::{assert_order, pericentre, position};
@@ -58,17 +56,17 @@ fn discrete_energy<U: Potential>(
 #[test]
 fn energy_and_angular_momentum_are_conserved() -> Result<(), Error> {
     let start = pericentre(0.5);
-    let mut run = EnergyMomentumIntegrator::new(Midpoint(Attraction), start.clone(), 0.01)?;
-    let mut fixed = VariationalIntegrator::new(Midpoint(Attraction), start.clone(), 0.01)?;
+    let mut run = EnergyMomentumSteps::run(Midpoint(Attraction), start.clone(), 0.01)?;
+    let mut fixed = VariationalSteps::run(Midpoint(Attraction), start.clone(), 0.01)?;
     let (mut worst, mut spread) = (0.0_f64, 0.0_f64);
     let mut first = f64::NAN;
     for number in 0..100 {
         let before = run.state().clone();
         run.step()?;
-        let energy = discrete_energy(&Attraction, &before, run.state(), run.step_size());
+        let energy = discrete_energy(&Attraction, &before, run.state(), run.stepper().step_size());
         if number == 0 {
             first = energy;
-            assert_eq!(run.step_size(), 0.01);
+            assert_eq!(run.stepper().step_size(), 0.01);
         }
         worst = worst.max((energy - first).abs());
         let momentum = run.state().q.perp(&run.state().p) - start.q.perp(&start.p);
@@ -82,7 +80,7 @@ fn energy_and_angular_momentum_are_conserved() -> Result<(), Error> {
     // Rounding times h⁻².
     assert!(worst < 1e-11, "{worst:e}");
     assert!(spread > 1e-4, "{spread:e}");
-    let energy = run.discrete_energy().expect("steps");
+    let energy = run.stepper().discrete_energy().expect("steps");
     assert!((energy - first).abs() < 1e-12);
     Ok(())
 }
@@ -90,8 +88,8 @@ fn energy_and_angular_momentum_are_conserved() -> Result<(), Error> {
 #[test]
 fn the_state_at_the_reached_time_has_order_two() -> Result<(), Error> {
     let errors = [(0.01, 100), (0.005, 200), (0.0025, 400)].map(|(size, steps)| {
-        let mut run = EnergyMomentumIntegrator::new(Midpoint(Attraction), pericentre(0.5), size)
-            .expect("a run");
+        let mut run =
+            EnergyMomentumSteps::run(Midpoint(Attraction), pericentre(0.5), size).expect("a run");
         for _ in 0..steps {
             run.step().expect("a step");
         }
@@ -107,10 +105,10 @@ fn the_curvature_is_that_of_the_midpoint_rule() -> Result<(), Error> {
     // (p·V''p + |∇V|²)/8 at q = (x, 0), p = (0, y), where V = −1/|q|: V'' across is 1/x³.
     let start = State::from_arrays(0.0, [0.5, 0.0], [0.0, 1.5]);
     let expected = (1.5_f64.powi(2) / 0.5_f64.powi(3) + 0.5_f64.powi(-4)) / 8.0;
-    let mut run = EnergyMomentumIntegrator::new(Midpoint(Attraction), start, 1e-3)?;
-    assert_eq!(run.curvature(), None);
+    let mut run = EnergyMomentumSteps::run(Midpoint(Attraction), start, 1e-3)?;
+    assert_eq!(run.stepper().curvature(), None);
     run.step()?;
-    let found = run.curvature().expect("a step");
+    let found = run.stepper().curvature().expect("a step");
     assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
     Ok(())
 }
@@ -119,9 +117,9 @@ fn the_curvature_is_that_of_the_midpoint_rule() -> Result<(), Error> {
 fn a_run_ends_where_no_step_conserves_the_energy() -> Result<(), Error> {
     for size in [0.05, 0.025, 0.0125] {
         let start = State::from_arrays(0.0, [1.25, 0.0], [0.0, 0.5]);
-        let mut run = EnergyMomentumIntegrator::new(Midpoint(Ring), start, size)?;
+        let mut run = EnergyMomentumSteps::run(Midpoint(Ring), start, size)?;
         run.step()?;
-        let curvature = run.curvature().expect("a step");
+        let curvature = run.stepper().curvature().expect("a step");
         let error = loop {
             assert!(run.steps() < 1000);
             let state = run.state().clone();
@@ -130,7 +128,7 @@ fn a_run_ends_where_no_step_conserves_the_energy() -> Result<(), Error> {
                 break error;
             }
         };
-        assert!(run.step_size() > size);
+        assert!(run.stepper().step_size() > size);
         let Error::NoEnergyStep {
             time,
             step,
@@ -168,9 +166,9 @@ fn rounding_errors_of_positions_do_not_end_a_run() -> Result<(), Error> {
     // The same orbit far from the origin, and in steps that are short beside the distance.
     for (x, size) in [(1e4, 0.01), (1e6, 0.01), (0.0, 1e-5), (0.0, 1e-7)] {
         let mut start = pericentre(0.5);
-        let mut near = EnergyMomentumIntegrator::new(About(0.0), start.clone(), 0.01)?;
+        let mut near = EnergyMomentumSteps::run(About(0.0), start.clone(), 0.01)?;
         start.q[0] += x;
-        let mut run = EnergyMomentumIntegrator::new(About(x), start, size)?;
+        let mut run = EnergyMomentumSteps::run(About(x), start, size)?;
         for _ in 0..50 {
             run.step()?;
             near.step()?;
@@ -199,12 +197,12 @@ impl Potential for Free {
 #[test]
 fn a_free_particle_conserves_the_energy_by_every_step() -> Result<(), Error> {
     let start = State::from_arrays(0.0, [0.25, 0.0], [1.0, 0.5]);
-    let mut run = EnergyMomentumIntegrator::new(Midpoint(Free), start, 0.125)?;
+    let mut run = EnergyMomentumSteps::run(Midpoint(Free), start, 0.125)?;
     for _ in 0..8 {
         run.step()?;
     }
     assert!((run.state().q - Vector2::new(1.25, 0.5)).norm() < 1e-15);
-    assert_eq!(run.step_size(), 0.125);
+    assert_eq!(run.stepper().step_size(), 0.125);
     Ok(())
 }
 
@@ -212,11 +210,11 @@ fn a_free_particle_conserves_the_energy_by_every_step() -> Result<(), Error> {
 fn bad_step_sizes_and_states_are_refused() {
     let start = || pericentre(0.5);
     for size in [0.0, f64::NAN] {
-        let made = EnergyMomentumIntegrator::new(Midpoint(Ring), start(), size);
+        let made = EnergyMomentumSteps::run(Midpoint(Ring), start(), size);
         assert!(matches!(made.err(), Some(Error::StepSize { .. })));
     }
     let mut bad = start();
     bad.p[0] = f64::INFINITY;
-    let made = EnergyMomentumIntegrator::new(Midpoint(Ring), bad, 0.1);
+    let made = EnergyMomentumSteps::run(Midpoint(Ring), bad, 0.1);
     assert!(matches!(made.err(), Some(Error::NonFiniteState { .. })));
 }

@@ -5,7 +5,7 @@ use symplectic::nalgebra::{SVector, Vector2};
 use symplectic::output::Balance;
 use symplectic::system::Gradients;
 use symplectic::variational::{
-    DiracIntegrator, DiracRule, DiracSystem, LagrangianIntegrator, StagesOfStep,
+    DiracRule, DiracSteps, DiracSystem, LagrangianSteps, StagesOfStep, StepWithStages,
 };
 use symplectic::{
     Error, Hamiltonian, Integrator, Lagrangian, Method, ProvedFor, Scalar, State, System,
@@ -262,24 +262,24 @@ fn lagrangian_steps_balance_angular_momentum_and_energy() -> Result<(), Error> {
     let start = || State::from_arrays(0.0, [0.9, 0.2], [0.3, 0.5]);
     let lagrangian = |galerkin: bool, size: f64| -> Result<f64, Error> {
         let mut run = if galerkin {
-            LagrangianIntegrator::galerkin(TwoOfThree, Valley::new(), start(), size)?
+            LagrangianSteps::galerkin(TwoOfThree, Valley::new(), start(), size)?
         } else {
-            LagrangianIntegrator::new(Gauss2, Valley::new(), start(), size)?
+            LagrangianSteps::run(Gauss2, Valley::new(), start(), size)?
         };
-        defect(&start(), run.energy()?, || {
+        defect(&start(), run.stepper().energy()?, || {
             let stages = run.step_with_stages()?;
-            Ok((run.state().clone(), run.energy()?, stages))
+            Ok((run.state().clone(), run.stepper().energy()?, stages))
         })
     };
     let dirac = |rule: DiracRule, composed: bool, size: f64| -> Result<f64, Error> {
         let mut run = if composed {
-            DiracIntegrator::composed(Suzuki4, rule, Valley::new(), start(), size)?
+            DiracSteps::composed(Suzuki4, rule, Valley::new(), start(), size)?
         } else {
-            DiracIntegrator::new(rule, Valley::new(), start(), size)?
+            DiracSteps::run(rule, Valley::new(), start(), size)?
         };
-        defect(&start(), run.energy(), || {
+        defect(&start(), run.stepper().energy(), || {
             let stages = run.step_with_stages()?;
-            Ok((run.state().clone(), run.energy(), stages))
+            Ok((run.state().clone(), run.stepper().energy(), stages))
         })
     };
     // One step: an order more than the method.
@@ -324,7 +324,7 @@ fn lagrangian_steps_balance_angular_momentum_and_energy() -> Result<(), Error> {
 /// With rows the impulses of the constraints are in no stage. A symmetry along the rows keeps its balance: the heading of a rolling disk.
 #[test]
 fn a_symmetry_along_nonholonomic_rows_keeps_its_balance() -> Result<(), Error> {
-    let mut run = DiracIntegrator::new(DiracRule::Midpoint, Braked, disk_start(), 0.1)?;
+    let mut run = DiracSteps::run(DiracRule::Midpoint, Braked, disk_start(), 0.1)?;
     for _ in 0..20 {
         let before = run.state().p;
         let stages = run.step_with_stages()?;

@@ -3,7 +3,7 @@
 use crate::methods::{Gauss6, Lobatto5};
 use symplectic::nalgebra::{DVector, SVector};
 use symplectic::system::Gradients;
-use symplectic::variational::{LagrangianIntegrator, momentum_of_velocity};
+use symplectic::variational::{LagrangianSteps, momentum_of_velocity};
 use symplectic::{
     Constrained, Error, Hamiltonian, Integrator, Lagrangian, Masses, Scalar, Separable,
 };
@@ -160,7 +160,7 @@ fn coordinates_and_angles_are_the_same_motion() -> Result<(), Error> {
     let rest = SVector::zeros();
     assert_eq!(momentum_of_velocity(&ByAngles, 0.0, &angles, &rest)?, rest);
     let mut angles =
-        LagrangianIntegrator::from_velocity(Gauss6, ByAngles, 0.0, angles, rest, 1.0 / 64.0)?;
+        LagrangianSteps::from_velocity(Gauss6, ByAngles, 0.0, angles, rest, 1.0 / 64.0)?;
     let mut plane = Integrator::new(Lobatto5, links, links.start(), 1.0 / 128.0)?;
     for time in [0.5, 1.0, 1.5] {
         let (a, q) = (angles.integrate_to(time)?.q, &plane.integrate_to(time)?.q);

@@ -3,7 +3,7 @@
 use symplectic::nalgebra::{SVector, Vector4};
 use symplectic::system::Gradients;
 use symplectic::variational::{
-    DiracIntegrator, DiracRule, DiracSystem, momentum_of_velocity, primary_constraints,
+    DiracRule, DiracSteps, DiracSystem, momentum_of_velocity, primary_constraints,
 };
 use symplectic::{Error, Lagrangian, Scalar, State};
 
@@ -91,7 +91,7 @@ fn circuit_exact(time: f64) -> State<Vector4<f64>> {
 /// The error of the circuit at t = 1.
 fn circuit_error(rule: DiracRule, size: f64) -> f64 {
     let circuit = Circuit { beta: 0.0 };
-    let mut run = DiracIntegrator::new(rule, circuit, circuit_start(circuit), size).expect("a run");
+    let mut run = DiracSteps::run(rule, circuit, circuit_start(circuit), size).expect("a run");
     let end = run.integrate_to(1.0).expect("steps");
     let exact = circuit_exact(1.0);
     distance(end.q.as_slice(), exact.q.as_slice())
@@ -112,18 +112,18 @@ fn circuit_steps_keep_kirchhoff_laws_and_energy() {
     let circuit = Circuit { beta: 0.0 };
     for rule in [DiracRule::Trapezoid, DiracRule::Midpoint, DiracRule::AtEnd] {
         let start = circuit_start(circuit);
-        let mut run = DiracIntegrator::new(rule, circuit, start.clone(), 0.1).expect("a run");
-        let energy = run.energy();
+        let mut run = DiracSteps::run(rule, circuit, start.clone(), 0.1).expect("a run");
+        let energy = run.stepper().energy();
         let (mut loops, mut drift) = (0.0_f64, 0.0_f64);
         for _ in 0..2000 {
             let State { q, p, .. } = run.step().expect("a step").clone();
             let way = q - start.q;
             assert!((way[2] - way[0]).abs() + (way[2] - way[1] - way[3]).abs() < 1e-12);
             assert_eq!((p[1], p[2], p[3]), (0.0, 0.0, 0.0));
-            let v = run.velocity();
+            let v = run.stepper().velocity();
             assert!((v[2] - v[0]).abs() + (v[2] - v[1] - v[3]).abs() < 1e-14);
             loops = loops.max(circuit.loop_voltage(&q).abs());
-            drift = drift.max((run.energy() - energy).abs());
+            drift = drift.max((run.stepper().energy() - energy).abs());
         }
         match rule {
             DiracRule::Trapezoid => assert!(loops < 1e-14 && drift < 3e-3, "{loops:e} {drift:e}"),
@@ -185,9 +185,9 @@ fn dirac_rules_have_their_orders_on_a_driven_circuit() {
     let error = |rule, composed, size| {
         let start = circuit_start(LINEAR);
         let run = if composed {
-            DiracIntegrator::composed(Suzuki4, rule, Driven, start, size)
+            DiracSteps::composed(Suzuki4, rule, Driven, start, size)
         } else {
-            DiracIntegrator::new(rule, Driven, start, size)
+            DiracSteps::run(rule, Driven, start, size)
         };
         let mut run = run.expect("a run");
         let q = run.integrate_to(1.0).expect("steps").q;
@@ -225,7 +225,7 @@ impl DiracSystem for InUnits {
 /// Nanoseconds and years, a charge of 10⁻⁹: the steps are the same.
 #[test]
 fn circuit_steps_do_not_depend_on_units() {
-    let mut run = DiracIntegrator::new(DiracRule::Trapezoid, LINEAR, circuit_start(LINEAR), 0.05);
+    let mut run = DiracSteps::run(DiracRule::Trapezoid, LINEAR, circuit_start(LINEAR), 0.05);
     let expected = run
         .as_mut()
         .expect("a run")
@@ -235,7 +235,7 @@ fn circuit_steps_do_not_depend_on_units() {
     for (time, charge) in [(1e-9, 1.0), (1e8, 1.0), (1e-9, 1e-9)] {
         let State { q, p, .. } = circuit_start(LINEAR);
         let start = State::new(0.0, q * charge, p * charge);
-        let run = DiracIntegrator::new(DiracRule::Trapezoid, InUnits(time), start, 0.05 * time);
+        let run = DiracSteps::run(DiracRule::Trapezoid, InUnits(time), start, 0.05 * time);
         let q = run
             .expect("a run")
             .integrate_to(2.0 * time)
@@ -252,9 +252,9 @@ fn nonlinear_end(rule: DiracRule, order: u32, size: f64) -> State<Vector4<f64>> 
     let circuit = Circuit { beta: 2.0 };
     let start = circuit_start(circuit);
     let run = match order {
-        2 => DiracIntegrator::new(rule, circuit, start, size),
-        4 => DiracIntegrator::composed(Suzuki4, rule, circuit, start, size),
-        _ => DiracIntegrator::composed(Jump6, rule, circuit, start, size),
+        2 => DiracSteps::run(rule, circuit, start, size),
+        4 => DiracSteps::composed(Suzuki4, rule, circuit, start, size),
+        _ => DiracSteps::composed(Jump6, rule, circuit, start, size),
     };
     let mut run = run.expect("a run");
     run.integrate_to(1.0).expect("steps").clone()
@@ -281,14 +281,14 @@ fn only_compositions_of_trapezoids_keep_their_order_on_a_circuit() {
 fn long_run(rule: DiracRule) -> ([f64; 4], f64) {
     const STEPS: u32 = 1000;
     let circuit = Circuit { beta: 2.0 };
-    let mut run = DiracIntegrator::new(rule, circuit, circuit_start(circuit), 0.1).expect("a run");
-    let (before, mut loops) = (run.energy(), 0.0_f64);
+    let mut run = DiracSteps::run(rule, circuit, circuit_start(circuit), 0.1).expect("a run");
+    let (before, mut loops) = (run.stepper().energy(), 0.0_f64);
     let means = [(); 4].map(|()| {
         let mut sum = 0.0;
         for _ in 0..STEPS {
             let q = run.step().expect("a step").q;
             loops = loops.max(circuit.loop_voltage(&q).abs());
-            sum += run.energy() - before;
+            sum += run.stepper().energy() - before;
         }
         sum / f64::from(STEPS)
     });
@@ -320,10 +320,10 @@ fn symmetric_rules_go_back() {
     let circuit = Circuit { beta: 2.0 };
     let back = |there: DiracRule, back: DiracRule| {
         let start = circuit_start(circuit);
-        let mut run = DiracIntegrator::new(there, circuit, start.clone(), 0.1).expect("a run");
+        let mut run = DiracSteps::run(there, circuit, start.clone(), 0.1).expect("a run");
         (0..50).for_each(|_| drop(run.step().expect("a step").clone()));
         let turn = run.state().clone();
-        let mut run = DiracIntegrator::new(back, circuit, turn, -0.1).expect("a run");
+        let mut run = DiracSteps::run(back, circuit, turn, -0.1).expect("a run");
         (0..50).for_each(|_| drop(run.step().expect("a step").clone()));
         distance(run.state().q.as_slice(), start.q.as_slice())
     };
@@ -341,7 +341,7 @@ fn circuit_starts_off_the_constraints_are_refused() {
     let circuit = Circuit { beta: 0.0 };
     let mut start = circuit_start(circuit);
     start.p[2] = 0.125;
-    let run = DiracIntegrator::new(DiracRule::Midpoint, circuit, start, 0.1);
+    let run = DiracSteps::run(DiracRule::Midpoint, circuit, start, 0.1);
     let (component, value) = (2, 0.125);
     assert_eq!(
         run.map(|_| ()),
@@ -350,7 +350,7 @@ fn circuit_starts_off_the_constraints_are_refused() {
 
     let mut off = circuit_start(circuit);
     off.q[1] += 1e-3;
-    let new = |rule| DiracIntegrator::new(rule, circuit, off.clone(), 0.1).expect("a run");
+    let new = |rule| DiracSteps::run(rule, circuit, off.clone(), 0.1).expect("a run");
     let error = new(DiracRule::Trapezoid)
         .step()
         .map(|_| ())
@@ -363,11 +363,11 @@ fn circuit_starts_off_the_constraints_are_refused() {
     let mut run = new(DiracRule::AtEnd);
     let there = run.step().expect("a step").clone();
     assert!(circuit.loop_voltage(&there.q).abs() < 1e-15);
-    let mut run = DiracIntegrator::new(DiracRule::Trapezoid, circuit, there, 0.1).expect("a run");
+    let mut run = DiracSteps::run(DiracRule::Trapezoid, circuit, there, 0.1).expect("a run");
     run.step().expect("consistent");
 
     let start = circuit_start(circuit);
-    let mut run = DiracIntegrator::new(DiracRule::AtStart, circuit, start, 0.1).expect("a run");
+    let mut run = DiracSteps::run(DiracRule::AtStart, circuit, start, 0.1).expect("a run");
     let error = run.step().map(|_| ()).expect_err("not determined");
     assert!(
         matches!(error, Error::UndeterminedPosition { step: 1, .. }),

@@ -3,7 +3,7 @@
 use symplectic::nalgebra::SVector;
 use symplectic::system::Gradients;
 use symplectic::variational::{
-    DiracIntegrator, DiracRule, DiracSystem, momentum_of_velocity, primary_constraints,
+    DiracRule, DiracSteps, DiracSystem, momentum_of_velocity, primary_constraints,
 };
 use symplectic::{
     Error, Integrator, Lagrangian, Method, ProvedFor, Quantity, Scalar, State, System, Vector,
@@ -88,7 +88,7 @@ where
     S: DiracSystem<Vector<f64> = V> + System<V> + Copy,
 {
     let mut one = Integrator::new(method, system, start.clone(), 0.1).expect("a run");
-    let mut other = DiracIntegrator::new(rule, system, start, 0.1).expect("a run");
+    let mut other = DiracSteps::run(rule, system, start, 0.1).expect("a run");
     (0..100).fold(0.0_f64, |largest, _| {
         let (one, other) = (one.step().expect("a step"), other.step().expect("a step"));
         let ((q, p), (r, s)) = (one.as_slices(), other.as_slices());
@@ -171,9 +171,9 @@ fn a_disk_without_inertia_goes_round_on_a_circle() {
     let radius = RADIUS * rolled / (2.0 * (turned / 2.0).sin());
     let (sin, cos) = start.q[3].sin_cos();
     let centre = [start.q[0] - radius * sin, start.q[1] + radius * cos];
-    let run = DiracIntegrator::new(DiracRule::Midpoint, LightDisk, start.clone(), SIZE);
+    let run = DiracSteps::run(DiracRule::Midpoint, LightDisk, start.clone(), SIZE);
     let mut run = run.expect("a run");
-    assert!((run.velocity()[2] - 1.3).abs() < 1e-15);
+    assert!((run.stepper().velocity()[2] - 1.3).abs() < 1e-15);
     for k in 1..=200 {
         let State { q, p, .. } = run.step().expect("a step").clone();
         assert!(
@@ -189,7 +189,7 @@ fn a_disk_without_inertia_goes_round_on_a_circle() {
             (found - radius).abs() < 1e-12,
             "step {k}: {found} for {radius}"
         );
-        assert!(p[2] == 0.0 && (run.velocity()[2] - 1.3).abs() < 1e-12);
+        assert!(p[2] == 0.0 && (run.stepper().velocity()[2] - 1.3).abs() < 1e-12);
     }
 }
 
@@ -245,8 +245,8 @@ fn vortices_take_the_midpoint_rule() {
     let start = State::new(0.0, y, x);
     let mut one = Integrator::new(Midpoint, CanonicalVortices, start, 0.1).expect("a run");
     let mut other =
-        DiracIntegrator::new(DiracRule::Midpoint, Vortices, vortices_start(), 0.1).expect("a run");
-    let before = other.energy();
+        DiracSteps::run(DiracRule::Midpoint, Vortices, vortices_start(), 0.1).expect("a run");
+    let before = other.stepper().energy();
     for step in 0..1000 {
         let State { q: y, p: x, .. } = one.step().expect("a step").clone();
         let State { q, p, .. } = other.step().expect("a step");
@@ -255,7 +255,7 @@ fn vortices_take_the_midpoint_rule() {
         assert!(apart < 1e-11, "step {step}: {apart:e}");
         let image = (0..3).map(|i| (p[i] + q[3 + i] / 2.0).abs() + (p[3 + i] - q[i] / 2.0).abs());
         assert_eq!(image.sum::<f64>(), 0.0);
-        assert!((other.energy() - before).abs() < 2e-3);
+        assert!((other.stepper().energy() - before).abs() < 2e-3);
     }
     let found = primary_constraints(&Vortices, 0.0, &other.state().q, &V6::zeros());
     let found = found.expect("finite");
@@ -272,7 +272,7 @@ fn vortices_take_the_midpoint_rule() {
 #[test]
 fn compositions_of_the_midpoint_rule_keep_their_order_on_vortices() {
     let end = |size| {
-        let run = DiracIntegrator::composed(
+        let run = DiracSteps::composed(
             Suzuki4,
             DiracRule::Midpoint,
             Vortices,
@@ -294,7 +294,7 @@ fn compositions_of_the_midpoint_rule_keep_their_order_on_vortices() {
 #[test]
 fn vortices_do_not_take_other_rules() {
     for rule in [DiracRule::Trapezoid, DiracRule::AtStart, DiracRule::AtEnd] {
-        let mut run = DiracIntegrator::new(rule, Vortices, vortices_start(), 0.1).expect("a run");
+        let mut run = DiracSteps::run(rule, Vortices, vortices_start(), 0.1).expect("a run");
         let error = run.step().map(|_| ()).expect_err("a contradiction");
         let momentum = Quantity::Momentum;
         assert!(
@@ -326,7 +326,7 @@ impl DiracSystem for Linear {}
 #[test]
 fn momenta_that_are_not_linear_contradict_the_midpoint_rule() {
     let start = |beta: f64| State::from_arrays(0.0, [0.6, 0.2], [0.0, 0.6 + beta * 0.36]);
-    let new = |beta| DiracIntegrator::new(DiracRule::Midpoint, Linear { beta }, start(beta), 0.1);
+    let new = |beta| DiracSteps::run(DiracRule::Midpoint, Linear { beta }, start(beta), 0.1);
     new(0.0).expect("a run").integrate_to(10.0).expect("steps");
     let mut run = new(0.5).expect("a run");
     let error = run.step().map(|_| ()).expect_err("a contradiction");
@@ -353,7 +353,7 @@ impl DiracSystem for Logarithm {}
 #[test]
 fn an_iterate_outside_the_domain_of_the_lagrangian_is_left() -> Result<(), Error> {
     let start = State::from_arrays(0.0, [1.0], [-2.2]);
-    let mut run = DiracIntegrator::new(DiracRule::Midpoint, Logarithm, start, 0.5)?;
+    let mut run = DiracSteps::run(DiracRule::Midpoint, Logarithm, start, 0.5)?;
     let middle = (1.8 + (1.8_f64.powi(2) + 4.0).sqrt()) / 8.0;
     let end = run.step()?.q[0];
     assert!((end - (2.0 * middle - 1.0)).abs() < 1e-15, "{end}");
@@ -404,7 +404,7 @@ impl DiracSystem for Rows {
 #[test]
 fn dirac_steps_refuse_dependent_or_wrong_rows() {
     let start = State::from_arrays(0.0, [0.0, 0.0], [1.0, 0.0]);
-    let new = |rows, start| DiracIntegrator::new(DiracRule::Midpoint, rows, start, 0.1);
+    let new = |rows, start| DiracSteps::run(DiracRule::Midpoint, rows, start, 0.1);
     let mut run = new(Rows::Equal, start.clone()).expect("a run");
     let error = run.step().map(|_| ()).expect_err("equal rows");
     assert!(

@@ -3,7 +3,7 @@
 use symplectic::nalgebra::{SMatrix, SVector};
 use symplectic::system::Conservative;
 use symplectic::variational::{
-    GeneratingFunction, GeneratingFunctions, StagesOfStep, generating_function,
+    GeneratingFunction, GeneratingFunctions, StagesOfStep, StepWithStages, generating_function,
 };
 use symplectic::{Error, Integrator, Method, ProvedFor, State, System};
 

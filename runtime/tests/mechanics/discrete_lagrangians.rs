@@ -2,7 +2,9 @@
 
 use crate::methods::{Gauss6, Lobatto3, Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, SVector, Vector2};
-use symplectic::variational::{DiscreteLagrangian, DiscretePath, VariationalIntegrator};
+use symplectic::variational::{
+    DiscreteLagrangian, DiscretePath, VariationalIntegrator, VariationalSteps,
+};
 use symplectic::{
     Error, Integrator, Method, ProvedFor, Quantity, Scalar, State, System, Vector, hamiltonian,
     separable,
@@ -127,7 +129,7 @@ where
     M: Method + ProvedFor<S::Class>,
 {
     let mut one = Integrator::new(method, system, start.clone(), 0.05).expect("a run");
-    let mut other = VariationalIntegrator::new(lagrangian, start, 0.05).expect("a run");
+    let mut other = VariationalSteps::run(lagrangian, start, 0.05).expect("a run");
     (0..100).fold(0.0_f64, |largest, _| {
         let other = other.step().expect("a step");
         largest.max(distance(one.step().expect("a step"), other))
@@ -174,20 +176,20 @@ fn discrete_lagrangians_have_their_orders() {
     let reference = &run.integrate_to(1.0).expect("steps").clone();
     for (order, alpha) in [(2.0, 0.5), (1.0, 0.3), (1.0, 0.0), (1.0, 1.0)] {
         assert_order(order, reference, &start, 400, |state, size| {
-            VariationalIntegrator::new(AtOnePoint(alpha), state, size)
+            VariationalSteps::run(AtOnePoint(alpha), state, size)
         });
     }
     assert_order(2.0, reference, &start, 50, |state, size| {
-        VariationalIntegrator::new(AtTwoPoints(0.3), state, size)
+        VariationalSteps::run(AtTwoPoints(0.3), state, size)
     });
     assert_order(4.0, reference, &start, 40, |state, size| {
-        VariationalIntegrator::composed(Suzuki4, AtOnePoint(0.5), state, size)
+        VariationalSteps::composed(Suzuki4, AtOnePoint(0.5), state, size)
     });
     assert_order(6.0, reference, &start, 40, |state, size| {
-        VariationalIntegrator::composed(Jump6, AtTwoPoints(0.1), state, size)
+        VariationalSteps::composed(Jump6, AtTwoPoints(0.1), state, size)
     });
     // Not self-adjoint: the composition would have order 1, for Σγ² is not 0.
-    let refused = VariationalIntegrator::composed(Suzuki4, AtOnePoint(0.3), start, 0.1);
+    let refused = VariationalSteps::composed(Suzuki4, AtOnePoint(0.3), start, 0.1);
     let refused = refused.err();
     assert!(
         matches!(refused, Some(Error::NotSelfAdjoint { defect }) if defect > 1e-3),
@@ -203,10 +205,10 @@ fn time_dependent_discrete_lagrangians_keep_their_order() {
     let reference = &run.integrate_to(1.0).expect("steps").clone();
     let start = State::from_slices(0.0, &[1.0], &[0.3]).expect("equal lengths");
     assert_order(2.0, reference, &start, 80, |state, size| {
-        VariationalIntegrator::new(ShakenLagrangian, state, size)
+        VariationalSteps::run(ShakenLagrangian, state, size)
     });
     assert_order(4.0, reference, &start, 40, |state, size| {
-        VariationalIntegrator::composed(Suzuki4, ShakenLagrangian, state, size)
+        VariationalSteps::composed(Suzuki4, ShakenLagrangian, state, size)
     });
 }
 
@@ -263,7 +265,7 @@ fn a_drift_kick_lagrangian_steps_by_its_closed_form() -> Result<(), Error> {
         }
     }
     let start = State::from_arrays(0.0, [1.0], [0.4]);
-    let mut run = VariationalIntegrator::new(DriftAndKick(0.7, 0.4), start, 0.25)?;
+    let mut run = VariationalSteps::run(DriftAndKick(0.7, 0.4), start, 0.25)?;
     let end = run.step()?;
     let q = 1.0 + 0.7 * 0.25 * 0.4;
     assert!((end.q[0] - q).abs() < 1e-15);
@@ -286,7 +288,7 @@ fn a_discrete_lagrangian_with_an_inner_point_is_lobatto_3() {
     let mut run = Integrator::new(Gauss6, pendulum(), start.clone(), 0.02).expect("a run");
     let reference = &run.integrate_to(1.0).expect("steps").clone();
     assert_order(4.0, reference, &start, 10, |state, size| {
-        VariationalIntegrator::new(Simpson, state, size)
+        VariationalSteps::run(Simpson, state, size)
     });
 }
 
@@ -356,7 +358,7 @@ fn the_self_adjoint_defect_vanishes_for_symmetric_lagrangians_only() {
 /// The angular momentum of Kepler's problem; and J⁺ − J⁻, the change of Ld, for translations, which are no symmetry.
 #[test]
 fn symmetries_of_a_discrete_lagrangian_conserve_momentum() {
-    let mut run = VariationalIntegrator::new(Trapezoid, perihelion(), 0.02).expect("a run");
+    let mut run = VariationalSteps::run(Trapezoid, perihelion(), 0.02).expect("a run");
     for _ in 0..10_000 {
         let State { q, p, .. } = run.step().expect("a step");
         let momentum = q.perp(p);
@@ -447,12 +449,12 @@ fn discrete_forces_balance_the_momentum() {
     let reference = &run.integrate_to(1.0).expect("steps").clone();
     for (order, alpha) in [(2.0, 0.5), (1.0, 0.3)] {
         assert_order(order, reference, &start, 200, |state, size| {
-            VariationalIntegrator::new(Dragged { alpha, drag }, state, size)
+            VariationalSteps::run(Dragged { alpha, drag }, state, size)
         });
     }
     // The potential is central: only the forces change the angular momentum, at both ends of the step, at any step size.
     let lagrangian = Dragged { alpha: 0.3, drag };
-    let mut run = VariationalIntegrator::new(lagrangian, start, 0.2).expect("a run");
+    let mut run = VariationalSteps::run(lagrangian, start, 0.2).expect("a run");
     for _ in 0..50 {
         let State { q: q0, p: p0, .. } = run.state().clone();
         let State { q: q1, p: p1, .. } = run.step().expect("a step").clone();
@@ -493,7 +495,7 @@ fn equivalent_discrete_lagrangians_give_the_same_positions() {
         // The momenta of Ld + f(q1) − f(q0) are p + f'(q).
         let gradient = |q: &V2<f64>| V2::from([2.0 * q[0] * q[1], q[0] * q[0]]) * weak;
         start.p += gradient(&start.q);
-        let mut run = VariationalIntegrator::new(lagrangian, start, 0.02).expect("a run");
+        let mut run = VariationalSteps::run(lagrangian, start, 0.02).expect("a run");
         let State { time, q, p } = run.integrate_to(1.0).expect("steps").clone();
         State::new(time, q, p - gradient(&q))
     };
@@ -528,11 +530,11 @@ fn equivalent_discrete_lagrangians_give_the_same_positions() {
 /// Ld of a step, and the sum over the steps of a composition.
 #[test]
 fn the_action_of_a_step_is_the_discrete_lagrangian() {
-    let mut run = VariationalIntegrator::new(Trapezoid, perihelion(), 0.02).expect("a run");
-    assert_eq!(run.action(), None);
+    let mut run = VariationalSteps::run(Trapezoid, perihelion(), 0.02).expect("a run");
+    assert_eq!(run.stepper().action(), None);
     let end = run.step().expect("a step").clone();
     let value = Trapezoid.value(0.0, 0.02, &perihelion().q, &end.q);
-    assert_eq!(run.action(), Some(value));
+    assert_eq!(run.stepper().action(), Some(value));
     // L = E + 2/|q| with E = −1/2, on the orbit: by the composition to its order, by one step to order 2.
     let mut exact = Integrator::new(Gauss6, Kepler, perihelion(), 0.001).expect("a run");
     let mut action = 0.0;
@@ -545,9 +547,9 @@ fn the_action_of_a_step_is_the_discrete_lagrangian() {
         action += (before + 4.0 * middle + after) * 0.001 / 6.0;
     }
     let mut composed =
-        VariationalIntegrator::composed(Jump6, Trapezoid, perihelion(), 0.02).expect("a run");
+        VariationalSteps::composed(Jump6, Trapezoid, perihelion(), 0.02).expect("a run");
     composed.step().expect("a step");
-    let error = composed.action().expect("a step") - action;
+    let error = composed.stepper().action().expect("a step") - action;
     assert!(error.abs() < 1e-7, "{error:e}");
     assert!((value - action).abs() > 1e-5);
 }
@@ -592,14 +594,16 @@ fn degenerate_discrete_lagrangians_are_refused() {
         ([[0.3, 0.1], [0.9, 0.3]], 1),
     ];
     for (matrix, expected) in degenerate {
-        let mut run =
-            VariationalIntegrator::new(Kinetic(matrix), start.clone(), 0.1).expect("a run");
+        let mut run = VariationalSteps::run(Kinetic(matrix), start.clone(), 0.1).expect("a run");
         let error = run.step().map(|_| ()).expect_err("a degenerate Lagrangian");
         assert!(
             matches!(error, Error::IrregularLagrangian { step: 1, component, pivot, .. } if component == expected && pivot < 1e-14),
             "{error}"
         );
-        assert_eq!((run.state(), run.steps(), run.action()), (&start, 0, None));
+        assert_eq!(
+            (run.state(), run.steps(), run.stepper().action()),
+            (&start, 0, None)
+        );
         let (q0, q1) = (V2::from([1.0, -0.4]), V2::from([1.1, -0.2]));
         let path = DiscretePath {
             time: 0.0,
@@ -615,7 +619,7 @@ fn degenerate_discrete_lagrangians_are_refused() {
     }
 
     let start = State::from_arrays(0.0, [1.0], [-1.0]);
-    let mut run = VariationalIntegrator::new(Bounded(false), start.clone(), 0.1).expect("a run");
+    let mut run = VariationalSteps::run(Bounded(false), start.clone(), 0.1).expect("a run");
     let error = run
         .step()
         .map(|_| ())
@@ -626,7 +630,7 @@ fn degenerate_discrete_lagrangians_are_refused() {
     );
     assert_eq!(run.state(), &start);
 
-    let mut run = VariationalIntegrator::new(Bounded(true), start.clone(), 0.1).expect("a run");
+    let mut run = VariationalSteps::run(Bounded(true), start.clone(), 0.1).expect("a run");
     let error = run
         .integrate_to(1.0)
         .map(|_| ())
@@ -636,7 +640,7 @@ fn degenerate_discrete_lagrangians_are_refused() {
     assert!(matches, "{error}");
     assert_eq!(run.steps(), 3);
 
-    let new = |state, size| VariationalIntegrator::new(Bounded(true), state, size).map(|_| ());
+    let new = |state, size| VariationalSteps::run(Bounded(true), state, size).map(|_| ());
     assert_eq!(new(start.clone(), 0.0), Err(Error::StepSize { value: 0.0 }));
     let infinite = State::from_arrays(0.0, [f64::INFINITY], [0.0]);
     let what = Quantity::Position;

@@ -2,7 +2,7 @@
 
 use crate::methods::{Gauss2, Lobatto3, TwoOfThree};
 use symplectic::nalgebra::{Rotation2, Rotation3, Vector2, Vector3};
-use symplectic::variational::{LagrangianIntegrator, momentum_map};
+use symplectic::variational::{LagrangianSteps, momentum_map};
 use symplectic::{
     Constrained, Error, General, Integrator, Method, ProvedFor, Separable, State, StepMap,
 };
@@ -91,8 +91,8 @@ fn galerkin_steps_commute_with_rotations() -> Result<(), Error> {
     let turn = Rotation2::new(1.1);
     let turned =
         |state: &State<Vector2<f64>>| State::new(state.time, turn * state.q, turn * state.p);
-    let of_three = |start| LagrangianIntegrator::galerkin(TwoOfThree, Turned::new(), start, 0.1);
-    let of_two = |start| LagrangianIntegrator::galerkin(Gauss2, Turned::new(), start, 0.1);
+    let of_three = |start| LagrangianSteps::galerkin(TwoOfThree, Turned::new(), start, 0.1);
+    let of_two = |start| LagrangianSteps::galerkin(Gauss2, Turned::new(), start, 0.1);
     for (mut run, mut other) in [
         (of_three(plane_start())?, of_three(turned(&plane_start()))?),
         (of_two(plane_start())?, of_two(turned(&plane_start()))?),
@@ -114,7 +114,7 @@ fn galerkin_steps_balance_the_angular_momentum() -> Result<(), Error> {
     };
     for (drag, balanced) in [(0.0, true), (0.2, false)] {
         let system = Turned { drag, torque: 0.7 };
-        let mut run = LagrangianIntegrator::galerkin(TwoOfThree, system, plane_start(), 0.1)?;
+        let mut run = LagrangianSteps::galerkin(TwoOfThree, system, plane_start(), 0.1)?;
         for _ in 0..50 {
             let before = angular(run.state());
             let change = angular(run.step()?) - before;

@@ -7,9 +7,9 @@ use symplectic::flow::{Drift, FlowIntegrator, FlowSteps, Kick, Splitting};
 use symplectic::nalgebra::{
     Matrix3, Rotation2, Rotation3, SVector, UnitQuaternion, Vector2, Vector3, Vector4,
 };
-use symplectic::rotation::{HeavyTop, RigidBody, RotationIntegrator, RotationState};
+use symplectic::rotation::{HeavyTop, RigidBody, RotationState, RotationSteps};
 use symplectic::variational::{
-    DiracIntegrator, DiracRule, LagrangianIntegrator, VariationalIntegrator, momentum_of_velocity,
+    DiracRule, DiracSteps, LagrangianSteps, VariationalSteps, momentum_of_velocity,
 };
 use symplectic::{
     Error, Integrator, PhasePoint, State, StepMap, acceleration, assert_conserved, consistent,
@@ -77,13 +77,12 @@ fn every_integrator_conserves_its_momentum_maps() -> Result<(), Error> {
     let part = |k: usize| move |state: &State<Vector4<f64>>| state.p[k];
     assert_conserved!(new(), 1000, part(3), 4e-15);
     assert!(!passes(|| assert_conserved!(new(), 1000, part(0), 1e-3)));
-    let new = || DiracIntegrator::new(DiracRule::Midpoint, Disk, disk_start(), 0.1).expect("a run");
+    let new = || DiracSteps::run(DiracRule::Midpoint, Disk, disk_start(), 0.1).expect("a run");
     assert_conserved!(new(), 1000, part(3), 1e-14);
     assert!(!passes(|| assert_conserved!(new(), 1000, part(0), 1e-3)));
     // Vortices keep their centre.
-    let new = || {
-        DiracIntegrator::new(DiracRule::Midpoint, Vortices, vortices_start(), 0.1).expect("a run")
-    };
+    let new =
+        || DiracSteps::run(DiracRule::Midpoint, Vortices, vortices_start(), 0.1).expect("a run");
     let centre = |state: &State<V6<f64>>| state.q.fixed_rows::<3>(0).sum();
     assert_conserved!(new(), 1000, centre, 1e-13);
     assert!(!passes(|| assert_conserved!(
@@ -93,12 +92,11 @@ fn every_integrator_conserves_its_momentum_maps() -> Result<(), Error> {
         1e-3
     )));
     // Discrete Lagrangians, Lagrangians with and without friction, and flows.
-    let new = || VariationalIntegrator::new(Trapezoid, perihelion(), 0.05).expect("a run");
+    let new = || VariationalSteps::run(Trapezoid, perihelion(), 0.05).expect("a run");
     assert_conserved!(new(), 1000, angular, 1e-13);
     assert!(!passes(|| assert_conserved!(new(), 1000, distance, 1e-3)));
     let new = |friction| {
-        LagrangianIntegrator::new(Gauss2, Particle { friction }, near_perihelion(), 0.1)
-            .expect("a run")
+        LagrangianSteps::run(Gauss2, Particle { friction }, near_perihelion(), 0.1).expect("a run")
     };
     assert_conserved!(new(0.0), 1000, angular, 1e-13);
     assert!(!passes(|| assert_conserved!(
@@ -111,7 +109,7 @@ fn every_integrator_conserves_its_momentum_maps() -> Result<(), Error> {
     assert_conserved!(new(), 1000, angular, 1e-13);
     assert!(!passes(|| assert_conserved!(new(), 1000, distance, 1e-3)));
     // On SO(3), the angular momentum about the vertical.
-    let new = || RotationIntegrator::new(LOPSIDED, top_start(), 0.05).expect("a run");
+    let new = || RotationSteps::run(LOPSIDED, top_start(), 0.05).expect("a run");
     let about = |axis: usize| move |state: &RotationState| state.spatial_momentum()[axis];
     assert_conserved!(new(), 1000, about(2), 8e-15);
     assert!(!passes(|| assert_conserved!(new(), 1000, about(0), 1e-3)));
@@ -181,18 +179,18 @@ fn every_symplectic_integrator_passes_the_symplecticity_check() -> Result<(), Er
     };
     let bead_run = Integrator::new(Lobatto3, Bead, bead(0.0, 0.0), 0.2)?;
     let double = Integrator::new(Rattle4, DoubleSpherical, doubles(0.0, 0.0), 0.05)?;
-    let discrete = VariationalIntegrator::new(Trapezoid, perihelion(), 0.05)?;
+    let discrete = VariationalSteps::run(Trapezoid, perihelion(), 0.05)?;
     let particle =
-        |friction| LagrangianIntegrator::new(Gauss2, Particle { friction }, near_perihelion(), 0.1);
-    let galerkin = LagrangianIntegrator::galerkin(
+        |friction| LagrangianSteps::run(Gauss2, Particle { friction }, near_perihelion(), 0.1);
+    let galerkin = LagrangianSteps::galerkin(
         TwoOfThree,
         Particle { friction: 0.0 },
         near_perihelion(),
         0.1,
     )?;
-    let dirac = DiracIntegrator::new(DiracRule::Midpoint, Vortices, vortices_start(), 0.1)?;
-    let top = RotationIntegrator::new(LOPSIDED, top_start(), 0.1)?;
-    let fourth = RotationIntegrator::composed(Suzuki4, LOPSIDED, top_start(), 0.1)?;
+    let dirac = DiracSteps::run(DiracRule::Midpoint, Vortices, vortices_start(), 0.1)?;
+    let top = RotationSteps::run(LOPSIDED, top_start(), 0.1)?;
+    let fourth = RotationSteps::composed(Suzuki4, LOPSIDED, top_start(), 0.1)?;
     for (name, defect) in [
         ("constraint", bead_run.symplecticity_defect(bead)?),
         ("two constraints", double.symplecticity_defect(doubles)?),
@@ -224,7 +222,7 @@ fn every_symplectic_integrator_passes_the_symplecticity_check() -> Result<(), Er
         consistent(&Resisted::new(), state).expect("on the sphere")
     };
     let resisted_run = Integrator::new(Lobatto3, Resisted::new(), resisted(0.0, 0.0), 0.1)?;
-    let driven = RotationIntegrator::new(Driven(LOPSIDED), top_start(), 0.1)?;
+    let driven = RotationSteps::run(Driven(LOPSIDED), top_start(), 0.1)?;
     for (name, defect) in [
         ("resisted", resisted_run.symplecticity_defect(resisted)?),
         (
@@ -270,10 +268,10 @@ fn the_symplectic_form_of_a_top_is_that_of_the_cotangent_bundle() {
 #[test]
 fn every_integrator_commutes_with_symmetries() -> Result<(), Error> {
     let stretched = |state: &Plane| State::new(state.time, state.q * 2.0, state.p / 2.0);
-    let discrete = VariationalIntegrator::new(Trapezoid, perihelion(), 0.05)?;
+    let discrete = VariationalSteps::run(Trapezoid, perihelion(), 0.05)?;
     let particle =
-        LagrangianIntegrator::new(Gauss2, Particle { friction: 0.2 }, near_perihelion(), 0.1)?;
-    let galerkin = LagrangianIntegrator::galerkin(
+        LagrangianSteps::run(Gauss2, Particle { friction: 0.2 }, near_perihelion(), 0.1)?;
+    let galerkin = LagrangianSteps::galerkin(
         TwoOfThree,
         Particle { friction: 0.2 },
         near_perihelion(),
@@ -281,7 +279,7 @@ fn every_integrator_commutes_with_symmetries() -> Result<(), Error> {
     )?;
     let flows = kepler_by_flows(perihelion())?;
     let slow = |state: &Plane| State::new(state.time, state.q * 2.0, state.p * 0.9);
-    let dirac = DiracIntegrator::new(DiracRule::Midpoint, Vortices, vortices_start(), 0.1)?;
+    let dirac = DiracSteps::run(DiracRule::Midpoint, Vortices, vortices_start(), 0.1)?;
     // Rotations and dilations of the plane; momenta are linear in the places.
     let vortices = |turn: Rotation2<f64>, factor: f64| {
         move |state: &State<V6<f64>>| {
@@ -294,7 +292,7 @@ fn every_integrator_commutes_with_symmetries() -> Result<(), Error> {
             State::new(state.time, q, p)
         }
     };
-    let top = RotationIntegrator::new(LOPSIDED, top_start(), 0.1)?;
+    let top = RotationSteps::run(LOPSIDED, top_start(), 0.1)?;
     let turned = |axis| {
         move |state: &RotationState| {
             let turn = UnitQuaternion::from_axis_angle(&axis, 1.1);
@@ -355,7 +353,7 @@ fn every_integrator_commutes_with_symmetries() -> Result<(), Error> {
 /// A check takes no step, and a state that is refused is an error.
 #[test]
 fn checks_do_not_advance_the_integrator() -> Result<(), Error> {
-    let top = RotationIntegrator::new(LOPSIDED, top_start(), 0.1)?;
+    let top = RotationSteps::run(LOPSIDED, top_start(), 0.1)?;
     top.symplecticity_defect(tops)?;
     assert_eq!((top.steps(), top.present()), (0, &top_start()));
     let broken =
@@ -364,7 +362,7 @@ fn checks_do_not_advance_the_integrator() -> Result<(), Error> {
         top.symplecticity_defect(broken),
         Err(Error::NonFiniteState { .. })
     ));
-    let dirac = DiracIntegrator::new(DiracRule::Midpoint, Vortices, vortices_start(), 0.1)?;
+    let dirac = DiracSteps::run(DiracRule::Midpoint, Vortices, vortices_start(), 0.1)?;
     let off = |_: f64, _: f64| State::new(0.0, vortices_start().q, V6::zeros());
     assert!(matches!(
         dirac.symplecticity_defect(off),

@@ -7,7 +7,7 @@ use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{Vector1, Vector2};
 use symplectic::solver::{Dense, Differences, FixedPointThenNewton};
 use symplectic::system::Gradients;
-use symplectic::variational::{DiracIntegrator, DiracRule, DiracSystem, LagrangianIntegrator};
+use symplectic::variational::{DiracRule, DiracSteps, DiracSystem, LagrangianSteps};
 use symplectic::{
     Error, Integrator, Lagrangian, Masses, Method, RunTimeTableau, Scalar, State, System, Vector,
 };
@@ -245,11 +245,11 @@ fn lagrangian_steps_do_not_fail_if_a_new_run_takes_them() {
     for k in 8..40 {
         let (size, name) = (0.05 * f64::from(k), &format!("step {k}"));
         let (steps, _) = compared!(name, heavy(), 100, |start| {
-            LagrangianIntegrator::new(Gauss3, Heavy, start, size)
+            LagrangianSteps::run(Gauss3, Heavy, start, size)
         });
         taken[0] += steps;
         let (steps, _) = compared!(name, heavy(), 100, |start| {
-            LagrangianIntegrator::galerkin(TwoOfThree, Heavy, start, size)
+            LagrangianSteps::galerkin(TwoOfThree, Heavy, start, size)
         });
         taken[1] += steps;
     }
@@ -403,7 +403,7 @@ fn a_dirac_step_survives_one_evaluation_that_is_not_finite() {
     let left: &'static Cell<u32> = Box::leak(Box::new(Cell::new(u32::MAX)));
     survives("Dirac", left, || {
         let system = FailingVortices(left);
-        let run = DiracIntegrator::new(DiracRule::Midpoint, system, vortices_start(), 0.1);
+        let run = DiracSteps::run(DiracRule::Midpoint, system, vortices_start(), 0.1);
         let mut run = run.expect("a run");
         Box::new(move || run.step().cloned())
     });

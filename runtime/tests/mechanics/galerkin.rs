@@ -2,7 +2,7 @@
 
 use crate::methods::{Gauss2, TwoOfThree};
 use symplectic::nalgebra::{DMatrix, DVector, SVector, Vector2};
-use symplectic::variational::{momentum_of_velocity, primary_constraints};
+use symplectic::variational::{LagrangianSteps, momentum_of_velocity, primary_constraints};
 use symplectic::{Error, Hamiltonian, Lagrangian, Method, Scalar, State};
 
 use crate::lagrangians::{
@@ -22,7 +22,7 @@ fn galerkin_methods_have_their_orders() {
     macro_rules! each {
         ($($method:ident $steps:literal $order:literal;)*) => {$(
             let particle = Particle { friction: 0.0 };
-            let make = |start, h| Run::galerkin($method, particle, start, h);
+            let make = |start, h| LagrangianSteps::galerkin($method, particle, start, h);
             let system = Relativistic { friction: 0.0 };
             let found = slope(make, system, &near_perihelion(), $steps);
             assert!((found - f64::from($order)).abs() < 0.05, "{}: {found}", $method::NAME);
@@ -43,8 +43,9 @@ fn galerkin_is_the_tableau_for_a_quadratic_kinetic_energy_only() {
     let steps =
         |mut run: Run<_>| -> State<Vector2<f64>> { run.integrate_to(5.0).expect("a run").clone() };
     let start = State::from_arrays(0.0, [0.1, 0.2], [0.3, -0.2]);
-    let tableau = Run::new(TwoOfThree, HenonHeiles, start.clone(), 0.5).expect("a start");
-    let galerkin = Run::galerkin(TwoOfThree, HenonHeiles, start, 0.5).expect("a start");
+    let tableau =
+        LagrangianSteps::run(TwoOfThree, HenonHeiles, start.clone(), 0.5).expect("a start");
+    let galerkin = LagrangianSteps::galerkin(TwoOfThree, HenonHeiles, start, 0.5).expect("a start");
     assert!(distance(&steps(tableau), &steps(galerkin)) < 1e-14);
 
     let ends = |run: Result<Run<Particle>, Error>| {
@@ -54,8 +55,13 @@ fn galerkin_is_the_tableau_for_a_quadratic_kinetic_energy_only() {
             .clone()
     };
     let (particle, start) = (Particle { friction: 0.0 }, near_perihelion());
-    let tableau = ends(Run::new(TwoOfThree, particle, start.clone(), 0.5));
-    let galerkin = ends(Run::galerkin(TwoOfThree, particle, start, 0.5));
+    let tableau = ends(LagrangianSteps::run(
+        TwoOfThree,
+        particle,
+        start.clone(),
+        0.5,
+    ));
+    let galerkin = ends(LagrangianSteps::galerkin(TwoOfThree, particle, start, 0.5));
     assert!(distance(&tableau, &galerkin) > 1e-7);
 }
 
@@ -64,7 +70,7 @@ fn galerkin_is_the_tableau_for_a_quadratic_kinetic_energy_only() {
 fn a_basis_without_constants_has_no_galerkin_step() {
     symplectic::tableau! { NoConstants { basis: [t, t^2], quadrature: gauss(3) } }
     let particle = Particle { friction: 0.0 };
-    let refused = Run::galerkin(NoConstants, particle, near_perihelion(), 0.1);
+    let refused = LagrangianSteps::galerkin(NoConstants, particle, near_perihelion(), 0.1);
     assert!(matches!(
         refused.err(),
         Some(Error::NoConstants {
@@ -164,8 +170,8 @@ fn steps_obey_the_hamiltonian_equations() {
         (0.5 + near, 5.0 / 12.0),
         (1.0, 1.0 / 12.0),
     ];
-    let two = Run::galerkin(TwoOfThree, particle, start.clone(), 0.5);
-    let three = Run::galerkin(ThreeOfFour, particle, start.clone(), 0.5);
+    let two = LagrangianSteps::galerkin(TwoOfThree, particle, start.clone(), 0.5);
+    let three = LagrangianSteps::galerkin(ThreeOfFour, particle, start.clone(), 0.5);
     let two = two.expect("a start").step().expect("a step").clone();
     let three = three.expect("a start").step().expect("a step").clone();
     let of = |s, formula: &[_], end| violation(s, formula, 0.5, &start, end);
@@ -184,7 +190,8 @@ fn more_nodes_converge_to_exact_integrals() {
     macro_rules! step {
         ($method:ident) => {{
             let particle = Particle { friction: 0.0 };
-            let mut run = Run::galerkin($method, particle, start.clone(), h).expect("a start");
+            let mut run =
+                LagrangianSteps::galerkin($method, particle, start.clone(), h).expect("a start");
             run.step().expect("a step").clone()
         }};
     }
@@ -215,14 +222,15 @@ fn degenerate_lagrangians_need_as_many_functions_as_nodes() -> Result<(), Error>
     let q = SVector::from([1.0, 0.3, -0.5, -0.2]);
     let p = momentum_of_velocity(&Vortices, 0.0, &q, &SVector::zeros())?;
     let vortices = State::new(0.0, q, p);
-    let refused = Run::galerkin(TwoOfThree, Vortices, vortices.clone(), 0.1).err();
+    let refused = LagrangianSteps::galerkin(TwoOfThree, Vortices, vortices.clone(), 0.1).err();
     let (method, component) = ("TwoOfThree", 0);
     assert_eq!(
         refused,
         Some(Error::DegenerateLagrangian { method, component })
     );
     let lacking = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.0]);
-    let refused = Run::galerkin(TwoOfThree, Wrong { strange: false }, lacking, 0.1).err();
+    let refused =
+        LagrangianSteps::galerkin(TwoOfThree, Wrong { strange: false }, lacking, 0.1).err();
     let error = refused.expect("refused");
     let component = 1;
     assert_eq!(error, Error::DegenerateLagrangian { method, component });
@@ -246,7 +254,7 @@ fn degenerate_lagrangians_need_as_many_functions_as_nodes() -> Result<(), Error>
         "{text}"
     );
     // With as many functions as nodes the steps keep the constraints.
-    let mut run = Run::galerkin(Gauss2, Vortices, vortices, 0.1)?;
+    let mut run = LagrangianSteps::galerkin(Gauss2, Vortices, vortices, 0.1)?;
     for _ in 0..10 {
         let State { q, p, .. } = run.step()?;
         let off = [p[0] - q[1], p[1], p[2] - q[3], p[3]];
@@ -275,10 +283,10 @@ fn a_lagrangian_that_is_degenerate_elsewhere_is_stepped() -> Result<(), Error> {
         ($method:ident) => {
             let error = |steps: u32| -> Result<f64, Error> {
                 let h = 2.0 / f64::from(steps);
-                let mut run = Run::galerkin($method, Quartic, start.clone(), h)?;
-                let energy = run.energy()?;
+                let mut run = LagrangianSteps::galerkin($method, Quartic, start.clone(), h)?;
+                let energy = run.stepper().energy()?;
                 run.integrate_to(2.0)?;
-                Ok((run.energy()? - energy).abs())
+                Ok((run.stepper().energy()? - energy).abs())
             };
             let found = (error(16)? / error(32)?).log2();
             assert!((found - 4.0).abs() < 0.1, "{}: {found}", $method::NAME);
@@ -309,12 +317,12 @@ fn the_first_step_begins_with_the_velocity_of_the_start() -> Result<(), Error> {
     macro_rules! check {
         ($($method:ident)*) => {$(
             let free = Counted(std::cell::Cell::new(0));
-            let mut run = Run::galerkin($method, free, start.clone(), 0.1)?;
-            run.lagrangian().0.set(0);
+            let mut run = LagrangianSteps::galerkin($method, free, start.clone(), 0.1)?;
+            run.stepper().lagrangian().0.set(0);
             let state = run.step()?;
             assert!((state.q[0] - 0.2).abs() < 1e-15 && state.p == start.p);
             let stages = u32::try_from($method::STAGES).expect("few");
-            assert_eq!(run.lagrangian().0.get(), 4 * stages, "{}", $method::NAME);
+            assert_eq!(run.stepper().lagrangian().0.get(), 4 * stages, "{}", $method::NAME);
         )*};
     }
     check! { OneOfTwo TwoOfThree TwoOfFive ThreeOfFour Uneven Gauss2 }
@@ -326,13 +334,13 @@ fn the_first_step_begins_with_the_velocity_of_the_start() -> Result<(), Error> {
 fn a_lagrangian_that_is_degenerate_at_the_start_is_refused() -> Result<(), Error> {
     let start = State::from_arrays(0.0, [0.0, 1.0], [0.0, 0.5]);
     let (method, component) = ("TwoOfThree", 0);
-    let refused = Run::galerkin(TwoOfThree, Massless, start.clone(), 0.1).err();
+    let refused = LagrangianSteps::galerkin(TwoOfThree, Massless, start.clone(), 0.1).err();
     assert_eq!(
         refused,
         Some(Error::DegenerateLagrangian { method, component })
     );
     // At the start only: the first step says so.
-    let mut run = Run::galerkin(Gauss2, Massless, start.clone(), 0.1)?;
+    let mut run = LagrangianSteps::galerkin(Gauss2, Massless, start.clone(), 0.1)?;
     let error = run.step().map(|_| ()).expect_err("singular");
     assert!(
         matches!(

@@ -4,8 +4,7 @@
 use crate::methods::{ForestRuth, Gauss2, Lobatto3, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1, Vector2};
 use symplectic::variational::{
-    GeneratingFunctions, GivenEnds, LagrangianIntegrator, VariationalIntegrator,
-    generating_function,
+    GeneratingFunctions, GivenEnds, LagrangianSteps, VariationalSteps, generating_function,
 };
 use symplectic::{Error, Integrator, Quantity, State, StepMap};
 
@@ -95,15 +94,12 @@ fn derivatives_are_the_other_ends() -> Result<(), Error> {
         &way,
     );
     check(
-        &LagrangianIntegrator::new(Gauss2, DoublePendulum, start, 0.25)?,
+        &LagrangianSteps::run(Gauss2, DoublePendulum, start, 0.25)?,
         &way,
     );
+    check(&VariationalSteps::run(Trapezoid, perihelion(), 0.05)?, &way);
     check(
-        &VariationalIntegrator::new(Trapezoid, perihelion(), 0.05)?,
-        &way,
-    );
-    check(
-        &VariationalIntegrator::new(AtTwoPoints(0.3), perihelion(), 0.05)?,
+        &VariationalSteps::run(AtTwoPoints(0.3), perihelion(), 0.05)?,
         &way,
     );
     Ok(())
@@ -371,7 +367,7 @@ fn ends_are_solved_for_masses_of_any_size() -> Result<(), Error> {
 #[test]
 fn steps_of_a_lagrangian_forget_the_run() -> Result<(), Error> {
     let start: State<Plane> = State::from_arrays(0.0, [0.8, 0.3], [0.2, 0.7]);
-    let fresh = LagrangianIntegrator::new(Gauss2, DoublePendulum, start.clone(), 0.25)?;
+    let fresh = LagrangianSteps::run(Gauss2, DoublePendulum, start.clone(), 0.25)?;
     let mut used = fresh.clone();
     for _ in 0..5 {
         used.step()?;

@@ -2,7 +2,9 @@
 
 use crate::methods::{Gauss3, Lobatto3};
 use symplectic::nalgebra::{Matrix2, SVector, Vector2};
-use symplectic::variational::{DiscreteHamiltonJacobi, DiscreteLagrangian, VariationalIntegrator};
+use symplectic::variational::{
+    DiscreteHamiltonJacobi, DiscreteLagrangian, VariationalSteps, step_with_generating_function,
+};
 use symplectic::{Error, Integrator, Scalar, State};
 
 use super::symmetry::Twisted;
@@ -35,7 +37,7 @@ fn by_gauss(start: State<Vector2<f64>>) -> Result<End, Error> {
     let mut solution = DiscreteHamiltonJacobi::new(&start);
     let mut run = Integrator::new(Gauss3, Twisted, start, H)?;
     for _ in 0..STEPS {
-        let generating = run.step_with_generating_function()?;
+        let generating = step_with_generating_function(&mut run)?;
         solution.add(generating.discrete_lagrangian(&run.state().p));
     }
     let two = solution.type_two(run.state());
@@ -45,10 +47,10 @@ fn by_gauss(start: State<Vector2<f64>>) -> Result<End, Error> {
 
 fn by_lagrangian(start: State<Vector2<f64>>) -> Result<End, Error> {
     let mut solution = DiscreteHamiltonJacobi::new(&start);
-    let mut run = VariationalIntegrator::new(Middle, start, H)?;
+    let mut run = VariationalSteps::run(Middle, start, H)?;
     for _ in 0..STEPS {
         run.step()?;
-        solution.add(run.action().expect("a step was taken"));
+        solution.add(run.stepper().action().expect("a step was taken"));
     }
     let two = solution.type_two(run.state());
     Ok((
@@ -64,7 +66,7 @@ fn a_step_adds_its_generating_function_to_the_solution() -> Result<(), Error> {
     let mut run = Integrator::new(Lobatto3, Twisted, start, H)?;
     for _ in 0..STEPS {
         let (before, old) = (run.state().clone(), solution);
-        let generating = run.step_with_generating_function()?;
+        let generating = step_with_generating_function(&mut run)?;
         let after = run.state();
         solution.add(generating.discrete_lagrangian(&after.p));
         let pairing = before.p.dot(&before.q);

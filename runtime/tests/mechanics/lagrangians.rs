@@ -6,7 +6,8 @@ use crate::methods::{
 };
 use symplectic::nalgebra::{DVector, SMatrix, SVector, Vector2};
 use symplectic::variational::{
-    LagrangianIntegrator, generating_function, momentum_of_velocity, velocity_of_momentum,
+    LagrangianIntegrator, LagrangianSteps, generating_function, momentum_of_velocity,
+    velocity_of_momentum,
 };
 use symplectic::{
     Error, General, Integrator, Lagrangian, Method, ProvedFor, Quantity, Scalar, State, System,
@@ -85,8 +86,7 @@ where
     L: Lagrangian<Vector<f64> = SVector<f64, N>>,
     S: System<SVector<f64, N>>,
 {
-    let mut one =
-        LagrangianIntegrator::new(method, lagrangian, start.clone(), 0.25).expect("a start");
+    let mut one = LagrangianSteps::run(method, lagrangian, start.clone(), 0.25).expect("a start");
     let mut other = Integrator::new(method, system, start, 0.25).expect("a start");
     for _ in 0..10 {
         one.step().expect("a step");
@@ -135,7 +135,7 @@ fn lagrangian_steps_have_the_order_of_the_method() {
     macro_rules! each {
         ($($method:ident $steps:literal $order:literal;)*) => {$(
             let particle = Particle { friction: 0.1 };
-            let make = |start, h| Run::new($method, particle, start, h);
+            let make = |start, h| LagrangianSteps::run($method, particle, start, h);
             let system = Relativistic { friction: 0.1 };
             let found = slope(make, system, &near_perihelion(), $steps);
             assert!((found - f64::from($order)).abs() < 0.05, "{}: {found}", $method::NAME);
@@ -151,7 +151,7 @@ fn time_dependent_lagrangians_keep_the_order() {
     let start = State::from_arrays(0.0, [1.0], [0.5]);
     macro_rules! each {
         ($($method:ident $steps:literal $order:literal;)*) => {$(
-            let make = |start, h| Run::new($method, Swing, start, h);
+            let make = |start, h| LagrangianSteps::run($method, Swing, start, h);
             let found = slope(make, SwingByHamiltonian, &start, $steps);
             assert!((found - f64::from($order)).abs() < 0.05, "{}: {found}", $method::NAME);
         )*};
@@ -166,8 +166,8 @@ fn steps_are_symplectic() {
         let start = State::from_arrays(0.0, [state[0], state[1]], [state[2], state[3]]);
         let particle = Particle { friction: 0.0 };
         let run = match galerkin {
-            true => Run::galerkin(TwoOfThree, particle, start, 0.5),
-            false => Run::new(Lobatto3, particle, start, 0.5),
+            true => LagrangianSteps::galerkin(TwoOfThree, particle, start, 0.5),
+            false => LagrangianSteps::run(Lobatto3, particle, start, 0.5),
         };
         let mut run = run.expect("a start");
         let end = run.step().expect("a step");
@@ -196,10 +196,10 @@ fn steps_are_symplectic() {
 #[test]
 fn the_action_is_that_of_the_generating_function() -> Result<(), Error> {
     let start = State::from_arrays(0.0, [1.0], [0.5]);
-    let mut run = Run::new(Gauss3, Swing, start.clone(), 0.25)?;
+    let mut run = LagrangianSteps::run(Gauss3, Swing, start.clone(), 0.25)?;
     let p1 = run.step()?.p;
     let generating = generating_function(Gauss3, &SwingByHamiltonian, 0.0, &start.q, &p1, 0.25)?;
-    let action = run.action().expect("a step");
+    let action = run.stepper().action().expect("a step");
     assert!((generating.discrete_lagrangian(&p1) - action).abs() < 1e-15);
     Ok(())
 }
@@ -225,7 +225,7 @@ symplectic::hamiltonian! {
 fn steps_linear_in_velocities_are_those_of_the_reduced_hamiltonian() -> Result<(), Error> {
     let (a, b) = ([1.0, 0.3], [-0.5, -0.2]);
     let q = SVector::from([a[0], a[1], b[0], b[1]]);
-    let mut run = Run::from_velocity(Gauss2, Vortices, 0.0, q, SVector::zeros(), 0.1)?;
+    let mut run = LagrangianSteps::from_velocity(Gauss2, Vortices, 0.0, q, SVector::zeros(), 0.1)?;
     let start = State::from_arrays(0.0, [a[0], b[0]], [a[1], b[1]]);
     let mut other = Integrator::new(Gauss2, VorticesByHamiltonian, start, 0.1)?;
     for _ in 0..100 {
@@ -236,7 +236,7 @@ fn steps_linear_in_velocities_are_those_of_the_reduced_hamiltonian() -> Result<(
         assert!(far.iter().all(|far| far.abs() < 1e-13), "{far:?}");
     }
     assert!(matches!(
-        run.velocity(),
+        run.stepper().velocity(),
         Err(Error::NoVelocity {
             component: Some(0),
             ..
@@ -265,8 +265,8 @@ fn a_lagrangian_formula_takes_the_steps_of_the_one_by_hand() -> Result<(), Error
     let start = near_perihelion();
     let p = formula.momentum_of_velocity(0.0, &start.q, &Vector2::new(0.1, 0.6));
     assert!((p - start.p).amax() < 1e-15);
-    let mut one = Run::new(Gauss3, by_hand, start.clone(), 0.2)?;
-    let mut other = Run::new(Gauss3, formula, start, 0.2)?;
+    let mut one = LagrangianSteps::run(Gauss3, by_hand, start.clone(), 0.2)?;
+    let mut other = LagrangianSteps::run(Gauss3, formula, start, 0.2)?;
     let (one, other) = (one.integrate_to(3.0)?, other.integrate_to(3.0)?);
     assert!(distance(one, other) < 1e-13);
 
@@ -274,10 +274,10 @@ fn a_lagrangian_formula_takes_the_steps_of_the_one_by_hand() -> Result<(), Error
         DVector::from_vec(vec![0.5, -0.2, 0.1]),
         DVector::from_vec(vec![0.1, 0.4, 0.0]),
     );
-    let mut run = Run::from_velocity(Gauss3, Ring, 0.0, q, v, 0.1)?;
-    let energy = run.energy()?;
+    let mut run = LagrangianSteps::from_velocity(Gauss3, Ring, 0.0, q, v, 0.1)?;
+    let energy = run.stepper().energy()?;
     run.integrate_to(50.0)?;
-    assert!((run.energy()? - energy).abs() < 1e-9);
+    assert!((run.stepper().energy()? - energy).abs() < 1e-9);
     Ok(())
 }
 
@@ -327,7 +327,7 @@ impl Lagrangian for Vortex {
 fn steps_that_leave_primary_constraints_are_errors() -> Result<(), Error> {
     fn first_error<M: Method + ProvedFor<General>>(method: M) -> Option<Error> {
         let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.5]);
-        let mut run = Run::new(method, Vortex, start.clone(), 0.1).expect("linear");
+        let mut run = LagrangianSteps::run(method, Vortex, start.clone(), 0.1).expect("linear");
         let error = run.step().err()?;
         assert_eq!(run.state(), &start);
         Some(error)
@@ -353,19 +353,21 @@ fn steps_that_leave_primary_constraints_are_errors() -> Result<(), Error> {
     }
     for (size, centre) in [(0.1, 0.0), (0.01, 0.0), (0.1, 1e4), (0.01, 100.0)] {
         let (q, v) = (V2::new(centre + 1.0, 0.0), V2::zeros());
-        let mut run = Run::from_velocity(Gauss2, Far::<true>(centre), 0.0, q, v, size)?;
-        let mut other = Run::from_velocity(Gauss2, Far::<false>(centre), 0.0, q, v, size)?;
+        let mut run = LagrangianSteps::from_velocity(Gauss2, Far::<true>(centre), 0.0, q, v, size)?;
+        let mut other =
+            LagrangianSteps::from_velocity(Gauss2, Far::<false>(centre), 0.0, q, v, size)?;
         for _ in 0..10_000 {
             run.step()?;
             other.step()?;
         }
     }
-    let bent = Run::from_velocity(Gauss2, Bent, 0.0, V2::new(1.0, 0.0), V2::zeros(), 0.1);
+    let bent =
+        LagrangianSteps::from_velocity(Gauss2, Bent, 0.0, V2::new(1.0, 0.0), V2::zeros(), 0.1);
     assert!(degenerate(bent?.step().err()));
     let off = State::from_arrays(0.0, [1.0, 0.0], [0.0, 7.0]);
     let (component, value) = (1, 6.5);
     assert_eq!(
-        Run::new(Gauss2, Vortex, off, 0.1).err(),
+        LagrangianSteps::run(Gauss2, Vortex, off, 0.1).err(),
         Some(Error::PrimaryConstraint { component, value })
     );
     Ok(())
@@ -374,7 +376,7 @@ fn steps_that_leave_primary_constraints_are_errors() -> Result<(), Error> {
 #[test]
 fn a_run_refuses_a_state_off_its_primary_constraints() -> Result<(), Error> {
     let on = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.5]);
-    let mut run = Run::new(Gauss2, Vortex, on.clone(), 0.1)?;
+    let mut run = LagrangianSteps::run(Gauss2, Vortex, on.clone(), 0.1)?;
     let off = State::from_arrays(0.0, [1.0, 0.0], [0.0, 7.0]);
     assert_eq!(
         run.set_state(off),
@@ -384,7 +386,9 @@ fn a_run_refuses_a_state_off_its_primary_constraints() -> Result<(), Error> {
         })
     );
     assert_eq!(run.state(), &on);
-    let expected = Run::new(Gauss2, Vortex, on.clone(), 0.1)?.step()?.clone();
+    let expected = LagrangianSteps::run(Gauss2, Vortex, on.clone(), 0.1)?
+        .step()?
+        .clone();
     assert_eq!(run.step()?, &expected);
     run.set_state(on)?;
     assert_eq!(run.step()?, &expected);
@@ -402,18 +406,21 @@ fn a_lagrangian_that_is_degenerate_at_rest_is_stepped() -> Result<(), Error> {
             v[0].powi(4) * T::from_f64(0.25) - q[0] * q[0] * T::from_f64(0.5)
         }
     }
-    let mut run = Run::new(Gauss2, Quartic, State::from_arrays(0.0, [0.5], [1.0]), 0.01)?;
-    let energy = run.energy()?;
+    let mut run =
+        LagrangianSteps::run(Gauss2, Quartic, State::from_arrays(0.0, [0.5], [1.0]), 0.01)?;
+    let energy = run.stepper().energy()?;
     run.integrate_to(0.5)?;
-    assert!((run.energy()? - energy).abs() < 1e-8);
+    assert!((run.stepper().energy()? - energy).abs() < 1e-8);
     Ok(())
 }
 
 #[test]
 fn degenerate_and_nonfinite_lagrangians_are_errors() {
     let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.0]);
-    let run = |strange| Run::new(Gauss2, Wrong { strange }, start.clone(), 0.1).expect("a start");
-    let singular = Run::new(Gauss2, Wrong { strange: false }, start.clone(), 0.1);
+    let run = |strange| {
+        LagrangianSteps::run(Gauss2, Wrong { strange }, start.clone(), 0.1).expect("a start")
+    };
+    let singular = LagrangianSteps::run(Gauss2, Wrong { strange: false }, start.clone(), 0.1);
     let (method, component) = ("Gauss2", 1);
     let refused = Error::DegenerateLagrangian { method, component };
     assert_eq!(singular.err(), Some(refused));
@@ -448,7 +455,7 @@ fn degenerate_and_nonfinite_lagrangians_are_errors() {
         })
     ));
     assert!(matches!(
-        Run::new(Gauss2, particle, near_perihelion(), 0.0),
+        LagrangianSteps::run(Gauss2, particle, near_perihelion(), 0.0),
         Err(Error::StepSize { .. })
     ));
 }
@@ -468,8 +475,8 @@ impl Lagrangian for Runaway {
 #[test]
 fn a_step_that_fails_leaves_nothing_behind() -> Result<(), Error> {
     let start = State::from_arrays(0.0, [0.0], [1.0]);
-    let mut one = Run::new(Midpoint, Runaway, start.clone(), 0.1)?;
-    let mut other = Run::new(Midpoint, Runaway, start, 0.1)?;
+    let mut one = LagrangianSteps::run(Midpoint, Runaway, start.clone(), 0.1)?;
+    let mut other = LagrangianSteps::run(Midpoint, Runaway, start, 0.1)?;
     one.step()?;
     other.step()?;
     // V = p + h/2 exp(q + hV/2) has no solution.
@@ -503,7 +510,7 @@ fn a_charge_at_rest_stays_at_rest() -> Result<(), Error> {
     for strength in [1.0, 1e3, 1e6] {
         let (charge, q) = (Charge { strength }, Vector2::new(3.7, -0.2));
         let p = momentum_of_velocity(&charge, 0.0, &q, &Vector2::zeros())?;
-        let mut run = Run::galerkin(TwoOfThree, charge, State::new(0.0, q, p), 0.1)?;
+        let mut run = LagrangianSteps::galerkin(TwoOfThree, charge, State::new(0.0, q, p), 0.1)?;
         assert!((run.integrate_to(10.0)?.q - q).amax() < 1e-13);
     }
     Ok(())
@@ -523,14 +530,14 @@ impl Lagrangian for Exponential {
 #[test]
 fn a_lagrangian_that_is_infinite_at_rest_starts_from_a_velocity() -> Result<(), Error> {
     let (q, v) = (SVector::from([0.0]), SVector::from([1.0]));
-    let mut run = Run::from_velocity(Gauss3, Exponential, 0.0, q, v, 0.1)?;
-    assert_eq!(run.velocity()?, v);
+    let mut run = LagrangianSteps::from_velocity(Gauss3, Exponential, 0.0, q, v, 0.1)?;
+    assert_eq!(run.stepper().velocity()?, v);
     run.integrate_to(2.0)?;
     // H = 2: q' = exp p = 2 − exp q, and so exp(−q) = (1 + exp(−2t))/2.
     let exact = -((1.0 + (-4.0_f64).exp()) / 2.0).ln();
     assert!((run.state().q[0] - exact).abs() < 1e-8);
-    assert!((run.velocity()?[0] - (2.0 - exact.exp())).abs() < 1e-8);
-    assert!((run.energy()? - 2.0).abs() < 1e-8);
+    assert!((run.stepper().velocity()?[0] - (2.0 - exact.exp())).abs() < 1e-8);
+    assert!((run.stepper().energy()? - 2.0).abs() < 1e-8);
     Ok(())
 }
 
@@ -547,7 +554,7 @@ impl Lagrangian for Nothing {
 #[test]
 fn a_lagrangian_without_coordinates_advances_the_time() -> Result<(), Error> {
     let start = State::new(0.0, DVector::zeros(0), DVector::zeros(0));
-    let mut run = Run::new(Gauss2, Nothing, start, 0.1)?;
+    let mut run = LagrangianSteps::run(Gauss2, Nothing, start, 0.1)?;
     assert_eq!(run.integrate_to(1.0)?.time, 1.0);
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use crate::methods::{Gauss6, Lobatto3, StoermerVerlet};
 use symplectic::nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector3};
-use symplectic::rotation::{FreeBody, HeavyTop, RigidBody, RotationIntegrator, RotationState};
+use symplectic::rotation::{FreeBody, HeavyTop, RigidBody, RotationState, RotationSteps};
 use symplectic::{
     Constrained, Error, Integrator, Method, ProvedFor, Quantity, Separable, State,
     StoermerVerletSteps,
@@ -130,7 +130,7 @@ where
 
 fn on_the_group<M: StoermerVerletSteps, B: RigidBody>(method: M, body: B, steps: u32) -> Numbers {
     let size = 1.0 / f64::from(steps);
-    let mut run = RotationIntegrator::composed(method, body, start(), size).expect("a run");
+    let mut run = RotationSteps::composed(method, body, start(), size).expect("a run");
     numbers(run.integrate_to(1.0).expect("steps"))
 }
 
@@ -172,7 +172,7 @@ fn steps_of_a_free_symmetric_top_have_their_orders() {
 #[test]
 fn a_sphere_turns_exactly_in_steps_of_any_size() {
     let start = RotationState::new(0.0, attitude(ANGLES), Vector3::new(1.0, -2.0, 2.0));
-    let mut run = RotationIntegrator::new(FreeBody::new(1.0, 1.0, 1.0), start, 1.0).expect("a run");
+    let mut run = RotationSteps::run(FreeBody::new(1.0, 1.0, 1.0), start, 1.0).expect("a run");
     let turn = UnitQuaternion::new(start.momentum * 7.0);
     let end = RotationState::new(7.0, start.attitude * turn, start.momentum);
     let found = numbers(run.integrate_to(7.0).expect("steps"));
@@ -229,16 +229,16 @@ impl RigidBody for Shaken {
 #[test]
 fn time_dependent_torques_keep_the_orders() {
     assert_orders(&Shaken(0.5), &by_angles(&LOPSIDED, 0.5));
-    let mut run = RotationIntegrator::new(Shaken(0.5), start(), 0.1).expect("a run");
+    let mut run = RotationSteps::run(Shaken(0.5), start(), 0.1).expect("a run");
     run.step().expect("a step");
-    assert_eq!(run.energy(), None);
+    assert_eq!(run.stepper().energy(), None);
 }
 
 /// Π0 = −D1 Ld and Π1 = D2 Ld, with the derivatives of Ld = hℓ(ξ) by differences along R exp(εη).
 #[test]
 fn a_free_step_is_that_of_its_discrete_lagrangian() {
     let (body, size) = (FreeBody::new(1.0, 1.4, 0.8), 0.9);
-    let mut run = RotationIntegrator::new(body, start(), size).expect("a run");
+    let mut run = RotationSteps::run(body, start(), size).expect("a run");
     let end = *run.step().expect("a step");
     let value = |before: UnitQuaternion<f64>, after: UnitQuaternion<f64>| {
         let xi = (before.inverse() * after).scaled_axis() / size;
@@ -270,20 +270,22 @@ fn rotations_keep_orthogonality_momentum_and_energy() {
         let r = state.attitude.to_rotation_matrix().into_inner();
         (r.transpose() * r - Matrix3::identity()).norm()
     }
-    let mut free =
-        RotationIntegrator::new(FreeBody::new(1.0, 1.4, 0.8), start(), 0.1).expect("a run");
-    let momentum = free.spatial_momentum();
+    let mut free = RotationSteps::run(FreeBody::new(1.0, 1.4, 0.8), start(), 0.1).expect("a run");
+    let momentum = free.stepper().spatial_momentum();
     let length = start().momentum.norm();
-    let mut heavy = RotationIntegrator::new(LOPSIDED, start(), 0.05).expect("a run");
-    let vertical = heavy.spatial_momentum().z;
+    let mut heavy = RotationSteps::run(LOPSIDED, start(), 0.05).expect("a run");
+    let vertical = heavy.stepper().spatial_momentum().z;
     // The mean energies of the first and the last of ten parts.
     let mut means = [0.0; 10];
     for k in 0..100_000 {
         let state = *free.step().expect("a step");
-        assert_eq!(free.spatial_momentum(), momentum);
+        assert_eq!(free.stepper().spatial_momentum(), momentum);
         let top = *heavy.step().expect("a step");
-        assert!((heavy.spatial_momentum().z - vertical).abs() < 4e-15, "{k}");
-        means[k / 10_000] += heavy.energy().expect("it is known") / 10_000.0;
+        assert!(
+            (heavy.stepper().spatial_momentum().z - vertical).abs() < 4e-15,
+            "{k}"
+        );
+        means[k / 10_000] += heavy.stepper().energy().expect("it is known") / 10_000.0;
         if k % 16 == 15 {
             let worst = orthogonality(&state).max(orthogonality(&top));
             assert!(worst < 2e-15, "{k}: {worst:e}");
@@ -292,8 +294,9 @@ fn rotations_keep_orthogonality_momentum_and_energy() {
             assert!((top.spatial_momentum().z - vertical).abs() < 8e-15, "{k}");
         }
     }
-    let start_energy = RotationIntegrator::new(LOPSIDED, start(), 0.05)
+    let start_energy = RotationSteps::run(LOPSIDED, start(), 0.05)
         .expect("a run")
+        .stepper()
         .energy();
     let offset = means[0] - start_energy.expect("it is known");
     let drift = means[9] - means[0];
@@ -303,7 +306,7 @@ fn rotations_keep_orthogonality_momentum_and_energy() {
 /// There and back again.
 #[test]
 fn steps_are_reversible() {
-    let mut run = RotationIntegrator::composed(Suzuki4, LOPSIDED, start(), 0.05).expect("a run");
+    let mut run = RotationSteps::composed(Suzuki4, LOPSIDED, start(), 0.05).expect("a run");
     for _ in 0..200 {
         run.step().expect("a step");
     }
@@ -334,7 +337,7 @@ impl RigidBody for Broken {
 fn steps_of_half_a_turn_and_bad_bodies_are_refused() {
     let start = RotationState::new(0.0, UnitQuaternion::identity(), Vector3::new(0.0, 0.0, 3.2));
     let sphere = FreeBody::new(1.0, 1.0, 1.0);
-    let mut run = RotationIntegrator::new(sphere, start, 1.0).expect("a run");
+    let mut run = RotationSteps::run(sphere, start, 1.0).expect("a run");
     let error = run.step().expect_err("more than half a turn");
     let half_turn = |angle: f64| (angle - 3.2).abs() < 1e-15;
     assert!(
@@ -345,7 +348,7 @@ fn steps_of_half_a_turn_and_bad_bodies_are_refused() {
     run.set_step_size(0.98).expect("a size");
     run.step().expect("below half a turn");
 
-    let new = |body: FreeBody, state, size| RotationIntegrator::new(body, state, size).map(|_| ());
+    let new = |body: FreeBody, state, size| RotationSteps::run(body, state, size).map(|_| ());
     let wrong = Error::MomentOfInertia {
         axis: 1,
         value: 0.0,
@@ -362,7 +365,7 @@ fn steps_of_half_a_turn_and_bad_bodies_are_refused() {
         Err(Error::NonFiniteState { what })
     );
 
-    let mut run = RotationIntegrator::new(Broken, start, 0.1).expect("a run");
+    let mut run = RotationSteps::run(Broken, start, 0.1).expect("a run");
     let error = run.integrate_to(1.0).expect_err("no torque");
     let expected = Error::NonFinite {
         time: 0.2,
@@ -378,6 +381,6 @@ fn steps_of_half_a_turn_and_bad_bodies_are_refused() {
         time: 1e17,
         ..start
     };
-    let mut run = RotationIntegrator::new(sphere, far, 0.1).expect("a run");
+    let mut run = RotationSteps::run(sphere, far, 0.1).expect("a run");
     assert!(matches!(run.step(), Err(Error::TimeResolution { .. })));
 }

@@ -2,7 +2,7 @@
 
 use crate::methods::{Gauss2, Gauss3, Lobatto3};
 use symplectic::nalgebra::{Rotation2, Vector2, Vector3};
-use symplectic::variational::momentum_map;
+use symplectic::variational::{momentum_map, step_with_generating_function};
 use symplectic::{Error, Integrator, State, StepMap, assert_conserved, consistent};
 
 use super::forces::Ring;
@@ -36,7 +36,7 @@ fn generating_functions_of_three_types_have_their_differentials() -> Result<(), 
     let step = |a: f64| -> Result<_, Error> {
         let start = near(a, 0.3 * a);
         let mut run = Integrator::new(Gauss3, Twisted, start.clone(), 0.25)?;
-        let generating = run.step_with_generating_function()?;
+        let generating = step_with_generating_function(&mut run)?;
         Ok((start, run.into_state(), generating))
     };
     const STEP: f64 = 1e-3;

@@ -7,10 +7,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use symplectic::adaptive::DistancePower;
 use symplectic::nalgebra::{Vector1, Vector2, Vector3};
-use symplectic::rotation::{FreeBody, RotationIntegrator, RotationState};
+use symplectic::rotation::{FreeBody, RotationState, RotationSteps};
 use symplectic::variational::{
-    DiracIntegrator, DiracRule, DiscreteLagrangian, EnergyMomentumIntegrator, LagrangianIntegrator,
-    VariationalIntegrator,
+    DiracRule, DiracSteps, DiscreteLagrangian, EnergyMomentumSteps, LagrangianSteps,
+    VariationalSteps,
 };
 use symplectic::{
     DenseSteps, Equal, Error, Event, Integrator, Moment, Own, Pace, PhasePoint, RemainingSteps,
@@ -252,22 +252,22 @@ fn every_stepper_has_the_whole_interface_of_a_run() {
             run.set_step_size(0.1)?;
             Ok(run)
         };
-        "discrete Lagrangian": perihelion() => |start: &Plane| VariationalIntegrator::new(Trapezoid, start.clone(), 0.1);
+        "discrete Lagrangian": perihelion() => |start: &Plane| VariationalSteps::run(Trapezoid, start.clone(), 0.1);
         "composed": perihelion() => |start: &Plane| {
-            VariationalIntegrator::composed(Suzuki4, Trapezoid, start.clone(), 0.1)
+            VariationalSteps::composed(Suzuki4, Trapezoid, start.clone(), 0.1)
         };
         "Lagrangian": near_perihelion() => |start: &Plane| {
-            LagrangianIntegrator::new(Gauss2, Particle { friction: 0.0 }, start.clone(), 0.1)
+            LagrangianSteps::run(Gauss2, Particle { friction: 0.0 }, start.clone(), 0.1)
         };
         "Galerkin": near_perihelion() => |start: &Plane| {
-            LagrangianIntegrator::galerkin(TwoOfThree, Particle { friction: 0.0 }, start.clone(), 0.1)
+            LagrangianSteps::galerkin(TwoOfThree, Particle { friction: 0.0 }, start.clone(), 0.1)
         };
         "vortices": vortices_start() => |start: &State<_>| {
-            DiracIntegrator::new(DiracRule::Midpoint, Vortices, start.clone(), 0.1)
+            DiracSteps::run(DiracRule::Midpoint, Vortices, start.clone(), 0.1)
         };
-        "top": top_start() => |start: &RotationState| RotationIntegrator::new(LOPSIDED, *start, 0.1);
+        "top": top_start() => |start: &RotationState| RotationSteps::run(LOPSIDED, *start, 0.1);
         "top, order 4": top_start() => |start: &RotationState| {
-            RotationIntegrator::composed(Suzuki4, LOPSIDED, *start, 0.1)
+            RotationSteps::composed(Suzuki4, LOPSIDED, *start, 0.1)
         };
         "own": State::from_arrays(0.0, [1.0], [0.0]) => |start: &State<Vector1<f64>>| own(start, Fault::None);
     }
@@ -281,7 +281,7 @@ fn every_stepper_has_the_whole_interface_of_a_run() {
     );
     run_of_any_pace(
         "energy and momentum",
-        |start: &Plane| EnergyMomentumIntegrator::new(Trapezoid, start.clone(), 0.01),
+        |start: &Plane| EnergyMomentumSteps::run(Trapezoid, start.clone(), 0.01),
         &start,
     );
 }
@@ -516,10 +516,10 @@ fn a_step_that_is_too_long_is_split() {
         Integrator::new(Gauss2, acceleration(attraction), near_perihelion(), size)
     });
     split_run("discrete Lagrangian", |size| {
-        VariationalIntegrator::new(Repelled, State::from_arrays(0.0, [1.0], [-2.0]), size)
+        VariationalSteps::run(Repelled, State::from_arrays(0.0, [1.0], [-2.0]), size)
     });
     split_run("rotation", |size| {
-        RotationIntegrator::new(FreeBody::new(1.0, 1.4, 0.8), top_start(), size)
+        RotationSteps::run(FreeBody::new(1.0, 1.4, 0.8), top_start(), size)
     });
 }
 

@@ -7,9 +7,8 @@ use symplectic::nalgebra::DVector;
 use symplectic::solver::FixedPoint;
 use symplectic::system::Gradients;
 use symplectic::variational::{
-    DiracIntegrator, DiracRule, DiracSystem, DiscreteLagrangian, DiscretePath,
-    LagrangianIntegrator, Newmark, VariationalIntegrator, momentum_of_velocity,
-    velocity_of_momentum,
+    DiracRule, DiracSteps, DiracSystem, DiscreteLagrangian, DiscretePath, LagrangianSteps, Newmark,
+    StepWithStages, VariationalSteps, momentum_of_velocity, velocity_of_momentum,
 };
 use symplectic::{
     Class, Constrained, Damped, Error, General, Hamiltonian, Integrator, Lagrangian, Method,
@@ -454,7 +453,7 @@ fn resized_forces_of_lagrangians_are_refused() -> Result<(), Error> {
         let v = DVector::from_vec(vec![0.5, 0.0]);
         let error = momentum_of_velocity(&Forced { to }, 0.0, &start().q, &v).expect_err("resized");
         assert_resized(&error, Quantity::Force, to);
-        let run = VariationalIntegrator::new(Forced { to }, start(), 0.1);
+        let run = VariationalSteps::run(Forced { to }, start(), 0.1);
         let error = run
             .and_then(|mut run| run.step().map(|_| ()))
             .expect_err("resized");
@@ -468,12 +467,12 @@ fn resized_forces_of_lagrangians_are_refused() -> Result<(), Error> {
         };
         let error = path.momenta(&Forced { to }).expect_err("resized");
         assert_resized(&error, Quantity::Force, to);
-        let run = LagrangianIntegrator::new(Gauss2, Forced { to }, start(), 0.1);
+        let run = LagrangianSteps::run(Gauss2, Forced { to }, start(), 0.1);
         let error = run
             .and_then(|mut run| run.step().map(|_| ()))
             .expect_err("resized");
         assert_resized(&error, Quantity::Force, to);
-        let run = DiracIntegrator::new(DiracRule::Midpoint, Forced { to }, start(), 0.1);
+        let run = DiracSteps::run(DiracRule::Midpoint, Forced { to }, start(), 0.1);
         let error = run
             .and_then(|mut run| run.step().map(|_| ()))
             .expect_err("resized");

@@ -13,7 +13,7 @@ use crate::common::methods::{Midpoint, StoermerVerlet};
 use symplectic::adaptive::{DistancePower, Logarithmic, Poincare};
 use symplectic::emitted::{Bonds, Chain};
 use symplectic::flow::{Drift, FlowSteps, Kick, Splitting, Substeps};
-use symplectic::variational::{DiscreteLagrangian, Newmark, VariationalIntegrator};
+use symplectic::variational::{DiscreteLagrangian, Newmark, VariationalSteps};
 use symplectic::{
     Error, Event, Integrator, Method, Moment, Scalar, SeparableHamiltonian, State, Vector,
 };
@@ -232,7 +232,7 @@ impl DiscreteLagrangian for Particle {
 #[test]
 fn steps_of_a_discrete_lagrangian_do_not_allocate() -> Result<(), Error> {
     let start = || State::new(0.0, Counted::new(vec![1.0]), Counted::new(vec![0.0]));
-    let (made_by_new, run) = made(|| VariationalIntegrator::new(Particle, start(), 0.1));
+    let (made_by_new, run) = made(|| VariationalSteps::run(Particle, start(), 0.1));
     assert!(made_by_new > 4);
     let mut run = run?;
     let (made_by_steps, outcome) = made(|| run.integrate_to(10.0).map(|_| ()));

@@ -9,6 +9,7 @@ use crate::common::systems::{Pendulum, Product, point};
 use crate::common::methods::{Gauss2, Lobatto3, Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1};
 use symplectic::solver::{FixedPoint, FixedPointThenNewton};
+use symplectic::variational::StepWithStages;
 use symplectic::{
     Class, Error, General, Integrator, Method, ProvedFor, Quantity, Separable, State, System,
     Vector, acceleration, hamiltonian, separable,

@@ -5,7 +5,7 @@ use symplectic::adaptive::Logarithmic;
 use symplectic::ensemble::{Ensemble, EnsembleError};
 use symplectic::nalgebra::DVector;
 use symplectic::tangent::Tangent;
-use symplectic::variational::{LagrangianIntegrator, Newmark, generating_function};
+use symplectic::variational::{LagrangianSteps, Newmark, generating_function};
 use symplectic::{Error, Integrator, State};
 
 symplectic::hamiltonian! {
@@ -210,6 +210,6 @@ fn systems_around_a_system_check_it_too() {
     let error = generating_function(Gauss2, &masses(3), 0.0, &start(6).q, &start(6).p, 0.01).err();
     assert_eq!(error, Some(expected.clone()));
     let system = Fast::new(vec![1.0; 3]);
-    let error = LagrangianIntegrator::new(Gauss2, system, start(2), 0.01).err();
+    let error = LagrangianSteps::run(Gauss2, system, start(2), 0.01).err();
     assert_eq!(error, Some(expected));
 }

@@ -9,7 +9,7 @@ use symplectic::adaptive::DistancePower;
 use symplectic::files::{Recording, record_at, record_to};
 use symplectic::nalgebra::{SVector, Vector1};
 use symplectic::system::Named;
-use symplectic::variational::LagrangianIntegrator;
+use symplectic::variational::LagrangianSteps;
 use symplectic::{Error, Integrator, Scalar, SeparableHamiltonian, State, separable};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -117,7 +117,7 @@ fn systems_by_hand_have_their_own_names_or_numbers() -> Outcome {
 #[test]
 fn a_lagrangian_that_has_no_hamiltonian_has_names_of_momenta() -> Outcome {
     let start = State::from_arrays(0.0, [0.5], [0.0]);
-    let mut run = LagrangianIntegrator::new(Gauss2, Relativistic, start, 0.1)?;
+    let mut run = LagrangianSteps::run(Gauss2, Relativistic, start, 0.1)?;
     let mut table = Recording::of(&Relativistic, run.state())?;
     table.record(run.step()?);
     let mut text = Vec::new();

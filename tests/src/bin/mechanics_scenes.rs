@@ -3,7 +3,7 @@
 
 #![allow(clippy::print_stdout, reason = "a program prints")]
 
-use symplectic::variational::{DiracIntegrator, DiracRule};
+use symplectic::variational::{DiracRule, DiracSteps};
 use symplectic::{Error, Integrator};
 use symplectic_tests::methods::{Midpoint, StoermerVerlet, VelocityVerlet};
 use symplectic_tests::scenes::{circuit, double_pendulum, henon_heiles, skate};
@@ -26,7 +26,7 @@ fn main() -> Result<(), Error> {
     let mut damped = Integrator::new(VelocityVerlet, Damped::new(), start, 0.01)?;
     println!("{:?}", damped.integrate_to(1.0)?);
     let (rule, start) = (DiracRule::Trapezoid, circuit::start());
-    let mut circuit = DiracIntegrator::new(rule, circuit::Circuit::default(), start, 0.01)?;
+    let mut circuit = DiracSteps::run(rule, circuit::Circuit::default(), start, 0.01)?;
     println!("{:?}", circuit.integrate_to(1.0)?);
     Ok(())
 }

@@ -123,7 +123,7 @@ pub fn exact(time: f64) -> State<SVector<f64, 4>> {
 
 #[cfg(test)]
 mod tests {
-    use symplectic::variational::{DiracIntegrator, DiracRule};
+    use symplectic::variational::{DiracRule, DiracSteps};
 
     use super::*;
 
@@ -139,7 +139,7 @@ mod tests {
             assert!(((after.p - before.p) / 2e-4 - force).norm() < 1e-7);
         }
         let circuit = Circuit::default();
-        let run = DiracIntegrator::new(DiracRule::Trapezoid, circuit, start(), 1.0 / 256.0);
+        let run = DiracSteps::run(DiracRule::Trapezoid, circuit, start(), 1.0 / 256.0);
         let mut run = run.expect("a start");
         let end = run.integrate_to(10.0).expect("steps").clone();
         assert!((end.q - exact(10.0).q).norm() < 1e-4);

@@ -86,7 +86,7 @@ pub fn in_columns(state: &RotationState) -> State<Matrix3<f64>> {
 
 #[cfg(test)]
 mod tests {
-    use symplectic::rotation::RotationIntegrator;
+    use symplectic::rotation::RotationSteps;
     use symplectic::{Integrator, System};
 
     use super::*;
@@ -106,11 +106,11 @@ mod tests {
         let mut by_angles =
             Integrator::new(Gauss6, EulerAngles::default(), angles, 1.0 / 32.0).expect("a start");
         let mut group =
-            RotationIntegrator::composed(Suzuki4, TOP, start(), 1.0 / 256.0).expect("a start");
+            RotationSteps::composed(Suzuki4, TOP, start(), 1.0 / 256.0).expect("a start");
         let mut flat = Integrator::new(Lobatto4, columns(), in_columns(&start()), 1.0 / 64.0)
             .expect("a consistent start");
         let energy = by_angles.energy().expect("known");
-        for other in [group.energy(), flat.energy()] {
+        for other in [group.stepper().energy(), flat.energy()] {
             assert!((other.expect("known") - energy).abs() < 1e-14);
         }
         let expected = in_columns(&from_angles(by_angles.integrate_to(1.0).expect("steps")));

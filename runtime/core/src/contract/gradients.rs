@@ -85,11 +85,8 @@ impl Terms {
 
 impl<T: Scalar> Gradients<T> {
     /// An m×n matrix of gradients, with the places of the entries that `evaluate` sets.
-    pub(crate) fn learned(
-        constraints: usize,
-        dimension: usize,
-        evaluate: impl FnOnce(&mut Self),
-    ) -> Self {
+    #[doc(hidden)]
+    pub fn learned(constraints: usize, dimension: usize, evaluate: impl FnOnce(&mut Self)) -> Self {
         let mut gradients = Self {
             constraints,
             dimension,
@@ -130,7 +127,8 @@ impl<T: Scalar> Gradients<T> {
 
     /// Calls `evaluate` to set all entries; returns whether each entry had its place.
     #[inline]
-    pub(crate) fn evaluate(&mut self, evaluate: impl FnOnce(&mut Self)) -> bool {
+    #[doc(hidden)]
+    pub fn evaluate(&mut self, evaluate: impl FnOnce(&mut Self)) -> bool {
         self.next = 0;
         self.misplaced = None;
         evaluate(self);
@@ -138,18 +136,21 @@ impl<T: Scalar> Gradients<T> {
     }
 
     /// The first misplaced entry: constraint and component.
-    pub(crate) const fn misplaced(&self) -> Option<(usize, usize)> {
+    #[doc(hidden)]
+    pub const fn misplaced(&self) -> Option<(usize, usize)> {
         self.misplaced
     }
 
     /// Number of constraints m.
-    pub(crate) const fn constraints(&self) -> usize {
+    #[doc(hidden)]
+    pub const fn constraints(&self) -> usize {
         self.constraints
     }
 
     /// Every entry: constraint, component and value.
     #[inline]
-    pub(crate) fn entries(&self) -> impl Iterator<Item = (usize, usize, T)> {
+    #[doc(hidden)]
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, T)> {
         let entries = self.places.iter().zip(&self.values);
         entries.map(|(&(constraint, component), &value)| {
             (constraint as usize, component as usize, value)

@@ -4,7 +4,7 @@ use crate::contract::System;
 use crate::number::{Scalar, Vector};
 
 /// A component of a velocity that is not linear in the momentum.
-pub(crate) struct NonLinear {
+pub struct NonLinear {
     /// The component, from 0.
     pub component: usize,
     /// Size of the velocity component.
@@ -15,7 +15,7 @@ pub(crate) struct NonLinear {
 
 /// The first component in which the velocity is not linear in the momentum, or depends on time. The test evaluates it at `p`, at another
 /// momentum of size at least 1, at combinations of both, and at another time.
-pub(crate) fn non_linear_velocity<V: Vector, S: System<V>>(
+pub fn non_linear_velocity<V: Vector, S: System<V>>(
     system: &S,
     time: f64,
     q: &V,

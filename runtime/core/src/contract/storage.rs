@@ -233,13 +233,13 @@ impl<V: Vector, const Q: usize, const P: usize> StageStorage<V> for Stages<V, Q,
 }
 
 /// The number of the first vector, from 1, that is not finite.
-pub(crate) fn first_non_finite_of<V: Vector>(vectors: &[V]) -> Option<usize> {
+pub fn first_non_finite_of<V: Vector>(vectors: &[V]) -> Option<usize> {
     let first = vectors.iter().position(|vector| !is_finite(vector));
     first.map(|index| index + 1)
 }
 
 /// [`StageStorage::non_finite`] of positions with their forces and momenta with their velocities.
-pub(crate) fn first_non_finite<V: Vector>(
+pub fn first_non_finite<V: Vector>(
     (q, force): (&[V], &[V]),
     (p, velocity): (&[V], &[V]),
 ) -> Option<(Quantity, usize)> {
@@ -257,7 +257,7 @@ pub(crate) fn first_non_finite<V: Vector>(
 
 /// [`StageStorage::mismatch`] of forces and velocities.
 #[inline]
-pub(crate) fn first_mismatch<V: Vector>(
+pub fn first_mismatch<V: Vector>(
     force: &[V],
     velocity: &[V],
     dimension: usize,

@@ -651,7 +651,7 @@ pub enum Error {
     /// The discrete Lagrangian of a composition is not self-adjoint.
     #[error(
         "Ld(q0, q1, h) + Ld(q1, q0, −h) is {defect:e} instead of 0: the discrete Lagrangian is not self-adjoint, so its compositions have \
-         order 1; take a self-adjoint one, such as the mean of Ld and −Ld(q1, q0, −h), or `VariationalIntegrator::new`"
+         order 1; take a self-adjoint one, such as the mean of Ld and −Ld(q1, q0, −h), or `VariationalSteps::run`"
     )]
     NotSelfAdjoint {
         /// The sum, for the path from the start to a point nearby.
@@ -660,7 +660,7 @@ pub enum Error {
 
     /// The basis of a Galerkin method does not contain the constants, so that it excludes uniform motion.
     #[error(
-        "the basis of {method} does not contain the constants: add 1 to it, or take the tableau with `LagrangianIntegrator::new`"
+        "the basis of {method} does not contain the constants: add 1 to it, or take the tableau with `LagrangianSteps::run`"
     )]
     NoConstants {
         /// Name of the method.

@@ -7,7 +7,7 @@ use crate::error::Error;
 ///
 /// Extrapolated stages, multipliers or velocities of the last step, and decisions of a solver are usually better starting values than those
 /// of a first step, but not always. With this rule no step fails that a new integrator can take from the same state.
-pub(crate) fn or_as_first_step<I, T>(
+pub fn or_as_first_step<I, T>(
     run: &mut I,
     taken: Result<T, Error>,
     forget: impl FnOnce(&mut I) -> bool,

@@ -13,9 +13,9 @@ use super::validation::{
 use super::{Equal, Retry, Run, Statistics, Stepper};
 use crate::error::Error;
 use crate::method::interpolation::Line;
-use crate::method::{Inside, Interpolation, Method, Plan, ProvedFor, Solver, Stopping};
-#[cfg(feature = "alloc")]
-use crate::method::{Step, WarmStart};
+use crate::method::{
+    Inside, Interpolation, Method, Plan, ProvedFor, Solver, Step, Stopping, WarmStart,
+};
 use crate::number::{Compensated, Plain, Scalar, Summation, Vector};
 use crate::state::State;
 use crate::system::{Class, System};
@@ -221,8 +221,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 
     /// Takes a step whose stages `solve` computes from the step, the momentum after it, and its number.
-    #[cfg(feature = "alloc")]
-    pub(crate) fn step_solved_by<T>(
+    #[doc(hidden)]
+    pub fn step_solved_by<T>(
         &mut self,
         solve: impl FnOnce(&S, &Step<'_, V>, &V, u64, Stopping) -> Result<T, Error>,
     ) -> Result<T, Error> {

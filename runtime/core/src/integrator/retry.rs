@@ -9,8 +9,7 @@ use super::{Run, Stepper};
 
 /// The reaction of a [`Run`] with equal steps if the stages of a step do not converge or a result is NaN or infinite.
 ///
-/// It has no effect on runs of a flow, whose noise would be another one, and on steps with
-/// [stages](crate::variational::LagrangianIntegrator#method.step_with_stages).
+/// It has no effect on runs of a flow, whose noise would be another one, and on steps that return their stages.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Retry {
     /// The step fails, with the error.

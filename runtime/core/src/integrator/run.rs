@@ -176,8 +176,8 @@ impl<S: Stepper> Run<S> {
     }
 
     /// Takes one step, never split.
-    #[cfg(feature = "alloc")]
-    pub(crate) fn step_at_once(&mut self) -> Result<(), S::Error> {
+    #[doc(hidden)]
+    pub fn step_at_once(&mut self) -> Result<(), S::Error> {
         advance_in_time(&mut self.stepper, self.step_size, self.clock.next())?;
         self.clock.tick();
         Ok(())
@@ -287,7 +287,7 @@ impl<S: Stepper> Run<S> {
         &self.stepper
     }
 
-    /// The stepper; the times of the next steps go on from the state that the run has left.
+    /// The stepper, whose time must not change: for what a wing computes with its memory.
     #[doc(hidden)]
     pub const fn stepper_mut(&mut self) -> &mut S {
         &mut self.stepper

@@ -11,7 +11,7 @@ use crate::state::State;
 use crate::system::linearity::non_linear_velocity;
 use crate::system::{Class, System};
 
-/// Checks that a step size is finite and not zero.
+/// Checks that a step size is finite and not zero: [`Error::StepSize`].
 pub fn check_step_size(value: f64) -> Result<(), Error> {
     if value.is_finite() && value != 0.0 {
         Ok(())
@@ -159,17 +159,14 @@ fn first_difference<V: Vector>(left: &V, right: &V) -> Option<(usize, f64, f64)>
 }
 
 /// [`check_state`], that the parameters of the system fit the dimension, and that its declarations are right.
-pub(crate) fn check_start<V: Vector, S: System<V>>(
-    system: &S,
-    state: &State<V>,
-) -> Result<(), Error> {
+pub fn check_start<V: Vector, S: System<V>>(system: &S, state: &State<V>) -> Result<(), Error> {
     let dimension = state.q.dimension();
     check_state(state.time, &state.q, &state.p, dimension)?;
     system.check_dimension(dimension)?;
     check_declarations(system, state)
 }
 
-/// Checks that a state is finite and has a dimension.
+/// Checks that position and momentum have this dimension and that the state is finite: [`Error::Dimension`], [`Error::NonFiniteState`].
 pub fn check_state<V: Vector>(time: f64, q: &V, p: &V, dimension: usize) -> Result<(), Error> {
     let (position, momentum) = (q.dimension(), p.dimension());
     if position != dimension || momentum != dimension {

@@ -14,14 +14,14 @@ enum Fault {
 }
 
 /// Records the first evaluation that is not finite although its argument is, or that has a wrong dimension.
-pub(crate) struct FirstFault {
+pub struct FirstFault {
     dimension: usize,
     found: Option<(Quantity, usize, Fault)>,
 }
 
 impl FirstFault {
     /// For a state of this dimension.
-    pub(crate) const fn new(dimension: usize) -> Self {
+    pub const fn new(dimension: usize) -> Self {
         Self {
             dimension,
             found: None,
@@ -74,7 +74,7 @@ pub(crate) fn culprit<V: Vector, T: StageStorage<V>>(
 }
 
 /// The step that failed.
-pub(crate) struct Attempt {
+pub struct Attempt {
     /// Time at its start.
     pub time: f64,
     /// Its size.
@@ -89,7 +89,7 @@ pub(crate) struct Attempt {
 
 impl Attempt {
     /// For a step with this number, from 1.
-    pub(crate) fn of<V: Vector>(step: &Step<'_, V>, number: u64) -> Self {
+    pub fn of<V: Vector>(step: &Step<'_, V>, number: u64) -> Self {
         Self {
             time: step.time,
             step_size: step.size,
@@ -100,7 +100,7 @@ impl Attempt {
     }
 
     /// The same step with this solver and class.
-    pub(crate) fn with_solver<V: Vector, S: System<V>, N: Solver<V, S>>(self) -> Self {
+    pub fn with_solver<V: Vector, S: System<V>, N: Solver<V, S>>(self) -> Self {
         Self {
             // Without memory there is none.
             newton_may_help: cfg!(feature = "alloc") && !N::IS_NEWTON && !S::Class::CONSTRAINED,
@@ -110,7 +110,7 @@ impl Attempt {
 
     /// The error for a `failure` to find the stages. Without a failure, the error for an invalid result whose position is `q1`. The invalid
     /// evaluation is in `stages`, or it was `observed`.
-    pub(crate) fn error<V: Vector, T: StageStorage<V>>(
+    pub fn error<V: Vector, T: StageStorage<V>>(
         self,
         failure: Option<Failure>,
         observed: &FirstFault,

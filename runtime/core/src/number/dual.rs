@@ -8,19 +8,19 @@ use crate::number::{Coefficient, Scalar, larger_or_nan};
 
 /// `value + slope ε` with `ε² = 0`: a number and its derivative with respect to a parameter. The bits of the value are those without it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Dual<T> {
-    pub(crate) value: T,
-    pub(crate) slope: T,
+pub struct Dual<T> {
+    pub value: T,
+    pub slope: T,
 }
 
 /// `value + first ε1 + second ε2 + mixed ε1ε2`: a value, its derivatives with respect to two parameters, and the mixed second derivative
 /// (Fike & Alonso 2011).
-pub(crate) type HyperDual = Dual<Dual<f64>>;
+pub type HyperDual = Dual<Dual<f64>>;
 
 impl HyperDual {
     /// A number with these derivatives; the mixed one is zero.
     #[inline]
-    pub(crate) const fn new(value: f64, first: f64, second: f64) -> Self {
+    pub const fn new(value: f64, first: f64, second: f64) -> Self {
         Self {
             value: Dual {
                 value,
@@ -35,13 +35,13 @@ impl HyperDual {
 
     /// The value.
     #[inline]
-    pub(crate) const fn real(self) -> f64 {
+    pub const fn real(self) -> f64 {
         self.value.value
     }
 
     /// The derivative with respect to the first parameter.
     #[inline]
-    pub(crate) const fn first(self) -> f64 {
+    pub const fn first(self) -> f64 {
         self.slope.value
     }
 }
@@ -50,25 +50,25 @@ impl HyperDual {
 impl HyperDual {
     /// The derivative with respect to the second parameter.
     #[inline]
-    pub(crate) const fn second(self) -> f64 {
+    pub const fn second(self) -> f64 {
         self.value.slope
     }
 
     /// The derivative with respect to both parameters.
     #[inline]
-    pub(crate) const fn mixed(self) -> f64 {
+    pub const fn mixed(self) -> f64 {
         self.slope.slope
     }
 
     /// Sets the derivative with respect to the first parameter.
     #[inline]
-    pub(crate) const fn set_first(&mut self, first: f64) {
+    pub const fn set_first(&mut self, first: f64) {
         self.slope.value = first;
     }
 
     /// Sets the derivative by the second parameter.
     #[inline]
-    pub(crate) const fn set_second(&mut self, second: f64) {
+    pub const fn set_second(&mut self, second: f64) {
         self.value.slope = second;
     }
 }
@@ -76,7 +76,7 @@ impl HyperDual {
 impl<T: Scalar> Dual<T> {
     /// A constant.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn constant(value: T) -> Self {
+    pub fn constant(value: T) -> Self {
         Self {
             value,
             slope: T::zero(),

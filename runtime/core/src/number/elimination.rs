@@ -8,9 +8,7 @@ use crate::number::words::words;
 use crate::number::{Scalar, Visit};
 
 /// A number of a field.
-pub(crate) trait Entry:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
-{
+pub trait Entry: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     fn zero() -> Self;
     /// Its words, for checkpoints.
     fn words(&mut self, visit: &mut Visit<'_>);
@@ -124,7 +122,7 @@ impl<T: Scalar + Neg<Output = T>> Entry for Complex<T> {
 /// The factors of a banded square matrix, with partial pivoting (Golub & Van Loan, *Matrix Computations*, 4.3.5). Its entries `(i, j)` are
 /// zero if `|i − j|` exceeds the half bandwidth.
 #[derive(Clone, Debug)]
-pub(crate) struct Elimination<E> {
+pub struct Elimination<E> {
     size: usize,
     half_bandwidth: usize,
     /// Number of stored entries of a row; the whole row where a band would need more.
@@ -134,12 +132,12 @@ pub(crate) struct Elimination<E> {
     /// The row that each row was exchanged with.
     pivots: Vec<usize>,
     /// The right-hand side.
-    pub(crate) right: Vec<E>,
+    pub right: Vec<E>,
 }
 
 impl<E: Entry> Elimination<E> {
     /// Memory for matrices of this size.
-    pub(crate) fn new(size: usize, half_bandwidth: usize) -> Self {
+    pub fn new(size: usize, half_bandwidth: usize) -> Self {
         // Row exchanges add another half bandwidth beyond the band.
         let width = half_bandwidth.saturating_mul(3).saturating_add(1).min(size);
         Self {
@@ -153,7 +151,7 @@ impl<E: Entry> Elimination<E> {
     }
 
     /// The factors, for checkpoints.
-    pub(crate) fn words(&mut self, visit: &mut Visit<'_>) {
+    pub fn words(&mut self, visit: &mut Visit<'_>) {
         for entry in &mut self.entries {
             entry.words(visit);
         }
@@ -177,15 +175,12 @@ impl<E: Entry> Elimination<E> {
     }
 
     /// Factors the matrix with these entries; returns whether every pivot is finite and nonzero.
-    pub(crate) fn factor(&mut self, entry: impl Fn(usize, usize) -> E) -> bool {
+    pub fn factor(&mut self, entry: impl Fn(usize, usize) -> E) -> bool {
         self.first_without_pivot(entry).is_none()
     }
 
     /// Factors the matrix as [`factor`](Self::factor) does; returns the first column whose pivot is zero, NaN or infinite.
-    pub(crate) fn first_without_pivot(
-        &mut self,
-        entry: impl Fn(usize, usize) -> E,
-    ) -> Option<usize> {
+    pub fn first_without_pivot(&mut self, entry: impl Fn(usize, usize) -> E) -> Option<usize> {
         self.clear();
         for i in 0..self.size {
             for j in self.band(i) {
@@ -196,24 +191,24 @@ impl<E: Entry> Elimination<E> {
     }
 
     /// Sets all entries to zero.
-    pub(crate) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         self.entries.fill(E::zero());
     }
 
     /// Sets an entry within the band of a matrix that is then [factored](Self::eliminate_all).
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn set(&mut self, i: usize, j: usize, entry: E) {
+    pub fn set(&mut self, i: usize, j: usize, entry: E) {
         let place = self.place(i, j);
         self.entries[place] = entry;
     }
 
     /// Factors the matrix of the entries that were [`set`](Self::set); returns the first column whose pivot is zero, NaN or infinite.
-    pub(crate) fn eliminate_all(&mut self) -> Option<usize> {
+    pub fn eliminate_all(&mut self) -> Option<usize> {
         (0..self.size).find(|&k| !self.eliminate(k))
     }
 
     /// The pivot of a column.
-    pub(crate) fn pivot(&self, column: usize) -> E {
+    pub fn pivot(&self, column: usize) -> E {
         self.entries[self.place(column, column)].inverse()
     }
 
@@ -255,7 +250,7 @@ impl<E: Entry> Elimination<E> {
     }
 
     /// Solves in place for the right-hand side in `right`.
-    pub(crate) fn solve(&mut self) {
+    pub fn solve(&mut self) {
         for k in 0..self.size {
             self.right.swap(k, self.pivots[k]);
             let known = self.right[k];

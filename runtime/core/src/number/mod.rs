@@ -9,8 +9,6 @@ pub(crate) mod elementary;
 pub(crate) mod elimination;
 pub(crate) mod lanes;
 pub(crate) mod linear_combination;
-#[cfg(feature = "alloc")]
-pub(crate) mod rank;
 pub(crate) mod registers;
 pub(crate) mod rows;
 pub(crate) mod scalar;

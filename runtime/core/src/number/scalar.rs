@@ -241,7 +241,7 @@ pub trait Scalar:
 
 /// The larger of two numbers; NaN if either is, unlike [`f64::max`].
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) const fn larger_or_nan(a: f64, b: f64) -> f64 {
+pub const fn larger_or_nan(a: f64, b: f64) -> f64 {
     if a >= b || a.is_nan() { a } else { b }
 }
 

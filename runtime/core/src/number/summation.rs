@@ -71,7 +71,7 @@ pub fn two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
     (sum, (a - (sum - part)) + (b - part))
 }
 
-/// [`two_sum`] if `a` is at least as large as `b`, or is zero (Dekker).
+/// `two_sum` if `a` is at least as large as `b`, or is zero (Dekker).
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub fn fast_two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
     let sum = a + b;
@@ -125,14 +125,14 @@ pub(crate) fn add<R: Summation, T: Scalar>(
 
 /// `base + low + sum`, as the nearest number and the rest.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn add_sum<T: Scalar>(base: T, low: T, sum: Sum<T>) -> (T, T) {
+pub fn add_sum<T: Scalar>(base: T, low: T, sum: Sum<T>) -> (T, T) {
     let (high, error) = two_sum(base, sum.0);
     let rest = sum.1.map_or(low, |rest| rest + low);
     fast_two_sum(high, rest + error)
 }
 
 /// A sum, and its round-off if it is known.
-pub(crate) type Sum<T> = (T, Option<T>);
+pub type Sum<T> = (T, Option<T>);
 
 /// The sum of the first eight terms, at least one. They are added in pairs, and pairs of pairs, so that additions need not wait for one
 /// another.

@@ -159,7 +159,7 @@ impl<T: Scalar> Vector for nalgebra::DVector<T> {
 }
 
 /// The vector plus 1/16 to 1/8 of its largest component, or of 1 if it is zero, in every component.
-pub(crate) fn beside<V: Vector>(vector: &V) -> V {
+pub fn beside<V: Vector>(vector: &V) -> V {
     let sizes = vector.as_slice().iter().map(|x| x.magnitude());
     let size = match sizes.fold(0.0, f64::max) {
         0.0 => 1.0,

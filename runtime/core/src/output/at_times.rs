@@ -84,7 +84,11 @@ impl<S: DenseSteps> Run<S> {
     /// Takes the steps to `end`, or all up to the one that reaches or passes it if the stepper has its own pace. Calls `observe` with the
     /// state after each.
     #[doc(hidden)]
-    pub fn watch_to(&mut self, end: f64, mut observe: impl FnMut(&S::State)) -> Result<(), S::Error> {
+    pub fn watch_to(
+        &mut self,
+        end: f64,
+        mut observe: impl FnMut(&S::State),
+    ) -> Result<(), S::Error> {
         if !S::Pace::OWN {
             let ended = self.steps_to(end, |run, size, time| {
                 run.advance(size, time)?;

@@ -2,7 +2,6 @@
 
 mod assert_conserved;
 pub(crate) mod at_times;
-pub(crate) mod balance;
 pub(crate) mod brent;
 pub(crate) mod dense;
 pub(crate) mod event;
@@ -11,7 +10,6 @@ pub(crate) mod progress;
 pub(crate) mod states;
 
 pub use crate::method::{Inside, Interpolation};
-pub use balance::Balance;
 pub use dense::DenseOutput;
 pub use event::{Event, Events, Moment};
 pub use invariant::{Invariant, invariants, unit_of};

@@ -103,7 +103,7 @@ impl<V: Vector, S: System<V>> Solver<V, S> for FixedPoint {
 
 /// Takes a step stage by stage; returns its statistics.
 #[inline]
-pub(crate) fn by_stages<P, R, V, S>(
+pub fn by_stages<P, R, V, S>(
     step: &Step<'_, V>,
     system: &S,
     stages: &mut P::Stages<V>,

@@ -224,7 +224,7 @@ pub trait Hamiltonian {
     /// p' = force(t, q, p) = −∂H/∂q + f(t, q, p)
     /// ```
     ///
-    /// [`force`](Self::force) already contains f, so steps need nothing else. [Balances](crate::Integrator#method.step_with_stages) of
+    /// [`force`](Self::force) already contains f, so steps need nothing else. Balances (`variational::StepWithStages`) of
     /// energy and momentum, and Newton's iteration, use this function. A force that depends on momenta makes the class
     /// [`General`](crate::General), where a method has its order for general Hamiltonians (Marsden & West, 2001, Example 3.2.5). A
     /// separable system with a force that depends on time and positions only stays separable.

@@ -2,7 +2,7 @@
 
 /// A system from the formula of its Lagrangian. If L is quadratic in the velocities, the Hamiltonian follows, and from it everything that
 /// [`hamiltonian!`](macro@crate::hamiltonian) derives. Otherwise the type has the trait [`Lagrangian`](trait@crate::Lagrangian), and a
-/// [`LagrangianIntegrator`](crate::variational::LagrangianIntegrator) takes its steps.
+/// `variational::LagrangianIntegrator`, of the feature `mechanics`, takes its steps.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -71,7 +71,7 @@
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
-/// use symplectic::variational::LagrangianIntegrator;
+/// use symplectic::variational::LagrangianSteps;
 ///
 /// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
 ///
@@ -82,10 +82,10 @@
 ///
 /// # fn main() -> Result<(), symplectic::Error> {
 /// let (q, v) = (SVector::from([1.0, 0.0, 0.0]), SVector::from([0.0, 0.9, 0.0]));
-/// let mut run = LagrangianIntegrator::from_velocity(Gauss3, Relativistic::new(), 0.0, q, v, 0.05)?;
-/// let energy = run.energy()?;
+/// let mut run = LagrangianSteps::from_velocity(Gauss3, Relativistic::new(), 0.0, q, v, 0.05)?;
+/// let energy = run.stepper().energy()?;
 /// run.integrate_to(100.0)?;
-/// assert!((run.energy()? - energy).abs() < 1e-8);
+/// assert!((run.stepper().energy()? - energy).abs() < 1e-8);
 /// # Ok(())
 /// # }
 /// ```

@@ -1,8 +1,8 @@
 //! The scenes with constraints, friction and forces, one function each.
 
 use symplectic::nalgebra::{Matrix3, SVector};
-use symplectic::rotation::RotationIntegrator;
-use symplectic::variational::{DiracIntegrator, DiracRule};
+use symplectic::rotation::RotationSteps;
+use symplectic::variational::{DiracRule, DiracSteps};
 use symplectic::{Error, Integrator, StoermerVerletSteps};
 use symplectic_report::{Finish, Ladder, Observe, Problem, Reference, Study};
 use symplectic_tests::methods::{
@@ -161,9 +161,9 @@ fn circuit_run(
     let steps = (end / size).ceil();
     let size = end / steps;
     let mut run = if composed {
-        DiracIntegrator::composed(Suzuki4, rule, system, start, size)?
+        DiracSteps::composed(Suzuki4, rule, system, start, size)?
     } else {
-        DiracIntegrator::new(rule, system, start, size)?
+        DiracSteps::run(rule, system, start, size)?
     };
     match observe {
         Some(observe) => {
@@ -173,7 +173,7 @@ fn circuit_run(
         }
         None => drop(run.integrate_to(end)?),
     }
-    let evaluations = run.system().evaluations.get();
+    let evaluations = run.stepper().system().evaluations.get();
     Ok(Finish::explicit(
         run.state().clone(),
         Some(run.steps()),
@@ -278,7 +278,7 @@ fn top_run<M: StoermerVerletSteps>(
     // Equal steps, the last of which ends at `end`.
     let steps = (end / size).ceil();
     let size = end / steps;
-    let mut run = RotationIntegrator::composed(method, heavy_top::TOP, heavy_top::start(), size)?;
+    let mut run = RotationSteps::composed(method, heavy_top::TOP, heavy_top::start(), size)?;
     match observe {
         Some(observe) => {
             for _ in 0..steps as u64 {

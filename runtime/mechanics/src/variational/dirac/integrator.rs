@@ -1,0 +1,312 @@
+//! Steps of degenerate Lagrangians, and of Lagrangians with constraints on velocities.
+
+use alloc::vec::Vec;
+
+use super::primary::consistent_velocity;
+use super::step::Equations;
+use super::{DiracRule, DiracSystem};
+use crate::variational::stages::{StagesOfStep, StepWithStages};
+use crate::variational::two_ends::dot;
+use symplectic_core::inside::{
+    SymmetricSteps, check_state, check_step_size, copy, or_as_first_step,
+};
+use symplectic_core::{Equal, Error, Run, State, Statistics, Stepper, StoermerVerletSteps, Vector};
+
+/// Takes the steps of the discrete principle of Lagrange, d'Alembert and Pontryagin (Leok & Ohsawa, arXiv:0810.0740v1, 4.28 and 8.3) for a
+/// [`DiracSystem`], whose Lagrangian may be degenerate:
+///
+/// ```text
+/// p0 + D1 Ld(q0, q1) = w(q0)ᵀλ      p1 = D2 Ld(q0, q1) + w(q1)ᵀμ      w_d(q0, q1)·(q1 − q0) = 0
+/// p1 = ∂L/∂v(q1, v1)                w(q1) v1 = 0
+/// ```
+///
+/// $$ p_0 + D_1 L_d(q_0, q_1) = w(q_0)^T \lambda \qquad p_1 = D_2 L_d(q_0, q_1) + w(q_1)^T \mu \qquad w_d(q_0, q_1) (q_1 - q_0) = 0 $$
+/// $$ p_1 = \frac{\partial L}{\partial v}(q_1, v_1) \qquad w(q_1) v_1 = 0 $$
+///
+/// A [`DiracRule`] gives `Ld` and `w_d`. A force of the Lagrangian is added to both of its derivatives, as an impulse (Marsden & West 3.2.5).
+///
+/// By the second line every state is a state of the continuous system. Its momentum satisfies the
+/// [primary constraints](super::primary_constraints), and its velocity satisfies the constraints. For a regular Lagrangian this determines
+/// μ, as in a step of [`Nonholonomic`](symplectic_core::Nonholonomic) systems, and the steps are the same. For a degenerate Lagrangian it also gives
+/// the conditions on `q1` that the first line does not contain.
+///
+/// # Degenerate Lagrangians
+///
+/// Newton's iteration eliminates with complete pivoting and stops at the rank. Equations that depend on others have to be satisfied, and
+/// `q1` has to be determined; otherwise an error names the component. A step is not always possible:
+///
+/// * A Lagrangian that is linear in the velocities, `L = a(q)·v − H(q)` with a linear a, such as that of point vortices, needs the rule
+///   [`Midpoint`](DiracRule::Midpoint). Its steps are those of the one-stage Gauss method for H, and symplectic. If a is not linear,
+///   `D2 Ld` is not `a(q1)`, and no such step exists. Its discrete Lagrangian is regular if `∂a/∂q − (∂a/∂q)ᵀ` is. A
+///   [`VariationalIntegrator`](crate::variational::VariationalIntegrator) then takes its steps, with momenta off the primary constraints.
+/// * Velocities without a mass, as in a loop of capacitors, need [`Trapezoid`](DiracRule::Trapezoid).
+/// * The trapezoidal rule needs a start that satisfies the conditions on positions (secondary constraints).
+///
+/// # Cost
+///
+/// For n components and m constraints, an iteration eliminates a full matrix of 2(n + m) rows. It takes n(2n + 1) evaluations of L at each
+/// point of the rule and at the end. A step allocates no memory. A step that fails leaves the state unchanged.
+///
+/// # Errors of a step
+///
+/// [`Error::ContradictoryStep`], [`Error::UndeterminedPosition`], [`Error::DependentConstraints`], [`Error::MovingGradients`],
+/// [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::EvaluationDimension`] and [`Error::TimeResolution`]. All other methods: [`Run`].
+///
+/// ```
+/// use symplectic::nalgebra::SVector;
+/// use symplectic::system::Gradients;
+/// use symplectic::variational::{DiracSteps, DiracRule, DiracSystem, momentum_of_velocity};
+/// use symplectic::{Lagrangian, Scalar, State};
+///
+/// /// Two capacitors of 1 F in parallel, with an inductor of 2 H across them. The charges are those of the inductor and the capacitors.
+/// struct Circuit;
+///
+/// type V3<T> = SVector<T, 3>;
+///
+/// impl Lagrangian for Circuit {
+///     type Vector<T: Scalar> = V3<T>;
+///
+///     fn lagrangian<T: Scalar>(&self, _time: T, q: &V3<T>, v: &V3<T>) -> T {
+///         v[0] * v[0] - (q[1] * q[1] + q[2] * q[2]) * T::from_f64(0.5)
+///     }
+/// }
+///
+/// impl DiracSystem for Circuit {
+///     fn nonholonomic_constraints(&self) -> usize {
+///         1
+///     }
+///
+///     /// The currents at a node.
+///     fn nonholonomic_rows<T: Scalar>(&self, _q: &V3<T>, rows: &mut Gradients<T>) {
+///         for component in 0..3 {
+///             rows.set(0, component, T::one());
+///         }
+///     }
+/// }
+///
+/// # fn main() -> Result<(), symplectic::Error> {
+/// let q = V3::from([0.0, 1.0, 1.0]);
+/// let p = momentum_of_velocity(&Circuit, 0.0, &q, &V3::zeros())?;
+/// let mut run = DiracSteps::run(DiracRule::Trapezoid, Circuit, State::new(0.0, q, p), 0.01)?;
+/// run.integrate_to(1.0)?;
+/// let q = run.state().q;
+/// // Capacities add up: the frequency is 1/√(2 · 2).
+/// assert!((q[1] - 0.5_f64.cos()).abs() < 1e-5);
+/// assert!((q[1] - q[2]).abs() < 1e-14); // the voltages
+/// # Ok(())
+/// # }
+/// ```
+pub type DiracIntegrator<L> = Run<DiracSteps<L>>;
+
+/// The steps of a [`DiracIntegrator`].
+#[derive(Clone)]
+pub struct DiracSteps<L: DiracSystem> {
+    system: L,
+    equations: Equations<L>,
+    steps: SymmetricSteps,
+    statistics: Statistics,
+    state: State<L::Vector<f64>>,
+    velocity: L::Vector<f64>,
+    /// State and velocity inside a step.
+    next: (State<L::Vector<f64>>, L::Vector<f64>),
+}
+
+impl<L: DiracSystem> DiracSteps<L> {
+    /// An integrator at `state`, with steps of size `step_size`, which is negative to go backward.
+    ///
+    /// The velocity that belongs to the momentum is sought from `v = 0`. There `∂²L/∂v∂v` must have the same rank as elsewhere: a momentum
+    /// of `L = v⁴` is refused.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepSize`], [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`]; [`Error::PrimaryConstraint`] if no
+    /// velocity has this momentum, [`Error::InconsistentVelocity`] if that velocity violates the constraints, [`Error::NoVelocity`] if none
+    /// is found; [`Error::ConstraintCount`] and [`Error::GradientPlace`] if the rows are wrong; [`Error::ResizedEvaluation`].
+    pub fn run(
+        rule: DiracRule,
+        system: L,
+        state: State<L::Vector<f64>>,
+        step_size: f64,
+    ) -> Result<Run<Self>, Error> {
+        Self::by(SymmetricSteps::ONE, rule, system, state, step_size)
+    }
+
+    /// [`run`](Self::run) with the steps of a composition of Störmer–Verlet steps, made by
+    /// [`composition!`](symplectic_core::composition). With the rule [`Trapezoid`](DiracRule::Trapezoid) it has the order of that composition for
+    /// general Hamiltonians, `M::ORDERS.general`. For regular Lagrangians and those linear in the velocities it also has this order with
+    /// [`Midpoint`](DiracRule::Midpoint).
+    ///
+    /// # Errors
+    ///
+    /// As for [`run`](Self::run). Does not compile with another method.
+    pub fn composed<M: StoermerVerletSteps>(
+        _method: M,
+        rule: DiracRule,
+        system: L,
+        state: State<L::Vector<f64>>,
+        step_size: f64,
+    ) -> Result<Run<Self>, Error> {
+        Self::by(SymmetricSteps::of::<M>(), rule, system, state, step_size)
+    }
+
+    fn by(
+        steps: SymmetricSteps,
+        rule: DiracRule,
+        system: L,
+        state: State<L::Vector<f64>>,
+        step_size: f64,
+    ) -> Result<Run<Self>, Error> {
+        check_step_size(step_size)?;
+        check_state(state.time, &state.q, &state.p, state.q.dimension())?;
+        let velocity = consistent_velocity(&system, &state)?;
+        let stepper = DiracSteps {
+            equations: Equations::new(rule, &system, state.q.as_slice())?,
+            system,
+            steps,
+            statistics: Statistics::default(),
+            next: (state.clone(), velocity.clone()),
+            state,
+            velocity,
+        };
+        Run::of(stepper, step_size)
+    }
+
+    /// A velocity v with `∂L/∂v = p` and `w(q) v = 0`. Components that these equations leave free are those of the mean velocity of the
+    /// last step, and 0 before the first step.
+    pub const fn velocity(&self) -> &L::Vector<f64> {
+        &self.velocity
+    }
+
+    /// The energy `p·v − L(t, q, v)`; it does not depend on velocities that p does not determine.
+    pub fn energy(&self) -> f64 {
+        let (State { time, q, p }, velocity) = (self.state(), self.velocity());
+        dot(p, velocity) - self.system().lagrangian(*time, q, velocity)
+    }
+
+    /// The system.
+    pub const fn system(&self) -> &L {
+        &self.system
+    }
+}
+
+impl<L: DiracSystem> DiracSteps<L> {
+    /// Repeats the last step, from its start and a starting value of the velocity.
+    fn stages_from(
+        &mut self,
+        size: f64,
+        mut state: State<L::Vector<f64>>,
+        mut velocity: L::Vector<f64>,
+    ) -> Result<StagesOfStep<L::Vector<f64>>, Error> {
+        let (start, end) = (state.time, self.state.time);
+        let mut stages = Vec::new();
+        for part in self.steps.parts(start, size, end) {
+            let q0 = state.q.clone();
+            self.equations
+                .take(&self.system, part, &mut state, &mut velocity)
+                .map_err(|failure| failure.error(start, size, self.statistics.steps))?;
+            stages.extend(self.equations.stages(&self.system, part, q0.as_slice()));
+        }
+        Ok(StagesOfStep::new(stages))
+    }
+
+    /// Computes a step into `next`, whose velocity is the starting value.
+    fn attempt(&mut self, size: f64, end: f64) -> Result<(), Error> {
+        let (start, number) = (self.state.time, self.statistics.steps + 1);
+        let (next, velocity) = &mut self.next;
+        for (to, from) in [(&mut next.q, &self.state.q), (&mut next.p, &self.state.p)] {
+            to.as_mut_slice().copy_from_slice(from.as_slice());
+        }
+        for part in self.steps.parts(start, size, end) {
+            self.equations
+                .take(&self.system, part, next, velocity)
+                .map_err(|failure| failure.error(start, size, number))?;
+        }
+        Ok(())
+    }
+
+    /// Lets the next attempt start from the velocity with which a new integrator starts; returns whether it differs.
+    fn begin_as_first(&mut self) -> bool {
+        match consistent_velocity(&self.system, &self.state) {
+            Ok(velocity) if velocity.as_slice() != self.velocity.as_slice() => {
+                self.next.1 = velocity;
+                true
+            }
+            _ => false,
+        }
+    }
+}
+
+impl<L: DiracSystem> StepWithStages for DiracIntegrator<L> {
+    type Vector = L::Vector<f64>;
+
+    /// The force of a stage is `∂L/∂q + f`, without the impulses of constraints.
+    ///
+    /// In a step the momentum map of a linear symmetry of L and of the constraints changes by exactly the [impulse](StagesOfStep::impulse)
+    /// of the force. The energy changes by its [work](StagesOfStep::work), up to an error of the order of the method. The step is taken
+    /// twice.
+    fn step_with_stages(&mut self) -> Result<StagesOfStep<L::Vector<f64>>, Error> {
+        let (state, velocity) = (self.state().clone(), self.stepper().velocity().clone());
+        self.step_at_once()?;
+        let (size, run) = (self.step_size(), self.stepper_mut());
+        let stages = run.stages_from(size, state.clone(), velocity);
+        let take = |run: &mut DiracSteps<L>| {
+            let velocity = consistent_velocity(&run.system, &state)?;
+            run.stages_from(size, state, velocity)
+        };
+        or_as_first_step(run, stages, |_| true, take)
+    }
+}
+
+impl<L: DiracSystem> Stepper for DiracSteps<L> {
+    type State = State<L::Vector<f64>>;
+    type Error = Error;
+    type Pace = Equal;
+    type Saved = (Self::State, L::Vector<f64>, Statistics);
+
+    fn state(&self) -> &Self::State {
+        &self.state
+    }
+
+    fn statistics(&self) -> &Statistics {
+        &self.statistics
+    }
+
+    fn statistics_mut(&mut self) -> &mut Statistics {
+        &mut self.statistics
+    }
+
+    fn set_state(&mut self, state: &Self::State) -> Result<(), Error> {
+        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
+        self.velocity = consistent_velocity(&self.system, state)?;
+        self.state.copy_from(state);
+        Ok(())
+    }
+
+    fn advance(&mut self, size: f64, end: f64) -> Result<(), Error> {
+        copy(&mut self.next.1, &self.velocity);
+        let taken = self.attempt(size, end);
+        or_as_first_step(self, taken, Self::begin_as_first, |run| {
+            run.attempt(size, end)
+        })?;
+        let (next, velocity) = &mut self.next;
+        next.time = end;
+        core::mem::swap(&mut self.state, next);
+        core::mem::swap(&mut self.velocity, velocity);
+        self.statistics.steps += 1;
+        Ok(())
+    }
+
+    fn save(&self) -> Self::Saved {
+        (self.state.clone(), self.velocity.clone(), self.statistics)
+    }
+
+    fn go_back(&mut self, (state, velocity, statistics): &Self::Saved) {
+        self.state.copy_from(state);
+        copy(&mut self.velocity, velocity);
+        self.statistics = *statistics;
+    }
+
+    fn may_split(&self, error: &Error) -> bool {
+        error.depends_on_the_size()
+    }
+}
