@@ -19,7 +19,7 @@
 //! | The system: a formula, closures or a trait | [`hamiltonian!`], [`lagrangian!`]; [`separable`], [`hamiltonian()`], [`acceleration`]; [`SeparableHamiltonian`], [`Hamiltonian`]; [`system`] |
 //! | Numbers and vectors | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors), [`simd`] |
 //! | Constraints, friction and other forces | [`Constrained`], [`consistent`], [`constraint_force`]; [`Nonholonomic`], [`consistent_momentum`]; [`Damped`], [`friction_growth`], [`Hamiltonian::applied_force`] |
-//! | Steps of variable size, for close encounters | [`Integrator::adaptive`]; [`adaptive`] |
+//! | Steps of variable size, for close encounters | [`adaptive`], feature `orbits` |
 //! | Splittings over flows of your own: harmonic, magnetic, damped, stochastic, Kepler | [`flow`], feature `flows` |
 //! | A rigid body that turns about a point | [`rotation`], feature `mechanics` |
 //! | Discrete and degenerate Lagrangians, generating functions, stages and balances | [`variational`], feature `mechanics` |
@@ -65,7 +65,7 @@
 //! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), constraints, Newton's iteration, tableaux at run time, checkpoints,
 //!   tangent maps; of `adaptive` and `flow` also [`adaptive::Logarithmic`],
 //!   [`adaptive::Poincare`], Kepler orbits, linear, mollified and asynchronous flows, and correctors.
-//! * `flows`: the module [`flow`].
+//! * `flows`, `orbits`: the modules [`flow`] and [`adaptive`].
 //! * `mechanics`: rigid bodies and balances; with `alloc` also discrete and degenerate Lagrangians, generating functions and stages of steps.
 //! * `serde`: a [`Checkpoint`] can be written and read in any format; implies `alloc`.
 //! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and Newton's iteration takes derivatives by dual numbers; implies `std`.
@@ -99,6 +99,9 @@ pub mod output {
     #[cfg(feature = "mechanics")]
     pub use symplectic_mechanics::Balance;
 }
+#[cfg(feature = "orbits")]
+#[doc(inline)]
+pub use symplectic_orbits::adaptive;
 
 /// The Rust code of the README and of the book, compiled and run by `cargo test --doc`.
 #[cfg(doctest)]

@@ -14,6 +14,7 @@ pub use crate::integrator::fingerprint::{hash, system_fingerprint};
 pub use crate::integrator::first_step::or_as_first_step;
 pub use crate::integrator::last_step::LastEvent;
 pub use crate::integrator::parts::{Parts, parts_of};
+pub use crate::integrator::stepper::advance_in_time;
 #[cfg(feature = "alloc")]
 pub use crate::integrator::validation::check_orders;
 pub use crate::integrator::validation::{
@@ -27,7 +28,8 @@ pub use crate::method::storage::{
 pub use crate::method::symmetric_steps::{Part, SymmetricSteps};
 pub use crate::method::{
     EvaluationCounts, Evaluations, Failure, HalfChange, KickDrift, Outcome, Plan, Solver, Span,
-    StageChange, StagePlan, StageStorage, StageView, Step, Stopping, WarmStart,
+    StageChange, StagePlan, StageStorage, StageView, Step, Stopping, Symmetry, WarmStart,
+    check_no_constraints, check_no_friction,
 };
 
 pub use crate::number::array::array;

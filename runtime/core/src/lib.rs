@@ -19,7 +19,6 @@ mod contract;
 mod error;
 mod state;
 
-pub mod adaptive;
 #[doc(hidden)]
 pub mod inside;
 mod integrator;
@@ -41,8 +40,8 @@ pub use error::{ConstraintName, Error, Quantity};
 #[cfg(feature = "alloc")]
 pub use integrator::{Checkpoint, CheckpointError};
 pub use integrator::{
-    DenseSteps, Equal, Integrator, NamedSteps, Own, Pace, Partitioned, PhasePoint, RemainingSteps,
-    Retry, Run, Statistics, StepMap, Stepper,
+    DenseSteps, Equal, Integrator, NamedSteps, Own, Pace, Partitioned, PhasePoint, Reach, Reached,
+    RemainingSteps, Retry, Run, Statistics, StepMap, Stepper,
 };
 #[cfg(feature = "alloc")]
 pub use method::{AtRunTime, RunTimeCoefficients, RunTimeTableau, TableauError};

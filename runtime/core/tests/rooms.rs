@@ -18,7 +18,6 @@ const LEVELS: &[&[&str]] = &[
     &["classes", "system"],
     &["integrator"],
     &["output", "tangent"],
-    &["adaptive"],
     &["inside"],
 ];
 

@@ -43,8 +43,9 @@
 //! With the feature `parallel` the threads of `rayon` share the trajectories. Without it there is one thread; the bits
 //! are the same. A thread runs many short trajectories before their rows are shown, and the next ones run meanwhile.
 //!
-//! Each thread has its own copy of the system, so a system need not be `Sync`. `Newmark`, `Poincare` and `Logarithmic`, for example, are not. Their ensembles can be
-//! moved to another thread, but not shared: for a thread pool of your own write `pool.install(move || ensemble.take_steps(..))`.
+//! Each thread has its own copy of the system, so a system need not be `Sync`. `Newmark`,
+//! `Poincare` and `Logarithmic`, for example, are not. Their ensembles can be moved to another thread, but not shared: for a thread pool of
+//! your own write `pool.install(move || ensemble.take_steps(..))`.
 
 #![no_std]
 

@@ -195,7 +195,7 @@ where
     /// ```
     /// use core::ops::ControlFlow;
     /// use symplectic::State;
-    /// use symplectic::adaptive::{Adaptive, DistancePower};
+    /// use symplectic::adaptive::{AdaptiveSteps, DistancePower};
     /// use symplectic::ensemble::{Ensemble, EnsembleError};
     ///
     /// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
@@ -215,7 +215,7 @@ where
     /// ensemble.each_as(
     ///     |integrator| {
     ///         let epsilon = integrator.step_size();
-    ///         Adaptive::new(integrator, DistancePower(1.5), epsilon)
+    ///         AdaptiveSteps::of(integrator, DistancePower(1.5), epsilon)
     ///     },
     ///     |_| None,
     ///     |end, run| {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use symplectic::adaptive::{Adaptive, DistancePower, Monitor, Symmetry};
+use symplectic::adaptive::{Adaptive, AdaptiveSteps, DistancePower, Monitor, Symmetry};
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
 use symplectic::system::Gradients;
 use symplectic::{
@@ -20,7 +20,7 @@ const FREE_FALL: DistancePower = DistancePower(1.5);
 type Run = Adaptive<VelocityVerlet, Kepler, DistancePower, Vector2<f64>>;
 
 fn leapfrog(epsilon: f64) -> Result<Run, Error> {
-    Integrator::adaptive(VelocityVerlet, Kepler, FREE_FALL, pericentre(0.9), epsilon)
+    AdaptiveSteps::run(VelocityVerlet, Kepler, FREE_FALL, pericentre(0.9), epsilon)
 }
 
 fn assert_near(found: f64, expected: f64) {
@@ -36,17 +36,17 @@ fn the_step_density_is_that_of_the_last_step() -> Result<(), Error> {
     const EPSILON: f64 = 0.05;
     let mut run = leapfrog(EPSILON)?;
     let at_start = pericentre(0.9).q.norm().powf(-1.5);
-    assert!((run.step_density() / at_start - 1.0).abs() < 4.0 * f64::EPSILON);
+    assert!((run.stepper().step_density() / at_start - 1.0).abs() < 4.0 * f64::EPSILON);
     run.step()?;
     for _ in 0..100 {
-        let (before, density) = (run.state().clone(), run.step_density());
+        let (before, density) = (run.state().clone(), run.stepper().step_density());
         let time = run.step()?.time;
         let rate = -1.5 * before.q.dot(&before.p) / before.q.norm_squared();
         let expected = density + EPSILON * rate;
         // Some roundings of terms no larger than the density at the pericentre.
-        let error = (run.step_density() - expected).abs();
+        let error = (run.stepper().step_density() - expected).abs();
         assert!(error < 16.0 * f64::EPSILON * at_start, "{error:e}");
-        assert_eq!(run.step_size(), EPSILON / run.step_density());
+        assert_eq!(run.step_size(), EPSILON / run.stepper().step_density());
         // The times are rounded.
         assert!((time - before.time - run.step_size()).abs() < 4.0 * f64::EPSILON * time);
     }
@@ -71,7 +71,7 @@ fn reversible_steps_keep_the_energy_and_one_sided_steps_do_not() -> Result<(), E
     for (found, expected) in found.into_iter().zip([8.81e-4, 6.90e-4, 7.62e-4]) {
         assert_near(found, expected);
     }
-    let steps = run.integrator().steps();
+    let steps = run.stepper().integrator().steps();
     assert!(
         (steps as f64 / 300.0 * 0.0075 / TAU - 0.2).abs() < 0.005,
         "{steps}"
@@ -103,8 +103,7 @@ fn the_order_in_epsilon_is_that_of_the_method() -> Result<(), Error> {
     {
         let halved = [1.0, 0.5, 0.25].map(|part| part * epsilon);
         let errors = halved.into_iter().map(|epsilon| {
-            let mut run =
-                Integrator::adaptive(method, Kepler, FREE_FALL, pericentre(0.9), epsilon)?;
+            let mut run = AdaptiveSteps::run(method, Kepler, FREE_FALL, pericentre(0.9), epsilon)?;
             Ok((run.integrate_to(1.0)?.q - position(0.9, 1.0)).norm())
         });
         errors.collect()
@@ -123,7 +122,7 @@ fn reversed_steps_go_back_with_the_same_sizes() -> Result<(), Error> {
         run.step()?;
         forward.push((run.step_size(), run.state().clone()));
     }
-    run.reverse();
+    run.stepper_mut().reverse();
     let last = run.step_size();
     run.step()?;
     // The first one to the bit.
@@ -162,8 +161,8 @@ fn flipped_momenta_go_back_as_well() -> Result<(), Error> {
         let mut run = leapfrog(epsilon).expect("a run");
         let there = run.integrate_to(3.0).expect("steps");
         let flipped = State::new(0.0, there.q, -there.p);
-        let mut back = Integrator::adaptive(VelocityVerlet, Kepler, FREE_FALL, flipped, epsilon)
-            .expect("a run");
+        let mut back =
+            AdaptiveSteps::run(VelocityVerlet, Kepler, FREE_FALL, flipped, epsilon).expect("a run");
         let end = back.integrate_to(3.0).expect("steps");
         (end.q - pericentre(0.9).q).norm()
     });
@@ -259,13 +258,13 @@ impl Hamiltonian for Curved {
 fn a_general_hamiltonian_keeps_its_energy() -> Result<(), Error> {
     let start = State::from_arrays(0.0, [1.5, 0.0], [0.0, 0.4]);
     let spread = |epsilon: f64| -> Result<[f64; 2], Error> {
-        let mut run = Integrator::adaptive(Gauss2, Curved, FREE_FALL, start.clone(), epsilon)?;
-        let before = run.energy().expect("an energy");
+        let mut run = AdaptiveSteps::run(Gauss2, Curved, FREE_FALL, start.clone(), epsilon)?;
+        let before = run.stepper().energy().expect("an energy");
         let mut spreads = [0.0_f64; 2];
         for (spread, end) in spreads.iter_mut().zip([20.0, 400.0]) {
             while run.state().time < end {
                 run.step()?;
-                let error = run.energy().expect("an energy") - before;
+                let error = run.stepper().energy().expect("an energy") - before;
                 *spread = spread.max(error.abs());
             }
         }
@@ -357,7 +356,7 @@ fn constrained_systems_have_variable_steps_too() -> Result<(), Error> {
     let start = || State::from_arrays(0.0, [0.0, -1.0], [1.9, 0.0]);
     let errors = [0.02, 0.01, 0.005].map(|epsilon| {
         let mut run =
-            Integrator::adaptive(Rattle, Pendulum, Height, start(), epsilon).expect("a run");
+            AdaptiveSteps::run(Rattle, Pendulum, Height, start(), epsilon).expect("a run");
         (run.integrate_to(7.0).expect("steps").q - expected).norm()
     });
     assert_order("RATTLE", 2.0, &errors);

@@ -1,8 +1,8 @@
 //! Bad input, and steps that cannot be taken.
 
-use symplectic::adaptive::{DistancePower, Logarithmic, Monitor, Poincare};
+use symplectic::adaptive::{AdaptiveSteps, DistancePower, Logarithmic, Monitor, Poincare};
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
-use symplectic::{Error, Hamiltonian, Integrator, Scalar, Separable, State, acceleration};
+use symplectic::{Error, Hamiltonian, Scalar, Separable, State, acceleration};
 
 use super::kepler::{Kepler, VelocityVerlet, pericentre};
 
@@ -30,7 +30,7 @@ impl Monitor for Parabola {
 fn an_epsilon_that_is_zero_or_not_finite_is_refused() {
     for epsilon in [0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let monitor = DistancePower(1.5);
-        let made = Integrator::adaptive(VelocityVerlet, Kepler, monitor, pericentre(0.9), epsilon);
+        let made = AdaptiveSteps::run(VelocityVerlet, Kepler, monitor, pericentre(0.9), epsilon);
         let error = made.expect_err("a bad ε");
         assert!(matches!(error, Error::StepSize { value } if value.to_bits() == epsilon.to_bits()));
     }
@@ -41,7 +41,7 @@ fn a_monitor_must_be_positive_at_the_start() {
     for shift in [-1.0, -3.0, f64::NAN, f64::INFINITY] {
         let falling = acceleration(|_, _: &Vector1<f64>, acceleration| acceleration[0] = -1.0);
         let start = State::from_arrays(2.0, [1.0], [0.0]);
-        let made = Integrator::adaptive(VelocityVerlet, falling, Shifted(shift), start, 0.1);
+        let made = AdaptiveSteps::run(VelocityVerlet, falling, Shifted(shift), start, 0.1);
         let Err(Error::Monitor { time, value }) = made else {
             panic!("{shift}")
         };
@@ -63,7 +63,7 @@ impl Monitor for Cliff {
 fn a_monitor_that_fails_in_a_run_leaves_the_state_unchanged() -> Result<(), Error> {
     let free = acceleration(|_, _: &Vector1<f64>, acceleration| acceleration[0] = 0.0);
     let start = State::from_arrays(0.0, [0.0], [1.0]);
-    let mut run = Integrator::adaptive(VelocityVerlet, free, Cliff, start, 0.3)?;
+    let mut run = AdaptiveSteps::run(VelocityVerlet, free, Cliff, start, 0.3)?;
     run.take_steps(4)?;
     let (state, size) = (run.state().clone(), run.step_size());
     assert!(state.q[0] > 1.0);
@@ -74,7 +74,7 @@ fn a_monitor_that_fails_in_a_run_leaves_the_state_unchanged() -> Result<(), Erro
         assert!(time == state.time && value.is_nan());
         assert_eq!((run.state(), run.step_size()), (&state, size));
     }
-    assert_eq!(run.integrator().steps(), 4);
+    assert_eq!(run.steps(), 4);
     // From a better state it goes on.
     run.set_state(State::from_arrays(0.0, [0.5], [-1.0]))?;
     run.step()?;
@@ -92,7 +92,7 @@ fn a_monitor_that_fails_in_a_run_leaves_the_state_unchanged() -> Result<(), Erro
 fn a_monitor_that_vanishes_is_named() -> Result<(), Error> {
     let spring = acceleration(|_, q: &Vector1<f64>, acceleration| *acceleration = -q);
     let start = State::from_arrays(1e9, [1.0], [0.0]);
-    let mut run = Integrator::adaptive(VelocityVerlet, spring, DistancePower(1.5), start, 0.05)?;
+    let mut run = AdaptiveSteps::run(VelocityVerlet, spring, DistancePower(1.5), start, 0.05)?;
     let error = run.take_steps(1_000_000).err();
     assert!(
         matches!(error, Some(Error::Monitor { value, .. }) if value < 1e-4),
@@ -106,7 +106,7 @@ fn a_density_that_is_not_positive_leaves_the_state_unchanged() -> Result<(), Err
     // σ grows so fast that z = 1/σ − ε σ'/(2σ) is negative.
     let free = acceleration(|_, _: &Vector1<f64>, acceleration| acceleration[0] = 0.0);
     let start = State::from_arrays(0.0, [1.0], [3.0]);
-    let mut run = Integrator::adaptive(VelocityVerlet, free, Shifted(0.0), start.clone(), 1.0)?;
+    let mut run = AdaptiveSteps::run(VelocityVerlet, free, Shifted(0.0), start.clone(), 1.0)?;
     let Err(Error::StepDensity {
         time,
         step,
@@ -116,7 +116,7 @@ fn a_density_that_is_not_positive_leaves_the_state_unchanged() -> Result<(), Err
         panic!("a step")
     };
     assert_eq!((time, step, density), (0.0, 1, 1.0 - 0.5 * 3.0));
-    assert_eq!((run.state(), run.integrator().steps()), (&start, 0));
+    assert_eq!((run.state(), run.steps()), (&start, 0));
     Ok(())
 }
 
@@ -127,7 +127,7 @@ fn a_failed_step_leaves_the_step_density_unchanged() -> Result<(), Error> {
         acceleration[0] = 0.0 * (1.0 - q[0]).sqrt();
     });
     let start = State::from_arrays(0.0, [0.0], [1.0]);
-    let mut run = Integrator::adaptive(VelocityVerlet, edge, Shifted(1.0), start, 0.2)?;
+    let mut run = AdaptiveSteps::run(VelocityVerlet, edge, Shifted(1.0), start, 0.2)?;
     let failed = loop {
         let (state, size) = (run.state().clone(), run.step_size());
         if let Err(error) = run.step() {

@@ -1,8 +1,8 @@
 //! Monitors and their derivatives.
 
-use symplectic::adaptive::{DistancePower, ForcePower, Monitor, PairDistances};
+use symplectic::adaptive::{AdaptiveSteps, DistancePower, ForcePower, Monitor, PairDistances};
 use symplectic::nalgebra::{Vector2, Vector6};
-use symplectic::{Error, Integrator, Scalar, State, acceleration};
+use symplectic::{Error, Scalar, State, acceleration};
 
 use super::kepler::{Kepler, VelocityVerlet, pericentre};
 
@@ -86,8 +86,8 @@ fn components_left_over_do_not_count() {
 fn dual_numbers_give_the_same_steps() -> Result<(), Error> {
     let monitor = DistancePower(1.5);
     let start = || pericentre(0.6);
-    let mut own = Integrator::adaptive(VelocityVerlet, Kepler, monitor, start(), 0.05)?;
-    let mut duals = Integrator::adaptive(VelocityVerlet, Kepler, ByDuals(monitor), start(), 0.05)?;
+    let mut own = AdaptiveSteps::run(VelocityVerlet, Kepler, monitor, start(), 0.05)?;
+    let mut duals = AdaptiveSteps::run(VelocityVerlet, Kepler, ByDuals(monitor), start(), 0.05)?;
     for _ in 0..200 {
         own.step()?;
         duals.step()?;
@@ -108,8 +108,8 @@ fn dual_numbers_give_the_same_steps() -> Result<(), Error> {
         })
     };
     let start = || State::from_arrays(0.0, [1.0, 3.0, -2.0, -1.0, 1.0, -1.0], [0.0; 6]);
-    let mut own = Integrator::adaptive(VelocityVerlet, bodies(), PAIRS, start(), 0.02)?;
-    let mut duals = Integrator::adaptive(VelocityVerlet, bodies(), ByDuals(PAIRS), start(), 0.02)?;
+    let mut own = AdaptiveSteps::run(VelocityVerlet, bodies(), PAIRS, start(), 0.02)?;
+    let mut duals = AdaptiveSteps::run(VelocityVerlet, bodies(), ByDuals(PAIRS), start(), 0.02)?;
     for _ in 0..100 {
         own.step()?;
         duals.step()?;
@@ -135,8 +135,8 @@ fn a_power_of_the_force_gives_the_steps_of_a_power_of_the_distance() -> Result<(
     };
     let start = || pericentre(0.8);
     let mut distance =
-        Integrator::adaptive(VelocityVerlet, Kepler, DistancePower(1.5), start(), 0.02)?;
-    let mut force = Integrator::adaptive(VelocityVerlet, FromFormula, by_force, start(), 0.02)?;
+        AdaptiveSteps::run(VelocityVerlet, Kepler, DistancePower(1.5), start(), 0.02)?;
+    let mut force = AdaptiveSteps::run(VelocityVerlet, FromFormula, by_force, start(), 0.02)?;
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for _ in 0..500 {
         distance.step()?;

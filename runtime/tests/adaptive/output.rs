@@ -3,9 +3,9 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
-use symplectic::adaptive::{Adaptive, DistancePower};
+use symplectic::adaptive::{Adaptive, AdaptiveSteps, DistancePower};
 use symplectic::nalgebra::{Vector1, Vector2};
-use symplectic::{Error, Event, Integrator, Moment, State, acceleration};
+use symplectic::{Error, Event, Moment, State, acceleration};
 
 use super::kepler::{Gauss5, Kepler, VelocityVerlet, pericentre, position};
 
@@ -14,7 +14,7 @@ type Run = Adaptive<Gauss5, Kepler, DistancePower, Vector2<f64>>;
 
 /// Of order 10.
 fn gauss() -> Result<Run, Error> {
-    Integrator::adaptive(Gauss5, Kepler, DistancePower(1.5), pericentre(0.9), 0.1)
+    AdaptiveSteps::run(Gauss5, Kepler, DistancePower(1.5), pericentre(0.9), 0.1)
 }
 
 #[test]
@@ -52,12 +52,12 @@ fn the_state_at_the_end_has_the_order_of_the_method() -> Result<(), Error> {
         assert!(error < 1e-10, "{end}: {error:e}");
         assert!(run.state().time >= end);
     }
-    let (steps, present) = (run.integrator().steps(), run.state().clone());
+    let (steps, present) = (run.steps(), run.state().clone());
     // In the last step already.
     run.integrate_to(5.0)?;
-    assert_eq!((run.integrator().steps(), run.state()), (steps, &present));
+    assert_eq!((run.steps(), run.state()), (steps, &present));
     // In steps of one after another, and backward.
-    run.reverse();
+    run.stepper_mut().reverse();
     let state = run.integrate_to(1.0)?;
     assert!((state.q - position(0.9, 1.0)).norm() < 1e-10);
     assert!(run.state().time <= 1.0);
@@ -128,7 +128,7 @@ fn a_ball_bounces_off_a_wall_in_variable_steps() -> Result<(), Error> {
         .with_energy(|_, q, p| p[0] * p[0] / 2.0 + q[0]);
     let start = State::from_arrays(0.0, [1.0], [0.0]);
     let monitor = super::errors::Shifted(0.1);
-    let mut run = Integrator::adaptive(VelocityVerlet, ball, monitor, start, 0.05)?;
+    let mut run = AdaptiveSteps::run(VelocityVerlet, ball, monitor, start, 0.05)?;
     let mut impacts = Vec::new();
     let mut heights = Vec::new();
     let floor = Event::wall(|state: &State<Vector1<f64>>| state.q[0]);
@@ -149,7 +149,7 @@ fn a_ball_bounces_off_a_wall_in_variable_steps() -> Result<(), Error> {
     }
     assert_eq!(impacts.len(), 7);
     assert!((heights[0] - 1.0).abs() < 1e-12);
-    assert!((run.energy().expect("an energy") - 1.0).abs() < 1e-12);
+    assert!((run.stepper().energy().expect("an energy") - 1.0).abs() < 1e-12);
     Ok(())
 }
 
@@ -177,7 +177,7 @@ fn times_before_the_last_step_are_refused() -> Result<(), Error> {
 fn a_run_in_pieces_shows_all_output_times() -> Result<(), Error> {
     for sign in [1.0, -1.0] {
         let monitor = DistancePower(1.5);
-        let mut run = Integrator::adaptive(Gauss5, Kepler, monitor, pericentre(0.9), sign * 0.1)?;
+        let mut run = AdaptiveSteps::run(Gauss5, Kepler, monitor, pericentre(0.9), sign * 0.1)?;
         let mut found = Vec::new();
         for piece in 0..20 {
             // Steps are longer than 0.1 near the apocentre: a time lies in the last step of the piece before.
@@ -225,7 +225,7 @@ fn a_search_goes_on_from_a_kick_where_steps_are_short() -> Result<(), Error> {
     let free = acceleration(|_, _: &Vector1<f64>, acceleration| acceleration[0] = 0.0);
     let start = State::from_arrays(0.0, [-1.0], [1.0]);
     let monitor = super::errors::Parabola(W);
-    let mut run = Integrator::adaptive(VelocityVerlet, free, monitor, start, 0.02)?;
+    let mut run = AdaptiveSteps::run(VelocityVerlet, free, monitor, start, 0.02)?;
     let cubic = Event::crossing(|state: &State<Vector1<f64>>| {
         let x = state.q[0] / W;
         x - x.powi(3)

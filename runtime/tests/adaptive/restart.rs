@@ -1,6 +1,6 @@
 //! Runs that are interrupted.
 
-use symplectic::adaptive::DistancePower;
+use symplectic::adaptive::{AdaptiveSteps, DistancePower};
 use symplectic::{CheckpointError, Error, Integrator};
 
 use super::kepler::{Gauss2, Kepler, VelocityVerlet, pericentre};
@@ -9,7 +9,7 @@ use super::kepler::{Gauss2, Kepler, VelocityVerlet, pericentre};
 fn a_run_goes_on_with_the_same_bits() -> Result<(), Box<dyn std::error::Error>> {
     let run = |exponent: f64, epsilon: f64| {
         let monitor = DistancePower(exponent);
-        Integrator::adaptive(Gauss2, Kepler, monitor, pericentre(0.9), epsilon)
+        AdaptiveSteps::run(Gauss2, Kepler, monitor, pericentre(0.9), epsilon)
     };
     let mut whole = run(1.5, 0.1)?;
     whole.take_steps(37)?;
@@ -30,7 +30,7 @@ fn a_run_goes_on_with_the_same_bits() -> Result<(), Box<dyn std::error::Error>> 
         other.restore(&checkpoint),
         Err(CheckpointError::OtherSystem)
     );
-    assert_eq!((other.state(), other.epsilon()), (&before, 0.1));
+    assert_eq!((other.state(), other.stepper().epsilon()), (&before, 0.1));
     Ok(())
 }
 
@@ -39,7 +39,7 @@ fn another_monitor_of_the_same_value_is_refused() -> Result<(), Error> {
     // |q| = 1 all along.
     let circle = |exponent: f64| {
         let monitor = DistancePower(exponent);
-        Integrator::adaptive(VelocityVerlet, Kepler, monitor, pericentre(0.0), 0.1)
+        AdaptiveSteps::run(VelocityVerlet, Kepler, monitor, pericentre(0.0), 0.1)
     };
     let checkpoint = circle(1.5)?.checkpoint().expect("a checkpoint");
     assert_eq!(
@@ -53,7 +53,7 @@ fn another_monitor_of_the_same_value_is_refused() -> Result<(), Error> {
 #[test]
 fn checkpoints_of_other_runs_are_refused() -> Result<(), Error> {
     let monitor = DistancePower(1.5);
-    let mut adaptive = Integrator::adaptive(VelocityVerlet, Kepler, monitor, pericentre(0.9), 0.1)?;
+    let mut adaptive = AdaptiveSteps::run(VelocityVerlet, Kepler, monitor, pericentre(0.9), 0.1)?;
     let mut fixed = Integrator::new(VelocityVerlet, Kepler, pericentre(0.9), 0.1)?;
     let of_adaptive = adaptive.checkpoint().expect("a checkpoint");
     let of_fixed = fixed.checkpoint().expect("a checkpoint");

@@ -1,9 +1,9 @@
 //! Displacements of an orbit with steps of variable size.
 
-use symplectic::adaptive::{DistancePower, Monitor};
+use symplectic::adaptive::{AdaptiveSteps, DistancePower, Monitor};
 use symplectic::nalgebra::{SVector, Vector2};
 use symplectic::tangent::Tangent;
-use symplectic::{Error, Integrator, Scalar, State};
+use symplectic::{Error, Scalar, State};
 
 use super::kepler::{ForestRuth, Kepler, VelocityVerlet, pericentre};
 
@@ -33,10 +33,10 @@ fn a_displacement_does_not_choose_the_steps() -> Result<(), Error> {
     fn check<W: Monitor + Copy>(monitor: W) -> Result<(), Error> {
         let tangent = Tangent::new(Kepler);
         let method = VelocityVerlet;
-        let mut alone = Integrator::adaptive(method, Kepler, monitor, pericentre(0.9), 0.05)?;
+        let mut alone = AdaptiveSteps::run(method, Kepler, monitor, pericentre(0.9), 0.05)?;
         for displacement in [1e-3, 1.0, 1e3] {
             let start = start(displacement)?;
-            let mut run = Integrator::adaptive(method, tangent, monitor, start, 0.05)?;
+            let mut run = AdaptiveSteps::run(method, tangent, monitor, start, 0.05)?;
             alone.set_state(pericentre(0.9))?;
             run.take_steps(300)?;
             alone.take_steps(300)?;
@@ -61,7 +61,7 @@ fn a_displacement_solves_the_variational_equations() -> Result<(), Error> {
     let tangent = Tangent::new(Kepler);
     let error = |epsilon: f64, steps: u64| -> Result<f64, Error> {
         let monitor = DistancePower(1.5);
-        let mut run = Integrator::adaptive(ForestRuth, tangent, monitor, start(1.0)?, epsilon)?;
+        let mut run = AdaptiveSteps::run(ForestRuth, tangent, monitor, start(1.0)?, epsilon)?;
         run.take_steps(steps)?;
         let (dq, dp) = tangent.displacement(run.state())?;
         let (q, p) = rates(&tangent.state(run.state())?);
@@ -76,7 +76,7 @@ fn a_displacement_solves_the_variational_equations() -> Result<(), Error> {
 fn a_run_with_a_displacement_goes_on() -> Result<(), Box<dyn std::error::Error>> {
     let run = |epsilon: f64| {
         let (tangent, monitor) = (Tangent::new(Kepler), DistancePower(1.5));
-        Integrator::adaptive(VelocityVerlet, tangent, monitor, start(1.0)?, epsilon)
+        AdaptiveSteps::run(VelocityVerlet, tangent, monitor, start(1.0)?, epsilon)
     };
     let mut whole = run(0.05)?;
     whole.take_steps(37)?;

@@ -1,6 +1,6 @@
 //! Ensembles with other steppers, such as reversible steps of variable size: every trajectory has the bits that it has alone.
 
-use symplectic::adaptive::{Adaptive, DistancePower};
+use symplectic::adaptive::{Adaptive, AdaptiveSteps, DistancePower};
 use symplectic::ensemble::Ensemble;
 use symplectic::flow::{Drift, FlowSteps, Kick, Splitting};
 use symplectic::nalgebra::Vector2;
@@ -60,10 +60,10 @@ fn work<M: Method>(
 fn alone<M: ProvedFor<Separable> + SymmetricFor<Separable>>(method: M, epsilon: f64) -> Vec<Kept> {
     let one = |start: State<Vector>| {
         let mut seen = Vec::new();
-        match Integrator::adaptive(method, Kepler, MONITOR, start.clone(), epsilon) {
+        match AdaptiveSteps::run(method, Kepler, MONITOR, start.clone(), epsilon) {
             Ok(mut run) => {
                 let outcome = work(&mut seen, &mut run);
-                let row = bits(outcome, run.state(), run.integrator().statistics());
+                let row = bits(outcome, run.state(), run.statistics());
                 (seen, row)
             }
             Err(error) => (seen, bits(Err(error), &start, &Default::default())),
@@ -89,7 +89,7 @@ fn rows<M: SymmetricFor<Separable> + Sync>(
     let next = on_threads(threads, || {
         let make = |integrator: Integrator<M, Kepler, Vector>| {
             let epsilon = integrator.step_size();
-            Adaptive::new(integrator, DistancePower(power), epsilon)
+            AdaptiveSteps::of(integrator, DistancePower(power), epsilon)
         };
         runs.each_as(make, |_| Vec::new(), work, keep(&mut rows, first))
     });

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use symplectic::adaptive::{Adaptive, Monitor};
+use symplectic::adaptive::{AdaptiveSteps, Monitor};
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{Vector1, Vector2};
 use symplectic::solver::{Dense, Differences, FixedPointThenNewton};
@@ -154,9 +154,9 @@ impl Monitor for Constant {
 #[test]
 fn constrained_steps_of_an_adaptive_run_do_not_fail_if_the_first_did_not() -> Result<(), Error> {
     let run = Integrator::new(Lobatto3, Rotor, rotor(), 1.0)?;
-    let mut run = Adaptive::new(run, Constant, 1.3)?;
+    let mut run = AdaptiveSteps::of(run, Constant, 1.3)?;
     run.take_steps(100)?;
-    assert!(run.integrator().statistics().rejected > 0);
+    assert!(run.statistics().rejected > 0);
     Ok(())
 }
 
@@ -375,7 +375,7 @@ fn a_step_survives_one_evaluation_that_is_not_finite() {
         Ok::<_, Error>(Integrator::new(Gauss2, system, start, 0.1)?.by_newton())
     });
     row!("adaptive", Rotor, rotor(), |system, start| {
-        Adaptive::new(
+        AdaptiveSteps::of(
             Integrator::new(Lobatto3, system, start, 1.0)?,
             Constant,
             0.1,

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use core::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use symplectic::adaptive::DistancePower;
+use symplectic::adaptive::{AdaptiveSteps, DistancePower};
 use symplectic::nalgebra::{Vector1, Vector2, Vector3};
 use symplectic::rotation::{FreeBody, RotationState, RotationSteps};
 use symplectic::variational::{
@@ -275,7 +275,7 @@ fn every_stepper_has_the_whole_interface_of_a_run() {
     run_of_any_pace(
         "adaptive",
         |start: &Plane| {
-            Integrator::adaptive(Verlet, kepler(), DistancePower(1.5), start.clone(), 0.1)
+            AdaptiveSteps::run(Verlet, kepler(), DistancePower(1.5), start.clone(), 0.1)
         },
         &start,
     );
@@ -301,7 +301,7 @@ fn every_run_that_can_be_followed_has_output_and_events() {
     });
     followed_run("flows", || kepler_by_flows(start()));
     followed_run("adaptive", || {
-        Integrator::adaptive(Verlet, kepler(), DistancePower(1.5), start(), 0.1)
+        AdaptiveSteps::run(Verlet, kepler(), DistancePower(1.5), start(), 0.1)
     });
 }
 

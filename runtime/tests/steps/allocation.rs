@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use crate::common::systems::Pendulum;
 
 use crate::common::methods::{Midpoint, StoermerVerlet};
-use symplectic::adaptive::{DistancePower, Logarithmic, Poincare};
+use symplectic::adaptive::{AdaptiveSteps, DistancePower, Logarithmic, Poincare};
 use symplectic::emitted::{Bonds, Chain};
 use symplectic::flow::{Drift, FlowSteps, Kick, Splitting, Substeps};
 use symplectic::variational::{DiscreteLagrangian, Newmark, VariationalSteps};
@@ -313,7 +313,7 @@ fn steps_of_variable_size_do_not_allocate() -> Result<(), Error> {
     }
     let start = || State::new(0.0, Counted::new(vec![1.0]), Counted::new(vec![0.0]));
     let monitor = DistancePower(0.0);
-    let mut run = Integrator::adaptive(StoermerVerlet, Line, monitor, start(), 0.1)?;
+    let mut run = AdaptiveSteps::run(StoermerVerlet, Line, monitor, start(), 0.1)?;
     let (count, outcome) = made(|| run.take_steps(100).map(|_| ()));
     outcome?;
     assert_eq!(count, 0);

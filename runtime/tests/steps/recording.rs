@@ -5,7 +5,7 @@ use std::{fs, io};
 
 use crate::common::methods::{ForestRuth, Gauss2, StoermerVerlet};
 use crate::common::systems::point;
-use symplectic::adaptive::DistancePower;
+use symplectic::adaptive::{AdaptiveSteps, DistancePower};
 use symplectic::files::{Recording, record_at, record_to};
 use symplectic::nalgebra::{SVector, Vector1};
 use symplectic::system::Named;
@@ -81,11 +81,11 @@ fn runs_with_steps_of_variable_size_are_recorded() -> Outcome {
     let path = path("variable.csv");
     let start = State::from_arrays(0.0, [0.1, 0.0], [0.0, 4.0]);
     let monitor = DistancePower(1.5);
-    let mut run = Integrator::adaptive(StoermerVerlet, Kepler, monitor, start, 0.05)?;
+    let mut run = AdaptiveSteps::run(StoermerVerlet, Kepler, monitor, start, 0.05)?;
     record_to(&mut run, 1.0, &path)?;
     let lines = lines(&path)?;
     assert_eq!(lines[0], "time,q[0],q[1],p[0],p[1]");
-    assert_eq!(lines.len() as u64, 2 + run.integrator().steps());
+    assert_eq!(lines.len() as u64, 2 + run.steps());
     Ok(())
 }
 

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::time::Instant;
 
-use symplectic::adaptive::{DistancePower, Logarithmic};
+use symplectic::adaptive::{AdaptiveSteps, DistancePower, Logarithmic};
 use symplectic::nalgebra::{Vector2, Vector3};
 use symplectic::{Error, Event, Integrator, Method, ProvedFor, Separable, State, SymmetricFor};
 use symplectic_tests::methods::{BlanesMoanS10, Gauss8, KahanLi8, KahanLi8Drift};
@@ -89,7 +89,7 @@ fn reversible<M: ProvedFor<Separable> + SymmetricFor<Separable>>(
     epsilon: f64,
     energies: bool,
 ) -> Result<Outcome, Error> {
-    let mut run = Integrator::adaptive(method, Kepler, DistancePower(1.5), start(), epsilon)?;
+    let mut run = AdaptiveSteps::run(method, Kepler, DistancePower(1.5), start(), epsilon)?;
     let mut found = Vec::new();
     let end = match energies {
         false => run.integrate_to(END)?,

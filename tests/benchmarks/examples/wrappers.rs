@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 
 use cpu_time::ThreadTime;
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use symplectic::adaptive::{Adaptive, DistancePower, Logarithmic, Poincare};
+use symplectic::adaptive::{Adaptive, AdaptiveSteps, DistancePower, Logarithmic, Poincare};
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{DVector, SVector, Vector3};
 use symplectic::tangent::Tangent;
@@ -106,7 +106,7 @@ fn adaptive(alone: &ThreadPool) {
         .collect();
     let ensemble = Ensemble::new(VelocityVerlet, Kepler, starts.clone(), 0.02).expect("starts");
     let make = |run: Integrator<VelocityVerlet, Kepler, SVector<f64, 2>>| {
-        Adaptive::new(run, DistancePower(1.5), 0.02)
+        AdaptiveSteps::of(run, DistancePower(1.5), 0.02)
     };
     let together = || {
         let to_end =

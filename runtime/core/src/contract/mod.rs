@@ -55,9 +55,9 @@ pub use lane_stages::{
 pub use masses::Masses;
 pub use method::Method;
 pub use plan::Plan;
-pub(crate) use plan::check_no_constraints;
+pub use plan::{check_no_constraints, check_no_friction};
 #[cfg(feature = "alloc")]
-pub(crate) use plan::{check_no_friction, check_no_holonomic_constraints, check_no_rows};
+pub(crate) use plan::{check_no_holonomic_constraints, check_no_rows};
 pub use proved::{
     LowerOrder, Orders, Possible, ProvedFor, Splits, StoermerVerletSteps, SymmetricFor, Symmetry,
 };

@@ -216,7 +216,7 @@ pub trait Plan {
 
 /// Checks that a system whose class has no constraints has none.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn check_no_constraints<V: Vector, S: System<V>>(system: &S) -> Result<(), Error> {
+pub fn check_no_constraints<V: Vector, S: System<V>>(system: &S) -> Result<(), Error> {
     check_no_holonomic_constraints(system)?;
     check_no_rows(system)
 }
@@ -249,7 +249,7 @@ pub(crate) fn check_no_rows<V: Vector, S: System<V>>(system: &S) -> Result<(), E
 
 /// Checks that a system whose class has no friction has none.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn check_no_friction<V: Vector, S: System<V>>(system: &S, q: &V) -> Result<(), Error> {
+pub fn check_no_friction<V: Vector, S: System<V>>(system: &S, q: &V) -> Result<(), Error> {
     if (0..q.dimension()).all(|component| system.friction(component) == 0.0) {
         return Ok(());
     }

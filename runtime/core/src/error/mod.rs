@@ -789,7 +789,7 @@ pub enum Error {
     /// The velocity is not `M⁻¹p` with a constant M; the logarithmic Hamiltonian requires `T = p·M⁻¹p/2`.
     #[error(
         "|velocity[{component}]| is {velocity}; a velocity linear in p and independent of time would give {linear}: the logarithmic \
-         Hamiltonian is for H = pᵀM⁻¹p/2 + U(t, q) with a constant M; take `Poincare` or `Integrator::adaptive` for this system",
+         Hamiltonian is for H = pᵀM⁻¹p/2 + U(t, q) with a constant M; take `Poincare` or `AdaptiveSteps::run` for this system",
         velocity = Short(*.velocity),
         linear = Short(*.linear)
     )]
@@ -943,7 +943,7 @@ pub enum Error {
     /// An argument of a logarithm is not positive: the logarithmic Hamiltonian requires `U < 0` and `T + B > 0`.
     #[error(
         "step {step} from time {time}: {what} is {value}, but the logarithmic Hamiltonian requires {what} > 0; take a smaller step, or \
-         `Integrator::adaptive` where the potential is not negative everywhere",
+         `AdaptiveSteps::run` where the potential is not negative everywhere",
         time = Short(*.time),
         value = Short(*.value)
     )]
@@ -987,11 +987,6 @@ impl Error {
                 | Self::IrregularLagrangian { .. }
                 | Self::HalfTurn { .. }
         )
-    }
-
-    /// Makes [`Error::Monitor`] at a time from a value.
-    pub(crate) const fn monitor_at(time: f64) -> impl Fn(f64) -> Self {
-        move |value| Self::Monitor { time, value }
     }
 
     /// Adds the name of the constraint to the error.

@@ -301,7 +301,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     }
 
     /// A checkpoint of a run of kind `kind`, with its last event and the values `beside` that change in addition to the integrator.
-    pub(crate) fn checkpoint_with(
+    #[doc(hidden)]
+    pub fn checkpoint_with(
         &self,
         kind: &str,
         last_event: Option<LastEvent>,
@@ -329,7 +330,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 
     /// Continues from a checkpoint of [kind](Self::checkpoint_with) `kind`, if `mine` accepts the position and the values beside the
     /// integrator.
-    pub(crate) fn restore_with(
+    #[doc(hidden)]
+    pub fn restore_with(
         &mut self,
         kind: &str,
         checkpoint: &Checkpoint,

@@ -9,7 +9,7 @@ use super::last_step::LastEvent;
 use super::sight::Sight;
 use super::stepper::advance_in_time;
 use super::validation::check_step_size;
-use super::{Equal, Retry, Statistics, Stepper};
+use super::{Equal, Pace, Retry, Statistics, Stepper};
 use crate::error::Error;
 
 /// A [`Stepper`] that steps from a state. All integrators of this crate are runs.
@@ -261,7 +261,8 @@ impl<S: Stepper> Run<S> {
     }
 
     /// [`set_state`](Self::set_state) by a copy.
-    pub(crate) fn copy_state(&mut self, state: &S::State) -> Result<(), S::Error> {
+    #[doc(hidden)]
+    pub fn copy_state(&mut self, state: &S::State) -> Result<(), S::Error> {
         self.stepper.set_state(state)?;
         self.restart_clock();
         Ok(())
@@ -277,6 +278,12 @@ impl<S: Stepper> Run<S> {
         self.stepper.statistics()
     }
 
+    /// The step size. If the stepper has its [own](super::Own) pace: about the size of the next step, negative in a run backward.
+    pub fn step_size(&self) -> f64 {
+        let own = S::Pace::OWN.then(|| self.stepper.own_step_size());
+        own.flatten().unwrap_or(self.step_size)
+    }
+
     /// Number of steps taken.
     pub fn steps(&self) -> u64 {
         self.stepper.statistics().steps
@@ -287,8 +294,8 @@ impl<S: Stepper> Run<S> {
         &self.stepper
     }
 
-    /// The stepper, whose time must not change: for what a wing computes with its memory.
-    #[doc(hidden)]
+    /// The stepper, to change it. The time of its state must stay: the run counts equal steps from there, and [`set_state`](Self::set_state)
+    /// begins anew.
     pub const fn stepper_mut(&mut self) -> &mut S {
         &mut self.stepper
     }
@@ -299,58 +306,6 @@ impl<S: Stepper> Run<S> {
 }
 
 impl<S: Stepper<Pace = Equal>> Run<S> {
-    /// Integrates to the time `end`, exactly, in the smallest number of equal steps that are no longer than the step size, up
-    /// to rounding. The sign of the step size does not matter. At the time `end` it takes no step.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::EndTime`], [`Error::StepCount`], and those of [`step`](Self::step); the state is then that after the
-    /// last successful step.
-    pub fn integrate_to(&mut self, end: f64) -> Result<&S::State, S::Error> {
-        let mut remaining = self.steps_to_time(end)?;
-        let outcome = self.take_remaining(&mut remaining);
-        self.restart_clock();
-        outcome.map(|()| self.stepper.state())
-    }
-
-    /// [`integrate_to`](crate::Integrator#method.integrate_to) that calls `observe` with the state after every step.
-    ///
-    /// # Errors
-    ///
-    /// As for [`integrate_to`](crate::Integrator#method.integrate_to).
-    ///
-    /// ```
-    /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
-    /// # use symplectic::nalgebra::Vector1;
-    /// # use symplectic::{Error, Integrator, State, separable};
-    /// # fn main() -> Result<(), Error> {
-    /// let oscillator = separable::<Vector1<f64>, _, _>(|_, p, velocity| *velocity = *p, |_, q, force| *force = -q);
-    /// let start = State::new(0.0, Vector1::new(1.0), Vector1::new(0.0));
-    /// let mut integrator = Integrator::new(StoermerVerlet, oscillator, start, 0.1)?;
-    /// let mut times = Vec::new();
-    /// integrator.integrate_with(0.5, |state| times.push(state.time))?;
-    /// assert_eq!(times, [0.1, 0.2, 0.1 * 3.0, 0.4, 0.5]);
-    /// # Ok(())
-    /// # }
-    /// ```
-    pub fn integrate_with<F: FnMut(&S::State)>(
-        &mut self,
-        end: f64,
-        mut observe: F,
-    ) -> Result<&S::State, S::Error> {
-        let ControlFlow::Continue(()) = self.steps_to(end, |run, size, time| {
-            run.advance(size, time)?;
-            observe(run.state());
-            Ok(ControlFlow::<Infallible>::Continue(()))
-        })?;
-        Ok(self.stepper.state())
-    }
-
-    /// The step size.
-    pub const fn step_size(&self) -> f64 {
-        self.step_size
-    }
-
     /// Changes the step size; negative to go backward.
     ///
     /// # Errors

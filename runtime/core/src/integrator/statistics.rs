@@ -2,8 +2,8 @@
 
 use crate::method::StepStatistics;
 
-/// Counts over all steps taken; a failed step changes none of them. Other steppers than those of an [`Integrator`](crate::Integrator) and
-/// of its [`adaptive`](crate::Integrator::adaptive) runs count only steps, and attempts that were [split](crate::Retry).
+/// Counts over all steps taken; a failed step changes none of them. A stepper without an [`Integrator`](crate::Integrator) counts only steps,
+/// and attempts that were [split](crate::Retry).
 ///
 /// ```
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }

@@ -174,8 +174,12 @@ pub trait Stepper {
 }
 
 /// [`Stepper::advance`], after a check that the step changes the time.
+///
+/// # Errors
+///
+/// [`Error::TimeResolution`] if it does not; those of [`Stepper::advance`].
 #[inline]
-pub(super) fn advance_in_time<S: Stepper + ?Sized>(
+pub fn advance_in_time<S: Stepper + ?Sized>(
     stepper: &mut S,
     size: f64,
     end: f64,

@@ -10,6 +10,7 @@ use crate::number::{Coefficient, Scalar, larger_or_nan};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<T> {
     pub value: T,
+    /// Its derivative.
     pub slope: T,
 }
 

@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 
 use crate::error::Error;
 use crate::integrator::clock::check_count;
-use crate::integrator::{DenseSteps, Pace, Run};
+use crate::integrator::{DenseSteps, Own, Pace, Reach, Run};
 #[cfg(feature = "alloc")]
 use crate::number::registers::Work;
 #[cfg(feature = "alloc")]
@@ -47,7 +47,7 @@ impl<S: DenseSteps> Run<S> {
     ) -> Result<&S::State, S::Error> {
         self.check_times(times)?;
         let mut rest = times;
-        let mut output = Output::new(&self.stepper, self.direction());
+        let mut output = Output::new(&self.stepper, self.step_size());
         output.show(&mut self.stepper, &mut rest, &mut observe)?;
         while let Some(&time) = rest.first() {
             if !S::Pace::OWN {
@@ -65,7 +65,7 @@ impl<S: DenseSteps> Run<S> {
     /// [`Error::NoStep`] before the first step and after every call that discards it, such as a new state or a failed step;
     /// [`Error::OutsideStep`]; those of the dense output of the stepper.
     pub fn state_at(&mut self, time: f64) -> Result<S::State, S::Error> {
-        let mut output = Output::new(&self.stepper, self.direction());
+        let mut output = Output::new(&self.stepper, self.step_size());
         output.look_at(&mut self.stepper, time)?;
         Ok(output.state)
     }
@@ -73,7 +73,7 @@ impl<S: DenseSteps> Run<S> {
     /// Checks the times of [`integrate_at`](Self::integrate_at).
     #[doc(hidden)]
     pub fn check_times(&self, times: &[f64]) -> Result<(), Error> {
-        let end = check_times(self.direction(), times, self.start_of_last_step(), None)?;
+        let end = check_times(self.step_size(), times, self.start_of_last_step(), None)?;
         match S::Pace::OWN {
             // The number of steps is not known in advance.
             true => Ok(()),
@@ -98,7 +98,7 @@ impl<S: DenseSteps> Run<S> {
             return ended.map(|_| ());
         }
         let before = self.start_of_last_step();
-        if !end.is_finite() || is_after(self.direction(), before, end) {
+        if !end.is_finite() || is_after(self.step_size(), before, end) {
             return Err(Error::OutputTime { time: end, before }.into());
         }
         while self.is_before(end) {
@@ -109,22 +109,37 @@ impl<S: DenseSteps> Run<S> {
 
     /// Whether `end` comes after the present time in the direction of the steps.
     pub(crate) fn is_before(&self, end: f64) -> bool {
-        is_after(self.direction(), end, self.stepper.time())
-    }
-
-    /// A number with the sign of the steps: the approximate size of the next one.
-    pub(crate) fn direction(&self) -> f64 {
-        let own = S::Pace::OWN.then(|| self.stepper.own_step_size());
-        own.flatten().unwrap_or(self.step_size)
+        is_after(self.step_size(), end, self.stepper.time())
     }
 
     /// Start time of the last step; the present time if there is no last step or it went in the other direction.
     pub(crate) fn start_of_last_step(&self) -> f64 {
         let present = self.stepper.time();
         match self.stepper.last_span() {
-            Some((start, _)) if is_after(self.direction(), present, start) => start,
+            Some((start, _)) if is_after(self.step_size(), present, start) => start,
             _ => present,
         }
+    }
+}
+
+impl<S: DenseSteps<Pace = Self>> Reach<S> for Own {
+    type Reached<'a>
+        = S::State
+    where
+        S: 'a;
+
+    fn integrate_with(
+        run: &mut Run<S>,
+        end: f64,
+        observe: impl FnMut(&S::State),
+    ) -> Result<S::State, S::Error> {
+        run.watch_to(end, observe)?;
+        let mut state = run.state().clone();
+        if end != state.time {
+            let mut scratch = run.stepper.scratch();
+            run.stepper.look_by_step(end, &mut scratch, &mut state)?;
+        }
+        Ok(state)
     }
 }
 

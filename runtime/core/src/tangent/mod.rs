@@ -34,7 +34,7 @@ use crate::system::{Class, Conservative, Hamiltonian, LaneWork, OverEveryScalar,
 /// product of two displacements is conserved, and `(q, p)` has the same bits as without a displacement.
 ///
 /// The vectors have twice the dimension: `SVector<f64, 4>` for two positions. The system runs like any other, also in the lanes of
-/// an `Ensemble`. In [steps of variable size](crate::adaptive::Adaptive) the monitor depends on `q`
+/// an `Ensemble`. In steps of variable size the monitor depends on `q`
 /// only. Each step then maps the displacement by its derivative at fixed size, which agrees with the variational equations to the
 /// order of the method.
 ///

@@ -143,11 +143,6 @@ impl<L: DiscreteLagrangian> EnergyMomentumSteps<L> {
         Run::of(stepper, 1.0)
     }
 
-    /// The size of the last step; before the first step, its prescribed size.
-    pub const fn step_size(&self) -> f64 {
-        self.step_size
-    }
-
     /// The discrete energy E of all steps; `None` before the first step.
     pub const fn discrete_energy(&self) -> Option<f64> {
         self.energy

@@ -1,6 +1,6 @@
 //! Steps of variable size that keep the structure, in the scenes with close encounters.
 
-use symplectic::adaptive::{Logarithmic, Monitor};
+use symplectic::adaptive::{AdaptiveSteps, Logarithmic, Monitor};
 use symplectic::nalgebra::SVector;
 use symplectic::{Error, Event, Hamiltonian, Integrator, Separable, State, Statistics, System};
 use symplectic_report::{Finish, Ladder, Observe, Problem};
@@ -80,13 +80,13 @@ where
     S: System<SVector<f64, N>, Class = Separable>,
     W: Monitor,
 {
-    let mut run = Integrator::adaptive(Gauss8, system, monitor, start.clone(), epsilon)?;
+    let mut run = AdaptiveSteps::run(Gauss8, system, monitor, start.clone(), epsilon)?;
     let state = run.integrate_with(end, |state| {
         if let Some(observe) = &mut observe {
             observe(state);
         }
     })?;
-    Ok(finish(state, run.integrator().statistics()))
+    Ok(finish(state, run.statistics()))
 }
 
 fn finish<V>(state: State<V>, statistics: &Statistics) -> Finish<V> {

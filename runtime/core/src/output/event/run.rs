@@ -17,7 +17,7 @@ impl<S: DenseSteps> Run<S> {
     ///
     /// A stepper with its [own](crate::Own) pace takes the steps up to the one that reaches or passes `end`, and the present state is then
     /// that after this step. Events after `end` in this step are reported too, so that a run that continues misses none. At a wall or a
-    /// changed state an [adaptive](crate::adaptive::Adaptive) run begins anew, with the step density 1/σ there.
+    /// changed state an adaptive run begins anew, with the step density 1/σ there.
     ///
     /// # Errors
     ///
@@ -194,7 +194,7 @@ impl<S: DenseSteps> Run<S> {
     /// Approximate size of the next step towards `end`.
     fn size_to(&self, end: f64) -> f64 {
         match S::Pace::OWN {
-            true => self.direction(),
+            true => self.step_size(),
             false => self.step_size.abs().copysign(end - self.stepper.time()),
         }
     }

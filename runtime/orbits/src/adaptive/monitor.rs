@@ -1,8 +1,7 @@
 //! Monitors: functions of the positions that set the step size.
 
-use crate::number::dual::HyperDual;
-use crate::number::{Scalar, Vector};
-use crate::system::{Hamiltonian, Separable, System};
+use symplectic_core::inside::HyperDual;
+use symplectic_core::{Error, Hamiltonian, Scalar, Separable, System, Vector};
 
 /// A monitor σ(q) > 0, which sets the step size `h ≈ ε σ(q)`. The run chooses ε.
 ///
@@ -282,4 +281,9 @@ impl<V: Vector<Scalar = f64>> Slopes<V> {
         }
         &self.gradient
     }
+}
+
+/// Makes [`Error::Monitor`] at a time from a value.
+pub(super) const fn monitor_at(time: f64) -> impl Fn(f64) -> Error {
+    move |value| Error::Monitor { time, value }
 }

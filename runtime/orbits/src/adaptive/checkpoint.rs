@@ -1,16 +1,16 @@
 //! Checkpoints of runs with steps of variable size; a restored run has the same bits.
 
-use super::integrator::{Adaptive, AdaptiveSteps, Controller};
+use super::integrator::{AdaptiveSteps, Controller};
 use super::monitor::{Monitor, Slopes, seen};
-use crate::integrator::{Checkpoint, CheckpointError};
-use crate::method::{Method, Solver};
-use crate::number::{Summation, Vector};
-use crate::system::System;
+use symplectic_core::inside::{Parts, Save, Solver, parts_of};
+use symplectic_core::{
+    Checkpoint, CheckpointError, Method, Run, Stepper, Summation, System, Vector,
+};
 
 /// The kind of run that the checkpoint records with the method.
 const KIND: &str = "adaptive";
 
-impl<M, S, W, V, R, N> Adaptive<M, S, W, V, R, N>
+impl<M, S, W, V, R, N> Save for AdaptiveSteps<M, S, W, V, R, N>
 where
     M: Method,
     S: System<V>,
@@ -19,50 +19,49 @@ where
     R: Summation,
     N: Solver<V, S>,
 {
-    /// All that the run needs to [continue](crate::adaptive::Adaptive#method.restore) from here with the same bits: see [`Checkpoint`].
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Integrator::checkpoint`](crate::Integrator#method.checkpoint).
-    pub fn checkpoint(&self) -> Result<Checkpoint, CheckpointError> {
+    fn checkpoint(run: &mut Run<Self>) -> Result<Checkpoint, CheckpointError> {
+        let Parts {
+            stepper,
+            last_event,
+            ..
+        } = parts_of(run);
         let Controller {
             epsilon,
             density,
             unfinished,
             time_low,
             ..
-        } = self.stepper.controller;
+        } = stepper.controller;
         let [value, slope] = evaluated(
-            &self.stepper.monitor,
-            &self.stepper.slopes,
-            seen::<S, V>(&self.state().q),
+            &stepper.monitor,
+            &stepper.slopes,
+            seen::<S, V>(&stepper.state().q),
         );
         let beside = [epsilon, density, unfinished, time_low, value, slope];
-        let integrator = &self.stepper.integrator;
-        integrator.checkpoint_with(KIND, self.last_event, &beside)
+        (stepper.integrator).checkpoint_with(KIND, *last_event, &beside)
     }
 
-    /// Continues from a checkpoint of a run with the same method, system, solver, sums and monitor.
-    ///
-    /// # Errors
-    ///
-    /// [`CheckpointError`]; [`OtherSystem`](CheckpointError::OtherSystem) also for another monitor. The run is then unchanged.
-    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
+    fn restore(run: &mut Run<Self>, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
         let mut found = [0.0; 6];
+        let Parts {
+            stepper,
+            last_event,
+            ..
+        } = parts_of(run);
         let AdaptiveSteps {
             integrator,
             monitor,
             slopes,
+            controller,
             ..
-        } = &mut self.stepper;
+        } = stepper;
         let mine = |q: &V, words: &[f64]| {
             let known = evaluated(monitor, slopes, seen::<S, V>(q)).map(f64::to_bits);
             words[4..].iter().map(|word| word.to_bits()).eq(known)
         };
         integrator.restore_with(KIND, checkpoint, &mut found, mine)?;
-        self.last_event = integrator.last_event.take();
+        *last_event = parts_of(integrator).last_event.take();
         let [epsilon, density, unfinished, time_low, ..] = found;
-        let controller = &mut self.stepper.controller;
         *controller = Controller {
             epsilon,
             density,

@@ -4,13 +4,10 @@ use alloc::vec::Vec;
 
 use num_traits::Zero;
 
-use crate::error::Error;
-use crate::integrator::validation::{check_start, check_state};
-use crate::method::{check_no_constraints, check_no_friction};
-use crate::number::dual::HyperDual;
-use crate::number::{Scalar, Vector};
-use crate::state::State;
-use crate::system::Hamiltonian;
+use symplectic_core::inside::{
+    HyperDual, check_no_constraints, check_no_friction, check_start, check_state,
+};
+use symplectic_core::{Error, Hamiltonian, Scalar, State, Vector};
 
 /// The extended state ((q, t), (p, p_t)) at τ = 0; its vectors have one component more.
 pub(super) fn extended<V, W>(state: &State<V>, momentum: f64) -> Result<State<W>, Error>

@@ -5,12 +5,9 @@ use core::cell::Cell;
 use core::fmt;
 
 use super::extended::{Workspace, energy_of, extended, parted, parted_mut, reduced};
-use crate::error::Error;
-use crate::number::{Scalar, Vector};
-use crate::solver::FixedPoint;
-use crate::state::State;
-use crate::system::linearity::non_linear_velocity;
-use crate::system::{Hamiltonian, Separable, System};
+use symplectic_core::inside::non_linear_velocity;
+use symplectic_core::solver::FixedPoint;
+use symplectic_core::{Error, Hamiltonian, Scalar, Separable, State, System, Vector};
 
 /// The logarithmic Hamiltonian of a system `H = T(p) + U(q)` with `U < 0` (Mikkola & Tanikawa 1999; Preto & Tremaine 1999), in a fictitious
 /// time τ:
@@ -37,7 +34,7 @@ use crate::system::{Hamiltonian, Separable, System};
 /// # How to use it
 ///
 /// [`extend`](Self::extend) constructs the initial state, whose vectors have one component more than those of the system.
-/// [`reduce`](Self::reduce) returns the state at time t. To stop at a time t, use an [`Event`](crate::Event) of the last position.
+/// [`reduce`](Self::reduce) returns the state at time t. To stop at a time t, use an [`Event`](symplectic_core::Event) of the last position.
 ///
 /// ```
 /// use symplectic::adaptive::Logarithmic;
@@ -87,7 +84,7 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
         const {
             assert!(
                 !S::FORCED,
-                "a force without a potential has no place in a logarithmic Hamiltonian: take `Integrator::adaptive`"
+                "a force without a potential has no place in a logarithmic Hamiltonian: take `AdaptiveSteps::run`"
             );
         }
         Self {

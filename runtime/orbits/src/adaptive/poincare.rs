@@ -5,12 +5,10 @@ use core::cell::Cell;
 use core::fmt;
 
 use super::extended::{Workspace, energy_of, extended, parted, parted_mut, reduced};
-use super::monitor::{Monitor, Slopes, value_at};
-use crate::error::Error;
-use crate::number::Vector;
-use crate::solver::FixedPoint;
-use crate::state::State;
-use crate::system::{Conservative, General, Hamiltonian, System};
+use super::monitor::{Monitor, Slopes, monitor_at, value_at};
+use symplectic_core::solver::FixedPoint;
+use symplectic_core::system::Conservative;
+use symplectic_core::{Error, General, Hamiltonian, State, System, Vector};
 
 /// The Hamiltonian `K = σ(q)(H + p_t)` of Poincaré's time transformation (Hairer 1997; Reich 1999), for any H and any [`Monitor`] σ, in a
 /// fictitious time τ:
@@ -80,7 +78,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
         const {
             assert!(
                 !S::FORCED,
-                "a force without a potential has no place in a transformed Hamiltonian: take `Integrator::adaptive`"
+                "a force without a potential has no place in a transformed Hamiltonian: take `AdaptiveSteps::run`"
             );
         }
         Self {
@@ -103,7 +101,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
         state: &State<S::Vector<f64>>,
     ) -> Result<State<V>, Error> {
         let energy = energy_of(&self.system, state)?;
-        value_at(&self.monitor, state.q.as_slice()).map_err(Error::monitor_at(state.time))?;
+        value_at(&self.monitor, state.q.as_slice()).map_err(monitor_at(state.time))?;
         extended(state, -energy)
     }
 
@@ -234,7 +232,7 @@ where
     fn explain(&self, error: Error, q: &V) -> Error {
         match (self.fault.take(), error) {
             (Some(value), Error::NonFinite { .. } | Error::NoConvergence { .. }) => {
-                Error::monitor_at(parted(q).1)(value)
+                monitor_at(parted(q).1)(value)
             }
             (_, error) => error,
         }

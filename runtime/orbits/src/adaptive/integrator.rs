@@ -2,18 +2,15 @@
 
 use core::fmt;
 
-use super::monitor::{Monitor, Slopes, seen, value_at};
-use crate::error::Error;
-use crate::integrator::validation::{check_state, check_step_size};
-use crate::integrator::{
-    DenseSteps, Integrator, Own, Partitioned, Retry, Run, Statistics, Stepper,
+use super::monitor::{Monitor, Slopes, monitor_at, seen, value_at};
+use symplectic_core::inside::{
+    Solver, advance_in_time, check_state, check_step_size, fast_two_sum, parts_of, two_sum,
 };
-use crate::method::{Method, ProvedFor, Solver, SymmetricFor};
-use crate::number::summation::{fast_two_sum, two_sum};
-use crate::number::{Compensated, Summation, Vector};
-use crate::output::DenseOutput;
-use crate::state::State;
-use crate::system::System;
+use symplectic_core::output::DenseOutput;
+use symplectic_core::{
+    Compensated, Error, Integrator, Method, Own, ProvedFor, Retry, Run, State, Statistics, Stepper,
+    Summation, SymmetricFor, System, Vector,
+};
 
 /// A symmetric method with reversible steps of variable size `h ≈ ε σ(q)`: the integrating controller of Hairer & Söderlind (2005;
 /// Hairer, Lubich & Wanner, *Geometric numerical integration*, VIII.3.2).
@@ -33,7 +30,7 @@ use crate::system::System;
 /// [`Poincare`](super::Poincare) or [`Logarithmic`](super::Logarithmic) for them.
 ///
 /// The order in ε is that of the method: t is the sum of the step sizes. Steps are explicit if the method is. Each step costs one
-/// additional derivative of the [`Monitor`], and one velocity unless it [is the momentum](crate::Masses::Unit).
+/// additional derivative of the [`Monitor`], and one velocity unless it [is the momentum](symplectic_core::Masses::Unit).
 ///
 /// # Errors of a step
 ///
@@ -43,17 +40,17 @@ use crate::system::System;
 ///
 /// # Back to the start
 ///
-/// [`reverse`](Self::reverse) reverses the direction of the run. The first step back has exactly the size of the last step. The sizes of the
+/// [`reverse`](AdaptiveSteps::reverse) reverses the direction of the run. The first step back has exactly the size of the last step. The sizes of the
 /// other steps, like positions and momenta, agree with those of the forward run up to rounding.
 ///
 /// # Output
 ///
 /// Output does not change the steps. A run ends with the first step that reaches or passes its end time. States at times inside a step come
-/// from the [dense output](crate::Integrator#method.dense), or from a shorter step with the same start.
+/// from the [dense output](AdaptiveSteps::dense), or from a shorter step with the same start.
 ///
 /// ```
-/// use symplectic::adaptive::DistancePower;
-/// use symplectic::{Error, Integrator, State};
+/// use symplectic::adaptive::{AdaptiveSteps, DistancePower};
+/// use symplectic::{Error, State};
 ///
 /// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
 /// symplectic::hamiltonian! {
@@ -65,10 +62,10 @@ use crate::system::System;
 /// # fn main() -> Result<(), Error> {
 /// // The pericentre of an orbit of eccentricity 0.9.
 /// let start = State::from_arrays(0.0, [0.1, 0.0], [0.0, 19_f64.sqrt()]);
-/// let mut run = Integrator::adaptive(VelocityVerlet, Kepler, DistancePower(1.5), start, 0.02)?;
-/// let before = run.energy().expect("the system has an energy");
+/// let mut run = AdaptiveSteps::run(VelocityVerlet, Kepler, DistancePower(1.5), start, 0.02)?;
+/// let before = run.stepper().energy().expect("the system has an energy");
 /// run.integrate_to(20.0 * core::f64::consts::TAU)?;
-/// let after = run.energy().expect("the system has an energy");
+/// let after = run.stepper().energy().expect("the system has an energy");
 /// assert!((after - before).abs() < 1e-3);
 /// # Ok(())
 /// # }
@@ -77,14 +74,14 @@ use crate::system::System;
 /// A method that is not symmetric does not compile:
 ///
 /// ```compile_fail,E0277
-/// use symplectic::adaptive::DistancePower;
-/// use symplectic::{Error, Integrator, State};
+/// use symplectic::adaptive::{AdaptiveSteps, DistancePower};
+/// use symplectic::{Error, State};
 ///
 /// symplectic::tableau! { SymplecticEuler { basis: polynomial(1), nodes: [0] } }
 /// symplectic::hamiltonian! { Kepler q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 - 1/sqrt(x^2 + y^2) }
 ///
 /// let start = State::from_arrays(0.0, [0.1, 0.0], [0.0, 19_f64.sqrt()]);
-/// let run = Integrator::adaptive(SymplecticEuler, Kepler, DistancePower(1.5), start, 0.02);
+/// let run = AdaptiveSteps::run(SymplecticEuler, Kepler, DistancePower(1.5), start, 0.02);
 /// ```
 pub type Adaptive<M, S, W, V, R = Compensated, N = <S as System<V>>::Solver> =
     Run<AdaptiveSteps<M, S, W, V, R, N>>;
@@ -136,17 +133,22 @@ impl Controller {
     }
 }
 
-impl<M: Method, S: System<V>, V: Vector<Scalar = f64>> Integrator<M, S, V> {
-    /// An integrator with steps of variable size: see [`Adaptive`](crate::adaptive::Adaptive). `epsilon` is the ε of the step size
-    /// `h ≈ ε σ(q)`; a negative one steps backward.
+impl<M, S, W, V> AdaptiveSteps<M, S, W, V>
+where
+    M: Method,
+    S: System<V>,
+    W: Monitor,
+    V: Vector<Scalar = f64>,
+{
+    /// An integrator with steps of variable size: see [`Adaptive`]. `epsilon` is the ε of the step size `h ≈ ε σ(q)`; a negative one steps
+    /// backward.
     ///
     /// Does not compile unless the method is symmetric on systems of this class.
     ///
     /// # Errors
     ///
-    /// Those of [`new`](crate::Integrator#method.new), with [`Error::StepSize`] for ε; [`Error::Monitor`] if σ is not finite and positive
-    /// at the start.
-    pub fn adaptive<W: Monitor>(
+    /// Those of [`Integrator::new`], with [`Error::StepSize`] for ε; [`Error::Monitor`] if σ is not finite and positive at the start.
+    pub fn run(
         method: M,
         system: S,
         monitor: W,
@@ -156,11 +158,15 @@ impl<M: Method, S: System<V>, V: Vector<Scalar = f64>> Integrator<M, S, V> {
     where
         M: ProvedFor<S::Class> + SymmetricFor<S::Class>,
     {
-        Adaptive::new(Self::new(method, system, start, 1.0)?, monitor, epsilon)
+        Self::of(
+            Integrator::new(method, system, start, 1.0)?,
+            monitor,
+            epsilon,
+        )
     }
 }
 
-impl<M, S, W, V, R, N> Adaptive<M, S, W, V, R, N>
+impl<M, S, W, V, R, N> AdaptiveSteps<M, S, W, V, R, N>
 where
     M: Method,
     S: System<V>,
@@ -179,7 +185,7 @@ where
     /// [`Error::StepSize`] for ε; [`Error::Monitor`] if σ is not finite and positive at the start.
     ///
     /// ```
-    /// use symplectic::adaptive::{Adaptive, DistancePower};
+    /// use symplectic::adaptive::{AdaptiveSteps, DistancePower};
     /// use symplectic::nalgebra::Vector2;
     /// use symplectic::{Error, Integrator, State, acceleration};
     ///
@@ -189,55 +195,54 @@ where
     /// let kepler = acceleration(|_time, q: &Vector2<f64>, acceleration| *acceleration = -q / q.norm().powi(3));
     /// let start = State::from_arrays(0.0, [0.1, 0.0], [0.0, 19_f64.sqrt()]);
     /// let newton = Integrator::plain(Gauss2, kepler, start, 1.0)?.by_newton();
-    /// let mut run = Adaptive::new(newton, DistancePower(1.5), 0.1)?;
+    /// let mut run = AdaptiveSteps::of(newton, DistancePower(1.5), 0.1)?;
     /// let end = run.integrate_to(core::f64::consts::TAU)?;
     /// assert!((end.q[0] - 0.1).abs() < 0.01);
     /// # Ok(())
     /// # }
     /// ```
-    pub fn new(
+    pub fn of(
         mut integrator: Integrator<M, S, V, R, N>,
         monitor: W,
         epsilon: f64,
-    ) -> Result<Self, Error>
+    ) -> Result<Adaptive<M, S, W, V, R, N>, Error>
     where
         M: SymmetricFor<S::Class>,
     {
         check_step_size(epsilon)?;
         let State { time, q, .. } = integrator.state();
-        let value = value_at(&monitor, seen::<S, V>(q)).map_err(Error::monitor_at(*time))?;
+        let value = value_at(&monitor, seen::<S, V>(q)).map_err(monitor_at(*time))?;
         let (slopes, velocity) = (Slopes::like(q), q.zeros_like());
         integrator.set_retry(Retry::Never);
-        let last_event = integrator.last_event.take();
-        let stepper = AdaptiveSteps {
+        let last_event = parts_of(&mut integrator).last_event.take();
+        let stepper = Self {
             integrator,
             monitor,
             slopes,
             velocity,
             controller: Controller::new(epsilon, value),
         };
-        Ok(Self {
-            last_event,
-            ..Self::of(stepper, 1.0)?
-        })
+        let mut run = Run::of(stepper, 1.0)?;
+        *parts_of(&mut run).last_event = last_event;
+        Ok(run)
     }
 
     /// Reverses the direction of the run: the next step undoes the last one.
     ///
     /// ```
-    /// use symplectic::adaptive::DistancePower;
+    /// use symplectic::adaptive::{AdaptiveSteps, DistancePower};
     /// use symplectic::nalgebra::Vector2;
-    /// use symplectic::{Error, Integrator, State, acceleration};
+    /// use symplectic::{Error, State, acceleration};
     ///
     /// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
     ///
     /// # fn main() -> Result<(), Error> {
     /// let kepler = acceleration(|_time, q: &Vector2<f64>, acceleration| *acceleration = -q / q.norm().powi(3));
     /// let start = State::from_arrays(0.0, [0.1, 0.0], [0.0, 19_f64.sqrt()]);
-    /// let mut run = Integrator::adaptive(VelocityVerlet, kepler, DistancePower(1.5), start.clone(), 0.05)?;
+    /// let mut run = AdaptiveSteps::run(VelocityVerlet, kepler, DistancePower(1.5), start.clone(), 0.05)?;
     /// run.take_steps(100)?;
     /// let size = run.step_size();
-    /// run.reverse();
+    /// run.stepper_mut().reverse();
     /// run.step()?;
     /// assert_eq!(run.step_size(), -size);
     /// run.take_steps(99)?;
@@ -246,12 +251,11 @@ where
     /// # }
     /// ```
     pub const fn reverse(&mut self) {
-        let controller = &mut self.stepper.controller;
-        controller.epsilon = -controller.epsilon;
+        self.controller.epsilon = -self.controller.epsilon;
     }
 }
 
-impl<M, S, W, V, R, N> Adaptive<M, S, W, V, R, N>
+impl<M, S, W, V, R, N> AdaptiveSteps<M, S, W, V, R, N>
 where
     M: Method,
     S: System<V>,
@@ -261,43 +265,37 @@ where
 {
     /// The energy of the present state, if the system gives it.
     pub fn energy(&self) -> Option<V::Scalar> {
-        self.stepper.integrator.energy()
-    }
-
-    /// The size of the last step, negative in a run backward. Before the first step, and after [`set_state`](Self::set_state), `ε σ(q)`.
-    /// After [`reverse`](Self::reverse) it has the opposite sign.
-    pub fn step_size(&self) -> f64 {
-        self.stepper.controller.step_size()
+        self.integrator.energy()
     }
 
     /// The step density z, positive: `z_{n+1/2}` of the last step, whose size was `ε/z`. Before the first step, and after
-    /// [`set_state`](Self::set_state), `1/σ(q)`.
+    /// [`set_state`](Run::set_state), `1/σ(q)`.
     pub const fn step_density(&self) -> f64 {
-        self.stepper.controller.density
+        self.controller.density
     }
 
     /// The ε of the run, negative in a run backward.
     pub const fn epsilon(&self) -> f64 {
-        self.stepper.controller.epsilon
+        self.controller.epsilon
     }
 
     /// The monitor.
     pub const fn monitor(&self) -> &W {
-        &self.stepper.monitor
+        &self.monitor
     }
 
-    /// The states inside the last step: see [`Integrator::dense`].
+    /// The states inside the last step: see [`Integrator::dense`](symplectic_core::Integrator#method.dense).
     ///
     /// # Errors
     ///
-    /// Those of [`Integrator::dense`].
+    /// Those of [`Integrator::dense`](symplectic_core::Integrator#method.dense).
     pub fn dense(&self) -> Result<DenseOutput<'_, M, S, V, R, N>, Error> {
-        self.stepper.integrator.dense()
+        self.integrator.dense()
     }
 
     /// The integrator that takes the steps, for example to read its system and its statistics.
     pub const fn integrator(&self) -> &Integrator<M, S, V, R, N> {
-        &self.stepper.integrator
+        &self.integrator
     }
 }
 
@@ -331,16 +329,14 @@ where
         if slope.is_finite() {
             Ok(-slope)
         } else {
-            Err(Error::monitor_at(*time)(
-                self.monitor.value(seen::<S, V>(q)),
-            ))
+            Err(monitor_at(*time)(self.monitor.value(seen::<S, V>(q))))
         }
     }
 
     fn restarted(&self, state: &State<V>) -> Result<Controller, Error> {
         let State { time, q, p } = state;
         check_state(*time, q, p, self.integrator.state().q.dimension())?;
-        let value = value_at(&self.monitor, seen::<S, V>(q)).map_err(Error::monitor_at(*time))?;
+        let value = value_at(&self.monitor, seen::<S, V>(q)).map_err(monitor_at(*time))?;
         Ok(Controller::new(self.controller.epsilon, value))
     }
 }
@@ -369,7 +365,7 @@ where
     }
 
     fn statistics_mut(&mut self) -> &mut Statistics {
-        self.integrator.stepper.statistics_mut()
+        parts_of(&mut self.integrator).stepper.statistics_mut()
     }
 
     /// The step density becomes 1/σ.
@@ -400,12 +396,13 @@ where
         let (span, rest) = two_sum(size, next.time_low);
         let (sum, error) = two_sum(time, span);
         let (end, low) = fast_two_sum(sum, error + rest);
-        if let Err(error) = self.integrator.advance(size, end) {
+        let stepper = parts_of(&mut self.integrator).stepper;
+        if let Err(error) = advance_in_time(stepper, size, end) {
             return Err(match error {
                 // The steps have become too short, not too short from the start.
                 Error::TimeResolution { .. } if time + next.first_size != time => {
                     let q = seen::<S, V>(&self.integrator.state().q);
-                    Error::monitor_at(time)(self.monitor.value(q))
+                    monitor_at(time)(self.monitor.value(q))
                 }
                 error => error,
             });
@@ -423,57 +420,6 @@ where
     fn save(&self) {}
 
     fn go_back(&mut self, _saved: &()) {}
-}
-
-impl<M, S, W, V, R, N> DenseSteps for AdaptiveSteps<M, S, W, V, R, N>
-where
-    M: Method,
-    S: System<V>,
-    W: Monitor,
-    V: Vector<Scalar = f64>,
-    R: Summation,
-    N: Solver<V, S>,
-{
-    type Vector = V;
-    type Scratch = <Partitioned<M, S, V, R, N> as DenseSteps>::Scratch;
-
-    fn scratch(&self) -> Self::Scratch {
-        self.integrator.stepper.scratch()
-    }
-
-    fn last_span(&self) -> Option<(f64, f64)> {
-        self.integrator.stepper.last_span()
-    }
-
-    fn write_start(&self, out: &mut State<V>) {
-        self.integrator.stepper.write_start(out);
-    }
-
-    fn prepare(&self, scratch: &mut Self::Scratch) -> Result<(), Error> {
-        self.integrator.stepper.prepare(scratch)
-    }
-
-    fn look(
-        &mut self,
-        time: f64,
-        scratch: &mut Self::Scratch,
-        out: &mut State<V>,
-    ) -> Result<(), Error> {
-        self.integrator.stepper.look(time, scratch, out)
-    }
-
-    fn look_by_step(
-        &mut self,
-        time: f64,
-        scratch: &mut Self::Scratch,
-        out: &mut State<V>,
-    ) -> Result<(), Error> {
-        self.integrator.stepper.look_by_step(time, scratch, out)
-    }
-
-    fn slopes(&mut self, state: &State<V>, size: f64, velocity: &mut V, force: &mut V) {
-        (self.integrator.stepper).slopes(state, size, velocity, force);
-    }
 }
 
 impl<M, S, W, V, R, N> Clone for AdaptiveSteps<M, S, W, V, R, N>

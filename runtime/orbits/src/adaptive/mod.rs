@@ -9,7 +9,7 @@
 //! | [`Logarithmic`] | another Hamiltonian with the same orbits, for `T(p) + U(q)` with `U < 0` | all splittings for separable systems | the symplectic form; with compositions of `position-verlet` also Kepler orbits, exactly |
 //! | [`Poincare`] | another Hamiltonian, `σ(q)(H − H_0)`, for any H and [`Monitor`] | implicit ones, for general systems | the symplectic form |
 //!
-//! The last two are systems for an ordinary [`Integrator`](crate::Integrator) with equal steps in a fictitious time τ; physical time is a
+//! The last two are systems for an ordinary [`Integrator`](symplectic_core::Integrator) with equal steps in a fictitious time τ; physical time is a
 //! coordinate.
 
 #[cfg(feature = "alloc")]
@@ -24,10 +24,10 @@ mod output;
 #[cfg(feature = "alloc")]
 mod poincare;
 
-pub use crate::method::Symmetry;
 pub use integrator::{Adaptive, AdaptiveSteps};
 #[cfg(feature = "alloc")]
 pub use logarithmic::Logarithmic;
 pub use monitor::{DistancePower, ForcePower, Monitor, PairDistances};
 #[cfg(feature = "alloc")]
 pub use poincare::Poincare;
+pub use symplectic_core::inside::Symmetry;
