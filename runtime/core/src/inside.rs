@@ -50,4 +50,4 @@ pub use crate::solver::fixed_point::by_stages;
 pub use crate::system::lane_registers::{may_be_found, over_lanes_of, widest, width};
 pub use crate::system::linearity::non_linear_velocity;
 
-pub use crate::words;
+pub use crate::number::words::words;

@@ -19,7 +19,7 @@ macro_rules! words {
         $( $crate::inside::Words::words(&mut $value, $visit); )+
     };
 }
-pub(crate) use words;
+pub use words;
 
 macro_rules! as_words {
     ($($type:ty: $to:expr, $from:expr;)+) => {
