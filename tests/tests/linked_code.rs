@@ -19,7 +19,7 @@ const MECHANICS: [&str; 4] = [
     "symplectic_core::method::constrained::",
     "symplectic_core::method::nonholonomic::",
     "symplectic_core::method::damped::",
-    "symplectic_core::variational::",
+    "symplectic_mechanics::",
 ];
 
 /// The names of the functions in a program, without their hashes.
