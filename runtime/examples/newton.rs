@@ -2,6 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
+use symplectic::solver::ByNewton;
 use symplectic::{Error, Integrator, State};
 
 symplectic::tableau! {

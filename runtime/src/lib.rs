@@ -62,13 +62,14 @@
 //! # Features
 //!
 //! * `std` (default): `tan`, inverse and hyperbolic functions, and all functions of singles, from the standard library; implies `alloc`.
-//! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), constraints, Newton's iteration, tableaux at run time, checkpoints,
-//!   tangent maps; of `adaptive` and `flow` also [`adaptive::Logarithmic`],
-//!   [`adaptive::Poincare`], Kepler orbits, linear, mollified and asynchronous flows, and correctors.
+//! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), constraints, tableaux at run time, checkpoints, tangent maps;
+//!   of `adaptive` and `flow` also [`adaptive::Logarithmic`], [`adaptive::Poincare`], Kepler orbits, linear, mollified and asynchronous
+//!   flows, and correctors.
 //! * `flows`, `orbits`: the modules [`flow`] and [`adaptive`].
 //! * `mechanics`: rigid bodies and balances; with `alloc` also discrete and degenerate Lagrangians, generating functions and stages of steps.
 //! * `serde`: a [`Checkpoint`] can be written and read in any format; implies `alloc`.
-//! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and Newton's iteration takes derivatives by dual numbers; implies `std`.
+//! * `newton`: Newton's iteration for stiff and strongly coupled systems, [`solver::ByNewton`]; implies `alloc`.
+//! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and with `newton` its iteration takes derivatives by dual numbers; implies `std`.
 //! * `fma`: products in sums are rounded once, everywhere; very slow without the instruction.
 //! * `files`: the module [`files`], tables of a run and files that are replaced as a whole; implies `std`.
 //! * `ensembles`: the module [`ensemble`], many trajectories at once; implies `alloc`.
@@ -92,6 +93,14 @@ pub use symplectic_flows as flow;
 pub use symplectic_mechanics::rotation;
 #[cfg(all(feature = "mechanics", feature = "alloc"))]
 pub use symplectic_mechanics::variational;
+
+/// How coupled stages are found.
+pub mod solver {
+    pub use symplectic_core::solver::*;
+    #[cfg(feature = "newton")]
+    #[doc(inline)]
+    pub use symplectic_newton::*;
+}
 
 /// Output of a run: states, dense output, events, invariants, balances, progress.
 pub mod output {

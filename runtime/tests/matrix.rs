@@ -10,7 +10,8 @@ use common::systems::{Fuse, PulsatingProduct, PulsatingStar};
 use common::{coefficients, distance};
 use symplectic::nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
 use symplectic::solver::{
-    Dense, Differences, FixedPoint, FixedPointThenNewton, SimdFixedPoint, SimdJacobi, Solver,
+    ByNewton, Dense, Differences, FixedPoint, FixedPointThenNewton, SimdFixedPoint, SimdJacobi,
+    Solver,
 };
 use symplectic::system::{Conservative, SystemInLanes, Unconstrained};
 use symplectic::{

@@ -9,7 +9,7 @@ use std::error::Error;
 use std::time::Instant;
 
 use nalgebra::DVector;
-use symplectic::solver::{FixedPoint, Solver};
+use symplectic::solver::{ByNewton, FixedPoint, Solver};
 use symplectic::system::Conservative;
 use symplectic::{
     Integrator, Method, ProvedFor, RunTimeTableau, State, Summation, System, Vector, separable,

@@ -8,10 +8,11 @@ use object::{Object, ObjectSymbol};
 use rustc_demangle::demangle;
 
 /// The modules of the library with what only implicit methods need.
-const SOLVERS: [&str; 3] = [
+const SOLVERS: [&str; 4] = [
     "symplectic_core::method::change::",
     "symplectic_core::method::coupled::",
     "symplectic_core::solver::",
+    "symplectic_newton::",
 ];
 
 /// The modules with what only constraints, friction and Lagrangians need.
@@ -62,7 +63,7 @@ fn an_explicit_scene_links_no_solver() -> Result<(), Box<dyn Error>> {
     assert!(!of(&explicit, splitting).is_empty() && of(&implicit, splitting).is_empty());
     // The one that the types choose brings neither Newton's iteration nor that of other scalars.
     for module in [
-        "symplectic_core::solver::newton::",
+        "symplectic_newton::",
         "symplectic_core::solver::fixed_point::",
     ] {
         assert_eq!(of(&implicit, module), Vec::<String>::new(), "{module}");
@@ -88,7 +89,7 @@ fn an_explicit_formula_has_only_its_velocity_and_force_in_it() -> Result<(), Box
         assert!(!has(&explicit, module), "{module}");
     }
     // In the other program the same search finds all of them.
-    assert!(has(&newton, "symplectic_core::solver::newton::"));
+    assert!(has(&newton, "symplectic_newton::"));
     for function in ["energy", "second_derivatives", "half_bandwidth"] {
         let of_formula = |name: &String| {
             name.contains("HenonHeiles") && name.contains(&format!(">::{function}"))

@@ -5,8 +5,8 @@
 
 use symplectic::nalgebra::{DVector, SMatrix, SVector};
 use symplectic::solver::{
-    AnalyticOrDifferences, Banded, Dense, Derivatives, Differences, DualNumbers, Newton, Solver,
-    SystemInDuals,
+    AnalyticOrDifferences, Banded, ByNewton, Dense, Derivatives, Differences, DualNumbers, Newton,
+    Solver, SystemInDuals,
 };
 use symplectic::system::Jacobian;
 use symplectic::{Error, Integrator, Scalar, State, System, Vector};

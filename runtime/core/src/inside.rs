@@ -33,21 +33,32 @@ pub use crate::method::{
 };
 
 pub use crate::number::array::array;
+pub use crate::number::dither::dither_last_sweep;
 pub use crate::number::dual::HyperDual;
 #[cfg(feature = "alloc")]
-pub use crate::number::elimination::Elimination;
+pub use crate::number::elimination::{Complex, Elimination};
+pub use crate::number::linear_combination::totals_by;
 pub use crate::number::registers::{Avx2, Avx512, Widest};
 pub use crate::number::scalar::larger_or_nan;
 pub use crate::number::summation::{add_sum, fast_two_sum, two_sum};
 pub use crate::number::vector::{beside, same};
+pub use crate::number::words::{show_vectors, words};
 pub use crate::number::{Coefficient, Coefficients, Visit, Words, copy, vector_words};
 
 pub use crate::output::at_times::{Output, is_after};
 
+#[cfg(feature = "alloc")]
+pub use crate::solver::convergence::{Progress, ROUNDING, STAGNATION, non_finite};
 pub use crate::solver::fixed_point::by_stages;
+#[cfg(feature = "alloc")]
+pub use crate::solver::run_time::by_rows;
 
 #[cfg(feature = "alloc")]
 pub use crate::system::lane_registers::{may_be_found, over_lanes_of, widest, width};
 pub use crate::system::linearity::non_linear_velocity;
 
-pub use crate::number::words::words;
+/// The schedule of a tableau at run time.
+#[cfg(feature = "alloc")]
+pub mod run_time {
+    pub use crate::method::run_time::{Coupled, Half, coupled};
+}

@@ -182,13 +182,8 @@ impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>, L: Lanes> Ensemble<M, 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes>
     Ensemble<M, S, V, R, N, L>
 {
-    /// The same ensemble with another [`Solver`] for coupled stages.
+    /// The same ensemble with another [`Solver`] for coupled stages, for example `<Newton>::new()` of the feature `newton`.
     pub fn with_solver<O: Solver<V, S>>(self, _solver: O) -> Ensemble<M, S, V, R, O, L> {
-        self.of_kind()
-    }
-
-    /// The same ensemble with Newton's iteration: see [`Integrator::by_newton`](symplectic_core::Integrator::by_newton).
-    pub fn by_newton(self) -> Ensemble<M, S, V, R, symplectic_core::solver::Newton, L> {
         self.of_kind()
     }
 

@@ -9,6 +9,7 @@ use symplectic::emitted::Solver;
 use symplectic::ensemble::{Ensemble, EnsembleError};
 use symplectic::nalgebra::DVector;
 use symplectic::output::Interpolation;
+use symplectic::solver::Newton;
 use symplectic::system::{Conservative, Frictionless, Unconstrained};
 use symplectic::{
     AtRunTime, Class, Compensated, Constrained, ConstraintName, Error as RunError, General,
@@ -176,7 +177,12 @@ impl<'a> Run<'a> {
         let ensemble = self.made::<_, R>(tangents)?;
         match self.is_by_newton() {
             false => self.run(ensemble, parameters, progress, Self::chaos),
-            true => self.run(ensemble.by_newton(), parameters, progress, Self::chaos),
+            true => self.run(
+                ensemble.with_solver(<Newton>::new()),
+                parameters,
+                progress,
+                Self::chaos,
+            ),
         }
     }
 
@@ -192,7 +198,12 @@ impl<'a> Run<'a> {
         let ensemble = self.made::<_, R>(families)?;
         match self.is_by_newton() {
             false => self.run(ensemble, parameters, progress, Self::states),
-            true => self.run(ensemble.by_newton(), parameters, progress, Self::states),
+            true => self.run(
+                ensemble.with_solver(<Newton>::new()),
+                parameters,
+                progress,
+                Self::states,
+            ),
         }
     }
 

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::simd::{F64x2, F64x4, F64x8, F64x16};
-use symplectic::solver::{FixedPoint, SimdJacobi};
+use symplectic::solver::{ByNewton, FixedPoint, Newton, SimdJacobi};
 use symplectic::{
     Compensated, Integrator, Method, Plain, ProvedFor, Separable, State, Summation, System, Vector,
     acceleration,
@@ -262,7 +262,9 @@ fn chosen_solvers_in_an_ensemble_have_the_bits_of_single_runs() {
         |run| (run.integrate_to(9.0).map(|_| ()), ()),
     );
     let mut rows = Vec::new();
-    ensemble().by_newton().integrate_to(9.0, keep(&mut rows, 0));
+    ensemble()
+        .with_solver(<Newton>::new())
+        .integrate_to(9.0, keep(&mut rows, 0));
     end(&rows, &newton);
 
     let fixed = alone(

@@ -7,6 +7,7 @@ use symplectic::ensemble::Ensemble;
 use symplectic::ensemble::EnsembleCheckpoint;
 use symplectic::nalgebra::{DVector, Matrix2, SVector, Vector1, Vector2};
 use symplectic::num_traits::Zero;
+use symplectic::solver::ByNewton;
 use symplectic::tangent::{Megno, Tangent};
 use symplectic::variational::generating_function;
 use symplectic::{

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use symplectic::adaptive::{AdaptiveSteps, Monitor};
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{Vector1, Vector2};
-use symplectic::solver::{Dense, Differences, FixedPointThenNewton};
+use symplectic::solver::{ByNewton, Dense, Differences, FixedPointThenNewton, Newton};
 use symplectic::system::Gradients;
 use symplectic::variational::{DiracRule, DiracSteps, DiracSystem, LagrangianSteps};
 use symplectic::{
@@ -189,7 +189,7 @@ fn repeated_steps_in_an_ensemble_have_the_bits_of_single_runs() -> Result<(), Er
         .collect();
     let ensemble = Ensemble::new(Midpoint, Product, starts.clone(), 1.5).expect("starts");
     let (mut rejected, mut failed) = (0, 0);
-    ensemble.by_newton().take_steps(10, |row| {
+    ensemble.with_solver(<Newton>::new()).take_steps(10, |row| {
         let start = starts[row.trajectory].clone();
         let alone = Integrator::new(Midpoint, Product, start, 1.5).expect("a run");
         let mut alone = alone.by_newton();

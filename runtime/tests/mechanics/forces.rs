@@ -4,6 +4,7 @@ use crate::methods::{
     ForestRuth, Gauss2, Gauss3, Gauss4, Lobatto3, Lobatto4, Lobatto5, Midpoint, StoermerVerlet,
 };
 use symplectic::nalgebra::{DVector, SVector, Vector2, Vector3};
+use symplectic::solver::ByNewton;
 use symplectic::variational::{StagesOfStep, StepWithStages, generating_function};
 use symplectic::{Error, Integrator, Method, ProvedFor, Scalar, State, System, hamiltonian};
 

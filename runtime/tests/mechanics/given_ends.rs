@@ -3,6 +3,7 @@
 
 use crate::methods::{ForestRuth, Gauss2, Lobatto3, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1, Vector2};
+use symplectic::solver::ByNewton;
 use symplectic::variational::{
     GeneratingFunctions, GivenEnds, LagrangianSteps, VariationalSteps, generating_function,
 };

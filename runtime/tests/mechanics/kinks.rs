@@ -2,6 +2,7 @@
 
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::simd::{F64x8, Lanes};
+use symplectic::solver::ByNewton;
 use symplectic::system::Jacobian;
 use symplectic::tangent::Tangent;
 use symplectic::{Error, Hamiltonian, Integrator, Scalar, State};

@@ -8,6 +8,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use symplectic::adaptive::{AdaptiveSteps, DistancePower};
 use symplectic::nalgebra::{Vector1, Vector2, Vector3};
 use symplectic::rotation::{FreeBody, RotationState, RotationSteps};
+use symplectic::solver::ByNewton;
 use symplectic::variational::{
     DiracRule, DiracSteps, DiscreteLagrangian, EnergyMomentumSteps, LagrangianSteps,
     VariationalSteps,

@@ -4,6 +4,7 @@ use crate::common::methods::{Gauss2, Gauss4, Midpoint, StoermerVerlet};
 use crate::common::systems::{Chain, GeneralChain, Pendulum, Product, point};
 use crate::common::{distance, run};
 use symplectic::nalgebra::Vector1;
+use symplectic::solver::ByNewton;
 use symplectic::{Error, Integrator, Method, State, separable};
 
 #[test]

@@ -8,7 +8,7 @@ use crate::common::systems::{Pendulum, Product, point};
 
 use crate::common::methods::{Gauss2, Lobatto3, Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1};
-use symplectic::solver::{FixedPoint, FixedPointThenNewton};
+use symplectic::solver::{ByNewton, FixedPoint, FixedPointThenNewton};
 use symplectic::variational::StepWithStages;
 use symplectic::{
     Class, Error, General, Integrator, Method, ProvedFor, Quantity, Separable, State, System,
@@ -456,7 +456,7 @@ fn messages_name_the_cause_the_step_and_a_remedy() {
     assert_eq!(message(false), plain);
     assert_eq!(
         message(true),
-        format!("{plain}, or `by_newton()` for a stiff system")
+        format!("{plain}, or, with the feature `newton`, `by_newton()` for a stiff system")
     );
 }
 

@@ -9,6 +9,7 @@ use crate::common::methods::{
 };
 use crate::common::systems::{Kepler, perihelion};
 use symplectic::nalgebra::{Vector1, Vector2};
+use symplectic::solver::ByNewton;
 use symplectic::{Error, Event, Integrator, Method, State, acceleration};
 
 type Point = State<Vector1<f64>>;

@@ -8,7 +8,8 @@ use crate::common::methods::{
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::num_traits::One;
 use symplectic::solver::{
-    AnalyticOrDifferences, Banded, Dense, Differences, FixedPoint, FixedPointThenNewton, Newton,
+    AnalyticOrDifferences, Banded, ByNewton, Dense, Differences, FixedPoint, FixedPointThenNewton,
+    Newton,
 };
 use symplectic::system::Jacobian;
 use symplectic::{

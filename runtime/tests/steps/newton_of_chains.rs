@@ -3,7 +3,7 @@
 use crate::common::methods::Gauss3;
 use symplectic::emitted::{Bonds, Chain};
 use symplectic::nalgebra::DVector;
-use symplectic::solver::{Derivatives, Differences};
+use symplectic::solver::{ByNewton, Derivatives, Differences};
 use symplectic::system::Jacobian;
 use symplectic::{Error, Integrator, Scalar, State, System};
 

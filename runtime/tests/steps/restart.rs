@@ -6,7 +6,7 @@ use crate::common::systems::Kepler;
 use proptest::prelude::*;
 use symplectic::emitted::{Bonds, Chain};
 use symplectic::nalgebra::{DVector, SVector};
-use symplectic::solver::{Banded, Differences, Newton, Solver};
+use symplectic::solver::{Banded, ByNewton, Differences, Newton, Solver};
 use symplectic::{
     Checkpoint, CheckpointError, Error, Integrator, Method, ProvedFor, Retry, Scalar, Separable,
     SeparableHamiltonian, State, Summation, System, Vector,

@@ -5,7 +5,7 @@ use crate::common::systems::{Driven, Pendulum, Product};
 use crate::common::{coefficients, distance, tableau};
 use symplectic::nalgebra::{DVector, Vector1, Vector2};
 use symplectic::simd::{F64x4, Lanes};
-use symplectic::solver::{FixedPoint, FixedPointThenNewton};
+use symplectic::solver::{ByNewton, FixedPoint, FixedPointThenNewton};
 use symplectic::system::{Conservative, Frictionless};
 use symplectic::{
     Error, Event, Integrator, Method, ProvedFor, Quantity, Retry, RunTimeCoefficients,

@@ -2,6 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "a program prints")]
 
+use symplectic::solver::ByNewton;
 use symplectic::{Error, Integrator};
 use symplectic_tests::formulas::HenonHeiles;
 use symplectic_tests::methods::Gauss2;

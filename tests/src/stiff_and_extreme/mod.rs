@@ -6,6 +6,7 @@ mod methods;
 use std::io;
 
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
+use symplectic::solver::ByNewton;
 use symplectic::{Error, Integrator, Method, Separable, State, System};
 use symplectic_report::{Cell, StabilityLimit, Verdict, Verdicts};
 
@@ -88,7 +89,7 @@ impl Run {
         let Problem::Any(system) = &self.system else {
             return None;
         };
-        let integrator = self.integrator(method, system).map(Integrator::by_newton);
+        let integrator = self.integrator(method, system).map(ByNewton::by_newton);
         Some(Verdict::of(integrator, self.steps, self.reference.as_ref()))
     }
 

@@ -35,15 +35,14 @@ impl StageChange {
     }
 
     /// Whether the relative change of the positions or that of the momenta is NaN.
-    #[cfg(feature = "alloc")]
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) const fn is_undefined(&self) -> bool {
+    pub const fn is_undefined(&self) -> bool {
         self.q.is_undefined() || self.p.is_undefined()
     }
 
     /// The largest position and the largest momentum.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) const fn scales(&self) -> [f64; 2] {
+    pub const fn scales(&self) -> [f64; 2] {
         [self.q.scale, self.p.scale]
     }
 }
@@ -57,22 +56,20 @@ pub struct HalfChange {
 
 impl HalfChange {
     /// Whether the [relative](Self::relative) change is NaN.
-    #[cfg(feature = "alloc")]
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) const fn is_undefined(&self) -> bool {
+    pub const fn is_undefined(&self) -> bool {
         self.difference.is_nan() || self.difference.is_infinite() && self.scale.is_infinite()
     }
 
     /// The largest |new − old|.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) const fn difference(&self) -> f64 {
+    pub const fn difference(&self) -> f64 {
         self.difference
     }
 
     /// The largest of all |base| and |new|.
-    #[cfg(feature = "alloc")]
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) const fn scale(&self) -> f64 {
+    pub const fn scale(&self) -> f64 {
         self.scale
     }
 

@@ -126,7 +126,8 @@ impl<V: Vector> Inside<'_, V> {
     }
 
     /// Adds to `out` the part that vanishes at both ends, from evaluations that are stored one by one.
-    pub(crate) fn add(
+    #[doc(hidden)]
+    pub fn add(
         self,
         half: &HalfTableau,
         increments: bool,

@@ -38,7 +38,8 @@ impl<T: Scalar> BandMatrix<T> {
     }
 
     /// The entries, including those of the band outside the matrix.
-    pub(crate) fn entries_mut(&mut self) -> &mut [T] {
+    #[doc(hidden)]
+    pub fn entries_mut(&mut self) -> &mut [T] {
         &mut self.entries
     }
 
@@ -145,7 +146,8 @@ impl<T: Scalar> Jacobian<T> {
         }
     }
 
-    pub(crate) fn each_mut(&mut self) -> [&mut BandMatrix<T>; 4] {
+    #[doc(hidden)]
+    pub fn each_mut(&mut self) -> [&mut BandMatrix<T>; 4] {
         [
             &mut self.velocity_by_position,
             &mut self.velocity_by_momentum,
@@ -164,7 +166,8 @@ impl<T: Scalar> Jacobian<T> {
 
     /// ∂force_i/∂p_j
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(crate) fn force_by_momentum(&self, i: usize, j: usize) -> T {
+    #[doc(hidden)]
+    pub fn force_by_momentum(&self, i: usize, j: usize) -> T {
         self.applied_force_by_momentum.get(i, j) - self.velocity_by_position.get(j, i)
     }
 }

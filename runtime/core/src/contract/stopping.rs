@@ -3,11 +3,11 @@
 /// Stopping criterion of the iteration for the coupled stages of a step.
 ///
 /// The iteration stops earlier once the stages have converged: see [`FixedPoint`](crate::solver::FixedPoint) and
-/// [`Newton`](crate::solver::Newton).
+/// `solver::Newton`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stopping {
     /// Maximum number of sweeps in one attempt to find the stages, at least one; after these the attempt has failed.
-    /// [`Newton`](crate::solver::Newton) makes up to three attempts. They start from the stages of the previous step and from the start of
+    /// `solver::Newton` makes up to three attempts. They start from the stages of the previous step and from the start of
     /// the step; the last one uses the derivatives at every stage.
     pub max_iterations: u32,
     /// With [`Plain`](crate::Plain) sums: how far the last sweep may move the positions of the stages, and the momenta if they matter, in

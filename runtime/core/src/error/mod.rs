@@ -20,11 +20,11 @@ debug_by_message!(Error);
 #[non_exhaustive]
 pub enum Error {
     /// The iteration for the coupled stages diverged, or converged too slowly. Take a smaller step, or for a stiff
-    /// system [`Newton`](crate::solver::Newton) instead of a fixed-point iteration.
+    /// system `solver::Newton` instead of a fixed-point iteration.
     #[error(
         "step {step} of size {step_size} at time {time}: the stages {}; take a smaller step{}",
         Divergence { residual: *.residual, iterations: *.iterations },
-        if *.newton_may_help { ", or `by_newton()` for a stiff system" } else { "" },
+        if *.newton_may_help { ", or, with the feature `newton`, `by_newton()` for a stiff system" } else { "" },
         time = Short(*.time),
         step_size = Short(*.step_size)
     )]

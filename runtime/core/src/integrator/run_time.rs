@@ -15,7 +15,7 @@ impl<S: System<V, Class: Frictionless>, V: Vector> Integrator<AtRunTime, S, V> {
     ///
     /// On separable systems an explicit tableau takes drifts and kicks. Coupled stages use the iteration of
     /// [`FixedPoint`](crate::solver::FixedPoint), one by one and never in lanes. For stiff systems take
-    /// [`by_newton`](Integrator::by_newton). Dense output is the cubic polynomial through the ends of the step.
+    /// `by_newton`. Dense output is the cubic polynomial through the ends of the step.
     ///
     /// # Errors
     ///

@@ -8,7 +8,7 @@
 /// iteration approaches decides at which of the two it ends. The starting values lie on the same side in every step, so the energy would
 /// drift. For Hénon–Heiles and Gauss 8 the relative drift would be 1e-21 per step.
 #[inline]
-pub(crate) const fn dither_last_sweep(time: f64) -> bool {
+pub const fn dither_last_sweep(time: f64) -> bool {
     bits(time) & 1 == 1
 }
 

@@ -40,9 +40,11 @@ impl<T: Scalar> Entry for T {
 
 /// A complex number.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Complex<T> {
-    pub(crate) re: T,
-    pub(crate) im: T,
+pub struct Complex<T> {
+    /// The real part.
+    pub re: T,
+    /// The imaginary part.
+    pub im: T,
 }
 
 impl<T: Add<Output = T>> Add for Complex<T> {

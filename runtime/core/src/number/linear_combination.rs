@@ -348,7 +348,7 @@ fn plus_product<T: Scalar>(sum: Option<T>, (x, y): (T, T)) -> T {
 
 /// The terms of the sums of a vector, by the numbers of the component and of the term. A closure is enough, except for lanes: see
 /// [`Products`].
-pub(crate) trait TermsOfComponents<T> {
+pub trait TermsOfComponents<T> {
     fn term(&self, component: usize, number: usize) -> T;
 }
 
@@ -371,7 +371,7 @@ impl<T, X: TermsOfComponents<T>> Terms<T> for OfComponent<'_, X> {
 
 /// The first `n` components of a result: `base + low + Σ_j term_ij` over `count` terms, rounded to `out`, with the round-off in `out_low`.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn totals_by<R: Summation, V: Vector>(
+pub fn totals_by<R: Summation, V: Vector>(
     (out, out_low): (&mut V, &mut V),
     (base, low): (&V, &V),
     (n, count): (usize, usize),

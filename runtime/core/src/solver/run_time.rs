@@ -21,7 +21,7 @@ use crate::solver::convergence::{Sweeps, settle};
 /// Takes a step whose stages depend on each other: the iteration of [`FixedPoint`](crate::solver::FixedPoint) over rows of
 /// coefficients instead of straight-line code. Nothing is allocated.
 #[inline]
-pub(crate) fn by_rows<C: Class, R: Summation, V: Vector, S: System<V, Class = C>>(
+pub fn by_rows<C: Class, R: Summation, V: Vector, S: System<V, Class = C>>(
     step: &Step<'_, V>,
     system: &S,
     memory: &mut RunTimeStages<V, C>,

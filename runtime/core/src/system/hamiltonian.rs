@@ -283,7 +283,7 @@ pub trait Hamiltonian {
     }
 
     /// Writes the second derivatives of H at `(time, q, p)` into `jacobian`, which is initially zero, and returns `true`. Returns `false`
-    /// if the system does not provide them; the iteration of [Newton](crate::solver::Newton) then uses differences. Derivatives of an
+    /// if the system does not provide them; the iteration of `solver::Newton` then uses differences. Derivatives of an
     /// [applied force](Self::applied_force) with respect to positions are added to `force_by_position`; those with respect to momenta have
     /// a separate matrix.
     #[cfg(feature = "alloc")]
@@ -626,10 +626,11 @@ pub trait SeparableHamiltonian {
     }
 
     /// Writes the second derivatives of H at `(time, q, p)` into `jacobian`, which is initially zero, and returns `true`. Returns `false`
-    /// if the system does not provide them; the iteration of [Newton](crate::solver::Newton) then uses differences.
+    /// if the system does not provide them; the iteration of `solver::Newton` then uses differences.
     ///
     /// ```
     /// use symplectic::nalgebra::SVector;
+    /// use symplectic::solver::ByNewton;
     /// use symplectic::system::Jacobian;
     /// use symplectic::{Error, Integrator, Scalar, SeparableHamiltonian, State};
     ///

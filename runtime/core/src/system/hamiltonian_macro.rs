@@ -28,7 +28,7 @@
 ///
 /// The macro makes the type, with a field for each parameter. It implements [`SeparableHamiltonian`](crate::SeparableHamiltonian) or
 /// [`Hamiltonian`](crate::Hamiltonian), depending on the class of H. The derivatives are exact, first and second. Newton's iteration,
-/// [`by_newton`](crate::Integrator::by_newton), uses the [second](crate::Hamiltonian::second_derivatives); they are
+/// `by_newton`, uses the [second](crate::Hamiltonian::second_derivatives); they are
 /// [banded](crate::Hamiltonian::half_bandwidth) if only neighbours interact. The documentation of the type shows H, the equations of motion
 /// and the properties found.
 ///

@@ -2,7 +2,8 @@
 
 use super::energies::{EnergyAt, weighted_energy};
 use super::two_ends::{Unknowns, dot, solve, sum};
-use symplectic_core::inside::{Coefficients, Solver, Step, Stopping, check_state, check_step_size};
+use symplectic_core::inside::{check_state, check_step_size};
+use symplectic_core::solver::{Coefficients, Solver, Step, Stopping};
 use symplectic_core::system::Conservative;
 use symplectic_core::{
     Error, Integrator, Method, ProvedFor, Quantity, Scalar, Summation, System, Vector,

@@ -9,7 +9,8 @@ use super::stages::StepWithStages;
 use super::two_ends::dot;
 use crate::variational::regular::Singular;
 use crate::variational::regular::largest;
-use symplectic_core::inside::{Solver, check_state};
+use symplectic_core::inside::check_state;
+use symplectic_core::solver::Solver;
 use symplectic_core::system::Conservative;
 use symplectic_core::{
     Error, Integrator, Method, Quantity, State, StepMap, Summation, System, Vector,

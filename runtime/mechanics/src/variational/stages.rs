@@ -4,9 +4,8 @@ use alloc::vec::Vec;
 
 use super::energies::{EnergyAt, weighted_energy};
 use super::two_ends::{dot, solve};
-use symplectic_core::inside::{
-    Attempt, Failure, FirstFault, Plan, Solver, StageView, Step, Stopping,
-};
+use symplectic_core::inside::{Attempt, FirstFault, Plan, StageView};
+use symplectic_core::solver::{Failure, Solver, Step, Stopping};
 use symplectic_core::{
     Class, Error, Integrator, Method, Quantity, Scalar, Summation, System, Vector,
 };
@@ -274,6 +273,6 @@ fn error<V: Vector>(step: &Step<'_, V>, number: u64, failure: Failure) -> Error 
     let attempt = Attempt::of(step, number);
     let observed = FirstFault::new(attempt.dimension);
     let nothing: symplectic_core::inside::Evaluations<V> =
-        symplectic_core::inside::StageStorage::like(step.q);
+        symplectic_core::solver::StageStorage::like(step.q);
     attempt.error(Some(failure), &observed, &nothing, step.q)
 }

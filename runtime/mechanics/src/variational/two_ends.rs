@@ -6,9 +6,12 @@ use core::marker::PhantomData;
 use num_traits::Zero;
 
 use symplectic_core::inside::{
-    Attempt, Coefficient, Coefficients, EvaluationCounts, FirstFault, HalfChange, Outcome,
-    StageChange, StagePlan, StageStorage, Step, Stopping, Visit, WarmStart, by_stages,
-    first_mismatch, first_non_finite, first_non_finite_of, is_finite,
+    Attempt, FirstFault, StagePlan, by_stages, first_mismatch, first_non_finite,
+    first_non_finite_of, is_finite,
+};
+use symplectic_core::solver::{
+    Coefficient, Coefficients, EvaluationCounts, HalfChange, Outcome, StageChange, StageStorage,
+    Step, Stopping, Visit, WarmStart,
 };
 use symplectic_core::{Class, Error, Method, Plain, Quantity, Scalar, Summation, System, Vector};
 

@@ -187,6 +187,7 @@ where
     /// ```
     /// use symplectic::adaptive::{AdaptiveSteps, DistancePower};
     /// use symplectic::nalgebra::Vector2;
+    /// use symplectic::solver::ByNewton;
     /// use symplectic::{Error, Integrator, State, acceleration};
     ///
     /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }

@@ -2,6 +2,7 @@
 //!
 //! Every method is generic over the system, here only; a scene chooses a set and its parameters.
 
+use symplectic::solver::ByNewton;
 use symplectic::system::Unconstrained;
 use symplectic::{Class, Constrained, Damped, Integrator, Nonholonomic, Separable, System, Vector};
 use symplectic_report::Problem;

@@ -13,7 +13,8 @@ use core::fmt::Write as _;
 pub use error::TableauError;
 pub use plan::{RunTimePlan, RunTimeStages};
 use schedule::NO_STAGES;
-pub(crate) use schedule::{Coupled, Half, Kind, MAX_EVALUATIONS, Row, Schedule, Splitting};
+pub use schedule::{Coupled, Half};
+pub(crate) use schedule::{Kind, MAX_EVALUATIONS, Row, Schedule, Splitting};
 
 use crate::contract::{
     Class, ConstrainedStep, Frictionless, General, Method, Orders, ProvedFor, Separable,
@@ -105,7 +106,7 @@ pub struct RunTimeTableau {
 
 /// The coupled stages of a tableau for systems of class `C`; none without a tableau, or if its steps are drifts and kicks.
 #[inline]
-pub(crate) fn coupled<C: Class>(tableau: Option<&RunTimeTableau>) -> &Coupled {
+pub fn coupled<C: Class>(tableau: Option<&RunTimeTableau>) -> &Coupled {
     match tableau.map(RunTimeTableau::schedule::<C>) {
         Some(Schedule::Coupled(coupled)) => coupled,
         _ => &NO_STAGES,

@@ -10,7 +10,7 @@ use crate::number::dither::{dither_last_sweep, dither_side};
 /// Changes up to this many units of EPSILON can be rounding errors: one sweep rounds s products, s sums and the
 /// evaluations, s ≤ 20 in practice. The change must also have stopped shrinking, so that an iteration that still
 /// gains digits below the threshold goes on.
-pub(crate) const ROUNDING: f64 = 64.0;
+pub const ROUNDING: f64 = 64.0;
 
 /// Sweeps without progress after which a change that has shrunk by [`CONTRACTION`] counts as noise. The sweeps before
 /// this one are the early sweeps: they are not examined before the change can be rounding errors.
@@ -18,7 +18,7 @@ pub(crate) const PATIENCE: u32 = 10;
 
 /// An iteration has stagnated when the latest 1/`STAGNATION` of its sweeps made no progress. If it converges slowly and with
 /// oscillations, its change grows now and then long before it has settled. With fewer sweeps, one without progress suffices.
-pub(crate) const STAGNATION: u32 = 16;
+pub const STAGNATION: u32 = 16;
 
 /// Noise up to this many units of EPSILON still counts as noise if the smallest change was at most [`ROUNDING`].
 const AMPLIFIED: f64 = 4.0 * ROUNDING;
@@ -303,21 +303,24 @@ impl Sizes {
 }
 
 /// The history of changes of these sizes.
-pub(crate) struct Progress {
-    pub(crate) smallest: f64,
+pub struct Progress {
+    /// The smallest change.
+    pub smallest: f64,
     /// Whether the smallest change can be rounding errors in one half.
     was_rounding: bool,
     /// Number of sweeps since the smallest change.
-    pub(crate) idle: u32,
+    pub idle: u32,
     /// The largest noted change.
     largest: f64,
     /// The last noted change that was at most half of the previous such, and the number of sweeps since.
     mark: f64,
-    pub(crate) slow: u32,
+    /// Number of sweeps since that change.
+    pub slow: u32,
 }
 
 impl Progress {
-    pub(crate) const NONE: Self = Self {
+    /// No change yet.
+    pub const NONE: Self = Self {
         smallest: f64::INFINITY,
         was_rounding: false,
         idle: 0,
@@ -327,7 +330,7 @@ impl Progress {
     };
 
     /// Notes a change: the fixed-point iteration after its early sweeps, Newton's in each sweep.
-    pub(crate) fn note(&mut self, size: f64) {
+    pub fn note(&mut self, size: f64) {
         self.largest = larger(size, self.largest);
         (self.mark, self.slow) = match size <= 0.5 * self.mark {
             true => (size, 0),
@@ -336,7 +339,7 @@ impl Progress {
     }
 
     /// Whether the change has shrunk by [`CONTRACTION`], from the largest noted one or the `first`.
-    pub(crate) fn has_contracted(&self, first: f64) -> bool {
+    pub fn has_contracted(&self, first: f64) -> bool {
         self.smallest <= CONTRACTION * larger(first, self.largest)
     }
 
@@ -346,7 +349,7 @@ impl Progress {
     }
 
     /// An iteration that has not settled in the allowed number of sweeps.
-    pub(crate) fn failure(&self, size: f64, residual: f64, first: f64, iterations: u32) -> Failure {
+    pub fn failure(&self, size: f64, residual: f64, first: f64, iterations: u32) -> Failure {
         // The change shrank and then stagnated at the level of its noise.
         let came_down =
             residual <= NOISIEST && self.has_contracted(first) && size <= ROUNDING * self.smallest;
@@ -372,7 +375,7 @@ fn is_last<T: Scalar>(before: Option<f64>, this: f64) -> bool {
 }
 
 /// The cause of a first sweep that is NaN or infinite: the force of a stage, or the first such evaluation.
-pub(crate) fn non_finite(
+pub fn non_finite(
     force: Option<usize>,
     evaluation: impl FnOnce() -> Option<(Quantity, usize)>,
     of_positions: bool,

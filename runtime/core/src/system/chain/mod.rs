@@ -36,7 +36,7 @@ pub trait Bonds {
     }
 
     /// The second derivative `V″` of the energy of a bond, if it is known: exact derivatives for the iteration of
-    /// [Newton](crate::solver::Newton).
+    /// `solver::Newton`.
     fn stiffness<T: Scalar>(&self, _time: T, _stretch: T) -> Option<T> {
         None
     }

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use num_traits::Float;
 
-use symplectic_core::inside::Coefficient;
+use symplectic_core::solver::Coefficient;
 use symplectic_core::{Error, Method};
 
 /// A step with r stages whose velocities are sums of s unknowns `V_k`:

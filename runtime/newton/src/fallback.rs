@@ -2,24 +2,20 @@
 
 use super::linear_solver::{BandOrDense, LinearSolver};
 use super::{AnalyticOrDifferences, Newton};
-use crate::contract::storage::stored_words;
-use crate::contract::{
-    Class, Failure, Inside, Outcome, Solver, StageStorage, StageTableau, Step, StepStatistics,
-    Stopping, System, WarmStart,
+use symplectic_core::inside::{by_rows, by_stages};
+use symplectic_core::output::Inside;
+use symplectic_core::solver::{
+    Failure, FixedPoint, Outcome, Solver, StageStorage, StageTableau, Step, StepStatistics,
+    Stopping, Visit, WarmStart, Words,
 };
-use crate::error::Quantity;
-use crate::method::RunTimeTableau;
-use crate::number::{Summation, Vector};
-use crate::solver::FixedPoint;
-use crate::solver::fixed_point::by_stages;
-use crate::solver::run_time::by_rows;
+use symplectic_core::{Class, Quantity, RunTimeTableau, Summation, System, Vector};
 
 /// Steps that use Newton's iteration after a step in which the fixed-point iteration failed.
 const PATIENCE: u32 = 16;
 
-/// [`FixedPoint`](crate::solver::FixedPoint) with a fallback to [`Newton`], for systems that are stiff for some time.
+/// [`FixedPoint`](symplectic_core::solver::FixedPoint) with a fallback to [`Newton`], for systems that are stiff for some time.
 ///
-/// A step in which the fixed-point iteration fails is counted as [rejected](crate::Statistics::rejected). That step and the next 16
+/// A step in which the fixed-point iteration fails is counted as [rejected](symplectic_core::Statistics::rejected). That step and the next 16
 /// use Newton's iteration. If it fails too, the error is that of Newton's iteration.
 ///
 /// ```
@@ -90,7 +86,20 @@ impl<V: Vector, F: StageStorage<V>, N: StageStorage<V>> StageStorage<V>
         self.newton.set_tableau(tableau, prototype);
     }
 
-    stored_words! { fixed_point: memory; newton: memory; was_newton: number; newton_steps: number; }
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        self.fixed_point.words(visit);
+        self.newton.words(visit);
+        self.was_newton.words(visit);
+        self.newton_steps.words(visit);
+    }
+
+    fn show_words(&self, visit: &mut Visit<'_>) {
+        self.fixed_point.show_words(visit);
+        self.newton.show_words(visit);
+        // The visitor sees copies.
+        { self.was_newton }.words(visit);
+        { self.newton_steps }.words(visit);
+    }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {
         let newton = self.newton.non_finite();

@@ -2,9 +2,9 @@
 
 use core::marker::PhantomData;
 
-use crate::contract::{Class, HalfTableau, StageTableau};
-use crate::method::RunTimeTableau;
-use crate::method::run_time::{self, Coupled};
+use symplectic_core::inside::run_time::{self, Coupled};
+use symplectic_core::solver::{HalfTableau, StageTableau};
+use symplectic_core::{Class, RunTimeTableau};
 
 /// The coefficients of coupled stages, as Newton's iteration reads them:
 ///
@@ -32,7 +32,7 @@ pub trait StageCoefficients: Clone + Default {
     /// Momenta, and the velocities there.
     fn momenta(&self) -> Self::Half<'_>;
 
-    /// The blocks of the [`Decoupling`](crate::solver::Decoupling): `(α, ω)`, with `ω = 0` for a real eigenvalue. `None` if the linear
+    /// The blocks of the [`Decoupling`](symplectic_core::solver::Decoupling): `(α, ω)`, with `ω = 0` for a real eigenvalue. `None` if the linear
     /// systems do not decouple.
     fn blocks(&self) -> Option<&[(f64, f64)]>;
 

@@ -8,14 +8,11 @@ use num_traits::Zero;
 
 use super::coefficients::{HalfCoefficients, StageCoefficients};
 use super::linear_solver::{LinearSolver, Parts};
-use crate::contract::storage::{first_mismatch, first_non_finite};
-use crate::contract::{Class, StageStorage, System};
-use crate::error::Quantity;
-use crate::method::RunTimeTableau;
-use crate::number::words::{show_vectors, words};
-use crate::number::{Vector, Visit, vector_words};
+use symplectic_core::inside::{first_mismatch, first_non_finite, show_vectors};
+use symplectic_core::solver::{StageStorage, Visit, Words, vector_words};
+use symplectic_core::{Class, Quantity, RunTimeTableau, System, Vector};
 
-/// The memory of a [`Newton`](crate::solver::Newton) iteration with the coefficients `T`.
+/// The memory of a [`Newton`](crate::Newton) iteration with the coefficients `T`.
 pub struct NewtonMemory<V: Vector, T, S: System<V>, L: LinearSolver<V, S>> {
     pub(super) coefficients: T,
     pub(super) work: Workspace<V, S, L>,
@@ -201,7 +198,10 @@ impl<V: Vector, T: StageCoefficients, S: System<V>, L: LinearSolver<V, S>> Stage
             vector_words(vectors, visit);
         }
         L::words(&mut work.linear, visit);
-        words!(visit: work.factored, work.stale, work.steps_in_full, work.pause);
+        work.factored.words(visit);
+        work.stale.words(visit);
+        work.steps_in_full.words(visit);
+        work.pause.words(visit);
     }
 
     fn show_words(&self, visit: &mut Visit<'_>) {
@@ -217,7 +217,11 @@ impl<V: Vector, T: StageCoefficients, S: System<V>, L: LinearSolver<V, S>> Stage
             show_vectors(vectors, visit);
         }
         L::words(&mut work.linear.clone(), visit);
-        words!(visit: { work.factored }, { work.stale }, { work.steps_in_full }, { work.pause });
+        // The visitor sees copies.
+        { work.factored }.words(visit);
+        { work.stale }.words(visit);
+        { work.steps_in_full }.words(visit);
+        { work.pause }.words(visit);
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {

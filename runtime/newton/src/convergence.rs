@@ -3,12 +3,11 @@
 use super::coefficients::StageCoefficients;
 use super::linear_solver::LinearSolver;
 use super::sweep::ByIncrements;
-use crate::contract::{
-    Class, Failure, HalfChange, Separable, StageChange, StepStatistics, Stopping, System, WarmStart,
+use symplectic_core::inside::{Progress, ROUNDING, STAGNATION, dither_last_sweep, non_finite};
+use symplectic_core::solver::{
+    Failure, HalfChange, StageChange, StepStatistics, Stopping, WarmStart,
 };
-use crate::number::dither::dither_last_sweep;
-use crate::number::{Scalar, Summation, Vector};
-use crate::solver::convergence::{Progress, ROUNDING, STAGNATION, non_finite};
+use symplectic_core::{Class, Scalar, Separable, Summation, System, Vector};
 
 /// The change stagnates if it has not halved in this many sweeps.
 ///

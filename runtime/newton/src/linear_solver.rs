@@ -6,10 +6,10 @@ use core::marker::PhantomData;
 
 use super::every_stage::{AllStages, EveryStage, NOT_FINITE};
 use super::jacobian::Derivatives;
-use crate::contract::{BandMatrix, Class, Failure, Jacobian, System};
-use crate::number::elimination::{Complex, Elimination};
-use crate::number::words::words;
-use crate::number::{Scalar, Vector, Visit, scalar_words};
+use symplectic_core::inside::{Complex, Elimination};
+use symplectic_core::solver::{Failure, Visit, Words, scalar_words};
+use symplectic_core::system::{BandMatrix, Jacobian};
+use symplectic_core::{Class, Scalar, System, Vector};
 
 /// Coupling between the parts of the unknown of a linear system: the factor `γ` in `(1 − γ J) x = r`.
 ///
@@ -55,7 +55,7 @@ impl Parts {
     }
 }
 
-/// Solves the linear systems of a [`Newton`](crate::solver::Newton) iteration for a system `S` over the vectors `V`.
+/// Solves the linear systems of a [`Newton`](crate::Newton) iteration for a system `S` over the vectors `V`.
 ///
 /// [`BandOrDense`], [`Dense`] and [`Banded`] store matrices. A solver without matrices, such as a Krylov method, stores the point in
 /// [`linearize`](Self::linearize). In [`factor`](Self::factor) it computes at most a preconditioner, and in
@@ -103,7 +103,7 @@ pub trait LinearSolver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     /// Full Newton: evaluates the derivatives at every stage, and turns residuals into corrections, in place. `x` holds the residuals of
     /// `h velocity` and `y` those of `h force`, stage by stage. For a general system `x` holds both, alternating component by component.
     ///
-    /// [`Newton`](crate::solver::Newton) calls it if derivatives at one point contract too slowly.
+    /// [`Newton`](crate::Newton) calls it if derivatives at one point contract too slowly.
     ///
     /// # Errors
     ///
@@ -208,7 +208,7 @@ impl<T: Scalar, D> Matrices<T, D> {
     /// Visits the derivatives and the factors computed from them; those of all stages are recomputed in every sweep.
     fn words(&mut self, separable: bool, visit: &mut Visit<'_>) {
         let mut half_bandwidth = self.jacobian.force_by_position.half_bandwidth();
-        words!(visit: half_bandwidth);
+        half_bandwidth.words(visit);
         self.fit(half_bandwidth, separable);
         for matrix in self.jacobian.each_mut() {
             scalar_words(matrix.entries_mut(), visit);

@@ -3,12 +3,12 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::contract::{Failure, Jacobian};
-use crate::error::Quantity;
-use crate::number::Scalar;
-use crate::number::elimination::Elimination;
+use symplectic_core::inside::Elimination;
+use symplectic_core::solver::Failure;
+use symplectic_core::system::Jacobian;
+use symplectic_core::{Quantity, Scalar};
 
-/// All stages of a step, for a [`LinearSolver`](crate::solver::LinearSolver) that evaluates the derivatives at each of them.
+/// All stages of a step, for a [`LinearSolver`](crate::LinearSolver) that evaluates the derivatives at each of them.
 #[derive(Clone, Copy, Debug)]
 pub struct EveryStage<'a, V> {
     /// Positions of the stages, at which the forces are evaluated.

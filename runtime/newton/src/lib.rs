@@ -1,5 +1,12 @@
-//! Coupled stages by a simplified Newton iteration.
+//! Newton's iteration of the package `symplectic`, for the coupled stages of stiff and strongly coupled systems
+//!
+//! Programs depend on `symplectic` with its feature `newton`, whose module `solver` gives all names of this package.
 
+#![no_std]
+
+extern crate alloc;
+
+mod by_newton;
 mod coefficients;
 mod convergence;
 #[cfg(feature = "num-dual")]
@@ -13,6 +20,7 @@ mod sweep;
 
 use core::marker::PhantomData;
 
+pub use by_newton::ByNewton;
 #[cfg(feature = "num-dual")]
 pub use dual_numbers::{DualNumbers, SystemInDuals};
 pub use every_stage::EveryStage;
@@ -21,17 +29,18 @@ pub use jacobian::{AnalyticOrDifferences, Derivatives, Differences};
 pub use linear_solver::{BandOrDense, Banded, Coupling, Dense, LinearSolver, Matrices, Parts};
 pub use memory::NewtonMemory;
 
-use crate::contract::{
-    Class, Failure, Inside, Outcome, Solver, StageTableau, Step, StepStatistics, Stopping,
-    StoredEvaluations, System, WarmStart,
-};
-use crate::number::{Summation, Vector};
 use coefficients::{Emitted, OfTableau, StageCoefficients};
 use convergence::settle;
 use sweep::ByIncrements;
+use symplectic_core::output::Inside;
+use symplectic_core::solver::{
+    Failure, Outcome, Solver, StageTableau, Step, StepStatistics, Stopping, StoredEvaluations,
+    WarmStart,
+};
+use symplectic_core::{Class, Summation, System, Vector};
 
 /// The simplified Newton iteration, for stiff and strongly coupled systems. The [`LinearSolver`] `L` solves its linear
-/// systems. [`by_newton`](crate::Integrator::by_newton) uses [`BandOrDense`] matrices, and the second derivatives that the system provides
+/// systems. [`by_newton`](ByNewton::by_newton) uses [`BandOrDense`] matrices, and the second derivatives that the system provides
 /// ([`AnalyticOrDifferences`]). Alternatives are named explicitly: [`Dense`] or [`Banded`] matrices, with dual numbers or [`Differences`].
 ///
 /// The unknowns are the increments `h velocity_j` and `h force_j`, not the stages. In a stiff system, the evaluation at a
@@ -43,7 +52,7 @@ use sweep::ByIncrements;
 /// ```
 ///
 /// and that of a general system is `(1 − h A ⊗ J) (x, y) = (ρ_v, ρ_f)`, where the columns of `y` have `Ã`. The
-/// [`Decoupling`](crate::solver::Decoupling) of the method decouples the stages: s/2 complex matrices with n rows replace
+/// [`Decoupling`](symplectic_core::solver::Decoupling) of the method decouples the stages: s/2 complex matrices with n rows replace
 /// one matrix with sn rows (Hairer & Wanner, *Solving ODEs II*, IV.8).
 ///
 /// # Derivatives
@@ -63,20 +72,21 @@ use sweep::ByIncrements;
 ///
 /// * The change stagnates if it has not halved in three sweeps. It also stagnates if it has not become smaller for at least one
 ///   sweep and more than a sixteenth of all sweeps.
-/// * The level of rounding is 64 units of [`Scalar::EPSILON`](crate::Scalar::EPSILON) of the largest position or momentum. One of the two
+/// * The level of rounding is 64 units of [`Scalar::EPSILON`](symplectic_core::Scalar::EPSILON) of the largest position or momentum. One of the two
 ///   suffices for a separable system. Otherwise the noise is measured. The arguments of all evaluations move by one unit, and a change up
 ///   to 16 times the response is noise. A stiff spring `k (r − 1)` is evaluated with an error of `k` units; momenta are then uncertain by
 ///   `1/h` units of the positions.
 ///
-/// With [`Plain`](crate::Plain) sums it stops earlier, as [`FixedPoint`](crate::solver::FixedPoint) does. The remaining change is
-/// [`Statistics::largest_residual`](crate::Statistics::largest_residual).
+/// With [`Plain`](symplectic_core::Plain) sums it stops earlier, as [`FixedPoint`](symplectic_core::solver::FixedPoint) does. The remaining change is
+/// [`Statistics::largest_residual`](symplectic_core::Statistics::largest_residual).
 ///
-/// A step fails with [`Error::NoConvergence`](crate::Error::NoConvergence) if full Newton does not converge either. It fails with
-/// [`Error::Stagnation`](crate::Error::Stagnation) if the change shrinks but stagnates far above rounding: the evaluations are noisier.
+/// A step fails with [`Error::NoConvergence`](symplectic_core::Error::NoConvergence) if full Newton does not converge either. It fails with
+/// [`Error::Stagnation`](symplectic_core::Error::Stagnation) if the change shrinks but stagnates far above rounding: the evaluations are noisier.
 ///
 /// ```
 /// symplectic::tableau! { Gauss4 { basis: polynomial(4), nodes: gauss(4) } }
 /// use symplectic::nalgebra::Vector2;
+/// use symplectic::solver::ByNewton;
 /// use symplectic::{Error, Integrator, State, separable};
 ///
 /// # fn main() -> Result<(), Error> {

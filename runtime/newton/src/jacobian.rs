@@ -2,8 +2,8 @@
 
 use core::fmt::Debug;
 
-use crate::contract::{BandMatrix, Jacobian, System};
-use crate::number::{Scalar, Vector};
+use symplectic_core::system::{BandMatrix, Jacobian};
+use symplectic_core::{Scalar, System, Vector};
 
 /// A source of the derivatives of a system `S` over the vectors `V`.
 pub trait Derivatives<V: Vector, S: System<V>>: Copy + Debug + 'static {

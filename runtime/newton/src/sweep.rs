@@ -9,11 +9,9 @@ use super::convergence::{Attempt, MAX_SWEEPS, size};
 use super::every_stage::{EveryStage, NOT_FINITE};
 use super::linear_solver::{Coupling, LinearSolver};
 use super::memory::{NewtonMemory, Workspace, rows};
-use crate::contract::storage::first_non_finite_of;
-use crate::contract::{Class, Failure, HalfChange, Outcome, StageChange, Step, System};
-use crate::error::Quantity;
-use crate::number::linear_combination::totals_by;
-use crate::number::{Scalar, Summation, Vector};
+use symplectic_core::inside::{first_non_finite_of, totals_by};
+use symplectic_core::solver::{Failure, HalfChange, Outcome, StageChange, Step};
+use symplectic_core::{Class, Quantity, Scalar, Summation, System, Vector};
 
 /// A contraction rate above this makes the derivatives stale for the next step.
 const GOOD: f64 = 1.0 / 32.0;
