@@ -98,7 +98,7 @@ fn reversible<M: ProvedFor<Separable> + SymmetricFor<Separable>>(
     let position = end.q;
     Ok(Outcome {
         position,
-        steps: run.integrator().steps(),
+        steps: run.steps(),
         energies: found,
     })
 }
