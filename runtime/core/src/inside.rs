@@ -1,6 +1,8 @@
 //! What the other packages of this workspace need of the core; no promise to anybody else.
 
 pub use crate::error::FlowError;
+pub use crate::error::debug::debug_by_message;
+pub use crate::error::phrases::Short;
 
 #[cfg(feature = "alloc")]
 pub use crate::integrator::CoupledLanes;
@@ -11,7 +13,7 @@ pub use crate::integrator::clock::Clock;
 pub use crate::integrator::explicit_in_lanes::{SavedRun, evaluations, is_same};
 #[cfg(feature = "alloc")]
 pub use crate::integrator::fingerprint::{hash, system_fingerprint};
-pub use crate::integrator::first_step::or_as_first_step;
+pub use crate::integrator::first_step::{OfTheCore, or_as_first_step};
 pub use crate::integrator::last_step::LastEvent;
 pub use crate::integrator::parts::{Parts, parts_of};
 pub use crate::integrator::stepper::advance_in_time;

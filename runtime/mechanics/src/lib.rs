@@ -8,6 +8,7 @@
 extern crate alloc;
 
 mod balance;
+mod error;
 #[cfg(feature = "alloc")]
 mod rank;
 pub mod rotation;
@@ -15,3 +16,4 @@ pub mod rotation;
 pub mod variational;
 
 pub use balance::Balance;
+pub use error::Error;

@@ -1,8 +1,8 @@
 //! Symplectic–energy–momentum steps.
 
 use symplectic::nalgebra::{SVector, Vector2};
-use symplectic::variational::{DiscreteLagrangian, EnergyMomentumSteps, VariationalSteps};
-use symplectic::{Error, Scalar, State};
+use symplectic::variational::{DiscreteLagrangian, EnergyMomentumSteps, Error, VariationalSteps};
+use symplectic::{Error as CoreError, Scalar, State};
 
 use super::kepler::{assert_order, pericentre, position};
 
@@ -211,10 +211,16 @@ fn bad_step_sizes_and_states_are_refused() {
     let start = || pericentre(0.5);
     for size in [0.0, f64::NAN] {
         let made = EnergyMomentumSteps::run(Midpoint(Ring), start(), size);
-        assert!(matches!(made.err(), Some(Error::StepSize { .. })));
+        assert!(matches!(
+            made.err(),
+            Some(Error::Core(CoreError::StepSize { .. }))
+        ));
     }
     let mut bad = start();
     bad.p[0] = f64::INFINITY;
     let made = EnergyMomentumSteps::run(Midpoint(Ring), bad, 0.1);
-    assert!(matches!(made.err(), Some(Error::NonFiniteState { .. })));
+    assert!(matches!(
+        made.err(),
+        Some(Error::Core(CoreError::NonFiniteState { .. }))
+    ));
 }

@@ -5,11 +5,9 @@ use symplectic::nalgebra::{SVector, Vector2};
 use symplectic::output::Balance;
 use symplectic::system::Gradients;
 use symplectic::variational::{
-    DiracRule, DiracSteps, DiracSystem, LagrangianSteps, StagesOfStep, StepWithStages,
+    DiracRule, DiracSteps, DiracSystem, Error, LagrangianSteps, StagesOfStep, StepWithStages,
 };
-use symplectic::{
-    Error, Hamiltonian, Integrator, Lagrangian, Method, ProvedFor, Scalar, State, System,
-};
+use symplectic::{Hamiltonian, Integrator, Lagrangian, Method, ProvedFor, Scalar, State, System};
 
 use crate::dirac::Suzuki4;
 use crate::forces::{Ring, ring_start};

@@ -3,10 +3,8 @@
 use crate::methods::{Gauss6, Lobatto5};
 use symplectic::nalgebra::{DVector, SVector};
 use symplectic::system::Gradients;
-use symplectic::variational::{LagrangianSteps, momentum_of_velocity};
-use symplectic::{
-    Constrained, Error, Hamiltonian, Integrator, Lagrangian, Masses, Scalar, Separable,
-};
+use symplectic::variational::{Error, LagrangianSteps, momentum_of_velocity};
+use symplectic::{Constrained, Hamiltonian, Integrator, Lagrangian, Masses, Scalar, Separable};
 
 use crate::systems::*;
 

@@ -3,9 +3,9 @@
 use symplectic::nalgebra::{SVector, Vector4};
 use symplectic::system::Gradients;
 use symplectic::variational::{
-    DiracRule, DiracSteps, DiracSystem, momentum_of_velocity, primary_constraints,
+    DiracRule, DiracSteps, DiracSystem, Error, momentum_of_velocity, primary_constraints,
 };
-use symplectic::{Error, Lagrangian, Scalar, State};
+use symplectic::{Lagrangian, Scalar, State};
 
 use crate::dirac::{Jump6, Suzuki4, assert_order, distance};
 

@@ -2,8 +2,8 @@
 
 use crate::methods::Gauss2;
 use symplectic::nalgebra::{DVector, Matrix4, Rotation2, Rotation3, SVector, Vector2, Vector3};
-use symplectic::variational::{PointTransformation, cotangent_lift, momentum_map};
-use symplectic::{Error, Integrator, Scalar, State, StepMap};
+use symplectic::variational::{Error, PointTransformation, cotangent_lift, momentum_map};
+use symplectic::{Error as CoreError, Integrator, Scalar, State, StepMap};
 
 use super::symmetry::Twisted;
 
@@ -225,7 +225,7 @@ fn singular_maps_are_refused() {
     assert!(singular(cotangent_lift(&Polar, &origin)).is_some());
     assert!(matches!(
         lift([f64::NAN, 0.5]),
-        Err(Error::NonFiniteState { .. })
+        Err(Error::Core(CoreError::NonFiniteState { .. }))
     ));
 
     struct Shorter;
@@ -240,6 +240,6 @@ fn singular_maps_are_refused() {
     let (expected, found) = (2, 1);
     assert_eq!(
         cotangent_lift(&Shorter, &start),
-        Err(Error::Length { expected, found })
+        Err(Error::Core(CoreError::Length { expected, found }))
     );
 }

@@ -3,10 +3,11 @@
 use symplectic::nalgebra::SVector;
 use symplectic::system::Gradients;
 use symplectic::variational::{
-    DiracRule, DiracSteps, DiracSystem, momentum_of_velocity, primary_constraints,
+    DiracRule, DiracSteps, DiracSystem, Error, momentum_of_velocity, primary_constraints,
 };
 use symplectic::{
-    Error, Integrator, Lagrangian, Method, ProvedFor, Quantity, Scalar, State, System, Vector,
+    Error as CoreError, Integrator, Lagrangian, Method, ProvedFor, Quantity, Scalar, State, System,
+    Vector,
 };
 
 use crate::rolling::{
@@ -410,10 +411,10 @@ fn dirac_steps_refuse_dependent_or_wrong_rows() {
     assert!(
         matches!(
             error,
-            Error::DependentConstraints {
+            Error::Core(CoreError::DependentConstraints {
                 constraint: 0 | 1,
                 ..
-            }
+            })
         ),
         "{error}"
     );
@@ -424,7 +425,10 @@ fn dirac_steps_refuse_dependent_or_wrong_rows() {
     let mut run = new(Rows::Vanishing, vanishing.clone()).expect("a run");
     let error = run.step().map(|_| ()).expect_err("no row");
     assert!(
-        matches!(error, Error::DependentConstraints { constraint: 0, .. }),
+        matches!(
+            error,
+            Error::Core(CoreError::DependentConstraints { constraint: 0, .. })
+        ),
         "{error}"
     );
     assert_eq!(run.state(), &vanishing);
@@ -434,21 +438,24 @@ fn dirac_steps_refuse_dependent_or_wrong_rows() {
     let (constraints, dimension) = (3, 2);
     assert_eq!(
         error,
-        Error::ConstraintCount {
+        Error::Core(CoreError::ConstraintCount {
             constraints,
             dimension
-        }
+        })
     );
     let error = new(Rows::Misplaced, start.clone())
         .map(|_| ())
         .expect_err("misplaced");
     assert!(
-        matches!(error, Error::GradientPlace { component: 2, .. }),
+        matches!(
+            error,
+            Error::Core(CoreError::GradientPlace { component: 2, .. })
+        ),
         "{error}"
     );
     let mut run = new(Rows::Moving, start.clone()).expect("a run");
     let error = run.step().map(|_| ()).expect_err("moving");
-    assert_eq!(error, Error::MovingGradients { time: 0.0 });
+    assert_eq!(error, Error::Core(CoreError::MovingGradients { time: 0.0 }));
     let across = State::from_arrays(0.0, [0.0, 0.0], [1.0, 0.25]);
     let error = new(Rows::Vanishing, across)
         .map(|_| ())
@@ -461,18 +468,21 @@ fn dirac_steps_refuse_dependent_or_wrong_rows() {
     let (constraint, rate) = (0, 0.25);
     assert_eq!(
         error,
-        Error::InconsistentVelocity {
+        Error::Core(CoreError::InconsistentVelocity {
             constraint,
             name: None,
             rate
-        }
+        })
     );
     let error = new(
         Rows::Vanishing,
         State::from_arrays(f64::NAN, [0.0; 2], [0.0; 2]),
     );
     let what = Quantity::Time;
-    assert_eq!(error.map(|_| ()), Err(Error::NonFiniteState { what }));
+    assert_eq!(
+        error.map(|_| ()),
+        Err(Error::Core(CoreError::NonFiniteState { what }))
+    );
 }
 
 #[test]

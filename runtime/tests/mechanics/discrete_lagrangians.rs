@@ -3,11 +3,11 @@
 use crate::methods::{Gauss6, Lobatto3, Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, SVector, Vector2};
 use symplectic::variational::{
-    DiscreteLagrangian, DiscretePath, VariationalIntegrator, VariationalSteps,
+    DiscreteLagrangian, DiscretePath, Error, VariationalIntegrator, VariationalSteps,
 };
 use symplectic::{
-    Error, Integrator, Method, ProvedFor, Quantity, Scalar, State, System, Vector, hamiltonian,
-    separable,
+    Error as CoreError, Integrator, Method, ProvedFor, Quantity, Scalar, State, System, Vector,
+    hamiltonian, separable,
 };
 
 symplectic::composition! {
@@ -340,7 +340,7 @@ fn the_self_adjoint_defect_vanishes_for_symmetric_lagrangians_only() {
         step_size: 0.0,
         ..path
     };
-    let error = Error::StepSize { value: 0.0 };
+    let error = Error::Core(CoreError::StepSize { value: 0.0 });
     assert_eq!(at_once.momenta(&AtOnePoint(0.5)), Err(error));
     assert!(path.self_adjoint_defect(&AtOnePoint(0.5)) < 1e-16);
     assert!(path.self_adjoint_defect(&AtTwoPoints(0.3)) < 1e-16);
@@ -636,15 +636,21 @@ fn degenerate_discrete_lagrangians_are_refused() {
         .map(|_| ())
         .expect_err("a root of a negative number");
     let what = Quantity::DiscreteLagrangian;
-    let matches = matches!(error, Error::NonFinite { step: 4, what: found, .. } if found == what);
+    let matches = matches!(error, Error::Core(CoreError::NonFinite { step: 4, what: found, .. }) if found == what);
     assert!(matches, "{error}");
     assert_eq!(run.steps(), 3);
 
     let new = |state, size| VariationalSteps::run(Bounded(true), state, size).map(|_| ());
-    assert_eq!(new(start.clone(), 0.0), Err(Error::StepSize { value: 0.0 }));
+    assert_eq!(
+        new(start.clone(), 0.0),
+        Err(Error::Core(CoreError::StepSize { value: 0.0 }))
+    );
     let infinite = State::from_arrays(0.0, [f64::INFINITY], [0.0]);
     let what = Quantity::Position;
-    assert_eq!(new(infinite, 0.1), Err(Error::NonFiniteState { what }));
+    assert_eq!(
+        new(infinite, 0.1),
+        Err(Error::Core(CoreError::NonFiniteState { what }))
+    );
     let (q0, q1) = (DVector::zeros(1), DVector::zeros(2));
     let path = DiscretePath {
         time: 0.0,
@@ -652,9 +658,9 @@ fn degenerate_discrete_lagrangians_are_refused() {
         q0: &q0,
         q1: &q1,
     };
-    let expected = Error::Dimension {
+    let expected = Error::Core(CoreError::Dimension {
         position: 1,
         momentum: 2,
-    };
+    });
     assert_eq!(path.momenta(&ShakenLagrangian), Err(expected));
 }

@@ -2,10 +2,8 @@
 
 use crate::methods::{Gauss2, Lobatto3, TwoOfThree};
 use symplectic::nalgebra::{Rotation2, Rotation3, Vector2, Vector3};
-use symplectic::variational::{LagrangianSteps, momentum_map};
-use symplectic::{
-    Constrained, Error, General, Integrator, Method, ProvedFor, Separable, State, StepMap,
-};
+use symplectic::variational::{Error, LagrangianSteps, momentum_map};
+use symplectic::{Constrained, General, Integrator, Method, ProvedFor, Separable, State, StepMap};
 
 use crate::forces::{FourthRattle, Resisted, swing};
 use crate::lagrangians::distance;

@@ -9,10 +9,11 @@ use symplectic::nalgebra::{
 };
 use symplectic::rotation::{HeavyTop, RigidBody, RotationState, RotationSteps};
 use symplectic::variational::{
-    DiracRule, DiracSteps, LagrangianSteps, VariationalSteps, momentum_of_velocity,
+    DiracRule, DiracSteps, Error, LagrangianSteps, VariationalSteps, momentum_of_velocity,
 };
 use symplectic::{
-    Error, Integrator, PhasePoint, State, StepMap, acceleration, assert_conserved, consistent,
+    Error as CoreError, Integrator, PhasePoint, State, StepMap, acceleration, assert_conserved,
+    consistent,
 };
 
 use crate::dirac::{V6, Vortices, vortices_start};
@@ -41,8 +42,10 @@ fn turned_plane(state: &Plane) -> Plane {
 
 pub(crate) fn kepler_by_flows(
     start: Plane,
-) -> Result<FlowIntegrator<Vector2<f64>, impl symplectic::flow::Flow<Vector2<f64>> + Clone>, Error>
-{
+) -> Result<
+    FlowIntegrator<Vector2<f64>, impl symplectic::flow::Flow<Vector2<f64>> + Clone>,
+    CoreError,
+> {
     let attraction = acceleration(|_, q: &Vector2<f64>, out| *out = -q / q.norm().powi(3));
     let free = acceleration(|_, _q: &Vector2<f64>, out| *out = Vector2::zeros());
     FlowSteps::run(
@@ -360,7 +363,7 @@ fn checks_do_not_advance_the_integrator() -> Result<(), Error> {
         |_: f64, _: f64| RotationState::new(f64::NAN, UnitQuaternion::identity(), Vector3::zeros());
     assert!(matches!(
         top.symplecticity_defect(broken),
-        Err(Error::NonFiniteState { .. })
+        Err(Error::Core(CoreError::NonFiniteState { .. }))
     ));
     let dirac = DiracSteps::run(DiracRule::Midpoint, Vortices, vortices_start(), 0.1)?;
     let off = |_: f64, _: f64| State::new(0.0, vortices_start().q, V6::zeros());

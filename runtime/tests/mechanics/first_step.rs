@@ -7,9 +7,10 @@ use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{Vector1, Vector2};
 use symplectic::solver::{ByNewton, Dense, Differences, FixedPointThenNewton, Newton};
 use symplectic::system::Gradients;
-use symplectic::variational::{DiracRule, DiracSteps, DiracSystem, LagrangianSteps};
+use symplectic::variational::{DiracRule, DiracSteps, DiracSystem, Error, LagrangianSteps};
 use symplectic::{
-    Error, Integrator, Lagrangian, Masses, Method, RunTimeTableau, Scalar, State, System, Vector,
+    Error as CoreError, Integrator, Lagrangian, Masses, Method, RunTimeTableau, Scalar, State,
+    System, Vector,
 };
 
 use crate::dirac::{V6, Vortices, vortices_start};
@@ -52,12 +53,12 @@ fn heavy() -> Line {
 }
 
 /// Takes steps with one run, until one fails that a new run from the same state cannot take either; returns the number of steps.
-fn compare<S>(
+fn compare<S, E: std::error::Error>(
     name: &str,
     start: S,
     most: usize,
-    mut step: impl FnMut() -> Result<S, Error>,
-    new: impl Fn(&S) -> Result<S, Error>,
+    mut step: impl FnMut() -> Result<S, E>,
+    new: impl Fn(&S) -> Result<S, E>,
 ) -> usize {
     let mut state = start;
     for taken in 0..most {
@@ -213,25 +214,25 @@ fn newton_steps_do_not_fail_if_a_new_run_takes_them() -> Result<(), Error> {
     for size in [1.4, 1.5, 1.6] {
         let name = &format!("{size}");
         let (_, run) = compared!(name, product(), 100, |start| {
-            Ok::<_, Error>(Integrator::new(Midpoint, Product, start, size)?.by_newton())
+            Ok::<_, CoreError>(Integrator::new(Midpoint, Product, start, size)?.by_newton())
         });
         rejected += run.statistics().rejected;
         let (_, run) = compared!(name, product(), 100, |start| {
-            Ok::<_, Error>(Integrator::plain(Gauss3, Product, start, size)?.by_newton())
+            Ok::<_, CoreError>(Integrator::plain(Gauss3, Product, start, size)?.by_newton())
         });
         rejected += run.statistics().rejected;
         // Every failure of the fixed-point iteration counts as well.
         compared!(name, product(), 100, |start| {
             let solver = FixedPointThenNewton::<Dense<Differences>>::new();
             let run = Integrator::new(Midpoint, Product, start, size)?;
-            Ok::<_, Error>(run.with_solver(solver))
+            Ok::<_, CoreError>(run.with_solver(solver))
         });
         let coefficients = Gauss3::COEFFICIENTS.into();
         let tableau = RunTimeTableau::new("gauss-3", &coefficients, Gauss3::ORDERS);
         let tableau = &tableau.expect("symplectic");
         let (_, run) = compared!(name, product(), 100, |start| {
             let run = Integrator::at_run_time(tableau, Product, start, size)?;
-            Ok::<_, Error>(run.by_newton())
+            Ok::<_, CoreError>(run.by_newton())
         });
         rejected += run.statistics().rejected;
     }
@@ -308,10 +309,10 @@ impl<V: Vector<Scalar = f64>, S: System<V>> System<V> for FailsOnce<'_, S> {
 }
 
 /// Wherever in a step one evaluation is NaN, the step succeeds. The first step may fail: only Newton's iteration tries it again.
-fn survives<V: Vector<Scalar = f64>>(
+fn survives<V: Vector<Scalar = f64>, E: std::error::Error>(
     name: &str,
     left: &Cell<u32>,
-    make: impl Fn() -> Box<dyn FnMut() -> Result<State<V>, Error>>,
+    make: impl Fn() -> Box<dyn FnMut() -> Result<State<V>, E>>,
 ) {
     const NEVER: u32 = u32::MAX;
     left.set(NEVER);
@@ -372,7 +373,7 @@ fn a_step_survives_one_evaluation_that_is_not_finite() {
         Integrator::new(Gauss2, system, start, 0.1)
     });
     row!("Newton", Product, product(), |system, start| {
-        Ok::<_, Error>(Integrator::new(Gauss2, system, start, 0.1)?.by_newton())
+        Ok::<_, CoreError>(Integrator::new(Gauss2, system, start, 0.1)?.by_newton())
     });
     row!("adaptive", Rotor, rotor(), |system, start| {
         AdaptiveSteps::of(

@@ -5,8 +5,8 @@ use crate::methods::{
 };
 use symplectic::nalgebra::{DVector, SVector, Vector2, Vector3};
 use symplectic::solver::ByNewton;
-use symplectic::variational::{StagesOfStep, StepWithStages, generating_function};
-use symplectic::{Error, Integrator, Method, ProvedFor, Scalar, State, System, hamiltonian};
+use symplectic::variational::{Error, StagesOfStep, StepWithStages, generating_function};
+use symplectic::{Integrator, Method, ProvedFor, Scalar, State, System, hamiltonian};
 
 symplectic::hamiltonian! {
     /// The ring of Marsden & West (2001), Figure 2, with friction.

@@ -2,10 +2,9 @@
 
 use crate::methods::{ForestRuth, Gauss4, StoermerVerlet, Yoshida6};
 use symplectic::nalgebra::{Matrix2, SMatrix, SVector, Vector2};
-use symplectic::variational::StepWithStages;
+use symplectic::variational::{Error, StepWithStages};
 use symplectic::{
-    Damped, Error, Hamiltonian, Integrator, Masses, Method, ProvedFor, Scalar, State,
-    friction_growth,
+    Damped, Hamiltonian, Integrator, Masses, Method, ProvedFor, Scalar, State, friction_growth,
 };
 
 symplectic::composition! {

@@ -5,9 +5,9 @@ use crate::methods::{ForestRuth, Gauss2, Lobatto3, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1, Vector2};
 use symplectic::solver::ByNewton;
 use symplectic::variational::{
-    GeneratingFunctions, GivenEnds, LagrangianSteps, VariationalSteps, generating_function,
+    Error, GeneratingFunctions, GivenEnds, LagrangianSteps, VariationalSteps, generating_function,
 };
-use symplectic::{Error, Integrator, Quantity, State, StepMap};
+use symplectic::{Error as CoreError, Integrator, Quantity, State, StepMap};
 
 use crate::discrete_lagrangians::{AtTwoPoints, DoublePendulum, Shaken, Trapezoid, perihelion};
 use crate::symmetry::Twisted;
@@ -235,7 +235,7 @@ fn unreachable_ends_are_refused() -> Result<(), Error> {
     assert!(
         matches!(
             outcome,
-            Err(Error::NoStart { .. } | Error::NonFiniteState { .. })
+            Err(Error::NoStart { .. } | Error::Core(CoreError::NonFiniteState { .. }))
         ),
         "{outcome:?}"
     );
@@ -247,9 +247,9 @@ fn unreachable_ends_are_refused() -> Result<(), Error> {
     assert!(
         matches!(
             outcome,
-            Err(Error::NonFiniteState {
+            Err(Error::Core(CoreError::NonFiniteState {
                 what: Quantity::Momentum
-            })
+            }))
         ),
         "{outcome:?}"
     );
@@ -262,7 +262,7 @@ fn unreachable_ends_are_refused() -> Result<(), Error> {
     for (q0, q1) in [(3, 2), (2, 3)] {
         let outcome = run.type_one(&vector(q0), &vector(q1));
         assert!(
-            matches!(outcome, Err(Error::Dimension { .. })),
+            matches!(outcome, Err(Error::Core(CoreError::Dimension { .. }))),
             "{outcome:?}"
         );
     }

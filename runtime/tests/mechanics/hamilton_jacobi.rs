@@ -3,9 +3,10 @@
 use crate::methods::{Gauss3, Lobatto3};
 use symplectic::nalgebra::{Matrix2, SVector, Vector2};
 use symplectic::variational::{
-    DiscreteHamiltonJacobi, DiscreteLagrangian, VariationalSteps, step_with_generating_function,
+    DiscreteHamiltonJacobi, DiscreteLagrangian, Error, VariationalSteps,
+    step_with_generating_function,
 };
-use symplectic::{Error, Integrator, Scalar, State};
+use symplectic::{Integrator, Scalar, State};
 
 use super::symmetry::Twisted;
 

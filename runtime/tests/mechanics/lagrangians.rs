@@ -6,11 +6,12 @@ use crate::methods::{
 };
 use symplectic::nalgebra::{DVector, SMatrix, SVector, Vector2};
 use symplectic::variational::{
-    LagrangianIntegrator, LagrangianSteps, generating_function, momentum_of_velocity,
+    Error, LagrangianIntegrator, LagrangianSteps, generating_function, momentum_of_velocity,
     velocity_of_momentum,
 };
 use symplectic::{
-    Error, General, Integrator, Lagrangian, Method, ProvedFor, Quantity, Scalar, State, System,
+    Error as CoreError, General, Integrator, Lagrangian, Method, ProvedFor, Quantity, Scalar,
+    State, System,
 };
 
 type V2<T> = SVector<T, 2>;
@@ -426,16 +427,18 @@ fn degenerate_and_nonfinite_lagrangians_are_errors() {
     assert_eq!(singular.err(), Some(refused));
     let error = run(true).step().expect_err("no number");
     let what = Quantity::Lagrangian;
-    assert!(matches!(error, Error::NonFinite { what: found, stage: Some(1), .. } if found == what));
+    assert!(
+        matches!(error, Error::Core(CoreError::NonFinite { what: found, stage: Some(1), .. }) if found == what)
+    );
 
     // No velocity below that of light has an infinite momentum.
     let (q, p) = (Vector2::new(1.0, 0.0), Vector2::new(f64::INFINITY, 0.0));
     let particle = Particle { friction: 0.0 };
     assert!(matches!(
         velocity_of_momentum(&particle, 0.0, &q, &p),
-        Err(Error::NonFiniteState {
+        Err(Error::Core(CoreError::NonFiniteState {
             what: Quantity::Momentum
-        })
+        }))
     ));
     let v = velocity_of_momentum(&particle, 0.0, &q, &Vector2::new(1e6, 0.0)).expect("a velocity");
     assert!((v[0] - (1.0 - 0.5e-12)).abs() < 1e-15);
@@ -456,7 +459,7 @@ fn degenerate_and_nonfinite_lagrangians_are_errors() {
     ));
     assert!(matches!(
         LagrangianSteps::run(Gauss2, particle, near_perihelion(), 0.0),
-        Err(Error::StepSize { .. })
+        Err(Error::Core(CoreError::StepSize { .. }))
     ));
 }
 

@@ -1,9 +1,9 @@
 //! Multipliers of constraints: in closed form, their orders, and those of SHAKE.
 
 use symplectic::nalgebra::{SMatrix, SVector, Vector2};
-use symplectic::variational::StepWithStages;
+use symplectic::variational::{Error, StepWithStages};
 use symplectic::{
-    Constrained, Error, Hamiltonian, Integrator, Method, ProvedFor, Separable, State, Vector,
+    Constrained, Hamiltonian, Integrator, Method, ProvedFor, Separable, State, Vector,
     constraint_force, system::Unconstrained,
 };
 

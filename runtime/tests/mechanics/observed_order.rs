@@ -2,8 +2,10 @@
 
 use crate::methods::Gauss6;
 use symplectic::nalgebra::{DVector, SVector, Vector1};
-use symplectic::variational::{DiscreteLagrangian, observed_order};
-use symplectic::{Error, Integrator, Scalar, State, System, Vector, system::Unconstrained};
+use symplectic::variational::{DiscreteLagrangian, Error, observed_order};
+use symplectic::{
+    Error as CoreError, Integrator, Scalar, State, System, Vector, system::Unconstrained,
+};
 
 use super::discrete_lagrangians::{
     AtOnePoint, AtTwoPoints, DoublePendulum, Kepler, Pendulum, Shaken, ShakenLagrangian, Simpson,
@@ -19,7 +21,7 @@ where
 {
     move |time| {
         let mut run = Integrator::new(Gauss6, system, start.clone(), 0.05)?;
-        run.integrate_to(time).cloned()
+        Ok(run.integrate_to(time)?.clone())
     }
 }
 
@@ -66,7 +68,11 @@ fn observed_order_of_a_time_dependent_lagrangian_is_two() {
     let fixed = orbit(Shaken, State::from_arrays(0.0, [1.0], [0.3]));
     let shaken = |time| {
         let state = fixed(time)?;
-        State::from_slices(time, state.q.as_slice(), state.p.as_slice())
+        Ok(State::from_slices(
+            time,
+            state.q.as_slice(),
+            state.p.as_slice(),
+        )?)
     };
     check::<ShakenLagrangian>("midpoint", &ShakenLagrangian, shaken, (0.4, 0.005), 2.0);
 }
@@ -108,7 +114,7 @@ fn observed_order_depends_on_the_discrete_forces() {
     let start = State::from_arrays(0.0, [1.25, 0.0], [0.0, 0.5]);
     let ring = |time| {
         let mut run = Integrator::new(Gauss6, Ring { gamma: 0.25 }, start.clone(), 0.05)?;
-        run.integrate_to(time).cloned()
+        Ok(run.integrate_to(time)?.clone())
     };
     check("half", &Drag { end: 0.5 }, ring, (0.4, 0.01), 2.0);
     check("at the start", &Drag { end: 0.0 }, ring, (0.4, 0.01), 1.0);
@@ -118,7 +124,10 @@ fn observed_order_depends_on_the_discrete_forces() {
 fn an_orbit_that_does_not_solve_the_equations_has_no_order() {
     let free = |time: f64| Ok(State::from_arrays(time, [time], [1.0]));
     let ask = |h| observed_order(&Pendulum(0.5), free, 1.0, h);
-    assert_eq!(ask(0.0), Err(Error::StepSize { value: 0.0 }));
+    assert_eq!(
+        ask(0.0),
+        Err(Error::Core(CoreError::StepSize { value: 0.0 }))
+    );
     // Free motion is no orbit of the pendulum: the force is missing.
     assert!((ask(0.01).expect("momenta") - 1.0).abs() < 0.05);
     // An orbit with a NaN has no order, wherever the NaN is.
@@ -133,11 +142,12 @@ fn an_orbit_that_does_not_solve_the_equations_has_no_order() {
     };
     assert!(matches!(
         observed_order(&ShakenLagrangian, growing, 0.0, 0.1),
-        Err(Error::Dimension { .. })
+        Err(Error::Core(CoreError::Dimension { .. }))
     ));
-    let failing = |_: f64| -> Result<State<Vector1<f64>>, Error> { Err(Error::NoStep) };
+    let failing =
+        |_: f64| -> Result<State<Vector1<f64>>, Error> { Err(Error::Core(CoreError::NoStep)) };
     assert_eq!(
         observed_order(&Pendulum(0.5), failing, 0.0, 0.1),
-        Err(Error::NoStep)
+        Err(Error::Core(CoreError::NoStep))
     );
 }

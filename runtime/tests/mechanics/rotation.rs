@@ -2,9 +2,9 @@
 
 use crate::methods::{Gauss6, Lobatto3, StoermerVerlet};
 use symplectic::nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector3};
-use symplectic::rotation::{FreeBody, HeavyTop, RigidBody, RotationState, RotationSteps};
+use symplectic::rotation::{Error, FreeBody, HeavyTop, RigidBody, RotationState, RotationSteps};
 use symplectic::{
-    Constrained, Error, Integrator, Method, ProvedFor, Quantity, Separable, State,
+    Constrained, Error as CoreError, Integrator, Method, ProvedFor, Quantity, Separable, State,
     StoermerVerletSteps,
 };
 
@@ -354,7 +354,10 @@ fn steps_of_half_a_turn_and_bad_bodies_are_refused() {
         value: 0.0,
     };
     assert_eq!(new(FreeBody::new(1.0, 0.0, 1.0), start, 0.1), Err(wrong));
-    assert_eq!(new(sphere, start, 0.0), Err(Error::StepSize { value: 0.0 }));
+    assert_eq!(
+        new(sphere, start, 0.0),
+        Err(Error::Core(CoreError::StepSize { value: 0.0 }))
+    );
     let infinite = RotationState {
         momentum: Vector3::repeat(f64::INFINITY),
         ..start
@@ -362,18 +365,18 @@ fn steps_of_half_a_turn_and_bad_bodies_are_refused() {
     let what = Quantity::Momentum;
     assert_eq!(
         new(sphere, infinite, 0.1),
-        Err(Error::NonFiniteState { what })
+        Err(Error::Core(CoreError::NonFiniteState { what }))
     );
 
     let mut run = RotationSteps::run(Broken, start, 0.1).expect("a run");
     let error = run.integrate_to(1.0).expect_err("no torque");
-    let expected = Error::NonFinite {
+    let expected = Error::Core(CoreError::NonFinite {
         time: 0.2,
         step_size: 0.1,
         step: 3,
         what: Quantity::Torque,
         stage: None,
-    };
+    });
     assert_eq!(error, expected);
     assert_eq!(run.state().time, 0.2);
 
@@ -382,5 +385,8 @@ fn steps_of_half_a_turn_and_bad_bodies_are_refused() {
         ..start
     };
     let mut run = RotationSteps::run(sphere, far, 0.1).expect("a run");
-    assert!(matches!(run.step(), Err(Error::TimeResolution { .. })));
+    assert!(matches!(
+        run.step(),
+        Err(Error::Core(CoreError::TimeResolution { .. }))
+    ));
 }

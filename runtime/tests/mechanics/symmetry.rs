@@ -2,8 +2,8 @@
 
 use crate::methods::{Gauss2, Gauss3, Lobatto3};
 use symplectic::nalgebra::{Rotation2, Vector2, Vector3};
-use symplectic::variational::{momentum_map, step_with_generating_function};
-use symplectic::{Error, Integrator, State, StepMap, assert_conserved, consistent};
+use symplectic::variational::{Error, momentum_map, step_with_generating_function};
+use symplectic::{Error as CoreError, Integrator, State, StepMap, assert_conserved, consistent};
 
 use super::forces::Ring;
 
@@ -120,7 +120,7 @@ fn constrained_steps_are_symplectic() -> Result<(), Error> {
     let off = |a: f64, _: f64| State::from_arrays(0.0, [0.6 + a, 0.0, -0.8], [0.0, 0.5, 0.0]);
     assert!(matches!(
         run.symplecticity_defect(off),
-        Err(Error::InconsistentStart { .. })
+        Err(CoreError::InconsistentStart { .. })
     ));
     let run = Integrator::new(Gauss2, Ring { gamma: 0.1 }, near(0.0, 0.0), 0.2)?;
     assert!(run.symplecticity_defect(near)? > 1e-3);

@@ -7,12 +7,12 @@ use symplectic::nalgebra::DVector;
 use symplectic::solver::FixedPoint;
 use symplectic::system::Gradients;
 use symplectic::variational::{
-    DiracRule, DiracSteps, DiracSystem, DiscreteLagrangian, DiscretePath, LagrangianSteps, Newmark,
-    StepWithStages, VariationalSteps, momentum_of_velocity, velocity_of_momentum,
+    DiracRule, DiracSteps, DiracSystem, DiscreteLagrangian, DiscretePath, Error, LagrangianSteps,
+    Newmark, StepWithStages, VariationalSteps, momentum_of_velocity, velocity_of_momentum,
 };
 use symplectic::{
-    Class, Constrained, Damped, Error, General, Hamiltonian, Integrator, Lagrangian, Method,
-    Nonholonomic, ProvedFor, Quantity, Scalar, Separable, State, System, consistent,
+    Class, Constrained, Damped, Error as CoreError, General, Hamiltonian, Integrator, Lagrangian,
+    Method, Nonholonomic, ProvedFor, Quantity, Scalar, Separable, State, System, consistent,
     consistent_momentum, constraint_force,
 };
 
@@ -149,23 +149,23 @@ fn start() -> State<Vector> {
 /// Dimensions smaller and larger than that of the state.
 const WRONG: [usize; 3] = [0, 1, 3];
 
-fn assert_resized(error: &Error, what: Quantity, to: usize) {
-    match *error {
-        Error::EvaluationDimension {
-            what: named,
-            expected,
-            found,
-            ..
-        }
-        | Error::ResizedEvaluation {
-            what: named,
-            expected,
-            found,
-            ..
-        } => {
-            assert_eq!((named, expected, found), (what, 2, to), "{error}");
-        }
-        _ => panic!("{error}"),
+fn assert_resized(error: &(impl Clone + Into<Error>), what: Quantity, to: usize) {
+    match error.clone().into() {
+        Error::Core(
+            CoreError::EvaluationDimension {
+                what: named,
+                expected,
+                found,
+                ..
+            }
+            | CoreError::ResizedEvaluation {
+                what: named,
+                expected,
+                found,
+                ..
+            },
+        ) => assert_eq!((named, expected, found), (what, 2, to)),
+        error => panic!("{error}"),
     }
 }
 
@@ -191,7 +191,7 @@ where
             let error = run.integrate_to(2.0).map(|_| ()).expect_err("resized");
             assert_resized(&error, what, to);
             assert!(
-                matches!(error, Error::EvaluationDimension { step: 16, .. }),
+                matches!(error, CoreError::EvaluationDimension { step: 16, .. }),
                 "{error:?}"
             );
             let before = run.state().clone();
@@ -225,7 +225,7 @@ fn a_resized_result_is_named_with_its_stage() -> Result<(), Error> {
         let mut run = Integrator::new(Lobatto3, system, start(), 0.5)?;
         run.integrate_to(4.0)?;
         match run.step() {
-            Err(Error::EvaluationDimension { stage, .. }) => Ok(stage),
+            Err(CoreError::EvaluationDimension { stage, .. }) => Ok(stage),
             other => panic!("{:?}", other.map(|_| ())),
         }
     };
@@ -244,7 +244,7 @@ fn a_resized_result_outside_the_stages_is_named_without_a_stage() -> Result<(), 
     assert!(
         matches!(
             error,
-            Error::EvaluationDimension {
+            CoreError::EvaluationDimension {
                 step: 16,
                 stage: None,
                 ..
@@ -275,7 +275,7 @@ fn dense_output_refuses_resized_results() -> Result<(), Error> {
                 let error = run.dense().map(|_| ()).expect_err("resized");
                 assert_resized(&error, what, to);
                 assert!(
-                    matches!(error, Error::ResizedEvaluation { time: 0.1, .. }),
+                    matches!(error, CoreError::ResizedEvaluation { time: 0.1, .. }),
                     "{error:?}"
                 );
                 run.system().fault.set(Fault::None);
@@ -341,7 +341,7 @@ fn kicks_with_friction_refuse_resized_results() -> Result<(), Error> {
         let error = run.step().map(|_| ()).expect_err("resized");
         assert_resized(&error, Quantity::Kick, to);
         assert!(
-            matches!(error, Error::EvaluationDimension { stage: None, .. }),
+            matches!(error, CoreError::EvaluationDimension { stage: None, .. }),
             "{error:?}"
         );
         assert!(

@@ -2,29 +2,41 @@
 
 use crate::error::Error;
 
+/// An error that may be one of the core.
+pub trait OfTheCore {
+    /// The error of the core, if it is one.
+    fn of_the_core(&self) -> Option<&Error>;
+}
+
+impl OfTheCore for Error {
+    fn of_the_core(&self) -> Option<&Error> {
+        Some(self)
+    }
+}
+
 /// The result `taken` of a step. If it failed, and `forget` finds and discards anything that earlier steps left for its starting values, the
 /// result of `take`: of the same step from those of a first step.
 ///
 /// Extrapolated stages, multipliers or velocities of the last step, and decisions of a solver are usually better starting values than those
 /// of a first step, but not always. With this rule no step fails that a new integrator can take from the same state.
-pub fn or_as_first_step<I, T>(
+pub fn or_as_first_step<I, T, E: OfTheCore>(
     run: &mut I,
-    taken: Result<T, Error>,
+    taken: Result<T, E>,
     forget: impl FnOnce(&mut I) -> bool,
-    take: impl FnOnce(&mut I) -> Result<T, Error>,
-) -> Result<T, Error> {
+    take: impl FnOnce(&mut I) -> Result<T, E>,
+) -> Result<T, E> {
     // Whatever the starting values are, these faults of a system remain.
-    let is_of_the_system = |error: &Error| {
+    let is_of_the_system = |error: &E| {
         matches!(
-            error,
-            Error::EvaluationDimension { .. } | Error::MovingGradients { .. }
+            error.of_the_core(),
+            Some(Error::EvaluationDimension { .. } | Error::MovingGradients { .. })
         )
     };
     match taken {
         Err(error) if !is_of_the_system(&error) && forget(run) => take(run).map_err(|second| {
             // No convergence is the reason, whatever the other attempt looks like.
-            match error {
-                Error::NoConvergence { .. } => error,
+            match error.of_the_core() {
+                Some(Error::NoConvergence { .. }) => error,
                 _ => second,
             }
         }),

@@ -222,10 +222,10 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 
     /// Takes a step whose stages `solve` computes from the step, the momentum after it, and its number.
     #[doc(hidden)]
-    pub fn step_solved_by<T>(
+    pub fn step_solved_by<T, E: From<Error>>(
         &mut self,
-        solve: impl FnOnce(&S, &Step<'_, V>, &V, u64, Stopping) -> Result<T, Error>,
-    ) -> Result<T, Error> {
+        solve: impl FnOnce(&S, &Step<'_, V>, &V, u64, Stopping) -> Result<T, E>,
+    ) -> Result<T, E> {
         let (size, time) = (self.step_size, self.clock.next());
         let work = self.stepper.prepare(size, time)?;
         let number = self.stepper.step_memory.statistics.steps + 1;

@@ -1,5 +1,6 @@
 //! The integrator of a rigid body.
 
+use crate::Error;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::attitude::{Attitude, Precise};
@@ -7,14 +8,16 @@ use super::body::RigidBody;
 use super::free_step::{NoRotation, rotation};
 use super::state::RotationState;
 use symplectic_core::inside::{Part, SymmetricSteps, check_step_size};
-use symplectic_core::{Equal, Error, Quantity, Run, Statistics, Stepper, StoermerVerletSteps};
+use symplectic_core::{
+    Equal, Error as CoreError, Quantity, Run, Statistics, Stepper, StoermerVerletSteps,
+};
 
 /// Integrates a [`RigidBody`] by the symplectic method on SO(3) described in [`rotation`](crate::rotation). A step
 /// allocates nothing and evaluates the torque once; a composition evaluates it once per substep. A failed step leaves
 /// the state untouched. All other methods: [`Run`].
 ///
 /// The errors of a step are [`Error::HalfTurn`] for a rotation by π or more, [`Error::NoEndOfStep`] if Newton's iteration does not
-/// converge, [`Error::NonFinite`] for a torque, and [`Error::TimeResolution`].
+/// converge, [`Core(NonFinite)`](CoreError::NonFinite) for a torque, and [`Core(TimeResolution)`](CoreError::TimeResolution).
 ///
 /// ```
 /// symplectic::composition! { Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] } }
@@ -82,8 +85,8 @@ impl<B: RigidBody> RotationSteps<B> {
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`] for a step size that is zero or not finite, [`Error::MomentOfInertia`] for a moment that is
-    /// not positive and finite, [`Error::NonFiniteState`].
+    /// [`Core(StepSize)`](CoreError::StepSize) for a step size that is zero or not finite, [`Error::MomentOfInertia`] for a moment that is
+    /// not positive and finite, [`Core(NonFiniteState)`](CoreError::NonFiniteState).
     pub fn run(body: B, state: RotationState, step_size: f64) -> Result<Run<Self>, Error> {
         Self::by(SymmetricSteps::ONE, body, state, step_size)
     }
@@ -137,7 +140,7 @@ impl<B: RigidBody> RotationSteps<B> {
             steps,
             present,
         };
-        Run::of(stepper, step_size)
+        Ok(Run::of(stepper, step_size)?)
     }
 
     /// The angular momentum `RΠ` in the space frame. Without torque it is constant to the last bit.
@@ -253,13 +256,14 @@ enum Failure {
 impl Failure {
     fn error(self, time: f64, step_size: f64, step: u64) -> Error {
         match self {
-            Self::Torque => Error::NonFinite {
+            Self::Torque => CoreError::NonFinite {
                 time,
                 step_size,
                 step,
                 what: Quantity::Torque,
                 stage: None,
-            },
+            }
+            .into(),
             Self::Rotation(NoRotation::HalfTurn { angle }) => Error::HalfTurn {
                 time,
                 step_size,
@@ -280,7 +284,7 @@ impl Failure {
     }
 }
 
-fn check_state(state: &RotationState) -> Result<(), Error> {
+fn check_state(state: &RotationState) -> Result<(), CoreError> {
     let finite = |numbers: &[f64]| numbers.iter().all(|number| number.is_finite());
     let what = if !state.time.is_finite() {
         Quantity::Time
@@ -291,5 +295,5 @@ fn check_state(state: &RotationState) -> Result<(), Error> {
     } else {
         return Ok(());
     };
-    Err(Error::NonFiniteState { what })
+    Err(CoreError::NonFiniteState { what })
 }

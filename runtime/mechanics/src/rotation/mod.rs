@@ -32,9 +32,9 @@
 //!
 //! ```
 //! use symplectic::nalgebra::{UnitQuaternion, Vector3};
-//! use symplectic::rotation::{FreeBody, RotationSteps, RotationState};
+//! use symplectic::rotation::{Error, FreeBody, RotationSteps, RotationState};
 //!
-//! # fn main() -> Result<(), symplectic::Error> {
+//! # fn main() -> Result<(), Error> {
 //! // A book that turns about its middle axis, almost: it tumbles.
 //! let book = FreeBody::new(1.0, 2.0, 3.0);
 //! let start = RotationState::new(0.0, UnitQuaternion::identity(), Vector3::new(0.01, 2.0, 0.0));
@@ -52,6 +52,7 @@ mod free_step;
 mod integrator;
 mod state;
 
+pub use crate::Error;
 pub use body::{FreeBody, HeavyTop, RigidBody};
 pub use integrator::{RotationIntegrator, RotationSteps};
 pub use state::RotationState;

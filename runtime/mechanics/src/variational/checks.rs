@@ -1,11 +1,12 @@
 //! Properties of a discrete Lagrangian, for tests.
 
+use crate::Error;
 use num_traits::Float;
 
 use super::discrete_lagrangian::{At, Derivatives, DiscreteLagrangian};
 use super::regular::Factors;
 use symplectic_core::inside::check_step_size;
-use symplectic_core::{Error, Scalar, Vector};
+use symplectic_core::{Error as CoreError, Scalar, Vector};
 
 /// Two positions, and the step from the first one to the second.
 ///
@@ -55,7 +56,8 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`]; [`Error::Dimension`] if the positions differ in dimension; [`Error::ResizedEvaluation`] if a force does.
+    /// [`Core(StepSize)`](CoreError::StepSize); [`Core(Dimension)`](CoreError::Dimension) if the positions differ in dimension;
+    /// [`Core(ResizedEvaluation)`](CoreError::ResizedEvaluation) if a force does.
     pub fn momenta<L>(&self, lagrangian: &L) -> Result<(V, V), Error>
     where
         L: DiscreteLagrangian<Vector<f64> = V>,
@@ -74,7 +76,8 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`]; [`Error::Dimension`] if the positions differ in dimension; [`Error::ResizedEvaluation`] if a force does.
+    /// [`Core(StepSize)`](CoreError::StepSize); [`Core(Dimension)`](CoreError::Dimension) if the positions differ in dimension;
+    /// [`Core(ResizedEvaluation)`](CoreError::ResizedEvaluation) if a force does.
     pub fn is_regular<L>(&self, lagrangian: &L) -> Result<bool, Error>
     where
         L: DiscreteLagrangian<Vector<f64> = V>,
@@ -103,7 +106,8 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`]; [`Error::Dimension`] if the positions differ in dimension; [`Error::ResizedEvaluation`] if a force does.
+    /// [`Core(StepSize)`](CoreError::StepSize); [`Core(Dimension)`](CoreError::Dimension) if the positions differ in dimension;
+    /// [`Core(ResizedEvaluation)`](CoreError::ResizedEvaluation) if a force does.
     pub fn momentum_maps<L>(
         &self,
         lagrangian: &L,
@@ -129,7 +133,8 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`]; [`Error::Dimension`] if the positions differ in dimension; [`Error::ResizedEvaluation`] if a force does.
+    /// [`Core(StepSize)`](CoreError::StepSize); [`Core(Dimension)`](CoreError::Dimension) if the positions differ in dimension;
+    /// [`Core(ResizedEvaluation)`](CoreError::ResizedEvaluation) if a force does.
     pub fn difference<L, K>(&self, one: &L, other: &K, q2: &V) -> Result<(f64, f64), Error>
     where
         L: DiscreteLagrangian<Vector<f64> = V>,
@@ -178,13 +183,13 @@ impl<V: Vector<Scalar = f64>> DiscretePath<'_, V> {
         }
     }
 
-    fn derivatives_like<L>(&self) -> Result<Derivatives<L>, Error>
+    fn derivatives_like<L>(&self) -> Result<Derivatives<L>, CoreError>
     where
         L: DiscreteLagrangian<Vector<f64> = V>,
     {
         let (position, momentum) = (self.q0.dimension(), self.q1.dimension());
         if position != momentum {
-            return Err(Error::Dimension { position, momentum });
+            return Err(CoreError::Dimension { position, momentum });
         }
         check_step_size(self.step_size)?;
         Derivatives::new(self.q0)

@@ -1,12 +1,13 @@
 //! Maps of positions, and their cotangent lifts.
 
+use crate::Error;
 use alloc::vec;
 
 use num_traits::{Float, Zero};
 
 use super::regular::{Factors, Singular};
 use symplectic_core::inside::{HyperDual, check_state};
-use symplectic_core::{Error, Scalar, State, Vector};
+use symplectic_core::{Error as CoreError, Scalar, State, Vector};
 
 /// A map of positions `Q = Φ(q)`: a symmetry, or a change of coordinates. It is written once for all scalars, and its derivatives are
 /// exact.
@@ -31,8 +32,9 @@ pub trait PointTransformation {
 ///
 /// # Errors
 ///
-/// [`Error::SingularTransformation`] if `∂Φ/∂q` is not invertible; [`Error::Dimension`] and [`Error::NonFiniteState`] for the state or its
-/// image; [`Error::Length`] if the map changes the dimension of a vector.
+/// [`Error::SingularTransformation`] if `∂Φ/∂q` is not invertible; [`Core(Dimension)`](CoreError::Dimension) and
+/// [`Core(NonFiniteState)`](CoreError::NonFiniteState) for the state or its image; [`Core(Length)`](CoreError::Length) if the map changes
+/// the dimension of a vector.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -81,7 +83,7 @@ pub fn cotangent_lift<F: PointTransformation>(
         position.as_mut_slice()[k].set_first(0.0);
         if image.dimension() != n {
             let (expected, found) = (n, image.dimension());
-            return Err(Error::Length { expected, found });
+            return Err(CoreError::Length { expected, found }.into());
         }
         let places = row.iter_mut().zip(new.q.as_mut_slice());
         for ((slope, value), dual) in places.zip(image.as_slice()) {

@@ -1,5 +1,6 @@
 //! Derivative of the end of a step with respect to the position or momentum at its start, by central differences.
 
+use crate::Error;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -8,7 +9,7 @@ use num_traits::Float;
 use crate::variational::regular::Factors;
 use crate::variational::regular::Singular;
 use crate::variational::regular::largest;
-use symplectic_core::{Error, Vector};
+use symplectic_core::Vector;
 
 /// Length of a difference relative to the unknown, about the cube root of the rounding error.
 const DIFFERENCE: f64 = 6e-6;

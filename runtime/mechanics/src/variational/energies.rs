@@ -1,6 +1,7 @@
 //! The sum of the energies of the stages of a step.
 
-use symplectic_core::{Error, Scalar, System, Vector};
+use crate::Error;
+use symplectic_core::{Error as CoreError, Scalar, System, Vector};
 
 /// A stage of a step.
 pub(super) struct EnergyAt<'a, V: Vector> {
@@ -23,7 +24,7 @@ pub(super) fn weighted_energy<'a, S: System<V>, V: Vector>(
 ) -> Result<V::Scalar, Error> {
     let at = |time, q: &V, p: &V| {
         let energy = system.energy(V::Scalar::from_f64(time), q, p);
-        energy.ok_or(Error::NoEnergy)
+        energy.ok_or(CoreError::NoEnergy)
     };
     let same_weights = stages
         .clone()

@@ -1,5 +1,6 @@
 //! Symplectic–energy–momentum steps.
 
+use crate::Error;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -9,7 +10,7 @@ use super::discrete_lagrangian::{At, Derivatives, DiscreteLagrangian};
 use super::failure::Failure;
 use super::regular::Factors;
 use symplectic_core::inside::{check_state, check_step_size};
-use symplectic_core::{Error, Own, Quantity, Run, State, Statistics, Stepper, Vector};
+use symplectic_core::{Error as CoreError, Own, Quantity, Run, State, Statistics, Stepper, Vector};
 
 /// Symplectic–energy–momentum steps of a [`DiscreteLagrangian`] that does not depend on time (Kane, Marsden & Ortiz 1999; Marsden & West
 /// 2001, 4.9). The step size is an unknown, and the discrete energy `E_d = −∂Ld/∂h` is the same in all steps.
@@ -38,8 +39,9 @@ use symplectic_core::{Error, Own, Quantity, Run, State, Statistics, Stepper, Vec
 /// # Errors of a step
 ///
 /// [`Error::NoEnergyStep`] if Newton's iteration finds no step that conserves the discrete energy; [`Error::NoEndOfStep`],
-/// [`Error::IrregularLagrangian`] and [`Error::NonFinite`] if a step of the previous size has no end; [`Error::EvaluationDimension`] and
-/// [`Error::TimeResolution`]. The state is then unchanged. All other methods: [`Run`].
+/// [`Error::IrregularLagrangian`] and [`Core(NonFinite)`](CoreError::NonFinite) if a step of the previous size has no end;
+/// [`Core(EvaluationDimension)`](CoreError::EvaluationDimension) and [`Core(TimeResolution)`](CoreError::TimeResolution). The state is then
+/// unchanged. All other methods: [`Run`].
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -111,7 +113,8 @@ impl<L: DiscreteLagrangian> EnergyMomentumSteps<L> {
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`], [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`].
+    /// [`Core(StepSize)`](CoreError::StepSize), [`Core(Dimension)`](CoreError::Dimension) if `q` and `p` differ,
+    /// [`Core(NonFiniteState)`](CoreError::NonFiniteState).
     pub fn run(
         lagrangian: L,
         state: State<L::Vector<f64>>,
@@ -140,7 +143,7 @@ impl<L: DiscreteLagrangian> EnergyMomentumSteps<L> {
             factors: Factors::new(n + 1),
             state,
         };
-        Run::of(stepper, 1.0)
+        Ok(Run::of(stepper, 1.0)?)
     }
 
     /// The discrete energy E of all steps; `None` before the first step.
@@ -205,10 +208,11 @@ impl<L: DiscreteLagrangian> Stepper for EnergyMomentumSteps<L> {
         };
         let end = time + size;
         if end == time {
-            return Err(Error::TimeResolution {
+            return Err(CoreError::TimeResolution {
                 time,
                 step_size: size,
-            });
+            }
+            .into());
         }
         let energy = self.evaluate(size);
         let at = At {

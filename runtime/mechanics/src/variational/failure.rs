@@ -1,7 +1,8 @@
 //! Failed steps.
 
 use super::regular::Singular;
-use symplectic_core::{Error, Quantity};
+use crate::Error;
+use symplectic_core::{Error as CoreError, Quantity};
 
 /// Why a step failed.
 pub(super) enum Failure {
@@ -27,19 +28,20 @@ impl Failure {
     /// The error of step number `step`; `what` is the quantity that is not finite.
     pub(super) fn error(self, what: Quantity, time: f64, step_size: f64, step: u64) -> Error {
         match self {
-            Self::NonFinite { stage } => Error::NonFinite {
+            Self::NonFinite { stage } => CoreError::NonFinite {
                 time,
                 step_size,
                 step,
                 what,
                 stage,
-            },
+            }
+            .into(),
             Self::Resized {
                 what,
                 stage,
                 expected,
                 found,
-            } => Error::EvaluationDimension {
+            } => CoreError::EvaluationDimension {
                 time,
                 step_size,
                 step,
@@ -47,7 +49,8 @@ impl Failure {
                 stage,
                 expected,
                 found,
-            },
+            }
+            .into(),
             Self::Singular(Singular { component, pivot }) => Error::IrregularLagrangian {
                 time,
                 step_size,

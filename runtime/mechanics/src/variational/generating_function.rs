@@ -2,11 +2,12 @@
 
 use super::energies::{EnergyAt, weighted_energy};
 use super::two_ends::{Unknowns, dot, solve, sum};
+use crate::Error;
 use symplectic_core::inside::{check_state, check_step_size};
 use symplectic_core::solver::{Coefficients, Solver, Step, Stopping};
 use symplectic_core::system::Conservative;
 use symplectic_core::{
-    Error, Integrator, Method, ProvedFor, Quantity, Scalar, Summation, System, Vector,
+    Error as CoreError, Integrator, Method, ProvedFor, Quantity, Scalar, Summation, System, Vector,
 };
 
 /// The value at `(q0, p1)`, and the step that it generates; returned by [`generating_function`].
@@ -106,9 +107,10 @@ impl<V: Vector> GeneratingFunction<V> {
 ///
 /// # Errors
 ///
-/// [`Error::NoEnergy`] if the system has no energy; [`Error::DifferentNodes`] if it depends on time and the method has `c ≠ c̃`;
-/// [`Error::StepSize`], [`Error::Dimension`] and [`Error::NonFiniteState`] for the arguments; [`Error::NoConvergence`],
-/// [`Error::NonFinite`] and [`Error::EvaluationDimension`] as in a step.
+/// [`Core(NoEnergy)`](CoreError::NoEnergy) if the system has no energy; [`Error::DifferentNodes`] if it depends on time and the method has
+/// `c ≠ c̃`; [`Core(StepSize)`](CoreError::StepSize), [`Core(Dimension)`](CoreError::Dimension) and
+/// [`Core(NonFiniteState)`](CoreError::NonFiniteState) for the arguments; [`Core(NoConvergence)`](CoreError::NoConvergence),
+/// [`Core(NonFinite)`](CoreError::NonFinite) and [`Core(EvaluationDimension)`](CoreError::EvaluationDimension) as in a step.
 ///
 /// ```
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
@@ -164,7 +166,8 @@ pub fn generating_function<
 ///
 /// # Errors
 ///
-/// Those of [`step`](symplectic_core::Run::step), [`Error::NoEnergy`], [`Error::DifferentNodes`]; the state is then unchanged.
+/// Those of [`step`](symplectic_core::Run::step), [`Core(NoEnergy)`](CoreError::NoEnergy), [`Error::DifferentNodes`]; the state is then
+/// unchanged.
 ///
 /// ```
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
@@ -223,12 +226,14 @@ impl<M: Method, V: Vector> Unknowns<M, V> {
         step: &Step<'_, V>,
         number: u64,
     ) -> Result<V::Scalar, Error> {
-        let not_finite = |stage| Error::NonFinite {
-            time: step.time,
-            step_size: step.size,
-            step: number,
-            what: Quantity::Energy,
-            stage,
+        let not_finite = |stage| {
+            Error::from(CoreError::NonFinite {
+                time: step.time,
+                step_size: step.size,
+                step: number,
+                what: Quantity::Energy,
+                stage,
+            })
         };
         let Coefficients { c, c_tilde, .. } = M::COEFFICIENTS;
         let times = c.iter().zip(c_tilde);

@@ -1,5 +1,6 @@
 //! Generating functions at given ends of a step.
 
+use crate::Error;
 use alloc::vec;
 
 use num_traits::Float;
@@ -13,7 +14,7 @@ use symplectic_core::inside::check_state;
 use symplectic_core::solver::Solver;
 use symplectic_core::system::Conservative;
 use symplectic_core::{
-    Error, Integrator, Method, Quantity, State, StepMap, Summation, System, Vector,
+    Error as CoreError, Integrator, Method, Quantity, State, StepMap, Summation, System, Vector,
 };
 
 /// The generating functions of the next step, at given ends:
@@ -35,8 +36,8 @@ use symplectic_core::{
 ///
 /// All three return [`Error::NoStart`] if the ends do not determine the start, or it is not found. Type I: H does not determine the
 /// velocity, as for `H = q·p`, or at a conjugate point; Type II: `∂p1/∂p0` is singular; Type III: `∂q1/∂q0` is. They return
-/// [`Error::Dimension`] and [`Error::NonFiniteState`] for the arguments, and the errors of a step and of its
-/// [stages](super::StepWithStages), which are found by fixed points: a step may be too large for them.
+/// [`Core(Dimension)`](CoreError::Dimension) and [`Core(NonFiniteState)`](CoreError::NonFiniteState) for the arguments, and the errors of a
+/// step and of its [stages](super::StepWithStages), which are found by fixed points: a step may be too large for them.
 ///
 /// ```
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
@@ -58,7 +59,9 @@ use symplectic_core::{
 /// # Ok(())
 /// # }
 /// ```
-pub trait GeneratingFunctions: StepMap<State = State<Self::Vector>, Error = Error> {
+pub trait GeneratingFunctions:
+    StepMap<State = State<Self::Vector>, Error: core::error::Error + Into<Error>>
+{
     /// The vectors of a state.
     type Vector: Vector<Scalar = f64>;
 
@@ -157,7 +160,8 @@ where
 {
     type Vector = V;
 
-    /// The errors of the action are [`Error::NoEnergy`] and [`Error::DifferentNodes`]. Does not compile with an applied force.
+    /// The errors of the action are [`Core(NoEnergy)`](CoreError::NoEnergy) and [`Error::DifferentNodes`]. Does not compile with an applied
+    /// force.
     fn step_with_action(&self, start: State<V>) -> Result<(State<V>, f64), Error> {
         const {
             assert!(
@@ -227,7 +231,7 @@ fn find<I: GeneratingFunctions + ?Sized>(
     let n = run.present().q.dimension();
     check_state(start.time, &start.q, &start.p, n)?;
     check_state(start.time, &start.q, target, n).map_err(|error| match error {
-        Error::NonFiniteState { .. } => Error::NonFiniteState {
+        CoreError::NonFiniteState { .. } => CoreError::NonFiniteState {
             what: half.quantity(),
         },
         error => error,
@@ -243,7 +247,7 @@ fn find<I: GeneratingFunctions + ?Sized>(
     let mut derivative = EndDerivative::new(n);
     let mut last = f64::NAN;
     for _ in 0..MAX_ITERATIONS {
-        let end = run.step_from(start.clone())?;
+        let end = run.step_from(start.clone()).map_err(Into::into)?;
         let (known, found) = (half.of(&start).as_slice(), half.of(&end).as_slice());
         let iterate = unknown.of(&start).as_slice();
         let mut residual = 0.0_f64;
@@ -265,7 +269,8 @@ fn find<I: GeneratingFunctions + ?Sized>(
         let shifted = |column: usize, by: f64| {
             let mut start = start.clone();
             unknown.of_mut(&mut start).as_mut_slice()[column] += by;
-            run.step_from(start).map(|end| half.take(end))
+            let end = run.step_from(start).map_err(Into::into)?;
+            Ok(half.take(end))
         };
         derivative.measure([iterate, unknown.of(&end).as_slice()], &sizes, shifted)?;
         derivative

@@ -5,9 +5,10 @@ use super::discrete_lagrangian::{At, Derivatives, DiscreteLagrangian};
 use super::failure::Failure;
 use super::given_ends::GeneratingFunctions;
 use super::regular::Factors;
+use crate::Error;
 use symplectic_core::inside::{Part, SymmetricSteps, beside, check_state, check_step_size};
 use symplectic_core::{
-    Equal, Error, Quantity, Run, State, Statistics, Stepper, StoermerVerletSteps, Vector,
+    Equal, Quantity, Run, State, Statistics, Stepper, StoermerVerletSteps, Vector,
 };
 
 /// Takes the steps of a [`DiscreteLagrangian`], with its forces if there are any (Marsden & West 2001, 2.1.1 and 3.2.5):
@@ -32,8 +33,9 @@ use symplectic_core::{
 ///
 /// # Errors of a step
 ///
-/// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::EvaluationDimension`] and
-/// [`Error::TimeResolution`]. All other methods: [`Run`].
+/// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Core(NonFinite)`](symplectic_core::Error::NonFinite),
+/// [`Core(EvaluationDimension)`](symplectic_core::Error::EvaluationDimension) and
+/// [`Core(TimeResolution)`](symplectic_core::Error::TimeResolution). All other methods: [`Run`].
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -89,7 +91,8 @@ impl<L: DiscreteLagrangian> VariationalSteps<L> {
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`], [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`].
+    /// [`Core(StepSize)`](symplectic_core::Error::StepSize), [`Core(Dimension)`](symplectic_core::Error::Dimension) if `q` and `p` differ,
+    /// [`Core(NonFiniteState)`](symplectic_core::Error::NonFiniteState).
     pub fn run(
         lagrangian: L,
         state: State<L::Vector<f64>>,
@@ -157,7 +160,7 @@ impl<L: DiscreteLagrangian> VariationalSteps<L> {
             state,
             action: None,
         };
-        Run::of(stepper, step_size)
+        Ok(Run::of(stepper, step_size)?)
     }
 
     /// `Ld(q0, q1)` of the last step, or of the last part of a [split](symplectic_core::Retry) step; for a composition the sum over its substeps.

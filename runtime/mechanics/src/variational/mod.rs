@@ -26,6 +26,7 @@ mod regular;
 mod stages;
 mod two_ends;
 
+pub use crate::Error;
 pub use checks::DiscretePath;
 pub use cotangent_lift::{PointTransformation, cotangent_lift};
 pub use dirac::{

@@ -1,5 +1,6 @@
 //! Newmark's method, as Störmer–Verlet in shifted positions.
 
+use crate::Error;
 use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -15,7 +16,7 @@ use symplectic_core::inside::{
 };
 use symplectic_core::solver::FixedPoint;
 use symplectic_core::{
-    Error, Hamiltonian, Masses, Quantity, Scalar, Separable, State, System, Vector,
+    Error as CoreError, Hamiltonian, Masses, Quantity, Scalar, Separable, State, System, Vector,
 };
 
 /// A system `H = pᵀM⁻¹p/2 + V(q)` in shifted positions. In these, Newmark's method with `γ = 1/2` and any β is Störmer–Verlet (Newmark
@@ -56,7 +57,8 @@ use symplectic_core::{
 ///
 /// An evaluation of the force solves for `q(x)` by Newton's iteration from `q = x`, with exact derivatives. For n components an iteration
 /// takes n/2 evaluations of the force with its derivatives and the elimination of a full matrix. Memory is allocated only at the first
-/// evaluation. If no `q` is found, the force is NaN and the step fails with [`Error::NonFinite`]; a smaller step succeeds.
+/// evaluation. If no `q` is found, the force is NaN and the step fails with [`Core(NonFinite)`](CoreError::NonFinite); a smaller step
+/// succeeds.
 ///
 /// ```
 /// use symplectic::variational::Newmark;
@@ -104,7 +106,7 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::NewmarkBeta`] if `beta` is not finite; [`Error::StepSize`].
+    /// [`Error::NewmarkBeta`] if `beta` is not finite; [`Core(StepSize)`](CoreError::StepSize).
     pub fn new(system: S, beta: f64, step_size: f64) -> Result<Self, Error> {
         check_step_size(step_size)?;
         if !beta.is_finite() {
@@ -121,8 +123,8 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`]; [`Error::NonFiniteState`] for the state or its force; [`Error::ResizedEvaluation`];
-    /// [`Error::NewmarkMasses`] if the velocity is not `M⁻¹p` with a constant M.
+    /// [`Core(Dimension)`](CoreError::Dimension); [`Core(NonFiniteState)`](CoreError::NonFiniteState) for the state or its force;
+    /// [`Core(ResizedEvaluation)`](CoreError::ResizedEvaluation); [`Error::NewmarkMasses`] if the velocity is not `M⁻¹p` with a constant M.
     pub fn shift(&self, state: &State<S::Vector<f64>>) -> Result<State<S::Vector<f64>>, Error> {
         let State { time, q, p } = state;
         check_start(&self.system, state)?;
@@ -136,7 +138,7 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
         let [_, acceleration] = self.acceleration(*time, q)?;
         if !is_finite(&acceleration) {
             let what = Quantity::Force;
-            return Err(Error::NonFiniteState { what });
+            return Err(CoreError::NonFiniteState { what }.into());
         }
         let mut shifted = state.clone();
         for (x, a) in shifted
@@ -154,14 +156,18 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`]; [`Error::ResizedEvaluation`]; [`Error::NewmarkPosition`] if no such `q` is found.
+    /// [`Core(Dimension)`](CoreError::Dimension), [`Core(NonFiniteState)`](CoreError::NonFiniteState);
+    /// [`Core(ResizedEvaluation)`](CoreError::ResizedEvaluation); [`Error::NewmarkPosition`] if no such `q` is found.
     pub fn unshift(&self, state: &State<S::Vector<f64>>) -> Result<State<S::Vector<f64>>, Error> {
         let State { time, q, p } = state;
         check_state(*time, q, p, q.dimension())?;
         let q = match self.at_position(*time, q, S::Vector::clone) {
             Ok(q) => q,
             // The cause may be a wrong dimension.
-            Err(error) => return self.acceleration(*time, q).and(Err(error)),
+            Err(error) => {
+                self.acceleration(*time, q)?;
+                return Err(error);
+            }
         };
         Ok(State::new(*time, q, p.clone()))
     }
@@ -175,14 +181,18 @@ impl<S: Hamiltonian<Class = Separable>> Newmark<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::ResizedEvaluation`].
-    fn acceleration(&self, time: f64, q: &S::Vector<f64>) -> Result<[S::Vector<f64>; 2], Error> {
+    /// [`Core(ResizedEvaluation)`](CoreError::ResizedEvaluation).
+    fn acceleration(
+        &self,
+        time: f64,
+        q: &S::Vector<f64>,
+    ) -> Result<[S::Vector<f64>; 2], CoreError> {
         let check = |what, evaluation: &S::Vector<f64>| {
             let (expected, found) = (q.dimension(), evaluation.dimension());
             if found == expected {
                 return Ok(());
             }
-            Err(Error::ResizedEvaluation {
+            Err(CoreError::ResizedEvaluation {
                 time,
                 what,
                 expected,
@@ -239,7 +249,7 @@ impl<S: Hamiltonian<Class = Separable>> System<S::Vector<f64>> for Newmark<S> {
         Hamiltonian::velocity(&self.system, time, q, p, velocity);
     }
 
-    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+    fn check_dimension(&self, dimension: usize) -> Result<(), CoreError> {
         self.system.check_dimension(dimension)
     }
 
@@ -322,7 +332,7 @@ struct Workspace<S: Hamiltonian> {
 }
 
 impl<S: Hamiltonian> Workspace<S> {
-    fn new(prototype: &S::Vector<f64>) -> Result<Self, Error> {
+    fn new(prototype: &S::Vector<f64>) -> Result<Self, CoreError> {
         let n = prototype.dimension();
         let zeros = || S::Vector::from_slice(&vec![HyperDual::zero(); n]);
         Ok(Self {

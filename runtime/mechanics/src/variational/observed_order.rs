@@ -1,11 +1,12 @@
 //! The order of a discrete Lagrangian, from its momenta.
 
+use crate::Error;
 use num_traits::Float;
 
 use super::checks::DiscretePath;
 use super::discrete_lagrangian::DiscreteLagrangian;
 use symplectic_core::inside::{check_step_size, larger_or_nan};
-use symplectic_core::{Error, State, Vector};
+use symplectic_core::{State, Vector};
 
 /// The order of a discrete Lagrangian observed along an orbit. It is `log2` of the ratio of the errors of its momenta in steps of size
 /// `step_size` and half that size, both from `time`.
@@ -22,7 +23,8 @@ use symplectic_core::{Error, State, Vector};
 ///
 /// # Errors
 ///
-/// Those of `orbit`; [`Error::StepSize`]; [`Error::Dimension`] if positions differ in dimension.
+/// Those of `orbit`; [`Core(StepSize)`](symplectic_core::Error::StepSize); [`Core(Dimension)`](symplectic_core::Error::Dimension) if
+/// positions differ in dimension.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;

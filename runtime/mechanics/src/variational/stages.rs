@@ -1,5 +1,6 @@
 //! The stages of a step, and their balances of energy and momentum.
 
+use crate::Error;
 use alloc::vec::Vec;
 
 use super::energies::{EnergyAt, weighted_energy};
@@ -7,7 +8,7 @@ use super::two_ends::{dot, solve};
 use symplectic_core::inside::{Attempt, FirstFault, Plan, StageView};
 use symplectic_core::solver::{Failure, Solver, Step, Stopping};
 use symplectic_core::{
-    Class, Error, Integrator, Method, Quantity, Scalar, Summation, System, Vector,
+    Class, Error as CoreError, Integrator, Method, Quantity, Scalar, Summation, System, Vector,
 };
 
 /// A stage of a step, with the evaluations there.
@@ -87,7 +88,8 @@ impl<V: Vector> StagesOfStep<V> {
     ///
     /// # Errors
     ///
-    /// [`Error::NoEnergy`] if the system has no energy; [`Error::DifferentNodes`] if it depends on time and the method has `c ≠ c̃`.
+    /// [`Core(NoEnergy)`](CoreError::NoEnergy) if the system has no energy; [`Error::DifferentNodes`] if it depends on time and the method
+    /// has `c ≠ c̃`.
     pub fn action<S: System<V>>(&self, system: &S) -> Result<V::Scalar, Error> {
         let Some(first) = self.stages.first() else {
             return Ok(V::Scalar::from_f64(0.0));
@@ -147,7 +149,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> StepWith
     ///
     /// # Errors
     ///
-    /// [`Error::EvaluationDimension`] for the applied force too; [`Error::NoStages`] for a system of class
+    /// [`Core(EvaluationDimension)`](CoreError::EvaluationDimension) for the applied force too; [`Error::NoStages`] for a system of class
     /// [`Damped`](symplectic_core::Damped), whose kicks are exact flows.
     ///
     /// ```
@@ -233,7 +235,7 @@ fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
         <S::Class as Class>::Plan::<M>::show_stages::<R, V, S>(step, system, stopping, &mut add);
     match shown {
         Some(Ok(())) => {}
-        Some(Err(failure)) => return Err(error(step, number, failure)),
+        Some(Err(failure)) => return Err(error(step, number, failure).into()),
         None => {
             let (found, _) = solve::<true, M, S, V>(system, step, number, stopping)?;
             let coefficients = M::COEFFICIENTS;
@@ -255,7 +257,7 @@ fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
         }
     }
     if let Some((what, stage, found)) = mismatch {
-        return Err(Error::EvaluationDimension {
+        return Err(CoreError::EvaluationDimension {
             time: step.time,
             step_size: step.size,
             step: number,
@@ -263,13 +265,14 @@ fn stages<M: Method, S: System<V>, V: Vector, R: Summation>(
             stage: Some(stage),
             expected: step.q.dimension(),
             found,
-        });
+        }
+        .into());
     }
     Ok(StagesOfStep { stages })
 }
 
 /// The error of a step that succeeded once and failed when repeated.
-fn error<V: Vector>(step: &Step<'_, V>, number: u64, failure: Failure) -> Error {
+fn error<V: Vector>(step: &Step<'_, V>, number: u64, failure: Failure) -> CoreError {
     let attempt = Attempt::of(step, number);
     let observed = FirstFault::new(attempt.dimension);
     let nothing: symplectic_core::inside::Evaluations<V> =

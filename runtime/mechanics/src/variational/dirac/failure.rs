@@ -1,7 +1,8 @@
 //! Failed steps.
 
+use crate::Error;
 use crate::variational;
-use symplectic_core::{Error, Quantity};
+use symplectic_core::{Error as CoreError, Quantity};
 
 /// Maximum number of Newton iterations; 2 to 6 are typical.
 pub(super) const MAX_ITERATIONS: u32 = 40;
@@ -31,21 +32,23 @@ pub(super) enum Failure {
 impl Failure {
     pub(super) fn error(self, time: f64, step_size: f64, step: u64) -> Error {
         match self {
-            Self::NonFinite => Error::NonFinite {
+            Self::NonFinite => CoreError::NonFinite {
                 time,
                 step_size,
                 step,
                 what: Quantity::Lagrangian,
                 stage: None,
-            },
+            }
+            .into(),
             Self::Evaluation(failure) => failure.error(Quantity::Lagrangian, time, step_size, step),
-            Self::MovingRows => Error::MovingGradients { time },
-            Self::Dependent { constraint } => Error::DependentConstraints {
+            Self::MovingRows => CoreError::MovingGradients { time }.into(),
+            Self::Dependent { constraint } => CoreError::DependentConstraints {
                 time,
                 constraint,
                 name: None,
                 pivot: 0.0,
-            },
+            }
+            .into(),
             Self::Undetermined { component } => Error::UndeterminedPosition {
                 time,
                 step_size,

@@ -1,5 +1,6 @@
 //! Steps of degenerate Lagrangians, and of Lagrangians with constraints on velocities.
 
+use crate::Error;
 use alloc::vec::Vec;
 
 use super::primary::consistent_velocity;
@@ -10,7 +11,7 @@ use crate::variational::two_ends::dot;
 use symplectic_core::inside::{
     SymmetricSteps, check_state, check_step_size, copy, or_as_first_step,
 };
-use symplectic_core::{Equal, Error, Run, State, Statistics, Stepper, StoermerVerletSteps, Vector};
+use symplectic_core::{Equal, Run, State, Statistics, Stepper, StoermerVerletSteps, Vector};
 
 /// Takes the steps of the discrete principle of Lagrange, d'Alembert and Pontryagin (Leok & Ohsawa, arXiv:0810.0740v1, 4.28 and 8.3) for a
 /// [`DiracSystem`], whose Lagrangian may be degenerate:
@@ -49,8 +50,11 @@ use symplectic_core::{Equal, Error, Run, State, Statistics, Stepper, StoermerVer
 ///
 /// # Errors of a step
 ///
-/// [`Error::ContradictoryStep`], [`Error::UndeterminedPosition`], [`Error::DependentConstraints`], [`Error::MovingGradients`],
-/// [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::EvaluationDimension`] and [`Error::TimeResolution`]. All other methods: [`Run`].
+/// [`Error::ContradictoryStep`], [`Error::UndeterminedPosition`],
+/// [`Core(DependentConstraints)`](symplectic_core::Error::DependentConstraints),
+/// [`Core(MovingGradients)`](symplectic_core::Error::MovingGradients), [`Error::NoEndOfStep`],
+/// [`Core(NonFinite)`](symplectic_core::Error::NonFinite), [`Core(EvaluationDimension)`](symplectic_core::Error::EvaluationDimension) and
+/// [`Core(TimeResolution)`](symplectic_core::Error::TimeResolution). All other methods: [`Run`].
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -119,9 +123,12 @@ impl<L: DiracSystem> DiracSteps<L> {
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`], [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`]; [`Error::PrimaryConstraint`] if no
-    /// velocity has this momentum, [`Error::InconsistentVelocity`] if that velocity violates the constraints, [`Error::NoVelocity`] if none
-    /// is found; [`Error::ConstraintCount`] and [`Error::GradientPlace`] if the rows are wrong; [`Error::ResizedEvaluation`].
+    /// [`Core(StepSize)`](symplectic_core::Error::StepSize), [`Core(Dimension)`](symplectic_core::Error::Dimension) if `q` and `p` differ,
+    /// [`Core(NonFiniteState)`](symplectic_core::Error::NonFiniteState); [`Error::PrimaryConstraint`] if no velocity has this momentum,
+    /// [`Core(InconsistentVelocity)`](symplectic_core::Error::InconsistentVelocity) if that velocity violates the constraints,
+    /// [`Error::NoVelocity`] if none is found; [`Core(ConstraintCount)`](symplectic_core::Error::ConstraintCount) and
+    /// [`Core(GradientPlace)`](symplectic_core::Error::GradientPlace) if the rows are wrong;
+    /// [`Core(ResizedEvaluation)`](symplectic_core::Error::ResizedEvaluation).
     pub fn run(
         rule: DiracRule,
         system: L,
@@ -168,7 +175,7 @@ impl<L: DiracSystem> DiracSteps<L> {
             state,
             velocity,
         };
-        Run::of(stepper, step_size)
+        Ok(Run::of(stepper, step_size)?)
     }
 
     /// A velocity v with `∂L/∂v = p` and `w(q) v = 0`. Components that these equations leave free are those of the mean velocity of the

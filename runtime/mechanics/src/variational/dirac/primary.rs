@@ -1,5 +1,6 @@
 //! Primary constraints on the momenta of a degenerate Lagrangian.
 
+use crate::Error;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -12,7 +13,7 @@ use super::step::{LAST_CHANGE, largest_contradiction};
 use crate::rank::RankElimination;
 use crate::rank::Rest;
 use crate::variational::lagrangian::derivatives::Derivatives;
-use symplectic_core::{Error, Lagrangian, Quantity, State, Vector};
+use symplectic_core::{Error as CoreError, Lagrangian, Quantity, State, Vector};
 
 /// A constraint `direction·p = value` on the momentum at a position.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,8 +31,8 @@ pub struct PrimaryConstraint<V> {
 ///
 /// # Errors
 ///
-/// [`Error::Dimension`] if `q` and `v` differ; [`Error::NonFiniteState`] if a derivative of L is not finite;
-/// [`Error::ResizedEvaluation`].
+/// [`Core(Dimension)`](CoreError::Dimension) if `q` and `v` differ; [`Core(NonFiniteState)`](CoreError::NonFiniteState) if a derivative of
+/// L is not finite; [`Core(ResizedEvaluation)`](CoreError::ResizedEvaluation).
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
@@ -77,7 +78,7 @@ pub fn primary_constraints<L: Lagrangian>(
         }
     }
     if !linear.is_finite() {
-        return Err(NOT_FINITE);
+        return Err(NOT_FINITE.into());
     }
     linear.eliminate(0..n, 0..n);
     let free: Vec<usize> = (0..n).filter(|&column| !linear.has_pivot(column)).collect();
@@ -92,17 +93,17 @@ pub fn primary_constraints<L: Lagrangian>(
     Ok(free.into_iter().map(constraint).collect())
 }
 
-const NOT_FINITE: Error = Error::NonFiniteState {
+const NOT_FINITE: CoreError = CoreError::NonFiniteState {
     what: Quantity::Lagrangian,
 };
 
 fn derivatives_like<L: Lagrangian>(
     q: &L::Vector<f64>,
     v: &L::Vector<f64>,
-) -> Result<Derivatives<L>, Error> {
+) -> Result<Derivatives<L>, CoreError> {
     let (position, momentum) = (q.dimension(), v.dimension());
     if position != momentum {
-        return Err(Error::Dimension { position, momentum });
+        return Err(CoreError::Dimension { position, momentum });
     }
     Derivatives::new(position)
 }
@@ -133,14 +134,14 @@ pub(super) fn consistent_velocity<L: DiracSystem>(
             }
             linear.add_right(k, p - momentum, size);
         }
-        let moving = Error::MovingGradients { time: *time };
+        let moving = CoreError::MovingGradients { time: *time };
         for entry in rows.at(system, q).ok_or(moving)? {
             let (row, term) = (n + entry.constraint, entry.value * v[entry.component]);
             linear.add(row, entry.component, entry.value);
             linear.add_right(row, -term, Float::abs(term));
         }
         if !linear.is_finite() {
-            return Err(NOT_FINITE);
+            return Err(NOT_FINITE.into());
         }
         linear.eliminate(0..n, 0..n);
         linear.eliminate(n..n + m, 0..n);
@@ -162,12 +163,13 @@ pub(super) fn consistent_velocity<L: DiracSystem>(
             component: row,
             value: Float::abs(value),
         }),
-        Some(Rest { row, value, .. }) => Err(Error::InconsistentVelocity {
+        Some(Rest { row, value, .. }) => Err(CoreError::InconsistentVelocity {
             constraint: row - n,
             name: None,
             rate: Float::abs(value),
-        }),
-        None if settled => Vector::from_slice(&v),
+        }
+        .into()),
+        None if settled => Ok(Vector::from_slice(&v)?),
         None => Err(Error::NoVelocity {
             time: *time,
             component: None,

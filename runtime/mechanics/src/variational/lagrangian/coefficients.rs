@@ -1,12 +1,13 @@
 //! The coefficients of a step in Lagrangian form.
 
+use crate::Error;
 use alloc::vec;
 use alloc::vec::Vec;
 
 use num_traits::Float;
 
+use symplectic_core::Method;
 use symplectic_core::solver::Coefficient;
-use symplectic_core::{Error, Method};
 
 /// A step with r stages whose velocities are sums of s unknowns `V_k`:
 ///

@@ -4,13 +4,14 @@ use super::coefficients::StageCoefficients;
 use super::legendre::{momentum_of_velocity, velocity_near, velocity_of_momentum};
 use super::linear::{LinearConstraint, is_regular_beside};
 use super::stages::{Stages, Start};
+use crate::Error;
 use crate::variational::given_ends::GeneratingFunctions;
 use crate::variational::stages::{StagesOfStep, StepWithStages};
 use crate::variational::two_ends::dot;
 use symplectic_core::inside::{beside, check_state, check_step_size, or_as_first_step};
 use symplectic_core::{
-    Equal, Error, General, Lagrangian, Method, ProvedFor, Quantity, Run, State, Statistics,
-    Stepper, Vector,
+    Equal, Error as CoreError, General, Lagrangian, Method, ProvedFor, Quantity, Run, State,
+    Statistics, Stepper, Vector,
 };
 
 /// Takes the steps of a partitioned Runge–Kutta method in Lagrangian form (Marsden & West 2001, 2.6.1):
@@ -42,9 +43,10 @@ use symplectic_core::{
 ///
 /// # Errors of a step
 ///
-/// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Error::NonFinite`], [`Error::EvaluationDimension`] and
-/// [`Error::TimeResolution`]; [`Error::DegenerateLagrangian`] if L is linear in v and the step leaves `p = ∂L/∂v`. A new state off
-/// `p = ∂L/∂v` is then refused with [`Error::PrimaryConstraint`]. All other methods: [`Run`].
+/// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Core(NonFinite)`](CoreError::NonFinite),
+/// [`Core(EvaluationDimension)`](CoreError::EvaluationDimension) and [`Core(TimeResolution)`](CoreError::TimeResolution);
+/// [`Error::DegenerateLagrangian`] if L is linear in v and the step leaves `p = ∂L/∂v`. A new state off `p = ∂L/∂v` is then refused with
+/// [`Error::PrimaryConstraint`]. All other methods: [`Run`].
 ///
 /// ```
 /// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
@@ -97,9 +99,10 @@ impl<L: Lagrangian> LagrangianSteps<L> {
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`], [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`]. [`Error::DegenerateLagrangian`] if
-    /// `∂²L/∂v∂v` is singular where Newton's iteration for the velocity at the start needs it, from v = 0 and from v = p, and L is not linear
-    /// in v. [`Error::PrimaryConstraint`] if L is linear in v and `p ≠ ∂L/∂v`.
+    /// [`Core(StepSize)`](CoreError::StepSize), [`Core(Dimension)`](CoreError::Dimension) if `q` and `p` differ,
+    /// [`Core(NonFiniteState)`](CoreError::NonFiniteState). [`Error::DegenerateLagrangian`] if `∂²L/∂v∂v` is singular where Newton's
+    /// iteration for the velocity at the start needs it, from v = 0 and from v = p, and L is not linear in v. [`Error::PrimaryConstraint`]
+    /// if L is linear in v and `p ≠ ∂L/∂v`.
     pub fn run<M: Method + ProvedFor<General>>(
         _method: M,
         lagrangian: L,
@@ -179,7 +182,7 @@ impl<L: Lagrangian> LagrangianSteps<L> {
             method: M::NAME,
             constraint: None,
         };
-        Run::of(stepper, step_size)
+        Ok(Run::of(stepper, step_size)?)
     }
 
     /// [`run`](Self::run) with the momentum `∂L/∂v` of the velocity `v`, where Newton's iteration
@@ -187,7 +190,7 @@ impl<L: Lagrangian> LagrangianSteps<L> {
     ///
     /// # Errors
     ///
-    /// As for [`run`](Self::run), and [`Error::NonFiniteState`] if the momentum is not finite.
+    /// As for [`run`](Self::run), and [`Core(NonFiniteState)`](CoreError::NonFiniteState) if the momentum is not finite.
     pub fn from_velocity<M: Method + ProvedFor<General>>(
         _method: M,
         lagrangian: L,
@@ -468,14 +471,14 @@ impl<L: Lagrangian + Clone> GeneratingFunctions for LagrangianIntegrator<L> {
 fn check_force<L: Lagrangian>(
     lagrangian: &L,
     State { time, q, p }: &State<L::Vector<f64>>,
-) -> Result<(), Error> {
+) -> Result<(), CoreError> {
     if L::FORCED {
         return Ok(());
     }
     let mut force = q.zeros_like();
     lagrangian.force(*time, q, &beside(p), &mut force);
     match force.as_slice().iter().position(|&force| force != 0.0) {
-        Some(component) => Err(Error::NotForced { component }),
+        Some(component) => Err(CoreError::NotForced { component }),
         None => Ok(()),
     }
 }

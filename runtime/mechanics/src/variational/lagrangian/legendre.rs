@@ -1,18 +1,20 @@
 //! Momenta and velocities of a Lagrangian.
 
+use crate::Error;
 use num_traits::Float;
 
 use super::derivatives::Derivatives;
 use crate::variational::regular::Factors;
 use symplectic_core::inside::check_state;
-use symplectic_core::{Error, Lagrangian, Vector};
+use symplectic_core::{Lagrangian, Vector};
 
 /// The momentum `p = ∂L/∂v(t, q, v)`, with the dimension of `q`.
 ///
 /// # Errors
 ///
-/// [`Error::Dimension`] if `q` and `v` differ, [`Error::NonFiniteState`] if `q`, `v` or the momentum is not finite,
-/// [`Error::ResizedEvaluation`].
+/// [`Core(Dimension)`](symplectic_core::Error::Dimension) if `q` and `v` differ,
+/// [`Core(NonFiniteState)`](symplectic_core::Error::NonFiniteState) if `q`, `v` or the momentum is not finite,
+/// [`Core(ResizedEvaluation)`](symplectic_core::Error::ResizedEvaluation).
 ///
 /// ```
 /// # use symplectic::nalgebra::SVector;
@@ -58,8 +60,10 @@ pub fn momentum_of_velocity<L: Lagrangian>(
 ///
 /// # Errors
 ///
-/// [`Error::Dimension`] if `q` and `p` differ, [`Error::NonFiniteState`], [`Error::ResizedEvaluation`], [`Error::NoVelocity`] if L does
-/// not determine the velocity or no velocity is found.
+/// [`Core(Dimension)`](symplectic_core::Error::Dimension) if `q` and `p` differ,
+/// [`Core(NonFiniteState)`](symplectic_core::Error::NonFiniteState),
+/// [`Core(ResizedEvaluation)`](symplectic_core::Error::ResizedEvaluation), [`Error::NoVelocity`] if L does not determine the velocity or no
+/// velocity is found.
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
