@@ -9,7 +9,7 @@ use symplectic::nalgebra::{DVector, Matrix2, SVector, Vector1, Vector2};
 use symplectic::num_traits::Zero;
 use symplectic::solver::ByNewton;
 use symplectic::tangent::{Megno, Tangent};
-use symplectic::variational::generating_function;
+use symplectic::variational::{self, generating_function};
 use symplectic::{
     Checkpoint, CheckpointError, Compensated, Error, Integrator, Method, ProvedFor, Separable,
     State, System,
@@ -175,7 +175,7 @@ fn newton_has_the_right_matrix() -> Result<(), Error> {
 
 /// The derivatives of the generating function are the momentum at the start and the position at the end.
 #[test]
-fn the_generating_function_is_that_of_the_step() -> Result<(), Error> {
+fn the_generating_function_is_that_of_the_step() -> Result<(), variational::Error> {
     let system = Tangent::new(Coupled);
     let (q0, p1) = (Vector2::new(0.4, 1.0), Vector2::new(0.5, 0.3));
     let at = |q0: &Vector2<f64>, p1: &Vector2<f64>| {

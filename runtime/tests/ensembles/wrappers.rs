@@ -5,7 +5,7 @@ use std::cell::Cell;
 use symplectic::adaptive::{DistancePower, Logarithmic, Poincare};
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{DVector, Vector2, Vector3};
-use symplectic::variational::Newmark;
+use symplectic::variational::{self, Newmark};
 use symplectic::{
     Error, Event, Integrator, Method, ProvedFor, Scalar, SeparableHamiltonian, State, System,
     Vector,
@@ -97,7 +97,7 @@ fn kepler(k: usize) -> Kepler {
 }
 
 #[test]
-fn newmark_in_ensembles_has_the_bits_of_single_runs() -> Result<(), Error> {
+fn newmark_in_ensembles_has_the_bits_of_single_runs() -> Result<(), variational::Error> {
     let newmark = |k: usize| {
         let amplitude = 0.01 * k as f64;
         Newmark::new(HenonHeiles { amplitude }, 0.25, 0.1).expect("a shift")

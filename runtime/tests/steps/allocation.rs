@@ -13,7 +13,7 @@ use crate::common::methods::{Midpoint, StoermerVerlet};
 use symplectic::adaptive::{AdaptiveSteps, DistancePower, Logarithmic, Poincare};
 use symplectic::emitted::{Bonds, Chain};
 use symplectic::flow::{Drift, FlowSteps, Kick, Splitting, Substeps};
-use symplectic::variational::{DiscreteLagrangian, Newmark, VariationalSteps};
+use symplectic::variational::{self, DiscreteLagrangian, Newmark, VariationalSteps};
 use symplectic::{
     Error, Event, Integrator, Method, Moment, Scalar, SeparableHamiltonian, State, Vector,
 };
@@ -230,7 +230,7 @@ impl DiscreteLagrangian for Particle {
 }
 
 #[test]
-fn steps_of_a_discrete_lagrangian_do_not_allocate() -> Result<(), Error> {
+fn steps_of_a_discrete_lagrangian_do_not_allocate() -> Result<(), variational::Error> {
     let start = || State::new(0.0, Counted::new(vec![1.0]), Counted::new(vec![0.0]));
     let (made_by_new, run) = made(|| VariationalSteps::run(Particle, start(), 0.1));
     assert!(made_by_new > 4);
@@ -242,7 +242,7 @@ fn steps_of_a_discrete_lagrangian_do_not_allocate() -> Result<(), Error> {
 }
 
 #[test]
-fn steps_of_newmark_do_not_allocate() -> Result<(), Error> {
+fn steps_of_newmark_do_not_allocate() -> Result<(), variational::Error> {
     struct Pendulums;
     impl SeparableHamiltonian for Pendulums {
         type Vector<T: Scalar> = Counted<T>;

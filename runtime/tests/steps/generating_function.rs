@@ -16,11 +16,11 @@ use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::solver::{Coefficient, Coefficients};
 use symplectic::system::Conservative;
 use symplectic::variational::{
-    GeneratingFunction, generating_function, step_with_generating_function,
+    Error, GeneratingFunction, generating_function, step_with_generating_function,
 };
 use symplectic::{
-    Error, General, Hamiltonian, Integrator, Method, Orders, ProvedFor, Quantity, Scalar, State,
-    System, hamiltonian, separable,
+    Error as CoreError, General, Hamiltonian, Integrator, Method, Orders, ProvedFor, Quantity,
+    Scalar, State, System, hamiltonian, separable,
 };
 
 /// H = q·p, which has no Lagrangian (Leok & Zhang, Example 1).
@@ -398,7 +398,7 @@ fn a_refused_step_is_not_taken() -> Result<(), Error> {
         let before = refused.state().clone();
         assert_eq!(
             step_with_generating_function(&mut refused),
-            Err(Error::NoEnergy)
+            Err(Error::Core(CoreError::NoEnergy))
         );
         assert_eq!(refused.state(), &before);
         assert_eq!(refused.step()?, plain.step()?);
@@ -469,25 +469,28 @@ fn generating_functions_refuse_bad_input() {
     let ask = |q: &Vector1<f64>, p: &Vector1<f64>, h| {
         generating_function(Gauss2, &pendulum, 0.0, q, p, h).map(|generating| generating.value)
     };
-    assert_eq!(ask(&one, &one, 0.0), Err(Error::StepSize { value: 0.0 }));
+    assert_eq!(
+        ask(&one, &one, 0.0),
+        Err(Error::Core(CoreError::StepSize { value: 0.0 }))
+    );
     let what = Quantity::Position;
     assert_eq!(
         ask(&infinite, &one, 0.1),
-        Err(Error::NonFiniteState { what })
+        Err(Error::Core(CoreError::NonFiniteState { what }))
     );
     let what = Quantity::Momentum;
-    assert!(ask(&one, &none, 0.1) == Err(Error::NonFiniteState { what }));
+    assert!(ask(&one, &none, 0.1) == Err(Error::Core(CoreError::NonFiniteState { what })));
     let (short, long) = (DVector::zeros(1), DVector::zeros(2));
     assert_eq!(
         generating_function(Gauss2, &pendulum, 0.0, &short, &long, 0.1),
-        Err(Error::Dimension {
+        Err(Error::Core(CoreError::Dimension {
             position: 1,
             momentum: 2
-        })
+        }))
     );
     assert_eq!(
         generating_function(Gauss2, &Driven, 0.0, &one, &one, 0.1),
-        Err(Error::NoEnergy)
+        Err(Error::Core(CoreError::NoEnergy))
     );
     // Stages that are h times a velocity of 10⁶ apart.
     let wild = hamiltonian::<Vector1<f64>, _, _>(
@@ -497,24 +500,24 @@ fn generating_functions_refuse_bad_input() {
     let outcome = generating_function(Gauss2, &wild, 2.0, &one, &one, 0.5);
     assert!(matches!(
         outcome,
-        Err(Error::NoConvergence {
+        Err(Error::Core(CoreError::NoConvergence {
             time: 2.0,
             step_size: 0.5,
             step: 1,
             iterations: 200,
             ..
-        })
+        }))
     ));
     let bottomless = wild.with_energy(|_, _, _| f64::NAN);
     assert_eq!(
         generating_function(Gauss2, &bottomless, 2.0, &one, &one, 1e-9),
-        Err(Error::NonFinite {
+        Err(Error::Core(CoreError::NonFinite {
             time: 2.0,
             step_size: 1e-9,
             step: 1,
             what: Quantity::Energy,
             stage: Some(1)
-        })
+        }))
     );
     let growing = separable::<DVector<f64>, _, _>(
         |_, p, velocity| velocity.copy_from(p),
@@ -522,7 +525,7 @@ fn generating_functions_refuse_bad_input() {
     );
     assert_eq!(
         generating_function(Gauss2, &growing, 0.0, &long, &long, 0.1),
-        Err(Error::EvaluationDimension {
+        Err(Error::Core(CoreError::EvaluationDimension {
             time: 0.0,
             step_size: 0.1,
             step: 1,
@@ -530,6 +533,6 @@ fn generating_functions_refuse_bad_input() {
             stage: Some(1),
             expected: 2,
             found: 3
-        })
+        }))
     );
 }

@@ -80,7 +80,7 @@
 ///     Relativistic { m: 1, c: 1 } q: [3], v: [3]; L = -m c^2 sqrt(1 - |v|^2/c^2) - |q|^2/2
 /// }
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::variational::Error> {
 /// let (q, v) = (SVector::from([1.0, 0.0, 0.0]), SVector::from([0.0, 0.9, 0.0]));
 /// let mut run = LagrangianSteps::from_velocity(Gauss3, Relativistic::new(), 0.0, q, v, 0.05)?;
 /// let energy = run.stepper().energy()?;

@@ -25,7 +25,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 ///     }
 /// }
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::rotation::Error> {
 /// let start = RotationState::new(0.0, UnitQuaternion::identity(), Vector3::zeros());
 /// let mut run = RotationSteps::run(Needle, start, 0.01)?;
 /// run.integrate_to(10.0)?;

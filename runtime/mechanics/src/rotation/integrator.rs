@@ -24,7 +24,7 @@ use symplectic_core::{
 /// use symplectic::nalgebra::{UnitQuaternion, Vector3};
 /// use symplectic::rotation::{HeavyTop, RotationSteps, RotationState};
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::rotation::Error> {
 /// let top = HeavyTop { moments: Vector3::new(1.0, 1.0, 0.5), weight: 1.0, centre: Vector3::new(0.0, 0.0, 1.0) };
 /// let tilted = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), 0.5);
 /// let start = RotationState::new(0.0, tilted, Vector3::new(0.0, 0.0, 3.0));

@@ -26,7 +26,7 @@ use symplectic_core::{Error as CoreError, Scalar, Vector};
 ///     }
 /// }
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::variational::Error> {
 /// let (q0, q1) = (SVector::from([1.0]), SVector::from([1.5]));
 /// let path = DiscretePath { time: 0.0, step_size: 0.5, q0: &q0, q1: &q1 };
 /// let (p0, p1) = path.momenta(&Free)?;

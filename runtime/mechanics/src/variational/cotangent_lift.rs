@@ -38,8 +38,8 @@ pub trait PointTransformation {
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
-/// use symplectic::variational::{PointTransformation, cotangent_lift};
-/// use symplectic::{Error, Scalar, State};
+/// use symplectic::variational::{Error, PointTransformation, cotangent_lift};
+/// use symplectic::{Scalar, State};
 ///
 /// /// (x, y) in polar coordinates.
 /// struct Polar;

@@ -61,14 +61,14 @@ use symplectic_core::{Error as CoreError, Own, Quantity, Run, State, Statistics,
 ///     }
 /// }
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::variational::Error> {
 /// // The pericentre of an orbit of eccentricity 1/2: steps grow from here.
 /// let start = State::from_arrays(0.0, [0.5, 0.0], [0.0, 3_f64.sqrt()]);
 /// let mut run = EnergyMomentumSteps::run(Kepler, start, 0.01)?;
 /// for _ in 0..20 {
 ///     run.step()?;
 /// }
-/// assert!(run.stepper().step_size() > 0.01);
+/// assert!(run.step_size() > 0.01);
 /// # Ok(())
 /// # }
 /// ```

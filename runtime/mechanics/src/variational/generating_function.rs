@@ -115,8 +115,8 @@ impl<V: Vector> GeneratingFunction<V> {
 /// ```
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
 /// use symplectic::nalgebra::Vector1;
-/// use symplectic::{Error, hamiltonian};
-/// use symplectic::variational::generating_function;
+/// use symplectic::hamiltonian;
+/// use symplectic::variational::{Error, generating_function};
 ///
 /// # fn main() -> Result<(), Error> {
 /// // H = q·p, which has no Lagrangian. The midpoint rule multiplies q by (1 + h/2)/(1 − h/2), that is 5/3, and
@@ -172,8 +172,8 @@ pub fn generating_function<
 /// ```
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
 /// # use symplectic::nalgebra::Vector1;
-/// # use symplectic::{Error, Integrator, State, hamiltonian};
-/// use symplectic::variational::step_with_generating_function;
+/// # use symplectic::{Integrator, State, hamiltonian};
+/// use symplectic::variational::{Error, step_with_generating_function};
 /// # fn main() -> Result<(), Error> {
 /// let system = hamiltonian::<Vector1<f64>, _, _>(|_, q, _p, velocity| *velocity = *q, |_, _q, p, force| *force = -p)
 ///     .with_energy(|_, q, p| q[0] * p[0]);

@@ -43,8 +43,8 @@ use symplectic_core::{
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
 /// symplectic::hamiltonian! { Oscillator q: [x], p: [px]; H = (px^2 + x^2)/2 }
 /// use symplectic::nalgebra::Vector1;
-/// use symplectic::variational::GeneratingFunctions;
-/// use symplectic::{Error, Integrator, State};
+/// use symplectic::variational::{Error, GeneratingFunctions};
+/// use symplectic::{Integrator, State};
 ///
 /// # fn main() -> Result<(), Error> {
 /// let run = Integrator::new(Midpoint, Oscillator, State::from_arrays(0.0, [1.0], [0.0]), 0.5)?;

@@ -24,8 +24,8 @@ use symplectic_core::{Scalar, State, Vector};
 ///
 /// ```
 /// use symplectic::nalgebra::Vector1;
-/// use symplectic::variational::{DiscreteHamiltonJacobi, step_with_generating_function};
-/// use symplectic::{Error, Integrator, State, hamiltonian};
+/// use symplectic::variational::{DiscreteHamiltonJacobi, Error, step_with_generating_function};
+/// use symplectic::{Integrator, State, hamiltonian};
 ///
 /// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
 ///

@@ -55,7 +55,7 @@ use symplectic_core::{
 ///     }
 /// }
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::variational::Error> {
 /// let start = State::from_arrays(0.0, [0.4, 0.0], [0.0, 2.0]);
 /// let mut run = VariationalSteps::run(Kepler, start, 0.01)?;
 /// run.integrate_to(100.0)?;

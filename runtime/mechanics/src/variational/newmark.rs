@@ -61,8 +61,8 @@ use symplectic_core::{
 /// succeeds.
 ///
 /// ```
-/// use symplectic::variational::Newmark;
-/// use symplectic::{Error, Integrator, State};
+/// use symplectic::variational::{Error, Newmark};
+/// use symplectic::{Integrator, State};
 ///
 /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
 /// symplectic::hamiltonian! {

@@ -28,8 +28,8 @@ use symplectic_core::{State, Vector};
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
-/// use symplectic::variational::{DiscreteLagrangian, observed_order};
-/// use symplectic::{Error, Scalar, State};
+/// use symplectic::variational::{DiscreteLagrangian, Error, observed_order};
+/// use symplectic::{Scalar, State};
 ///
 /// /// The oscillator L = (v² − q²)/2, with the potential at (1 − α)q0 + αq1.
 /// struct Oscillator(f64);

@@ -154,8 +154,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> StepWith
     ///
     /// ```
     /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
-    /// # use symplectic::{Error, Integrator, State};
-    /// use symplectic::variational::StepWithStages;
+    /// # use symplectic::{Integrator, State};
+    /// use symplectic::variational::{Error, StepWithStages};
     /// symplectic::hamiltonian! {
     ///     /// A particle in a central field, with friction.
     ///     Ring { gamma: 0.1 }

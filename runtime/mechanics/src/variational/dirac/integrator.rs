@@ -88,7 +88,7 @@ use symplectic_core::{Equal, Run, State, Statistics, Stepper, StoermerVerletStep
 ///     }
 /// }
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::variational::Error> {
 /// let q = V3::from([0.0, 1.0, 1.0]);
 /// let p = momentum_of_velocity(&Circuit, 0.0, &q, &V3::zeros())?;
 /// let mut run = DiracSteps::run(DiracRule::Trapezoid, Circuit, State::new(0.0, q, p), 0.01)?;

@@ -51,7 +51,7 @@ pub struct PrimaryConstraint<V> {
 ///     }
 /// }
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::variational::Error> {
 /// let (q, v) = (SVector::from([3.0, 1.0, 2.0]), SVector::from([0.5, 0.1, 0.0]));
 /// let found = primary_constraints(&Degenerate, 0.0, &q, &v)?;
 /// // py − px = 0 and pz = x.

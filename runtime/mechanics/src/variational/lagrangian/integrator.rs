@@ -65,7 +65,7 @@ use symplectic_core::{
 ///     }
 /// }
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::variational::Error> {
 /// let (q, v) = (SVector::from([4.0, 0.0]), SVector::from([0.0, 0.4]));
 /// let mut run = LagrangianSteps::from_velocity(Gauss3, Relativistic, 0.0, q, v, 0.5)?;
 /// let energy = run.stepper().energy()?;
@@ -139,7 +139,7 @@ impl<L: Lagrangian> LagrangianSteps<L> {
     ///     L = (1 + x^2) vx^2/2 - x^2/4
     /// }
     ///
-    /// # fn main() -> Result<(), symplectic::Error> {
+    /// # fn main() -> Result<(), symplectic::variational::Error> {
     /// let start = State::from_arrays(0.0, [1.0], [0.0]);
     /// let mut run = LagrangianSteps::galerkin(Rectangular, Bead, start, 0.1)?;
     /// let energy = run.stepper().energy()?;
@@ -362,7 +362,7 @@ impl<L: Lagrangian> StepWithStages for LagrangianIntegrator<L> {
     ///     force: { x = -vx/4 }
     /// }
     ///
-    /// # fn main() -> Result<(), symplectic::Error> {
+    /// # fn main() -> Result<(), symplectic::variational::Error> {
     /// let mut run = LagrangianSteps::run(Gauss2, Slowed, State::from_arrays(0.0, [0.0], [1.0]), 0.1)?;
     /// // Translations: J = p.
     /// let impulse = run.step_with_stages()?.impulse(|_, out| out[0] = 1.0);

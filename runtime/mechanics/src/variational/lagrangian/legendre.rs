@@ -31,7 +31,7 @@ use symplectic_core::{Lagrangian, Vector};
 ///     }
 /// }
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::variational::Error> {
 /// let (q, v) = (SVector::from([3.0, 1.0]), SVector::from([0.5, 2.0]));
 /// assert_eq!(momentum_of_velocity(&Charge, 0.0, &q, &v)?, SVector::from([-0.5, 5.0]));
 /// # Ok(())
@@ -81,7 +81,7 @@ pub fn momentum_of_velocity<L: Lagrangian>(
 ///     }
 /// }
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::variational::Error> {
 /// let (q, v) = (SVector::from([0.0]), SVector::from([0.8]));
 /// let p = momentum_of_velocity(&Free, 0.0, &q, &v)?;
 /// assert!((p[0] - 4.0 / 3.0).abs() < 1e-15);
