@@ -3,8 +3,8 @@
 
 #![allow(clippy::print_stdout, reason = "a program prints")]
 
-use symplectic::variational::{DiracRule, DiracSteps};
-use symplectic::{Error, Integrator};
+use symplectic::Integrator;
+use symplectic::variational::{DiracRule, DiracSteps, Error};
 use symplectic_tests::methods::{Midpoint, StoermerVerlet, VelocityVerlet};
 use symplectic_tests::scenes::{circuit, double_pendulum, henon_heiles, skate};
 
