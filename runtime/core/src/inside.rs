@@ -2,6 +2,8 @@
 
 pub use crate::error::FlowError;
 
+pub use crate::contract::in_lanes::first;
+
 #[cfg(feature = "alloc")]
 pub use crate::integrator::CoupledLanes;
 #[cfg(feature = "alloc")]
@@ -34,7 +36,7 @@ pub use crate::method::{
 
 pub use crate::number::array::array;
 pub use crate::number::dither::dither_last_sweep;
-pub use crate::number::dual::HyperDual;
+pub use crate::number::dual::{Dual, HyperDual};
 #[cfg(feature = "alloc")]
 pub use crate::number::elimination::{Complex, Elimination};
 pub use crate::number::linear_combination::totals_by;

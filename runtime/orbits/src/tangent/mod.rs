@@ -12,13 +12,11 @@ use alloc::vec;
 
 use dual_vector::{halves, halves_mut, joined, part, zeros};
 
-use crate::error::{Error, Quantity};
-use crate::integrator::validation::{check_start, check_state};
-use crate::number::dual::Dual;
-use crate::number::{Lanes, Scalar, Vector};
-use crate::solver::Automatic;
-use crate::state::State;
-use crate::system::{Class, Conservative, Hamiltonian, LaneWork, OverEveryScalar, System, first};
+use symplectic_core::inside::{Dual, check_start, check_state, first};
+use symplectic_core::simd::Lanes;
+use symplectic_core::solver::Automatic;
+use symplectic_core::system::{Conservative, LaneWork, OverEveryScalar};
+use symplectic_core::{Class, Error, Hamiltonian, Quantity, Scalar, State, System, Vector};
 
 /// A system together with its variational equations, for positions `(q, δq)` and momenta `(δp, p)`:
 ///

@@ -2,12 +2,8 @@
 
 use super::check_even;
 use super::dual_vector::halves;
-use crate::error::Error;
-use crate::integrator::validation::check_state;
-use crate::integrator::{Checkpoint, CheckpointError};
-use crate::number::words::{Visit, Words, words};
-use crate::number::{Scalar, Vector};
-use crate::state::State;
+use symplectic_core::inside::{Visit, Words, check_state, words};
+use symplectic_core::{Checkpoint, CheckpointError, Error, Scalar, State, Vector};
 
 /// MEGNO, the mean exponential growth factor of nearby orbits, and the largest Lyapunov exponent, from the growth of a
 /// [displacement](super::Tangent) `δ(t)`:
