@@ -63,10 +63,10 @@ fn energy_and_angular_momentum_are_conserved() -> Result<(), Error> {
     for number in 0..100 {
         let before = run.state().clone();
         run.step()?;
-        let energy = discrete_energy(&Attraction, &before, run.state(), run.stepper().step_size());
+        let energy = discrete_energy(&Attraction, &before, run.state(), run.step_size());
         if number == 0 {
             first = energy;
-            assert_eq!(run.stepper().step_size(), 0.01);
+            assert_eq!(run.step_size(), 0.01);
         }
         worst = worst.max((energy - first).abs());
         let momentum = run.state().q.perp(&run.state().p) - start.q.perp(&start.p);
@@ -128,7 +128,7 @@ fn a_run_ends_where_no_step_conserves_the_energy() -> Result<(), Error> {
                 break error;
             }
         };
-        assert!(run.stepper().step_size() > size);
+        assert!(run.step_size() > size);
         let Error::NoEnergyStep {
             time,
             step,
@@ -202,7 +202,7 @@ fn a_free_particle_conserves_the_energy_by_every_step() -> Result<(), Error> {
         run.step()?;
     }
     assert!((run.state().q - Vector2::new(1.25, 0.5)).norm() < 1e-15);
-    assert_eq!(run.stepper().step_size(), 0.125);
+    assert_eq!(run.step_size(), 0.125);
     Ok(())
 }
 
