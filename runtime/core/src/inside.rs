@@ -1,6 +1,7 @@
 //! What the other packages of this workspace need of the core; no promise to anybody else.
 
-pub use crate::error::FlowError;
+pub use crate::error::debug::debug_by_message;
+pub use crate::error::phrases::Short;
 
 pub use crate::contract::in_lanes::first;
 

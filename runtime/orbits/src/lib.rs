@@ -11,5 +11,8 @@ extern crate alloc;
 extern crate std;
 
 pub mod adaptive;
+mod error;
 #[cfg(feature = "alloc")]
 pub mod tangent;
+
+pub use error::Error;

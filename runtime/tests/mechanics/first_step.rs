@@ -152,7 +152,8 @@ impl Monitor for Constant {
 }
 
 #[test]
-fn constrained_steps_of_an_adaptive_run_do_not_fail_if_the_first_did_not() -> Result<(), Error> {
+fn constrained_steps_of_an_adaptive_run_do_not_fail_if_the_first_did_not()
+-> Result<(), symplectic::adaptive::Error> {
     let run = Integrator::new(Lobatto3, Rotor, rotor(), 1.0)?;
     let mut run = AdaptiveSteps::of(run, Constant, 1.3)?;
     run.take_steps(100)?;
@@ -308,10 +309,10 @@ impl<V: Vector<Scalar = f64>, S: System<V>> System<V> for FailsOnce<'_, S> {
 }
 
 /// Wherever in a step one evaluation is NaN, the step succeeds. The first step may fail: only Newton's iteration tries it again.
-fn survives<V: Vector<Scalar = f64>>(
+fn survives<V: Vector<Scalar = f64>, E: std::error::Error>(
     name: &str,
     left: &Cell<u32>,
-    make: impl Fn() -> Box<dyn FnMut() -> Result<State<V>, Error>>,
+    make: impl Fn() -> Box<dyn FnMut() -> Result<State<V>, E>>,
 ) {
     const NEVER: u32 = u32::MAX;
     left.set(NEVER);

@@ -37,9 +37,9 @@ fn attraction(_time: f64, q: &Vector2<f64>, out: &mut Vector2<f64>) {
 }
 
 /// A run of any stepper, from a start.
-fn run_of_any_pace<S, N>(
+fn run_of_any_pace<S, N, E: Debug>(
     name: &str,
-    make: impl Fn(&S::State) -> Result<Run<S>, Error>,
+    make: impl Fn(&S::State) -> Result<Run<S>, E>,
     start: &S::State,
 ) where
     S: Stepper + Clone,
@@ -100,9 +100,9 @@ fn fails_with<T>(outcome: Result<T, impl std::error::Error>, words: &str) -> boo
 }
 
 /// A run with equal steps of size 0.1, from a start at the time 0; `late` is the start at a time that no step changes.
-fn run_of_equal_steps<S, N>(
+fn run_of_equal_steps<S, N, E: Debug>(
     name: &str,
-    make: impl Fn(&S::State) -> Result<Run<S>, Error>,
+    make: impl Fn(&S::State) -> Result<Run<S>, E>,
     start: &S::State,
     late: &S::State,
 ) where
@@ -171,7 +171,7 @@ fn run_of_equal_steps<S, N>(
 }
 
 /// Output and events of a run whose last step can be followed, from a start at the time 0 with steps of about 0.1.
-fn followed_run<S>(name: &str, make: impl Fn() -> Result<Run<S>, Error>)
+fn followed_run<S, E: Debug>(name: &str, make: impl Fn() -> Result<Run<S>, E>)
 where
     S: DenseSteps<State: PartialEq + Debug> + Clone,
     S::Vector: Vector<Scalar = f64>,
@@ -244,14 +244,14 @@ fn every_stepper_has_the_whole_interface_of_a_run() {
         "plain sums": perihelion() => |start: &Plane| Integrator::plain(Verlet, kepler(), start.clone(), 0.1);
         "coupled stages": near_perihelion() => |start: &Plane| Integrator::new(Gauss2, kepler(), start.clone(), 0.1);
         "Newton's iteration": near_perihelion() => |start: &Plane| {
-            Ok(Integrator::new(Gauss2, kepler(), start.clone(), 0.1)?.by_newton())
+            Ok::<_, Error>(Integrator::new(Gauss2, kepler(), start.clone(), 0.1)?.by_newton())
         };
         "constraint": bead(0.0, 0.0) => |start: &State<Vector3<f64>>| Integrator::new(Lobatto3, Bead, start.clone(), 0.1);
         "rolling": disk_start() => |start: &State<_>| Integrator::new(Midpoint, Disk, start.clone(), 0.1);
         "flows": perihelion() => |start: &Plane| {
             let mut run = kepler_by_flows(start.clone())?;
             run.set_step_size(0.1)?;
-            Ok(run)
+            Ok::<_, symplectic::flow::Error>(run)
         };
         "discrete Lagrangian": perihelion() => |start: &Plane| VariationalSteps::run(Trapezoid, start.clone(), 0.1);
         "composed": perihelion() => |start: &Plane| {

@@ -2,6 +2,8 @@
 
 /// Prints the message of an error in `Debug`, too, because `unwrap` and a `main` that returns the error print this form. The message says
 /// more than the names and values of fields.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! debug_by_message {
     ($name:ident) => {
         impl core::fmt::Debug for $name {
@@ -11,4 +13,4 @@ macro_rules! debug_by_message {
         }
     };
 }
-pub(crate) use debug_by_message;
+pub use debug_by_message;

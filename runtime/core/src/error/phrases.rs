@@ -25,7 +25,7 @@ impl fmt::Display for Entries {
 }
 
 /// A number; one that is very small or very large with an exponent, and not with hundreds of zeros.
-pub(super) struct Short(pub(super) f64);
+pub struct Short(pub f64);
 
 impl fmt::Display for Short {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
