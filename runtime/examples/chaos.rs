@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     });
     let starts: Vec<State<SVector<f64, 4>>> = starts.collect::<Result<_, _>>()?;
 
-    let begin = starts.clone();
+    let indicators: Vec<Megno> = starts.iter().map(Megno::new).collect::<Result<_, _>>()?;
     let ensemble = Ensemble::new(ForestRuth, system, starts, 0.05)?;
     let section = Event::rising(|state: &State<SVector<f64, 4>>| state.q[0]);
     println!(
@@ -62,9 +62,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
     println!(r#"<rect x="-480" y="-520" width="1180" height="1040" fill="white"/>"#);
     ensemble.each(
-        |trajectory| (Megno::new(&begin[trajectory]), Vec::new()),
+        |trajectory| (indicators[trajectory], Vec::new()),
         |(megno, points), integrator| {
-            let megno = megno.as_mut().map_err(|error| error.clone())?;
             integrator.integrate_with_events(END, &section, |state| {
                 megno.see(state);
                 points.push((state.q[1], state.p[1]));
@@ -74,9 +73,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         },
         |row| {
             // An orbit whose displacement overflows has failed, and has its indicator.
-            let (Ok(megno), points) = row.output else {
-                return ControlFlow::Continue(());
-            };
+            let (megno, points) = row.output;
             let mut path = String::new();
             for (y, py) in points {
                 // To write to a string does not fail.

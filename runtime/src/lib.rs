@@ -28,7 +28,7 @@
 //! | All integrators, and your own | [`Run`], [`Stepper`], [`DenseSteps`]; their tests: [`StepMap`] |
 //! | Output and events | [`Event`], [`Invariant`], [`Progress`]; [`output`] |
 //! | Many trajectories, in lanes and on all cores | [`ensemble`] |
-//! | Is an orbit chaotic? MEGNO, Lyapunov exponent, tangent map | [`tangent`] |
+//! | Is an orbit chaotic? MEGNO, Lyapunov exponent, tangent map | [`tangent`], feature `orbits` |
 //! | How coupled stages are found | [`solver`] |
 //! | Choosing a method | the chapter of this name in the book (`docs/`); the package `symplectic-report` compares methods on your problem |
 //!
@@ -62,10 +62,10 @@
 //! # Features
 //!
 //! * `std` (default): `tan`, inverse and hyperbolic functions, and all functions of singles, from the standard library; implies `alloc`.
-//! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), constraints, tableaux at run time, checkpoints, tangent maps;
-//!   of `adaptive` and `flow` also [`adaptive::Logarithmic`], [`adaptive::Poincare`], Kepler orbits, linear, mollified and asynchronous
+//! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), constraints, tableaux at run time, checkpoints;
+//!   with `orbits` tangent maps; of `adaptive` and `flow` also [`adaptive::Logarithmic`], [`adaptive::Poincare`], Kepler orbits, linear, mollified and asynchronous
 //!   flows, and correctors.
-//! * `flows`, `orbits`: the modules [`flow`] and [`adaptive`].
+//! * `flows`: the module [`flow`]. `orbits`: the modules [`adaptive`] and [`tangent`].
 //! * `mechanics`: rigid bodies and balances; with `alloc` also discrete and degenerate Lagrangians, generating functions and stages of steps.
 //! * `serde`: a [`Checkpoint`] can be written and read in any format; implies `alloc`.
 //! * `newton`: Newton's iteration for stiff and strongly coupled systems, [`solver::ByNewton`]; implies `alloc`.
@@ -111,6 +111,9 @@ pub mod output {
 #[cfg(feature = "orbits")]
 #[doc(inline)]
 pub use symplectic_orbits::adaptive;
+#[cfg(all(feature = "orbits", feature = "alloc"))]
+#[doc(inline)]
+pub use symplectic_orbits::tangent;
 
 /// The Rust code of the README and of the book, compiled and run by `cargo test --doc`.
 #[cfg(doctest)]

@@ -1,8 +1,9 @@
 //! What the other packages of this workspace need of the core; no promise to anybody else.
 
-pub use crate::error::FlowError;
 pub use crate::error::debug::debug_by_message;
 pub use crate::error::phrases::Short;
+
+pub use crate::contract::in_lanes::first;
 
 #[cfg(feature = "alloc")]
 pub use crate::integrator::CoupledLanes;
@@ -36,7 +37,7 @@ pub use crate::method::{
 
 pub use crate::number::array::array;
 pub use crate::number::dither::dither_last_sweep;
-pub use crate::number::dual::HyperDual;
+pub use crate::number::dual::{Dual, HyperDual};
 #[cfg(feature = "alloc")]
 pub use crate::number::elimination::{Complex, Elimination};
 pub use crate::number::linear_combination::totals_by;

@@ -27,8 +27,6 @@ mod number;
 pub mod output;
 pub mod solver;
 pub mod system;
-#[cfg(feature = "alloc")]
-pub mod tangent;
 
 pub use classes::friction_growth;
 #[cfg(feature = "alloc")]

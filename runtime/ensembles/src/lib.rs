@@ -29,7 +29,7 @@
 //! eight with AVX2. Other systems use the lanes of the build.
 //!
 //! All other trajectories run one at a time: with another solver, with constraints or with a composition of implicit methods; of
-//! closures and chains; of [tangent systems](symplectic_core::tangent::Tangent) with coupled stages; in fewer than four steps with coupled stages; of
+//! closures and chains; of tangent systems with coupled stages; in fewer than four steps with coupled stages; of
 //! [`each`](Ensemble::each) and [`each_as`](Ensemble::each_as). So do trajectories with
 //! [different systems](Ensemble::of_families), if these are written by hand, or are formulas with friction or applied forces.
 //!

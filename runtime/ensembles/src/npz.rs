@@ -3,6 +3,7 @@
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::fmt::Display;
 use std::io::{self, Error, ErrorKind, Write};
 
 use symplectic_core::solver::Solver;
@@ -59,7 +60,10 @@ pub trait WriteEnsemble {
     /// # Errors
     ///
     /// Those of [`Npz::doubles`]; [`ErrorKind::InvalidInput`] also for rows of different dimensions.
-    fn rows<V: Vector<Scalar = f64>, A>(&mut self, rows: &[Row<V, A>]) -> io::Result<()>;
+    fn rows<V: Vector<Scalar = f64>, A, E: Display>(
+        &mut self,
+        rows: &[Row<V, A, E>],
+    ) -> io::Result<()>;
 }
 
 impl<W: Write> WriteEnsemble for Npz<W> {
@@ -82,29 +86,32 @@ impl<W: Write> WriteEnsemble for Npz<W> {
         self.text("version", env!("CARGO_PKG_VERSION"))
     }
 
-    fn rows<V: Vector<Scalar = f64>, A>(&mut self, rows: &[Row<V, A>]) -> io::Result<()> {
+    fn rows<V: Vector<Scalar = f64>, A, E: Display>(
+        &mut self,
+        rows: &[Row<V, A, E>],
+    ) -> io::Result<()> {
         let count = rows.len();
         let dimension = rows.first().map_or(0, |row| row.state.q.dimension());
         let other =
-            |row: &&Row<V, A>| [&row.state.q, &row.state.p].map(V::dimension) != [dimension; 2];
+            |row: &&Row<V, A, E>| [&row.state.q, &row.state.p].map(V::dimension) != [dimension; 2];
         if let Some(row) = rows.iter().find(other) {
             return Err(invalid(format!(
                 "trajectory {} has another dimension than the first row, {dimension}: write them to files of their own",
                 row.trajectory
             )));
         }
-        let list = |of: fn(&Row<V, A>) -> u64| rows.iter().map(of).collect::<Vec<u64>>();
+        let list = |of: fn(&Row<V, A, E>) -> u64| rows.iter().map(of).collect::<Vec<u64>>();
         self.integers("trajectory", &[count], &list(|row| row.trajectory as u64))?;
         let times: Vec<f64> = rows.iter().map(|row| row.state.time).collect();
         self.doubles("time", &[count], &times)?;
-        let vectors = |of: fn(&Row<V, A>) -> &V| {
+        let vectors = |of: fn(&Row<V, A, E>) -> &V| {
             let components = rows.iter().flat_map(|row| of(row).as_slice());
             components.copied().collect::<Vec<f64>>()
         };
         self.doubles("q", &[count, dimension], &vectors(|row| &row.state.q))?;
         self.doubles("p", &[count, dimension], &vectors(|row| &row.state.p))?;
         self.integers("steps", &[count], &list(|row| row.statistics.steps))?;
-        let of = |row: &Row<V, A>| {
+        let of = |row: &Row<V, A, E>| {
             let error = row.outcome.as_ref().err()?;
             Some((row.trajectory as u64, format!("{error}")))
         };

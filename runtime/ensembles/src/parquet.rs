@@ -5,7 +5,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
-use core::fmt;
+use core::fmt::{self, Display};
 use std::io::{self, Error, ErrorKind, Write};
 
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
@@ -213,7 +213,10 @@ impl<W: Write + Send> Parquet<W> {
     /// # Errors
     ///
     /// As for [`group`](Self::group); without rows nothing is written.
-    pub fn rows<V: Vector<Scalar = f64>, A>(&mut self, rows: &[Row<V, A>]) -> io::Result<()> {
+    pub fn rows<V: Vector<Scalar = f64>, A, E: Display>(
+        &mut self,
+        rows: &[Row<V, A, E>],
+    ) -> io::Result<()> {
         let Some(first) = rows.first() else {
             return Ok(());
         };
@@ -228,8 +231,8 @@ impl<W: Write + Send> Parquet<W> {
             )));
         }
         let integers =
-            |of: fn(&Row<V, A>) -> u64| ParquetColumn::Integers(rows.iter().map(of).collect());
-        let component = |of: fn(&Row<V, A>) -> &V, k| {
+            |of: fn(&Row<V, A, E>) -> u64| ParquetColumn::Integers(rows.iter().map(of).collect());
+        let component = |of: fn(&Row<V, A, E>) -> &V, k| {
             let values = rows.iter().map(|row| of(row).as_slice()[k]);
             ParquetColumn::Doubles(values.collect())
         };

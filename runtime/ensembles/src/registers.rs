@@ -9,11 +9,12 @@ use core::sync::atomic::{AtomicUsize, Ordering};
 use crate::Ensemble;
 use symplectic_core::inside::{Avx2, Avx512, Widest, may_be_found, width};
 use symplectic_core::simd::DefaultLanes;
-use symplectic_core::tangent::Tangent;
 use symplectic_core::{
     AtRunTime, Compensated, Masses, Method, Plain, ProvedFor, RunTimeTableau, Scalar, Separable,
     SeparableHamiltonian, State, Summation, System,
 };
+
+use symplectic::tangent::Tangent;
 
 symplectic::tableau! {
     Verlet { base: velocity-verlet }

@@ -232,12 +232,12 @@ where
     /// # Ok(())
     /// # }
     /// ```
-    pub fn each_as<T: Stepper<State = State<V>, Error = Error>, A: Send>(
+    pub fn each_as<T: Stepper<State = State<V>>, A: Send, E: Send>(
         &self,
-        make: impl Fn(Integrator<M, S, V, R, N>) -> Result<Run<T>, Error> + Sync,
+        make: impl Fn(Integrator<M, S, V, R, N>) -> Result<Run<T>, E> + Sync,
         output: impl Fn(usize) -> A + Sync,
-        work: impl Fn(&mut A, &mut Run<T>) -> Result<(), Error> + Sync,
-        show: impl FnMut(Row<V, A>) -> ControlFlow<()>,
+        work: impl Fn(&mut A, &mut Run<T>) -> Result<(), E> + Sync,
+        show: impl FnMut(Row<V, A, E>) -> ControlFlow<()>,
     ) -> usize {
         let row = |ensemble: &Self, place| {
             let (trajectory, integrator) = ensemble.integrator(place);
@@ -260,7 +260,7 @@ where
                 output,
             }
         };
-        let fill = |ensemble: &Self, places: Range<usize>, rows: &mut Vec<Row<V, A>>| {
+        let fill = |ensemble: &Self, places: Range<usize>, rows: &mut Vec<Row<V, A, E>>| {
             let going_on = |_: &usize| !ensemble.is_stopped();
             rows.extend(
                 places
@@ -348,11 +348,11 @@ where
     }
 
     /// Runs shares of at most `share` trajectories and passes their rows to `show`.
-    fn show_all<A: Send>(
+    fn show_all<A: Send, E: Send>(
         &self,
         share: usize,
-        fill: impl Fn(&Self, Range<usize>, &mut Vec<Row<V, A>>) + Sync,
-        mut show: impl FnMut(Row<V, A>) -> ControlFlow<()>,
+        fill: impl Fn(&Self, Range<usize>, &mut Vec<Row<V, A, E>>) + Sync,
+        mut show: impl FnMut(Row<V, A, E>) -> ControlFlow<()>,
     ) -> usize {
         let mut shown = self.first;
         let part = |places: &Range<usize>, former| self.part(places, former);

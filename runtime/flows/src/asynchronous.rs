@@ -7,7 +7,8 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 
 use super::{Flow, FlowError, Span, check_count, check_dimension, check_parameter};
-use symplectic_core::{Error, Quantity, Vector};
+use crate::Error;
+use symplectic_core::{Quantity, Vector};
 
 /// A system `H = Σ p_i²/(2m_i) + Σ_K V_K(t, q)` for [`Asynchronous`]. Each element K depends on a few components of the position: bonds,
 /// springs, the cells of a mesh.
@@ -79,7 +80,7 @@ pub trait Elements {
 ///     }
 /// }
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::flow::Error> {
 /// let step = Asynchronous::new(Bonds([[0, 1], [1, 2], [2, 3]]), 4)?;
 /// let start = State::new(0.0, SVector::from([0.0, 0.1, 0.0, 0.0]), SVector::from([0.0, 0.0, 0.0, 0.5]));
 /// let mut run = FlowSteps::run(step, start, 0.1)?;

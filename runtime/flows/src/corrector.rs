@@ -5,8 +5,9 @@ use alloc::vec::Vec;
 
 use super::integrator::{check_end, failed};
 use super::{Flow, FlowError, Span, Splitting};
+use crate::Error;
 use symplectic_core::inside::{check_state, check_step_size};
-use symplectic_core::{Damped, Error, ProvedFor, Separable, Splits, State, SymmetricFor, Vector};
+use symplectic_core::{Damped, ProvedFor, Separable, Splits, State, SymmetricFor, Vector};
 
 /// A symplectic corrector for a symmetric [`Splitting`] K of `H = A + B` with a small `B = O(ε)` (Wisdom, Holman & Touma, *Fields Inst.
 /// Commun.* 10, 217, 1996). It is a change of variables C that reduces the error of the steps from `O(εh²)` to `O(εh^{2m+2} + ε²h²)`.
@@ -42,7 +43,7 @@ use symplectic_core::{Damped, Error, ProvedFor, Separable, Splits, State, Symmet
 ///
 /// symplectic::tableau! { Leapfrog { base: position-verlet } }
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::flow::Error> {
 /// let system = Jacobi::new(39.4769264, &[1.0, 9.55e-4, 2.86e-4])?;
 /// let q = [0.0, 0.0, 0.0, 5.2, 0.0, 0.0, 0.0, 9.5, 0.2];
 /// let p = [0.0, 0.0, 0.0, 0.0, 2.63e-3, 0.0, -5.8e-4, 0.0, 0.0];
@@ -117,8 +118,8 @@ impl<A, B> Corrector<A, B> {
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`], [`Error::Dimension`], [`Error::NonFiniteState`]. If a flow fails, for example because it cannot go backward,
-    /// [`Error::Flow`] or [`Error::NonFinite`] with step 0.
+    /// [`Error::Core`] with `StepSize`, `Dimension` or `NonFiniteState`. If a flow fails, for example because it cannot go backward,
+    /// [`Error::Flow`], or [`Error::Core`] with `NonFinite`, both of step 0.
     pub fn to_kernel<V>(&mut self, state: &State<V>, step_size: f64) -> Result<State<V>, Error>
     where
         V: Vector<Scalar = f64>,

@@ -1,7 +1,8 @@
 //! Linear friction.
 
 use super::{Flow, FlowError, Span, check_parameter};
-use symplectic_core::{Error, Vector};
+use crate::Error;
+use symplectic_core::Vector;
 
 /// The flow of linear friction, `p' = −γp`: `p ← e^{−γh} p`.
 ///
@@ -15,7 +16,7 @@ use symplectic_core::{Error, Vector};
 /// let (mut q, mut p) = (Vector1::new(2.0), Vector1::new(1.0));
 /// Damping::new(0.5)?.flow(Span { time: 0.0, size: 2.0 }, &mut q, &mut p).expect("a flow");
 /// assert!((p[0] - (-1.0_f64).exp()).abs() < 1e-15);
-/// # Ok::<(), symplectic::Error>(())
+/// # Ok::<(), symplectic::flow::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Damping {

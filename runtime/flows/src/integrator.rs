@@ -2,10 +2,11 @@
 
 use super::memory::Memory;
 use super::{Flow, FlowError, Span};
+use crate::Error;
 #[cfg(feature = "alloc")]
 use symplectic_core::DenseSteps;
 use symplectic_core::inside::{Visit, Words, check_state, check_step_size, copy, is_finite, words};
-use symplectic_core::{Equal, Error, Quantity, Run, State, Statistics, Stepper, Vector};
+use symplectic_core::{Equal, Quantity, Run, State, Statistics, Stepper, Vector};
 
 /// Integrates with a composed [`Flow`], such as a [`Splitting`](super::Splitting) or a [`Palindrome`](super::Palindrome).
 ///
@@ -14,7 +15,7 @@ use symplectic_core::{Equal, Error, Quantity, Run, State, Statistics, Stepper, V
 /// So after a [wall](symplectic_core::Event::wall), or a search that failed, position, momentum and time are those of the event or of the state
 /// before the step, but the memory of the flow is that after the step. All other methods: [`Run`].
 ///
-/// The errors of a step are [`Error::Flow`], [`Error::NonFinite`] and [`Error::TimeResolution`].
+/// The errors of a step are [`Error::Flow`], and [`Error::Core`] with `NonFinite` or `TimeResolution`.
 ///
 /// A state inside the last step is that of a shorter step of the flow from its start. It has the error of a step and costs as much. The
 /// shorter step has the direction of the step, so it works for flows that cannot go backward. It starts with the memory of the start of the
@@ -27,7 +28,7 @@ use symplectic_core::{Equal, Error, Quantity, Run, State, Statistics, Stepper, V
 /// use symplectic::nalgebra::Vector1;
 /// use symplectic::{State, acceleration};
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::flow::Error> {
 /// let spring = || acceleration::<Vector1<f64>, _>(|_, q, force| force[0] = -q[0]);
 /// let step = Splitting::new(Verlet, Drift::new(spring()), Kick::new(spring()));
 /// let mut run = FlowSteps::run(step, State::from_arrays(0.0, [1.0], [0.0]), 0.001)?;
@@ -107,7 +108,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowSteps<V, F> {
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`], [`Error::Dimension`], [`Error::NonFiniteState`].
+    /// [`Error::Core`] with `StepSize`, `Dimension` or `NonFiniteState`.
     pub fn run(
         mut flow: F,
         state: State<V>,
@@ -127,7 +128,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> FlowSteps<V, F> {
                 statistics: Statistics::default(),
             },
         };
-        Run::of(stepper, step_size)
+        Ok(Run::of(stepper, step_size)?)
     }
 
     /// The flow of a step.
@@ -168,13 +169,13 @@ pub(super) fn check_end<V: Vector<Scalar = f64>>(
 pub(super) const fn failed(failure: FlowError, span: Span, step: u64) -> Error {
     let (time, step_size) = (span.time, span.size);
     match failure {
-        FlowError::NonFinite { what } => Error::NonFinite {
+        FlowError::NonFinite { what } => Error::Core(symplectic_core::Error::NonFinite {
             time,
             step_size,
             step,
             what,
             stage: None,
-        },
+        }),
         failure => Error::Flow {
             time,
             step_size,
@@ -295,9 +296,9 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> DenseSteps for FlowSteps<V, F> {
             return Ok(());
         }
         self.write_start(out);
-        let (start, end) = self.last_span().ok_or(Error::NoStep)?;
+        let (start, end) = self.last_span().ok_or(symplectic_core::Error::NoStep)?;
         if !(start.min(end) <= time && time <= start.max(end)) {
-            return Err(Error::OutsideStep { time, start, end });
+            return Err(symplectic_core::Error::OutsideStep { time, start, end }.into());
         }
         if time == start {
             return Ok(());

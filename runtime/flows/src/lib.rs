@@ -38,9 +38,9 @@
 //! keeps its order, as in [`Composed`].
 //!
 //! ```
-//! use symplectic::flow::{Drift, FlowSteps, Kick, Splitting};
+//! use symplectic::flow::{Drift, Error, FlowSteps, Kick, Splitting};
 //! use symplectic::nalgebra::Vector1;
-//! use symplectic::{Error, State, acceleration};
+//! use symplectic::{State, acceleration};
 //!
 //! symplectic::tableau! { ForestRuth { base: forest-ruth-1990 } }
 //!
@@ -71,6 +71,7 @@ mod composed;
 mod corrector;
 mod damping;
 mod drift;
+mod error;
 #[cfg(feature = "alloc")]
 mod exponential;
 mod gyration;
@@ -96,6 +97,7 @@ pub use composed::Composed;
 pub use corrector::Corrector;
 pub use damping::Damping;
 pub use drift::Drift;
+pub use error::{Error, FlowError};
 pub use gyration::Gyration;
 pub use integrator::{FlowIntegrator, FlowSteps};
 pub use kick::Kick;
@@ -108,9 +110,9 @@ pub use palindrome::Palindrome;
 pub use splitting::Splitting;
 pub use substeps::Substeps;
 
-pub use symplectic_core::inside::{FlowError, Span};
+pub use symplectic_core::inside::Span;
 
-use symplectic_core::{Error, Vector};
+use symplectic_core::Vector;
 
 /// The flow of a part of a system: exact, or a step that preserves the same structure.
 ///

@@ -7,7 +7,8 @@ use nalgebra::DMatrix;
 
 use super::exponential::exponential;
 use super::{Flow, FlowError, Span, check_count, check_dimension, check_parameter};
-use symplectic_core::{Error, Vector};
+use crate::Error;
+use symplectic_core::Vector;
 
 /// The flow of a linear system: `z' = Az` with `z = (q, p)`, so `z ← e^{hA} z`.
 ///
@@ -29,7 +30,7 @@ use symplectic_core::{Error, Vector};
 /// let (mut q, mut p) = (Vector1::new(1.0), Vector1::new(0.0));
 /// spring.flow(Span { time: 0.0, size: 10.0 }, &mut q, &mut p).expect("a flow");
 /// assert!((q[0] - 30.0_f64.cos()).abs() < 1e-14);
-/// # Ok::<(), symplectic::Error>(())
+/// # Ok::<(), symplectic::flow::Error>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Linear {

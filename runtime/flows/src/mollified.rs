@@ -4,7 +4,8 @@ use alloc::vec::Vec;
 
 use super::kick::{add, work_vector};
 use super::{Flow, FlowError, Linear, Span, check_dimension, check_parameter};
-use symplectic_core::{Error, Quantity, Separable, System, Vector};
+use crate::Error;
+use symplectic_core::{Quantity, Separable, System, Vector};
 
 /// The kick of the mollified impulse method (García-Archilla, Sanz-Serna & Skeel, *SIAM J. Sci. Comput.* 20, 930, 1998; Hairer, Lubich &
 /// Wanner, *Geometric numerical integration*, XIII.1). It replaces the slow potential `U(q)` by `U(Aq)`; `Aq` is the mean position over a
@@ -32,7 +33,7 @@ use symplectic_core::{Error, Quantity, Separable, System, Vector};
 /// use symplectic::nalgebra::{DMatrix, Vector1};
 /// use symplectic::{State, acceleration};
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::flow::Error> {
 /// // H = p²/2 + 50² q²/2 + q⁴/4 with a step of half a fast period.
 /// let h = std::f64::consts::PI / 50.0;
 /// let fast = Linear::oscillators(&[1.0], &DMatrix::from_element(1, 1, 2500.0))?;

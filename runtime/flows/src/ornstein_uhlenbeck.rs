@@ -2,7 +2,8 @@
 
 use super::philox::normal_pair;
 use super::{Flow, FlowError, Span, check_dimension, check_parameter};
-use symplectic_core::{Error, Scalar, Vector};
+use crate::Error;
+use symplectic_core::{Scalar, Vector};
 
 /// A heat bath, the Ornstein–Uhlenbeck process `dp = −γp dt + √(2γ m kT) dW`, exact in law:
 ///
@@ -24,14 +25,14 @@ use symplectic_core::{Error, Scalar, Vector};
 /// use symplectic::nalgebra::Vector1;
 /// use symplectic::{State, acceleration};
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::flow::Error> {
 /// let spring = || acceleration::<Vector1<f64>, _>(|_, q, force| force[0] = -q[0]);
 /// let run = |seed| {
 ///     let bath = OrnsteinUhlenbeck::new(0.5, 1.0, [1.0], seed)?;
 ///     let step = Palindrome::new(Kick::new(spring()), Palindrome::new(Drift::new(spring()), bath));
 ///     let mut run = FlowSteps::run(step, State::from_arrays(0.0, [1.0], [0.0]), 0.1)?;
 ///     run.integrate_to(10.0)?;
-///     Ok::<_, symplectic::Error>(run.into_state())
+///     Ok::<_, symplectic::flow::Error>(run.into_state())
 /// };
 /// assert_eq!(run(1)?, run(1)?);
 /// assert_ne!(run(1)?, run(2)?);

@@ -16,7 +16,7 @@ use symplectic_core::Vector;
 /// use symplectic::nalgebra::Vector1;
 /// use symplectic::{State, acceleration};
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::flow::Error> {
 /// let spring = || acceleration::<Vector1<f64>, _>(|_, q, force| force[0] = -q[0]);
 /// let free = Palindrome::new(Drift::new(spring()), Damping::new(0.1)?);
 /// let step = Palindrome::new(Kick::new(spring()), free);

@@ -3,7 +3,8 @@
 use core::num::NonZeroU32;
 
 use super::{Flow, FlowError, Span};
-use symplectic_core::{Error, Vector};
+use crate::Error;
+use symplectic_core::Vector;
 
 /// `n` steps of size `h/n` of a flow.
 ///
@@ -17,7 +18,7 @@ use symplectic_core::{Error, Vector};
 /// use symplectic::nalgebra::Vector1;
 /// use symplectic::{State, acceleration};
 ///
-/// # fn main() -> Result<(), symplectic::Error> {
+/// # fn main() -> Result<(), symplectic::flow::Error> {
 /// let stiff = || acceleration::<Vector1<f64>, _>(|_, q, force| force[0] = -100.0 * q[0]);
 /// let soft = acceleration::<Vector1<f64>, _>(|_, q, force| force[0] = -q[0].powi(3));
 /// let fast = Splitting::new(Verlet, Drift::new(stiff()), Kick::new(stiff()));

@@ -1,4 +1,4 @@
-//! Orbits of high eccentricity and close encounters: steps of variable size that keep the energy
+//! Orbits: steps of variable size that keep the energy, for high eccentricities and close encounters, and the tangent map, for chaos
 //!
 //! The feature `orbits` of the package `symplectic` gives them to programs.
 
@@ -11,3 +11,8 @@ extern crate alloc;
 extern crate std;
 
 pub mod adaptive;
+mod error;
+#[cfg(feature = "alloc")]
+pub mod tangent;
+
+pub use error::Error;

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use symplectic::emitted::Solver;
 use symplectic::ensemble::{Ensemble, Row};
 use symplectic::system::Conservative;
-use symplectic::tangent::{Megno, Tangent};
+use symplectic::tangent::{Error, Megno, Tangent};
 use symplectic::{AtRunTime, Class, Hamiltonian, Integrator, State, Summation};
 use symplectic_tape::Formula;
 
@@ -80,13 +80,14 @@ impl Run<'_> {
                     ControlFlow::<()>::Continue(())
                 });
                 *output = vec![megno.mean(), megno.lyapunov_exponent()];
-                ended.map(|_| ())
+                ended?;
+                Ok(())
             };
-        let show = |row: Row<Vector, Vec<f64>>| {
+        let show = |row: Row<Vector, Vec<f64>, Error>| {
             let state = original(&row.state);
             keep(Row { state, ..row }.into())
         };
-        ensemble.each(|_| Vec::new(), work, show);
+        ensemble.each_as(Ok::<_, Error>, |_| Vec::new(), work, show);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use symplectic::ensemble::Row;
 use symplectic::nalgebra::DVector;
-use symplectic::{Error, State, Statistics};
+use symplectic::{Error, State, Statistics, tangent};
 
 use crate::advice;
 
@@ -36,11 +36,23 @@ impl From<Error> for Failure {
     }
 }
 
-impl From<Row<DVector<f64>, Vec<f64>>> for Trajectory {
-    fn from(row: Row<DVector<f64>, Vec<f64>>) -> Self {
+impl From<tangent::Error> for Failure {
+    fn from(error: tangent::Error) -> Self {
+        match error {
+            tangent::Error::Core(error) => error.into(),
+            error => Failure {
+                kind: "other".to_owned(),
+                message: error.to_string(),
+            },
+        }
+    }
+}
+
+impl<E: Into<Failure>> From<Row<DVector<f64>, Vec<f64>, E>> for Trajectory {
+    fn from(row: Row<DVector<f64>, Vec<f64>, E>) -> Self {
         Trajectory {
             number: row.trajectory,
-            failure: row.outcome.err().map(Failure::from),
+            failure: row.outcome.err().map(E::into),
             state: row.state,
             statistics: row.statistics,
             output: row.output,

@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use symplectic::adaptive::{Adaptive, AdaptiveSteps, DistancePower, Monitor, Symmetry};
+use symplectic::adaptive::{Adaptive, AdaptiveSteps, DistancePower, Error, Monitor, Symmetry};
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
 use symplectic::system::Gradients;
 use symplectic::{
-    Constrained, Error, General, Hamiltonian, Integrator, Masses, Method, ProvedFor, Scalar,
-    Separable, State, SymmetricFor, acceleration,
+    Constrained, General, Hamiltonian, Integrator, Masses, Method, ProvedFor, Scalar, Separable,
+    State, SymmetricFor, acceleration,
 };
 
 use super::kepler::{

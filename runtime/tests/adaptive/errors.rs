@@ -1,8 +1,8 @@
 //! Bad input, and steps that cannot be taken.
 
-use symplectic::adaptive::{AdaptiveSteps, DistancePower, Logarithmic, Monitor, Poincare};
+use symplectic::adaptive::{AdaptiveSteps, DistancePower, Error, Logarithmic, Monitor, Poincare};
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
-use symplectic::{Error, Hamiltonian, Scalar, Separable, State, acceleration};
+use symplectic::{Hamiltonian, Scalar, Separable, State, acceleration};
 
 use super::kepler::{Kepler, VelocityVerlet, pericentre};
 
@@ -32,7 +32,9 @@ fn an_epsilon_that_is_zero_or_not_finite_is_refused() {
         let monitor = DistancePower(1.5);
         let made = AdaptiveSteps::run(VelocityVerlet, Kepler, monitor, pericentre(0.9), epsilon);
         let error = made.expect_err("a bad ε");
-        assert!(matches!(error, Error::StepSize { value } if value.to_bits() == epsilon.to_bits()));
+        assert!(
+            matches!(error, Error::Core(symplectic::Error::StepSize { value }) if value.to_bits() == epsilon.to_bits())
+        );
     }
 }
 
@@ -42,7 +44,7 @@ fn a_monitor_must_be_positive_at_the_start() {
         let falling = acceleration(|_, _: &Vector1<f64>, acceleration| acceleration[0] = -1.0);
         let start = State::from_arrays(2.0, [1.0], [0.0]);
         let made = AdaptiveSteps::run(VelocityVerlet, falling, Shifted(shift), start, 0.1);
-        let Err(Error::Monitor { time, value }) = made else {
+        let Err(Error::Core(symplectic::Error::Monitor { time, value })) = made else {
             panic!("{shift}")
         };
         assert_eq!((time, value.to_bits()), (2.0, (1.0 + shift).to_bits()));
@@ -68,7 +70,7 @@ fn a_monitor_that_fails_in_a_run_leaves_the_state_unchanged() -> Result<(), Erro
     let (state, size) = (run.state().clone(), run.step_size());
     assert!(state.q[0] > 1.0);
     for _ in 0..2 {
-        let Err(Error::Monitor { time, value }) = run.step() else {
+        let Err(Error::Core(symplectic::Error::Monitor { time, value })) = run.step() else {
             panic!("a step")
         };
         assert!(time == state.time && value.is_nan());
@@ -81,7 +83,7 @@ fn a_monitor_that_fails_in_a_run_leaves_the_state_unchanged() -> Result<(), Erro
     let present = run.state().clone();
     assert!(matches!(
         run.set_state(State::from_arrays(0.0, [1.5], [1.0])),
-        Err(Error::Monitor { .. })
+        Err(Error::Core(symplectic::Error::Monitor { .. }))
     ));
     assert_eq!(*run.state(), present);
     Ok(())
@@ -95,7 +97,7 @@ fn a_monitor_that_vanishes_is_named() -> Result<(), Error> {
     let mut run = AdaptiveSteps::run(VelocityVerlet, spring, DistancePower(1.5), start, 0.05)?;
     let error = run.take_steps(1_000_000).err();
     assert!(
-        matches!(error, Some(Error::Monitor { value, .. }) if value < 1e-4),
+        matches!(error, Some(Error::Core(symplectic::Error::Monitor { value, .. })) if value < 1e-4),
         "{error:?}"
     );
     Ok(())
@@ -135,7 +137,10 @@ fn a_failed_step_leaves_the_step_density_unchanged() -> Result<(), Error> {
             break error;
         }
     };
-    assert!(matches!(failed, Error::NonFinite { .. }), "{failed}");
+    assert!(
+        matches!(failed, Error::Core(symplectic::Error::NonFinite { .. })),
+        "{failed}"
+    );
     Ok(())
 }
 
@@ -198,7 +203,8 @@ fn a_transformed_hamiltonian_refuses_constraints_and_friction() {
                 Ok(_) => assert!(sound),
                 Err(error) => {
                     assert!(
-                        !sound && matches!(error, Error::OtherClass { .. }),
+                        !sound
+                            && matches!(error, Error::Core(symplectic::Error::OtherClass { .. })),
                         "{error}"
                     );
                 }
@@ -209,10 +215,10 @@ fn a_transformed_hamiltonian_refuses_constraints_and_friction() {
 
 #[test]
 fn messages_name_the_cause_the_time_and_a_remedy() {
-    let monitor = Error::Monitor {
+    let monitor = Error::Core(symplectic::Error::Monitor {
         time: 2.0,
         value: -1.0,
-    };
+    });
     assert!(
         monitor
             .to_string()

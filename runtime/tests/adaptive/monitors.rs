@@ -1,8 +1,10 @@
 //! Monitors and their derivatives.
 
-use symplectic::adaptive::{AdaptiveSteps, DistancePower, ForcePower, Monitor, PairDistances};
+use symplectic::adaptive::{
+    AdaptiveSteps, DistancePower, Error, ForcePower, Monitor, PairDistances,
+};
 use symplectic::nalgebra::{Vector2, Vector6};
-use symplectic::{Error, Scalar, State, acceleration};
+use symplectic::{Scalar, State, acceleration};
 
 use super::kepler::{Kepler, VelocityVerlet, pericentre};
 

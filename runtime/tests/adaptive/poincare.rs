@@ -2,12 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use symplectic::adaptive::{DistancePower, Monitor, Poincare};
+use symplectic::adaptive::{DistancePower, Error, Monitor, Poincare};
 use symplectic::nalgebra::{SVector, Vector2, Vector3};
 use symplectic::system::Conservative;
-use symplectic::{
-    Error, Event, General, Hamiltonian, Integrator, Method, ProvedFor, Scalar, State,
-};
+use symplectic::{Event, General, Hamiltonian, Integrator, Method, ProvedFor, Scalar, State};
 
 use super::kepler::{
     Gauss1, Gauss2, Gauss5, Kepler, Pulsating, assert_order, energy, pericentre, position,
@@ -147,10 +145,10 @@ fn a_monitor_that_is_not_positive_is_an_error() -> Result<(), Error> {
     let refused: Result<State<SVector<f64, 2>>, _> = poincare.extend(&outside);
     assert_eq!(
         refused,
-        Err(Error::Monitor {
+        Err(Error::Core(symplectic::Error::Monitor {
             time: 3.0,
             value: -0.5
-        })
+        }))
     );
 
     let start: State<SVector<f64, 2>> = poincare.extend(&State::from_arrays(3.0, [0.0], [5.0]))?;
@@ -168,7 +166,7 @@ where
     let mut run = Integrator::new(method, poincare, start.clone(), 1.0)?;
     let error = run.step().err();
     assert!(
-        matches!(error, Some(Error::Monitor { time: 3.0, .. })),
+        matches!(error, Some(symplectic::Error::Monitor { time: 3.0, .. })),
         "{error:?}"
     );
     assert_eq!(run.state(), start);

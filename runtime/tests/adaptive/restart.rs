@@ -1,7 +1,7 @@
 //! Runs that are interrupted.
 
-use symplectic::adaptive::{AdaptiveSteps, DistancePower};
-use symplectic::{CheckpointError, Error, Integrator};
+use symplectic::adaptive::{AdaptiveSteps, DistancePower, Error};
+use symplectic::{CheckpointError, Integrator};
 
 use super::kepler::{Gauss2, Kepler, VelocityVerlet, pericentre};
 

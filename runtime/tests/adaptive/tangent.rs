@@ -2,8 +2,8 @@
 
 use symplectic::adaptive::{AdaptiveSteps, DistancePower, Monitor};
 use symplectic::nalgebra::{SVector, Vector2};
-use symplectic::tangent::Tangent;
-use symplectic::{Error, Scalar, State};
+use symplectic::tangent::{Error, Tangent};
+use symplectic::{Scalar, State};
 
 use super::kepler::{ForestRuth, Kepler, VelocityVerlet, pericentre};
 

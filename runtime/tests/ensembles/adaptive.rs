@@ -1,11 +1,11 @@
 //! Ensembles with other steppers, such as reversible steps of variable size: every trajectory has the bits that it has alone.
 
-use symplectic::adaptive::{Adaptive, AdaptiveSteps, DistancePower};
+use symplectic::adaptive::{Adaptive, AdaptiveSteps, DistancePower, Error};
 use symplectic::ensemble::Ensemble;
 use symplectic::flow::{Drift, FlowSteps, Kick, Splitting};
 use symplectic::nalgebra::Vector2;
 use symplectic::{
-    CheckpointError, Error, Event, Integrator, Method, ProvedFor, Separable, State, SymmetricFor,
+    CheckpointError, Event, Integrator, Method, ProvedFor, Separable, State, SymmetricFor,
 };
 
 use crate::common::methods::{Gauss2, StoermerVerlet};
@@ -23,7 +23,7 @@ const END: f64 = 7.0;
 const TIMES: [f64; 4] = [0.0, 0.1, 3.0, END];
 
 type Vector = Vector2<f64>;
-type Kept = (Vec<Vec<u64>>, Bits);
+type Kept = (Vec<Vec<u64>>, Bits<Error>);
 
 /// Orbits of eccentricity 0 to 0.95. The ninth falls into the centre: its steps do not get there. The last is so far away that its
 /// step size overflows.
@@ -112,7 +112,10 @@ fn check<M: ProvedFor<Separable> + SymmetricFor<Separable> + Sync>(method: M, ep
     let seen: Vec<usize> = expected.iter().map(|row| row.0.len()).collect();
     assert!(seen[9] == 2 && seen[20] == 0 && seen[3] > 5, "{seen:?}");
     let outcome = &expected[20].1.outcome;
-    assert!(matches!(outcome, Err(Error::Monitor { .. })), "{outcome:?}");
+    assert!(
+        matches!(outcome, Err(Error::Core(symplectic::Error::Monitor { .. }))),
+        "{outcome:?}"
+    );
 }
 
 #[test]

@@ -129,8 +129,8 @@ pub fn on_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
 
 /// What came of a trajectory, in bits.
 #[derive(Clone, PartialEq)]
-pub struct Bits {
-    pub outcome: Result<(), Error>,
+pub struct Bits<E = Error> {
+    pub outcome: Result<(), E>,
     words: Vec<u64>,
     statistics: Statistics,
 }
@@ -142,7 +142,7 @@ impl Bits {
     }
 }
 
-impl Debug for Bits {
+impl<E: Debug> Debug for Bits<E> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(formatter, "{:?} {:x?}", self.outcome, self.words)
     }
@@ -155,11 +155,11 @@ pub fn words<V: Vector<Scalar = f64>>(state: &State<V>) -> Vec<u64> {
     numbers.into_iter().map(f64::to_bits).collect()
 }
 
-pub fn bits<V: Vector<Scalar = f64>>(
-    outcome: Result<(), Error>,
+pub fn bits<V: Vector<Scalar = f64>, E>(
+    outcome: Result<(), E>,
     state: &State<V>,
     statistics: &Statistics,
-) -> Bits {
+) -> Bits<E> {
     Bits {
         outcome,
         words: words(state),
@@ -168,10 +168,10 @@ pub fn bits<V: Vector<Scalar = f64>>(
 }
 
 /// Keeps rows in bits, whose numbers come one after another from the first one.
-pub fn keep<V: Vector<Scalar = f64>, A>(
-    rows: &mut Vec<(Bits, A)>,
+pub fn keep<V: Vector<Scalar = f64>, A, E>(
+    rows: &mut Vec<(Bits<E>, A)>,
     first: usize,
-) -> impl FnMut(Row<V, A>) -> ControlFlow<()> {
+) -> impl FnMut(Row<V, A, E>) -> ControlFlow<()> {
     move |row| {
         assert_eq!(row.trajectory, first + rows.len());
         rows.push((bits(row.outcome, &row.state, &row.statistics), row.output));

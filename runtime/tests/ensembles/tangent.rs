@@ -8,11 +8,11 @@ use symplectic::ensemble::EnsembleCheckpoint;
 use symplectic::nalgebra::{DVector, Matrix2, SVector, Vector1, Vector2};
 use symplectic::num_traits::Zero;
 use symplectic::solver::ByNewton;
-use symplectic::tangent::{Megno, Tangent};
+use symplectic::tangent::{Error, Megno, Tangent};
 use symplectic::variational::{self, generating_function};
 use symplectic::{
-    Checkpoint, CheckpointError, Compensated, Error, Integrator, Method, ProvedFor, Separable,
-    State, System,
+    Checkpoint, CheckpointError, Compensated, Integrator, Method, ProvedFor, Separable, State,
+    System,
 };
 
 use crate::common::dual::{Dual, dual};
@@ -505,9 +505,12 @@ fn bad_displacements_and_dimensions_are_refused() -> Result<(), Error> {
     let found: Result<State<Four>, Error> = system.start(&begin, (&zero, &zero));
     assert_eq!(found, Err(Error::NoDisplacement));
     let found: Result<State<Four>, Error> = system.start(&begin, (&some, &(some * f64::NAN)));
-    assert!(matches!(found, Err(Error::NonFiniteState { .. })));
+    assert!(matches!(
+        found,
+        Err(Error::Core(symplectic::Error::NonFiniteState { .. }))
+    ));
     let found: Result<State<SVector<f64, 6>>, Error> = system.start(&begin, (&some, &zero));
-    let length = |expected, found| Error::Length { expected, found };
+    let length = |expected, found| Error::Core(symplectic::Error::Length { expected, found });
     assert_eq!(found, Err(length(6, 4)));
     let still: State<Vector2<f64>> = State::from_arrays(0.0, [1.0, 0.0], [0.0, 1.0]);
     assert_eq!(Megno::new(&still), Err(Error::NoDisplacement));
@@ -516,10 +519,10 @@ fn bad_displacements_and_dimensions_are_refused() -> Result<(), Error> {
     assert_eq!(Megno::new(&odd), Err(length(6, 5)));
     assert_eq!(system.state(&odd), Err(length(6, 5)));
     let mut run = Integrator::new(ForestRuth, system, odd, 0.1)?;
-    assert_eq!(run.step().err(), Some(length(6, 5)));
+    assert_eq!(run.step().map_err(Error::Core).err(), Some(length(6, 5)));
     let other = State::from_arrays(0.0, [0.1; 6], [0.1; 6]);
     let mut run = Integrator::new(ForestRuth, system, other, 0.1)?;
-    assert_eq!(run.step().err(), Some(length(4, 6)));
+    assert_eq!(run.step().map_err(Error::Core).err(), Some(length(4, 6)));
     // States that are not behind the last one.
     let start: State<Four> = system.start(&begin, (&some, &zero))?;
     let mut run = Integrator::new(ForestRuth, system, start.clone(), 0.1)?;

@@ -126,7 +126,8 @@ fn newmark_in_ensembles_has_the_bits_of_single_runs() -> Result<(), variational:
 }
 
 #[test]
-fn logarithmic_in_ensembles_has_the_bits_of_single_runs() -> Result<(), Error> {
+fn logarithmic_in_ensembles_has_the_bits_of_single_runs() -> Result<(), symplectic::adaptive::Error>
+{
     let logarithmic = |k| Logarithmic::new(kepler(k));
     for count in COUNTS {
         let extend = |k| logarithmic(0).extend::<Vector3<f64>>(&pericentre(k));
@@ -137,7 +138,7 @@ fn logarithmic_in_ensembles_has_the_bits_of_single_runs() -> Result<(), Error> {
 }
 
 #[test]
-fn poincare_in_ensembles_has_the_bits_of_single_runs() -> Result<(), Error> {
+fn poincare_in_ensembles_has_the_bits_of_single_runs() -> Result<(), symplectic::adaptive::Error> {
     let poincare = |k| Poincare::new(kepler(k), DistancePower(1.5));
     for count in COUNTS {
         let extend = |k| poincare(0).extend::<Vector3<f64>>(&pericentre(k));

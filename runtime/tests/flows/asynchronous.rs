@@ -2,9 +2,9 @@
 
 use std::cell::Cell;
 
-use symplectic::flow::{Asynchronous, Elements, FlowError, FlowSteps, Substeps};
+use symplectic::flow::{Asynchronous, Elements, Error, FlowError, FlowSteps, Substeps};
 use symplectic::nalgebra::{SMatrix, SVector};
-use symplectic::{Error, Quantity, Separable, State, System, separable};
+use symplectic::{Quantity, Separable, State, System, separable};
 
 use crate::common::methods::{Gauss5, StoermerVerlet};
 use crate::common::{distance, run};
@@ -244,10 +244,10 @@ fn a_step_that_fails_changes_nothing() -> Result<(), Error> {
     let is_that = |error: &Error| {
         matches!(
             error,
-            Error::NonFinite {
+            Error::Core(symplectic::Error::NonFinite {
                 what: Quantity::Force,
                 ..
-            }
+            })
         )
     };
     assert!(error.as_ref().is_some_and(is_that), "{error:?}");

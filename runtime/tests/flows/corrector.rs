@@ -1,9 +1,9 @@
 //! Symplectic correctors: the error of first order in ε is gone from both ends of a run.
 
 use symplectic::flow::kepler::Jacobi;
-use symplectic::flow::{Corrector, FlowError, FlowSteps, OrnsteinUhlenbeck, Splitting};
+use symplectic::flow::{Corrector, Error, FlowError, FlowSteps, OrnsteinUhlenbeck, Splitting};
 use symplectic::nalgebra::Vector1;
-use symplectic::{Damped, Error, ProvedFor, Separable, Splits, State, SymmetricFor};
+use symplectic::{Damped, ProvedFor, Separable, Splits, State, SymmetricFor};
 
 use super::methods::{Leapfrog, Saba3};
 use super::planets::{self, Bodies, N};
@@ -144,17 +144,17 @@ fn bad_input_is_refused() -> Result<(), Error> {
     let nowhere = State::from_arrays(0.0, [f64::NAN], [0.0]);
     assert!(matches!(
         corrector.to_kernel(&nowhere, 0.1),
-        Err(Error::NonFiniteState { .. })
+        Err(Error::Core(symplectic::Error::NonFiniteState { .. }))
     ));
     assert_eq!(
         corrector.to_kernel(&start(), 0.0),
-        Err(Error::StepSize { value: 0.0 })
+        Err(Error::Core(symplectic::Error::StepSize { value: 0.0 }))
     );
     // From far away the kicks overflow.
     let far = State::new(0.0, Vector1::new(1e200), Vector1::new(0.0));
     assert!(matches!(
         corrector.to_kernel(&far, 0.1),
-        Err(Error::NonFinite { step: 0, .. })
+        Err(Error::Core(symplectic::Error::NonFinite { step: 0, .. }))
     ));
     let bath = OrnsteinUhlenbeck::new(0.5, 1.0, [1.0], 3)?;
     let mut bath = Corrector::new(StoermerVerlet, Rotation, bath, 2)?;

@@ -1,10 +1,10 @@
 //! Kepler orbits against the closed forms of each kind.
 
+use symplectic::State;
 use symplectic::flow::kepler::KeplerDrift;
-use symplectic::flow::{Flow, FlowError, FlowSteps, Span};
+use symplectic::flow::{Error, Flow, FlowError, FlowSteps, Span};
 use symplectic::nalgebra::{DVector, Rotation3, Vector3};
 use symplectic::simd::{F64x2, F64x4, F64x8, F64x16, Lanes};
-use symplectic::{Error, State};
 
 /// μ of the centre, and the mass of the body.
 const MU: f64 = 1.7;

@@ -2,11 +2,11 @@
 
 use std::f64::consts::PI;
 
+use symplectic::State;
 use symplectic::flow::{
-    Flow, FlowError, FlowSteps, Kick, Linear, MollifiedKick, Palindrome, Span, Splitting,
+    Error, Flow, FlowError, FlowSteps, Kick, Linear, MollifiedKick, Palindrome, Span, Splitting,
 };
 use symplectic::nalgebra::{DMatrix, Matrix4, Vector1, Vector2, Vector4};
-use symplectic::{Error, State};
 
 use crate::common::methods::{Gauss8, StoermerVerlet};
 use crate::common::{distance, run};

@@ -1,11 +1,11 @@
 //! What is seen of a run between its steps, and that it changes no step.
 
+use symplectic::State;
 use symplectic::flow::{
-    Drift, Flow, FlowError, FlowIntegrator, FlowSteps, Kick, OrnsteinUhlenbeck, Palindrome, Span,
-    Splitting,
+    Drift, Error, Flow, FlowError, FlowIntegrator, FlowSteps, Kick, OrnsteinUhlenbeck, Palindrome,
+    Span, Splitting,
 };
 use symplectic::nalgebra::Vector1;
-use symplectic::{Error, State};
 
 use crate::common::distance;
 use crate::common::methods::{ForestRuth, Gauss8};
@@ -70,7 +70,10 @@ fn states_inside_steps_have_the_error_of_a_step() -> Result<(), Error> {
 #[test]
 fn states_inside_the_last_step_join_its_ends() -> Result<(), Error> {
     let mut run = heated(7)?;
-    assert_eq!(run.state_at(0.0), Err(Error::NoStep));
+    assert_eq!(
+        run.state_at(0.0),
+        Err(Error::Core(symplectic::Error::NoStep))
+    );
     let start = run.step()?.clone();
     let end = run.step()?.clone();
     assert_eq!(run.state_at(0.1)?, start);
@@ -80,15 +83,20 @@ fn states_inside_the_last_step_join_its_ends() -> Result<(), Error> {
     let middle = run.state_at(0.15)?;
     assert!(distance(&middle, &start) > 1e-3 && distance(&middle, &end) > 1e-3);
     assert_eq!(run.state_at(0.15)?, middle);
-    let outside = |time| Error::OutsideStep {
-        time,
-        start: 0.1,
-        end: 0.2,
+    let outside = |time| {
+        Error::Core(symplectic::Error::OutsideStep {
+            time,
+            start: 0.1,
+            end: 0.2,
+        })
     };
     assert_eq!(run.state_at(0.09), Err(outside(0.09)));
     assert_eq!(run.state_at(0.21), Err(outside(0.21)));
     run.set_state(point(0.0, 1.0))?;
-    assert_eq!(run.state_at(0.0), Err(Error::NoStep));
+    assert_eq!(
+        run.state_at(0.0),
+        Err(Error::Core(symplectic::Error::NoStep))
+    );
     assert_eq!(run.step()?.time, 0.1);
     Ok(())
 }
@@ -136,11 +144,14 @@ fn output_times_are_in_order() -> Result<(), Error> {
     ] {
         let (time, before) = found;
         let refused = run.integrate_at(times, |_| panic!("no output")).err();
-        assert_eq!(refused, Some(Error::OutputTime { time, before }));
+        assert_eq!(
+            refused,
+            Some(Error::Core(symplectic::Error::OutputTime { time, before }))
+        );
     }
     assert!(matches!(
         run.integrate_at(&[1e300], |_| {}),
-        Err(Error::StepCount { .. })
+        Err(Error::Core(symplectic::Error::StepCount { .. }))
     ));
     assert_eq!((run.state(), run.steps()), (&before, 2));
     // In the last step, again and again; back, only from the present time on.
@@ -196,6 +207,9 @@ fn a_failed_step_uses_no_random_numbers() -> Result<(), Error> {
     assert!(matches!(run.step(), Err(Error::Flow { step: 3, .. })));
     assert_eq!((run.stepper().flow().outer.draws(), run.steps()), (4, 2));
     assert_eq!(run.states().take(3).count(), 1);
-    assert_eq!(run.state_at(0.3), Err(Error::NoStep));
+    assert_eq!(
+        run.state_at(0.3),
+        Err(Error::Core(symplectic::Error::NoStep))
+    );
     Ok(())
 }

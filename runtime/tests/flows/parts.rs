@@ -1,11 +1,11 @@
 //! Ready flows, against closed forms and the same motion in canonical coordinates.
 
 use symplectic::flow::{
-    Damping, Drift, Flow, FlowError, FlowSteps, Gyration, Kick, Linear, OrnsteinUhlenbeck,
+    Damping, Drift, Error, Flow, FlowError, FlowSteps, Gyration, Kick, Linear, OrnsteinUhlenbeck,
     Palindrome, Span,
 };
 use symplectic::nalgebra::{DMatrix, DVector, Rotation3, SMatrix, Vector1, Vector2, Vector3};
-use symplectic::{Error, State, System, acceleration};
+use symplectic::{State, System, acceleration};
 
 use crate::common::methods::Gauss5;
 use crate::common::run;

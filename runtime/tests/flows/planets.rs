@@ -1,11 +1,9 @@
 //! The splitting of Wisdom and Holman, against an integrator in inertial coordinates.
 
 use symplectic::flow::kepler::{Heliocentric, Jacobi};
-use symplectic::flow::{Flow, FlowError, FlowSteps, Span, Splitting, Substeps};
+use symplectic::flow::{Error, Flow, FlowError, FlowSteps, Span, Splitting, Substeps};
 use symplectic::nalgebra::{DVector, SMatrix, Vector3};
-use symplectic::{
-    Damped, Error, Integrator, ProvedFor, Separable, Splits, State, System, separable,
-};
+use symplectic::{Damped, Integrator, ProvedFor, Separable, Splits, State, System, separable};
 
 use crate::common::distance;
 use crate::common::methods::{Gauss8, StoermerVerlet};

@@ -3,10 +3,10 @@
 use std::cell::Cell;
 
 use symplectic::flow::{
-    Composed, Drift, Flow, FlowError, FlowSteps, Kick, Palindrome, Span, Splitting, Substeps,
+    Composed, Drift, Error, Flow, FlowError, FlowSteps, Kick, Palindrome, Span, Splitting, Substeps,
 };
 use symplectic::nalgebra::Vector1;
-use symplectic::{Damped, Error, Method, ProvedFor, Quantity, Splits, State, acceleration};
+use symplectic::{Damped, Method, ProvedFor, Quantity, Splits, State, acceleration};
 
 use crate::common::methods::{ForestRuth, Gauss8, McLachlanAtela, PositionJump, StoermerVerlet};
 use crate::common::systems::{Driven, Pendulum, point};
@@ -255,7 +255,9 @@ fn a_step_that_fails_leaves_the_state() {
     let before = run.state().clone();
     let failure = run.step().expect_err("a root of a negative number");
     let what = Quantity::Force;
-    assert!(matches!(failure, Error::NonFinite { what: found, step: 1, .. } if found == what));
+    assert!(
+        matches!(failure, Error::Core(symplectic::Error::NonFinite { what: found, step: 1, .. }) if found == what)
+    );
     assert_eq!((run.state(), run.steps()), (&before, 0));
 }
 
@@ -264,12 +266,12 @@ fn bad_input_is_refused() {
     let new = |state, size| FlowSteps::run(Rotation, state, size).map(|_| ());
     assert_eq!(
         new(point(0.0, 1.0), 0.0),
-        Err(Error::StepSize { value: 0.0 })
+        Err(Error::Core(symplectic::Error::StepSize { value: 0.0 }))
     );
     let what = Quantity::Position;
     assert_eq!(
         new(point(f64::NAN, 1.0), 0.1),
-        Err(Error::NonFiniteState { what })
+        Err(Error::Core(symplectic::Error::NonFiniteState { what }))
     );
     assert!(matches!(
         Substeps::new(Rotation, 0),

@@ -153,7 +153,8 @@ impl Monitor for Constant {
 }
 
 #[test]
-fn constrained_steps_of_an_adaptive_run_do_not_fail_if_the_first_did_not() -> Result<(), Error> {
+fn constrained_steps_of_an_adaptive_run_do_not_fail_if_the_first_did_not()
+-> Result<(), symplectic::adaptive::Error> {
     let run = Integrator::new(Lobatto3, Rotor, rotor(), 1.0)?;
     let mut run = AdaptiveSteps::of(run, Constant, 1.3)?;
     run.take_steps(100)?;

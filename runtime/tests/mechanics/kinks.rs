@@ -93,7 +93,7 @@ fn newtons_iteration_ends_where_fixed_points_do() -> Result<(), Error> {
 
 /// At the origin the second derivatives of |q|³ are zero: displacements move freely.
 #[test]
-fn tangent_maps_are_finite_at_a_kink() -> Result<(), Error> {
+fn tangent_maps_are_finite_at_a_kink() -> Result<(), symplectic::tangent::Error> {
     let tangent = Tangent::new(Length);
     let origin = State::from_arrays(0.0, [0.0; 2], [0.0; 2]);
     let start = || tangent.start(&origin, (&Vector2::new(1.0, 0.0), &Vector2::new(0.0, 2.0)));

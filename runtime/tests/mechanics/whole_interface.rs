@@ -37,7 +37,7 @@ fn attraction(_time: f64, q: &Vector2<f64>, out: &mut Vector2<f64>) {
 }
 
 /// A run of any stepper, from a start.
-fn run_of_any_pace<S, N, E>(
+fn run_of_any_pace<S, N, E: Debug>(
     name: &str,
     make: impl Fn(&S::State) -> Result<Run<S>, E>,
     start: &S::State,
@@ -101,7 +101,7 @@ fn fails_with<T>(outcome: Result<T, impl std::error::Error>, words: &str) -> boo
 }
 
 /// A run with equal steps of size 0.1, from a start at the time 0; `late` is the start at a time that no step changes.
-fn run_of_equal_steps<S, N, E>(
+fn run_of_equal_steps<S, N, E: Debug>(
     name: &str,
     make: impl Fn(&S::State) -> Result<Run<S>, E>,
     start: &S::State,
@@ -253,7 +253,7 @@ fn every_stepper_has_the_whole_interface_of_a_run() {
         "flows": perihelion() => |start: &Plane| {
             let mut run = kepler_by_flows(start.clone())?;
             run.set_step_size(0.1)?;
-            Ok::<_, Error>(run)
+            Ok::<_, symplectic::flow::Error>(run)
         };
         "discrete Lagrangian": perihelion() => |start: &Plane| VariationalSteps::run(Trapezoid, start.clone(), 0.1);
         "composed": perihelion() => |start: &Plane| {

@@ -271,7 +271,7 @@ fn steps_of_newmark_do_not_allocate() -> Result<(), variational::Error> {
 }
 
 #[test]
-fn steps_of_flows_do_not_allocate() -> Result<(), Error> {
+fn steps_of_flows_do_not_allocate() -> Result<(), symplectic::flow::Error> {
     let start = State::new(0.0, Counted::new(vec![1.0; 5]), Counted::new(vec![0.0; 5]));
     let (drift, kick) = (
         Drift::new(Pendulum::default()),
@@ -292,7 +292,7 @@ fn steps_of_flows_do_not_allocate() -> Result<(), Error> {
 }
 
 #[test]
-fn steps_of_variable_size_do_not_allocate() -> Result<(), Error> {
+fn steps_of_variable_size_do_not_allocate() -> Result<(), symplectic::adaptive::Error> {
     struct Line;
     impl SeparableHamiltonian for Line {
         type Vector<T: Scalar> = Counted<T>;

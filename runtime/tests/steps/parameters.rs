@@ -204,7 +204,7 @@ fn systems_around_a_system_check_it_too() {
     let error = Integrator::new(StoermerVerlet, Tangent::new(masses(3)), displaced, 0.01).err();
     assert_eq!(error, Some(expected.clone()));
     let extended: Result<State<DVector<f64>>, _> = Logarithmic::new(masses(3)).extend(&start(6));
-    assert_eq!(extended.err(), Some(expected.clone()));
+    assert_eq!(extended.err(), Some(expected.clone().into()));
     let newmark = Newmark::new(masses(3), 0.25, 0.01).expect("finite");
     let in_mechanics = Some(variational::Error::Core(expected.clone()));
     assert_eq!(newmark.shift(&start(6)).err(), in_mechanics);

@@ -9,9 +9,9 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::time::Instant;
 
-use symplectic::adaptive::{AdaptiveSteps, DistancePower, Logarithmic};
+use symplectic::adaptive::{AdaptiveSteps, DistancePower, Error, Logarithmic};
 use symplectic::nalgebra::{Vector2, Vector3};
-use symplectic::{Error, Event, Integrator, Method, ProvedFor, Separable, State, SymmetricFor};
+use symplectic::{Event, Integrator, Method, ProvedFor, Separable, State, SymmetricFor};
 use symplectic_tests::methods::{BlanesMoanS10, Gauss8, KahanLi8, KahanLi8Drift};
 use symplectic_tests::peers::{Equations, dop853};
 

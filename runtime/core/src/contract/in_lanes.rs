@@ -25,7 +25,8 @@ pub trait LaneWork<V: Vector, S: System<V>, L: Lanes> {
 pub type Join<S, J> = for<'a> fn(&mut dyn Iterator<Item = &'a S>) -> Option<J>;
 
 /// The first system, for lanes with the same system.
-pub(crate) fn first<S: Clone>(systems: &mut dyn Iterator<Item = &S>) -> Option<S> {
+#[doc(hidden)]
+pub fn first<S: Clone>(systems: &mut dyn Iterator<Item = &S>) -> Option<S> {
     systems.next().cloned()
 }
 

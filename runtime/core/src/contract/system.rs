@@ -58,7 +58,7 @@ pub trait System<V: Vector>: Sized {
     /// Whether everything is inlined: see [`Hamiltonian::INLINED`](crate::Hamiltonian::INLINED).
     const INLINED: bool = false;
 
-    /// Whether the second half of the positions is a displacement of the first, as in [`Tangent`](crate::tangent::Tangent). Monitors of
+    /// Whether the second half of the positions is a displacement of the first, as in `tangent::Tangent`. Monitors of
     /// step sizes ignore the second half.
     const DISPLACED: bool = false;
 

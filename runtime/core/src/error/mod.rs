@@ -2,12 +2,10 @@
 
 mod constraint_name;
 pub(crate) mod debug;
-mod flow;
 pub(crate) mod phrases;
 mod quantity;
 
 pub use constraint_name::ConstraintName;
-pub use flow::FlowError;
 pub use quantity::Quantity;
 
 use debug::debug_by_message;
@@ -354,12 +352,6 @@ pub enum Error {
     #[error("the system gives no energy; implement `energy`, or add a closure by `with_energy`")]
     NoEnergy,
 
-    /// The displacement whose growth is requested is zero.
-    #[error(
-        "the displacement is zero and remains zero; choose a nonzero one in a general direction"
-    )]
-    NoDisplacement,
-
     /// There is no last step for dense output: no step has led to the present state.
     #[error("no step has led to the present state; take a step first")]
     NoStep,
@@ -582,53 +574,6 @@ pub enum Error {
         pivot: f64,
     },
 
-    /// The velocity is not `M⁻¹p` with a constant M; the logarithmic Hamiltonian requires `T = p·M⁻¹p/2`.
-    #[error(
-        "|velocity[{component}]| is {velocity}; a velocity linear in p and independent of time would give {linear}: the logarithmic \
-         Hamiltonian is for H = pᵀM⁻¹p/2 + U(t, q) with a constant M; take `Poincare` or `AdaptiveSteps::run` for this system",
-        velocity = Short(*.velocity),
-        linear = Short(*.linear)
-    )]
-    LogarithmicMasses {
-        /// The component of the velocity, from 0.
-        component: usize,
-        /// Its size.
-        velocity: f64,
-        /// The size that it would have if it were linear in the momentum.
-        linear: f64,
-    },
-
-    /// A flow of a splitting failed.
-    #[error("step {step} of size {step_size} at time {time}: {failure}",
-        time = Short(*.time),
-        step_size = Short(*.step_size)
-    )]
-    Flow {
-        /// Time at the start of the step.
-        time: f64,
-        /// Step size.
-        step_size: f64,
-        /// Number of the step, from 1.
-        step: u64,
-        /// Why.
-        failure: FlowError,
-    },
-
-    /// A parameter of a flow is not finite or out of range.
-    #[error("the {what} (index {index}) is {value}; it must be {range}",
-        value = Short(*.value)
-    )]
-    FlowParameter {
-        /// Name of the parameter.
-        what: &'static str,
-        /// Its index, from 0.
-        index: usize,
-        /// Its value.
-        value: f64,
-        /// Its range.
-        range: &'static str,
-    },
-
     /// The monitor of variable steps is not positive and finite, or its derivative along the motion is not finite.
     #[error(
         "the monitor of the step sizes is {value} at time {time}; it must be finite, positive and away from zero along the orbit, with a finite derivative",
@@ -640,23 +585,6 @@ pub enum Error {
         time: f64,
         /// Value of the monitor.
         value: f64,
-    },
-
-    /// The density of variable steps, about 1/monitor, is no longer positive: the monitor changes too much within a
-    /// step.
-    #[error(
-        "step {step} at time {time}: the step density z is {density}, and there is no step of size ε/z; take a smaller ε, or a monitor \
-         that changes less within a step",
-        time = Short(*.time),
-        density = Short(*.density)
-    )]
-    StepDensity {
-        /// Time at the start of the step.
-        time: f64,
-        /// Number of the step, from 1.
-        step: u64,
-        /// The density z.
-        density: f64,
     },
 
     /// An argument of a logarithm is not positive: the logarithmic Hamiltonian requires `U < 0` and `T + B > 0`.

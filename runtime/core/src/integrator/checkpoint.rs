@@ -177,7 +177,8 @@ impl Checkpoint {
     }
 
     /// An empty checkpoint of values that are computed beside a run.
-    pub(crate) fn of_values(name: &str) -> Self {
+    #[doc(hidden)]
+    pub fn of_values(name: &str) -> Self {
         Self {
             method: name.to_string(),
             definition: String::new(),

@@ -9,6 +9,7 @@ use crate::number::{Coefficient, Scalar, larger_or_nan};
 /// `value + slope ε` with `ε² = 0`: a number and its derivative with respect to a parameter. The bits of the value are those without it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<T> {
+    /// The number.
     pub value: T,
     /// Its derivative.
     pub slope: T,

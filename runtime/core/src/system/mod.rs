@@ -14,7 +14,6 @@ mod named;
 mod over_vectors;
 
 #[cfg(feature = "alloc")]
-pub(crate) use crate::contract::first;
 pub(crate) use crate::contract::linearity;
 #[cfg(feature = "alloc")]
 pub use crate::contract::{BandMatrix, Constrained, Gradients, Jacobian, Nonholonomic};

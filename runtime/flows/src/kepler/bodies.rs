@@ -2,8 +2,9 @@
 
 use alloc::vec::Vec;
 
+use crate::Error;
 use crate::{check_count, check_parameter};
-use symplectic_core::{Error, State, Vector};
+use symplectic_core::{State, Vector};
 
 /// Masses, the first of which is the star's, and the constant of gravity.
 #[derive(Clone, Debug)]

@@ -8,10 +8,11 @@ use super::free::Free;
 use super::groups::{gather, scatter};
 use super::in_lanes::changes;
 use super::orbit::{NoEnd, Orbit};
+use crate::Error;
 use crate::{Flow, FlowError, Span, check_count, check_dimension, check_parameter};
+use symplectic_core::Vector;
 use symplectic_core::inside::array;
 use symplectic_core::simd::{F64x2, F64x4, F64x8, Lanes};
-use symplectic_core::{Error, Vector};
 
 /// The flow of `H = Σ |p|²/(2m) − mμ/|q|`: any number of bodies in space, each on a Kepler orbit about the origin. They are computed in
 /// lanes of `L`, the last ones in narrower lanes.
@@ -44,7 +45,7 @@ use symplectic_core::{Error, Vector};
 /// let (mut q, mut p) = (Vector3::x(), Vector3::y());
 /// drift.flow(Span { time: 0.0, size: std::f64::consts::PI }, &mut q, &mut p).expect("a flow");
 /// assert!((q + Vector3::x()).norm() < 1e-14);
-/// # Ok::<(), symplectic::Error>(())
+/// # Ok::<(), symplectic::flow::Error>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct KeplerDrift<L = F64x8> {
@@ -103,7 +104,7 @@ impl<L: Lanes> KeplerDrift<L> {
     /// use symplectic::simd::F64x4;
     ///
     /// let drift = KeplerDrift::new(&[1.0; 8], &[1.0; 8])?.in_lanes::<F64x4>();
-    /// # Ok::<(), symplectic::Error>(())
+    /// # Ok::<(), symplectic::flow::Error>(())
     /// ```
     pub fn in_lanes<W: Lanes>(self) -> KeplerDrift<W> {
         KeplerDrift {

@@ -3,9 +3,10 @@
 use super::attraction::Attraction;
 use super::bodies::Bodies;
 use super::drift::KeplerDrift;
+use crate::Error;
 use crate::{Flow, FlowError, Span};
 use symplectic_core::inside::array;
-use symplectic_core::{Error, State, Vector};
+use symplectic_core::{State, Vector};
 
 /// Bodies under their gravity in democratic heliocentric coordinates: positions relative to the star, momenta relative to the centre of mass.
 ///

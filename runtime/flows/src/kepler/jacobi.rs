@@ -8,10 +8,11 @@ use super::attraction::{Attraction, Group, pull};
 use super::bodies::Bodies;
 use super::drift::KeplerDrift;
 use super::groups::{Axes, gather, load_one, store};
+use crate::Error;
 use crate::{Flow, FlowError, Span};
 use symplectic_core::inside::array;
 use symplectic_core::simd::Lanes;
-use symplectic_core::{Error, Scalar, State, Vector};
+use symplectic_core::{Scalar, State, Vector};
 
 /// Bodies under their gravity, `H = Σ |p|²/(2m) − Σ G m_i m_j/|q_i − q_j|`, in Jacobi coordinates: the position of each body is relative to
 /// the centre of mass of the bodies before it.

@@ -29,9 +29,9 @@
 //! ```
 //! symplectic::tableau! { Saba3 { base: saba-3 } }
 //! use symplectic::flow::kepler::Jacobi;
-//! use symplectic::flow::{FlowSteps, Splitting};
+//! use symplectic::flow::{Error, FlowSteps, Splitting};
 //! use symplectic::nalgebra::SMatrix;
-//! use symplectic::{Error, State};
+//! use symplectic::State;
 //!
 //! # fn main() -> Result<(), Error> {
 //! // A star and two planets, in astronomical units and years: G times the mass of the star is 4π².

@@ -3,12 +3,13 @@
 use core::fmt;
 
 use super::monitor::{Monitor, Slopes, monitor_at, seen, value_at};
+use crate::Error;
 use symplectic_core::inside::{
     Solver, advance_in_time, check_state, check_step_size, fast_two_sum, parts_of, two_sum,
 };
 use symplectic_core::output::DenseOutput;
 use symplectic_core::{
-    Compensated, Error, Integrator, Method, Own, ProvedFor, Retry, Run, State, Statistics, Stepper,
+    Compensated, Integrator, Method, Own, ProvedFor, Retry, Run, State, Statistics, Stepper,
     Summation, SymmetricFor, System, Vector,
 };
 
@@ -34,8 +35,8 @@ use symplectic_core::{
 ///
 /// # Errors of a step
 ///
-/// Those of an [`Integrator`]; [`Error::Monitor`] if `∇σ·q'/σ` is not finite, or if dual numbers evaluate it and σ is not positive;
-/// [`Error::StepDensity`] if z is no longer positive, or `ε/z` overflows. State and step density are then unchanged. All other methods:
+/// In [`Error::Core`] those of an [`Integrator`], and `Monitor` if `∇σ·q'/σ` is not finite, or if dual numbers evaluate it and σ is not
+/// positive; [`Error::StepDensity`] if z is no longer positive, or `ε/z` overflows. State and step density are then unchanged. All other methods:
 /// [`Run`].
 ///
 /// # Back to the start
@@ -49,8 +50,8 @@ use symplectic_core::{
 /// from the [dense output](AdaptiveSteps::dense), or from a shorter step with the same start.
 ///
 /// ```
-/// use symplectic::adaptive::{AdaptiveSteps, DistancePower};
-/// use symplectic::{Error, State};
+/// use symplectic::adaptive::{AdaptiveSteps, DistancePower, Error};
+/// use symplectic::State;
 ///
 /// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
 /// symplectic::hamiltonian! {
@@ -74,8 +75,8 @@ use symplectic_core::{
 /// A method that is not symmetric does not compile:
 ///
 /// ```compile_fail,E0277
-/// use symplectic::adaptive::{AdaptiveSteps, DistancePower};
-/// use symplectic::{Error, State};
+/// use symplectic::adaptive::{AdaptiveSteps, DistancePower, Error};
+/// use symplectic::State;
 ///
 /// symplectic::tableau! { SymplecticEuler { basis: polynomial(1), nodes: [0] } }
 /// symplectic::hamiltonian! { Kepler q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 - 1/sqrt(x^2 + y^2) }
@@ -147,7 +148,7 @@ where
     ///
     /// # Errors
     ///
-    /// Those of [`Integrator::new`], with [`Error::StepSize`] for ε; [`Error::Monitor`] if σ is not finite and positive at the start.
+    /// [`Error::Core`] with those of [`Integrator::new`], `StepSize` for ε, and `Monitor` if σ is not finite and positive at the start.
     pub fn run(
         method: M,
         system: S,
@@ -182,13 +183,13 @@ where
     ///
     /// # Errors
     ///
-    /// [`Error::StepSize`] for ε; [`Error::Monitor`] if σ is not finite and positive at the start.
+    /// [`Error::Core`] with `StepSize` for ε, and with `Monitor` if σ is not finite and positive at the start.
     ///
     /// ```
-    /// use symplectic::adaptive::{AdaptiveSteps, DistancePower};
+    /// use symplectic::adaptive::{AdaptiveSteps, DistancePower, Error};
     /// use symplectic::nalgebra::Vector2;
     /// use symplectic::solver::ByNewton;
-    /// use symplectic::{Error, Integrator, State, acceleration};
+    /// use symplectic::{Integrator, State, acceleration};
     ///
     /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
     ///
@@ -231,9 +232,9 @@ where
     /// Reverses the direction of the run: the next step undoes the last one.
     ///
     /// ```
-    /// use symplectic::adaptive::{AdaptiveSteps, DistancePower};
+    /// use symplectic::adaptive::{AdaptiveSteps, DistancePower, Error};
     /// use symplectic::nalgebra::Vector2;
-    /// use symplectic::{Error, State, acceleration};
+    /// use symplectic::{State, acceleration};
     ///
     /// symplectic::tableau! { VelocityVerlet { base: velocity-verlet } }
     ///
@@ -291,7 +292,7 @@ where
     ///
     /// Those of [`Integrator::dense`](symplectic_core::Integrator#method.dense).
     pub fn dense(&self) -> Result<DenseOutput<'_, M, S, V, R, N>, Error> {
-        self.integrator.dense()
+        Ok(self.integrator.dense()?)
     }
 
     /// The integrator that takes the steps, for example to read its system and its statistics.
@@ -330,7 +331,7 @@ where
         if slope.is_finite() {
             Ok(-slope)
         } else {
-            Err(monitor_at(*time)(self.monitor.value(seen::<S, V>(q))))
+            Err(monitor_at(*time)(self.monitor.value(seen::<S, V>(q))).into())
         }
     }
 
@@ -401,12 +402,13 @@ where
         if let Err(error) = advance_in_time(stepper, size, end) {
             return Err(match error {
                 // The steps have become too short, not too short from the start.
-                Error::TimeResolution { .. } if time + next.first_size != time => {
+                symplectic_core::Error::TimeResolution { .. } if time + next.first_size != time => {
                     let q = seen::<S, V>(&self.integrator.state().q);
                     monitor_at(time)(self.monitor.value(q))
                 }
                 error => error,
-            });
+            }
+            .into());
         }
         next.time_low = low;
         next.unfinished = half;

@@ -5,9 +5,10 @@ use core::cell::Cell;
 use core::fmt;
 
 use super::extended::{Workspace, energy_of, extended, parted, parted_mut, reduced};
+use crate::Error;
 use symplectic_core::inside::non_linear_velocity;
 use symplectic_core::solver::FixedPoint;
-use symplectic_core::{Error, Hamiltonian, Scalar, Separable, State, System, Vector};
+use symplectic_core::{Hamiltonian, Scalar, Separable, State, System, Vector};
 
 /// The logarithmic Hamiltonian of a system `H = T(p) + U(q)` with `U < 0` (Mikkola & Tanikawa 1999; Preto & Tremaine 1999), in a fictitious
 /// time τ:
@@ -22,7 +23,7 @@ use symplectic_core::{Error, Hamiltonian, Scalar, Separable, State, System, Vect
 /// Positions are (q, t) and momenta (p, B). K is zero along the motion, and its orbits there are those of H. A step of size ε in τ takes
 /// about the time `ε/(T + B) = ε/(−U)`, which is short where the potential is deep. K is separable: all splittings for separable systems
 /// apply, explicit and symplectic. The kinetic part of K is not quadratic: methods whose order holds for quadratic kinetic energy only
-/// (Runge–Kutta–Nyström) are refused with [`Error::NotQuadraticKinetic`].
+/// (Runge–Kutta–Nyström) are refused with [`NotQuadraticKinetic`](symplectic_core::Error::NotQuadraticKinetic).
 ///
 /// For the Kepler problem `position-verlet` and its compositions follow the exact orbit, up to rounding: they conserve the energy and the
 /// Laplace vector. Only the time has an error, of the order of the method. Other splittings, and `velocity-verlet`, have an error in the
@@ -37,9 +38,9 @@ use symplectic_core::{Error, Hamiltonian, Scalar, Separable, State, System, Vect
 /// [`reduce`](Self::reduce) returns the state at time t. To stop at a time t, use an [`Event`](symplectic_core::Event) of the last position.
 ///
 /// ```
-/// use symplectic::adaptive::Logarithmic;
+/// use symplectic::adaptive::{Error, Logarithmic};
 /// use symplectic::nalgebra::Vector3;
-/// use symplectic::{Error, Event, Integrator, State};
+/// use symplectic::{Event, Integrator, State};
 ///
 /// symplectic::composition! { TripleJump { base: position-verlet, weights: triple_jump(4) } }
 /// symplectic::hamiltonian! {
@@ -68,8 +69,8 @@ use symplectic_core::{Error, Hamiltonian, Scalar, Separable, State, System, Vect
 ///
 /// # Errors of steps
 ///
-/// [`Error::LogarithmicDomain`] if `U ≥ 0` or `T + B ≤ 0`. K cannot contain a force without a potential: a system with an
-/// [applied force](Hamiltonian::applied_force) does not compile.
+/// [`LogarithmicDomain`](symplectic_core::Error::LogarithmicDomain) if `U ≥ 0` or `T + B ≤ 0`. K cannot contain a force
+/// without a potential: a system with an [applied force](Hamiltonian::applied_force) does not compile.
 pub struct Logarithmic<S: Hamiltonian<Class = Separable>> {
     system: S,
     /// Work vectors for evaluations of the system; `None` before the first evaluation and during an evaluation.
@@ -98,9 +99,9 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::OtherClass`] if the system has constraints or friction,
-    /// [`Error::NoEnergy`], [`Error::LogarithmicMasses`] if the velocity is not `M⁻¹p` with a constant M, [`Error::LogarithmicDomain`] if
-    /// `U ≥ 0`, [`Error::Length`] if the vectors of type `W` cannot have one component more than those of the system.
+    /// [`Error::LogarithmicMasses`] if the velocity is not `M⁻¹p` with a constant M. [`Error::Core`] with `Dimension`, `NonFiniteState`,
+    /// `NoEnergy`, `OtherClass` if the system has constraints or friction, `LogarithmicDomain` if `U ≥ 0`, `Length` if the vectors of type
+    /// `W` cannot have one component more than those of the system.
     pub fn extend<W: Vector<Scalar = f64>>(
         &self,
         state: &State<S::Vector<f64>>,
@@ -115,15 +116,16 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
             });
         }
         let rest = p.zeros_like();
-        let potential =
-            Hamiltonian::energy(&self.system, *time, q, &rest).ok_or(Error::NoEnergy)?;
+        let potential = Hamiltonian::energy(&self.system, *time, q, &rest)
+            .ok_or(symplectic_core::Error::NoEnergy)?;
         if !(potential < 0.0 && potential.is_finite()) {
-            return Err(Error::LogarithmicDomain {
+            return Err(symplectic_core::Error::LogarithmicDomain {
                 time: *time,
                 step: 0,
                 what: POTENTIAL,
                 value: -potential,
-            });
+            }
+            .into());
         }
         extended(state, -energy)
     }
@@ -132,7 +134,7 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::Length`].
+    /// [`Error::Core`] with `Dimension`, `NonFiniteState` or `Length`.
     pub fn reduce<W: Vector<Scalar = f64>>(
         &self,
         state: &State<W>,
@@ -258,18 +260,20 @@ where
         Some(found.flatten().unwrap_or(f64::NAN))
     }
 
-    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+    fn check_dimension(&self, dimension: usize) -> Result<(), symplectic_core::Error> {
         self.system.check_dimension(dimension.saturating_sub(1))
     }
 
-    fn explain(&self, error: Error, q: &W) -> Error {
+    fn explain(&self, error: symplectic_core::Error, q: &W) -> symplectic_core::Error {
         match (self.fault.take(), error) {
-            (Some((what, value)), Error::NonFinite { step, .. }) => Error::LogarithmicDomain {
-                time: parted(q).1,
-                step,
-                what,
-                value,
-            },
+            (Some((what, value)), symplectic_core::Error::NonFinite { step, .. }) => {
+                symplectic_core::Error::LogarithmicDomain {
+                    time: parted(q).1,
+                    step,
+                    what,
+                    value,
+                }
+            }
             (_, error) => error,
         }
     }

@@ -24,6 +24,7 @@ mod output;
 #[cfg(feature = "alloc")]
 mod poincare;
 
+pub use crate::error::Error;
 pub use integrator::{Adaptive, AdaptiveSteps};
 #[cfg(feature = "alloc")]
 pub use logarithmic::Logarithmic;

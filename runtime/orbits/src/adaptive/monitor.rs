@@ -1,7 +1,7 @@
 //! Monitors: functions of the positions that set the step size.
 
 use symplectic_core::inside::HyperDual;
-use symplectic_core::{Error, Hamiltonian, Scalar, Separable, System, Vector};
+use symplectic_core::{Hamiltonian, Scalar, Separable, System, Vector};
 
 /// A monitor σ(q) > 0, which sets the step size `h ≈ ε σ(q)`. The run chooses ε.
 ///
@@ -283,7 +283,7 @@ impl<V: Vector<Scalar = f64>> Slopes<V> {
     }
 }
 
-/// Makes [`Error::Monitor`] at a time from a value.
-pub(super) const fn monitor_at(time: f64) -> impl Fn(f64) -> Error {
-    move |value| Error::Monitor { time, value }
+/// Makes [`Error::Monitor`](symplectic_core::Error::Monitor) at a time from a value.
+pub(super) const fn monitor_at(time: f64) -> impl Fn(f64) -> symplectic_core::Error {
+    move |value| symplectic_core::Error::Monitor { time, value }
 }

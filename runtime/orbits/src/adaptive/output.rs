@@ -2,10 +2,11 @@
 
 use super::integrator::AdaptiveSteps;
 use super::monitor::Monitor;
+use crate::Error;
 use symplectic_core::inside::{Solver, parts_of};
 use symplectic_core::system::Named;
 use symplectic_core::{
-    DenseSteps, Error, Method, NamedSteps, Partitioned, State, Summation, System, Vector,
+    DenseSteps, Method, NamedSteps, Partitioned, State, Summation, System, Vector,
 };
 
 impl<M, S, W, V, R, N> DenseSteps for AdaptiveSteps<M, S, W, V, R, N>
@@ -33,7 +34,7 @@ where
     }
 
     fn prepare(&self, scratch: &mut Self::Scratch) -> Result<(), Error> {
-        self.integrator.stepper().prepare(scratch)
+        Ok(self.integrator.stepper().prepare(scratch)?)
     }
 
     fn look(
@@ -42,9 +43,8 @@ where
         scratch: &mut Self::Scratch,
         out: &mut State<V>,
     ) -> Result<(), Error> {
-        parts_of(&mut self.integrator)
-            .stepper
-            .look(time, scratch, out)
+        let stepper = parts_of(&mut self.integrator).stepper;
+        Ok(stepper.look(time, scratch, out)?)
     }
 
     fn look_by_step(
@@ -53,9 +53,8 @@ where
         scratch: &mut Self::Scratch,
         out: &mut State<V>,
     ) -> Result<(), Error> {
-        parts_of(&mut self.integrator)
-            .stepper
-            .look_by_step(time, scratch, out)
+        let stepper = parts_of(&mut self.integrator).stepper;
+        Ok(stepper.look_by_step(time, scratch, out)?)
     }
 
     fn slopes(&mut self, state: &State<V>, size: f64, velocity: &mut V, force: &mut V) {

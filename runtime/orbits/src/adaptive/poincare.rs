@@ -6,9 +6,10 @@ use core::fmt;
 
 use super::extended::{Workspace, energy_of, extended, parted, parted_mut, reduced};
 use super::monitor::{Monitor, Slopes, monitor_at, value_at};
+use crate::Error;
 use symplectic_core::solver::FixedPoint;
 use symplectic_core::system::Conservative;
-use symplectic_core::{Error, General, Hamiltonian, State, System, Vector};
+use symplectic_core::{General, Hamiltonian, State, System, Vector};
 
 /// The Hamiltonian `K = σ(q)(H + p_t)` of Poincaré's time transformation (Hairer 1997; Reich 1999), for any H and any [`Monitor`] σ, in a
 /// fictitious time τ:
@@ -27,9 +28,9 @@ use symplectic_core::{Error, General, Hamiltonian, State, System, Vector};
 /// whose vectors have one component more than those of the system; [`reduce`](Self::reduce) returns the state at time t.
 ///
 /// ```
-/// use symplectic::adaptive::{DistancePower, Poincare};
+/// use symplectic::adaptive::{DistancePower, Error, Poincare};
 /// use symplectic::nalgebra::Vector3;
-/// use symplectic::{Error, Event, Integrator, State};
+/// use symplectic::{Event, Integrator, State};
 ///
 /// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
 /// symplectic::hamiltonian! {
@@ -56,8 +57,8 @@ use symplectic_core::{Error, General, Hamiltonian, State, System, Vector};
 ///
 /// # Errors of steps
 ///
-/// [`Error::Monitor`] if the monitor is not finite and positive. K cannot contain a force without a potential: a system with an
-/// [applied force](Hamiltonian::applied_force) does not compile.
+/// [`Monitor`](symplectic_core::Error::Monitor) if the monitor is not finite and positive. K cannot contain a force without a
+/// potential: a system with an [applied force](Hamiltonian::applied_force) does not compile.
 pub struct Poincare<S: Hamiltonian, W> {
     system: S,
     monitor: W,
@@ -93,9 +94,8 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::OtherClass`] if the system has constraints or friction,
-    /// [`Error::NoEnergy`], [`Error::Monitor`], [`Error::Length`] if the vectors of type `V` cannot have one component more than those of
-    /// the system.
+    /// [`Error::Core`] with `Dimension`, `NonFiniteState`, `NoEnergy`, `Monitor`, `OtherClass` if the system has constraints or friction,
+    /// `Length` if the vectors of type `V` cannot have one component more than those of the system.
     pub fn extend<V: Vector<Scalar = f64>>(
         &self,
         state: &State<S::Vector<f64>>,
@@ -109,7 +109,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`], [`Error::Length`].
+    /// [`Error::Core`] with `Dimension`, `NonFiniteState` or `Length`.
     pub fn reduce<V: Vector<Scalar = f64>>(
         &self,
         state: &State<V>,
@@ -225,15 +225,17 @@ where
         Some(found.unwrap_or(f64::NAN))
     }
 
-    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+    fn check_dimension(&self, dimension: usize) -> Result<(), symplectic_core::Error> {
         self.system.check_dimension(dimension.saturating_sub(1))
     }
 
-    fn explain(&self, error: Error, q: &V) -> Error {
+    fn explain(&self, error: symplectic_core::Error, q: &V) -> symplectic_core::Error {
         match (self.fault.take(), error) {
-            (Some(value), Error::NonFinite { .. } | Error::NoConvergence { .. }) => {
-                monitor_at(parted(q).1)(value)
-            }
+            (
+                Some(value),
+                symplectic_core::Error::NonFinite { .. }
+                | symplectic_core::Error::NoConvergence { .. },
+            ) => monitor_at(parted(q).1)(value),
             (_, error) => error,
         }
     }

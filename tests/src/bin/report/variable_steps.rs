@@ -1,8 +1,8 @@
 //! Steps of variable size that keep the structure, in the scenes with close encounters.
 
-use symplectic::adaptive::{AdaptiveSteps, Logarithmic, Monitor};
+use symplectic::adaptive::{AdaptiveSteps, Error, Logarithmic, Monitor};
 use symplectic::nalgebra::SVector;
-use symplectic::{Error, Event, Hamiltonian, Integrator, Separable, State, Statistics, System};
+use symplectic::{Event, Hamiltonian, Integrator, Separable, State, Statistics, System};
 use symplectic_report::{Finish, Ladder, Observe, Problem};
 use symplectic_tests::methods::{Gauss8, KahanLi8Drift};
 

@@ -2,12 +2,9 @@
 
 use super::check_even;
 use super::dual_vector::halves;
-use crate::error::Error;
-use crate::integrator::validation::check_state;
-use crate::integrator::{Checkpoint, CheckpointError};
-use crate::number::words::{Visit, Words, words};
-use crate::number::{Scalar, Vector};
-use crate::state::State;
+use crate::Error;
+use symplectic_core::inside::{Visit, Words, check_state, words};
+use symplectic_core::{Checkpoint, CheckpointError, Scalar, State, Vector};
 
 /// MEGNO, the mean exponential growth factor of nearby orbits, and the largest Lyapunov exponent, from the growth of a
 /// [displacement](super::Tangent) `δ(t)`:
@@ -80,8 +77,8 @@ impl Megno {
     ///
     /// # Errors
     ///
-    /// [`Error::NonFiniteState`]; [`Error::Dimension`] if position and momentum differ in dimension, [`Error::Length`]
-    /// if it is odd; [`Error::NoDisplacement`] for a zero displacement.
+    /// [`Error::NoDisplacement`] for a zero displacement. [`Error::Core`] with `NonFiniteState`, `Dimension` if position and momentum differ
+    /// in dimension, `Length` if it is odd.
     pub fn new<W: Vector<Scalar = f64>>(start: &State<W>) -> Result<Self, Error> {
         check_even(&start.q)?;
         check_state(start.time, &start.q, &start.p, start.q.dimension())?;

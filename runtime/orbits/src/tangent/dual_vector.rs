@@ -4,8 +4,8 @@ use alloc::vec;
 
 use num_traits::Zero;
 
-use crate::number::Vector;
-use crate::number::dual::Dual;
+use symplectic_core::Vector;
+use symplectic_core::inside::Dual;
 
 /// The first and the second half of the components.
 #[cfg_attr(not(debug_assertions), inline(always))]

@@ -1,12 +1,11 @@
 //! The errors of flows.
 
-use super::Quantity;
-use super::phrases::Short;
+use symplectic_core::Quantity;
+use symplectic_core::inside::{Short, debug_by_message};
 
-crate::error::debug::debug_by_message!(FlowError);
+debug_by_message!(FlowError);
 
-/// The reason why a `Flow` failed; an integrator adds the step, in
-/// [`Error::Flow`](crate::Error::Flow).
+/// The reason why a [`Flow`](crate::Flow) failed; an integrator adds the step, in [`Error::Flow`](crate::Error::Flow).
 #[derive(Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FlowError {

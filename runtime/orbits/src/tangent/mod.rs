@@ -6,19 +6,18 @@
 mod dual_vector;
 mod megno;
 
+pub use crate::error::Error;
 pub use megno::Megno;
 
 use alloc::vec;
 
 use dual_vector::{halves, halves_mut, joined, part, zeros};
 
-use crate::error::{Error, Quantity};
-use crate::integrator::validation::{check_start, check_state};
-use crate::number::dual::Dual;
-use crate::number::{Lanes, Scalar, Vector};
-use crate::solver::Automatic;
-use crate::state::State;
-use crate::system::{Class, Conservative, Hamiltonian, LaneWork, OverEveryScalar, System, first};
+use symplectic_core::inside::{Dual, check_start, check_state, first};
+use symplectic_core::simd::Lanes;
+use symplectic_core::solver::Automatic;
+use symplectic_core::system::{Conservative, LaneWork, OverEveryScalar};
+use symplectic_core::{Class, Hamiltonian, Quantity, Scalar, State, System, Vector};
 
 /// A system together with its variational equations, for positions `(q, δq)` and momenta `(δp, p)`:
 ///
@@ -40,18 +39,18 @@ use crate::system::{Class, Conservative, Hamiltonian, LaneWork, OverEveryScalar,
 ///
 /// Limits: systems with friction or constraints, closures and chains have no tangent system. Dynamic vectors are allocated in every
 /// evaluation; prefer fixed sizes. If velocity or force is not differentiable, such as `|x|` at zero written as a root, a step
-/// fails with [`Error::NonFinite`].
+/// fails with [`NonFinite`](symplectic_core::Error::NonFinite).
 ///
 /// A displacement is a direction. Choose it no longer than the state: a new integrator checks whether the velocity is
 /// linear in the momentum, relative to the largest component. Explicit methods work with any shorter length; a
-/// displacement of length 10⁻³⁰⁰ may grow by 10⁶⁰⁰ before a run ends with [`Error::NonFinite`]. The iteration of an
+/// displacement of length 10⁻³⁰⁰ may grow by 10⁶⁰⁰ before a run ends with this error. The iteration of an
 /// implicit method stops when the largest components no longer change. There, use a displacement about as long as the
 /// state and compensated sums, which remain accurate for a growth by 10¹⁰.
 ///
 /// ```
 /// use symplectic::nalgebra::{SVector, Vector2};
-/// use symplectic::tangent::{Megno, Tangent};
-/// use symplectic::{Error, Integrator, State};
+/// use symplectic::tangent::{Error, Megno, Tangent};
+/// use symplectic::{Integrator, State};
 ///
 /// symplectic::tableau! { ForestRuth { base: forest-ruth-1990 } }
 /// symplectic::hamiltonian! {
@@ -100,8 +99,8 @@ impl<S: Hamiltonian> Tangent<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::Dimension`], [`Error::NonFiniteState`]; [`Error::NoDisplacement`] for a zero displacement;
-    /// [`Error::Length`] if the vectors `W` do not have twice the dimension of the system.
+    /// [`Error::NoDisplacement`] for a zero displacement. [`Error::Core`] with `Dimension`, `NonFiniteState`, or `Length` if the vectors `W`
+    /// do not have twice the dimension of the system.
     pub fn start<W: Vector<Scalar = f64>>(
         &self,
         state: &State<S::Vector<f64>>,
@@ -110,9 +109,11 @@ impl<S: Hamiltonian> Tangent<S> {
         let dimension = state.q.dimension();
         check_start(&self.0, state)?;
         check_state(state.time, dq, dp, dimension).map_err(|error| match error {
-            Error::NonFiniteState { .. } => Error::NonFiniteState {
-                what: Quantity::Displacement,
-            },
+            symplectic_core::Error::NonFiniteState { .. } => {
+                symplectic_core::Error::NonFiniteState {
+                    what: Quantity::Displacement,
+                }
+            }
             error => error,
         })?;
         let mut parts = dq.as_slice().iter().chain(dp.as_slice());
@@ -130,7 +131,7 @@ impl<S: Hamiltonian> Tangent<S> {
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] if the vectors `W` do not have twice the dimension of the system.
+    /// [`Error::Core`] with `Length` if the vectors `W` do not have twice the dimension of the system.
     pub fn state<W: Vector<Scalar = f64>>(
         &self,
         state: &State<W>,
@@ -159,9 +160,9 @@ impl<S: Hamiltonian> Tangent<S> {
 }
 
 /// Checks that the dimension is even.
-fn check_even<W: Vector>(vector: &W) -> Result<(), Error> {
+fn check_even<W: Vector>(vector: &W) -> Result<(), symplectic_core::Error> {
     match vector.dimension() {
-        found if found % 2 == 1 => Err(Error::Length {
+        found if found % 2 == 1 => Err(symplectic_core::Error::Length {
             expected: found + 1,
             found,
         }),
@@ -216,7 +217,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Vector> System<W> for Tangent<S> {
     const DISPLACED: bool = true;
     const INLINED: bool = S::INLINED;
 
-    fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+    fn check_dimension(&self, dimension: usize) -> Result<(), symplectic_core::Error> {
         self.0.check_dimension(dimension / 2)
     }
 
@@ -271,15 +272,17 @@ impl<S: Hamiltonian<Class: Conservative>, W: Vector> System<W> for Tangent<S> {
     }
 
     /// Replaces the error if the vectors of the system have another dimension.
-    fn explain(&self, error: Error, q: &W) -> Error {
+    fn explain(&self, error: symplectic_core::Error, q: &W) -> symplectic_core::Error {
         if let Err(odd) = check_even(q) {
             return odd;
         }
         match S::Vector::from_slice(&vec![0.0; q.dimension() / 2]) {
-            Err(Error::Length { expected, .. }) => Error::Length {
-                expected: 2 * expected,
-                found: q.dimension(),
-            },
+            Err(symplectic_core::Error::Length { expected, .. }) => {
+                symplectic_core::Error::Length {
+                    expected: 2 * expected,
+                    found: q.dimension(),
+                }
+            }
             _ => error,
         }
     }
