@@ -87,7 +87,7 @@ fn counted<M: Method, S: symplectic::System<DVector<f64>>, N: Solver<DVector<f64
     })
 }
 
-fn counted_in(action: impl FnOnce() -> Result<(), Error>) -> Result<usize, Error> {
+fn counted_in<E>(action: impl FnOnce() -> Result<(), E>) -> Result<usize, E> {
     let region = Region::new(ALLOCATOR);
     action()?;
     let change = region.change();

@@ -1,8 +1,8 @@
 //! The scenes with constraints, friction and forces, one function each.
 
 use symplectic::nalgebra::{Matrix3, SVector};
-use symplectic::rotation::RotationSteps;
-use symplectic::variational::{DiracRule, DiracSteps};
+use symplectic::rotation::{self, RotationSteps};
+use symplectic::variational::{self, DiracRule, DiracSteps};
 use symplectic::{Error, Integrator, StoermerVerletSteps};
 use symplectic_report::{Finish, Ladder, Observe, Problem, Reference, Study};
 use symplectic_tests::methods::{
@@ -155,7 +155,7 @@ fn circuit_run(
     end: f64,
     size: f64,
     observe: Option<Observe<'_, SVector<f64, 4>>>,
-) -> Result<Finish<SVector<f64, 4>>, Error> {
+) -> Result<Finish<SVector<f64, 4>>, variational::Error> {
     let (system, start) = (circuit::Circuit::default(), circuit::start());
     // Equal steps, the last of which ends at `end`.
     let steps = (end / size).ceil();
@@ -274,7 +274,7 @@ fn top_run<M: StoermerVerletSteps>(
     end: f64,
     size: f64,
     observe: Option<Observe<'_, Matrix3<f64>>>,
-) -> Result<Finish<Matrix3<f64>>, Error> {
+) -> Result<Finish<Matrix3<f64>>, rotation::Error> {
     // Equal steps, the last of which ends at `end`.
     let steps = (end / size).ceil();
     let size = end / steps;
