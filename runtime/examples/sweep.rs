@@ -64,7 +64,7 @@ fn evaluations(tableau: &RunTimeTableau) -> Option<u64> {
     while size > 1e-4 {
         size /= 1.25;
         let mut integrator =
-            Integrator::plain_at_run_time(tableau, Kepler, start.clone(), size).ok()?;
+            Integrator::plain(tableau.clone(), Kepler, start.clone(), size).ok()?;
         // Long steps may not converge.
         let Ok(last) = integrator.integrate_to(end) else {
             continue;

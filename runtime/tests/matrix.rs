@@ -15,8 +15,8 @@ use symplectic::solver::{
 };
 use symplectic::system::{Conservative, SystemInLanes, Unconstrained};
 use symplectic::{
-    AtRunTime, Checkpoint, Compensated, Error, General, Integrator, Method, Plain, ProvedFor,
-    RunTimeTableau, Separable, State, Statistics, Summation, System, TableauError,
+    Checkpoint, Compensated, Error, General, Integrator, Method, Plain, ProvedFor, RunTimeTableau,
+    Separable, State, Statistics, Summation, System, TableauError,
 };
 
 type Point = State<Vector2<f64>>;
@@ -111,7 +111,7 @@ methods! {
     }
 }
 
-fn separable<M: Method + ProvedFor<Separable>>(method: M, row: Row) -> Result<(), Error> {
+fn separable<M: Method + Copy + ProvedFor<Separable>>(method: M, row: Row) -> Result<(), Error> {
     let fuse = &Fuse::never();
     let (name, order) = (M::NAME, row.orders[0]);
     assert_eq!(M::ORDERS.separable, order, "{name}");
@@ -129,7 +129,7 @@ fn separable<M: Method + ProvedFor<Separable>>(method: M, row: Row) -> Result<()
     at_run_time(cell, method, PulsatingStar(fuse))
 }
 
-fn general<M: Method + ProvedFor<General>>(method: M, row: Row) -> Result<(), Error> {
+fn general<M: Method + Copy + ProvedFor<General>>(method: M, row: Row) -> Result<(), Error> {
     let fuse = &Fuse::never();
     let (name, order) = (M::NAME, row.orders[1]);
     assert_eq!(M::ORDERS.general, order, "{name}");
@@ -211,7 +211,7 @@ type Made<'f, 'a> = &'f dyn Fn(Point, f64) -> Result<Box<dyn Run<'a> + 'a>, Erro
 /// All solvers, each against the iteration stage by stage.
 fn solvers<'a, M, S, R: Summation>(cell: Cell<'_>, method: M, system: S) -> Result<(), Error>
 where
-    M: Method + ProvedFor<<S as System<Vector2<f64>>>::Class>,
+    M: Method + Copy + ProvedFor<<S as System<Vector2<f64>>>::Class>,
     S: SystemInLanes<Vector2<f64>> + Copy + 'a,
 {
     let made = |start: Point, size: f64| {
@@ -255,7 +255,7 @@ where
 /// The same coefficients as a tableau that is known only at run time, with both sums. A tableau that is not symplectic is refused.
 fn at_run_time<'a, M, S>(cell: Cell<'_>, method: M, system: S) -> Result<(), Error>
 where
-    M: Method + ProvedFor<<S as System<Vector2<f64>>>::Class>,
+    M: Method + Copy + ProvedFor<<S as System<Vector2<f64>>>::Class>,
     S: System<Vector2<f64>, Class: Conservative> + Copy + 'a,
 {
     let coefficients = coefficients(method);
@@ -276,10 +276,10 @@ where
     let mut compiled = Integrator::new(method, system, start(), SIZE)?;
     let expected = compiled.take_steps(20)?;
     let compensated = solvers_at_run_time(cell, |start, size| {
-        Integrator::at_run_time(tableau, system, start, size)
+        Integrator::new(tableau.clone(), system, start, size)
     })?;
     let plain = solvers_at_run_time(cell, |start, size| {
-        Integrator::plain_at_run_time(tableau, system, start, size)
+        Integrator::plain(tableau.clone(), system, start, size)
     })?;
     for (number, found) in compensated.iter().chain(&plain).enumerate() {
         let apart = distance(found, expected);
@@ -292,7 +292,7 @@ where
 /// All solvers of a tableau at run time.
 fn solvers_at_run_time<'a, S, R>(
     cell: Cell<'_>,
-    made: impl Fn(Point, f64) -> Result<Integrator<AtRunTime, S, Vector2<f64>, R>, Error>,
+    made: impl Fn(Point, f64) -> Result<Integrator<RunTimeTableau, S, Vector2<f64>, R>, Error>,
 ) -> Result<[Point; 3], Error>
 where
     S: System<Vector2<f64>, Class: Conservative> + Copy + 'a,

@@ -39,7 +39,7 @@ fn errors(state: &Rods) -> [f64; 2] {
 /// The largest errors over a run.
 fn constraints<M>(method: M, steps: u64) -> Outcome
 where
-    M: Method + ProvedFor<Constrained<Separable>>,
+    M: Method + Copy + ProvedFor<Constrained<Separable>>,
 {
     let mut run = Integrator::new(method, OnRods::new(), on_rods(&start()), STEP_SIZE)?;
     let mut largest = [0.0_f64; 2];

@@ -85,7 +85,7 @@ struct Ensemble<'a, S, V> {
 
 impl<S: SystemInLanes<V> + Copy, V: Vector<Scalar = f64>> Ensemble<'_, S, V> {
     /// A row for each kind of sums, and one with both halves of the stages in turn.
-    fn rows<M: Method + ProvedFor<<S as System<V>>::Class>>(
+    fn rows<M: Method + Copy + ProvedFor<<S as System<V>>::Class>>(
         &self,
         method: M,
         step_size: f64,
@@ -101,7 +101,7 @@ impl<S: SystemInLanes<V> + Copy, V: Vector<Scalar = f64>> Ensemble<'_, S, V> {
     }
 
     /// A row for each kind of sums, by the solver that the types choose.
-    fn compensated_and_plain<M: Method + ProvedFor<<S as System<V>>::Class>>(
+    fn compensated_and_plain<M: Method + Copy + ProvedFor<<S as System<V>>::Class>>(
         &self,
         method: M,
         step_size: f64,

@@ -36,7 +36,7 @@ fn main() -> Result<(), Error> {
 }
 
 /// Adds the runs of one method with the `step_sizes`.
-fn run<M: Method>(
+fn run<M: Method + Copy>(
     table: &mut Table,
     name: &str,
     method: M,

@@ -34,7 +34,7 @@ fn main() -> Result<(), Error> {
 }
 
 /// Adds the runs of one method with the `step_sizes`, in days.
-fn run<M: Method>(
+fn run<M: Method + Copy>(
     table: &mut Table,
     name: &str,
     method: M,

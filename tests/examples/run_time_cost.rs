@@ -76,11 +76,10 @@ fn row<M, S, V, R>(
     (start, step_size, steps): (&State<V>, f64, u64),
 ) -> Result<f64, Box<dyn Error>>
 where
-    M: Method + ProvedFor<S::Class>,
+    M: Method + Copy + ProvedFor<S::Class>,
     S: System<V, Class: Conservative> + Clone,
     V: Vector,
     R: Summation,
-    Integrator<symplectic::AtRunTime, S, V, R>: Made<S, V>,
 {
     let tableau = derived(method)?;
     let emitted = || {
@@ -88,8 +87,8 @@ where
     };
     let mut default = emitted()?;
     let mut one_by_one = emitted()?.with_solver(FixedPoint);
-    let mut at_run_time = Integrator::<symplectic::AtRunTime, S, V, R>::made(
-        &tableau,
+    let mut at_run_time = Integrator::<RunTimeTableau, S, V, R>::with_summation(
+        tableau,
         system.clone(),
         start.clone(),
         step_size,
@@ -111,22 +110,21 @@ fn stiff_row<M, R: Summation>(
     (start, step_size, steps): (&State<DVector<f64>>, f64, u64),
 ) -> Result<f64, Box<dyn Error>>
 where
-    M: Method + ProvedFor<symplectic::Separable>,
-    Integrator<symplectic::AtRunTime, StiffSprings, DVector<f64>, R>:
-        Made<StiffSprings, DVector<f64>>,
+    M: Method + Copy + ProvedFor<symplectic::Separable>,
 {
     let tableau = derived(method)?;
     let (system, start) = (StiffSprings::new(1e6), || start.clone());
     let emitted =
         Integrator::<M, StiffSprings, _, R>::with_summation(method, system, start(), step_size)?;
     let mut emitted = emitted.by_newton();
-    let mut at_run_time = Integrator::<symplectic::AtRunTime, StiffSprings, DVector<f64>, R>::made(
-        &tableau,
-        system,
-        start(),
-        step_size,
-    )?
-    .by_newton();
+    let mut at_run_time =
+        Integrator::<RunTimeTableau, StiffSprings, DVector<f64>, R>::with_summation(
+            tableau,
+            system,
+            start(),
+            step_size,
+        )?
+        .by_newton();
     let mut times = [const { Vec::new() }; 2];
     for _ in 0..ROUNDS {
         times[0].push(time(&mut emitted, steps)?);
@@ -166,32 +164,6 @@ fn print<M: Method, R: Summation>(
     );
     ratio
 }
-
-/// The constructor for either sums.
-trait Made<S, V: Vector>: Sized {
-    fn made(
-        tableau: &RunTimeTableau,
-        system: S,
-        state: State<V>,
-        step_size: f64,
-    ) -> Result<Self, symplectic::Error>;
-}
-
-macro_rules! made {
-    ($($sums:ident $constructor:ident),+) => {$(
-        impl<S: System<V, Class: Conservative>, V: Vector> Made<S, V> for Integrator<symplectic::AtRunTime, S, V, symplectic::$sums> {
-            fn made(
-                tableau: &RunTimeTableau,
-                system: S,
-                state: State<V>,
-                step_size: f64,
-            ) -> Result<Self, symplectic::Error> {
-                Self::$constructor(tableau, system, state, step_size)
-            }
-        }
-    )+};
-}
-made!(Plain plain_at_run_time, Compensated at_run_time);
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!(

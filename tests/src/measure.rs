@@ -75,7 +75,7 @@ pub fn measure<M, S, V>(
     step_size: f64,
 ) -> Result<Measurement<V>, Error>
 where
-    M: Method,
+    M: Method + Copy,
     S: System<V, Class = Separable> + Clone,
     V: Vector<Scalar = f64>,
 {

@@ -49,7 +49,7 @@ static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
 /// Allocations in a hundred steps and one run to an end.
 fn allocations<
-    M: Method + ProvedFor<S::Class>,
+    M: Method + Copy + ProvedFor<S::Class>,
     S: symplectic::System<DVector<f64>>,
     N: Solver<DVector<f64>, S>,
 >(
@@ -71,7 +71,7 @@ fn at_run_time<S: symplectic::System<DVector<f64>, Class: Conservative>>(
     let q = DVector::from_fn(40, |i, _| (i as f64).sin());
     let start = State::new(0.0, q.clone(), -q);
     let tableau = tableau(nodes, &symplectic_compiler::derive(basis, nodes)?)?;
-    let made = || Integrator::at_run_time(&tableau, system(), start.clone(), 0.01);
+    let made = || Integrator::new(tableau.clone(), system(), start.clone(), 0.01);
     let newton = Newton::<Dense<Differences>>::new();
     Ok(counted(made()?)? + counted(made()?.with_solver(newton))?)
 }
@@ -95,7 +95,7 @@ fn counted_in<E>(action: impl FnOnce() -> Result<(), E>) -> Result<usize, E> {
 }
 
 /// Allocations in an ensemble of short runs, for each of the last 8192 of 9216 trajectories.
-fn of_a_trajectory<M: Method + ProvedFor<Separable>, L: Lanes>(
+fn of_a_trajectory<M: Method + Copy + ProvedFor<Separable>, L: Lanes>(
     method: M,
     lanes: impl Fn(
         Ensemble<M, Kepler, SVector<f64, 2>>,

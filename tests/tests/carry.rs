@@ -20,7 +20,7 @@ symplectic::tableau! {
 
 /// Runs a few steps in a row, and the same steps each begun anew from the state so far; they may differ by as many units
 /// of rounding. With plain sums, for a state that is put in leaves nothing out.
-fn compare<M: Method>(method: M, units: f64) -> Result<(), Error> {
+fn compare<M: Method + Copy>(method: M, units: f64) -> Result<(), Error> {
     let system = || {
         separable::<Vector1<f64>, _, _>(
             |_, p, velocity| velocity[0] = p[0] + p[0].powi(3) / 7.0,

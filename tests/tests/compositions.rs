@@ -128,7 +128,7 @@ fn different_methods_follow_one_another() -> Result<(), Error> {
         start: &State<V>,
         h: f64,
     ) -> Result<State<V>, Error> {
-        fn one<M: Method + ProvedFor<S::Class>, S: System<V>, V: symplectic::Vector>(
+        fn one<M: Method + Copy + ProvedFor<S::Class>, S: System<V>, V: symplectic::Vector>(
             method: M,
             system: S,
             start: State<V>,
@@ -156,7 +156,7 @@ fn different_methods_follow_one_another() -> Result<(), Error> {
 #[test]
 fn the_order_is_seen() -> Result<(), Error> {
     const END: f64 = 8.0;
-    fn slope<M: Method>(method: M, rates: [f64; 3]) -> Result<ObservedOrder, Error> {
+    fn slope<M: Method + Copy>(method: M, rates: [f64; 3]) -> Result<ObservedOrder, Error> {
         let reference = exact(0.3, END);
         let run = |rate: f64| -> Result<(f64, f64), Error> {
             let end = integrate(method, Kepler, &start(0.3), END, rate.recip())?;

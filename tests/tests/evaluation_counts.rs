@@ -14,7 +14,7 @@ use symplectic_tests::scenes::kepler;
 const STEPS: u64 = 100;
 
 /// Evaluations of force and velocity and sweeps in [`STEPS`] steps of Kepler's problem.
-fn evaluations<M: Method>(method: M) -> Result<(u64, u64, u64), Error> {
+fn evaluations<M: Method + Copy>(method: M) -> Result<(u64, u64, u64), Error> {
     let counts = Counts::default();
     let system = Counting::new(kepler::Kepler, &counts);
     let mut integrator = Integrator::new(method, system, kepler::start::<f64>(0.6), 0.05)?;
@@ -243,7 +243,7 @@ fn order<M, S>(
     reference: &State<Vector1<f64>>,
 ) -> Result<ObservedOrder, Error>
 where
-    M: Method,
+    M: Method + Copy,
     S: System<Vector1<f64>, Class = Separable> + Copy,
 {
     let mut errors = Vec::new();

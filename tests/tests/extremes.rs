@@ -34,7 +34,7 @@ enum Outcome {
 }
 
 /// Steps until the end or an error. After every step, and after an error, the state has to be finite.
-fn run<M: Method + ProvedFor<S::Class>, S: System<V>, V: Vector<Scalar = f64>>(
+fn run<M: Method + Copy + ProvedFor<S::Class>, S: System<V>, V: Vector<Scalar = f64>>(
     method: M,
     system: S,
     start: State<V>,
@@ -253,7 +253,7 @@ fn steps_do_not_depend_on_the_scale_of_the_state() -> Result<(), Error> {
 
 #[test]
 fn symmetric_methods_return_to_the_start() -> Result<(), Error> {
-    fn returns<M: Method>(method: M) -> Result<f64, Error> {
+    fn returns<M: Method + Copy>(method: M) -> Result<f64, Error> {
         let begin = start::<f64>(0.6);
         let mut integrator = Integrator::new(method, Kepler, begin.clone(), 0.01)?;
         integrator.integrate_to(20.0)?;

@@ -12,7 +12,12 @@ const ECCENTRICITY: f64 = 0.6;
 const END: f64 = 125.0;
 
 /// Runs with 1/`rates` as step sizes: the errors of position and energy fall with `order`, and the latter does not grow.
-fn check<M: Method>(method: M, order: f64, tolerance: f64, rates: &[f64]) -> Result<(), Error> {
+fn check<M: Method + Copy>(
+    method: M,
+    order: f64,
+    tolerance: f64,
+    rates: &[f64],
+) -> Result<(), Error> {
     let reference = exact(ECCENTRICITY, END);
     let (mut positions, mut energies) = (Vec::new(), Vec::new());
     for rate in rates {
@@ -69,7 +74,7 @@ fn gauss_4_has_order_8() -> Result<(), Error> {
 
 /// The angular momentum is bilinear in (q, p): a symplectic partitioned method conserves it exactly, so what is lost is
 /// rounding. A step rounds q and p by a few ε/2, all with one sign at worst.
-fn conserves<M: Method>(method: M, step_size: f64) -> Result<(), Error> {
+fn conserves<M: Method + Copy>(method: M, step_size: f64) -> Result<(), Error> {
     let start = start(ECCENTRICITY);
     let before: f64 = angular_momentum(&start);
     let (mut error, mut scale) = (0.0_f64, 0.0_f64);

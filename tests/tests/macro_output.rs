@@ -296,7 +296,7 @@ fn methods_of_all_tiers_step() -> Result<(), Error> {
     use symplectic::nalgebra::SVector;
     use symplectic::{State, hamiltonian};
 
-    fn area<M: Method + ProvedFor<General>>(method: M) -> Result<f64, Error> {
+    fn area<M: Method + Copy + ProvedFor<General>>(method: M) -> Result<f64, Error> {
         type Vector = SVector<f64, 1>;
         let step = |q: f64, p: f64| {
             let system = hamiltonian(

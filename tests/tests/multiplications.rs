@@ -37,7 +37,7 @@ impl System<Vector1<Strict>> for Falling {
 }
 
 /// Products in the second step, and the sweeps it took.
-fn second_step<M: Method>(method: M) -> Result<(u64, u64), Error> {
+fn second_step<M: Method + Copy>(method: M) -> Result<(u64, u64), Error> {
     let start = State::new(0.0, Vector1::new(Strict(3.0)), Vector1::new(Strict(2.0)));
     let mut integrator = Integrator::new(method, Falling, start, 0.125)?;
     integrator.step()?;

@@ -41,7 +41,7 @@ fn the_reference_is_good_to_rounding() -> Result<(), Error> {
 
 /// Runs with all `step_sizes`: the position error falls with `order`, and the energy error neither grows in time nor
 /// differs from `order`.
-fn check<M: Method>(
+fn check<M: Method + Copy>(
     method: M,
     order: f64,
     tolerance: f64,
@@ -99,7 +99,7 @@ fn gauss_4_has_order_8_and_bounded_energy() -> Result<(), Error> {
 
 /// Momentum and angular momentum are linear and bilinear in (q, p): a symplectic partitioned method conserves them
 /// exactly, so what is lost is rounding. A step rounds a component of the state by a few ε/2, all with one sign at worst.
-fn conserves<M: Method>(method: M, step_size: f64) -> Result<(), Error> {
+fn conserves<M: Method + Copy>(method: M, step_size: f64) -> Result<(), Error> {
     let start = start();
     let before = (total_momentum(&start), angular_momentum(&start));
     let norm = |body: usize, v: &SVector<f64, COORDINATES>| v.fixed_rows::<3>(3 * body).norm();

@@ -69,7 +69,10 @@ fn points_do_not_depend_on_the_steps() -> Result<(), Error> {
     for (a, b) in reference.iter().zip(&other).take(20) {
         assert!((a.q - b.q).norm() < 1e-11 && (a.p - b.p).norm() < 1e-11);
     }
-    fn next<M: symplectic::Method>(method: M, step_size: f64) -> Result<Option<Point>, Error> {
+    fn next<M: symplectic::Method + Copy>(
+        method: M,
+        step_size: f64,
+    ) -> Result<Option<Point>, Error> {
         let start = on_section(ENERGY, 0.2, 0.0);
         let mut integrator = Integrator::new(method, HenonHeiles, start, step_size)?;
         integrator.find_event(100.0, &Event::rising(first).by_steps())

@@ -9,7 +9,7 @@ use symplectic_tests::scenes::kepler;
 const STEPS: u64 = 20;
 
 /// Evaluations of force and velocity in [`STEPS`] steps of Kepler's problem, and sweeps of an iteration.
-fn evaluations<M: Method>(method: M) -> Result<[u64; 3], Error> {
+fn evaluations<M: Method + Copy>(method: M) -> Result<[u64; 3], Error> {
     let counts = Counts::default();
     let system = Counting::new(kepler::Kepler, &counts);
     let mut integrator = Integrator::new(method, system, kepler::start::<f64>(0.2), 0.01)?;

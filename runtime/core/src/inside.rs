@@ -18,11 +18,7 @@ pub use crate::integrator::first_step::{OfTheCore, or_as_first_step};
 pub use crate::integrator::last_step::LastEvent;
 pub use crate::integrator::parts::{Parts, parts_of};
 pub use crate::integrator::stepper::advance_in_time;
-#[cfg(feature = "alloc")]
-pub use crate::integrator::validation::check_orders;
-pub use crate::integrator::validation::{
-    check_quadratic_kinetic, check_start, check_state, check_step_size,
-};
+pub use crate::integrator::validation::{check_start, check_state, check_step_size};
 
 pub use crate::method::diagnosis::{Attempt, FirstFault};
 pub use crate::method::storage::{
@@ -53,15 +49,14 @@ pub use crate::output::at_times::{Output, is_after};
 #[cfg(feature = "alloc")]
 pub use crate::solver::convergence::{Progress, ROUNDING, STAGNATION, non_finite};
 pub use crate::solver::fixed_point::by_stages;
-#[cfg(feature = "alloc")]
-pub use crate::solver::run_time::by_rows;
 
 #[cfg(feature = "alloc")]
 pub use crate::system::lane_registers::{may_be_found, over_lanes_of, widest, width};
 pub use crate::system::linearity::non_linear_velocity;
 
-/// The schedule of a tableau at run time.
+/// The coefficients of a tableau at run time.
 #[cfg(feature = "alloc")]
-pub mod run_time {
-    pub use crate::method::run_time::{Coupled, Half, coupled};
+pub mod rows {
+    pub use crate::contract::CoupledRows;
+    pub use crate::contract::rows::{HalfRows, RowDecoupling};
 }

@@ -42,7 +42,7 @@ pub use integrator::{
     RemainingSteps, Retry, Run, Statistics, StepMap, Stepper,
 };
 #[cfg(feature = "alloc")]
-pub use method::{AtRunTime, RunTimeCoefficients, RunTimeTableau, TableauError};
+pub use method::{RunTimeCoefficients, RunTimeTableau, TableauError};
 pub use method::{composition, splitting, tableau};
 pub use nalgebra;
 pub use num_traits;

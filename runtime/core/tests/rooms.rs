@@ -21,16 +21,9 @@ const LEVELS: &[&[&str]] = &[
     &["inside"],
 ];
 
-/// The imports that run up: the contract names tableaux that are read at run time.
-const UPWARD: &[(&str, &str)] = &[
-    ("contract/lane_stages.rs", "method"),
-    ("contract/plan.rs", "method"),
-    ("contract/storage.rs", "method"),
-];
-
 const ROOMS: Rooms = Rooms {
     levels: LEVELS,
-    may: |file, import| UPWARD.contains(&(file, import)),
+    may: |_, _| false,
     is_of_tests: |_| false,
 };
 

@@ -4,7 +4,7 @@ use alloc::string::String;
 
 use crate::Ensemble;
 use symplectic_core::solver::Solver;
-use symplectic_core::{Method, RunTimeTableau, Summation, System, Vector};
+use symplectic_core::{Method, Summation, System, Vector};
 
 /// The origin of the numbers of a file.
 pub(super) struct Facts<'a> {
@@ -25,10 +25,9 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L>
     Ensemble<M, S, V, R, N, L>
 {
     pub(super) fn method_facts(&self) -> Facts<'_> {
-        let tableau = self.tableau.as_ref();
-        let orders = tableau.map_or(M::ORDERS, RunTimeTableau::orders);
+        let orders = self.method.orders();
         Facts {
-            method: tableau.map_or(M::NAME, RunTimeTableau::name),
+            method: self.method.name(),
             definition: M::DEFINITION,
             orders: [orders.general, orders.separable, orders.nystrom].map(u64::from),
             step_size: self.step_size,

@@ -75,7 +75,6 @@ mod pool;
 mod registers;
 mod row;
 mod run;
-mod run_time;
 mod shards;
 
 pub use checkpoint::EnsembleCheckpoint;
@@ -99,9 +98,7 @@ use core::ops::Range;
 use symplectic_core::inside::Widest;
 use symplectic_core::simd::{DefaultLanes, Lanes};
 use symplectic_core::solver::{Solver, Stopping};
-use symplectic_core::{
-    Compensated, Error, Method, Plain, Retry, RunTimeTableau, State, Summation, System, Vector,
-};
+use symplectic_core::{Compensated, Error, Method, Plain, Retry, State, Summation, System, Vector};
 
 /// Type parameters without stored values; `fn()` keeps the ensemble `Send` and `Sync`.
 type Kind<M, R, N, L> = fn() -> (M, R, N, L);
@@ -151,8 +148,7 @@ where
     lanes: Wanted,
     registers: Widest,
     stop: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
-    /// The method, if its tableau is given at run time.
-    tableau: Option<RunTimeTableau>,
+    method: M,
     kind: PhantomData<Kind<M, R, N, L>>,
 }
 
@@ -230,7 +226,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
             lanes: self.lanes,
             registers: self.registers,
             stop: self.stop,
-            tableau: self.tableau,
+            method: self.method,
             kind: PhantomData,
         }
     }
@@ -295,7 +291,7 @@ impl<M: Method, S: System<V>, V: Vector, R, N, L> fmt::Debug for Ensemble<M, S, 
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter
             .debug_struct("Ensemble")
-            .field("method", &M::NAME)
+            .field("method", &self.method.name())
             .field("trajectories", &self.starts.len())
             .field("step_size", &self.step_size)
             .finish_non_exhaustive()

@@ -5,11 +5,10 @@ use alloc::vec::Vec;
 use core::marker::PhantomData;
 
 use crate::{Ensemble, EnsembleError, Wanted};
-use symplectic_core::inside::{check_quadratic_kinetic, check_step_size, widest};
+use symplectic_core::inside::{check_step_size, widest};
 use symplectic_core::solver::Stopping;
 use symplectic_core::{
-    AtRunTime, Integrator, Method, Plain, ProvedFor, Retry, RunTimeTableau, State, Summation,
-    System, Vector,
+    Class, Integrator, Method, Plain, ProvedFor, Retry, State, Summation, System, Vector,
 };
 
 impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V> {
@@ -20,7 +19,8 @@ impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V> {
     ///
     /// [`EnsembleError::Empty`] without starts, [`EnsembleError::All`] for a step size that is zero or not finite,
     /// [`EnsembleError::Dimension`] for starts of different dimensions, [`EnsembleError::Start`] for a start that
-    /// [`Integrator::new`] rejects.
+    /// [`Integrator::new`] rejects. [`EnsembleError::All`] also for a [tableau at run time](crate::RunTimeTableau) that is refused for the
+    /// class of the system.
     ///
     /// ```
     /// use symplectic::ensemble::{Ensemble, EnsembleError};
@@ -108,29 +108,24 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation> Ensemble<M, S, V, R> {
     ///
     /// As for [`new`](Ensemble::new).
     pub fn with_summation(
-        _method: M,
+        method: M,
         families: impl IntoIterator<Item = (S, Vec<State<V>>)>,
         step_size: f64,
     ) -> Result<Self, EnsembleError>
     where
         M: ProvedFor<S::Class>,
     {
-        Self::of(families, step_size, None)
-    }
-
-    /// An ensemble with the method `M`, or with a tableau at run time.
-    pub(super) fn of(
-        families: impl IntoIterator<Item = (S, Vec<State<V>>)>,
-        step_size: f64,
-        tableau: Option<&RunTimeTableau>,
-    ) -> Result<Self, EnsembleError> {
+        S::Class::check_steps(&method).map_err(EnsembleError::All)?;
+        method
+            .check_order::<S::Class>()
+            .map_err(EnsembleError::All)?;
         check_step_size(step_size).map_err(EnsembleError::All)?;
         let mut systems: Vec<(S, usize)> = Vec::new();
         let mut starts: Vec<State<V>> = Vec::new();
         for (system, mut own) in families {
             let before = starts.len();
             starts.append(&mut own);
-            check_starts::<M, S, V, R>(&system, &starts, before, step_size, tableau)?;
+            check_starts::<M, S, V, R>(&method, &system, &starts, before, step_size)?;
             systems.push((system, starts.len()));
         }
         if starts.is_empty() {
@@ -147,7 +142,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation> Ensemble<M, S, V, R> {
             lanes: Wanted::IfFaster,
             registers: widest::<V, S>(),
             stop: None,
-            tableau: tableau.cloned(),
+            method,
             kind: PhantomData,
         })
     }
@@ -155,13 +150,12 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation> Ensemble<M, S, V, R> {
 
 /// Checks the starts from index `first`, which all belong to `system`.
 fn check_starts<M: Method, S: System<V>, V: Vector, R: Summation>(
+    method: &M,
     system: &S,
     starts: &[State<V>],
     first: usize,
     step_size: f64,
-    tableau: Option<&RunTimeTableau>,
 ) -> Result<(), EnsembleError> {
-    let orders = tableau.and_then(RunTimeTableau::needs_quadratic_kinetic);
     for (trajectory, start) in starts.iter().enumerate().skip(first) {
         let (found, expected) = (start.q.dimension(), starts[0].q.dimension());
         if found != expected {
@@ -171,8 +165,7 @@ fn check_starts<M: Method, S: System<V>, V: Vector, R: Summation>(
                 expected,
             });
         }
-        Integrator::<M, S, V, R>::check(system, start, step_size)
-            .and_then(|()| check_quadratic_kinetic::<AtRunTime, V, S>(orders, system, start))
+        Integrator::<M, S, V, R>::check(method, system, start, step_size)
             .map_err(|error| EnsembleError::Start { trajectory, error })?;
     }
     Ok(())

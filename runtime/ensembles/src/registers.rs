@@ -10,7 +10,7 @@ use crate::Ensemble;
 use symplectic_core::inside::{Avx2, Avx512, Widest, may_be_found, width};
 use symplectic_core::simd::DefaultLanes;
 use symplectic_core::{
-    AtRunTime, Compensated, Masses, Method, Plain, ProvedFor, RunTimeTableau, Scalar, Separable,
+    Compensated, Masses, Method, Plain, ProvedFor, RunTimeTableau, Scalar, Separable,
     SeparableHamiltonian, State, Summation, System,
 };
 
@@ -160,8 +160,8 @@ fn run_time_tableaux_have_the_same_bits_in_all_registers() {
         RunTimeTableau::new(M::NAME, &coefficients, M::ORDERS).expect(M::NAME)
     }
     for tableau in [tableau(Verlet), tableau(Gauss4), tableau(Lobatto3)] {
-        compare::<AtRunTime, _, Compensated>(|| {
-            Ensemble::at_run_time(&tableau, Escaping, starts(37), 0.1).expect("starts")
+        compare::<RunTimeTableau, _, Compensated>(|| {
+            Ensemble::new(tableau.clone(), Escaping, starts(37), 0.1).expect("starts")
         });
     }
 }

@@ -11,8 +11,7 @@ use symplectic_core::simd::Lanes;
 use symplectic_core::solver::Solver;
 use symplectic_core::system::{Join, LaneWork};
 use symplectic_core::{
-    Error, Integrator, Method, Run, RunTimeTableau, Scalar, State, Statistics, Stepper, Summation,
-    System, Vector,
+    Error, Integrator, Method, Run, Scalar, State, Statistics, Stepper, Summation, System, Vector,
 };
 
 /// Number of steps below which lanes are slower with coupled stages.
@@ -334,14 +333,12 @@ where
         let is_wide =
             cfg!(target_feature = "avx512f") || matches!(self.registers, Widest::Avx512(_));
         // A compiled method already has its coupled stages in lanes. Twice as many components do not fit into registers.
-        let faster = self.tableau.is_some() || is_wide && !S::DISPLACED;
+        let faster = M::AT_RUN_TIME || is_wide && !S::DISPLACED;
         let coupled = faster || self.lanes == Wanted::Yes;
-        let explicit = self
-            .tableau
-            .as_ref()
-            .is_none_or(RunTimeTableau::is_explicit);
         match possible {
-            true if Integrator::<M, S, V, R, N>::LANEWISE && explicit => Way::Explicit,
+            true if Integrator::<M, S, V, R, N>::LANEWISE && self.method.is_lanewise() => {
+                Way::Explicit
+            }
             true if coupled && Integrator::<M, S, V, R, N>::goes_in_lanes() => Way::Coupled,
             _ => Way::Alone,
         }
@@ -420,12 +417,9 @@ where
     pub(super) fn integrator(&self, place: usize) -> (usize, Integrator<M, S, V, R, N>) {
         let system = self.family_of(place).0.clone();
         let start = self.starts[place].clone();
-        let mut run = Integrator::unchecked(system, start, self.step_size);
+        let mut run = Integrator::unchecked(self.method.clone(), system, start, self.step_size);
         run.stepper_mut().set_stopping(self.stopping);
         run.set_retry(self.retry);
-        if let Some(tableau) = &self.tableau {
-            run.set_tableau(tableau);
-        }
         (self.offset + place, run)
     }
 }

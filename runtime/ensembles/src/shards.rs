@@ -125,7 +125,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>, L: Lanes
             lanes: self.lanes,
             registers: self.registers,
             stop: self.stop.clone(),
-            tableau: self.tableau.clone(),
+            method: self.method.clone(),
             kind: PhantomData,
         }
     }

@@ -1,10 +1,10 @@
-//! The coefficients of coupled stages: the constants of an emitted method, or those of a tableau at run time.
+//! The coefficients of coupled stages: the constants of an emitted method, or the rows of a tableau at run time.
 
+use alloc::sync::Arc;
 use core::marker::PhantomData;
 
-use symplectic_core::inside::run_time::{self, Coupled};
+use symplectic_core::inside::rows::{CoupledRows, HalfRows, RowDecoupling};
 use symplectic_core::solver::{HalfTableau, StageTableau};
-use symplectic_core::{Class, RunTimeTableau};
 
 /// The coefficients of coupled stages, as Newton's iteration reads them:
 ///
@@ -15,239 +15,167 @@ use symplectic_core::{Class, RunTimeTableau};
 ///
 /// if the sums are of [increments](Self::increments); otherwise `u_j = velocity_j` and `w_j = force_j`, with factors of `h` in front of
 /// the sums.
-pub trait StageCoefficients: Clone + Default {
-    /// The class of systems.
-    type Class: Class;
-    /// The positions or the momenta.
-    type Half<'a>: HalfCoefficients
-    where
-        Self: 'a;
-
-    /// Whether stages are sums of increments.
-    fn increments(&self) -> bool;
-
-    /// Positions, and the forces there.
-    fn positions(&self) -> Self::Half<'_>;
-
-    /// Momenta, and the velocities there.
-    fn momenta(&self) -> Self::Half<'_>;
-
-    /// The blocks of the [`Decoupling`](symplectic_core::solver::Decoupling): `(α, ω)`, with `ω = 0` for a real eigenvalue. `None` if the linear
-    /// systems do not decouple.
-    fn blocks(&self) -> Option<&[(f64, f64)]>;
-
-    /// A row of `X`.
-    fn stage_row(&self, row: usize) -> &[f64];
-
-    /// A row of `X⁻¹`.
-    fn block_row(&self, row: usize) -> &[f64];
-
-    /// The tableau, if it is known only at run time.
-    fn tableau(&self) -> Option<&RunTimeTableau> {
-        None
-    }
-
-    /// Takes the coefficients of a tableau at run time.
-    fn set_tableau(&mut self, _tableau: &RunTimeTableau) {}
-}
-
-/// The positions or the momenta of [`StageCoefficients`]: stage values, and the evaluations at them.
-pub trait HalfCoefficients: Copy {
-    /// The number of stages.
-    fn count(self) -> usize;
-
-    /// The coefficient of evaluation `j` of the other half in stage `i`.
-    fn entry(self, i: usize, j: usize) -> f64;
-
-    /// The time of an evaluation, as a fraction of the step.
-    fn time(self, evaluation: usize) -> f64;
-
-    /// The factor of an evaluation in its increment, without `h`.
-    fn weight(self, evaluation: usize) -> f64;
-
-    /// Whether an evaluation enters the result of the step.
-    fn counts(self, evaluation: usize) -> bool;
-
-    /// Whether increments can be extrapolated to the next step of the same size.
-    fn extrapolates(self) -> bool;
-
-    /// The coefficient of the old increment `j` in the new increment `i`.
-    fn extrapolation(self, i: usize, j: usize) -> f64;
-}
-
-/// The coefficients of an emitted method.
 #[derive(Debug)]
-pub struct Emitted<P>(PhantomData<P>);
+pub struct StageCoefficients<P> {
+    /// Those of a plan whose coefficients are known only at run time.
+    rows: Option<Arc<CoupledRows>>,
+    plan: PhantomData<P>,
+}
 
-impl<P> Clone for Emitted<P> {
+impl<P> Clone for StageCoefficients<P> {
     fn clone(&self) -> Self {
-        Self(PhantomData)
-    }
-}
-
-impl<P> Default for Emitted<P> {
-    fn default() -> Self {
-        Self(PhantomData)
-    }
-}
-
-impl<P: StageTableau> StageCoefficients for Emitted<P> {
-    type Class = P::Class;
-    type Half<'a>
-        = EmittedHalf
-    where
-        Self: 'a;
-
-    fn increments(&self) -> bool {
-        P::INCREMENTS
-    }
-
-    fn positions(&self) -> EmittedHalf {
-        EmittedHalf(&P::POSITIONS)
-    }
-
-    fn momenta(&self) -> EmittedHalf {
-        EmittedHalf(&P::MOMENTA)
-    }
-
-    fn blocks(&self) -> Option<&[(f64, f64)]> {
-        P::DECOUPLING.map(|decoupling| decoupling.blocks)
-    }
-
-    fn stage_row(&self, row: usize) -> &[f64] {
-        P::DECOUPLING.map_or(&[], |decoupling| decoupling.to_stages[row])
-    }
-
-    fn block_row(&self, row: usize) -> &[f64] {
-        P::DECOUPLING.map_or(&[], |decoupling| decoupling.from_stages[row])
-    }
-}
-
-/// The positions or the momenta of an emitted method.
-#[derive(Clone, Copy, Debug)]
-pub struct EmittedHalf(&'static HalfTableau);
-
-impl HalfCoefficients for EmittedHalf {
-    fn count(self) -> usize {
-        self.0.count
-    }
-
-    fn entry(self, i: usize, j: usize) -> f64 {
-        self.0.columns[j][i]
-    }
-
-    fn time(self, evaluation: usize) -> f64 {
-        self.0.times[evaluation]
-    }
-
-    fn weight(self, evaluation: usize) -> f64 {
-        self.0.weights[evaluation]
-    }
-
-    fn counts(self, _evaluation: usize) -> bool {
-        true
-    }
-
-    fn extrapolates(self) -> bool {
-        !self.0.extrapolation.is_empty()
-    }
-
-    fn extrapolation(self, i: usize, j: usize) -> f64 {
-        self.0.extrapolation[j][i]
-    }
-}
-
-/// The coefficients of a tableau at run time, for systems of class `C`.
-#[derive(Clone, Debug)]
-pub struct OfTableau<C> {
-    tableau: Option<RunTimeTableau>,
-    class: PhantomData<C>,
-}
-
-impl<C> Default for OfTableau<C> {
-    fn default() -> Self {
         Self {
-            tableau: None,
-            class: PhantomData,
+            rows: self.rows.clone(),
+            plan: PhantomData,
         }
     }
 }
 
-impl<C: Class> OfTableau<C> {
-    fn coupled(&self) -> &Coupled {
-        run_time::coupled::<C>(self.tableau.as_ref())
+impl<P: StageTableau> StageCoefficients<P> {
+    /// The constants of a plan.
+    pub(super) const CONSTANT: Self = Self {
+        rows: None,
+        plan: PhantomData,
+    };
+
+    /// The coefficients of a plan.
+    pub(super) fn of(plan: &P) -> Self {
+        Self {
+            rows: plan.rows().cloned(),
+            plan: PhantomData,
+        }
+    }
+
+    /// The rows. A constant condition: emitted methods compile without them.
+    #[inline]
+    fn rows(&self) -> Option<&CoupledRows> {
+        match P::AT_RUN_TIME {
+            true => self.rows.as_deref(),
+            false => None,
+        }
+    }
+
+    /// Whether stages are sums of increments.
+    pub(super) const fn increments(&self) -> bool {
+        P::INCREMENTS
+    }
+
+    /// Positions, and the forces there.
+    #[inline]
+    pub(super) fn positions(&self) -> HalfCoefficients<'_> {
+        match self.rows() {
+            Some(rows) => HalfCoefficients::Rows(&rows.positions),
+            None => HalfCoefficients::Constant(&P::POSITIONS),
+        }
+    }
+
+    /// Momenta, and the velocities there.
+    #[inline]
+    pub(super) fn momenta(&self) -> HalfCoefficients<'_> {
+        match self.rows() {
+            Some(rows) => HalfCoefficients::Rows(&rows.momenta),
+            None => HalfCoefficients::Constant(&P::MOMENTA),
+        }
+    }
+
+    fn decoupling(&self) -> Option<&RowDecoupling> {
+        self.rows().and_then(|rows| rows.decoupling.as_ref())
+    }
+
+    /// The blocks of the [`Decoupling`](crate::solver::Decoupling): `(α, ω)`, with `ω = 0` for a real eigenvalue. `None` if the linear
+    /// systems do not decouple.
+    pub(super) fn blocks(&self) -> Option<&[(f64, f64)]> {
+        match P::AT_RUN_TIME {
+            true => self.decoupling().map(|decoupling| &decoupling.blocks[..]),
+            false => P::DECOUPLING.map(|decoupling| decoupling.blocks),
+        }
+    }
+
+    /// A row of `X`.
+    pub(super) fn stage_row(&self, row: usize) -> &[f64] {
+        match P::AT_RUN_TIME {
+            true => (self.decoupling()).map_or(&[], |decoupling| &decoupling.to_stages[row]),
+            false => P::DECOUPLING.map_or(&[], |decoupling| decoupling.to_stages[row]),
+        }
+    }
+
+    /// A row of `X⁻¹`.
+    pub(super) fn block_row(&self, row: usize) -> &[f64] {
+        match P::AT_RUN_TIME {
+            true => (self.decoupling()).map_or(&[], |decoupling| &decoupling.from_stages[row]),
+            false => P::DECOUPLING.map_or(&[], |decoupling| decoupling.from_stages[row]),
+        }
     }
 }
 
-impl<C: Class> StageCoefficients for OfTableau<C> {
-    type Class = C;
-    type Half<'a>
-        = &'a run_time::Half
-    where
-        Self: 'a;
-
-    fn increments(&self) -> bool {
-        true
-    }
-
-    fn positions(&self) -> &run_time::Half {
-        &self.coupled().positions
-    }
-
-    fn momenta(&self) -> &run_time::Half {
-        &self.coupled().momenta
-    }
-
-    fn blocks(&self) -> Option<&[(f64, f64)]> {
-        let decoupling = self.coupled().decoupling.as_ref();
-        decoupling.map(|decoupling| &decoupling.blocks[..])
-    }
-
-    fn stage_row(&self, row: usize) -> &[f64] {
-        let decoupling = self.coupled().decoupling.as_ref();
-        decoupling.map_or(&[], |decoupling| &decoupling.to_stages[row])
-    }
-
-    fn block_row(&self, row: usize) -> &[f64] {
-        let decoupling = self.coupled().decoupling.as_ref();
-        decoupling.map_or(&[], |decoupling| &decoupling.from_stages[row])
-    }
-
-    fn tableau(&self) -> Option<&RunTimeTableau> {
-        self.tableau.as_ref()
-    }
-
-    fn set_tableau(&mut self, tableau: &RunTimeTableau) {
-        self.tableau = Some(tableau.clone());
-    }
+/// The positions or the momenta of [`StageCoefficients`]: stage values, and the evaluations at them.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum HalfCoefficients<'a> {
+    Constant(&'static HalfTableau),
+    Rows(&'a HalfRows),
 }
 
-impl HalfCoefficients for &run_time::Half {
-    fn count(self) -> usize {
-        self.evaluations.len()
+impl HalfCoefficients<'_> {
+    /// The number of stages.
+    #[inline]
+    pub(super) const fn count(self) -> usize {
+        match self {
+            Self::Constant(half) => half.count,
+            Self::Rows(half) => half.evaluations.len(),
+        }
     }
 
-    fn entry(self, i: usize, j: usize) -> f64 {
-        self.matrix[i][j]
+    /// The coefficient of evaluation `j` of the other half in stage `i`.
+    #[inline]
+    pub(super) fn entry(self, i: usize, j: usize) -> f64 {
+        match self {
+            Self::Constant(half) => half.columns[j][i],
+            Self::Rows(half) => half.matrix[i][j],
+        }
     }
 
-    fn time(self, evaluation: usize) -> f64 {
-        self.evaluations[evaluation].time
+    /// The time of an evaluation, as a fraction of the step.
+    #[inline]
+    pub(super) fn time(self, evaluation: usize) -> f64 {
+        match self {
+            Self::Constant(half) => half.times[evaluation],
+            Self::Rows(half) => half.evaluations[evaluation].time,
+        }
     }
 
-    fn weight(self, evaluation: usize) -> f64 {
-        self.evaluations[evaluation].factor
+    /// The factor of an evaluation in its increment, without `h`.
+    #[inline]
+    pub(super) fn weight(self, evaluation: usize) -> f64 {
+        match self {
+            Self::Constant(half) => half.weights[evaluation],
+            Self::Rows(half) => half.evaluations[evaluation].factor,
+        }
     }
 
-    fn counts(self, evaluation: usize) -> bool {
-        self.evaluations[evaluation].counts
+    /// Whether an evaluation enters the result of the step.
+    #[inline]
+    pub(super) fn counts(self, evaluation: usize) -> bool {
+        match self {
+            Self::Constant(_) => true,
+            Self::Rows(half) => half.evaluations[evaluation].counts,
+        }
     }
 
-    fn extrapolates(self) -> bool {
-        !self.extrapolation.is_empty()
+    /// Whether increments can be extrapolated to the next step of the same size.
+    #[inline]
+    pub(super) const fn extrapolates(self) -> bool {
+        match self {
+            Self::Constant(half) => !half.extrapolation.is_empty(),
+            Self::Rows(half) => !half.extrapolation.is_empty(),
+        }
     }
 
-    fn extrapolation(self, i: usize, j: usize) -> f64 {
-        self.extrapolation[i][j]
+    /// The coefficient of the old increment `j` in the new increment `i`.
+    #[inline]
+    pub(super) fn extrapolation(self, i: usize, j: usize) -> f64 {
+        match self {
+            Self::Constant(half) => half.extrapolation[j][i],
+            Self::Rows(half) => half.extrapolation[i][j],
+        }
     }
 }

@@ -1,11 +1,10 @@
 //! Convergence test of the Newton iteration, and the attempts of a step.
 
-use super::coefficients::StageCoefficients;
 use super::linear_solver::LinearSolver;
 use super::sweep::ByIncrements;
 use symplectic_core::inside::{Progress, ROUNDING, STAGNATION, dither_last_sweep, non_finite};
 use symplectic_core::solver::{
-    Failure, HalfChange, StageChange, StepStatistics, Stopping, WarmStart,
+    Failure, HalfChange, StageChange, StageTableau, StepStatistics, Stopping, WarmStart,
 };
 use symplectic_core::{Class, Scalar, Separable, Summation, System, Vector};
 
@@ -58,16 +57,16 @@ fn attempts(kept: bool, in_full: bool, available: bool) -> impl Iterator<Item = 
 }
 
 /// Iterates until the stages have settled; returns the statistics of the step.
-pub(super) fn settle<T, R, V, S, L>(
-    sweeps: &mut ByIncrements<'_, T, R, V, S, L>,
+pub(super) fn settle<P, R, V, S, L>(
+    sweeps: &mut ByIncrements<'_, P, R, V, S, L>,
     kept: WarmStart,
     stopping: Stopping,
 ) -> Result<StepStatistics, Failure>
 where
-    T: StageCoefficients,
+    P: StageTableau,
     R: Summation,
     V: Vector,
-    S: System<V, Class = T::Class>,
+    S: System<V, Class = P::Class>,
     L: LinearSolver<V, S>,
 {
     let mut work = StepStatistics::default();
@@ -97,17 +96,17 @@ where
 }
 
 /// One attempt.
-fn take<T, R, V, S, L>(
-    sweeps: &mut ByIncrements<'_, T, R, V, S, L>,
+fn take<P, R, V, S, L>(
+    sweeps: &mut ByIncrements<'_, P, R, V, S, L>,
     attempt: Attempt,
     stopping: Stopping,
     work: &mut StepStatistics,
 ) -> Result<(), Failure>
 where
-    T: StageCoefficients,
+    P: StageTableau,
     R: Summation,
     V: Vector,
-    S: System<V, Class = T::Class>,
+    S: System<V, Class = P::Class>,
     L: LinearSolver<V, S>,
 {
     let max_iterations = stopping.max_iterations;
@@ -130,7 +129,7 @@ where
             });
         }
         let before = history.last;
-        history.note::<T::Class>(&change, FLOOR * V::Scalar::EPSILON);
+        history.note::<P::Class>(&change, FLOOR * V::Scalar::EPSILON);
         work.scales = change.scales();
         work.residual = change.residual();
         let within = |tolerance: f64| {
@@ -147,7 +146,7 @@ where
             let is_within = |size: f64| size <= ROUNDING * V::Scalar::EPSILON;
             // The noise with derivatives at one point may be larger than necessary.
             let may_be_noise = !attempt.gives_up || is_within(settling::<Separable>(&change));
-            let is_noise = is_within(settling::<T::Class>(&change))
+            let is_noise = is_within(settling::<P::Class>(&change))
                 || may_be_noise && history.may_be_noise() && measurements < MAX_MEASUREMENTS && {
                     measurements += 1;
                     work.evaluations += 2 * sweeps.evaluations();
@@ -165,7 +164,7 @@ where
             }
         }
         let is_late = iteration >= MAX_SWEEPS || history.progress.slow >= SLOW;
-        let is_far = settling::<T::Class>(&change) > ROUNDING * V::Scalar::EPSILON;
+        let is_far = settling::<P::Class>(&change) > ROUNDING * V::Scalar::EPSILON;
         if attempt.gives_up && (is_late && is_far || sweeps.is_slow()) {
             return Err(history.failure(iteration));
         }

@@ -2,13 +2,13 @@
 
 use super::linear_solver::{BandOrDense, LinearSolver};
 use super::{AnalyticOrDifferences, Newton};
-use symplectic_core::inside::{by_rows, by_stages};
+use symplectic_core::inside::by_stages;
 use symplectic_core::output::Inside;
 use symplectic_core::solver::{
     Failure, FixedPoint, Outcome, Solver, StageStorage, StageTableau, Step, StepStatistics,
     Stopping, Visit, WarmStart, Words,
 };
-use symplectic_core::{Class, Quantity, RunTimeTableau, Summation, System, Vector};
+use symplectic_core::{Quantity, Summation, System, Vector};
 
 /// Steps that use Newton's iteration after a step in which the fixed-point iteration failed.
 const PATIENCE: u32 = 16;
@@ -69,21 +69,14 @@ impl<V: Vector, F: StageStorage<V>, N: StageStorage<V>> StageStorage<V>
     for FixedPointThenNewtonMemory<F, N>
 {
     fn like(prototype: &V) -> Self {
-        Self {
-            fixed_point: F::like(prototype),
-            newton: N::like(prototype),
-            was_newton: false,
-            newton_steps: 0,
-        }
+        Self::new(F::like(prototype), N::like(prototype))
     }
 
-    fn tableau(&self) -> Option<&RunTimeTableau> {
-        self.fixed_point.tableau()
-    }
-
-    fn set_tableau(&mut self, tableau: &RunTimeTableau, prototype: &V) {
-        self.fixed_point.set_tableau(tableau, prototype);
-        self.newton.set_tableau(tableau, prototype);
+    fn anew(&self, prototype: &V) -> Self {
+        Self::new(
+            self.fixed_point.anew(prototype),
+            self.newton.anew(prototype),
+        )
     }
 
     fn words(&mut self, visit: &mut Visit<'_>) {
@@ -113,6 +106,15 @@ impl<V: Vector, F: StageStorage<V>, N: StageStorage<V>> StageStorage<V>
 }
 
 impl<F, N> FixedPointThenNewtonMemory<F, N> {
+    const fn new(fixed_point: F, newton: N) -> Self {
+        Self {
+            fixed_point,
+            newton,
+            was_newton: false,
+            newton_steps: 0,
+        }
+    }
+
     /// Takes a step by one of the two iterations, each of which takes its memory and its warm start.
     fn take<V: Vector>(
         &mut self,
@@ -161,10 +163,11 @@ where
 
     type Memory<P: StageTableau> =
         FixedPointThenNewtonMemory<P::Stages<V>, <Newton<L> as Solver<V, S>>::Memory<P>>;
-    type AtRunTime<C: Class> = FixedPointThenNewtonMemory<
-        <FixedPoint as Solver<V, S>>::AtRunTime<C>,
-        <Newton<L> as Solver<V, S>>::AtRunTime<C>,
-    >;
+
+    fn memory<P: StageTableau>(plan: &P, prototype: &V) -> Self::Memory<P> {
+        let newton = Newton::<L>::memory(plan, prototype);
+        FixedPointThenNewtonMemory::new(plan.stages(prototype), newton)
+    }
 
     fn take<P, R>(
         step: &Step<'_, V>,
@@ -188,32 +191,6 @@ where
             },
             |newton, kept, outcome| {
                 Newton::<L>::take::<P, R>(step, system, newton, kept, stopping, outcome)
-            },
-        )
-    }
-
-    fn take_at_run_time<C, R>(
-        step: &Step<'_, V>,
-        system: &S,
-        memory: &mut Self::AtRunTime<C>,
-        kept: WarmStart,
-        stopping: Stopping,
-        outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        C: Class,
-        R: Summation,
-        S: System<V, Class = C>,
-    {
-        memory.take(
-            step,
-            kept,
-            outcome,
-            |stages, kept, outcome| {
-                by_rows::<C, R, V, S>(step, system, stages, kept, stopping, outcome)
-            },
-            |newton, kept, outcome| {
-                Newton::<L>::take_at_run_time::<C, R>(step, system, newton, kept, stopping, outcome)
             },
         )
     }

@@ -29,7 +29,7 @@ pub use jacobian::{AnalyticOrDifferences, Derivatives, Differences};
 pub use linear_solver::{BandOrDense, Banded, Coupling, Dense, LinearSolver, Matrices, Parts};
 pub use memory::NewtonMemory;
 
-use coefficients::{Emitted, OfTableau, StageCoefficients};
+use coefficients::StageCoefficients;
 use convergence::settle;
 use sweep::ByIncrements;
 use symplectic_core::output::Inside;
@@ -37,7 +37,7 @@ use symplectic_core::solver::{
     Failure, Outcome, Solver, StageTableau, Step, StepStatistics, Stopping, StoredEvaluations,
     WarmStart,
 };
-use symplectic_core::{Class, Summation, System, Vector};
+use symplectic_core::{Summation, System, Vector};
 
 /// The simplified Newton iteration, for stiff and strongly coupled systems. The [`LinearSolver`] `L` solves its linear
 /// systems. [`by_newton`](ByNewton::by_newton) uses [`BandOrDense`] matrices, and the second derivatives that the system provides
@@ -126,8 +126,11 @@ impl<L> Default for Newton<L> {
 impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Solver<V, S> for Newton<L> {
     const IS_NEWTON: bool = true;
 
-    type Memory<P: StageTableau> = NewtonMemory<V, Emitted<P>, S, L>;
-    type AtRunTime<C: Class> = NewtonMemory<V, OfTableau<C>, S, L>;
+    type Memory<P: StageTableau> = NewtonMemory<V, P, S, L>;
+
+    fn memory<P: StageTableau>(plan: &P, prototype: &V) -> Self::Memory<P> {
+        NewtonMemory::new(StageCoefficients::of(plan), prototype)
+    }
 
     fn take<P, R>(
         step: &Step<'_, V>,
@@ -142,23 +145,10 @@ impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Solver<V, S> for Newton<L> 
         R: Summation,
         S: System<V, Class = P::Class>,
     {
-        take::<_, R, V, S, L>(step, system, memory, kept, stopping, outcome)
-    }
-
-    fn take_at_run_time<C, R>(
-        step: &Step<'_, V>,
-        system: &S,
-        memory: &mut Self::AtRunTime<C>,
-        kept: WarmStart,
-        stopping: Stopping,
-        outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        C: Class,
-        R: Summation,
-        S: System<V, Class = C>,
-    {
-        take::<_, R, V, S, L>(step, system, memory, kept, stopping, outcome)
+        let mut sweeps = ByIncrements::<P, R, V, S, L>::new(step, system, memory);
+        let mut work = settle(&mut sweeps, kept, stopping)?;
+        work.factorisations = sweeps.finish(outcome);
+        Ok(work)
     }
 
     fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
@@ -174,26 +164,4 @@ impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Solver<V, S> for Newton<L> 
             at.add(half, P::INCREMENTS, increments, out);
         }
     }
-}
-
-/// Takes a step with the coefficients in `memory`.
-fn take<T, R, V, S, L>(
-    step: &Step<'_, V>,
-    system: &S,
-    memory: &mut NewtonMemory<V, T, S, L>,
-    kept: WarmStart,
-    stopping: Stopping,
-    outcome: Outcome<'_, V>,
-) -> Result<StepStatistics, Failure>
-where
-    T: StageCoefficients,
-    R: Summation,
-    V: Vector,
-    S: System<V, Class = T::Class>,
-    L: LinearSolver<V, S>,
-{
-    let mut sweeps = ByIncrements::<T, R, V, S, L>::new(step, system, memory);
-    let mut work = settle(&mut sweeps, kept, stopping)?;
-    work.factorisations = sweeps.finish(outcome);
-    Ok(work)
 }

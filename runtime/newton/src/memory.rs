@@ -6,15 +6,15 @@ use core::fmt;
 
 use num_traits::Zero;
 
-use super::coefficients::{HalfCoefficients, StageCoefficients};
+use super::coefficients::StageCoefficients;
 use super::linear_solver::{LinearSolver, Parts};
 use symplectic_core::inside::{first_mismatch, first_non_finite, show_vectors};
-use symplectic_core::solver::{StageStorage, Visit, Words, vector_words};
-use symplectic_core::{Class, Quantity, RunTimeTableau, System, Vector};
+use symplectic_core::solver::{StageStorage, StageTableau, Visit, Words, vector_words};
+use symplectic_core::{Class, Quantity, System, Vector};
 
-/// The memory of a [`Newton`](crate::Newton) iteration with the coefficients `T`.
-pub struct NewtonMemory<V: Vector, T, S: System<V>, L: LinearSolver<V, S>> {
-    pub(super) coefficients: T,
+/// The memory of a [`Newton`](crate::Newton) iteration with the plan `P`.
+pub struct NewtonMemory<V: Vector, P, S: System<V>, L: LinearSolver<V, S>> {
+    pub(super) coefficients: StageCoefficients<P>,
     pub(super) work: Workspace<V, S, L>,
 }
 
@@ -66,7 +66,7 @@ pub(super) const fn rows<C: Class>(n: usize) -> usize {
 }
 
 /// The linear systems of a method.
-fn systems<T: StageCoefficients>(coefficients: &T) -> Vec<Parts> {
+fn systems<P: StageTableau>(coefficients: &StageCoefficients<P>) -> Vec<Parts> {
     let Some(blocks) = coefficients.blocks() else {
         return vec![Parts::Stages(coefficients.momenta().count())];
     };
@@ -106,7 +106,7 @@ impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Clone for Workspace<V, S, L
     }
 }
 
-impl<V: Vector, T: Clone, S: System<V>, L: LinearSolver<V, S>> Clone for NewtonMemory<V, T, S, L> {
+impl<V: Vector, P, S: System<V>, L: LinearSolver<V, S>> Clone for NewtonMemory<V, P, S, L> {
     fn clone(&self) -> Self {
         Self {
             coefficients: self.coefficients.clone(),
@@ -116,7 +116,7 @@ impl<V: Vector, T: Clone, S: System<V>, L: LinearSolver<V, S>> Clone for NewtonM
 }
 
 impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Workspace<V, S, L> {
-    fn new<T: StageCoefficients>(coefficients: &T, prototype: &V) -> Self {
+    fn new<P: StageTableau>(coefficients: &StageCoefficients<P>, prototype: &V) -> Self {
         let vectors = |count| (0..count).map(|_| prototype.zeros_like()).collect();
         let zeros = |count| vec![V::Scalar::zero(); count];
         let (positions, momenta) = (
@@ -124,7 +124,7 @@ impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Workspace<V, S, L> {
             coefficients.momenta().count(),
         );
         let n = prototype.dimension();
-        let unknowns = momenta * rows::<T::Class>(n);
+        let unknowns = momenta * rows::<P::Class>(n);
         let coupled = match coefficients.blocks() {
             Some(_) => 0,
             None => momenta * momenta,
@@ -164,24 +164,24 @@ impl<V: Vector, S: System<V>, L: LinearSolver<V, S>> Workspace<V, S, L> {
     }
 }
 
-impl<V: Vector, T: StageCoefficients, S: System<V>, L: LinearSolver<V, S>> StageStorage<V>
-    for NewtonMemory<V, T, S, L>
-{
-    fn like(prototype: &V) -> Self {
-        let coefficients = T::default();
+impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> NewtonMemory<V, P, S, L> {
+    pub(super) fn new(coefficients: StageCoefficients<P>, prototype: &V) -> Self {
         Self {
             work: Workspace::new(&coefficients, prototype),
             coefficients,
         }
     }
+}
 
-    fn tableau(&self) -> Option<&RunTimeTableau> {
-        self.coefficients.tableau()
+impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStorage<V>
+    for NewtonMemory<V, P, S, L>
+{
+    fn like(prototype: &V) -> Self {
+        Self::new(StageCoefficients::CONSTANT, prototype)
     }
 
-    fn set_tableau(&mut self, tableau: &RunTimeTableau, prototype: &V) {
-        self.coefficients.set_tableau(tableau);
-        self.work = Workspace::new(&self.coefficients, prototype);
+    fn anew(&self, prototype: &V) -> Self {
+        Self::new(self.coefficients.clone(), prototype)
     }
 
     /// What the next step starts from: increments for the extrapolation, factors, and what earlier steps have decided.
@@ -233,7 +233,7 @@ impl<V: Vector, T: StageCoefficients, S: System<V>, L: LinearSolver<V, S>> Stage
     }
 }
 
-impl<V: Vector, T, S: System<V>, L: LinearSolver<V, S>> fmt::Debug for NewtonMemory<V, T, S, L> {
+impl<V: Vector, P, S: System<V>, L: LinearSolver<V, S>> fmt::Debug for NewtonMemory<V, P, S, L> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter
             .debug_struct("NewtonMemory")

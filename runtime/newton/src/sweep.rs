@@ -10,7 +10,7 @@ use super::every_stage::{EveryStage, NOT_FINITE};
 use super::linear_solver::{Coupling, LinearSolver};
 use super::memory::{NewtonMemory, Workspace, rows};
 use symplectic_core::inside::{first_non_finite_of, totals_by};
-use symplectic_core::solver::{Failure, HalfChange, Outcome, StageChange, Step};
+use symplectic_core::solver::{Failure, HalfChange, Outcome, StageChange, StageTableau, Step};
 use symplectic_core::{Class, Quantity, Scalar, Summation, System, Vector};
 
 /// A contraction rate above this makes the derivatives stale for the next step.
@@ -26,10 +26,10 @@ const NOISE: f64 = 16384.0;
 const PATIENCE: u32 = 16;
 
 /// The increments of a method; each sweep corrects all of them simultaneously.
-pub(super) struct ByIncrements<'a, T, R, V: Vector, S: System<V>, L: LinearSolver<V, S>> {
+pub(super) struct ByIncrements<'a, P, R, V: Vector, S: System<V>, L: LinearSolver<V, S>> {
     step: &'a Step<'a, V>,
     system: &'a S,
-    coefficients: &'a T,
+    coefficients: &'a StageCoefficients<P>,
     memory: &'a mut Workspace<V, S, L>,
     /// The change in the previous sweep.
     last: f64,
@@ -52,18 +52,18 @@ pub(super) struct ByIncrements<'a, T, R, V: Vector, S: System<V>, L: LinearSolve
     sums: PhantomData<R>,
 }
 
-impl<'a, T, R, V, S, L> ByIncrements<'a, T, R, V, S, L>
+impl<'a, P, R, V, S, L> ByIncrements<'a, P, R, V, S, L>
 where
-    T: StageCoefficients,
+    P: StageTableau,
     R: Summation,
     V: Vector,
-    S: System<V, Class = T::Class>,
+    S: System<V, Class = P::Class>,
     L: LinearSolver<V, S>,
 {
     pub(super) fn new(
         step: &'a Step<'a, V>,
         system: &'a S,
-        memory: &'a mut NewtonMemory<V, T, S, L>,
+        memory: &'a mut NewtonMemory<V, P, S, L>,
     ) -> Self {
         Self {
             step,
@@ -202,9 +202,9 @@ where
         let factor = (!coefficients.increments()).then_some(step.size);
         let base = (step.q, step.q_low);
         let (momenta, positions) = (coefficients.momenta(), coefficients.positions());
-        total::<R, _, V>(factor, momenta, &memory.u, base, (q, q_low));
+        total::<R, V>(factor, momenta, &memory.u, base, (q, q_low));
         let base = (step.p, step.p_low);
-        total::<R, _, V>(factor, positions, &memory.w, base, (p, p_low));
+        total::<R, V>(factor, positions, &memory.w, base, (p, p_low));
         if self.contraction > GOOD {
             memory.stale = true;
         }
@@ -214,7 +214,7 @@ where
                 q: moved(&memory.q, step.q),
                 p: moved(&memory.p, step.p),
             };
-            if first > size::<T::Class>(&change) {
+            if first > size::<P::Class>(&change) {
                 memory.pause = PATIENCE;
             }
         }
@@ -233,7 +233,7 @@ where
         } = &mut *self.memory;
         // In a separable system the numbers of positions and momenta may differ. The argument that is not read is the start of the step.
         for (i, (q, force)) in q.iter().zip(force).enumerate() {
-            let p = if T::Class::SEPARABLE {
+            let p = if P::Class::SEPARABLE {
                 self.step.p
             } else {
                 &p[i]
@@ -242,7 +242,7 @@ where
             self.system.force(V::Scalar::from_f64(time), q, p, force);
         }
         for (i, (p, velocity)) in p.iter().zip(velocity).enumerate() {
-            let q = if T::Class::SEPARABLE {
+            let q = if P::Class::SEPARABLE {
                 self.step.q
             } else {
                 &q[i]
@@ -267,21 +267,21 @@ where
             y,
             ..
         } = &mut *self.memory;
-        let rows = rows::<T::Class>(n);
+        let rows = rows::<P::Class>(n);
         for (j, (velocity, u)) in velocity.iter().zip(&*u).enumerate() {
-            let (factor, unit) = factors::<_, V>(increments, momenta, j, h);
+            let (factor, unit) = factors::<V>(increments, momenta, j, h);
             let pairs = velocity.as_slice().iter().zip(u.as_slice());
             for (k, (&velocity, &u)) in pairs.enumerate() {
-                let place = if T::Class::SEPARABLE { k } else { 2 * k };
+                let place = if P::Class::SEPARABLE { k } else { 2 * k };
                 x[j * rows + place] = (factor * velocity - u) * unit;
             }
         }
         for (i, (force, w)) in force.iter().zip(&*w).enumerate() {
-            let (factor, unit) = factors::<_, V>(increments, positions, i, h);
+            let (factor, unit) = factors::<V>(increments, positions, i, h);
             let pairs = force.as_slice().iter().zip(w.as_slice());
             for (k, (&force, &w)) in pairs.enumerate() {
                 let residual = (factor * force - w) * unit;
-                if T::Class::SEPARABLE {
+                if P::Class::SEPARABLE {
                     y[i * n + k] = residual;
                 } else {
                     x[i * rows + 2 * k + 1] = residual;
@@ -296,7 +296,7 @@ where
             let corrected = self.correct_in_full();
             return corrected.map_err(|failure| self.failure(failure));
         }
-        if T::Class::SEPARABLE {
+        if P::Class::SEPARABLE {
             self.correct_separable();
         } else {
             self.solve();
@@ -359,11 +359,11 @@ where
     /// The largest changes that the corrections cause in the positions and in the momenta of the stages.
     fn extent(&self) -> [f64; 2] {
         let n = self.step.q.dimension();
-        let rows = rows::<T::Class>(n);
+        let rows = rows::<P::Class>(n);
         let Workspace { x, y, .. } = &*self.memory;
-        let (stride, turn) = if T::Class::SEPARABLE { (1, 0) } else { (2, 1) };
+        let (stride, turn) = if P::Class::SEPARABLE { (1, 0) } else { (2, 1) };
         let of_velocities = |j: usize, k: usize| x[j * rows + stride * k];
-        let of_forces = |i: usize, k: usize| match T::Class::SEPARABLE {
+        let of_forces = |i: usize, k: usize| match P::Class::SEPARABLE {
             true => y[i * n + k],
             false => x[i * rows + stride * k + turn],
         };
@@ -416,7 +416,7 @@ where
 
     /// Solves the linear systems for `x`.
     fn solve(&mut self) {
-        let rows = rows::<T::Class>(self.step.q.dimension());
+        let rows = rows::<P::Class>(self.step.q.dimension());
         let coefficients = self.coefficients;
         let count = coefficients.momenta().count();
         let Workspace {
@@ -459,14 +459,14 @@ where
     /// Adds the corrections to the increments.
     fn update(&mut self) {
         let (h, n) = (self.step.size, self.step.q.dimension());
-        let rows = rows::<T::Class>(n);
+        let rows = rows::<P::Class>(n);
         let (positions, momenta) = (self.coefficients.positions(), self.coefficients.momenta());
         let increments = self.coefficients.increments();
         let Workspace { u, w, x, y, .. } = &mut *self.memory;
         for (j, u) in u.iter_mut().enumerate() {
             let unit = V::Scalar::from_f64(increment(increments, momenta, j, h));
             for (k, u) in u.as_mut_slice().iter_mut().enumerate() {
-                let place = if T::Class::SEPARABLE { k } else { 2 * k };
+                let place = if P::Class::SEPARABLE { k } else { 2 * k };
                 *u += x[j * rows + place] * unit;
             }
         }
@@ -474,7 +474,7 @@ where
             let unit = V::Scalar::from_f64(increment(increments, positions, i, h));
             for (k, w) in w.as_mut_slice().iter_mut().enumerate() {
                 *w += unit
-                    * if T::Class::SEPARABLE {
+                    * if P::Class::SEPARABLE {
                         y[i * n + k]
                     } else {
                         x[i * rows + 2 * k + 1]
@@ -494,19 +494,19 @@ where
             step.size
         };
         StageChange {
-            q: values::<R, _, V>(positions, factor, q, (step.q, step.q_low), u),
-            p: values::<R, _, V>(momenta, factor, p, (step.p, step.p_low), w),
+            q: values::<R, V>(positions, factor, q, (step.q, step.q_low), u),
+            p: values::<R, V>(momenta, factor, p, (step.p, step.p_low), w),
         }
     }
 
     /// Decides from a change whether the derivatives at one point are still accurate enough.
     fn judge(&mut self, change: &StageChange) -> Result<(), Failure> {
         if self.sweeps == 0 && self.first_change.is_some() {
-            self.first_change = Some(size::<T::Class>(change));
+            self.first_change = Some(size::<P::Class>(change));
         }
         self.sweeps += 1;
         self.since += 1;
-        let size = size::<T::Class>(change);
+        let size = size::<P::Class>(change);
         let contraction = size / self.last;
         self.last = size;
         if self.in_full
@@ -559,7 +559,7 @@ where
             }
             memory.stale = false;
         }
-        let factor = if T::Class::SEPARABLE { h * h } else { h };
+        let factor = if P::Class::SEPARABLE { h * h } else { h };
         let coefficients = self.coefficients;
         let count = coefficients.momenta().count();
         let regular = match coefficients.blocks() {
@@ -578,7 +578,7 @@ where
                 let [positions, momenta] = &mut memory.couplings;
                 for i in 0..count {
                     for j in 0..count {
-                        (positions[i * count + j], momenta[i * count + j]) = if T::Class::SEPARABLE
+                        (positions[i * count + j], momenta[i * count + j]) = if P::Class::SEPARABLE
                         {
                             let products = (0..coefficients.positions().count()).map(|k| {
                                 momentum(coefficients, i, k) * position(coefficients, k, j)
@@ -612,9 +612,9 @@ where
 }
 
 /// The factor that scales a velocity or a force to an increment, and the factor that scales an increment to `h velocity` or `h force`.
-fn factors<C: HalfCoefficients, V: Vector>(
+fn factors<V: Vector>(
     increments: bool,
-    half: C,
+    half: HalfCoefficients<'_>,
     stage: usize,
     h: f64,
 ) -> (V::Scalar, V::Scalar) {
@@ -627,7 +627,7 @@ fn factors<C: HalfCoefficients, V: Vector>(
 }
 
 /// The factor that scales `h velocity` or `h force` to an increment.
-fn increment<C: HalfCoefficients>(increments: bool, half: C, stage: usize, h: f64) -> f64 {
+fn increment(increments: bool, half: HalfCoefficients<'_>, stage: usize, h: f64) -> f64 {
     if increments {
         half.weight(stage)
     } else {
@@ -636,7 +636,7 @@ fn increment<C: HalfCoefficients>(increments: bool, half: C, stage: usize, h: f6
 }
 
 /// `a_ij`
-fn position<T: StageCoefficients>(coefficients: &T, i: usize, j: usize) -> f64 {
+fn position<P: StageTableau>(coefficients: &StageCoefficients<P>, i: usize, j: usize) -> f64 {
     let weight = if coefficients.increments() {
         coefficients.momenta().weight(j)
     } else {
@@ -646,7 +646,7 @@ fn position<T: StageCoefficients>(coefficients: &T, i: usize, j: usize) -> f64 {
 }
 
 /// `ã_ij`
-fn momentum<T: StageCoefficients>(coefficients: &T, i: usize, j: usize) -> f64 {
+fn momentum<P: StageTableau>(coefficients: &StageCoefficients<P>, i: usize, j: usize) -> f64 {
     let weight = if coefficients.increments() {
         coefficients.positions().weight(j)
     } else {
@@ -710,8 +710,8 @@ fn combine<V: Vector>(sum: &mut [V::Scalar], vectors: &[V::Scalar], factor: impl
 }
 
 /// Computes the stage values `base + low + factor Σ_j columns_j increments_j`; returns their change.
-fn values<R: Summation, C: HalfCoefficients, V: Vector>(
-    half: C,
+fn values<R: Summation, V: Vector>(
+    half: HalfCoefficients<'_>,
     factor: f64,
     values: &mut [V],
     (base, low): (&V, &V),
@@ -762,8 +762,8 @@ fn clear<V: Vector>(vector: &mut V) {
 }
 
 /// Extrapolates the increments from those of the previous step; `scratch` has at least one entry for each stage.
-fn extrapolate<C: HalfCoefficients, V: Vector>(
-    half: C,
+fn extrapolate<V: Vector>(
+    half: HalfCoefficients<'_>,
     increments: &mut [V],
     scratch: &mut [V::Scalar],
 ) {
@@ -782,9 +782,9 @@ fn extrapolate<C: HalfCoefficients, V: Vector>(
 }
 
 /// Computes one half of the result of a step from its increments; with a `factor`, increments are evaluations without their weights.
-fn total<R: Summation, C: HalfCoefficients, V: Vector>(
+fn total<R: Summation, V: Vector>(
     factor: Option<f64>,
-    half: C,
+    half: HalfCoefficients<'_>,
     increments: &[V],
     base: (&V, &V),
     out: (&mut V, &mut V),

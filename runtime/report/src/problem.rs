@@ -96,7 +96,7 @@ where
 
     /// Adds a method with the default solver and compensated sums.
     #[must_use]
-    pub fn method<M: Method + ProvedFor<S::Class>>(self, method: M) -> Self {
+    pub fn method<M: Method + Copy + ProvedFor<S::Class>>(self, method: M) -> Self {
         self.run(M::NAME, move |system, start, step_size| {
             Integrator::new(method, system, start, step_size)
         })

@@ -6,7 +6,7 @@ use symplectic::emitted::Solver;
 use symplectic::ensemble::{Ensemble, Row};
 use symplectic::system::Conservative;
 use symplectic::tangent::{Error, Megno, Tangent};
-use symplectic::{AtRunTime, Class, Hamiltonian, Integrator, State, Summation};
+use symplectic::{Class, Hamiltonian, Integrator, RunTimeTableau, State, Summation};
 use symplectic_tape::Formula;
 
 use crate::Run;
@@ -65,7 +65,7 @@ impl Run<'_> {
         N: Solver<Vector, Tangent<Formula<C>>>,
     >(
         &self,
-        ensemble: &mut Ensemble<AtRunTime, Tangent<Formula<C>>, Vector, R, N>,
+        ensemble: &mut Ensemble<RunTimeTableau, Tangent<Formula<C>>, Vector, R, N>,
         keep: Keep<'_>,
     ) where
         Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>,
@@ -73,7 +73,7 @@ impl Run<'_> {
         let end = self.end();
         let work =
             |output: &mut Vec<f64>,
-             run: &mut Integrator<AtRunTime, Tangent<Formula<C>>, Vector, R, N>| {
+             run: &mut Integrator<RunTimeTableau, Tangent<Formula<C>>, Vector, R, N>| {
                 let mut megno = Megno::new(run.state())?;
                 let ended = run.integrate_while(end, |progress| {
                     megno.see(progress.state);

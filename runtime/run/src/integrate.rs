@@ -12,8 +12,8 @@ use symplectic::output::Interpolation;
 use symplectic::solver::Newton;
 use symplectic::system::{Conservative, Frictionless, Unconstrained};
 use symplectic::{
-    AtRunTime, Class, Compensated, Constrained, ConstraintName, Error as RunError, General,
-    Hamiltonian, Nonholonomic, Plain, Separable, State, Summation, System, consistent,
+    Class, Compensated, Constrained, ConstraintName, Error as RunError, General, Hamiltonian,
+    Nonholonomic, Plain, RunTimeTableau, Separable, State, Summation, System, consistent,
     consistent_momentum,
 };
 use symplectic_compiler::Error;
@@ -35,7 +35,7 @@ use symplectic_terminal::{errors, print};
 
 pub(super) type Vector = DVector<f64>;
 pub(super) type States = Vec<State<Vector>>;
-type Made<S, R> = Ensemble<AtRunTime, S, Vector, R>;
+type Made<S, R> = Ensemble<RunTimeTableau, S, Vector, R>;
 /// Systems with their starts.
 type Families<C, const F: bool> = Vec<(Formula<C, F>, States)>;
 /// Runs systems with their starts and the parameters of each.
@@ -44,7 +44,7 @@ type Go<'a, C, const F: bool> =
 /// Moves a state onto the constraints.
 type Project<C> = fn(&Formula<C>, State<Vector>) -> Result<State<Vector>, RunError>;
 /// Runs the trajectories of an ensemble.
-type Task<'a, S, R, N> = fn(&Run<'a>, &mut Ensemble<AtRunTime, S, Vector, R, N>, Keep<'_>);
+type Task<'a, S, R, N> = fn(&Run<'a>, &mut Ensemble<RunTimeTableau, S, Vector, R, N>, Keep<'_>);
 /// Keeps a finished trajectory.
 pub(super) type Keep<'k> = &'k mut dyn FnMut(Trajectory) -> ControlFlow<()>;
 
@@ -151,7 +151,7 @@ impl<'a> Run<'a> {
         R: Summation,
     {
         let (tableau, size) = (&self.method.tableau, *self.setup.step_size.get_ref());
-        let made = Made::families_at_run_time(tableau, families, size);
+        let made = Made::with_summation(tableau.clone(), families, size);
         made.map_err(|error| self.refused(&error))
     }
 
@@ -252,7 +252,7 @@ impl<'a> Run<'a> {
     /// Runs an ensemble by `task`, and writes the results.
     fn run<S, R: Summation, N: Solver<Vector, S>>(
         self,
-        mut ensemble: Ensemble<AtRunTime, S, Vector, R, N>,
+        mut ensemble: Ensemble<RunTimeTableau, S, Vector, R, N>,
         parameters: &[Vec<f64>],
         progress: &Progress,
         task: Task<'a, S, R, N>,
@@ -355,7 +355,7 @@ impl<'a> Run<'a> {
     /// Integrates to the end, at the output times, or to the states of the section.
     fn states<C: Class, const F: bool, R: Summation, N: Solver<Vector, Formula<C, F>>>(
         &self,
-        ensemble: &mut Ensemble<AtRunTime, Formula<C, F>, Vector, R, N>,
+        ensemble: &mut Ensemble<RunTimeTableau, Formula<C, F>, Vector, R, N>,
         keep: Keep<'_>,
     ) where
         Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,

@@ -99,7 +99,7 @@ fn reversible_steps_keep_the_energy_and_one_sided_steps_do_not() -> Result<(), E
 fn the_order_in_epsilon_is_that_of_the_method() -> Result<(), Error> {
     fn errors<M>(method: M, epsilon: f64) -> Result<Vec<f64>, Error>
     where
-        M: ProvedFor<Separable> + SymmetricFor<Separable>,
+        M: Copy + ProvedFor<Separable> + SymmetricFor<Separable>,
     {
         let halved = [1.0, 0.5, 0.25].map(|part| part * epsilon);
         let errors = halved.into_iter().map(|epsilon| {

@@ -53,7 +53,10 @@ fn compositions_of_position_verlet_have_the_exact_kepler_orbit() -> Result<(), E
 
 #[test]
 fn logarithmic_steps_have_the_order_of_the_method() -> Result<(), Error> {
-    fn errors<M: Method + ProvedFor<Separable>>(method: M, size: f64) -> Result<Vec<f64>, Error> {
+    fn errors<M: Method + Copy + ProvedFor<Separable>>(
+        method: M,
+        size: f64,
+    ) -> Result<Vec<f64>, Error> {
         let sizes = [size, size / 2.0, size / 4.0].into_iter();
         let errors =
             sizes.map(|size| Ok((at(method, Kepler, 1.0, size)?.q - position(0.9, 1.0)).norm()));

@@ -44,7 +44,7 @@ where
 fn poincare_steps_have_the_order_of_the_method() -> Result<(), Error> {
     fn errors<M, W>(method: M, monitor: fn() -> W, size: f64) -> Vec<f64>
     where
-        M: Method + ProvedFor<General>,
+        M: Method + Copy + ProvedFor<General>,
         W: Monitor,
     {
         let sizes = [size, size / 2.0, size / 4.0];

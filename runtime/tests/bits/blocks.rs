@@ -72,7 +72,7 @@ impl<V: Vector<Scalar = f64>> System<V> for Heavy {
     }
 }
 
-fn same_bits<M: Method, V: Vector<Scalar = f64>, R: Summation>(
+fn same_bits<M: Method + Copy, V: Vector<Scalar = f64>, R: Summation>(
     method: M,
     start: &State<V>,
 ) -> Result<(), Error> {
@@ -87,7 +87,7 @@ fn same_bits_of<M, S, V, R>(
     start: &State<V>,
 ) -> Result<(), Error>
 where
-    M: Method,
+    M: Method + Copy,
     S: System<V, Class = Separable>,
     V: Vector<Scalar = f64>,
     R: Summation,
@@ -120,7 +120,7 @@ where
 #[test]
 #[ignore = "thorough"]
 fn many_steps_are_the_steps_one_by_one() -> Result<(), Error> {
-    fn check<M: Method>(method: M) -> Result<(), Error> {
+    fn check<M: Method + Copy>(method: M) -> Result<(), Error> {
         let fixed = State::new(0.5, Vector2::new(0.3, -0.2), Vector2::new(0.1, 1.0));
         same_bits::<_, _, symplectic::Compensated>(method, &fixed)?;
         same_bits::<_, _, symplectic::Plain>(method, &fixed)?;
@@ -150,7 +150,7 @@ fn many_steps_are_the_steps_one_by_one() -> Result<(), Error> {
 /// Kicks that wait where a block fails are made by the steps one by one.
 #[test]
 fn a_step_of_a_long_vector_that_fails_among_many_is_found() -> Result<(), Error> {
-    fn check<M: Method>(method: M) -> Result<(), Error> {
+    fn check<M: Method + Copy>(method: M) -> Result<(), Error> {
         let well = || {
             acceleration(|_time, q: &DVector<f64>, force: &mut DVector<f64>| {
                 force.copy_from(&q.map(|q| q.sqrt() - 1.0));
@@ -197,7 +197,7 @@ fn a_step_that_fails_among_many_is_found() -> Result<(), Error> {
             |_, q, force| force[0] = q[0].sqrt() - 1.0,
         )
     };
-    fn check<M: Method, S: System<Vector1<f64>, Class = Separable>>(
+    fn check<M: Method + Copy, S: System<Vector1<f64>, Class = Separable>>(
         method: M,
         well: impl Fn() -> S,
     ) -> Result<(), Error> {
@@ -264,7 +264,7 @@ fn steps_are_split_among_many() -> Result<(), Error> {
 /// The velocity of a system with unit masses is not asked for, and the steps are the same.
 #[test]
 fn declared_unit_masses_give_the_same_steps() -> Result<(), Error> {
-    fn check<M: Method>(method: M) -> Result<(), Error> {
+    fn check<M: Method + Copy>(method: M) -> Result<(), Error> {
         let start = State::new(0.5, Vector2::new(0.3, -0.2), Vector2::new(0.1, 1.0));
         let mut known = Integrator::new(method, Unit::<1>, start.clone(), 0.01)?;
         let mut asked = Integrator::new(method, Driven, start.clone(), 0.01)?;

@@ -133,7 +133,7 @@ fn rows_have_the_bits_of_single_particles() {
 #[test]
 #[ignore = "thorough"]
 fn many_steps_are_the_steps_one_by_one() -> Result<(), Error> {
-    fn check<M: Method>(method: M, n: usize) -> Result<(), Error> {
+    fn check<M: Method + Copy>(method: M, n: usize) -> Result<(), Error> {
         for chain in chains(Driven) {
             let start = State::new(0.5, waves(n, 0.1), waves(n, 1.3));
             let made = || Integrator::plain(method, chain, start.clone(), 0.02);

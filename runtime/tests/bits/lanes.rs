@@ -52,7 +52,7 @@ fn compare<M, S, V>(
     h: f64,
 ) -> Result<(), Error>
 where
-    M: Method + ProvedFor<<S as System<V>>::Class>,
+    M: Method + Copy + ProvedFor<<S as System<V>>::Class>,
     S: SystemInLanes<V>,
     V: Vector<Scalar = f64> + Debug,
 {
@@ -85,7 +85,11 @@ where
 #[test]
 #[ignore = "thorough"]
 fn lanes_give_the_same_bits() -> Result<(), Error> {
-    fn check<M: Method + ProvedFor<General>>(method: M, n: usize, h: f64) -> Result<(), Error> {
+    fn check<M: Method + Copy + ProvedFor<General>>(
+        method: M,
+        n: usize,
+        h: f64,
+    ) -> Result<(), Error> {
         let wave = |phase: f64| DVector::from_fn(n, |k, _| (phase + 1.3 * k as f64).sin());
         compare(
             method,
@@ -216,7 +220,7 @@ fn a_nonfinite_force_in_lanes_is_named_with_its_stage() -> Result<(), Error> {
 /// The same method without its momentum stages.
 fn without_momentum_stages<M, S>(method: M, system: S) -> Result<(), Error>
 where
-    M: Method,
+    M: Method + Copy,
     S: SystemInLanes<Vector2<f64>> + System<Vector2<f64>, Class = Separable> + Copy,
 {
     without_momentum_stages_by::<Compensated, M, S>(method, system)?;
@@ -226,7 +230,7 @@ where
 /// The same with these sums.
 fn without_momentum_stages_by<R: Summation, M, S>(method: M, system: S) -> Result<(), Error>
 where
-    M: Method,
+    M: Method + Copy,
     S: SystemInLanes<Vector2<f64>> + System<Vector2<f64>, Class = Separable> + Copy,
 {
     let start = perihelion();
@@ -263,7 +267,7 @@ fn second_order_systems_need_no_momentum_stages() -> Result<(), Error> {
 }
 
 /// Both halves at once, beside one after the other, with these sums.
-fn at_once<R: Summation, M: Method + ProvedFor<General>, V>(
+fn at_once<R: Summation, M: Method + Copy + ProvedFor<General>, V>(
     method: M,
     start: &State<V>,
 ) -> Result<(), Error>
@@ -302,7 +306,7 @@ where
 #[test]
 #[ignore = "thorough"]
 fn simultaneous_halves_agree_with_alternating_ones_to_rounding() -> Result<(), Error> {
-    fn check<M: Method + ProvedFor<General>>(method: M) -> Result<(), Error> {
+    fn check<M: Method + Copy + ProvedFor<General>>(method: M) -> Result<(), Error> {
         let q = SVector::from([0.5, -0.3, 0.9]);
         let p = SVector::from([1.0, 0.25, -0.5]);
         let long = |x: SVector<f64, 3>| DVector::from_column_slice(x.as_slice());
@@ -410,7 +414,7 @@ fn evaluations_are_counted_for_every_stage() -> Result<(), Error> {
         Ok(())
     }
 
-    fn all<M: Method + ProvedFor<General>>(method: M, stages: u64) -> Result<(), Error> {
+    fn all<M: Method + Copy + ProvedFor<General>>(method: M, stages: u64) -> Result<(), Error> {
         let calls = Cell::new(0);
         let q = SVector::from([0.5, -0.3, 0.9]);
         let start = State::new(0.0, q, SVector::from([1.0, 0.25, -0.5]));
@@ -524,11 +528,11 @@ impl SeparableHamiltonian for UnitKepler {
 /// Without their velocities the second-order lanes give the same bits, at the ends of steps and inside.
 #[test]
 fn unit_masses_keep_the_bits_of_second_order_lanes() -> Result<(), Error> {
-    fn check<M: Method>(method: M) -> Result<(), Error> {
+    fn check<M: Method + Copy>(method: M) -> Result<(), Error> {
         check_with::<Compensated, M>(method)?;
         check_with::<Plain, M>(method)
     }
-    fn check_with<R: Summation, M: Method>(method: M) -> Result<(), Error> {
+    fn check_with<R: Summation, M: Method + Copy>(method: M) -> Result<(), Error> {
         let start = perihelion();
         let asked = Integrator::<_, _, _, R>::with_summation(method, Kepler, start.clone(), 0.03)?;
         let known = Integrator::<_, _, _, R>::with_summation(method, UnitKepler, start, 0.03)?;

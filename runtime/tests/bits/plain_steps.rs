@@ -37,7 +37,7 @@ where
 }
 
 /// The hashes with compensated and with plain sums.
-fn hashes<M: Method + ProvedFor<Separable>>(method: M) -> [u64; 2] {
+fn hashes<M: Method + Copy + ProvedFor<Separable>>(method: M) -> [u64; 2] {
     let start = || State::from_arrays(0.0, [0.7, -0.2], [0.3, 0.9]);
     [
         hash(Integrator::new(method, Coupled, start(), 0.125)),

@@ -85,7 +85,7 @@ impl<H: Hamiltonian> Hamiltonian for Narrow<H> {
 /// Both ways, in both sums.
 fn compare<M, H, V>(method: M, system: &H, start: &State<V>, h: f64) -> Result<(), Error>
 where
-    M: Method + ProvedFor<<H as Hamiltonian>::Class>,
+    M: Method + Copy + ProvedFor<<H as Hamiltonian>::Class>,
     V: Vector<Scalar = f64> + Debug,
     H: Hamiltonian<Vector<f64> = V> + Clone,
 {
@@ -132,7 +132,7 @@ where
     Ok(())
 }
 
-fn separable<M: Method + ProvedFor<Separable>>(method: M) -> Result<(), Error> {
+fn separable<M: Method + Copy + ProvedFor<Separable>>(method: M) -> Result<(), Error> {
     let orbit = State::from_arrays(0.0, [0.5, 0.0], [0.0, 1.6]);
     compare(method, &Kepler, &orbit, 0.05)?;
     let at = |values: [f64; 3]| DVector::from_row_slice(&values);
@@ -142,7 +142,7 @@ fn separable<M: Method + ProvedFor<Separable>>(method: M) -> Result<(), Error> {
     compare(method, &Relativistic, &fast, 0.1)
 }
 
-fn general<M: Method + ProvedFor<General>>(method: M) -> Result<(), Error> {
+fn general<M: Method + Copy + ProvedFor<General>>(method: M) -> Result<(), Error> {
     let start = State::from_arrays(0.0, [1.0, 2.0], [0.1, -0.3]);
     compare(method, &DoublePendulum, &start, 0.02)?;
     let vortex = State::from_arrays(0.0, [1.0], [0.5]);

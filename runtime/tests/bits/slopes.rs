@@ -66,7 +66,7 @@ fn subexpressions_of_both_slopes_are_evaluated_once() -> Result<(), Error> {
         at_once.take_steps(500)?;
         Ok((at_once.state().clone(), *at_once.statistics(), count.get()))
     }
-    fn check<M: Method + ProvedFor<General>>(method: M, share: u64) -> Result<(), Error> {
+    fn check<M: Method + Copy + ProvedFor<General>>(method: M, share: u64) -> Result<(), Error> {
         let (shared, alone) = (run::<M, true>(method)?, run::<M, false>(method)?);
         assert_eq!((&shared.0, &shared.1), (&alone.0, &alone.1), "{}", M::NAME);
         assert_eq!(share * shared.2, alone.2, "{}", M::NAME);

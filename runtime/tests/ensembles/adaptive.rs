@@ -57,7 +57,10 @@ fn work<M: Method>(
 }
 
 /// The rows of the trajectories alone.
-fn alone<M: ProvedFor<Separable> + SymmetricFor<Separable>>(method: M, epsilon: f64) -> Vec<Kept> {
+fn alone<M: Copy + ProvedFor<Separable> + SymmetricFor<Separable>>(
+    method: M,
+    epsilon: f64,
+) -> Vec<Kept> {
     let one = |start: State<Vector>| {
         let mut seen = Vec::new();
         match AdaptiveSteps::run(method, Kepler, MONITOR, start.clone(), epsilon) {
@@ -97,7 +100,7 @@ fn rows<M: SymmetricFor<Separable> + Sync>(
     rows.into_iter().map(|(row, seen)| (seen, row)).collect()
 }
 
-fn check<M: ProvedFor<Separable> + SymmetricFor<Separable> + Sync>(method: M, epsilon: f64) {
+fn check<M: Copy + ProvedFor<Separable> + SymmetricFor<Separable> + Sync>(method: M, epsilon: f64) {
     let expected = alone(method, epsilon);
     for threads in [1, 4] {
         let found = rows(&ensemble(method, epsilon), threads, MONITOR.0);

@@ -45,7 +45,7 @@ macro_rules! in_all_lanes {
 /// Checks ends, steps and outputs.
 fn check<M, S, V, R>(method: M, system: S, starts: Vec<State<V>>, size: f64)
 where
-    M: Method + ProvedFor<S::Class>,
+    M: Method + Copy + ProvedFor<S::Class>,
     S: System<V> + Clone + Send + Sync,
     V: Vector<Scalar = f64> + Send + Sync,
     R: Summation,
@@ -100,7 +100,7 @@ where
 
 fn check_sums<M, S, V>(method: M, system: S, starts: &[State<V>], size: f64)
 where
-    M: Method + ProvedFor<S::Class>,
+    M: Method + Copy + ProvedFor<S::Class>,
     S: System<V> + Clone + Send + Sync,
     V: Vector<Scalar = f64> + Send + Sync,
 {

@@ -34,7 +34,7 @@ fn forces_in_lanes<M, H, R>(
     size: f64,
 ) -> usize
 where
-    M: Method + ProvedFor<H::Class>,
+    M: Method + Copy + ProvedFor<H::Class>,
     H: Hamiltonian + Clone + Send + Sync,
     H::Vector<f64>: Send + Sync,
     R: Summation,
@@ -63,7 +63,7 @@ where
 /// Checks the ends of trajectories, and that steps are taken in lanes.
 fn check<M, H, R>(method: M, system: &H, starts: &[State<H::Vector<f64>>], size: f64)
 where
-    M: Method + ProvedFor<H::Class>,
+    M: Method + Copy + ProvedFor<H::Class>,
     H: Hamiltonian + Clone + Send + Sync,
     H::Vector<f64>: Send + Sync,
     R: Summation,
@@ -176,14 +176,14 @@ fn run_time_tableaux_step_nonseparable_systems_in_lanes() {
     let start = |k: usize| State::from_arrays(0.5, [0.1 * k as f64, 0.2], [0.3, 0.1 * k as f64]);
     let starts: Vec<_> = (0..19).map(start).collect();
     for tableau in [tableau(Midpoint), tableau(Gauss4), tableau(Gauss18)] {
-        let make = |start| Integrator::at_run_time(&tableau, Swing, start, 0.1);
+        let make = |start| Integrator::new(tableau.clone(), Swing, start, 0.1);
         let expected = alone(&starts, make, |run| (run.take_steps(90).map(|_| ()), ()));
         let in_lanes = AtomicUsize::new(0);
         let counted = Counted {
             system: Swing,
             in_lanes: &in_lanes,
         };
-        let ensemble = Ensemble::at_run_time(&tableau, counted, starts.clone(), 0.1);
+        let ensemble = Ensemble::new(tableau.clone(), counted, starts.clone(), 0.1);
         let mut rows = Vec::new();
         let ensemble = ensemble.expect("starts").in_lanes::<F64x16>();
         on_threads(1, || {

@@ -23,7 +23,12 @@ fn failed<A>(rows: &[(Bits, A)]) -> Vec<usize> {
 }
 
 /// The rows of the trajectories alone and of the ensemble, to the end.
-fn check<M: Method + ProvedFor<Separable>>(method: M, escape: usize, size: f64, retry: Retry) {
+fn check<M: Method + Copy + ProvedFor<Separable>>(
+    method: M,
+    escape: usize,
+    size: f64,
+    retry: Retry,
+) {
     let starts = starts(23, escape);
     let make = |start| {
         let mut integrator = Integrator::new(method, SYSTEM, start, size)?;

@@ -7,8 +7,8 @@ use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{SVector, Vector2};
 use symplectic::simd::{F64x16, Lanes, MAX_LANES};
 use symplectic::{
-    AtRunTime, Compensated, Hamiltonian, Integrator, Method, ProvedFor, Scalar, Separable, State,
-    System, Vector,
+    Compensated, Hamiltonian, Integrator, Method, ProvedFor, RunTimeTableau, Scalar, Separable,
+    State, System, Vector,
 };
 
 use crate::common::methods::{ForestRuth, Gauss4};
@@ -160,12 +160,12 @@ fn families_with_coupled_stages_share_lanes() {
 fn families_with_run_time_tableaux_share_lanes() {
     for tableau in [tableau(ForestRuth), tableau(Gauss4)] {
         let in_lanes = AtomicUsize::new(0);
-        let make = |system, start| Integrator::at_run_time(&tableau, system, start, 0.1);
+        let make = |system, start| Integrator::new(tableau.clone(), system, start, 0.1);
         let expected = alone!(families(&in_lanes), make, |run| {
             (run.take_steps(200).map(|_| ()), ())
         });
-        let ensemble: Result<Ensemble<AtRunTime, _, _, Compensated>, _> =
-            Ensemble::families_at_run_time(&tableau, families(&in_lanes), 0.1);
+        let ensemble: Result<Ensemble<RunTimeTableau, _, _, Compensated>, _> =
+            Ensemble::with_summation(tableau.clone(), families(&in_lanes), 0.1);
         let ensemble = ensemble.expect("starts").in_lanes::<F64x16>();
         let mut rows: Vec<(Bits, ())> = Vec::new();
         on_threads(1, || {

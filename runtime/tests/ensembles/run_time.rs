@@ -4,8 +4,7 @@ use symplectic::ensemble::{Ensemble, EnsembleError};
 use symplectic::nalgebra::{SVector, Vector2};
 use symplectic::simd::{F64x2, F64x4, F64x8};
 use symplectic::{
-    AtRunTime, CheckpointError, Error, Integrator, RunTimeTableau, Scalar, SeparableHamiltonian,
-    State,
+    CheckpointError, Error, Integrator, RunTimeTableau, Scalar, SeparableHamiltonian, State,
 };
 
 use crate::common::methods::{ForestRuth, Gauss4, McLachlanAtela, StoermerVerlet, Yoshida6};
@@ -62,19 +61,19 @@ fn trajectories_of_run_time_tableaux_have_the_bits_of_single_runs() {
         check!(
             name,
             starts,
-            Ensemble::at_run_time(&tableau, SYSTEM, starts.clone(), 0.1).expect("starts"),
-            |start| Integrator::at_run_time(&tableau, SYSTEM, start, 0.1)
+            Ensemble::new(tableau.clone(), SYSTEM, starts.clone(), 0.1).expect("starts"),
+            |start| Integrator::new(tableau.clone(), SYSTEM, start, 0.1)
         );
         check!(
             name,
             starts,
-            Ensemble::plain_at_run_time(&tableau, SYSTEM, starts.clone(), 0.1).expect("starts"),
-            |start| Integrator::plain_at_run_time(&tableau, SYSTEM, start, 0.1)
+            Ensemble::plain(tableau.clone(), SYSTEM, starts.clone(), 0.1).expect("starts"),
+            |start| Integrator::plain(tableau.clone(), SYSTEM, start, 0.1)
         );
     }
     let escaped = alone(
         &starts,
-        |start| Integrator::at_run_time(&tableau(ForestRuth), SYSTEM, start, 0.1),
+        |start| Integrator::new(tableau(ForestRuth), SYSTEM, start, 0.1),
         |run| (run.integrate_to(20.8).map(|_| ()), ()),
     );
     assert!(escaped.iter().any(|(bits, ())| bits.outcome.is_err()));
@@ -102,8 +101,7 @@ impl SeparableHamiltonian for Counted<'_> {
 fn explicit_tableaux_go_side_by_side() {
     let count = |in_lanes: bool| {
         let calls = std::sync::atomic::AtomicUsize::new(0);
-        let ensemble =
-            Ensemble::at_run_time(&tableau(ForestRuth), Counted(&calls), starts(16, 100), 0.1);
+        let ensemble = Ensemble::new(tableau(ForestRuth), Counted(&calls), starts(16, 100), 0.1);
         let mut ensemble = ensemble.expect("starts");
         if !in_lanes {
             ensemble = ensemble.one_by_one();
@@ -128,7 +126,7 @@ fn ends_are_those_of_the_emitted_method() {
     });
     let mut found = Vec::new();
     let ensemble =
-        Ensemble::at_run_time(&tableau(ForestRuth), SYSTEM, starts.clone(), 0.05).expect("starts");
+        Ensemble::new(tableau(ForestRuth), SYSTEM, starts.clone(), 0.05).expect("starts");
     ensemble.integrate_to(20.0, |row| {
         found.push(row.state);
         std::ops::ControlFlow::Continue(())
@@ -140,7 +138,7 @@ fn ends_are_those_of_the_emitted_method() {
     }
     // Another method is farther away by its error.
     let mut other = Vec::new();
-    let ensemble = Ensemble::at_run_time(&tableau(StoermerVerlet), SYSTEM, starts, 0.05);
+    let ensemble = Ensemble::new(tableau(StoermerVerlet), SYSTEM, starts, 0.05);
     ensemble.expect("starts").integrate_to(20.0, |row| {
         other.push(row.state);
         std::ops::ControlFlow::Continue(())
@@ -168,7 +166,7 @@ impl SeparableHamiltonian for Quartic {
 fn methods_for_other_systems_are_refused() {
     let starts = || vec![State::from_arrays(0.0, [0.4], [0.3]); 3];
     let nystrom = tableau(McLachlanAtela);
-    let error = Ensemble::at_run_time(&nystrom, Quartic, starts(), 0.1).expect_err("not quadratic");
+    let error = Ensemble::new(nystrom.clone(), Quartic, starts(), 0.1).expect_err("not quadratic");
     let expected = matches!(
         error,
         EnsembleError::Start {
@@ -178,24 +176,24 @@ fn methods_for_other_systems_are_refused() {
     );
     assert!(expected, "{error:?}");
     let accepted = nystrom.accept_lower_order();
-    Ensemble::at_run_time(&accepted, Quartic, starts(), 0.1).expect("of lower order");
+    Ensemble::new(accepted.clone(), Quartic, starts(), 0.1).expect("of lower order");
 
     let splitting = tableau(ForestRuth);
-    let error = Ensemble::plain_at_run_time(&splitting, Product, starts(), 0.1);
+    let error = Ensemble::plain(splitting.clone(), Product, starts(), 0.1);
     let expected = EnsembleError::All(Error::SeparableTableau {
         order: 4,
         lower_order: splitting.orders().general,
     });
     assert_eq!(error.expect_err("not separable"), expected);
-    Ensemble::plain_at_run_time(&tableau(Gauss4), Product, starts(), 0.1).expect("general");
+    Ensemble::plain(tableau(Gauss4), Product, starts(), 0.1).expect("general");
 }
 
-type Run = Ensemble<AtRunTime, HenonHeiles, Vector2<f64>>;
+type Run = Ensemble<RunTimeTableau, HenonHeiles, Vector2<f64>>;
 
 #[test]
 fn a_checkpoint_knows_its_tableau() {
     let make = |tableau: &RunTimeTableau| -> Run {
-        Ensemble::at_run_time(tableau, SYSTEM, starts(20, 7), 0.1).expect("starts")
+        Ensemble::new(tableau.clone(), SYSTEM, starts(20, 7), 0.1).expect("starts")
     };
     let rows = |run: &Run, first| {
         let mut rows: Vec<(Bits, ())> = Vec::new();

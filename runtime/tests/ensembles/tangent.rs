@@ -65,7 +65,7 @@ const STILL: HenonHeiles = HenonHeiles { amplitude: 0.0 };
 /// The state has the bits of a run alone, and the displacement those of a run in dual numbers.
 #[test]
 fn the_displacement_is_the_derivative_of_the_step() -> Result<(), Error> {
-    fn check<M: Method + ProvedFor<Separable>>(method: M) -> Result<(), Error> {
+    fn check<M: Method + Copy + ProvedFor<Separable>>(method: M) -> Result<(), Error> {
         let inner = STILL;
         let system = Tangent::new(inner);
         let begin = henon_heiles(0.1, 0.2, 0.1);
@@ -102,7 +102,7 @@ fn by_differences<M, S, const N: usize>(
     (dq, dp): (SVector<f64, N>, SVector<f64, N>),
 ) -> Result<[SVector<f64, N>; 2], Error>
 where
-    M: Method + ProvedFor<S::Class>,
+    M: Method + Copy + ProvedFor<S::Class>,
     S: System<SVector<f64, N>> + Copy,
 {
     let end = |e: f64| {

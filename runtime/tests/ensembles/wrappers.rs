@@ -19,7 +19,7 @@ symplectic::hamiltonian! { Kepler { mu } q: [x, y], p: [px, py]; H = (px^2 + py^
 /// Compares ends, states at times and the work of closures with single runs. Each start has the system of its number by `system`.
 fn check<M, S, V>(method: M, system: impl Fn(usize) -> S, starts: &[State<V>], size: f64)
 where
-    M: Method + ProvedFor<S::Class>,
+    M: Method + Copy + ProvedFor<S::Class>,
     S: System<V> + Clone + Send,
     V: Vector<Scalar = f64> + Send + Sync,
 {

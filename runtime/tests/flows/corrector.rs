@@ -14,7 +14,7 @@ use crate::common::methods::StoermerVerlet;
 /// The errors that are odd and even in ε, with this many pairs, or without a corrector.
 fn by_powers<M>(method: M, pairs: u32, small: f64, steps: u32) -> Result<[f64; 2], Error>
 where
-    M: Splits + SymmetricFor<Separable> + ProvedFor<Damped>,
+    M: Copy + Splits + SymmetricFor<Separable> + ProvedFor<Damped>,
 {
     let errors = [small, -small].map(|small| {
         let step = Splitting::new(method, Rotation, Quartic(small));
@@ -45,7 +45,7 @@ where
 fn the_order_in_the_small_part_is_raised() -> Result<(), Error> {
     fn slope<M>(method: M, pairs: u32, power: usize, steps: u32) -> Result<f64, Error>
     where
-        M: Splits + SymmetricFor<Separable> + ProvedFor<Damped>,
+        M: Copy + Splits + SymmetricFor<Separable> + ProvedFor<Damped>,
     {
         let small = [1e-4, 1e-2][power];
         let error = |steps| Ok::<_, Error>(by_powers(method, pairs, small, steps)?[power]);

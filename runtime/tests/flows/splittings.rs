@@ -113,7 +113,7 @@ fn the_order_is_that_for_separable_systems() {
 }
 
 /// The errors that are odd and even in ε, ε and ε².
-fn by_powers<M: Splits + ProvedFor<Damped>>(method: M, small: f64, steps: u32) -> [f64; 2] {
+fn by_powers<M: Copy + Splits + ProvedFor<Damped>>(method: M, small: f64, steps: u32) -> [f64; 2] {
     let [plus, minus] = [small, -small].map(|small| {
         let (found, exact) = (
             end(Splitting::new(method, Rotation, Quartic(small)), steps),
@@ -132,7 +132,7 @@ fn by_powers<M: Splits + ProvedFor<Damped>>(method: M, small: f64, steps: u32) -
 fn perturbed_systems_have_two_orders() {
     fn slopes<M>(method: M, small: [f64; 2], steps: [u32; 2]) -> [f64; 2]
     where
-        M: Splits + ProvedFor<Damped>,
+        M: Copy + Splits + ProvedFor<Damped>,
     {
         [0, 1].map(|power| {
             let (small, steps) = (small[power], steps[power]);

@@ -59,7 +59,7 @@ fn run<M: Method + ProvedFor<Constrained<Separable>>>(
 #[test]
 #[ignore = "thorough"]
 fn a_body_held_at_the_origin_is_a_pivot() -> Result<(), Error> {
-    fn check<M: Method + ProvedFor<Constrained<Separable>>>(
+    fn check<M: Method + Copy + ProvedFor<Constrained<Separable>>>(
         method: M,
         held: Held,
         angle: f64,
@@ -229,7 +229,7 @@ symplectic::hamiltonian! {
 
 #[test]
 fn beads_start_from_rest_at_the_origin() -> Result<(), Error> {
-    fn check<M: Method + ProvedFor<Constrained<Separable>>>(method: M) -> Result<(), Error> {
+    fn check<M: Method + Copy + ProvedFor<Constrained<Separable>>>(method: M) -> Result<(), Error> {
         let start = || State::from_arrays(0.0, [0.0_f64, 0.0], [0.0, 0.0]);
         for slope in [3.0, -0.3, 1e-5, 7e8] {
             let mut run = Integrator::new(method, Line { slope }, start(), 0.01)?;

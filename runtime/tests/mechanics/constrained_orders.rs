@@ -26,7 +26,7 @@ where
 /// The slope of the error at a time between a number of steps and twice as many, against Lobatto with six stages.
 fn slope<M, S, C, V>(method: M, system: S, start: &State<V>, (time, steps): (f64, u32)) -> f64
 where
-    M: Method + ProvedFor<Constrained<C>>,
+    M: Method + Copy + ProvedFor<Constrained<C>>,
     V: Vector<Scalar = f64>,
     S: Hamiltonian<Class = Constrained<C>, Vector<f64> = V> + Copy,
     C: symplectic::Class + Unconstrained,

@@ -127,7 +127,7 @@ fn check<M, S, B, const R: usize, const N: usize>(
     (bound, rows): (B, Rows<R, N>),
     start: State<Point<N>>,
 ) where
-    M: Method + ProvedFor<S::Class> + ProvedFor<B::Class>,
+    M: Method + Copy + ProvedFor<S::Class> + ProvedFor<B::Class>,
     S: System<Point<N>, Class: Conservative> + Copy,
     B: System<Point<N>> + Copy,
 {

@@ -232,7 +232,7 @@ fn newton_steps_do_not_fail_if_a_new_run_takes_them() -> Result<(), Error> {
         let tableau = RunTimeTableau::new("gauss-3", &coefficients, Gauss3::ORDERS);
         let tableau = &tableau.expect("symplectic");
         let (_, run) = compared!(name, product(), 100, |start| {
-            let run = Integrator::at_run_time(tableau, Product, start, size)?;
+            let run = Integrator::new(tableau.clone(), Product, start, size)?;
             Ok::<_, CoreError>(run.by_newton())
         });
         rejected += run.statistics().rejected;

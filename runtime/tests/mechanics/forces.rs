@@ -42,7 +42,7 @@ pub fn slope<M, S, const N: usize>(
     steps: u32,
 ) -> f64
 where
-    M: Method + ProvedFor<S::Class>,
+    M: Method + Copy + ProvedFor<S::Class>,
     S: System<SVector<f64, N>>,
 {
     let errors = [steps, 2 * steps].map(|steps| {

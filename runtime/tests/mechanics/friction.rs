@@ -56,7 +56,7 @@ fn end<M: Method + ProvedFor<Damped>>(method: M, friction: f64, steps: u32) -> S
 
 #[test]
 fn the_order_is_that_for_separable_systems() {
-    fn slope<M: Method + ProvedFor<Damped>>(method: M, steps: u32) -> f64 {
+    fn slope<M: Method + Copy + ProvedFor<Damped>>(method: M, steps: u32) -> f64 {
         let reference = end(Yoshida6, 0.25, 4000);
         let errors = [steps, 2 * steps].map(|steps| {
             let end = end(method, 0.25, steps);

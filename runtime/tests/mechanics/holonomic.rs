@@ -60,7 +60,7 @@ fn states_stay_on_the_constraints() {
 /// dq∧dp of two tangent vectors of the constrained phase space, before and after a step, by differences.
 #[test]
 fn steps_are_symplectic_on_the_constraints() {
-    fn check<M: Method + ProvedFor<Constrained<Separable>>>(method: M) -> f64 {
+    fn check<M: Method + Copy + ProvedFor<Constrained<Separable>>>(method: M) -> f64 {
         const STEP: f64 = 1e-3;
         let start = double_start();
         // A state near by, in a direction, on the constraints.
@@ -113,7 +113,7 @@ fn steps_are_symplectic_on_the_constraints() {
 
 #[test]
 fn symmetric_steps_go_back_and_others_do_not() {
-    fn back<M: Method + ProvedFor<Constrained<Separable>>>(method: M) -> f64 {
+    fn back<M: Method + Copy + ProvedFor<Constrained<Separable>>>(method: M) -> f64 {
         let start = double_start();
         let mut run = Integrator::new(method, DoubleSpherical, start.clone(), 0.1).expect("a run");
         let there = run.step().expect("a step").clone();

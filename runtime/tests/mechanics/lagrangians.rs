@@ -83,7 +83,7 @@ fn difference<M, L, S, const N: usize>(
     start: State<SVector<f64, N>>,
 ) -> f64
 where
-    M: Method + ProvedFor<General> + ProvedFor<S::Class>,
+    M: Method + Copy + ProvedFor<General> + ProvedFor<S::Class>,
     L: Lagrangian<Vector<f64> = SVector<f64, N>>,
     S: System<SVector<f64, N>>,
 {

@@ -18,7 +18,7 @@ fn distance<V: Vector<Scalar = f64>>(a: &V, b: &V) -> f64 {
 /// The states at t = 1 of runs with numbers of steps, each twice the one before.
 fn ends<M, S, C, V>(method: M, system: S, start: &State<V>, steps: u32) -> [State<V>; 3]
 where
-    M: Method + ProvedFor<Nonholonomic<C>>,
+    M: Method + Copy + ProvedFor<Nonholonomic<C>>,
     V: Vector<Scalar = f64>,
     S: Hamiltonian<Class = Nonholonomic<C>, Vector<f64> = V> + Copy,
     C: Class + symplectic::system::Unconstrained,

@@ -173,7 +173,7 @@ fn assert_resized(error: &(impl Clone + Into<Error>), what: Quantity, to: usize)
 /// leaves the state, and succeeds without the fault.
 fn refuses<M, C>(method: M)
 where
-    M: Method + ProvedFor<C>,
+    M: Method + Copy + ProvedFor<C>,
     C: Kind,
 {
     for to in WRONG {
@@ -260,7 +260,7 @@ fn a_resized_result_outside_the_stages_is_named_without_a_stage() -> Result<(), 
 fn dense_output_refuses_resized_results() -> Result<(), Error> {
     fn check<M, C>(method: M) -> Result<(), Error>
     where
-        M: Method + ProvedFor<C>,
+        M: Method + Copy + ProvedFor<C>,
         C: Kind,
     {
         for to in WRONG {
@@ -314,7 +314,7 @@ fn functions_of_states_refuse_resized_results() {
 fn balances_refuse_a_resized_applied_force() -> Result<(), Error> {
     fn check<M, C>(method: M) -> Result<(), Error>
     where
-        M: Method + ProvedFor<C>,
+        M: Method + Copy + ProvedFor<C>,
         C: Kind,
     {
         for to in WRONG {

@@ -146,7 +146,7 @@ fn noisy_evaluations_do_not_keep_the_iteration_going() -> Result<(), Error> {
 /// there, steps were off by 38 to 174 units.
 #[test]
 fn slow_fixed_point_iterations_settle() -> Result<(), Error> {
-    fn check<M: Method>(method: M, angle: f64, bound: f64) -> Result<(), Error> {
+    fn check<M: Method + Copy>(method: M, angle: f64, bound: f64) -> Result<(), Error> {
         let rotation = || {
             separable::<Vector1<f64>, _, _>(
                 |_, p, velocity| *velocity = *p,

@@ -65,7 +65,7 @@ fn shows<M, S, V>(
     expected: [u32; 2],
 ) -> Result<(), Error>
 where
-    M: Method + ProvedFor<S::Class>,
+    M: Method + Copy + ProvedFor<S::Class>,
     S: System<V, Class: Unconstrained>,
     V: Vector<Scalar = f64>,
 {
@@ -103,7 +103,7 @@ where
 #[test]
 fn the_order_is_the_one_that_is_stated() -> Result<(), Error> {
     /// From a place off the axes, so that no derivative vanishes by symmetry.
-    fn check<M: Method>(method: M, size: f64, expected: [u32; 2]) -> Result<(), Error> {
+    fn check<M: Method + Copy>(method: M, size: f64, expected: [u32; 2]) -> Result<(), Error> {
         let start = exact(Kepler, &perihelion(), 0.7)?;
         let start = State { time: 0.0, ..start };
         let [positions, momenta] = expected;
@@ -142,7 +142,7 @@ fn the_order_for_general_systems_is_the_lower_one() -> Result<(), Error> {
 
 #[test]
 fn dense_output_without_a_stage_polynomial_is_cubic_hermite() -> Result<(), Error> {
-    fn check<M: Method>(method: M, order: u32) -> Result<(), Error> {
+    fn check<M: Method + Copy>(method: M, order: u32) -> Result<(), Error> {
         let start = exact(Kepler, &perihelion(), 0.7)?;
         let start = State { time: 0.0, ..start };
         let found = interpolation(method, || Kepler, &start);
@@ -193,7 +193,7 @@ fn ends_are_exact() -> Result<(), Error> {
         }
         Ok(())
     }
-    fn all<M: Method>(method: M) -> Result<(), Error> {
+    fn all<M: Method + Copy>(method: M) -> Result<(), Error> {
         check(Integrator::new(method, Kepler, perihelion(), 0.03)?)?;
         check(Integrator::plain(method, Kepler, perihelion(), 0.03)?)?;
         check(Integrator::new(method, Kepler, perihelion(), 0.03)?.with_solver(SimdFixedPoint))

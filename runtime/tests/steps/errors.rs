@@ -70,7 +70,7 @@ fn assert_recovers<M, S, V>(
     start: &State<V>,
 ) -> Error
 where
-    M: Method + ProvedFor<S::Class>,
+    M: Method + Copy + ProvedFor<S::Class>,
     S: System<V>,
     V: Vector,
 {
@@ -488,7 +488,7 @@ fn newton_is_advised_only_where_it_may_help() -> Result<(), Error> {
     let mut constrained = Integrator::new(Rattle, Rotor, start, 1.5)?;
     assert!(!advised(constrained.step().map(|_| ())));
     let tableau = common::tableau(Midpoint);
-    let mut at_run_time = Integrator::at_run_time(&tableau, Product, point(0.5, 0.3), 1000.0)?;
+    let mut at_run_time = Integrator::new(tableau.clone(), Product, point(0.5, 0.3), 1000.0)?;
     assert!(advised(at_run_time.step().map(|_| ())));
     let mut newton = at_run_time.by_newton();
     newton.set_max_iterations(2);

@@ -71,7 +71,7 @@ fn output_goes_backward() -> Result<(), Error> {
 /// Steps between output times far apart are taken in blocks, with the same bits.
 #[test]
 fn output_far_apart_has_the_bits_of_output_in_every_step() -> Result<(), Error> {
-    fn check<M: Method>(method: M, size: f64) -> Result<(), Error> {
+    fn check<M: Method + Copy>(method: M, size: f64) -> Result<(), Error> {
         let run = || {
             let kepler = acceleration::<DVector<f64>, _>(|_, q: &DVector<f64>, acceleration| {
                 acceleration.copy_from(&(q * -q.norm().powi(-3)));

@@ -43,7 +43,7 @@ fn found<M: Method>(method: M, step_size: f64, level: f64, by_steps: bool) -> Ve
 }
 
 /// Checks that all crossings are found, up to an error of the phase; those of every other level by steps.
-fn finds_all<M: Method>(method: M, sizes: &[f64], levels: &[f64], phase: f64) {
+fn finds_all<M: Method + Copy>(method: M, sizes: &[f64], levels: &[f64], phase: f64) {
     for &size in sizes {
         for (&level, by_steps) in levels.iter().zip([false, true].into_iter().cycle()) {
             let (found, expected) = (found(method, size, level, by_steps), expected(level));
@@ -148,7 +148,7 @@ fn a_wall_stops_a_shallow_excursion() -> Result<(), Error> {
 /// A function far from zero is evaluated once in a step, and the steps have the bits of a run without it.
 #[test]
 fn an_event_far_away_is_evaluated_once_in_a_step() -> Result<(), Error> {
-    fn check<M: Method>(method: M) -> Result<(), Error> {
+    fn check<M: Method + Copy>(method: M) -> Result<(), Error> {
         let (mut seen, mut unseen) = (
             Integrator::new(method, Kepler, perihelion(), 0.05)?,
             Integrator::new(method, Kepler, perihelion(), 0.05)?,

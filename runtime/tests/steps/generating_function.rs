@@ -68,7 +68,7 @@ fn defect<M, S, const N: usize>(
     h: f64,
 ) -> Result<f64, Error>
 where
-    M: Method + ProvedFor<S::Class>,
+    M: Method + Copy + ProvedFor<S::Class>,
     S: System<SVector<Dual, N>, Class: Conservative>,
 {
     let mut worst = 0.0_f64;
@@ -93,7 +93,7 @@ fn defect_by_differences<M, S, const N: usize>(
     h: f64,
 ) -> Result<f64, Error>
 where
-    M: Method + ProvedFor<S::Class>,
+    M: Method + Copy + ProvedFor<S::Class>,
     S: System<SVector<f64, N>, Class: Conservative>,
 {
     const DISTANCE: f64 = 1e-3;
@@ -302,7 +302,7 @@ fn a_sum_with_another_function_does_not() -> Result<(), Error> {
 
 #[test]
 fn a_degenerate_hamiltonian_has_the_function_q0_p1_r() -> Result<(), Error> {
-    fn check<M: Method + ProvedFor<General>>(
+    fn check<M: Method + Copy + ProvedFor<General>>(
         method: M,
         stability: impl Fn(f64) -> f64,
     ) -> Result<(), Error> {
@@ -336,7 +336,7 @@ fn a_degenerate_hamiltonian_has_the_function_q0_p1_r() -> Result<(), Error> {
 
 #[test]
 fn the_degenerate_function_tends_to_that_of_the_flow() -> Result<(), Error> {
-    fn errors<M: Method + ProvedFor<General>>(method: M) -> Result<Vec<f64>, Error> {
+    fn errors<M: Method + Copy + ProvedFor<General>>(method: M) -> Result<Vec<f64>, Error> {
         let (q0, p1) = (Vector1::new(1.5), Vector1::new(0.75));
         let error = |h: f64| {
             let generating = generating_function(method, &Degenerate, 0.0, &q0, &p1, h)?;
@@ -360,7 +360,7 @@ fn the_degenerate_function_tends_to_that_of_the_flow() -> Result<(), Error> {
 
 #[test]
 fn a_step_comes_with_its_generating_function() -> Result<(), Error> {
-    fn check<M: Method>(method: M) -> Result<(), Error> {
+    fn check<M: Method + Copy>(method: M) -> Result<(), Error> {
         let start = State::new(0.0, Vector2::from(KEPLER.0), Vector2::from(KEPLER.1));
         let mut integrator = Integrator::new(method, Kepler, start.clone(), 0.1)?;
         let mut plain = Integrator::new(method, Kepler, start, 0.1)?;

@@ -418,7 +418,7 @@ fn impacts_on_several_walls_come_in_order() -> Result<(), Error> {
 /// A body that rests on the floor, whose handler reflects it: its flights are rounding errors, and the search ends soon.
 #[test]
 fn a_reflected_body_at_rest_ends_the_search() -> Result<(), Error> {
-    fn rest<M: Method + ProvedFor<Separable>>(
+    fn rest<M: Method + Copy + ProvedFor<Separable>>(
         method: M,
         step_size: f64,
         gravity: f64,

@@ -54,7 +54,7 @@ fn compare<M, S, V>(
     h: f64,
 ) -> Result<f64, Error>
 where
-    M: Method + ProvedFor<S::Class>,
+    M: Method + Copy + ProvedFor<S::Class>,
     S: System<V>,
     V: Vector<Scalar = f64>,
 {
@@ -71,7 +71,7 @@ where
 
 #[test]
 fn newton_finds_the_stages_of_the_fixed_point_iteration() -> Result<(), Error> {
-    fn check<M: Method + ProvedFor<General>>(method: M) -> Result<(), Error> {
+    fn check<M: Method + Copy + ProvedFor<General>>(method: M) -> Result<(), Error> {
         let kepler = perihelion();
         let distance = compare(method, || Kepler, &kepler, 0.05)?;
         // Rounding errors of 50 steps, growing as errors on a Kepler orbit do.
@@ -101,7 +101,7 @@ fn newton_leaves_explicit_methods_unchanged() -> Result<(), Error> {
 
 #[test]
 fn oscillators_of_any_stiffness_take_few_iterations() -> Result<(), Error> {
-    fn check<M: Method>(method: M) -> Result<(), Error> {
+    fn check<M: Method + Copy>(method: M) -> Result<(), Error> {
         for exponent in -8..=8 {
             let omega = 10f64.powi(exponent);
             let start = State::new(0.0, Vector1::new(1.0), Vector1::new(omega));
@@ -365,7 +365,7 @@ fn chain_start() -> State<DVector<f64>> {
 
 #[test]
 fn bands_give_what_full_matrices_give() -> Result<(), Error> {
-    fn check<M: Method>(method: M, stiffness: f64) -> Result<(), Error> {
+    fn check<M: Method + Copy>(method: M, stiffness: f64) -> Result<(), Error> {
         let integrator = || Integrator::new(method, Chain(stiffness), chain_start(), 0.1);
         let mut dense = integrator()?.with_solver(Newton::<Dense<AnalyticOrDifferences>>::new());
         let mut banded =
@@ -426,7 +426,10 @@ impl Hamiltonian for Rotors {
 
 #[test]
 fn newton_steps_stiff_general_systems() -> Result<(), Error> {
-    fn check<M: Method + ProvedFor<General>>(method: M, stiffness: f64) -> Result<(), Error> {
+    fn check<M: Method + Copy + ProvedFor<General>>(
+        method: M,
+        stiffness: f64,
+    ) -> Result<(), Error> {
         let start = || State::new(0.0, chain_start().q * 1e-3, DVector::zeros(24));
         let integrator = || Integrator::new(method, Rotors(stiffness), start(), 0.1);
         let mut dense = integrator()?.by_newton();

@@ -116,7 +116,7 @@ proptest! {
 #[test]
 #[ignore = "thorough"]
 fn restored_chains_have_the_bits_of_those_that_went_on() -> Result<(), Error> {
-    fn all<M: Method + ProvedFor<Separable>>(method: M) -> Result<(), Error> {
+    fn all<M: Method + Copy + ProvedFor<Separable>>(method: M) -> Result<(), Error> {
         for n in [17, 64] {
             let chain = Chain::ring(Beta);
             check(|| Integrator::new(method, chain, waves(n), 0.1))?;

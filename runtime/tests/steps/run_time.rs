@@ -50,21 +50,21 @@ fn ellipse() -> State<Vector2<f64>> {
 /// 200 steps of the same method in both forms, with either sums: no farther apart than rounding.
 fn same<M, S, V>(method: M, system: impl Fn() -> S, start: &State<V>) -> Result<(), Error>
 where
-    M: Method + ProvedFor<S::Class>,
+    M: Method + Copy + ProvedFor<S::Class>,
     S: System<V, Class: Conservative>,
     V: symplectic::Vector<Scalar = f64>,
 {
     let tableau = tableau(method);
     let h = 0.01;
     let mut emitted = Integrator::new(method, system(), start.clone(), h)?.with_solver(FixedPoint);
-    let mut at_run_time = Integrator::at_run_time(&tableau, system(), start.clone(), h)?;
+    let mut at_run_time = Integrator::new(tableau.clone(), system(), start.clone(), h)?;
     emitted.take_steps(200)?;
     at_run_time.take_steps(200)?;
     let apart = distance(emitted.state(), at_run_time.state());
     assert!(apart < 4e-15, "{}, compensated: {apart:e}", M::NAME);
     let mut emitted =
         Integrator::plain(method, system(), start.clone(), h)?.with_solver(FixedPoint);
-    let mut at_run_time = Integrator::plain_at_run_time(&tableau, system(), start.clone(), h)?;
+    let mut at_run_time = Integrator::plain(tableau.clone(), system(), start.clone(), h)?;
     emitted.take_steps(200)?;
     at_run_time.take_steps(200)?;
     // 200 steps with a rounding error each, amplified by the flow.
@@ -113,11 +113,11 @@ fn run_time_tableaux_use_the_nodes_of_emitted_methods() -> Result<(), Error> {
 fn explicit_tableaux_take_as_many_evaluations() -> Result<(), Error> {
     for (at_run_time, emitted) in [
         (
-            Integrator::at_run_time(&tableau(StoermerVerlet), kepler(), ellipse(), 0.01)?.run()?,
+            Integrator::new(tableau(StoermerVerlet), kepler(), ellipse(), 0.01)?.run()?,
             Integrator::new(StoermerVerlet, kepler(), ellipse(), 0.01)?.run()?,
         ),
         (
-            Integrator::at_run_time(&tableau(ForestRuth), kepler(), ellipse(), 0.01)?.run()?,
+            Integrator::new(tableau(ForestRuth), kepler(), ellipse(), 0.01)?.run()?,
             Integrator::new(ForestRuth, kepler(), ellipse(), 0.01)?.run()?,
         ),
     ] {
@@ -147,11 +147,11 @@ fn lanes_are_stepped_as_doubles() -> Result<(), Error> {
     for tableau in [tableau(StoermerVerlet), tableau(Gauss4)] {
         let q = Vector1::new(F64x4::from_f64(0.2));
         let p = Vector1::new(F64x4::from_array(momenta));
-        let mut lanes = Integrator::at_run_time(&tableau, Swing, State::new(0.0, q, p), 0.1)?;
+        let mut lanes = Integrator::new(tableau.clone(), Swing, State::new(0.0, q, p), 0.1)?;
         lanes.take_steps(30)?;
         for (lane, momentum) in momenta.into_iter().enumerate() {
             let start = State::from_arrays(0.0, [0.2], [momentum]);
-            let mut alone = Integrator::at_run_time(&tableau, Swing, start, 0.1)?;
+            let mut alone = Integrator::new(tableau.clone(), Swing, start, 0.1)?;
             let apart = alone.take_steps(30)?.q[0] - lanes.state().q[0].get(lane);
             assert!(apart.abs() < 1e-14, "{}: {apart:e}", tableau.name());
         }
@@ -166,7 +166,7 @@ fn errors_fall_with_the_order() -> Result<(), Error> {
         let order = f64::from(tableau.orders().separable);
         let found = slopes(coarsest, 2, |steps| {
             let h = core::f64::consts::TAU / f64::from(steps);
-            let mut integrator = Integrator::at_run_time(&tableau, kepler(), ellipse(), h)?;
+            let mut integrator = Integrator::new(tableau.clone(), kepler(), ellipse(), h)?;
             let end = integrator.integrate_to(core::f64::consts::TAU)?;
             Ok((end.q - ellipse().q).norm())
         })?;
@@ -184,7 +184,7 @@ fn errors_fall_with_the_order() -> Result<(), Error> {
 #[test]
 fn a_step_back_comes_to_where_it_began() -> Result<(), Error> {
     for tableau in [tableau(Gauss4), tableau(ForestRuth)] {
-        let mut integrator = Integrator::at_run_time(&tableau, kepler(), ellipse(), 0.02)?;
+        let mut integrator = Integrator::new(tableau.clone(), kepler(), ellipse(), 0.02)?;
         integrator.take_steps(100)?;
         integrator.set_step_size(-0.02)?;
         integrator.take_steps(100)?;
@@ -283,14 +283,14 @@ fn every_emitted_method_passes_the_checks() {
 fn systems_of_lower_order_are_refused() -> Result<(), Error> {
     let splitting = tableau(ForestRuth);
     let start = || State::from_arrays(0.0, [0.3], [0.7]);
-    let refused = Integrator::at_run_time(&splitting, Product, start(), 0.1).err();
+    let refused = Integrator::new(splitting.clone(), Product, start(), 0.1).err();
     let expected = Error::SeparableTableau {
         order: 4,
         lower_order: ForestRuth::ORDERS.general,
     };
     assert_eq!(refused, Some(expected));
     let accepted = splitting.accept_lower_order();
-    Integrator::at_run_time(&accepted, Product, start(), 0.1)?.step()?;
+    Integrator::new(accepted.clone(), Product, start(), 0.1)?.step()?;
     // Runge–Kutta–Nyström on a kinetic energy that is not quadratic.
     let quartic = || {
         separable::<Vector1<f64>, _, _>(
@@ -299,12 +299,12 @@ fn systems_of_lower_order_are_refused() -> Result<(), Error> {
         )
     };
     let nystrom = tableau(BlanesMoanSrkn11b);
-    let refused = Integrator::at_run_time(&nystrom, quartic(), start(), 0.1).err();
+    let refused = Integrator::new(nystrom.clone(), quartic(), start(), 0.1).err();
     assert!(
         matches!(refused, Some(Error::NotQuadraticKinetic { order: 6, .. })),
         "{refused:?}"
     );
-    Integrator::at_run_time(&nystrom.accept_lower_order(), quartic(), start(), 0.1)?.step()?;
+    Integrator::new(nystrom.accept_lower_order(), quartic(), start(), 0.1)?.step()?;
     Ok(())
 }
 
@@ -318,16 +318,16 @@ fn constrained_steps_at_run_time_have_the_bits_of_the_method()
         start: State<V>,
     ) -> Result<(), Box<dyn std::error::Error>>
     where
-        M: Method + ProvedFor<S::Class>,
+        M: Method + Copy + ProvedFor<S::Class>,
         S: System<V, Class: Frictionless> + Clone,
         V: symplectic::Vector<Scalar = f64>,
     {
         let without = tableau(method);
-        let refused = Integrator::at_run_time(&without, system.clone(), start.clone(), 0.05).err();
+        let refused = Integrator::new(without.clone(), system.clone(), start.clone(), 0.05).err();
         assert_eq!(refused, Some(Error::NoConstrainedSteps));
         let tableau = without.with_constrained_steps(M::CONSTRAINED, M::NONHOLONOMIC);
         let mut emitted = Integrator::new(method, system.clone(), start.clone(), 0.05)?;
-        let made = || Integrator::at_run_time(&tableau, system.clone(), start.clone(), 0.05);
+        let made = || Integrator::new(tableau.clone(), system.clone(), start.clone(), 0.05);
         let (mut whole, mut resumed) = (made()?, made()?);
         emitted.take_steps(100)?;
         whole.take_steps(100)?;
@@ -356,7 +356,7 @@ fn a_step_that_fails_leaves_the_state() -> Result<(), Error> {
     let start = || State::from_arrays(0.0, [1.0], [0.0]);
     // Only the second stage lies behind the wall.
     for tableau in [tableau(StoermerVerlet), tableau(Gauss2)] {
-        let mut integrator = Integrator::at_run_time(&tableau, wall(), start(), 0.25)?;
+        let mut integrator = Integrator::new(tableau.clone(), wall(), start(), 0.25)?;
         let error = loop {
             let before = integrator.state().clone();
             if let Err(error) = integrator.step() {
@@ -377,7 +377,7 @@ fn a_step_that_fails_leaves_the_state() -> Result<(), Error> {
         integrator.set_state(start())?;
         integrator.step()?;
     }
-    let mut integrator = Integrator::at_run_time(&tableau(Gauss2), kepler(), ellipse(), 0.1)?;
+    let mut integrator = Integrator::new(tableau(Gauss2), kepler(), ellipse(), 0.1)?;
     integrator.set_max_iterations(3);
     assert!(matches!(
         integrator.step(),
@@ -394,7 +394,7 @@ fn a_step_that_fails_leaves_the_state() -> Result<(), Error> {
 fn a_run_time_integrator_copies_restarts_and_changes_solvers()
 -> Result<(), Box<dyn std::error::Error>> {
     for tableau in [tableau(Gauss4), tableau(ForestRuth)] {
-        let run = || Integrator::at_run_time(&tableau, kepler(), ellipse(), 0.02);
+        let run = || Integrator::new(tableau.clone(), kepler(), ellipse(), 0.02);
         // Another copy, another solver, a checkpoint: the same bits.
         let mut whole = run()?;
         whole.take_steps(100)?;
@@ -408,7 +408,7 @@ fn a_run_time_integrator_copies_restarts_and_changes_solvers()
         assert_eq!(whole.state(), resumed.state());
         run()?.with_solver(FixedPoint).take_steps(100)?;
         // That of another tableau is refused.
-        let mut other = Integrator::at_run_time(&self::tableau(Gauss2), kepler(), ellipse(), 0.02)?;
+        let mut other = Integrator::new(self::tableau(Gauss2), kepler(), ellipse(), 0.02)?;
         assert!(other.restore(&checkpoint).is_err());
     }
     Ok(())
@@ -416,11 +416,11 @@ fn a_run_time_integrator_copies_restarts_and_changes_solvers()
 
 #[test]
 fn events_are_where_emitted_methods_find_them() -> Result<(), Error> {
-    fn check<M: Method + ProvedFor<Separable>>(method: M) -> Result<(), Error> {
+    fn check<M: Method + Copy + ProvedFor<Separable>>(method: M) -> Result<(), Error> {
         let tableau = tableau(method);
         let event = || Event::crossing(|state: &State<Vector2<f64>>| state.q[1]).by_steps();
         let mut emitted = Integrator::new(method, kepler(), ellipse(), 0.02)?;
-        let mut at_run_time = Integrator::at_run_time(&tableau, kepler(), ellipse(), 0.02)?;
+        let mut at_run_time = Integrator::new(tableau.clone(), kepler(), ellipse(), 0.02)?;
         // Half of the period.
         let expected = emitted.find_event(4.0, &event())?.map(|state| state.time);
         let found = at_run_time
@@ -453,12 +453,12 @@ symplectic::hamiltonian! {
 /// A run of a tableau beside that of the emitted method, by Newton's iteration: the same states, and about as many sweeps.
 fn same_by_newton<M, S, V>(method: M, system: &S, start: &State<V>, h: f64) -> Result<(), Error>
 where
-    M: Method + ProvedFor<S::Class>,
+    M: Method + Copy + ProvedFor<S::Class>,
     S: System<V, Class: Conservative> + Clone,
     V: symplectic::Vector<Scalar = f64>,
 {
     let tableau = tableau(method);
-    let made = || Integrator::at_run_time(&tableau, system.clone(), start.clone(), h);
+    let made = || Integrator::new(tableau.clone(), system.clone(), start.clone(), h);
     let mut emitted = Integrator::new(method, system.clone(), start.clone(), h)?.by_newton();
     let mut at_run_time = made()?.by_newton();
     emitted.take_steps(100)?;
@@ -501,7 +501,7 @@ fn newtons_iteration_is_that_of_emitted_methods() -> Result<(), Error> {
 
 #[test]
 fn newtons_iteration_takes_explicit_tableaux_too() -> Result<(), Error> {
-    let made = || Integrator::at_run_time(&tableau(StoermerVerlet), kepler(), ellipse(), 0.01);
+    let made = || Integrator::new(tableau(StoermerVerlet), kepler(), ellipse(), 0.01);
     let (mut plain, mut by_newton) = (made()?, made()?.by_newton());
     assert_eq!(by_newton.take_steps(100)?, plain.take_steps(100)?);
     assert_eq!(by_newton.statistics(), plain.statistics());

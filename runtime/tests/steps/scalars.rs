@@ -46,6 +46,7 @@ fn dual_numbers_differentiate_the_flow() -> Result<(), Error> {
     fn check<M, S>(method: M, system: impl Fn() -> S) -> Result<(), Error>
     where
         M: Method
+            + Copy
             + ProvedFor<<S as System<Vector1<f64>>>::Class>
             + ProvedFor<<S as System<Vector1<Dual>>>::Class>,
         S: System<Vector1<f64>> + System<Vector1<Dual>>,
@@ -103,7 +104,7 @@ fn derivatives_converge_too() -> Result<(), Error> {
 
 #[test]
 fn dynamic_vectors_give_the_same_bits() -> Result<(), Error> {
-    fn compare<M: Method>(method: M) -> Result<(), Error> {
+    fn compare<M: Method + Copy>(method: M) -> Result<(), Error> {
         let (q, p) = ([0.5, 1.0, -0.25], [0.3, 0.0, 1.5]);
         let fixed = State::new(0.0, SVector::from(q), SVector::from(p));
         let dynamic = State::new(

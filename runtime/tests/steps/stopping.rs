@@ -46,7 +46,7 @@ fn check<M: Method, N: Solver<Vector2<f64>, Kepler>>(
 
 #[test]
 fn a_tolerance_saves_sweeps_and_bounds_the_change() -> Result<(), Error> {
-    fn all<M: Method>(method: M) -> Result<(), Error> {
+    fn all<M: Method + Copy>(method: M) -> Result<(), Error> {
         let made = || Integrator::plain(method, Kepler, perihelion(), 0.05);
         check(made)?;
         check(|| Ok(made()?.with_solver(SimdFixedPoint)))?;

@@ -190,7 +190,7 @@ fn eight_planets() -> Result<(), Error> {
 }
 
 /// Prints run time and largest energy error over a million years of outer planets.
-fn million_years<M: Splits + SymmetricFor<Separable> + ProvedFor<Damped>>(
+fn million_years<M: Copy + Splits + SymmetricFor<Separable> + ProvedFor<Damped>>(
     name: &str,
     method: M,
     size: f64,

@@ -84,7 +84,7 @@ fn logarithmic<M: Method + ProvedFor<Separable> + Copy>(
     })
 }
 
-fn reversible<M: ProvedFor<Separable> + SymmetricFor<Separable>>(
+fn reversible<M: Copy + ProvedFor<Separable> + SymmetricFor<Separable>>(
     method: M,
     epsilon: f64,
     energies: bool,

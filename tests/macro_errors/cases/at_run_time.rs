@@ -20,10 +20,10 @@ symplectic::hamiltonian! {
 fn steps(tableau: &RunTimeTableau) -> Result<(), Box<dyn std::error::Error>> {
     let rod = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.0]);
     let damped = State::from_arrays(0.0, [1.0], [0.0]);
-    let _rod = Integrator::at_run_time(tableau, Rod, rod, 0.1)?;
-    let _damped = Integrator::at_run_time(tableau, Damped::new(0.1), damped.clone(), 0.1)?;
-    let _ensemble = Ensemble::at_run_time(tableau, Damped::new(0.1), vec![damped.clone()], 0.1)?;
-    let _plain = Integrator::plain_at_run_time(tableau, Damped::new(0.1), damped, 0.1)?;
+    let _rod = Integrator::new(tableau.clone(), Rod, rod, 0.1)?;
+    let _damped = Integrator::new(tableau.clone(), Damped::new(0.1), damped.clone(), 0.1)?;
+    let _ensemble = Ensemble::new(tableau.clone(), Damped::new(0.1), vec![damped.clone()], 0.1)?;
+    let _plain = Integrator::plain(tableau.clone(), Damped::new(0.1), damped, 0.1)?;
     Ok(())
 }
 

@@ -37,7 +37,7 @@ pub enum Stages {
 }
 
 impl Entrant {
-    const fn new<M: Method>(
+    const fn new<M: Method + Copy>(
         _method: M,
         name: &'static str,
         catalogue: Option<&'static str>,

@@ -115,7 +115,6 @@ impl<T: Scalar, S: Stiff<N> + 'static, const N: usize> Solver<SVector<T, N>, Wat
     for FullNewton
 {
     type Memory<P: StageTableau> = Nothing;
-    type AtRunTime<C: Class> = Nothing;
 
     fn take<P, R>(
         step: &Step<'_, SVector<T, N>>,

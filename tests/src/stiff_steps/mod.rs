@@ -109,7 +109,7 @@ fn methods<S: Stiff<N> + 'static, const N: usize>(
     run!(Midpoint Gauss2 Gauss3 Gauss4 Lobatto3 RadauRight2);
 }
 
-fn solvers<M: Method, S: Stiff<N> + 'static, const N: usize>(
+fn solvers<M: Method + Copy, S: Stiff<N> + 'static, const N: usize>(
     method: M,
     nodes: &[f64],
     problem: &Problem<S, N>,
@@ -149,7 +149,7 @@ fn in_full<M: Method, S: Stiff<N> + 'static, const N: usize>(
     Some(integrator.statistics().most_iterations)
 }
 
-fn run<M: Method, S: Stiff<N> + 'static, L, R: Summation, const N: usize>(
+fn run<M: Method + Copy, S: Stiff<N> + 'static, L, R: Summation, const N: usize>(
     method: M,
     nodes: &[f64],
     problem: &Problem<S, N>,
@@ -172,7 +172,7 @@ where
 }
 
 /// Takes the steps and records the outcome; errors are those of the library.
-fn follow<M: Method, S: Stiff<N> + 'static, L, R: Summation, const N: usize>(
+fn follow<M: Method + Copy, S: Stiff<N> + 'static, L, R: Summation, const N: usize>(
     method: M,
     nodes: &[f64],
     problem: &Problem<S, N>,

@@ -31,6 +31,13 @@ impl Class for Damped {
     type Plan<M: Method> = DampedPlan<M>;
     const SEPARABLE: bool = true;
     const FRICTION: bool = true;
+
+    fn memory<M: Method, V: Vector, S: System<V>, N: Solver<V, S>>(
+        _method: &M,
+        prototype: &V,
+    ) -> DampedMemory<V> {
+        DampedMemory::like(prototype)
+    }
 }
 
 /// The exponent x of the largest growth `e^x` of a momentum by friction in a kick of a step:

@@ -3,7 +3,9 @@
 #[cfg(feature = "alloc")]
 use core::marker::PhantomData;
 
-use crate::contract::{Method, Plan};
+use crate::contract::{Method, Plan, Solver, System};
+use crate::error::Error;
+use crate::number::Vector;
 
 mod sealed {
     pub trait Sealed {}
@@ -31,6 +33,23 @@ pub trait Class: sealed::Sealed + Clone + 'static {
     /// Whether there are constraints.
     #[doc(hidden)]
     const CONSTRAINED: bool = false;
+
+    /// The memory of the steps of a method.
+    #[doc(hidden)]
+    fn memory<M: Method, V: Vector, S: System<V>, N: Solver<V, S>>(
+        method: &M,
+        prototype: &V,
+    ) -> <Self::Plan<M> as Plan>::Memory<V, S, N>;
+
+    /// Checks that a method whose coefficients are known only at run time has steps for systems of this class.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoConstrainedSteps`](crate::Error::NoConstrainedSteps)
+    #[doc(hidden)]
+    fn check_steps<M: Method>(_method: &M) -> Result<(), Error> {
+        Ok(())
+    }
 }
 
 /// A class without constraints and friction: [`General`] or [`Separable`].
@@ -107,10 +126,14 @@ macro_rules! implement {
 }
 
 implement! {
-    Unconstrained: Holonomic, FreePositions, Frictionless, UnconstrainedOrDamped;
+    Unconstrained: Holonomic, FreePositions, UnconstrainedOrDamped;
     Holonomic: HolonomicOrDamped;
     FreePositions: FreePositionsOrDamped;
 }
+
+// Without it the message would be that of methods without steps for constraints.
+#[diagnostic::do_not_recommend]
+impl<C: Unconstrained> Frictionless for C {}
 
 #[cfg(feature = "alloc")]
 impl<C> Holonomic for Constrained<C> {}
@@ -198,11 +221,27 @@ pub struct Damped;
 impl Class for General {
     type Plan<M: Method> = M::General;
     const SEPARABLE: bool = false;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn memory<M: Method, V: Vector, S: System<V>, N: Solver<V, S>>(
+        method: &M,
+        prototype: &V,
+    ) -> <M::General as Plan>::Memory<V, S, N> {
+        method.general_memory::<V, S, N>(prototype)
+    }
 }
 
 impl Class for Separable {
     type Plan<M: Method> = M::Separable;
     const SEPARABLE: bool = true;
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn memory<M: Method, V: Vector, S: System<V>, N: Solver<V, S>>(
+        method: &M,
+        prototype: &V,
+    ) -> <M::Separable as Plan>::Memory<V, S, N> {
+        method.separable_memory::<V, S, N>(prototype)
+    }
 }
 
 /// `H` of class `C`, [`Separable`] or [`General`], with holonomic constraints `φ(q) = 0`:

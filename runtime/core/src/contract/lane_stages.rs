@@ -1,9 +1,9 @@
 //! Coupled stages of several trajectories, each in one lane.
 
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-use crate::contract::{EvaluationCounts, Outcome, StageStorage, Step, Stopping};
-use crate::method::RunTimeTableau;
+use crate::contract::{CoupledRows, EvaluationCounts, Outcome, StageStorage, Step, Stopping};
 use crate::number::{Lanes, Vector};
 
 /// A part of the memory of coupled stages.
@@ -81,8 +81,8 @@ pub struct LaneMemory<W: Vector> {
     pub(crate) settled: LaneStages<W>,
     /// The sizes of positions and momenta in the step before: see [`WarmStart::scales`](crate::solver::WarmStart::scales).
     pub(crate) scales: [W::Scalar; 2],
-    /// The tableau, if it is known only at run time.
-    pub(crate) tableau: Option<RunTimeTableau>,
+    /// The rows of the stages, if they are known only at run time.
+    pub(crate) rows: Option<Arc<CoupledRows>>,
 }
 
 impl<W: Vector<Scalar: Lanes>> LaneMemory<W> {
@@ -94,7 +94,7 @@ impl<W: Vector<Scalar: Lanes>> LaneMemory<W> {
             now: made.clone(),
             settled: made,
             scales: [num_traits::Zero::zero(); 2],
-            tableau: stages.tableau().cloned(),
+            rows: stages.rows().cloned(),
         }
     }
 

@@ -1,16 +1,23 @@
-//! What is known of a method by its type.
+//! A method.
 
+#[cfg(feature = "alloc")]
+use alloc::string::String;
 use core::fmt::Debug;
 
 use crate::contract::{
-    ConstrainedStep, General, LowerOrder, Orders, Plan, ProvedFor, Separable, Symmetry,
+    Class, ConstrainedStep, General, LowerOrder, Orders, Plan, ProvedFor, Separable, Solver,
+    StageStorage, Symmetry, System,
 };
-use crate::number::Coefficients;
+use crate::error::Error;
+use crate::number::{Coefficients, Vector};
 
-/// A symplectic partitioned Runge–Kutta method: a type without fields, emitted from a proved tableau.
+/// A symplectic partitioned Runge–Kutta method: a value without fields, emitted from a proved tableau, or a
+/// [tableau at run time](crate::RunTimeTableau).
 ///
 /// It can be run on separable systems, and on general systems if it is [`ProvedFor`] them.
-pub trait Method: ProvedFor<Separable> + ProvedFor<()> + Copy + Debug + 'static {
+pub trait Method:
+    ProvedFor<Separable> + ProvedFor<()> + Clone + Debug + Send + Sync + 'static
+{
     /// Name of the method.
     const NAME: &'static str;
     /// Number of stages s of the tableau; a plan may store fewer.
@@ -35,6 +42,79 @@ pub trait Method: ProvedFor<Separable> + ProvedFor<()> + Copy + Debug + 'static 
 
     /// Its steps for systems with non-holonomic constraints: one step, or those of a composition. Empty if it has none.
     const NONHOLONOMIC: &'static [ConstrainedStep] = &[];
+
+    /// Whether the coefficients are in the value. The constants then say nothing about them, and code that reads them does not compile.
+    const AT_RUN_TIME: bool = false;
+
+    /// Name of the method; that of a tableau at run time is in the value.
+    fn name(&self) -> &str {
+        Self::NAME
+    }
+
+    /// Its order for each class of Hamiltonians.
+    fn orders(&self) -> Orders {
+        Self::ORDERS
+    }
+
+    /// The orders, if it is refused for separable systems whose kinetic energy is not quadratic:
+    /// [`NEEDS_QUADRATIC_KINETIC`](Self::NEEDS_QUADRATIC_KINETIC).
+    #[doc(hidden)]
+    fn needs_quadratic_kinetic(&self) -> Option<Orders> {
+        Self::NEEDS_QUADRATIC_KINETIC.then_some(Self::ORDERS)
+    }
+
+    /// What checkpoints are compared by: its definition, or the coefficients of a tableau at run time, bit by bit.
+    #[cfg(feature = "alloc")]
+    #[doc(hidden)]
+    fn identity(&self) -> String {
+        Self::DEFINITION.into()
+    }
+
+    /// Its steps for systems with holonomic constraints.
+    #[doc(hidden)]
+    fn holonomic(&self) -> &'static [ConstrainedStep] {
+        Self::CONSTRAINED
+    }
+
+    /// Its steps for systems with non-holonomic constraints.
+    #[doc(hidden)]
+    fn nonholonomic(&self) -> &'static [ConstrainedStep] {
+        Self::NONHOLONOMIC
+    }
+
+    /// Checks that it keeps its order on systems of class `C`. The compiler has proved it of an emitted method.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::SeparableTableau`](crate::Error::SeparableTableau) for a tableau at run time.
+    #[doc(hidden)]
+    fn check_order<C: Class>(&self) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Whether its plans for separable systems are [lanewise](Plan::LANEWISE) with these coefficients.
+    #[doc(hidden)]
+    fn is_lanewise(&self) -> bool {
+        true
+    }
+
+    /// The memory of its steps for systems with a general Hamiltonian.
+    #[doc(hidden)]
+    fn general_memory<V: Vector, S: System<V>, N: Solver<V, S>>(
+        &self,
+        prototype: &V,
+    ) -> <Self::General as Plan>::Memory<V, S, N> {
+        StageStorage::like(prototype)
+    }
+
+    /// The memory of its steps for systems with a separable Hamiltonian.
+    #[doc(hidden)]
+    fn separable_memory<V: Vector, S: System<V>, N: Solver<V, S>>(
+        &self,
+        prototype: &V,
+    ) -> <Self::Separable as Plan>::Memory<V, S, N> {
+        StageStorage::like(prototype)
+    }
 
     /// The same method for every system, even if its order is lower or it is not symplectic.
     ///

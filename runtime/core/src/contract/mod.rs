@@ -18,6 +18,8 @@ mod method;
 mod plan;
 mod proved;
 pub(crate) mod relax;
+#[cfg(feature = "alloc")]
+pub(crate) mod rows;
 mod solver;
 mod stage_plan;
 mod stage_sums;
@@ -61,6 +63,8 @@ pub(crate) use plan::{check_no_holonomic_constraints, check_no_rows};
 pub use proved::{
     LowerOrder, Orders, Possible, ProvedFor, Splits, StoermerVerletSteps, SymmetricFor, Symmetry,
 };
+#[cfg(feature = "alloc")]
+pub use rows::CoupledRows;
 pub use solver::Solver;
 pub use stage_plan::StagePlan;
 pub use stage_sums::{StageSums, StartingValues, Sweep};

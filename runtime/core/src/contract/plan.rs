@@ -8,8 +8,6 @@ use crate::contract::{
 };
 use crate::error::Error;
 #[cfg(feature = "alloc")]
-use crate::method::RunTimeTableau;
-#[cfg(feature = "alloc")]
 use crate::number::Lanes;
 use crate::number::{Scalar, Summation, Vector};
 
@@ -80,13 +78,6 @@ pub trait Plan {
         stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure>;
-
-    /// Whether a tableau at run time has steps for systems of this class.
-    #[cfg(feature = "alloc")]
-    #[doc(hidden)]
-    fn steps_at_run_time(_tableau: &RunTimeTableau) -> bool {
-        true
-    }
 
     /// Whether steps are taken [in lanes](Self::lane_step).
     #[cfg(feature = "alloc")]

@@ -1,7 +1,10 @@
 //! The classes of systems for which a method is proved to keep its order and symplecticity.
 
-use crate::contract::{Damped, General, Method, Plan, Separable};
-use crate::number::Coefficients;
+#[cfg(feature = "alloc")]
+use alloc::string::String;
+
+use crate::contract::{Damped, General, Method, Plan, Separable, Solver, System};
+use crate::number::{Coefficients, Vector};
 
 /// A method that keeps its order and its symplecticity on all systems of class `C`.
 ///
@@ -123,8 +126,44 @@ impl<M: Method> Method for LowerOrder<M> {
     const SYMMETRY: Symmetry = M::SYMMETRY;
     const NEEDS_QUADRATIC_KINETIC: bool = false;
     const FUNCTIONS: usize = M::FUNCTIONS;
+    const AT_RUN_TIME: bool = M::AT_RUN_TIME;
     type General = M::General;
     type Separable = M::Separable;
+
+    fn name(&self) -> &str {
+        self.0.name()
+    }
+
+    fn orders(&self) -> Orders {
+        self.0.orders()
+    }
+
+    fn needs_quadratic_kinetic(&self) -> Option<Orders> {
+        None
+    }
+
+    #[cfg(feature = "alloc")]
+    fn identity(&self) -> String {
+        self.0.identity()
+    }
+
+    fn is_lanewise(&self) -> bool {
+        self.0.is_lanewise()
+    }
+
+    fn general_memory<V: Vector, S: System<V>, N: Solver<V, S>>(
+        &self,
+        prototype: &V,
+    ) -> <M::General as Plan>::Memory<V, S, N> {
+        self.0.general_memory::<V, S, N>(prototype)
+    }
+
+    fn separable_memory<V: Vector, S: System<V>, N: Solver<V, S>>(
+        &self,
+        prototype: &V,
+    ) -> <M::Separable as Plan>::Memory<V, S, N> {
+        self.0.separable_memory::<V, S, N>(prototype)
+    }
 }
 
 // With constraints or friction there is no lower order to accept for a method without such steps.

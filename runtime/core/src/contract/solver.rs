@@ -5,7 +5,7 @@ use alloc::string::String;
 use core::fmt::Debug;
 
 #[cfg(feature = "alloc")]
-use crate::contract::{Class, LaneStep};
+use crate::contract::LaneStep;
 use crate::contract::{
     Failure, Inside, Outcome, StageStorage, StageTableau, Step, StepStatistics, Stopping, System,
     WarmStart,
@@ -34,10 +34,19 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     /// Its memory for one plan, allocated once and used for every step.
     type Memory<P: StageTableau>: StageStorage<V>;
 
-    /// Its memory for the coupled stages of a tableau that is known only at run time, for systems of class `C`. For a solver without
-    /// [`take_at_run_time`](Self::take_at_run_time) any storage does: `<FixedPoint as Solver<V, S>>::AtRunTime<C>`.
-    #[cfg(feature = "alloc")]
-    type AtRunTime<C: Class>: StageStorage<V>;
+    /// Its memory for a plan that is a value: a tableau at run time, whose stages [`StagePlan::stages`](crate::emitted::StagePlan::stages)
+    /// allocates. By default it does not compile for such a plan. A solver that provides it must not read the constants of the plan if the
+    /// plan is [`AT_RUN_TIME`](StageTableau::AT_RUN_TIME).
+    #[must_use]
+    fn memory<P: StageTableau>(_plan: &P, prototype: &V) -> Self::Memory<P> {
+        const {
+            assert!(
+                !P::AT_RUN_TIME,
+                "this solver does not take tableaux at run time: take the default solver, `FixedPoint`, `Newton` or `FixedPointThenNewton`"
+            );
+        }
+        <Self::Memory<P> as StageStorage<V>>::like(prototype)
+    }
 
     /// Takes `step` and writes its result into `outcome`; returns the statistics of the step.
     ///
@@ -57,35 +66,6 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
         R: Summation,
         S: System<V, Class = P::Class>;
 
-    /// Takes a step of a tableau that is known only at run time and whose stages depend on each other. Does not compile for a solver that
-    /// does not support it.
-    ///
-    /// # Errors
-    ///
-    /// As for [`take`](Self::take).
-    #[cfg(feature = "alloc")]
-    fn take_at_run_time<C, R>(
-        _step: &Step<'_, V>,
-        _system: &S,
-        _memory: &mut Self::AtRunTime<C>,
-        _kept: WarmStart,
-        _stopping: Stopping,
-        _outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        C: Class,
-        R: Summation,
-        S: System<V, Class = C>,
-    {
-        const {
-            assert!(
-                size_of::<V>() == usize::MAX,
-                "this solver does not take tableaux at run time: take the default solver, `FixedPoint`, `Newton` or `FixedPointThenNewton`"
-            );
-        }
-        Ok(StepStatistics::default())
-    }
-
     /// Whether several trajectories can run [in lanes](Self::lane_step).
     #[cfg(feature = "alloc")]
     #[doc(hidden)]
@@ -104,20 +84,6 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
         R: Summation,
         W: Vector<Scalar: Lanes>,
         J: System<W, Class = P::Class>,
-    {
-        None
-    }
-
-    /// [`lane_step`](Self::lane_step) of a tableau at run time.
-    #[cfg(feature = "alloc")]
-    #[doc(hidden)]
-    #[inline]
-    fn lane_step_at_run_time<C, R, W, J>() -> Option<LaneStep<W, J>>
-    where
-        C: Class,
-        R: Summation,
-        W: Vector<Scalar: Lanes>,
-        J: System<W, Class = C>,
     {
         None
     }

@@ -26,6 +26,17 @@ pub trait StagePlan {
     /// How many evaluations it makes.
     const EVALUATIONS: EvaluationCounts;
 
+    /// How many evaluations it makes with these stages: [`EVALUATIONS`](Self::EVALUATIONS), unless their number is known only at run time.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn evaluations<V: Vector>(_stages: &Self::Stages<V>) -> EvaluationCounts {
+        Self::EVALUATIONS
+    }
+
+    /// The stages of a plan that is a value.
+    fn stages<V: Vector>(&self, prototype: &V) -> Self::Stages<V> {
+        Self::Stages::like(prototype)
+    }
+
     /// Evaluates the explicit stages before the coupled ones, and sets the starting values of the coupled stages. These are extrapolated
     /// from the stages of the previous step if they are [kept](WarmStart::stages); otherwise they are the start of the step.
     fn begin<R: Summation, V: Vector, S: System<V, Class = Self::Class>>(

@@ -1,50 +1,41 @@
 //! The memory of a step.
 
+#[cfg(feature = "alloc")]
+use alloc::sync::Arc;
 use core::array;
 
 use core::mem;
 
-#[cfg(feature = "alloc")]
-use crate::contract::StageVisit;
 use crate::contract::StoredEvaluations;
-use crate::error::Quantity;
 #[cfg(feature = "alloc")]
-use crate::method::RunTimeTableau;
+use crate::contract::{CoupledRows, StageVisit};
+use crate::error::Quantity;
 use crate::number::vector::LIGHT;
 use crate::number::{Scalar, Vector, Visit};
 
 /// Memory of one [`Plan`](crate::emitted::Plan), allocated once and used for every step.
 pub trait StageStorage<V: Vector>: Sized + Clone {
-    /// Whether it holds a [tableau](Self::tableau) that is known only at run time.
+    /// Whether copies of it allocate, because its stages are counted only at run time.
     const AT_RUN_TIME: bool = false;
 
     /// Storage for vectors of the dimension of `prototype`; every component is zero.
     fn like(prototype: &V) -> Self;
 
-    /// The tableau, if it is known only at run time.
-    #[cfg(feature = "alloc")]
-    fn tableau(&self) -> Option<&RunTimeTableau> {
-        None
+    /// Storage [like](Self::like) `prototype` for the same method.
+    fn anew(&self, prototype: &V) -> Self {
+        Self::like(prototype)
     }
 
-    /// Stores a tableau that is known only at run time, and allocates its stages.
+    /// The rows of the stages, if they are known only at run time.
     #[cfg(feature = "alloc")]
-    fn set_tableau(&mut self, _tableau: &RunTimeTableau, _prototype: &V) {}
-
-    /// Storage [like](Self::like) `prototype` for the same method as `_other`.
-    fn of_method<T: StageStorage<V>>(_other: &T, prototype: &V) -> Self {
-        #[cfg_attr(not(feature = "alloc"), allow(unused_mut))]
-        let mut storage = Self::like(prototype);
-        #[cfg(feature = "alloc")]
-        if let Some(tableau) = _other.tableau() {
-            storage.set_tableau(tableau, prototype);
-        }
-        storage
+    #[doc(hidden)]
+    fn rows(&self) -> Option<&Arc<CoupledRows>> {
+        None
     }
 
     /// Discards everything that earlier steps left.
     fn forget(&mut self, prototype: &V) {
-        *self = Self::of_method(self, prototype);
+        *self = self.anew(prototype);
     }
 
     /// Passes all numbers that a step leaves for the next one to `visit`: a checkpoint holds them.

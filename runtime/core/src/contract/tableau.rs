@@ -1,8 +1,12 @@
 //! The coefficients of coupled stages as matrices.
 
+#[cfg(feature = "alloc")]
+use alloc::sync::Arc;
 use core::fmt::Debug;
 use core::marker::PhantomData;
 
+#[cfg(feature = "alloc")]
+use crate::contract::CoupledRows;
 use crate::contract::{Class, StagePlan, SystemLanes};
 use crate::number::Vector;
 
@@ -36,6 +40,16 @@ pub trait StageTableau: StagePlan {
 
     /// How the linear systems of a Newton iteration decouple; `None` if they do not, or if this is not known.
     const DECOUPLING: Option<Decoupling> = None;
+
+    /// Whether the coefficients are known only at run time: then the constants are empty, and a plan that is a value has [rows](Self::rows).
+    const AT_RUN_TIME: bool = false;
+
+    /// The coefficients of a plan whose coefficients are known only at run time.
+    #[cfg(feature = "alloc")]
+    #[doc(hidden)]
+    fn rows(&self) -> Option<&Arc<CoupledRows>> {
+        None
+    }
 
     /// A value for each group of lanes, by its number from 0.
     fn groups<T: Debug>(make: impl FnMut(usize) -> T) -> Self::Groups<T>;
@@ -82,6 +96,19 @@ pub struct HalfTableau {
     /// The polynomial through the evaluations of a step, with as many entries as there are stages. `None` if times coincide or if the
     /// weights are not those of a polynomial.
     pub polynomial: Option<StagePolynomial>,
+}
+
+impl HalfTableau {
+    /// No stages.
+    #[cfg(feature = "alloc")]
+    pub(crate) const NONE: Self = Self {
+        count: 0,
+        columns: &[],
+        times: &[],
+        weights: &[],
+        extrapolation: &[],
+        polynomial: None,
+    };
 }
 
 /// The coefficients for second-order systems `q'' = M⁻¹ f(q)`, from which the momentum stages are eliminated (Nyström):

@@ -10,7 +10,7 @@ use crate::integrator::fingerprint::system_fingerprint;
 use crate::integrator::last_step::LastEvent;
 use crate::integrator::memory::StepMemory;
 use crate::integrator::{Integrator, Retry, Run, Statistics, Stepper};
-use crate::method::{Method, Solver, StageStorage, Stopping, WarmStart};
+use crate::method::{Method, Solver, Stopping, WarmStart};
 use crate::number::words::{Visit, Words, words};
 use crate::number::{Scalar, Summation, Vector};
 use crate::state::State;
@@ -379,10 +379,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
                 "" => M::NAME.to_string(),
                 _ => format!("{}, {kind}", M::NAME),
             },
-            definition: match self.stepper.step_memory.memory.tableau() {
-                Some(tableau) => tableau.definition(),
-                None => M::DEFINITION.to_string(),
-            },
+            definition: self.stepper.method.identity(),
             scalar: V::Scalar::SAVED_AS
                 .ok_or(CheckpointError::Scalar)?
                 .to_string(),

@@ -10,6 +10,7 @@ use num_traits::Zero;
 
 use super::memory::StepMemory;
 use super::partitioned::MemoryOf;
+use super::partitioned::memory_of;
 use super::{Integrator, Partitioned, PlanOf, Run};
 use crate::integrator::clock::{Clock, RemainingSteps};
 use crate::integrator::{Retry, Statistics};
@@ -67,23 +68,22 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             zeros.clone(),
             zeros.clone(),
         );
-        let mut lanes = Run {
+        let method = self.stepper.method.clone();
+        let memory = memory_of::<M, J, W, J::Solver>(&method, zeros);
+        Run {
             stepper: Partitioned {
                 system,
-                step_memory: StepMemory::new(false, blank),
+                step_memory: StepMemory::new(memory, false, blank),
                 stopping: self.stepper.stopping,
-                method: PhantomData,
+                method,
+                kind: PhantomData,
             },
             clock: self.clock,
             step_size: self.step_size,
             // A step that fails is repeated by the trajectory that it belongs to.
             retry: Retry::Never,
             last_event: self.last_event,
-        };
-        if let Some(tableau) = self.stepper.step_memory.memory.tableau() {
-            lanes.set_tableau(tableau);
         }
-        lanes
     }
 }
 

@@ -47,13 +47,13 @@ pub(super) struct StepMemory<V, T> {
 
 impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
     /// The memory of a run that begins at a state.
-    pub(super) fn new(linear_velocity: bool, state: State<V>) -> Self {
+    pub(super) fn new(memory: T, linear_velocity: bool, state: State<V>) -> Self {
         let zeros = || (state.q.zeros_like(), state.q.zeros_like());
         Self {
             low: zeros(),
             next: zeros(),
             next_low: zeros(),
-            memory: T::like(&state.q),
+            memory,
             kept: WarmStart::default(),
             last_size: 0.0,
             last_time: state.time,
@@ -128,14 +128,18 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
         Self {
             low: self.low.clone(),
             statistics: self.statistics,
-            ..Self::new(self.linear_velocity, self.state.clone())
+            ..Self::new(
+                self.memory.anew(&self.state.q),
+                self.linear_velocity,
+                self.state.clone(),
+            )
         }
     }
 
     /// The same run with memory of another type.
-    pub(super) fn with_memory<U: StageStorage<V>>(self, linear_velocity: bool) -> StepMemory<V, U> {
+    pub(super) fn with_memory<U>(self, memory: U, linear_velocity: bool) -> StepMemory<V, U> {
         StepMemory {
-            memory: U::of_method(&self.memory, &self.state.q),
+            memory,
             kept: WarmStart::default(),
             state: self.state,
             low: self.low,

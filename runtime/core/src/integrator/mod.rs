@@ -46,8 +46,6 @@ mod memory;
 mod named_steps;
 mod one_step;
 mod partitioned;
-#[cfg(feature = "alloc")]
-mod run_time;
 mod solvers;
 mod step_map;
 pub(crate) mod validation;

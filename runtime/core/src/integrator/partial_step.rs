@@ -19,7 +19,7 @@ impl<M: Method, S: System<V>, V: Vector, N: Solver<V, S>> PartialSteps<M, S, V, 
     pub(crate) fn of<R: Summation>(stepper: &Partitioned<M, S, V, R, N>) -> Self {
         let prototype = &stepper.state().q;
         Self {
-            memory: StageStorage::of_method(&stepper.step_memory.memory, prototype),
+            memory: stepper.step_memory.memory.anew(prototype),
             low: (prototype.zeros_like(), prototype.zeros_like()),
         }
     }

@@ -26,6 +26,15 @@ pub(crate) type PlanOf<M, S, V> = <<S as System<V>>::Class as Class>::Plan<M>;
 /// The memory of the plan of `M` with the solver `N`.
 pub(super) type MemoryOf<M, S, V, N> = <PlanOf<M, S, V> as Plan>::Memory<V, S, N>;
 
+/// The memory of the plan of a method.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn memory_of<M: Method, S: System<V>, V: Vector, N: Solver<V, S>>(
+    method: &M,
+    prototype: &V,
+) -> MemoryOf<M, S, V, N> {
+    <S::Class as Class>::memory::<M, V, S, N>(method, prototype)
+}
+
 /// An integrator: a method that steps a system from a state.
 ///
 /// [`new`](crate::Integrator#method.new) allocates all memory. A step that fails from what earlier steps left, such as extrapolated stages,
@@ -66,7 +75,8 @@ pub struct Partitioned<M: Method, S: System<V>, V: Vector, R: Summation, N: Solv
     pub(super) system: S,
     pub(super) step_memory: StepMemory<V, MemoryOf<M, S, V, N>>,
     pub(crate) stopping: Stopping,
-    pub(super) method: PhantomData<(M, R, N)>,
+    pub(super) method: M,
+    pub(super) kind: PhantomData<(R, N)>,
 }
 
 impl<M: Method, S: System<V>, V: Vector> Integrator<M, S, V> {
@@ -77,7 +87,8 @@ impl<M: Method, S: System<V>, V: Vector> Integrator<M, S, V> {
     /// [`Error::StepSize`], [`Error::Dimension`] if the dimensions of `q` and `p` differ, [`Error::NonFiniteState`],
     /// [`Error::NotQuadraticKinetic`], [`Error::NotUnitMasses`], [`Error::NotSeparable`], [`Error::NotForced`]. With constraints also
     /// [`Error::InconsistentStart`], [`Error::DependentConstraints`] and [`Error::ResizedEvaluation`]. If parameters of a formula do not
-    /// fit the state, [`Error::ParameterLength`], [`Error::PairOutOfRange`], [`Error::DimensionFactor`] or [`Error::TooFewBodies`].
+    /// fit the state, [`Error::ParameterLength`], [`Error::PairOutOfRange`], [`Error::DimensionFactor`] or [`Error::TooFewBodies`]. For a
+    /// [tableau at run time](crate::RunTimeTableau) also [`Error::SeparableTableau`] and [`Error::NoConstrainedSteps`].
     pub fn new(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error>
     where
         M: ProvedFor<S::Class>,
@@ -179,7 +190,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     ///
     /// As for [`new`](crate::Integrator#method.new).
     pub fn with_summation(
-        _method: M,
+        method: M,
         system: S,
         state: State<V>,
         step_size: f64,
@@ -187,32 +198,28 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     where
         M: ProvedFor<S::Class>,
     {
-        Self::made(system, state, step_size)
-    }
-
-    /// An integrator of the method given by the type.
-    pub(super) fn made(system: S, state: State<V>, step_size: f64) -> Result<Self, Error> {
-        Self::check(&system, &state, step_size)?;
-        Ok(Self::unchecked(system, state, step_size))
+        Self::check(&method, &system, &state, step_size)?;
+        Ok(Self::unchecked(method, system, state, step_size))
     }
 
     /// Checks the arguments of an integrator.
     #[doc(hidden)]
-    pub fn check(system: &S, state: &State<V>, step_size: f64) -> Result<(), Error> {
+    pub fn check(method: &M, system: &S, state: &State<V>, step_size: f64) -> Result<(), Error> {
+        S::Class::check_steps(method)?;
+        method.check_order::<S::Class>()?;
         check_step_size(step_size)?;
         check_start(system, state)?;
         check_masses(system, state)?;
-        let orders = M::NEEDS_QUADRATIC_KINETIC.then_some(M::ORDERS);
-        check_quadratic_kinetic::<M, V, S>(orders, system, state)?;
+        check_quadratic_kinetic(method, system, state)?;
         <PlanOf<M, S, V> as Plan>::check(system, state.time, &state.q, &state.p)
     }
 
     /// An integrator whose arguments have been [checked](Self::check).
     #[doc(hidden)]
-    pub fn unchecked(system: S, state: State<V>, step_size: f64) -> Self {
+    pub fn unchecked(method: M, system: S, state: State<V>, step_size: f64) -> Self {
         let clock = Clock::new(state.time, step_size);
         Self {
-            stepper: Partitioned::unchecked(system, state),
+            stepper: Partitioned::unchecked(method, system, state),
             clock,
             step_size,
             retry: Retry::default(),
@@ -283,10 +290,10 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
 }
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitioned<M, S, V, R, N> {
-    fn unchecked(system: S, state: State<V>) -> Self {
+    fn unchecked(method: M, system: S, state: State<V>) -> Self {
         let linear_velocity = has_linear_velocity::<V, S, N>(&system, &state);
-        let mut step_memory: StepMemory<V, MemoryOf<M, S, V, N>> =
-            StepMemory::new(linear_velocity, state);
+        let memory = memory_of::<M, S, V, N>(&method, &state.q);
+        let mut step_memory = StepMemory::new(memory, linear_velocity, state);
         let State { time, q, p } = &step_memory.state;
         <PlanOf<M, S, V> as Plan>::prepare::<V, S, N>(
             &mut step_memory.memory,
@@ -299,7 +306,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitio
             step_memory,
             system,
             stopping: Stopping::DEFAULT,
-            method: PhantomData,
+            method,
+            kind: PhantomData,
         }
     }
 
@@ -428,7 +436,9 @@ impl<M: Method, S: System<V> + Clone, V: Vector, R: Summation, N: Solver<V, S>> 
         Self {
             system: self.system.clone(),
             step_memory: self.step_memory.clone(),
-            ..*self
+            stopping: self.stopping,
+            method: self.method.clone(),
+            kind: PhantomData,
         }
     }
 }
@@ -439,7 +449,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> fmt::Deb
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter
             .debug_struct("Partitioned")
-            .field("method", &M::NAME)
+            .field("method", &self.method.name())
             .field("state", &self.step_memory.state)
             .field("statistics", &self.step_memory.statistics)
             .finish_non_exhaustive()

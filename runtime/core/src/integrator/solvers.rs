@@ -2,8 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::memory::StepMemory;
-use super::partitioned::MemoryOf;
+use super::partitioned::memory_of;
 use super::validation::has_linear_velocity;
 use super::{Integrator, Partitioned, PlanOf, Run};
 use crate::method::{Method, Plan, Solver};
@@ -15,14 +14,15 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
     /// The same integrator with another [`Solver`] for coupled stages from here on; the counts continue.
     pub fn with_solver<O: Solver<V, S>>(self, _solver: O) -> Integrator<M, S, V, R, O> {
         let Partitioned {
+            method,
             system,
             step_memory,
             stopping,
             ..
         } = self.stepper;
         let linear_velocity = has_linear_velocity::<V, S, O>(&system, &step_memory.state);
-        let mut step_memory: StepMemory<V, MemoryOf<M, S, V, O>> =
-            step_memory.with_memory(linear_velocity);
+        let memory = memory_of::<M, S, V, O>(&method, &step_memory.state.q);
+        let mut step_memory = step_memory.with_memory(memory, linear_velocity);
         let State { time, q, p } = &step_memory.state;
         <PlanOf<M, S, V> as Plan>::prepare::<V, S, O>(
             &mut step_memory.memory,
@@ -36,7 +36,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
                 step_memory,
                 system,
                 stopping,
-                method: PhantomData,
+                method,
+                kind: PhantomData,
             },
             clock: self.clock,
             step_size: self.step_size,

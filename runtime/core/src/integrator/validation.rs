@@ -2,9 +2,7 @@
 
 use crate::error::{Error, Quantity};
 use crate::method::storage::is_finite;
-#[cfg(feature = "alloc")]
-use crate::method::{AtRunTime, Plan, RunTimeTableau};
-use crate::method::{Method, Orders, Solver};
+use crate::method::{Method, Solver};
 use crate::number::vector::beside;
 use crate::number::{Scalar, Vector};
 use crate::state::State;
@@ -95,12 +93,13 @@ fn first_clear_difference<V: Vector>(left: &V, right: &V) -> Option<usize> {
     })
 }
 
-/// Checks that the velocity is linear in the momentum, for a method that has the order of these `orders` only then.
-pub fn check_quadratic_kinetic<M: Method, V: Vector, S: System<V>>(
-    orders: Option<Orders>,
+/// Checks that the velocity is linear in the momentum, for a method that has its order only then.
+pub(crate) fn check_quadratic_kinetic<M: Method, V: Vector, S: System<V>>(
+    method: &M,
     system: &S,
     state: &State<V>,
 ) -> Result<(), Error> {
+    let orders = method.needs_quadratic_kinetic();
     let Some(orders) = orders.filter(|_| !S::MASSES.are_unit()) else {
         return Ok(());
     };
@@ -114,23 +113,6 @@ pub fn check_quadratic_kinetic<M: Method, V: Vector, S: System<V>>(
             velocity: found.velocity,
             linear: found.linear,
         })
-    })
-}
-
-/// Checks that a run-time tableau is valid for systems of this class.
-#[cfg(feature = "alloc")]
-pub fn check_orders<V: Vector, S: System<V>>(tableau: &RunTimeTableau) -> Result<(), Error> {
-    if !<S::Class as Class>::Plan::<AtRunTime>::steps_at_run_time(tableau) {
-        return Err(Error::NoConstrainedSteps);
-    }
-    // A method keeps its order with constraints only if it has it for every H.
-    let is_split = S::Class::SEPARABLE && !S::Class::CONSTRAINED;
-    if is_split || tableau.keeps_its_order_in_general() {
-        return Ok(());
-    }
-    Err(Error::SeparableTableau {
-        order: tableau.orders().separable,
-        lower_order: tableau.orders().general,
     })
 }
 

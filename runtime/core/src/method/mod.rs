@@ -17,7 +17,8 @@ pub use coupled::Coupled;
 pub use explicit::Explicit;
 #[cfg(feature = "alloc")]
 pub use run_time::{
-    AtRunTime, RunTimeCoefficients, RunTimePlan, RunTimeStages, RunTimeTableau, TableauError,
+    RunTimeCoefficients, RunTimeMemory, RunTimePlan, RunTimeRows, RunTimeStages, RunTimeTableau,
+    TableauError,
 };
 pub use separable_only::{SeparableOnly, lower_triangular, rows};
 pub use splitting::{Splitting, SplittingPlan, SplittingStep};

@@ -1,5 +1,7 @@
 //! The default solver, for systems that are generic over the scalar.
 
+#[cfg(feature = "alloc")]
+use alloc::sync::Arc;
 use core::fmt;
 use core::marker::PhantomData;
 
@@ -8,10 +10,8 @@ use crate::contract::{
     StepStatistics, Stopping, System, SystemInLanes, WarmStart,
 };
 #[cfg(feature = "alloc")]
-use crate::contract::{LaneStep, StageVisit};
+use crate::contract::{CoupledRows, LaneStep, StageVisit};
 use crate::error::Quantity;
-#[cfg(feature = "alloc")]
-use crate::method::RunTimeStages;
 use crate::number::Lanes;
 use crate::number::registers::{self, Avx2, Avx512, Work};
 use crate::number::vector::{same, same_mut};
@@ -19,8 +19,6 @@ use crate::number::{Scalar, Summation, Vector, Visit, WideF64x4, WideF64x8, Wide
 use crate::solver::FixedPoint;
 use crate::solver::fixed_point::by_stages;
 use crate::solver::nystrom::{self, NystromStages, nystrom};
-#[cfg(feature = "alloc")]
-use crate::solver::run_time::by_rows;
 use crate::solver::stages_in_lanes::in_registers::InRegisters;
 use crate::solver::stages_in_lanes::sweeps;
 #[cfg(feature = "alloc")]
@@ -133,6 +131,24 @@ impl<V: Vector, S: OverEveryScalar<V>, P: StageTableau> StageStorage<V>
         }
     }
 
+    fn anew(&self, prototype: &V) -> Self {
+        match &self.0 {
+            // A constant condition, again.
+            Kind::OneByOne(stages) if P::AT_RUN_TIME => {
+                Self(Kind::OneByOne(stages.anew(prototype)))
+            }
+            _ => Self::like(prototype),
+        }
+    }
+
+    #[cfg(feature = "alloc")]
+    fn rows(&self) -> Option<&Arc<CoupledRows>> {
+        match &self.0 {
+            Kind::OneByOne(stages) => stages.rows(),
+            _ => None,
+        }
+    }
+
     fn words(&mut self, visit: &mut Visit<'_>) {
         with_stages!(&mut self.0, stages => stages.words(visit));
     }
@@ -205,8 +221,13 @@ where
 
 impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
     type Memory<P: StageTableau> = AutomaticStages<V, S, P>;
-    #[cfg(feature = "alloc")]
-    type AtRunTime<C: Class> = RunTimeStages<V, C>;
+
+    fn memory<P: StageTableau>(plan: &P, prototype: &V) -> Self::Memory<P> {
+        match P::AT_RUN_TIME {
+            true => AutomaticStages(Kind::OneByOne(plan.stages(prototype))),
+            false => StageStorage::like(prototype),
+        }
+    }
 
     const TRIES_LINEARITY: bool = V::Scalar::IS_DOUBLE;
 
@@ -225,7 +246,7 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
         S: System<V, Class = P::Class>,
     {
         // A constant condition, as above.
-        if !V::Scalar::IS_DOUBLE {
+        if P::AT_RUN_TIME || !V::Scalar::IS_DOUBLE {
             let Kind::OneByOne(stages) = &mut memory.0 else {
                 unreachable!("{NO_DOUBLES}");
             };
@@ -263,23 +284,6 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
     }
 
     #[cfg(feature = "alloc")]
-    fn take_at_run_time<C, R>(
-        step: &Step<'_, V>,
-        system: &S,
-        memory: &mut RunTimeStages<V, C>,
-        kept: WarmStart,
-        stopping: Stopping,
-        outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        C: Class,
-        R: Summation,
-        S: System<V, Class = C>,
-    {
-        by_rows::<C, R, V, S>(step, system, memory, kept, stopping, outcome)
-    }
-
-    #[cfg(feature = "alloc")]
     fn goes_in_lanes() -> bool {
         V::Scalar::IS_DOUBLE
     }
@@ -293,19 +297,10 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
         W: Vector<Scalar: Lanes>,
         J: System<W, Class = P::Class>,
     {
-        Some(trajectories_in_lanes::take::<P, R, W, J>)
-    }
-
-    #[cfg(feature = "alloc")]
-    #[inline]
-    fn lane_step_at_run_time<C, R, W, J>() -> Option<LaneStep<W, J>>
-    where
-        C: Class,
-        R: Summation,
-        W: Vector<Scalar: Lanes>,
-        J: System<W, Class = C>,
-    {
-        Some(trajectories_in_lanes::take_at_run_time::<C, R, W, J>)
+        Some(match P::AT_RUN_TIME {
+            true => trajectories_in_lanes::take_by_rows::<P::Class, R, W, J>,
+            false => trajectories_in_lanes::take::<P, R, W, J>,
+        })
     }
 
     fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {

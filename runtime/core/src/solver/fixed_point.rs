@@ -2,21 +2,15 @@
 
 use core::marker::PhantomData;
 
-#[cfg(feature = "alloc")]
-use crate::contract::Class;
 use crate::contract::storage::aside;
 use crate::contract::{
     EvaluationCounts, Failure, Inside, Outcome, Solver, StageChange, StagePlan, StageStorage,
     StageTableau, Step, StepStatistics, Stopping, System, WarmStart,
 };
 use crate::error::Quantity;
-#[cfg(feature = "alloc")]
-use crate::method::RunTimeStages;
 use crate::number::summation::Overrelaxed;
 use crate::number::{Summation, Vector};
 use crate::solver::convergence::{Sweeps, settle};
-#[cfg(feature = "alloc")]
-use crate::solver::run_time::by_rows;
 
 /// Fixed-point iteration: each sweep computes new stages from the latest evaluations. It converges if the step size
 /// times the Lipschitz constant of the system is small.
@@ -57,8 +51,10 @@ pub struct FixedPoint;
 
 impl<V: Vector, S: System<V>> Solver<V, S> for FixedPoint {
     type Memory<P: StageTableau> = P::Stages<V>;
-    #[cfg(feature = "alloc")]
-    type AtRunTime<C: Class> = RunTimeStages<V, C>;
+
+    fn memory<P: StageTableau>(plan: &P, prototype: &V) -> P::Stages<V> {
+        plan.stages(prototype)
+    }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<P, R>(
@@ -75,23 +71,6 @@ impl<V: Vector, S: System<V>> Solver<V, S> for FixedPoint {
         S: System<V, Class = P::Class>,
     {
         by_stages::<P, R, V, S>(step, system, stages, kept, stopping, outcome)
-    }
-
-    #[cfg(feature = "alloc")]
-    fn take_at_run_time<C, R>(
-        step: &Step<'_, V>,
-        system: &S,
-        memory: &mut RunTimeStages<V, C>,
-        kept: WarmStart,
-        stopping: Stopping,
-        outcome: Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure>
-    where
-        C: Class,
-        R: Summation,
-        S: System<V, Class = C>,
-    {
-        by_rows::<C, R, V, S>(step, system, memory, kept, stopping, outcome)
     }
 
     fn extend<P: StageTableau>(stages: &P::Stages<V>, at: Inside<'_, V>, q: &mut V, p: &mut V) {
@@ -124,11 +103,12 @@ where
         sums: PhantomData,
     };
     let mut work = settle::<P::Class, V::Scalar, _>(&mut sweeps, kept, stopping)?;
+    let finish = P::evaluations(stages).finish;
     if !R::COMPENSATED {
         P::increments(step, stages);
     }
     P::finish::<R, V, S>(step, system, stages, kept, outcome);
-    work.evaluations += P::EVALUATIONS.finish;
+    work.evaluations += finish;
     Ok(work)
 }
 
@@ -153,7 +133,7 @@ where
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluations(&self) -> EvaluationCounts {
-        P::EVALUATIONS
+        P::evaluations(self.stages)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

@@ -5,8 +5,6 @@ pub(crate) mod convergence;
 pub(crate) mod fixed_point;
 pub(crate) mod nystrom;
 pub(crate) mod predictor;
-#[cfg(feature = "alloc")]
-pub(crate) mod run_time;
 pub(crate) mod stages_in_lanes;
 #[cfg(feature = "alloc")]
 pub(crate) mod trajectories_in_lanes;

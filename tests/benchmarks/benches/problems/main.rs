@@ -249,7 +249,7 @@ fn library<M, S, V, R, N>(
     set: impl Fn(Integrator<M, S, V, R>) -> Result<Integrator<M, S, V, R, N>, Error> + 'static,
 ) -> Entry
 where
-    M: Method + ProvedFor<S::Class>,
+    M: Method + Copy + ProvedFor<S::Class>,
     S: System<V> + Copy + 'static,
     V: Vector<Scalar = f64>,
     R: Summation,

@@ -70,7 +70,7 @@ where
     S: SystemInLanes<SVector<f64, N>> + System<SVector<f64, N>, Class = Separable> + Copy + 'static,
     B: systems::Separable<N> + Copy + 'static,
 {
-    fn gauss<L: Lanes + 'static, M: Method, const STAGES: usize>(
+    fn gauss<L: Lanes + 'static, M: Method + Copy, const STAGES: usize>(
         &self,
         pairs: &mut Vec<Pair>,
         method: (&'static str, M),
@@ -103,7 +103,7 @@ where
         ));
     }
 
-    fn splitting<K: Splitting + 'static, M: Method>(
+    fn splitting<K: Splitting + 'static, M: Method + Copy>(
         &self,
         pairs: &mut Vec<Pair>,
         method: (&'static str, M),
@@ -143,7 +143,7 @@ where
     S: SystemInLanes<SVector<f64, N>> + System<SVector<f64, N>, Class = General> + Copy + 'static,
     B: systems::General<N> + Copy + 'static,
 {
-    fn coupled<L: Lanes + 'static, M: Method + ProvedFor<General>, const STAGES: usize>(
+    fn coupled<L: Lanes + 'static, M: Method + Copy + ProvedFor<General>, const STAGES: usize>(
         &self,
         pairs: &mut Vec<Pair>,
         method: (&'static str, M),
@@ -174,7 +174,7 @@ where
     }
 
     /// A pair that iterates positions and momenta at once or in turn.
-    fn coupled_pair<M: Method + ProvedFor<General>, R: Summation>(
+    fn coupled_pair<M: Method + Copy + ProvedFor<General>, R: Summation>(
         &self,
         method: (&'static str, M),
         step_size: f64,

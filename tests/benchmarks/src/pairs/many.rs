@@ -72,7 +72,7 @@ impl Chain {
 
     /// A method with `scale` times the step size of the problem: to the tolerance of the hand-written code, to
     /// rounding, and with compensated sums.
-    fn implicit<M: Method, const STAGES: usize>(
+    fn implicit<M: Method + Copy, const STAGES: usize>(
         &self,
         pairs: &mut Vec<Pair>,
         method: (&'static str, M),
@@ -140,7 +140,7 @@ impl Chain {
         )
     }
 
-    fn explicit<K: Splitting + 'static, M: Method>(
+    fn explicit<K: Splitting + 'static, M: Method + Copy>(
         &self,
         method: (&'static str, M),
         step_size: f64,

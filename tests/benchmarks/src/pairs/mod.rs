@@ -202,7 +202,7 @@ where
     V: Vector<Scalar = f64>,
 {
     /// A pair for steps of `step_size`, with an integrator and its solver.
-    fn pair<M: Method + ProvedFor<S::Class>, R: Summation, N: Solver<V, S>>(
+    fn pair<M: Method + Copy + ProvedFor<S::Class>, R: Summation, N: Solver<V, S>>(
         &self,
         method: (&'static str, M),
         step_size: f64,

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::DVector;
 use symplectic::{
-    AtRunTime, Compensated, Integrator, Method, Plain, RunTimeCoefficients, RunTimeTableau, State,
+    Compensated, Integrator, Method, Plain, RunTimeCoefficients, RunTimeTableau, State,
     TableauError,
 };
 
@@ -101,13 +101,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         Ensemble::new(Verlet, Pendulum::default(), ones.clone(), 0.01)?;
         Ensemble::new(Gauss4, Damped, ones.clone(), 0.01)?;
         Ensemble::new(Gauss4, DoublePendulum, twos, 0.01)?;
-        Ensemble::<AtRunTime, _, _, Compensated>::families_at_run_time(
-            &at_run_time::<Lobatto3>()?,
+        Ensemble::<RunTimeTableau, _, _, Compensated>::with_summation(at_run_time::<Lobatto3>()?,
             [(Pendulum::default(), ones.clone())],
             0.01,
         )?;
-        Ensemble::<AtRunTime, _, _, Plain>::families_at_run_time(
-            &at_run_time::<Verlet>()?,
+        Ensemble::<RunTimeTableau, _, _, Plain>::with_summation(at_run_time::<Verlet>()?,
             [(Pendulum::default(), ones)],
             0.01,
         )?;

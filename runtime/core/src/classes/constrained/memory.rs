@@ -13,10 +13,9 @@ use super::of_dimension::place_of_resized;
 use super::resolution::Resolution;
 use crate::contract::storage::first_non_finite;
 use crate::contract::{
-    Class, ConstrainedStep, ConstrainedTableau, Gradients, Method, StageStorage, System, Terms,
+    Class, ConstrainedStep, ConstrainedTableau, Gradients, StageStorage, System, Terms,
 };
 use crate::error::Quantity;
-use crate::method::RunTimeTableau;
 use crate::number::{Scalar, Vector, Visit, scalar_words, vector_words};
 
 /// Everything that depends on the numbers of constraints and stages.
@@ -63,8 +62,8 @@ pub(super) struct Workspace<V: Vector> {
 /// The memory of a constrained step.
 #[derive(Clone, Debug)]
 pub struct ConstrainedStages<V: Vector> {
-    /// The steps of a method that is known only at run time.
-    pub(super) at_run_time: Option<RunTimeTableau>,
+    /// The steps of the method.
+    pub(super) steps: &'static [ConstrainedStep],
     /// None until the system is known.
     pub(super) workspace: Option<Workspace<V>>,
     /// The first evaluation of a wrong dimension in the last step, and its dimension.
@@ -141,30 +140,24 @@ impl<V: Vector> Workspace<V> {
 }
 
 impl<V: Vector> ConstrainedStages<V> {
-    /// The steps of the method.
-    pub(super) fn steps<M: Method>(&self) -> &'static [ConstrainedStep] {
-        let at_run_time = self.at_run_time.as_ref();
-        at_run_time.map_or(M::CONSTRAINED, RunTimeTableau::holonomic)
-    }
-}
-
-impl<V: Vector> StageStorage<V> for ConstrainedStages<V> {
-    fn like(prototype: &V) -> Self {
+    /// Memory for these steps of a method.
+    pub(super) fn new(steps: &'static [ConstrainedStep], prototype: &V) -> Self {
         Self {
-            at_run_time: None,
+            steps,
             workspace: None,
             resized: None,
             between: array::from_fn(|_| prototype.zeros_like()),
         }
     }
+}
 
-    fn tableau(&self) -> Option<&RunTimeTableau> {
-        self.at_run_time.as_ref()
+impl<V: Vector> StageStorage<V> for ConstrainedStages<V> {
+    fn like(prototype: &V) -> Self {
+        Self::new(&[], prototype)
     }
 
-    fn set_tableau(&mut self, tableau: &RunTimeTableau, _prototype: &V) {
-        self.at_run_time = Some(tableau.clone());
-        self.workspace = None;
+    fn anew(&self, prototype: &V) -> Self {
+        Self::new(self.steps, prototype)
     }
 
     fn words(&mut self, visit: &mut Visit<'_>) {

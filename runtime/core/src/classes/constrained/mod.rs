@@ -35,12 +35,10 @@ pub(super) use step::{NOISE, PATIENCE, ROUNDING, result, same_momentum, show_sta
 use core::marker::PhantomData;
 
 use crate::contract::{
-    Class, Constrained, ConstrainedStep, Failure, Method, Outcome, Plan, Solver, StageStorage,
-    StageView, Step, StepStatistics, Stopping, System, Unconstrained, WarmStart, check_no_friction,
-    check_no_rows,
+    Class, Constrained, ConstrainedStep, Failure, Method, Outcome, Plan, Solver, StageView, Step,
+    StepStatistics, Stopping, System, Unconstrained, WarmStart, check_no_friction, check_no_rows,
 };
 use crate::error::Error;
-use crate::method::RunTimeTableau;
 use crate::method::composition::in_turn;
 use crate::number::{Scalar, Summation, Vector};
 use memory::Workspace;
@@ -53,6 +51,20 @@ impl<C: Class + Unconstrained> Class for Constrained<C> {
     type Plan<M: Method> = ConstrainedPlan<M, C>;
     const CONSTRAINED: bool = true;
     const SEPARABLE: bool = C::SEPARABLE;
+
+    fn memory<M: Method, V: Vector, S: System<V>, N: Solver<V, S>>(
+        method: &M,
+        prototype: &V,
+    ) -> ConstrainedStages<V> {
+        ConstrainedStages::new(method.holonomic(), prototype)
+    }
+
+    fn check_steps<M: Method>(method: &M) -> Result<(), Error> {
+        match method.holonomic().is_empty() {
+            true => Err(Error::NoConstrainedSteps),
+            false => Ok(()),
+        }
+    }
 }
 
 impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
@@ -66,7 +78,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         N: Solver<V, S>,
     {
         let system = &OfDimension::new(system, q.dimension());
-        let steps = memory.steps::<M>();
+        let steps = memory.steps;
         memory.workspace = Some(Workspace::new(steps, system, time, q, p));
     }
 
@@ -88,7 +100,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure> {
-        memory.take::<M, R, S>(step, system, kept, stopping, outcome, |_| {})
+        memory.take::<R, S>(step, system, kept, stopping, outcome, |_| {})
     }
 
     fn show_stages<R, V, S>(
@@ -102,14 +114,10 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         V: Vector,
         S: System<V, Class = Self::Class>,
     {
-        let mut memory = ConstrainedStages::like(step.q);
+        let mut memory = ConstrainedStages::new(M::CONSTRAINED, step.q);
         Some(taken_once_more(step, |kept, outcome| {
-            memory.take::<M, R, S>(step, system, kept, stopping, outcome, show)
+            memory.take::<R, S>(step, system, kept, stopping, outcome, show)
         }))
-    }
-
-    fn steps_at_run_time(tableau: &RunTimeTableau) -> bool {
-        !tableau.holonomic().is_empty()
     }
 
     fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
@@ -123,8 +131,8 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
 }
 
 impl<V: Vector> ConstrainedStages<V> {
-    /// Takes a step of the method `M`, of one tableau or of several, and shows their stages.
-    fn take<M: Method, R: Summation, S: System<V>>(
+    /// Takes a step, of one tableau or of several, and shows their stages.
+    fn take<R: Summation, S: System<V>>(
         &mut self,
         step: &Step<'_, V>,
         system: &S,
@@ -133,9 +141,8 @@ impl<V: Vector> ConstrainedStages<V> {
         outcome: Outcome<'_, V>,
         mut show: impl FnMut(StageView<'_, V>),
     ) -> Result<StepStatistics, Failure> {
-        let steps = self.steps::<M>();
         let ConstrainedStages {
-            at_run_time: _,
+            steps,
             workspace,
             resized,
             between: [q, q_low, p, p_low],

@@ -6,9 +6,8 @@ use core::array;
 
 use crate::classes::constrained::{LastImpulse, Metric, MomentumTerms, Point, place_of_resized};
 use crate::contract::storage::first_non_finite;
-use crate::contract::{ConstrainedStep, Gradients, Method, StageStorage, System, Terms};
+use crate::contract::{ConstrainedStep, Gradients, StageStorage, System, Terms};
 use crate::error::Quantity;
-use crate::method::RunTimeTableau;
 use crate::number::{Scalar, Vector, Visit};
 
 /// Everything that depends on the numbers of constraints and stages.
@@ -51,8 +50,8 @@ pub(super) struct Workspace<V: Vector> {
 /// The memory of a step with non-holonomic constraints.
 #[derive(Clone, Debug)]
 pub struct NonholonomicStages<V: Vector> {
-    /// The steps of a method that is known only at run time.
-    pub(super) at_run_time: Option<RunTimeTableau>,
+    /// The steps of the method.
+    pub(super) steps: &'static [ConstrainedStep],
     /// None until the system is known.
     pub(super) workspace: Option<Workspace<V>>,
     /// The first evaluation of a wrong dimension in the last step, and its dimension.
@@ -100,30 +99,24 @@ impl<V: Vector> Workspace<V> {
 }
 
 impl<V: Vector> NonholonomicStages<V> {
-    /// The steps of the method.
-    pub(super) fn steps<M: Method>(&self) -> &'static [ConstrainedStep] {
-        let at_run_time = self.at_run_time.as_ref();
-        at_run_time.map_or(M::NONHOLONOMIC, RunTimeTableau::nonholonomic)
-    }
-}
-
-impl<V: Vector> StageStorage<V> for NonholonomicStages<V> {
-    fn like(prototype: &V) -> Self {
+    /// Memory for these steps of a method.
+    pub(super) fn new(steps: &'static [ConstrainedStep], prototype: &V) -> Self {
         Self {
-            at_run_time: None,
+            steps,
             workspace: None,
             resized: None,
             between: array::from_fn(|_| prototype.zeros_like()),
         }
     }
+}
 
-    fn tableau(&self) -> Option<&RunTimeTableau> {
-        self.at_run_time.as_ref()
+impl<V: Vector> StageStorage<V> for NonholonomicStages<V> {
+    fn like(prototype: &V) -> Self {
+        Self::new(&[], prototype)
     }
 
-    fn set_tableau(&mut self, tableau: &RunTimeTableau, _prototype: &V) {
-        self.at_run_time = Some(tableau.clone());
-        self.workspace = None;
+    fn anew(&self, prototype: &V) -> Self {
+        Self::new(self.steps, prototype)
     }
 
     fn words(&mut self, visit: &mut Visit<'_>) {

@@ -32,12 +32,11 @@ use core::marker::PhantomData;
 
 use crate::classes::constrained::{OfDimension, add_to_force, show_stages, taken_once_more};
 use crate::contract::{
-    Class, ConstrainedStep, Failure, Method, Nonholonomic, Outcome, Plan, Solver, StageStorage,
-    StageView, Step, StepStatistics, Stopping, System, Unconstrained, WarmStart, check_no_friction,
+    Class, ConstrainedStep, Failure, Method, Nonholonomic, Outcome, Plan, Solver, StageView, Step,
+    StepStatistics, Stopping, System, Unconstrained, WarmStart, check_no_friction,
     check_no_holonomic_constraints,
 };
 use crate::error::Error;
-use crate::method::RunTimeTableau;
 use crate::method::composition::in_turn;
 use crate::number::{Scalar, Summation, Vector};
 use memory::Workspace;
@@ -51,6 +50,20 @@ impl<C: Class + Unconstrained> Class for Nonholonomic<C> {
     type Plan<M: Method> = NonholonomicPlan<M, C>;
     const CONSTRAINED: bool = true;
     const SEPARABLE: bool = C::SEPARABLE;
+
+    fn memory<M: Method, V: Vector, S: System<V>, N: Solver<V, S>>(
+        method: &M,
+        prototype: &V,
+    ) -> NonholonomicStages<V> {
+        NonholonomicStages::new(method.nonholonomic(), prototype)
+    }
+
+    fn check_steps<M: Method>(method: &M) -> Result<(), Error> {
+        match method.nonholonomic().is_empty() {
+            true => Err(Error::NoConstrainedSteps),
+            false => Ok(()),
+        }
+    }
 }
 
 impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
@@ -65,7 +78,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
     {
         let system = &RowsAsGradients(system);
         let system = &OfDimension::new(system, q.dimension());
-        let steps = memory.steps::<M>();
+        let steps = memory.steps;
         memory.workspace = Some(Workspace::new(steps, system, time, q, p));
     }
 
@@ -87,7 +100,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
         stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure> {
-        memory.take::<M, R, S, C>(step, system, kept, stopping, outcome, |_| {})
+        memory.take::<R, S, C>(step, system, kept, stopping, outcome, |_| {})
     }
 
     fn show_stages<R, V, S>(
@@ -101,14 +114,10 @@ impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
         V: Vector,
         S: System<V, Class = Self::Class>,
     {
-        let mut memory = NonholonomicStages::like(step.q);
+        let mut memory = NonholonomicStages::new(M::NONHOLONOMIC, step.q);
         Some(taken_once_more(step, |kept, outcome| {
-            memory.take::<M, R, S, C>(step, system, kept, stopping, outcome, show)
+            memory.take::<R, S, C>(step, system, kept, stopping, outcome, show)
         }))
-    }
-
-    fn steps_at_run_time(tableau: &RunTimeTableau) -> bool {
-        !tableau.nonholonomic().is_empty()
     }
 
     fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
@@ -122,8 +131,8 @@ impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
 }
 
 impl<V: Vector> NonholonomicStages<V> {
-    /// Takes a step of the method `M`, of one tableau or of several, and shows their stages.
-    fn take<M, R, S, C>(
+    /// Takes a step, of one tableau or of several, and shows their stages.
+    fn take<R, S, C>(
         &mut self,
         step: &Step<'_, V>,
         system: &S,
@@ -133,14 +142,12 @@ impl<V: Vector> NonholonomicStages<V> {
         mut show: impl FnMut(StageView<'_, V>),
     ) -> Result<StepStatistics, Failure>
     where
-        M: Method,
         R: Summation,
         S: System<V, Class = Nonholonomic<C>>,
         C: Class + Unconstrained,
     {
-        let steps = self.steps::<M>();
         let NonholonomicStages {
-            at_run_time: _,
+            steps,
             workspace,
             resized,
             between: [q, q_low, p, p_low],

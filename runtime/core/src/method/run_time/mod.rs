@@ -3,6 +3,7 @@
 mod decoupling;
 mod error;
 mod plan;
+mod rows;
 mod schedule;
 
 use alloc::string::{String, ToString};
@@ -11,15 +12,17 @@ use alloc::vec::Vec;
 use core::fmt::Write as _;
 
 pub use error::TableauError;
-pub use plan::{RunTimePlan, RunTimeStages};
-use schedule::NO_STAGES;
-pub use schedule::{Coupled, Half};
-pub(crate) use schedule::{Kind, MAX_EVALUATIONS, Row, Schedule, Splitting};
+pub use plan::{RunTimeMemory, RunTimePlan};
+pub(crate) use rows::{CoupledStep, counts};
+pub use rows::{RunTimeRows, RunTimeStages};
+use schedule::{Schedule, Splitting};
 
 use crate::contract::{
-    Class, ConstrainedStep, Frictionless, General, Method, Orders, ProvedFor, Separable,
+    Class, ConstrainedStep, Frictionless, General, Method, Orders, ProvedFor, Separable, Solver,
+    System,
 };
-use crate::number::{Coefficient, Coefficients};
+use crate::error::Error;
+use crate::number::{Coefficient, Coefficients, Vector};
 
 /// The coefficients of a method with s stages, each the double nearest to the exact number.
 ///
@@ -63,8 +66,43 @@ impl From<Coefficients> for RunTimeCoefficients {
 
 /// A symplectic partitioned Runge–Kutta method that is known only at run time: derived by the program, or read from a file.
 ///
-/// [`Integrator::at_run_time`](crate::Integrator::at_run_time) steps a system with it. Steps take longer than those of a method that a
-/// macro emits, by a factor measured in the guide.
+/// [`Integrator::new`](crate::Integrator#method.new) steps a system with it, as with a method that a macro emits. Steps take longer, by a
+/// factor measured in the guide.
+///
+/// On separable systems an explicit tableau takes drifts and kicks. Coupled stages use the iteration of
+/// [`FixedPoint`](crate::solver::FixedPoint), one by one and never in lanes. For stiff systems take
+/// [`by_newton`](crate::Integrator#method.by_newton). Dense output is the cubic polynomial through the ends of the step.
+///
+/// [`Error::SeparableTableau`](crate::Error::SeparableTableau) refuses a system that is not separable if the tableau has a lower order there
+/// or is not symplectic: see [`accept_lower_order`](Self::accept_lower_order). With constraints the tableau needs its
+/// [constrained steps](Self::with_constrained_steps). With friction take an emitted method:
+///
+/// ```compile_fail,E0277
+/// # use symplectic::{Integrator, RunTimeTableau, State};
+/// symplectic::hamiltonian! { Damped q: [x], p: [px]; H = (px^2 + x^2)/2 friction: 0.1 }
+///
+/// fn step(tableau: RunTimeTableau) -> Result<(), symplectic::Error> {
+///     let start = State::from_arrays(0.0, [1.0], [0.0]);
+///     Integrator::new(tableau, Damped, start, 0.1)?.step()?;
+///     Ok(())
+/// }
+/// # let _used: fn(RunTimeTableau) -> Result<(), symplectic::Error> = step;
+/// ```
+///
+/// Solvers in lanes need an emitted method, too:
+///
+/// ```compile_fail
+/// # use symplectic::solver::SimdFixedPoint;
+/// # use symplectic::{Integrator, RunTimeTableau, State};
+/// symplectic::hamiltonian! { Oscillator q: [x], p: [px]; H = px^2/2 + x^2/2 }
+///
+/// fn step(tableau: RunTimeTableau) -> Result<(), symplectic::Error> {
+///     let start = State::from_arrays(0.0, [1.0], [0.0]);
+///     Integrator::new(tableau, Oscillator, start, 0.1)?.with_solver(SimdFixedPoint).step()?;
+///     Ok(())
+/// }
+/// # let _used: fn(RunTimeTableau) -> Result<(), symplectic::Error> = step;
+/// ```
 ///
 /// It is symplectic as rounded, like emitted methods: stages are sums of increments with `μ_ij = a_ij/b_j` and `μ̃_ij = ã_ij/b̃_j`. The
 /// larger of the two is rounded and the other is its exact complement, so that `μ̃_ij + μ_ji = 1`. Coefficients are known to 53 bits,
@@ -91,7 +129,7 @@ impl From<Coefficients> for RunTimeCoefficients {
 ///
 /// let pendulum = acceleration(|_time, q: &Vector1<f64>, acceleration| acceleration[0] = -q[0].sin());
 /// let start = State::from_arrays(0.0, [1.0], [0.0]);
-/// let mut integrator = Integrator::at_run_time(&midpoint, pendulum, start, 0.1)?;
+/// let mut integrator = Integrator::new(midpoint, pendulum, start, 0.1)?;
 /// integrator.integrate_to(10.0)?;
 /// # Ok(())
 /// # }
@@ -102,15 +140,6 @@ pub struct RunTimeTableau {
     accepts_lower_order: bool,
     holonomic: &'static [ConstrainedStep],
     nonholonomic: &'static [ConstrainedStep],
-}
-
-/// The coupled stages of a tableau for systems of class `C`; none without a tableau, or if its steps are drifts and kicks.
-#[inline]
-pub fn coupled<C: Class>(tableau: Option<&RunTimeTableau>) -> &Coupled {
-    match tableau.map(RunTimeTableau::schedule::<C>) {
-        Some(Schedule::Coupled(coupled)) => coupled,
-        _ => &NO_STAGES,
-    }
 }
 
 #[derive(Debug, PartialEq)]
@@ -178,7 +207,7 @@ impl RunTimeTableau {
     /// let rattle = RunTimeTableau::new("RATTLE", &Rattle::COEFFICIENTS.into(), Rattle::ORDERS)?;
     /// let rattle = rattle.with_constrained_steps(Rattle::CONSTRAINED, Rattle::NONHOLONOMIC);
     /// let start = State::from_arrays(0.0, [1.0, 0.0], [0.0; 2]);
-    /// let mut run = Integrator::at_run_time(&rattle, Rod, start.clone(), 0.1)?;
+    /// let mut run = Integrator::new(rattle, Rod, start.clone(), 0.1)?;
     /// let mut emitted = Integrator::new(Rattle, Rod, start, 0.1)?;
     /// assert_eq!(run.integrate_to(10.0)?, emitted.integrate_to(10.0)?);
     /// # Ok(())
@@ -195,16 +224,6 @@ impl RunTimeTableau {
             nonholonomic,
             ..self
         }
-    }
-
-    /// Its steps for systems with holonomic constraints.
-    pub(crate) fn holonomic(&self) -> &'static [ConstrainedStep] {
-        self.holonomic
-    }
-
-    /// Its steps for systems with non-holonomic constraints.
-    pub(crate) fn nonholonomic(&self) -> &'static [ConstrainedStep] {
-        self.nonholonomic
     }
 
     /// Name of the method.
@@ -233,7 +252,7 @@ impl RunTimeTableau {
     }
 
     /// Whether it keeps its properties for general Hamiltonians: it is symplectic, which needs `b = b̃`, and has the same order.
-    pub(crate) fn keeps_its_order_in_general(&self) -> bool {
+    fn keeps_its_order_in_general(&self) -> bool {
         let Orders {
             general, separable, ..
         } = self.data.orders;
@@ -243,27 +262,45 @@ impl RunTimeTableau {
         self.accepts_lower_order || general >= separable && weights.all(are_equal)
     }
 
-    /// The orders, if the higher one requires a quadratic kinetic energy and a lower order is not accepted.
-    #[doc(hidden)]
-    pub fn needs_quadratic_kinetic(&self) -> Option<Orders> {
-        let Orders {
-            separable, nystrom, ..
-        } = self.data.orders;
-        (!self.accepts_lower_order && nystrom > separable).then_some(self.data.orders)
-    }
-
     /// The schedule of its steps for systems of class `C`.
-    #[inline]
-    pub(crate) fn schedule<C: Class>(&self) -> &Schedule {
+    fn schedule<C: Class>(&self) -> &Schedule {
         if C::SEPARABLE {
             &self.data.separable
         } else {
             &self.data.general
         }
     }
+}
 
-    /// All coefficients, bit by bit; checkpoints are compared by them.
-    pub(crate) fn definition(&self) -> String {
+/// Not the coefficients: these are in the value.
+const IN_THE_VALUE: &str = "the coefficients of a tableau at run time are in its value, not in its type: this needs a method that a macro emits";
+
+impl Method for RunTimeTableau {
+    const NAME: &'static str = "the tableau at run time";
+    const STAGES: usize = panic!("{}", IN_THE_VALUE);
+    const DEFINITION: &'static str = "at run time";
+    const COEFFICIENTS: Coefficients = panic!("{}", IN_THE_VALUE);
+    const ORDERS: Orders = panic!("{}", IN_THE_VALUE);
+    const AT_RUN_TIME: bool = true;
+    type General = RunTimePlan<General>;
+    type Separable = RunTimePlan<Separable>;
+
+    fn name(&self) -> &str {
+        &self.data.name
+    }
+
+    fn orders(&self) -> Orders {
+        self.data.orders
+    }
+
+    fn needs_quadratic_kinetic(&self) -> Option<Orders> {
+        let Orders {
+            separable, nystrom, ..
+        } = self.data.orders;
+        (!self.accepts_lower_order && nystrom > separable).then_some(self.data.orders)
+    }
+
+    fn identity(&self) -> String {
         let RunTimeCoefficients {
             a,
             a_tilde,
@@ -280,32 +317,45 @@ impl RunTimeTableau {
         }
         text
     }
-}
 
-/// The method of an integrator [at run time](crate::Integrator::at_run_time): its coefficients are in a [`RunTimeTableau`].
-#[derive(Clone, Copy, Debug)]
-pub struct AtRunTime(());
+    fn holonomic(&self) -> &'static [ConstrainedStep] {
+        self.holonomic
+    }
 
-impl Method for AtRunTime {
-    const NAME: &'static str = "the tableau at run time";
-    const STAGES: usize = 0;
-    const DEFINITION: &'static str = "at run time";
-    const COEFFICIENTS: Coefficients = Coefficients {
-        a: &[],
-        a_tilde: &[],
-        b: &[],
-        b_tilde: &[],
-        c: &[],
-        c_tilde: &[],
-    };
-    const ORDERS: Orders = Orders {
-        general: 0,
-        separable: 0,
-        nystrom: 0,
-    };
-    type General = RunTimePlan<General>;
-    type Separable = RunTimePlan<Separable>;
+    fn nonholonomic(&self) -> &'static [ConstrainedStep] {
+        self.nonholonomic
+    }
+
+    fn check_order<C: Class>(&self) -> Result<(), Error> {
+        // A method keeps its order with constraints only if it has it for every H.
+        let is_split = C::SEPARABLE && !C::CONSTRAINED;
+        if is_split || self.keeps_its_order_in_general() {
+            return Ok(());
+        }
+        Err(Error::SeparableTableau {
+            order: self.data.orders.separable,
+            lower_order: self.data.orders.general,
+        })
+    }
+
+    fn is_lanewise(&self) -> bool {
+        self.is_explicit()
+    }
+
+    fn general_memory<V: Vector, S: System<V>, N: Solver<V, S>>(
+        &self,
+        prototype: &V,
+    ) -> RunTimeMemory<V, N::Memory<RunTimeRows<General>>> {
+        RunTimeMemory::new::<General, S, N>(self.schedule::<General>(), prototype)
+    }
+
+    fn separable_memory<V: Vector, S: System<V>, N: Solver<V, S>>(
+        &self,
+        prototype: &V,
+    ) -> RunTimeMemory<V, N::Memory<RunTimeRows<Separable>>> {
+        RunTimeMemory::new::<Separable, S, N>(self.schedule::<Separable>(), prototype)
+    }
 }
 
 // Checked when the integrator is created.
-impl<C: Frictionless> ProvedFor<C> for AtRunTime {}
+impl<C: Frictionless> ProvedFor<C> for RunTimeTableau {}

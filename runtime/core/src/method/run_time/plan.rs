@@ -1,163 +1,115 @@
 //! One step of a tableau at run time.
 
-use alloc::vec::Vec;
+use alloc::sync::Arc;
 use core::marker::PhantomData;
 
-use super::{Coupled, Kind, RunTimeTableau, Schedule, Splitting, coupled};
-use crate::contract::storage::{first_mismatch, first_non_finite, stored_words};
+use super::{RunTimeRows, Schedule, Splitting};
+use crate::contract::rows::Kind;
 use crate::contract::{
-    Class, EvaluationObserver, Evaluations, Failure, Inside, Interpolation, LaneStep, Outcome,
-    Plan, Possible, Solver, StagePart, StageStorage, StageVisit, Step, StepStatistics, Stopping,
+    Class, CoupledRows, EvaluationObserver, Evaluations, Failure, Inside, Interpolation, LaneStep,
+    Outcome, Plan, Possible, Solver, StageStorage, StageVisit, Step, StepStatistics, Stopping,
     System, WarmStart,
 };
 use crate::error::Quantity;
-use crate::number::{Coefficient, Lanes, Scalar, Summation, Vector, advance, copy};
+use crate::number::{Coefficient, Lanes, Scalar, Summation, Vector, Visit, advance, copy};
 
-/// The plan of [`AtRunTime`](super::AtRunTime) for systems of one class.
+/// The plan of a [`RunTimeTableau`](super::RunTimeTableau) for systems of one class.
 #[derive(Clone, Copy, Debug)]
 pub struct RunTimePlan<C>(PhantomData<C>);
 
-/// The memory of a [`RunTimePlan`]: the tableau, the latest evaluations of a splitting, and the solver's memory `M` for coupled stages.
+/// The memory of a [`RunTimePlan`].
 #[derive(Clone, Debug)]
-pub struct RunTimeMemory<V, M, C> {
-    tableau: Option<RunTimeTableau>,
-    splitting: Option<Evaluations<V>>,
-    coupled: Option<M>,
-    class: PhantomData<C>,
+pub enum RunTimeMemory<V, M> {
+    /// The drifts and kicks of a splitting, and the latest evaluations.
+    Splitting(Arc<Splitting>, Evaluations<V>),
+    /// The memory of the solver for coupled stages.
+    Coupled(M),
 }
 
-impl<V: Vector, M: StageStorage<V>, C: Class> StageStorage<V> for RunTimeMemory<V, M, C> {
+impl<V: Vector, M: StageStorage<V>> RunTimeMemory<V, M> {
+    /// Memory for steps in this order.
+    pub(super) fn new<C: Class, S: System<V>, N: Solver<V, S, Memory<RunTimeRows<C>> = M>>(
+        schedule: &Schedule,
+        prototype: &V,
+    ) -> Self {
+        match schedule {
+            Schedule::Splitting(splitting) => {
+                Self::Splitting(splitting.clone(), Evaluations::like(prototype))
+            }
+            Schedule::Coupled(rows) => {
+                Self::Coupled(N::memory(&RunTimeRows::new(rows.clone()), prototype))
+            }
+        }
+    }
+}
+
+impl<V: Vector, M: StageStorage<V>> StageStorage<V> for RunTimeMemory<V, M> {
     const AT_RUN_TIME: bool = true;
 
-    /// Without a tableau there is nothing to store.
-    fn like(_prototype: &V) -> Self {
-        Self {
-            tableau: None,
-            splitting: None,
-            coupled: None,
-            class: PhantomData,
+    /// Without a tableau there are no stages.
+    fn like(prototype: &V) -> Self {
+        Self::Coupled(M::like(prototype))
+    }
+
+    fn anew(&self, prototype: &V) -> Self {
+        match self {
+            Self::Splitting(splitting, _) => {
+                Self::Splitting(splitting.clone(), Evaluations::like(prototype))
+            }
+            Self::Coupled(memory) => Self::Coupled(memory.anew(prototype)),
         }
     }
 
-    fn tableau(&self) -> Option<&RunTimeTableau> {
-        self.tableau.as_ref()
+    fn rows(&self) -> Option<&Arc<CoupledRows>> {
+        match self {
+            Self::Splitting(..) => None,
+            Self::Coupled(memory) => memory.rows(),
+        }
     }
 
-    fn set_tableau(&mut self, tableau: &RunTimeTableau, prototype: &V) {
-        (self.splitting, self.coupled) = match tableau.schedule::<C>() {
-            Schedule::Splitting(_) => (Some(Evaluations::like(prototype)), None),
-            Schedule::Coupled(_) => {
-                let mut coupled = M::like(prototype);
-                coupled.set_tableau(tableau, prototype);
-                (None, Some(coupled))
-            }
-        };
-        self.tableau = Some(tableau.clone());
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        match self {
+            Self::Splitting(_, evaluations) => evaluations.words(visit),
+            Self::Coupled(memory) => memory.words(visit),
+        }
     }
 
-    stored_words! { splitting: optional memory; coupled: optional memory; }
+    fn show_words(&self, visit: &mut Visit<'_>) {
+        match self {
+            Self::Splitting(_, evaluations) => evaluations.show_words(visit),
+            Self::Coupled(memory) => memory.show_words(visit),
+        }
+    }
 
     fn stages(&mut self, visit: &mut StageVisit<'_>) {
-        if let Some(stages) = &mut self.coupled {
-            stages.stages(visit);
+        if let Self::Coupled(memory) = self {
+            memory.stages(visit);
         }
     }
 
     /// `None` for a splitting, whose evaluations an observer receives.
     fn non_finite(&self) -> Option<(Quantity, usize)> {
-        self.coupled.as_ref().and_then(M::non_finite)
+        match self {
+            Self::Splitting(..) => None,
+            Self::Coupled(memory) => memory.non_finite(),
+        }
     }
 
     #[inline]
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
-        let evaluations = self.splitting.as_ref();
-        let mismatch = evaluations.and_then(|evaluations| evaluations.mismatch(dimension));
-        let stages = self.coupled.as_ref();
-        mismatch.or_else(|| stages.and_then(|stages| stages.mismatch(dimension)))
-    }
-}
-
-/// Coupled stages one by one: one vector for each stage value and evaluation.
-#[derive(Clone, Debug)]
-pub struct RunTimeStages<V, C> {
-    pub(crate) tableau: Option<RunTimeTableau>,
-    pub(crate) q: Vec<V>,
-    pub(crate) p: Vec<V>,
-    pub(crate) velocity: Vec<V>,
-    pub(crate) force: Vec<V>,
-    class: PhantomData<C>,
-}
-
-impl<V: Vector, C: Class> StageStorage<V> for RunTimeStages<V, C> {
-    /// Without a tableau there is nothing to store.
-    fn like(_prototype: &V) -> Self {
-        Self {
-            tableau: None,
-            q: Vec::new(),
-            p: Vec::new(),
-            velocity: Vec::new(),
-            force: Vec::new(),
-            class: PhantomData,
+        match self {
+            Self::Splitting(_, evaluations) => evaluations.mismatch(dimension),
+            Self::Coupled(memory) => memory.mismatch(dimension),
         }
     }
-
-    fn tableau(&self) -> Option<&RunTimeTableau> {
-        self.tableau.as_ref()
-    }
-
-    fn set_tableau(&mut self, tableau: &RunTimeTableau, prototype: &V) {
-        let zeros = |count: usize| (0..count).map(|_| prototype.zeros_like()).collect();
-        let Coupled {
-            positions, momenta, ..
-        } = coupled::<C>(Some(tableau));
-        let (positions, momenta) = (positions.rows.len(), momenta.rows.len());
-        *self = Self {
-            q: zeros(positions),
-            p: zeros(momenta),
-            velocity: zeros(momenta),
-            force: zeros(positions),
-            tableau: Some(tableau.clone()),
-            class: PhantomData,
-        };
-    }
-
-    stored_words! { q: vectors; p: vectors; velocity: vectors; force: vectors; }
-
-    fn stages(&mut self, visit: &mut StageVisit<'_>) {
-        let parts = [
-            (StagePart::Positions, &mut self.q),
-            (StagePart::Momenta, &mut self.p),
-            (StagePart::Velocities, &mut self.velocity),
-            (StagePart::Forces, &mut self.force),
-        ];
-        for (part, vectors) in parts {
-            for (stage, vector) in vectors.iter_mut().enumerate() {
-                let numbers = V::Scalar::doubles_mut(vector.as_mut_slice());
-                for (component, number) in numbers.unwrap_or(&mut []).iter_mut().enumerate() {
-                    visit(part, stage, component, number);
-                }
-            }
-        }
-    }
-
-    fn non_finite(&self) -> Option<(Quantity, usize)> {
-        first_non_finite((&self.q, &self.force), (&self.p, &self.velocity))
-    }
-
-    #[inline]
-    fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)> {
-        first_mismatch(&self.force, &self.velocity, dimension)
-    }
 }
-
-/// Set by [`Integrator::at_run_time`](crate::Integrator::at_run_time), which is the only way to make such an integrator.
-const TABLEAU: &str = "the memory of a step at run time has its tableau";
 
 impl<C: Class> Possible for RunTimePlan<C> {}
 
 impl<C: Class> Plan for RunTimePlan<C> {
     type Class = C;
-    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = RunTimeMemory<V, N::AtRunTime<C>, C>;
+    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> =
+        RunTimeMemory<V, N::Memory<RunTimeRows<C>>>;
 
     /// Valid only if the tableau [is explicit](RunTimeTableau::is_explicit).
     const LANEWISE: bool = C::SEPARABLE;
@@ -171,10 +123,8 @@ impl<C: Class> Plan for RunTimePlan<C> {
         stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure> {
-        let tableau = memory.tableau.as_ref().expect(TABLEAU);
-        match tableau.schedule::<C>() {
-            Schedule::Splitting(splitting) => {
-                let evaluations = memory.splitting.as_mut().expect(TABLEAU);
+        match memory {
+            RunTimeMemory::Splitting(splitting, evaluations) => {
                 let count = apply::<R, V, S, ()>(
                     splitting,
                     step,
@@ -190,12 +140,11 @@ impl<C: Class> Plan for RunTimePlan<C> {
                 })
             }
             // A constant condition: registers detected at run time compile without the other branch.
-            Schedule::Coupled(_) if V::Scalar::FOUND => {
+            RunTimeMemory::Coupled(_) if V::Scalar::FOUND => {
                 unreachable!("coupled stages of several trajectories are in `LaneStages`")
             }
-            Schedule::Coupled(_) => {
-                let memory = memory.coupled.as_mut().expect(TABLEAU);
-                N::take_at_run_time::<C, R>(step, system, memory, kept, stopping, outcome)
+            RunTimeMemory::Coupled(memory) => {
+                N::take::<RunTimeRows<C>, R>(step, system, memory, kept, stopping, outcome)
             }
         }
     }
@@ -219,7 +168,7 @@ impl<C: Class> Plan for RunTimePlan<C> {
         W: Vector<Scalar: Lanes>,
         J: System<W, Class = C>,
     {
-        N::lane_step_at_run_time::<C, R, W, J>()
+        N::lane_step::<RunTimeRows<C>, R, W, J>()
     }
 
     fn observe<R, V, S, N, W>(
@@ -235,11 +184,9 @@ impl<C: Class> Plan for RunTimePlan<C> {
         N: Solver<V, S>,
         W: EvaluationObserver,
     {
-        let tableau = memory.tableau.clone().expect(TABLEAU);
         // The evaluations of coupled stages are in the memory.
-        if let Schedule::Splitting(splitting) = tableau.schedule::<C>() {
-            memory.set_tableau(&tableau, step.q);
-            let evaluations = memory.splitting.as_mut().expect(TABLEAU);
+        if let RunTimeMemory::Splitting(splitting, evaluations) = memory {
+            *evaluations = Evaluations::like(step.q);
             let kept = WarmStart::default();
             apply::<R, V, S, W>(
                 splitting,

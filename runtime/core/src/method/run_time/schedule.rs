@@ -1,20 +1,21 @@
 //! From coefficients to the order of computation.
 
-use alloc::boxed::Box;
+use alloc::sync::Arc;
 use alloc::vec;
 use alloc::vec::Vec;
 
 use super::RunTimeCoefficients;
-use super::decoupling::Decoupling;
+use super::decoupling::decouple;
+use crate::contract::rows::{CoupledRows, Evaluation, HalfRows, Kind, MAX_EVALUATIONS, Row};
 use crate::number::summation::two_sum;
 
 /// Order of computation of a step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Schedule {
     /// Drifts and kicks, each applied to the state in full.
-    Splitting(Splitting),
+    Splitting(Arc<Splitting>),
     /// Stages that depend on each other.
-    Coupled(Box<Coupled>),
+    Coupled(Arc<CoupledRows>),
 }
 
 /// The evaluations of a splitting in their order.
@@ -24,59 +25,6 @@ pub struct Splitting {
     /// Whether the first evaluation is the last one of the previous step.
     pub carries: bool,
 }
-
-/// An evaluation and its use.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Evaluation {
-    pub kind: Kind,
-    /// Its time, as a fraction of the step.
-    pub time: f64,
-    /// Its factor besides the step size: its weight, or 1 if the weight is zero.
-    pub factor: f64,
-    /// Whether it enters the result of the step.
-    pub counts: bool,
-}
-
-/// What is evaluated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// ∂H/∂p, which makes a drift.
-    Velocity,
-    /// −∂H/∂q, which makes a kick.
-    Force,
-}
-
-/// Stages that are solved for.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Coupled {
-    /// Positions, and the forces there.
-    pub positions: Half,
-    /// Momenta, and the velocities there.
-    pub momenta: Half,
-    /// How the linear systems of a Newton iteration decouple; `None` if they do not.
-    pub decoupling: Option<Decoupling>,
-}
-
-/// One half of coupled stages: stage values, and the evaluations at them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Half {
-    /// The matrix, by rows: coefficients of the increments of the other half.
-    pub matrix: Vec<Vec<f64>>,
-    /// Its nonzero entries.
-    pub rows: Vec<Row>,
-    /// For each stage value, the evaluation there.
-    pub evaluations: Vec<Evaluation>,
-    /// The indices of the evaluations that enter the result of the step.
-    pub counting: Vec<usize>,
-    /// The matrix, by rows, that extrapolates the increments to the next step of the same size; empty if there is none.
-    pub extrapolation: Vec<Vec<f64>>,
-}
-
-/// The nonzero entries of a row: index of the increment, and its factor.
-pub type Row = Vec<(usize, f64)>;
-
-/// Maximum number of evaluations whose increments are extrapolated, as in emitted methods.
-pub const MAX_EVALUATIONS: usize = 16;
 
 /// Distinct evaluations of both halves with their matrices.
 struct Graph {
@@ -88,23 +36,6 @@ struct Graph {
     momenta: Vec<Vec<f64>>,
 }
 
-/// No stages.
-pub static NO_STAGES: Coupled = Coupled {
-    positions: Half::NONE,
-    momenta: Half::NONE,
-    decoupling: None,
-};
-
-impl Half {
-    const NONE: Self = Self {
-        matrix: Vec::new(),
-        rows: Vec::new(),
-        evaluations: Vec::new(),
-        counting: Vec::new(),
-        extrapolation: Vec::new(),
-    };
-}
-
 impl Schedule {
     /// The schedule for separable Hamiltonians, or for general ones.
     pub fn new(coefficients: &RunTimeCoefficients, separable: bool) -> Self {
@@ -114,13 +45,13 @@ impl Schedule {
             || {
                 let a = scaled(&graph.positions, &graph.velocities);
                 let a_tilde = scaled(&graph.momenta, &graph.forces);
-                Self::Coupled(Box::new(Coupled {
+                Self::Coupled(Arc::new(CoupledRows {
                     positions: half(&graph.positions, &graph.forces),
                     momenta: half(&graph.momenta, &graph.velocities),
-                    decoupling: Decoupling::new(&a, &a_tilde, separable),
+                    decoupling: decouple(&a, &a_tilde, separable),
                 }))
             },
-            Self::Splitting,
+            |splitting| Self::Splitting(Arc::new(splitting)),
         )
     }
 }
@@ -308,12 +239,12 @@ fn scaled(matrix: &[Vec<f64>], evaluations: &[Evaluation]) -> Vec<Vec<f64>> {
     matrix.iter().map(row).collect()
 }
 
-fn half(matrix: &[Vec<f64>], evaluations: &[Evaluation]) -> Half {
+fn half(matrix: &[Vec<f64>], evaluations: &[Evaluation]) -> HalfRows {
     let row = |row: &Vec<f64>| -> Row {
         let entries = row.iter().copied().enumerate();
         entries.filter(|(_, entry)| *entry != 0.0).collect()
     };
-    Half {
+    HalfRows {
         rows: matrix.iter().map(row).collect(),
         matrix: matrix.to_vec(),
         counting: (0..evaluations.len())
@@ -364,7 +295,7 @@ mod tests {
         M::COEFFICIENTS.into()
     }
 
-    fn splitting<M: Method>(method: M) -> Splitting {
+    fn splitting<M: Method>(method: M) -> Arc<Splitting> {
         match Schedule::new(&coefficients(method), true) {
             Schedule::Splitting(splitting) => splitting,
             other => panic!("{other:?}"),
@@ -391,7 +322,8 @@ mod tests {
 
     #[test]
     fn forest_ruth_has_four_kicks_and_three_drifts() {
-        let found = splitting(ForestRuth).evaluations;
+        let found = splitting(ForestRuth);
+        let found = &found.evaluations;
         for (kind, count) in [(Kind::Force, 4), (Kind::Velocity, 3)] {
             let factors = found.iter().filter(|e| e.kind == kind).map(|e| e.factor);
             assert_eq!(factors.clone().count(), count);

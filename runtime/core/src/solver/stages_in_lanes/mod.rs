@@ -10,8 +10,6 @@ use crate::contract::{
     Class, Failure, Inside, Outcome, Solver, StageTableau, Step, StepStatistics, Stopping, System,
     SystemInLanes, WarmStart,
 };
-#[cfg(feature = "alloc")]
-use crate::method::RunTimeStages;
 use crate::number::{Summation, Vector};
 use crate::solver::stages_in_lanes::stages::SimdStages;
 use crate::solver::stages_in_lanes::sums::{entry, extend};
@@ -32,8 +30,6 @@ where
     S: SystemInLanes<V>,
 {
     type Memory<P: StageTableau> = SimdStages<V, P>;
-    #[cfg(feature = "alloc")]
-    type AtRunTime<C: Class> = RunTimeStages<V, C>;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<P, R>(
@@ -77,8 +73,6 @@ where
     S: SystemInLanes<V>,
 {
     type Memory<P: StageTableau> = SimdStages<V, P>;
-    #[cfg(feature = "alloc")]
-    type AtRunTime<C: Class> = RunTimeStages<V, C>;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<P, R>(

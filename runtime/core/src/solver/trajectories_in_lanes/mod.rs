@@ -11,7 +11,7 @@ mod second_order;
 mod settle;
 
 pub(crate) use emitted::take;
-pub(crate) use run_time::take_at_run_time;
+pub(crate) use run_time::take_by_rows;
 
 use num_traits::Zero;
 

@@ -6,18 +6,18 @@ use core::marker::PhantomData;
 use num_traits::Zero;
 
 use super::{BasePlusSum, LaneSweeps, Sums, keep, largest, relax, settle::settle, transform};
+use crate::contract::rows::{CoupledRows, HalfRows, Row};
 use crate::contract::{Class, LaneMemory, LaneOutcome, LaneStages, StepInLanes, System};
-use crate::method::run_time::{Coupled, Half, Row, Schedule};
+use crate::method::run_time::{CoupledStep, counts};
 use crate::number::array::array;
 use crate::number::linear_combination::{shortest, sum_of_products, value};
 use crate::number::registers::Work;
 use crate::number::summation::{Overrelaxed, moved};
 use crate::number::{Lanes, Scalar, Summation, Vector, copy};
-use crate::solver::run_time::CoupledStep;
 use crate::solver::stages_in_lanes::change::{LaneMovement, noted};
 
 /// The [`LaneStep`](crate::contract::LaneStep) of a tableau at run time; `None` if stages are not coupled.
-pub(crate) fn take_at_run_time<C, R, W, S>(
+pub(crate) fn take_by_rows<C, R, W, S>(
     step: StepInLanes<'_, W, S>,
 ) -> Option<LaneOutcome<W::Scalar>>
 where
@@ -29,7 +29,7 @@ where
     W::Scalar::in_registers(ByTableau::<C, R, _>(step, PhantomData))
 }
 
-/// The work of [`take_at_run_time`].
+/// The work of [`take_by_rows`].
 struct ByTableau<C, R, T>(T, PhantomData<(C, R)>);
 
 impl<C, R, W, S> Work for ByTableau<C, R, StepInLanes<'_, W, S>>
@@ -56,17 +56,10 @@ where
             now,
             settled,
             scales,
-            tableau,
+            rows,
         } = memory;
-        let schedule = tableau.as_ref().map(|tableau| tableau.schedule::<C>());
-        let Some(Schedule::Coupled(coupled)) = schedule else {
-            return None;
-        };
-        let common = &CoupledStep {
-            step,
-            system,
-            coupled,
-        };
+        let rows = &**rows.as_ref()?;
+        let common = &CoupledStep { step, system, rows };
         let mut sweeps = ByRows::<R, W, S> {
             common,
             before,
@@ -81,7 +74,7 @@ where
             settled: if is_sound { found.lanes } else { 0 },
             sweeps: found.sweeps,
             scales: found.scales,
-            counts: common.counts(),
+            counts: counts(rows),
         })
     }
 }
@@ -209,15 +202,15 @@ where
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn positions<T: Summation>(&mut self) -> W::Scalar {
-        let CoupledStep { step, coupled, .. } = *self.common;
-        let (base, rows) = ((step.q, step.q_low), &coupled.positions.rows);
+        let CoupledStep { step, rows, .. } = *self.common;
+        let (base, rows) = ((step.q, step.q_low), &rows.positions.rows);
         relax_rows::<T, W>(rows, &mut self.now.q, base, &self.now.velocity)
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn momenta<T: Summation>(&mut self) -> W::Scalar {
-        let CoupledStep { step, coupled, .. } = *self.common;
-        let (base, rows) = ((step.p, step.p_low), &coupled.momenta.rows);
+        let CoupledStep { step, rows, .. } = *self.common;
+        let (base, rows) = ((step.p, step.p_low), &rows.momenta.rows);
         relax_rows::<T, W>(rows, &mut self.now.p, base, &self.now.force)
     }
 
@@ -237,7 +230,7 @@ where
 
 /// Extrapolates the increments of a half from those of the previous step.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn extrapolate<W: Vector<Scalar: Lanes>>(half: &Half, out: &mut [W], before: &[W]) {
+fn extrapolate<W: Vector<Scalar: Lanes>>(half: &HalfRows, out: &mut [W], before: &[W]) {
     by_count!(
         before.len(),
         |N| extrapolate_all::<W, N>(&half.extrapolation, out, before),
@@ -301,10 +294,10 @@ where
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn begin(&mut self) {
-        let CoupledStep { step, coupled, .. } = *self.common;
-        let Coupled {
+        let CoupledStep { step, rows, .. } = *self.common;
+        let CoupledRows {
             positions, momenta, ..
-        } = coupled;
+        } = rows;
         if momenta.extrapolation.is_empty() {
             self.common.start(&mut self.now.velocity);
         } else {
