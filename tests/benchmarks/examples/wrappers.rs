@@ -123,8 +123,9 @@ fn adaptive(alone: &ThreadPool) {
     };
     let one_by_one = || {
         for start in &starts {
-            let run = Integrator::new(VelocityVerlet, Kepler, start.clone(), 0.02).and_then(make);
-            black_box(run.expect("a start").integrate_to(3.0).expect("steps"));
+            let run = Integrator::new(VelocityVerlet, Kepler, start.clone(), 0.02);
+            let mut run = make(run.expect("a start")).expect("a monitor");
+            black_box(run.integrate_to(3.0).expect("steps"));
         }
     };
     let found = alone.install(|| times(150, [&together, &one_by_one]));
