@@ -13,7 +13,6 @@ mod lengths;
 mod named;
 mod over_vectors;
 
-#[cfg(feature = "alloc")]
 pub(crate) use crate::contract::linearity;
 #[cfg(feature = "alloc")]
 pub use crate::contract::{BandMatrix, Constrained, Gradients, Jacobian, Nonholonomic};
