@@ -120,7 +120,7 @@ where
     R: Summation,
 {
     compare(|| {
-        Ensemble::<M, S, Point, R>::with_summation(method, families.iter().cloned(), 0.1)
+        Ensemble::<M, S, Point, R>::with_summation(method.clone(), families.iter().cloned(), 0.1)
             .expect("starts")
     });
 }

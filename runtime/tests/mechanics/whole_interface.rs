@@ -37,7 +37,7 @@ fn attraction(_time: f64, q: &Vector2<f64>, out: &mut Vector2<f64>) {
 }
 
 /// A run of any stepper, from a start.
-fn run_of_any_pace<S, N, E: Debug>(
+fn run_of_any_pace<S, N, E>(
     name: &str,
     make: impl Fn(&S::State) -> Result<Run<S>, E>,
     start: &S::State,
@@ -101,7 +101,7 @@ fn fails_with<T>(outcome: Result<T, impl std::error::Error>, words: &str) -> boo
 }
 
 /// A run with equal steps of size 0.1, from a start at the time 0; `late` is the start at a time that no step changes.
-fn run_of_equal_steps<S, N, E: Debug>(
+fn run_of_equal_steps<S, N, E>(
     name: &str,
     make: impl Fn(&S::State) -> Result<Run<S>, E>,
     start: &S::State,
