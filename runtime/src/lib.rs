@@ -62,20 +62,19 @@
 //! # Features
 //!
 //! * `std` (default): `tan`, inverse and hyperbolic functions, and all functions of singles, from the standard library; implies `alloc`.
-//! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), constraints, tableaux at run time, checkpoints;
-//!   with `orbits` tangent maps; of `adaptive` and `flow` also [`adaptive::Logarithmic`], [`adaptive::Poincare`], Kepler orbits, linear, mollified and asynchronous
-//!   flows, and correctors.
-//! * `flows`: the module [`flow`]. `orbits`: the modules [`adaptive`] and [`tangent`].
-//! * `mechanics`: rigid bodies and balances; with `alloc` also discrete and degenerate Lagrangians, generating functions and stages of steps.
-//! * `serde`: a [`Checkpoint`] can be written and read in any format; implies `alloc`.
+//! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), constraints, tableaux at run time, checkpoints.
 //! * `newton`: Newton's iteration for stiff and strongly coupled systems, [`solver::ByNewton`]; implies `alloc`.
-//! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and with `newton` its iteration takes derivatives by dual numbers; implies `std`.
-//! * `fma`: products in sums are rounded once, everywhere; very slow without the instruction.
+//! * `mechanics`: rigid bodies and balances; with `alloc` also discrete and degenerate Lagrangians, generating functions and stages of steps.
+//! * `flows`: the module [`flow`]; Kepler orbits, linear, mollified and asynchronous flows, and correctors need `alloc`.
+//! * `orbits`: the module [`adaptive`]; with `alloc` also [`adaptive::Logarithmic`], [`adaptive::Poincare`] and the module [`tangent`].
 //! * `files`: the module [`files`], tables of a run and files that are replaced as a whole; implies `std`.
 //! * `ensembles`: the module [`ensemble`], many trajectories at once; implies `alloc`.
 //! * `parallel`: the trajectories of an ensemble are shared among threads; implies `ensembles` and `std`.
 //! * `npz`: [recordings](files) and ensembles are written to files for NumPy; implies `files`.
 //! * `parquet`: ensembles are written to tables of Apache Parquet; implies `ensembles` and `std`.
+//! * `serde`: a [`Checkpoint`] can be written and read in any format; implies `alloc`.
+//! * `num-dual`: `num_dual::Dual64` is a [`Scalar`], and with `newton` its iteration takes derivatives by dual numbers; implies `std`.
+//! * `fma`: products in sums are rounded once, everywhere; very slow without the instruction.
 //! * neither `std` nor `alloc`: `no_std` without an allocator; static vectors, the functions named under `std` from `libm`.
 
 #![no_std]
@@ -88,11 +87,20 @@ pub use symplectic_ensembles as ensemble;
 #[doc(inline)]
 pub use symplectic_files as files;
 #[cfg(feature = "flows")]
+#[doc(inline)]
 pub use symplectic_flows as flow;
 #[cfg(feature = "mechanics")]
+#[doc(inline)]
 pub use symplectic_mechanics::rotation;
 #[cfg(all(feature = "mechanics", feature = "alloc"))]
+#[doc(inline)]
 pub use symplectic_mechanics::variational;
+#[cfg(feature = "orbits")]
+#[doc(inline)]
+pub use symplectic_orbits::adaptive;
+#[cfg(all(feature = "orbits", feature = "alloc"))]
+#[doc(inline)]
+pub use symplectic_orbits::tangent;
 
 /// How coupled stages are found.
 pub mod solver {
@@ -108,12 +116,6 @@ pub mod output {
     #[cfg(feature = "mechanics")]
     pub use symplectic_mechanics::Balance;
 }
-#[cfg(feature = "orbits")]
-#[doc(inline)]
-pub use symplectic_orbits::adaptive;
-#[cfg(all(feature = "orbits", feature = "alloc"))]
-#[doc(inline)]
-pub use symplectic_orbits::tangent;
 
 /// The Rust code of the README and of the book, compiled and run by `cargo test --doc`.
 #[cfg(doctest)]
