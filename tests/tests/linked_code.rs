@@ -9,7 +9,7 @@ use rustc_demangle::demangle;
 
 /// The modules of the library with what only implicit methods need.
 const SOLVERS: [&str; 4] = [
-    "symplectic_core::method::change::",
+    "symplectic_core::contract::change::",
     "symplectic_core::method::coupled::",
     "symplectic_core::solver::",
     "symplectic_newton::",
@@ -17,9 +17,9 @@ const SOLVERS: [&str; 4] = [
 
 /// The modules with what only constraints, friction and Lagrangians need.
 const MECHANICS: [&str; 4] = [
-    "symplectic_core::method::constrained::",
-    "symplectic_core::method::nonholonomic::",
-    "symplectic_core::method::damped::",
+    "symplectic_core::classes::constrained::",
+    "symplectic_core::classes::nonholonomic::",
+    "symplectic_core::classes::damped::",
     "symplectic_mechanics::",
 ];
 
