@@ -11,7 +11,7 @@ pub use crate::integrator::CoupledLanes;
 pub use crate::integrator::checkpoint::Save;
 pub use crate::integrator::clock::Clock;
 #[cfg(feature = "alloc")]
-pub use crate::integrator::explicit_in_lanes::{SavedRun, evaluations, is_same};
+pub use crate::integrator::explicit_in_lanes::{evaluations, is_same};
 #[cfg(feature = "alloc")]
 pub use crate::integrator::fingerprint::{hash, system_fingerprint};
 pub use crate::integrator::first_step::{OfTheCore, or_as_first_step};
@@ -26,9 +26,8 @@ pub use crate::method::storage::{
 };
 pub use crate::method::symmetric_steps::{Part, SymmetricSteps};
 pub use crate::method::{
-    EvaluationCounts, Evaluations, Failure, HalfChange, KickDrift, Outcome, Plan, Solver, Span,
-    StageChange, StagePlan, StageStorage, StageView, Step, Stopping, Symmetry, WarmStart,
-    check_no_constraints, check_no_friction,
+    Evaluations, KickDrift, Outcome, Plan, Solver, Span, StagePlan, StageStorage, StageView,
+    Symmetry, check_no_constraints, check_no_friction,
 };
 
 pub use crate::number::array::array;
@@ -42,7 +41,7 @@ pub use crate::number::scalar::larger_or_nan;
 pub use crate::number::summation::{add_sum, fast_two_sum, two_sum};
 pub use crate::number::vector::{beside, same};
 pub use crate::number::words::{show_vectors, words};
-pub use crate::number::{Coefficient, Coefficients, Visit, Words, copy, vector_words};
+pub use crate::number::{Coefficient, Visit, Words, copy, vector_words};
 
 pub use crate::output::at_times::{Output, is_after};
 

@@ -82,7 +82,7 @@ impl<P: StageTableau> StageCoefficients<P> {
         self.rows().and_then(|rows| rows.decoupling.as_ref())
     }
 
-    /// The blocks of the [`Decoupling`](crate::solver::Decoupling): `(α, ω)`, with `ω = 0` for a real eigenvalue. `None` if the linear
+    /// The blocks of the [`Decoupling`](symplectic_core::solver::Decoupling): `(α, ω)`, with `ω = 0` for a real eigenvalue. `None` if the linear
     /// systems do not decouple.
     pub(super) fn blocks(&self) -> Option<&[(f64, f64)]> {
         match P::AT_RUN_TIME {

@@ -8,8 +8,8 @@ use num_traits::Zero;
 
 use super::coefficients::StageCoefficients;
 use super::linear_solver::{LinearSolver, Parts};
-use symplectic_core::inside::{first_mismatch, first_non_finite, show_vectors};
-use symplectic_core::solver::{StageStorage, StageTableau, Visit, Words, vector_words};
+use symplectic_core::inside::{first_mismatch, first_non_finite, show_vectors, words};
+use symplectic_core::solver::{StageStorage, StageTableau, Visit, vector_words};
 use symplectic_core::{Class, Quantity, System, Vector};
 
 /// The memory of a [`Newton`](crate::Newton) iteration with the plan `P`.
@@ -198,10 +198,7 @@ impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStora
             vector_words(vectors, visit);
         }
         L::words(&mut work.linear, visit);
-        work.factored.words(visit);
-        work.stale.words(visit);
-        work.steps_in_full.words(visit);
-        work.pause.words(visit);
+        words!(visit: work.factored, work.stale, work.steps_in_full, work.pause);
     }
 
     fn show_words(&self, visit: &mut Visit<'_>) {
@@ -218,10 +215,7 @@ impl<V: Vector, P: StageTableau, S: System<V>, L: LinearSolver<V, S>> StageStora
         }
         L::words(&mut work.linear.clone(), visit);
         // The visitor sees copies.
-        { work.factored }.words(visit);
-        { work.stale }.words(visit);
-        { work.steps_in_full }.words(visit);
-        { work.pause }.words(visit);
+        words!(visit: { work.factored }, { work.stale }, { work.steps_in_full }, { work.pause });
     }
 
     fn non_finite(&self) -> Option<(Quantity, usize)> {

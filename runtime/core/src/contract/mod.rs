@@ -56,8 +56,7 @@ pub use lane_stages::{
 };
 pub use masses::Masses;
 pub use method::Method;
-pub use plan::Plan;
-pub use plan::{check_no_constraints, check_no_friction};
+pub use plan::{Plan, check_no_constraints, check_no_friction};
 #[cfg(feature = "alloc")]
 pub(crate) use plan::{check_no_holonomic_constraints, check_no_rows};
 pub use proved::{

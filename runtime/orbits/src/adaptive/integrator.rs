@@ -367,7 +367,7 @@ where
     }
 
     fn statistics_mut(&mut self) -> &mut Statistics {
-        parts_of(&mut self.integrator).stepper.statistics_mut()
+        self.integrator.stepper_mut().statistics_mut()
     }
 
     /// The step density becomes 1/σ.
@@ -398,7 +398,7 @@ where
         let (span, rest) = two_sum(size, next.time_low);
         let (sum, error) = two_sum(time, span);
         let (end, low) = fast_two_sum(sum, error + rest);
-        let stepper = parts_of(&mut self.integrator).stepper;
+        let stepper = self.integrator.stepper_mut();
         if let Err(error) = advance_in_time(stepper, size, end) {
             return Err(match error {
                 // The steps have become too short, not too short from the start.

@@ -3,7 +3,7 @@
 use super::integrator::AdaptiveSteps;
 use super::monitor::Monitor;
 use crate::Error;
-use symplectic_core::inside::{Solver, parts_of};
+use symplectic_core::inside::Solver;
 use symplectic_core::system::Named;
 use symplectic_core::{
     DenseSteps, Method, NamedSteps, Partitioned, State, Summation, System, Vector,
@@ -43,7 +43,7 @@ where
         scratch: &mut Self::Scratch,
         out: &mut State<V>,
     ) -> Result<(), Error> {
-        let stepper = parts_of(&mut self.integrator).stepper;
+        let stepper = self.integrator.stepper_mut();
         Ok(stepper.look(time, scratch, out)?)
     }
 
@@ -53,13 +53,13 @@ where
         scratch: &mut Self::Scratch,
         out: &mut State<V>,
     ) -> Result<(), Error> {
-        let stepper = parts_of(&mut self.integrator).stepper;
+        let stepper = self.integrator.stepper_mut();
         Ok(stepper.look_by_step(time, scratch, out)?)
     }
 
     fn slopes(&mut self, state: &State<V>, size: f64, velocity: &mut V, force: &mut V) {
-        parts_of(&mut self.integrator)
-            .stepper
+        self.integrator
+            .stepper_mut()
             .slopes(state, size, velocity, force);
     }
 }

@@ -71,7 +71,7 @@ impl From<Coefficients> for RunTimeCoefficients {
 ///
 /// On separable systems an explicit tableau takes drifts and kicks. Coupled stages use the iteration of
 /// [`FixedPoint`](crate::solver::FixedPoint), one by one and never in lanes. For stiff systems take
-/// [`by_newton`](crate::Integrator#method.by_newton). Dense output is the cubic polynomial through the ends of the step.
+/// `by_newton`, with the feature `newton`. Dense output is the cubic polynomial through the ends of the step.
 ///
 /// [`Error::SeparableTableau`](crate::Error::SeparableTableau) refuses a system that is not separable if the tableau has a lower order there
 /// or is not symplectic: see [`accept_lower_order`](Self::accept_lower_order). With constraints the tableau needs its
