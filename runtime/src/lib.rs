@@ -89,12 +89,15 @@ pub use symplectic_files as files;
 #[cfg(feature = "flows")]
 #[doc(inline)]
 pub use symplectic_flows as flow;
+#[cfg(feature = "flows")]
+#[doc(inline)]
+pub use symplectic_flows::friction;
 #[cfg(feature = "mechanics")]
 #[doc(inline)]
 pub use symplectic_mechanics::rotation;
 #[cfg(all(feature = "mechanics", feature = "alloc"))]
 #[doc(inline)]
-pub use symplectic_mechanics::variational;
+pub use symplectic_mechanics::{constraints, variational};
 #[cfg(feature = "orbits")]
 #[doc(inline)]
 pub use symplectic_orbits::adaptive;

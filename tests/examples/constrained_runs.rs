@@ -6,8 +6,9 @@
 
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
+use symplectic::constraints::Constrained;
 use symplectic::nalgebra::SVector;
-use symplectic::{Constrained, Integrator, Method, ProvedFor, Separable, State};
+use symplectic::{Integrator, Method, ProvedFor, Separable, State};
 use symplectic_tests::drift::ensemble;
 use symplectic_tests::methods::{Lobatto3, Lobatto5, StoermerVerlet};
 use symplectic_tests::scenes::double_pendulum::{OnRods, neighbours, on_rods, start};

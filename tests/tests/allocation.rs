@@ -11,12 +11,13 @@ use std::ops::ControlFlow;
 
 use nalgebra::{DVector, SVector};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
+use symplectic::constraints::Gradients;
 use symplectic::ensemble::Ensemble;
 use symplectic::simd::{F64x8, Lanes};
 use symplectic::solver::{
     Automatic, Banded, Dense, Differences, FixedPoint, FixedPointThenNewton, Newton, Solver,
 };
-use symplectic::system::{Conservative, Gradients};
+use symplectic::system::Conservative;
 use symplectic::variational::{DiracRule, DiracSteps, DiracSystem, LagrangianSteps};
 use symplectic::{
     Compensated, Error, Integrator, Lagrangian, Method, ProvedFor, Scalar, Separable, State,

@@ -331,7 +331,8 @@ fn proved(
 ) -> TokenStream {
     let kicks = splits.then(|| quote!(impl emitted::Splits for #name {}));
     let keeps = tableau.keeps_its_order_in_general();
-    if keeps && has_general_plan {
+    let orders = tableau.orders();
+    let proved = if keeps {
         let bound = match (steps, splits) {
             ([true, true], true) => None,
             ([true, true], false) => Some("Frictionless"),
@@ -342,35 +343,27 @@ fn proved(
             ([false, false], true) => Some("UnconstrainedOrDamped"),
             ([false, false], false) => Some("Unconstrained"),
         };
-        let bound = bound.map(|bound| {
+        let not_general = (!has_general_plan).then_some("NotGeneral");
+        let bounds = bound.into_iter().chain(not_general).map(|bound| {
             let bound = format_ident!("{bound}");
-            quote!(: emitted::#bound)
+            quote!(emitted::#bound)
         });
-        return quote! {
-            impl<C #bound> emitted::ProvedFor<C> for #name {}
-            #kicks
-        };
-    }
-    // The second class keeps the compiler from inferring the class from the method.
-    let mut classes = vec![quote!(emitted::Separable), quote!(())];
-    let orders = tableau.orders();
-    // With friction, kicks depend on the momenta: an order that needs quadratic kinetic energy does not hold.
-    if splits && orders.separable.order >= orders.nystrom.order {
-        classes.push(quote!(emitted::Damped));
-    }
-    let constraints = steps.into_iter().zip(["Constrained", "Nonholonomic"]);
-    let constraints = constraints.filter(|(has_steps, _)| keeps && *has_steps);
-    let constraints = constraints.map(|(_, class)| {
-        let class = format_ident!("{class}");
+        quote!(impl<C: #(#bounds)+*> emitted::ProvedFor<C> for #name {})
+    } else if splits && orders.separable.order >= orders.nystrom.order {
         quote! {
-            emitted::if_alloc! {
-                impl<C> emitted::ProvedFor<emitted::#class<C>> for #name {}
-            }
+            #[diagnostic::do_not_recommend]
+            impl<C: emitted::SeparableOrDamped> emitted::ProvedFor<C> for #name {}
         }
-    });
+    } else {
+        // With friction, kicks depend on the momenta: an order that needs quadratic kinetic energy does not hold. The second class keeps the
+        // compiler from inferring the class from the method.
+        quote! {
+            impl emitted::ProvedFor<emitted::Separable> for #name {}
+            impl emitted::ProvedFor<()> for #name {}
+        }
+    };
     quote! {
-        #(impl emitted::ProvedFor<#classes> for #name {})*
-        #(#constraints)*
+        #proved
         #kicks
     }
 }

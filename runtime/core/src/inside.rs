@@ -1,5 +1,6 @@
 //! What the other packages of this workspace need of the core; no promise to anybody else.
 
+pub use crate::error::ConstraintName;
 pub use crate::error::debug::debug_by_message;
 pub use crate::error::phrases::Short;
 
@@ -20,28 +21,30 @@ pub use crate::integrator::parts::{Parts, parts_of};
 pub use crate::integrator::stepper::advance_in_time;
 pub use crate::integrator::validation::{check_start, check_state, check_step_size};
 
+pub use crate::method::composition::in_turn;
 pub use crate::method::diagnosis::{Attempt, FirstFault};
 pub use crate::method::storage::{
     first_mismatch, first_non_finite, first_non_finite_of, is_finite,
 };
 pub use crate::method::symmetric_steps::{Part, SymmetricSteps};
 pub use crate::method::{
-    Evaluations, KickDrift, Outcome, Plan, Solver, Span, StagePlan, StageStorage, StageView,
-    Symmetry, check_no_constraints, check_no_friction,
+    ConstrainedStep, ConstrainedTableau, EvaluationObserver, Evaluations, Failure, KickDrift,
+    Outcome, Plan, Solver, Span, StagePlan, StageStorage, StageView, Step, StepStatistics,
+    Stopping, Symmetry, WarmStart,
 };
 
 pub use crate::number::array::array;
-pub use crate::number::dither::dither_last_sweep;
+pub use crate::number::dither::{dither_last_sweep, dither_side};
 pub use crate::number::dual::{Dual, HyperDual};
 #[cfg(feature = "alloc")]
 pub use crate::number::elimination::{Complex, Elimination};
-pub use crate::number::linear_combination::totals_by;
+pub use crate::number::linear_combination::{add_products, totals_by};
 pub use crate::number::registers::{Avx2, Avx512, Widest};
 pub use crate::number::scalar::larger_or_nan;
-pub use crate::number::summation::{add_sum, fast_two_sum, two_sum};
-pub use crate::number::vector::{beside, same};
+pub use crate::number::summation::{add, add_sum, fast_two_sum, two_sum};
+pub use crate::number::vector::{beside, same, same_mut};
 pub use crate::number::words::{show_vectors, words};
-pub use crate::number::{Coefficient, Visit, Words, copy, vector_words};
+pub use crate::number::{Coefficient, Visit, Words, copy, scalar_words, vector_words};
 
 pub use crate::output::at_times::{Output, is_after};
 

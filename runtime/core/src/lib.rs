@@ -14,7 +14,6 @@ extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
-mod classes;
 mod contract;
 mod error;
 mod state;
@@ -28,13 +27,10 @@ pub mod output;
 pub mod solver;
 pub mod system;
 
-pub use classes::friction_growth;
-#[cfg(feature = "alloc")]
-pub use classes::{ConstraintForce, consistent, consistent_momentum, constraint_force};
 pub use contract::{
     LowerOrder, Method, Orders, ProvedFor, Splits, StoermerVerletSteps, SymmetricFor,
 };
-pub use error::{ConstraintName, Error, Quantity};
+pub use error::{Error, Quantity};
 #[cfg(feature = "alloc")]
 pub use integrator::{Checkpoint, CheckpointError};
 pub use integrator::{
@@ -50,11 +46,9 @@ pub use number::{Compensated, Plain, Scalar, Summation, Vector};
 pub use output::{Event, Events, Invariant, Moment, Progress};
 pub use state::{State, Timed};
 pub use system::{
-    Class, Damped, General, Hamiltonian, Lagrangian, Masses, Separable, SeparableHamiltonian,
-    System, acceleration, hamiltonian, lagrangian, separable,
+    Class, General, Hamiltonian, Lagrangian, Masses, Separable, SeparableHamiltonian, System,
+    acceleration, hamiltonian, lagrangian, separable,
 };
-#[cfg(feature = "alloc")]
-pub use system::{Constrained, Nonholonomic};
 
 /// Code that needs vectors on the heap.
 #[cfg(feature = "alloc")]
@@ -85,7 +79,6 @@ pub mod emitted {
 
     pub use num_traits::{One, Zero};
 
-    pub use crate::classes::*;
     pub use crate::contract::*;
     pub use crate::method::*;
     pub use crate::number::*;

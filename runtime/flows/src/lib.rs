@@ -74,6 +74,7 @@ mod drift;
 mod error;
 #[cfg(feature = "alloc")]
 mod exponential;
+pub mod friction;
 mod gyration;
 mod integrator;
 #[cfg(feature = "alloc")]

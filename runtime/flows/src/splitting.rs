@@ -5,11 +5,10 @@ use core::marker::PhantomData;
 use nalgebra::Vector1;
 
 use super::{Flow, FlowError, Span};
+use crate::friction::Damped;
 use symplectic_core::inside::{Coefficient, KickDrift, Outcome, Plan, StageStorage};
 use symplectic_core::solver::FixedPoint;
-use symplectic_core::{
-    Damped, Method, Plain, ProvedFor, Separable, Splits, Summation, System, Vector,
-};
+use symplectic_core::{Method, Plain, ProvedFor, Separable, Splits, Summation, System, Vector};
 
 /// A step of a splitting method with the flow of `A` in place of the drift and the flow of `B` in place of the kick.
 ///
@@ -190,11 +189,10 @@ impl<V: Vector, A: Flow<V>, B: Flow<V>> Flows<'_, V, A, B> {
 }
 
 impl<U: Vector, A: Flow<U>, B: Flow<U>> KickDrift for Flows<'_, U, A, B> {
-    fn kick<R: Summation, V: Vector, S: System<V>>(
+    fn kick<R: Summation, V: Vector>(
         &mut self,
         _h: f64,
         weight: Coefficient,
-        _system: &S,
         _q: &V,
         _force: &V,
         _momentum: (&mut V, &mut V),

@@ -8,6 +8,8 @@
 extern crate alloc;
 
 mod balance;
+#[cfg(feature = "alloc")]
+pub mod constraints;
 mod error;
 #[cfg(feature = "alloc")]
 mod rank;

@@ -5,6 +5,9 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use symplectic::constraints::{
+    Constrained, ConstraintName, Nonholonomic, consistent, consistent_momentum,
+};
 use symplectic::emitted::Solver;
 use symplectic::ensemble::{Ensemble, EnsembleError};
 use symplectic::nalgebra::DVector;
@@ -12,9 +15,8 @@ use symplectic::output::Interpolation;
 use symplectic::solver::Newton;
 use symplectic::system::{Conservative, Frictionless, Unconstrained};
 use symplectic::{
-    Class, Compensated, Constrained, ConstraintName, Error as RunError, General, Hamiltonian,
-    Nonholonomic, Plain, RunTimeTableau, Separable, State, Summation, System, consistent,
-    consistent_momentum,
+    Class, Compensated, Error as RunError, General, Hamiltonian, Plain, RunTimeTableau, Separable,
+    State, Summation, System,
 };
 use symplectic_compiler::Error;
 use symplectic_formula::{Structure, System as Parsed};

@@ -4,10 +4,11 @@ use std::io::{self, Write};
 use std::sync::Arc;
 
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+use symplectic::constraints::{Constrained, constraint_force};
 use symplectic::ensemble::Npz;
 use symplectic::nalgebra::DVector;
 use symplectic::output::unit_of;
-use symplectic::{Constrained, General, State, constraint_force};
+use symplectic::{General, State};
 use symplectic_tape::{At, Formula, Parameters, Tapes};
 
 use crate::starts::Coordinates;

@@ -1,8 +1,8 @@
 //! The constraints of a formula.
 
+use symplectic::Scalar;
+use symplectic::constraints::{ConstraintName, Gradients};
 use symplectic::nalgebra::DVector;
-use symplectic::system::Gradients;
-use symplectic::{ConstraintName, Scalar};
 use symplectic_formula::System;
 use symplectic_formula::derivative::{Scatter, gradient};
 use symplectic_formula::graph::{Coordinate, Half, Index, integer};

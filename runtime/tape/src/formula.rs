@@ -5,11 +5,15 @@ use std::marker::PhantomData;
 use std::slice;
 use std::sync::Arc;
 
+use symplectic::constraints::{
+    Constrained, ConstraintName, Gradients, HolonomicConstraints, Nonholonomic,
+    NonholonomicConstraints,
+};
 use symplectic::emitted::LaneWork;
 use symplectic::nalgebra::DVector;
 use symplectic::simd::Lanes;
-use symplectic::system::Gradients;
-use symplectic::{Class, ConstraintName, Hamiltonian, Scalar, Vector};
+use symplectic::system::Unconstrained;
+use symplectic::{Class, General, Hamiltonian, Scalar, Separable, Vector};
 use symplectic_formula::derivative::gradient;
 use symplectic_formula::graph::{Half, integer};
 use symplectic_formula::{Structure, System};
@@ -220,6 +224,11 @@ impl<C, const FORCED: bool> Formula<C, FORCED> {
         constraints.filter(|constraints| constraints.are_holonomic() == holonomic)
     }
 
+    fn name_of(&self, constraint: usize) -> Option<ConstraintName> {
+        let constraints = self.tapes.constraints()?;
+        constraints.names().get(constraint).copied()
+    }
+
     /// The parameters that vary between trajectories.
     pub fn parameters(&self) -> &Parameters {
         &self.parameters
@@ -238,7 +247,7 @@ impl<C, const FORCED: bool> Clone for Formula<C, FORCED> {
     }
 }
 
-impl<C: Class, const FORCED: bool> Hamiltonian for Formula<C, FORCED> {
+impl<C: ClassOfFormula, const FORCED: bool> Hamiltonian for Formula<C, FORCED> {
     type Class = C;
     type Vector<T: Scalar> = DVector<T>;
 
@@ -333,32 +342,77 @@ impl<C: Class, const FORCED: bool> Hamiltonian for Formula<C, FORCED> {
         }
     }
 
+    fn extra<T: Scalar>(&self) -> Option<C::Extra<'_, DVector<T>>> {
+        C::extra(self)
+    }
+}
+
+/// A class of formulas.
+pub trait ClassOfFormula: Class {
+    /// The constraints of a formula, if the class has any.
+    fn extra<T: Scalar, const F: bool>(
+        _formula: &Formula<Self, F>,
+    ) -> Option<Self::Extra<'_, DVector<T>>> {
+        None
+    }
+}
+
+impl ClassOfFormula for General {}
+
+impl ClassOfFormula for Separable {}
+
+impl<C: Class + Unconstrained> ClassOfFormula for Constrained<C> {
+    fn extra<T: Scalar, const F: bool>(
+        formula: &Formula<Self, F>,
+    ) -> Option<Self::Extra<'_, DVector<T>>> {
+        Some(formula)
+    }
+}
+
+impl<C: Class + Unconstrained> ClassOfFormula for Nonholonomic<C> {
+    fn extra<T: Scalar, const F: bool>(
+        formula: &Formula<Self, F>,
+    ) -> Option<Self::Extra<'_, DVector<T>>> {
+        Some(formula)
+    }
+}
+
+impl<C: Class + Unconstrained, T: Scalar, const F: bool> HolonomicConstraints<DVector<T>>
+    for Formula<Constrained<C>, F>
+{
     fn constraints(&self) -> usize {
         self.of_kind(true).map_or(0, Constraints::count)
     }
 
     fn constraint_name(&self, constraint: usize) -> Option<ConstraintName> {
-        let constraints = self.tapes.constraints()?;
-        constraints.names().get(constraint).copied()
+        self.name_of(constraint)
     }
 
-    fn constraint_values<T: Scalar>(&self, q: &DVector<T>, values: &mut [T]) {
+    fn constraint_values(&self, q: &DVector<T>, values: &mut [T]) {
         if let Some(constraints) = self.of_kind(true) {
             constraints.values(&self.parameters, q.as_slice(), values);
         }
     }
 
-    fn constraint_gradients<T: Scalar>(&self, q: &DVector<T>, gradients: &mut Gradients<T>) {
+    fn constraint_gradients(&self, q: &DVector<T>, gradients: &mut Gradients<T>) {
         if let Some(constraints) = self.of_kind(true) {
             constraints.set(&self.parameters, q, gradients);
         }
     }
+}
 
+impl<C: Class + Unconstrained, T: Scalar, const F: bool> NonholonomicConstraints<DVector<T>>
+    for Formula<Nonholonomic<C>, F>
+{
     fn nonholonomic_constraints(&self) -> usize {
         self.of_kind(false).map_or(0, Constraints::count)
     }
 
-    fn nonholonomic_rows<T: Scalar>(&self, q: &DVector<T>, rows: &mut Gradients<T>) {
+    fn constraint_name(&self, constraint: usize) -> Option<ConstraintName> {
+        self.name_of(constraint)
+    }
+
+    fn nonholonomic_rows(&self, q: &DVector<T>, rows: &mut Gradients<T>) {
         if let Some(constraints) = self.of_kind(false) {
             constraints.set(&self.parameters, q, rows);
         }

@@ -1,13 +1,13 @@
 //! Reversible steps of variable size.
 
 use std::f64::consts::TAU;
+use symplectic::constraints::{Constrained, Gradients, HolonomicConstraints};
 
 use symplectic::adaptive::{Adaptive, AdaptiveSteps, DistancePower, Error, Monitor, Symmetry};
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
-use symplectic::system::Gradients;
 use symplectic::{
-    Constrained, General, Hamiltonian, Integrator, Masses, Method, ProvedFor, Scalar, Separable,
-    State, SymmetricFor, acceleration,
+    General, Hamiltonian, Integrator, Masses, Method, ProvedFor, Scalar, Separable, State,
+    SymmetricFor, acceleration,
 };
 
 use super::kepler::{
@@ -323,15 +323,19 @@ impl Hamiltonian for Pendulum {
         *force = SVector::from([T::zero(), -T::one()]);
     }
 
+    fn extra<T: Scalar>(&self) -> Option<&dyn HolonomicConstraints<SVector<T, 2>>> {
+        Some(self)
+    }
+}
+
+impl<T: Scalar> HolonomicConstraints<SVector<T, 2>> for Pendulum {
     fn constraints(&self) -> usize {
         1
     }
-
-    fn constraint_values<T: Scalar>(&self, q: &SVector<T, 2>, values: &mut [T]) {
+    fn constraint_values(&self, q: &SVector<T, 2>, values: &mut [T]) {
         values[0] = q.dot(q) - T::one();
     }
-
-    fn constraint_gradients<T: Scalar>(&self, q: &SVector<T, 2>, gradients: &mut Gradients<T>) {
+    fn constraint_gradients(&self, q: &SVector<T, 2>, gradients: &mut Gradients<T>) {
         gradients.set(0, 0, q[0] + q[0]);
         gradients.set(0, 1, q[1] + q[1]);
     }

@@ -1,8 +1,8 @@
 //! Bad input, and steps that cannot be taken.
 
-use symplectic::adaptive::{AdaptiveSteps, DistancePower, Error, Logarithmic, Monitor, Poincare};
-use symplectic::nalgebra::{SVector, Vector1, Vector2};
-use symplectic::{Hamiltonian, Scalar, Separable, State, acceleration};
+use symplectic::adaptive::{AdaptiveSteps, DistancePower, Error, Monitor};
+use symplectic::nalgebra::Vector1;
+use symplectic::{Scalar, State, acceleration};
 
 use super::kepler::{Kepler, VelocityVerlet, pericentre};
 
@@ -142,75 +142,6 @@ fn a_failed_step_leaves_the_step_density_unchanged() -> Result<(), Error> {
         "{failed}"
     );
     Ok(())
-}
-
-/// Free motion with a constraint or friction that its class does not say.
-struct Unsaid {
-    constraints: usize,
-    friction: f64,
-}
-
-impl Hamiltonian for Unsaid {
-    type Class = Separable;
-    type Vector<T: Scalar> = SVector<T, 1>;
-
-    fn velocity<T: Scalar>(
-        &self,
-        _: T,
-        _: &SVector<T, 1>,
-        p: &SVector<T, 1>,
-        velocity: &mut SVector<T, 1>,
-    ) {
-        *velocity = *p;
-    }
-
-    fn force<T: Scalar>(
-        &self,
-        _: T,
-        _: &SVector<T, 1>,
-        _: &SVector<T, 1>,
-        force: &mut SVector<T, 1>,
-    ) {
-        force[0] = T::zero();
-    }
-
-    fn energy<T: Scalar>(&self, _: T, _: &SVector<T, 1>, p: &SVector<T, 1>) -> Option<T> {
-        Some(p[0] * p[0] * T::from_f64(0.5) - T::one())
-    }
-
-    fn constraints(&self) -> usize {
-        self.constraints
-    }
-
-    fn friction(&self, _: usize) -> f64 {
-        self.friction
-    }
-}
-
-#[test]
-fn a_transformed_hamiltonian_refuses_constraints_and_friction() {
-    let start = State::from_arrays(0.0, [1.0], [0.5]);
-    for (constraints, friction, sound) in [(0, 0.0, true), (1, 0.0, false), (0, 0.5, false)] {
-        let system = || Unsaid {
-            constraints,
-            friction,
-        };
-        let logarithmic: Result<State<Vector2<f64>>, _> = Logarithmic::new(system()).extend(&start);
-        let poincare: Result<State<Vector2<f64>>, _> =
-            Poincare::new(system(), Shifted(0.0)).extend(&start);
-        for extended in [logarithmic, poincare] {
-            match extended {
-                Ok(_) => assert!(sound),
-                Err(error) => {
-                    assert!(
-                        !sound
-                            && matches!(error, Error::Core(symplectic::Error::OtherClass { .. })),
-                        "{error}"
-                    );
-                }
-            }
-        }
-    }
 }
 
 #[test]

@@ -5,8 +5,9 @@ use std::cell::Cell;
 use symplectic::flow::{
     Composed, Drift, Error, Flow, FlowError, FlowSteps, Kick, Palindrome, Span, Splitting, Substeps,
 };
+use symplectic::friction::Damped;
 use symplectic::nalgebra::Vector1;
-use symplectic::{Damped, Method, ProvedFor, Quantity, Splits, State, acceleration};
+use symplectic::{Method, ProvedFor, Quantity, Splits, State, acceleration};
 
 use crate::common::methods::{ForestRuth, Gauss8, McLachlanAtela, PositionJump, StoermerVerlet};
 use crate::common::systems::{Driven, Pendulum, point};

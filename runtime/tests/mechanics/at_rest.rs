@@ -1,9 +1,9 @@
 //! Constraints of bodies at rest at the origin: neither position nor velocity gives a scale for their rounding errors.
 
+use symplectic::constraints::Constrained;
+use symplectic::constraints::HolonomicConstraints;
 use symplectic::nalgebra::{Vector2, Vector3, Vector4};
-use symplectic::{
-    Constrained, Error, Hamiltonian, Integrator, Method, ProvedFor, Separable, State,
-};
+use symplectic::{Error, Integrator, Method, ProvedFor, Separable, State};
 
 use crate::rolling::Midpoint;
 use crate::systems::*;
@@ -242,7 +242,7 @@ fn beads_start_from_rest_at_the_origin() -> Result<(), Error> {
         let end = run.take_steps(1000)?;
         assert!(end.q.norm() < 1e-18 && end.p.norm() < 1e-17, "{end:?}");
         let start: State<Vector3<f64>> = State::from_arrays(0.0, [0.0, 0.0, 0.5], [0.0; 3]);
-        let start = symplectic::consistent(&Coupled, start)?;
+        let start = symplectic::constraints::consistent(&Coupled, start)?;
         let mut run = Integrator::new(method, Coupled, start, 0.01)?;
         let end = run.take_steps(1000)?;
         assert!(end.q.fixed_rows::<2>(0).norm() < 1e-17, "{end:?}");

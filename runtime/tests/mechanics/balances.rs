@@ -1,9 +1,9 @@
 //! Balances of energy and momentum with applied forces.
 
 use crate::methods::{Gauss2, Gauss3, Lobatto4, Midpoint, StoermerVerlet, TwoOfThree};
+use symplectic::constraints::Gradients;
 use symplectic::nalgebra::{SVector, Vector2};
 use symplectic::output::Balance;
-use symplectic::system::Gradients;
 use symplectic::variational::{
     DiracRule, DiracSteps, DiracSystem, Error, LagrangianSteps, StagesOfStep, StepWithStages,
 };

@@ -1,10 +1,10 @@
 //! Chains of links: the band of `G M⁻¹ Gᵀ`, and the same motion in other formulations.
 
 use crate::methods::{Gauss6, Lobatto5};
+use symplectic::constraints::{Constrained, Gradients, HolonomicConstraints};
 use symplectic::nalgebra::{DVector, SVector};
-use symplectic::system::Gradients;
 use symplectic::variational::{Error, LagrangianSteps, momentum_of_velocity};
-use symplectic::{Constrained, Hamiltonian, Integrator, Lagrangian, Masses, Scalar, Separable};
+use symplectic::{Hamiltonian, Integrator, Lagrangian, Masses, Scalar, Separable};
 
 use crate::systems::*;
 
@@ -26,15 +26,19 @@ impl Hamiltonian for Dense {
         Hamiltonian::force(&self.0, time, q, p, force);
     }
 
+    fn extra<T: Scalar>(&self) -> Option<&dyn HolonomicConstraints<DVector<T>>> {
+        Some(self)
+    }
+}
+
+impl<T: Scalar> HolonomicConstraints<DVector<T>> for Dense {
     fn constraints(&self) -> usize {
-        Hamiltonian::constraints(&self.0)
+        HolonomicConstraints::<DVector<T>>::constraints(&self.0)
     }
-
-    fn constraint_values<T: Scalar>(&self, q: &DVector<T>, values: &mut [T]) {
-        Hamiltonian::constraint_values(&self.0, q, values);
+    fn constraint_values(&self, q: &DVector<T>, values: &mut [T]) {
+        HolonomicConstraints::constraint_values(&self.0, q, values);
     }
-
-    fn constraint_gradients<T: Scalar>(&self, q: &DVector<T>, gradients: &mut Gradients<T>) {
+    fn constraint_gradients(&self, q: &DVector<T>, gradients: &mut Gradients<T>) {
         let links = self.0.0;
         for link in 0..links {
             for component in 0..2 * links {

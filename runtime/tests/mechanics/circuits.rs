@@ -1,7 +1,7 @@
 //! Circuits: degenerate Lagrangians with the laws of Kirchhoff for the currents.
 
+use symplectic::constraints::Gradients;
 use symplectic::nalgebra::{SVector, Vector4};
-use symplectic::system::Gradients;
 use symplectic::variational::{
     DiracRule, DiracSteps, DiracSystem, Error, momentum_of_velocity, primary_constraints,
 };

@@ -1,9 +1,9 @@
 //! Orders of constrained steps, with and without an applied force.
 
+use symplectic::constraints::{Constrained, consistent};
 use symplectic::nalgebra::Vector2;
 use symplectic::{
-    Constrained, Hamiltonian, Integrator, Method, ProvedFor, Separable, State, Vector, consistent,
-    system::Unconstrained,
+    Hamiltonian, Integrator, Method, ProvedFor, Separable, State, Vector, system::Unconstrained,
 };
 
 use crate::forces::Resisted;

@@ -1,13 +1,11 @@
 //! What constrained steps evaluate.
 
 use std::cell::Cell;
+use symplectic::constraints::{Constrained, Gradients, HolonomicConstraints};
 
 use symplectic::nalgebra::Vector2;
 use symplectic::solver::FixedPoint;
-use symplectic::system::Gradients;
-use symplectic::{
-    Constrained, Error, Integrator, Masses, Method, ProvedFor, Separable, State, System,
-};
+use symplectic::{Error, Integrator, Masses, Method, ProvedFor, Separable, State, System};
 
 use crate::systems::{Lobatto3, Pendulum, Rattle};
 
@@ -39,17 +37,21 @@ impl<const UNIT: bool> System<Vector2<f64>> for Counted<UNIT> {
         *force = Vector2::new(0.0, -1.0);
     }
 
+    fn extra(&self) -> Option<&dyn HolonomicConstraints<Vector2<f64>>> {
+        Some(self)
+    }
+}
+
+impl<const UNIT: bool> HolonomicConstraints<Vector2<f64>> for Counted<UNIT> {
     fn constraints(&self) -> usize {
         1
     }
-
     fn constraint_values(&self, q: &Vector2<f64>, values: &mut [f64]) {
-        System::constraint_values(&Pendulum, q, values);
+        HolonomicConstraints::constraint_values(&Pendulum, q, values);
     }
-
     fn constraint_gradients(&self, q: &Vector2<f64>, gradients: &mut Gradients<f64>) {
         count(&self.gradients);
-        System::constraint_gradients(&Pendulum, q, gradients);
+        HolonomicConstraints::constraint_gradients(&Pendulum, q, gradients);
     }
 }
 

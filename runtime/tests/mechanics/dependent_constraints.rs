@@ -1,9 +1,8 @@
 //! Constraints that depend on each other at a state: the error says when, which, and by how much.
 
+use symplectic::constraints::{ConstraintName, consistent, constraint_force};
 use symplectic::nalgebra::{DVector, SVector, Vector3};
-use symplectic::{
-    ConstraintName, Error, Integrator, Method, ProvedFor, State, consistent, constraint_force,
-};
+use symplectic::{Error, Integrator, Method, ProvedFor, State};
 
 use crate::systems::{Lobatto3, Lobatto4, Rattle};
 
@@ -76,7 +75,9 @@ fn constraints_of_nearly_parallel_planes_are_dependent() {
 /// The bead reaches the cross at the end of step 8.
 #[test]
 fn constraints_that_become_dependent_end_the_run() {
-    fn check<M: Method + ProvedFor<symplectic::Constrained<symplectic::Separable>>>(method: M) {
+    fn check<M: Method + ProvedFor<symplectic::constraints::Constrained<symplectic::Separable>>>(
+        method: M,
+    ) {
         let start: State<Vector3<f64>> = State::from_arrays(0.0, [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]);
         let mut run = Integrator::new(method, Cross, start, 0.125).expect("a run");
         let before = run.take_steps(7).expect("steps").clone();

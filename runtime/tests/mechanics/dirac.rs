@@ -1,7 +1,8 @@
 //! Degenerate Lagrangians, and constraints on velocities: vortices and rolling.
 
+use symplectic::constraints::Gradients;
+use symplectic::constraints::NonholonomicConstraints;
 use symplectic::nalgebra::SVector;
-use symplectic::system::Gradients;
 use symplectic::variational::{
     DiracRule, DiracSteps, DiracSystem, Error, momentum_of_velocity, primary_constraints,
 };
@@ -53,11 +54,11 @@ macro_rules! lagrangian_of {
 
         impl DiracSystem for $name {
             fn nonholonomic_constraints(&self) -> usize {
-                symplectic::Hamiltonian::nonholonomic_constraints(self)
+                NonholonomicConstraints::<$vector<f64>>::nonholonomic_constraints(self)
             }
 
             fn nonholonomic_rows<T: Scalar>(&self, q: &$vector<T>, rows: &mut Gradients<T>) {
-                symplectic::Hamiltonian::nonholonomic_rows(self, q, rows);
+                NonholonomicConstraints::nonholonomic_rows(self, q, rows);
             }
         }
     };
@@ -157,7 +158,7 @@ impl DiracSystem for LightDisk {
     }
 
     fn nonholonomic_rows<T: Scalar>(&self, q: &V4<T>, rows: &mut Gradients<T>) {
-        symplectic::Hamiltonian::nonholonomic_rows(&Disk, q, rows);
+        NonholonomicConstraints::nonholonomic_rows(&Disk, q, rows);
     }
 }
 

@@ -1,9 +1,10 @@
 //! Steps with constraints, forces and Galerkin paths commute with the symmetries of their systems, and balance momentum maps.
 
 use crate::methods::{Gauss2, Lobatto3, TwoOfThree};
+use symplectic::constraints::Constrained;
 use symplectic::nalgebra::{Rotation2, Rotation3, Vector2, Vector3};
 use symplectic::variational::{Error, LagrangianSteps, momentum_map};
-use symplectic::{Constrained, General, Integrator, Method, ProvedFor, Separable, State, StepMap};
+use symplectic::{General, Integrator, Method, ProvedFor, Separable, State, StepMap};
 
 use crate::forces::{FourthRattle, Resisted, swing};
 use crate::lagrangians::distance;

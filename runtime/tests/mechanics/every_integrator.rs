@@ -3,6 +3,7 @@
 use crate::methods::{Gauss2, TwoOfThree};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use symplectic::constraints::consistent;
 use symplectic::flow::{Drift, Flow, FlowIntegrator, FlowSteps, Kick, Splitting};
 use symplectic::nalgebra::{
     Matrix3, Rotation2, Rotation3, SVector, UnitQuaternion, Vector2, Vector3, Vector4,
@@ -13,7 +14,6 @@ use symplectic::variational::{
 };
 use symplectic::{
     Error as CoreError, Integrator, PhasePoint, State, StepMap, acceleration, assert_conserved,
-    consistent,
 };
 
 use crate::dirac::{V6, Vortices, vortices_start};

@@ -6,11 +6,10 @@ use symplectic::adaptive::{AdaptiveSteps, Monitor};
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{Vector1, Vector2};
 use symplectic::solver::{ByNewton, Dense, Differences, FixedPointThenNewton, Newton};
-use symplectic::system::Gradients;
 use symplectic::variational::{DiracRule, DiracSteps, DiracSystem, Error, LagrangianSteps};
 use symplectic::{
-    Error as CoreError, Integrator, Lagrangian, Masses, Method, RunTimeTableau, Scalar, State,
-    System, Vector,
+    Class, Error as CoreError, Integrator, Lagrangian, Masses, Method, RunTimeTableau, Scalar,
+    State, System, Vector,
 };
 
 use crate::dirac::{V6, Vortices, vortices_start};
@@ -288,24 +287,8 @@ impl<V: Vector<Scalar = f64>, S: System<V>> System<V> for FailsOnce<'_, S> {
         force.as_mut_slice().iter_mut().for_each(|f| *f *= factor);
     }
 
-    fn constraints(&self) -> usize {
-        self.system.constraints()
-    }
-
-    fn constraint_values(&self, q: &V, values: &mut [f64]) {
-        self.system.constraint_values(q, values);
-    }
-
-    fn constraint_gradients(&self, q: &V, gradients: &mut Gradients<f64>) {
-        self.system.constraint_gradients(q, gradients);
-    }
-
-    fn nonholonomic_constraints(&self) -> usize {
-        self.system.nonholonomic_constraints()
-    }
-
-    fn nonholonomic_rows(&self, q: &V, rows: &mut Gradients<f64>) {
-        self.system.nonholonomic_rows(q, rows);
+    fn extra(&self) -> Option<<S::Class as Class>::Extra<'_, V>> {
+        self.system.extra()
     }
 }
 

@@ -139,7 +139,9 @@ pub fn swing() -> State<Vector3<f64>> {
 /// With constraints the balance of momentum is exact too.
 #[test]
 fn the_momentum_balance_is_exact_with_constraints() {
-    fn check<M: Method + ProvedFor<symplectic::Constrained<symplectic::General>>>(method: M) {
+    fn check<M: Method + ProvedFor<symplectic::constraints::Constrained<symplectic::General>>>(
+        method: M,
+    ) {
         let mut run = Integrator::new(method, Resisted::new(), swing(), 0.1).expect("a run");
         let vertical =
             |state: &State<Vector3<f64>>| state.q[0] * state.p[1] - state.q[1] * state.p[0];

@@ -1,11 +1,10 @@
 //! Linear friction with exact kicks.
 
 use crate::methods::{ForestRuth, Gauss4, StoermerVerlet, Yoshida6};
+use symplectic::friction::{Damped, Friction, friction_growth};
 use symplectic::nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 use symplectic::variational::{Error, StepWithStages};
-use symplectic::{
-    Damped, Hamiltonian, Integrator, Masses, Method, ProvedFor, Scalar, State, friction_growth,
-};
+use symplectic::{Hamiltonian, Integrator, Masses, Method, ProvedFor, Scalar, State};
 
 symplectic::composition! {
     /// Forest & Ruth's steps; half kicks of successive steps are at the same position.
@@ -39,6 +38,12 @@ impl Hamiltonian for Ring {
         Some(p.dot(p) * T::from_f64(0.5) + r * (r - T::one()) * (r - T::one()))
     }
 
+    fn extra<T: Scalar>(&self) -> Option<&dyn Friction<Plane<T>>> {
+        Some(self)
+    }
+}
+
+impl<T: Scalar> Friction<Plane<T>> for Ring {
     fn friction(&self, _component: usize) -> f64 {
         self.0
     }
@@ -295,7 +300,17 @@ impl Hamiltonian for Molasses {
         applied[0] = -Self::rate(q) * p[0];
     }
 
-    fn kick<T: Scalar>(
+    fn extra<T: Scalar>(&self) -> Option<&dyn Friction<Line<T>>> {
+        Some(self)
+    }
+}
+
+impl<T: Scalar> Friction<Line<T>> for Molasses {
+    fn friction(&self, _component: usize) -> f64 {
+        0.0
+    }
+
+    fn kick(
         &self,
         duration: T,
         q: &Line<T>,

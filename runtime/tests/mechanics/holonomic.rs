@@ -1,10 +1,9 @@
 //! Constraints, structure and invariants of constrained steps.
 
+use symplectic::constraints::{Constrained, Gradients, HolonomicConstraints, consistent};
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
-use symplectic::system::Gradients;
 use symplectic::{
-    Constrained, Error, Event, Hamiltonian, Integrator, Method, ProvedFor, Separable, State,
-    Vector, consistent,
+    Error, Event, Hamiltonian, Integrator, Method, ProvedFor, Separable, State, Vector,
 };
 
 use crate::systems::*;
@@ -402,14 +401,18 @@ impl symplectic::System<Vector2<f64>> for FailsOnce {
         *force = Vector2::new(0.0, if left == 0 { f64::NAN } else { -1.0 });
     }
 
+    fn extra(&self) -> Option<&dyn HolonomicConstraints<Vector2<f64>>> {
+        Some(self)
+    }
+}
+
+impl HolonomicConstraints<Vector2<f64>> for FailsOnce {
     fn constraints(&self) -> usize {
         1
     }
-
     fn constraint_values(&self, q: &Vector2<f64>, values: &mut [f64]) {
         values[0] = q.norm_squared() - 1.0;
     }
-
     fn constraint_gradients(&self, q: &Vector2<f64>, gradients: &mut Gradients<f64>) {
         for k in 0..2 {
             gradients.set(0, k, 2.0 * q[k]);

@@ -1,10 +1,10 @@
 //! Multipliers of constraints: in closed form, their orders, and those of SHAKE.
 
+use symplectic::constraints::{Constrained, constraint_force};
 use symplectic::nalgebra::{SMatrix, SVector, Vector2};
 use symplectic::variational::{Error, StepWithStages};
 use symplectic::{
-    Constrained, Hamiltonian, Integrator, Method, ProvedFor, Separable, State, Vector,
-    constraint_force, system::Unconstrained,
+    Hamiltonian, Integrator, Method, ProvedFor, Separable, State, Vector, system::Unconstrained,
 };
 
 use crate::forces::Resisted;

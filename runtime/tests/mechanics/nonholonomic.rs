@@ -1,10 +1,8 @@
 //! Motion, order, reversibility and energy of steps with non-holonomic constraints.
 
+use symplectic::constraints::{Nonholonomic, consistent_momentum};
 use symplectic::nalgebra::{SVector, Vector2, Vector3};
-use symplectic::{
-    Class, Hamiltonian, Integrator, Method, Nonholonomic, ProvedFor, Separable, State, Vector,
-    consistent_momentum,
-};
+use symplectic::{Class, Hamiltonian, Integrator, Method, ProvedFor, Separable, State, Vector};
 
 use crate::rolling::*;
 use crate::systems::{HalfSteps4, Pendulum, Rattle};

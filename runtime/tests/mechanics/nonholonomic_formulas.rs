@@ -1,7 +1,9 @@
 //! Non-holonomic constraints from formulas, against the same systems by hand.
 
+use symplectic::constraints::Nonholonomic;
+use symplectic::constraints::NonholonomicConstraints;
 use symplectic::nalgebra::SMatrix;
-use symplectic::{Error, Hamiltonian, Integrator, Nonholonomic, State, System};
+use symplectic::{Error, Integrator, State, System};
 
 use crate::rolling::*;
 
@@ -75,7 +77,10 @@ fn formulas_are_the_systems_by_hand() -> Result<(), Error> {
 #[test]
 fn a_family_has_one_nonholonomic_constraint_for_each_index() -> Result<(), Error> {
     let system = Followers::<3>;
-    assert_eq!(Hamiltonian::nonholonomic_constraints(&system), 3);
+    assert_eq!(
+        NonholonomicConstraints::<SMatrix<f64, 2, 3>>::nonholonomic_constraints(&system),
+        3
+    );
     let q = SMatrix::from_column_slice(&[1.0, 0.5, 0.3, 0.8, -0.2, 1.0]);
     let p = SMatrix::from_column_slice(&[0.7, 0.0, 0.4, 0.2, 0.15, 0.4]);
     let start: State<SMatrix<f64, 2, 3>> = State::new(0.0, q, p);

@@ -1,34 +1,25 @@
 //! Starts of systems with non-holonomic constraints, and systems whose constraints are wrong.
 
+use symplectic::constraints::{Gradients, Nonholonomic, NonholonomicConstraints};
 use symplectic::nalgebra::Vector2;
-use symplectic::system::Gradients;
-use symplectic::{
-    Class, Constrained, Error, Integrator, Method, Nonholonomic, ProvedFor, Separable, State,
-};
+use symplectic::{Error, Integrator, Method, ProvedFor, Separable, State};
 
-use crate::rolling::{Midpoint, Skate, Trapezoid};
+use crate::rolling::{Midpoint, Skate};
 
 /// A point in the plane with unit mass and these rows: what each test gets wrong.
 #[derive(Clone, Copy)]
-struct Point<C> {
-    holonomic: usize,
+struct Point {
     rows: &'static [[f64; 2]],
     /// A row and a component that are not there.
     beyond: Option<(usize, usize)>,
-    class: core::marker::PhantomData<C>,
 }
 
-const fn point<C>(rows: &'static [[f64; 2]]) -> Point<C> {
-    Point {
-        holonomic: 0,
-        rows,
-        beyond: None,
-        class: core::marker::PhantomData,
-    }
+const fn point(rows: &'static [[f64; 2]]) -> Point {
+    Point { rows, beyond: None }
 }
 
-impl<C: Class> symplectic::System<Vector2<f64>> for Point<C> {
-    type Class = C;
+impl symplectic::System<Vector2<f64>> for Point {
+    type Class = Rows;
     type Solver = symplectic::solver::FixedPoint;
 
     fn velocity(&self, _: f64, _: &Vector2<f64>, p: &Vector2<f64>, velocity: &mut Vector2<f64>) {
@@ -39,14 +30,15 @@ impl<C: Class> symplectic::System<Vector2<f64>> for Point<C> {
         *force = Vector2::new(0.0, -1.0);
     }
 
-    fn constraints(&self) -> usize {
-        self.holonomic
+    fn extra(&self) -> Option<&dyn NonholonomicConstraints<Vector2<f64>>> {
+        Some(self)
     }
+}
 
+impl NonholonomicConstraints<Vector2<f64>> for Point {
     fn nonholonomic_constraints(&self) -> usize {
         self.rows.len()
     }
-
     fn nonholonomic_rows(&self, _: &Vector2<f64>, rows: &mut Gradients<f64>) {
         for (constraint, row) in self.rows.iter().enumerate() {
             for (component, &value) in row.iter().enumerate() {
@@ -59,7 +51,7 @@ impl<C: Class> symplectic::System<Vector2<f64>> for Point<C> {
     }
 }
 
-fn refused<M: Method + ProvedFor<C>, C: Class>(method: M, system: Point<C>, p: [f64; 2]) -> Error {
+fn refused<M: Method + ProvedFor<Rows>>(method: M, system: Point, p: [f64; 2]) -> Error {
     let state = State::from_arrays(0.0, [0.3, 0.4], p);
     match Integrator::new(method, system, state, 0.1) {
         Err(error) => error,
@@ -94,12 +86,12 @@ fn a_velocity_that_does_not_obey_is_refused() {
 
 #[test]
 fn dependent_rows_are_refused() {
-    let error = refused::<_, Rows>(Midpoint, point(&[[1.0, 2.0], [2.0, 4.0]]), [2.0, -1.0]);
+    let error = refused(Midpoint, point(&[[1.0, 2.0], [2.0, 4.0]]), [2.0, -1.0]);
     assert!(
         matches!(error, Error::DependentConstraints { constraint: 1, .. }),
         "{error}"
     );
-    let error = refused::<_, Rows>(Midpoint, point(&[[0.0, 0.0]]), [2.0, -1.0]);
+    let error = refused(Midpoint, point(&[[0.0, 0.0]]), [2.0, -1.0]);
     assert!(
         matches!(error, Error::DependentConstraints { constraint: 0, .. }),
         "{error}"
@@ -108,7 +100,7 @@ fn dependent_rows_are_refused() {
 
 #[test]
 fn rows_that_are_missing_too_many_or_misplaced_are_refused() {
-    let error = refused::<_, Rows>(Midpoint, point(&[]), [2.0, -1.0]);
+    let error = refused(Midpoint, point(&[]), [2.0, -1.0]);
     assert!(
         matches!(
             error,
@@ -124,7 +116,7 @@ fn rows_that_are_missing_too_many_or_misplaced_are_refused() {
         "{error}"
     );
     let rows = &[[1.0, 2.0], [1.0, 0.0], [0.0, 1.0]];
-    let error = refused::<_, Rows>(Midpoint, point(rows), [2.0, -1.0]);
+    let error = refused(Midpoint, point(rows), [2.0, -1.0]);
     assert!(
         matches!(
             error,
@@ -137,7 +129,7 @@ fn rows_that_are_missing_too_many_or_misplaced_are_refused() {
     );
     let mut beyond = point(&[[1.0, 2.0]]);
     beyond.beyond = Some((0, 2));
-    let error = refused::<_, Rows>(Midpoint, beyond, [2.0, -1.0]);
+    let error = refused(Midpoint, beyond, [2.0, -1.0]);
     assert!(
         matches!(
             error,
@@ -149,56 +141,11 @@ fn rows_that_are_missing_too_many_or_misplaced_are_refused() {
         ),
         "{error}"
     );
-    let error = refused::<_, Rows>(Midpoint, point(&[[f64::NAN, 1.0]]), [2.0, -1.0]);
+    let error = refused(Midpoint, point(&[[f64::NAN, 1.0]]), [2.0, -1.0]);
     assert!(
         matches!(
             error,
             Error::NonFinite { .. } | Error::NonFiniteState { .. }
-        ),
-        "{error}"
-    );
-}
-
-/// Constraints that the steps of a class would leave out.
-#[test]
-fn constraints_of_another_class_are_refused() {
-    let rows = &[[1.0, 2.0]];
-    let error = refused::<_, Separable>(Midpoint, point(rows), [2.0, -1.0]);
-    assert!(
-        matches!(
-            error,
-            Error::OtherClass {
-                what: "non-holonomic constraints",
-                ..
-            }
-        ),
-        "{error}"
-    );
-    assert!(
-        error.to_string().contains("Nonholonomic<Separable>"),
-        "{error}"
-    );
-    let error = refused::<_, Constrained<Separable>>(Trapezoid, point(rows), [2.0, -1.0]);
-    assert!(
-        matches!(
-            error,
-            Error::OtherClass {
-                what: "non-holonomic constraints",
-                ..
-            }
-        ),
-        "{error}"
-    );
-    let mut both = point(rows);
-    both.holonomic = 1;
-    let error = refused::<_, Rows>(Midpoint, both, [2.0, -1.0]);
-    assert!(
-        matches!(
-            error,
-            Error::OtherClass {
-                what: "constraints",
-                ..
-            }
         ),
         "{error}"
     );

@@ -1,8 +1,8 @@
 //! The methods and the systems with non-holonomic constraints of these tests.
 
+use symplectic::constraints::{Gradients, Nonholonomic, NonholonomicConstraints};
 use symplectic::nalgebra::{SVector, Vector3, Vector4};
-use symplectic::system::Gradients;
-use symplectic::{General, Hamiltonian, Masses, Nonholonomic, Scalar, Separable, State};
+use symplectic::{General, Hamiltonian, Masses, Scalar, Separable, State};
 
 pub use crate::methods::Midpoint;
 
@@ -58,11 +58,16 @@ impl Hamiltonian for Disk {
         *force = V4::zeros();
     }
 
+    fn extra<T: Scalar>(&self) -> Option<&dyn NonholonomicConstraints<V4<T>>> {
+        Some(self)
+    }
+}
+
+impl<T: Scalar> NonholonomicConstraints<V4<T>> for Disk {
     fn nonholonomic_constraints(&self) -> usize {
         2
     }
-
-    fn nonholonomic_rows<T: Scalar>(&self, q: &V4<T>, rows: &mut Gradients<T>) {
+    fn nonholonomic_rows(&self, q: &V4<T>, rows: &mut Gradients<T>) {
         let radius = T::from_f64(RADIUS);
         rows.set(0, 0, T::one());
         rows.set(0, 2, -radius * q[3].cos());
@@ -100,11 +105,16 @@ impl Hamiltonian for Skate {
         *force = V3::from([T::from_f64(self.slope), T::zero(), T::zero()]);
     }
 
+    fn extra<T: Scalar>(&self) -> Option<&dyn NonholonomicConstraints<V3<T>>> {
+        Some(self)
+    }
+}
+
+impl<T: Scalar> NonholonomicConstraints<V3<T>> for Skate {
     fn nonholonomic_constraints(&self) -> usize {
         1
     }
-
-    fn nonholonomic_rows<T: Scalar>(&self, q: &V3<T>, rows: &mut Gradients<T>) {
+    fn nonholonomic_rows(&self, q: &V3<T>, rows: &mut Gradients<T>) {
         rows.set(0, 0, q[2].sin());
         rows.set(0, 1, -q[2].cos());
     }
@@ -132,11 +142,16 @@ impl Hamiltonian for Oscillator {
         Some((p.dot(p) + q[0] * q[0] + q[1] * q[1]) * T::from_f64(0.5))
     }
 
+    fn extra<T: Scalar>(&self) -> Option<&dyn NonholonomicConstraints<V3<T>>> {
+        Some(self)
+    }
+}
+
+impl<T: Scalar> NonholonomicConstraints<V3<T>> for Oscillator {
     fn nonholonomic_constraints(&self) -> usize {
         1
     }
-
-    fn nonholonomic_rows<T: Scalar>(&self, q: &V3<T>, rows: &mut Gradients<T>) {
+    fn nonholonomic_rows(&self, q: &V3<T>, rows: &mut Gradients<T>) {
         rows.set(0, 0, q[1]);
         rows.set(0, 2, -T::one());
     }
@@ -210,11 +225,16 @@ impl Hamiltonian for Sleigh {
         *force = V3::from([T::zero(), T::zero(), torque]);
     }
 
+    fn extra<T: Scalar>(&self) -> Option<&dyn NonholonomicConstraints<V3<T>>> {
+        Some(self)
+    }
+}
+
+impl<T: Scalar> NonholonomicConstraints<V3<T>> for Sleigh {
     fn nonholonomic_constraints(&self) -> usize {
         1
     }
-
-    fn nonholonomic_rows<T: Scalar>(&self, q: &V3<T>, rows: &mut Gradients<T>) {
+    fn nonholonomic_rows(&self, q: &V3<T>, rows: &mut Gradients<T>) {
         rows.set(0, 0, q[2].sin());
         rows.set(0, 1, -q[2].cos());
     }
@@ -260,11 +280,16 @@ impl Hamiltonian for PendulumByRows {
         crate::systems::Pendulum.force(time, q, p, force);
     }
 
+    fn extra<T: Scalar>(&self) -> Option<&dyn NonholonomicConstraints<SVector<T, 2>>> {
+        Some(self)
+    }
+}
+
+impl<T: Scalar> NonholonomicConstraints<SVector<T, 2>> for PendulumByRows {
     fn nonholonomic_constraints(&self) -> usize {
         1
     }
-
-    fn nonholonomic_rows<T: Scalar>(&self, q: &SVector<T, 2>, rows: &mut Gradients<T>) {
+    fn nonholonomic_rows(&self, q: &SVector<T, 2>, rows: &mut Gradients<T>) {
         rows.set(0, 0, q[0]);
         rows.set(0, 1, q[1]);
     }

@@ -1,10 +1,11 @@
 //! Rigid bodies on SO(3), against closed forms and the same motion in other coordinates.
 
 use crate::methods::{Gauss6, Lobatto3, StoermerVerlet};
+use symplectic::constraints::Constrained;
 use symplectic::nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector3};
 use symplectic::rotation::{Error, FreeBody, HeavyTop, RigidBody, RotationState, RotationSteps};
 use symplectic::{
-    Constrained, Error as CoreError, Integrator, Method, ProvedFor, Quantity, Separable, State,
+    Error as CoreError, Integrator, Method, ProvedFor, Quantity, Separable, State,
     StoermerVerletSteps,
 };
 

@@ -1,8 +1,8 @@
 //! Constraints whose terms are much larger than gradient times position.
 
+use symplectic::constraints::{Constrained, Gradients, HolonomicConstraints, consistent};
 use symplectic::nalgebra::Vector2;
-use symplectic::system::Gradients;
-use symplectic::{Constrained, Integrator, Method, ProvedFor, Separable, State, consistent};
+use symplectic::{Integrator, Method, ProvedFor, Separable, State};
 
 use crate::systems::*;
 
@@ -22,14 +22,18 @@ impl symplectic::System<Vector2<f64>> for Pivot {
         *force = Vector2::new(0.0, -9.81);
     }
 
+    fn extra(&self) -> Option<&dyn HolonomicConstraints<Vector2<f64>>> {
+        Some(self)
+    }
+}
+
+impl HolonomicConstraints<Vector2<f64>> for Pivot {
     fn constraints(&self) -> usize {
         1
     }
-
     fn constraint_values(&self, q: &Vector2<f64>, values: &mut [f64]) {
         values[0] = (q - self.0).norm_squared() - self.0.norm_squared();
     }
-
     fn constraint_gradients(&self, q: &Vector2<f64>, gradients: &mut Gradients<f64>) {
         for k in 0..2 {
             gradients.set(0, k, 2.0 * (q[k] - self.0[k]));
@@ -51,7 +55,7 @@ fn constraints_hold_where_a_pendulum_passes_the_origin() {
         let mut run = Integrator::new(method, pendulum, start, size).expect("consistent");
         run.take_steps(steps).expect("steps");
         let mut value = [0.0];
-        symplectic::System::constraint_values(&pendulum, &run.state().q, &mut value);
+        HolonomicConstraints::constraint_values(&pendulum, &run.state().q, &mut value);
         let bound = 32.0 * f64::EPSILON * pendulum.0.norm_squared();
         assert!(value[0].abs() <= bound, "{}: {:e}", M::NAME, value[0]);
     }
@@ -82,14 +86,18 @@ impl symplectic::System<Vector2<f64>> for Electron {
         *force = Vector2::new(0.0, -1.6e-13);
     }
 
+    fn extra(&self) -> Option<&dyn HolonomicConstraints<Vector2<f64>>> {
+        Some(self)
+    }
+}
+
+impl HolonomicConstraints<Vector2<f64>> for Electron {
     fn constraints(&self) -> usize {
         1
     }
-
     fn constraint_values(&self, q: &Vector2<f64>, values: &mut [f64]) {
         values[0] = q.norm_squared() - 1.0;
     }
-
     fn constraint_gradients(&self, q: &Vector2<f64>, gradients: &mut Gradients<f64>) {
         for k in 0..2 {
             gradients.set(0, k, 2.0 * q[k]);

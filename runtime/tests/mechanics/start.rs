@@ -1,11 +1,11 @@
 //! Starts, and systems whose constraints are wrong.
 
-use symplectic::nalgebra::{SVector, Vector2};
-use symplectic::system::Gradients;
-use symplectic::{
-    Constrained, Error, Hamiltonian, Integrator, Quantity, Separable, State, consistent,
-    constraint_force,
+use symplectic::constraints::{
+    Constrained, Gradients, HolonomicConstraints, Nonholonomic, consistent, constraint_force,
 };
+use symplectic::friction::Damped;
+use symplectic::nalgebra::{SVector, Vector2};
+use symplectic::{Class, Error, Integrator, ProvedFor, Quantity, Separable, State};
 
 use crate::systems::*;
 
@@ -38,14 +38,18 @@ impl symplectic::System<Vector2<f64>> for Point {
         *force = Vector2::new(0.0, -1.0);
     }
 
+    fn extra(&self) -> Option<&dyn HolonomicConstraints<Vector2<f64>>> {
+        Some(self)
+    }
+}
+
+impl HolonomicConstraints<Vector2<f64>> for Point {
     fn constraints(&self) -> usize {
         self.constraints
     }
-
     fn constraint_values(&self, q: &Vector2<f64>, values: &mut [f64]) {
         values.copy_from_slice(&(self.values)(&[q[0], q[1]])[..values.len()]);
     }
-
     fn constraint_gradients(&self, q: &Vector2<f64>, gradients: &mut Gradients<f64>) {
         let rows = (self.gradients)(&[q[0], q[1]]);
         for (constraint, row) in rows.iter().take(self.constraints).enumerate() {
@@ -315,14 +319,18 @@ fn a_run_goes_on_after_misplaced_gradients() {
             *force = Vector2::new(0.0, -1.0);
         }
 
+        fn extra(&self) -> Option<&dyn HolonomicConstraints<Vector2<f64>>> {
+            Some(self)
+        }
+    }
+
+    impl HolonomicConstraints<Vector2<f64>> for Once {
         fn constraints(&self) -> usize {
             1
         }
-
         fn constraint_values(&self, q: &Vector2<f64>, values: &mut [f64]) {
             values[0] = q.norm_squared() - 1.0;
         }
-
         fn constraint_gradients(&self, q: &Vector2<f64>, gradients: &mut Gradients<f64>) {
             gradients.set(0, 0, 2.0 * q[0]);
             gradients.set(0, 1, 2.0 * q[1]);
@@ -342,16 +350,13 @@ fn a_run_goes_on_after_misplaced_gradients() {
     run.step().expect("a step");
 }
 
-/// Constraints and friction of a system whose class has none are not left out in silence.
+/// Constraints and friction that the class promises, and the system forgets, are not left out in silence.
 #[test]
-fn constraints_and_friction_missing_from_the_class_are_refused() {
-    struct Said {
-        constraints: usize,
-        friction: f64,
-    }
+fn constraints_and_friction_that_the_system_does_not_give_are_refused() {
+    struct Silent<C>(core::marker::PhantomData<C>);
 
-    impl symplectic::System<Vector2<f64>> for Said {
-        type Class = Separable;
+    impl<C: Class> symplectic::System<Vector2<f64>> for Silent<C> {
+        type Class = C;
         type Solver = symplectic::solver::FixedPoint;
 
         fn velocity(
@@ -367,27 +372,27 @@ fn constraints_and_friction_missing_from_the_class_are_refused() {
         fn force(&self, _: f64, q: &Vector2<f64>, _: &Vector2<f64>, force: &mut Vector2<f64>) {
             *force = -q;
         }
-
-        fn constraints(&self) -> usize {
-            self.constraints
-        }
-
-        fn friction(&self, _component: usize) -> f64 {
-            self.friction
-        }
     }
 
-    let made = |constraints, friction| {
-        let system = Said {
-            constraints,
-            friction,
-        };
+    fn refused<C: Class>() -> Error
+    where
+        Rattle: ProvedFor<C>,
+    {
         let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 1.0]);
-        Integrator::new(Rattle, system, start, 0.1).map(|_| ())
-    };
-    assert_eq!(made(0, 0.0), Ok(()));
-    for (constraints, friction) in [(1, 0.0), (0, 0.5)] {
-        let error = made(constraints, friction);
-        assert!(matches!(error, Err(Error::OtherClass { .. })), "{error:?}");
+        let silent = Silent::<C>(core::marker::PhantomData);
+        let error = Integrator::new(Rattle, silent, start, 0.1).map(|_| ());
+        error.expect_err("refused")
+    }
+
+    for (error, forgotten) in [
+        (refused::<Constrained<Separable>>(), "HolonomicConstraints"),
+        (
+            refused::<Nonholonomic<Separable>>(),
+            "NonholonomicConstraints",
+        ),
+        (refused::<Damped>(), "Friction"),
+    ] {
+        assert!(matches!(error, Error::NoExtra { by, .. } if by == forgotten));
+        assert!(error.to_string().contains(forgotten), "{error}");
     }
 }

@@ -1,9 +1,10 @@
 //! Generating functions of all types, momentum maps, and checks of a step: symplectic, also with constraints, and equivariant.
 
 use crate::methods::{Gauss2, Gauss3, Lobatto3};
+use symplectic::constraints::consistent;
 use symplectic::nalgebra::{Rotation2, Vector2, Vector3};
 use symplectic::variational::{Error, momentum_map, step_with_generating_function};
-use symplectic::{Error as CoreError, Integrator, State, StepMap, assert_conserved, consistent};
+use symplectic::{Error as CoreError, Integrator, State, StepMap, assert_conserved};
 
 use super::forces::Ring;
 

@@ -1,8 +1,8 @@
 //! The methods and the constrained systems of these tests.
 
+use symplectic::constraints::{Constrained, Gradients, HolonomicConstraints, consistent};
 use symplectic::nalgebra::{DVector, SVector};
-use symplectic::system::Gradients;
-use symplectic::{Constrained, General, Hamiltonian, Masses, Scalar, Separable, State, consistent};
+use symplectic::{General, Hamiltonian, Masses, Scalar, Separable, State};
 
 pub use crate::methods::{Lobatto3, Lobatto4, Lobatto5};
 
@@ -86,15 +86,19 @@ impl Hamiltonian for Pendulum {
         Some(p.dot(p) * T::from_f64(0.5) + q[1])
     }
 
+    fn extra<T: Scalar>(&self) -> Option<&dyn HolonomicConstraints<V2<T>>> {
+        Some(self)
+    }
+}
+
+impl<T: Scalar> HolonomicConstraints<V2<T>> for Pendulum {
     fn constraints(&self) -> usize {
         1
     }
-
-    fn constraint_values<T: Scalar>(&self, q: &V2<T>, values: &mut [T]) {
+    fn constraint_values(&self, q: &V2<T>, values: &mut [T]) {
         values[0] = q.dot(q) - T::one();
     }
-
-    fn constraint_gradients<T: Scalar>(&self, q: &V2<T>, gradients: &mut Gradients<T>) {
+    fn constraint_gradients(&self, q: &V2<T>, gradients: &mut Gradients<T>) {
         for k in 0..2 {
             gradients.set(0, k, q[k] + q[k]);
         }
@@ -119,15 +123,19 @@ impl Hamiltonian for Turned {
         *force = self.0.map(T::from_f64);
     }
 
+    fn extra<T: Scalar>(&self) -> Option<&dyn HolonomicConstraints<V2<T>>> {
+        Some(self)
+    }
+}
+
+impl<T: Scalar> HolonomicConstraints<V2<T>> for Turned {
     fn constraints(&self) -> usize {
         1
     }
-
-    fn constraint_values<T: Scalar>(&self, q: &V2<T>, values: &mut [T]) {
+    fn constraint_values(&self, q: &V2<T>, values: &mut [T]) {
         Pendulum.constraint_values(q, values);
     }
-
-    fn constraint_gradients<T: Scalar>(&self, q: &V2<T>, gradients: &mut Gradients<T>) {
+    fn constraint_gradients(&self, q: &V2<T>, gradients: &mut Gradients<T>) {
         Pendulum.constraint_gradients(q, gradients);
     }
 }
@@ -172,18 +180,22 @@ impl Hamiltonian for DoubleSpherical {
         Some(kinetic + q[2] + q[5] + q[5])
     }
 
+    fn extra<T: Scalar>(&self) -> Option<&dyn HolonomicConstraints<V6<T>>> {
+        Some(self)
+    }
+}
+
+impl<T: Scalar> HolonomicConstraints<V6<T>> for DoubleSpherical {
     fn constraints(&self) -> usize {
         2
     }
-
-    fn constraint_values<T: Scalar>(&self, q: &V6<T>, values: &mut [T]) {
+    fn constraint_values(&self, q: &V6<T>, values: &mut [T]) {
         let (first, second) = (q.fixed_rows::<3>(0), q.fixed_rows::<3>(3));
         let link = second - first;
         values[0] = first.dot(&first) - T::one();
         values[1] = link.dot(&link) - T::one();
     }
-
-    fn constraint_gradients<T: Scalar>(&self, q: &V6<T>, gradients: &mut Gradients<T>) {
+    fn constraint_gradients(&self, q: &V6<T>, gradients: &mut Gradients<T>) {
         for k in 0..3 {
             let link = q[k + 3] - q[k];
             gradients.set(0, k, q[k] + q[k]);
@@ -202,22 +214,26 @@ pub struct Bead;
 pub struct Relativistic;
 
 macro_rules! on_the_sphere {
-    () => {
-        fn constraints(&self) -> usize {
-            1
-        }
+    ($($bead:ident)*) => {$(
+        impl<T: Scalar> HolonomicConstraints<V3<T>> for $bead {
+            fn constraints(&self) -> usize {
+                1
+            }
 
-        fn constraint_values<T: Scalar>(&self, q: &V3<T>, values: &mut [T]) {
-            values[0] = q.dot(q) - T::one();
-        }
+            fn constraint_values(&self, q: &V3<T>, values: &mut [T]) {
+                values[0] = q.dot(q) - T::one();
+            }
 
-        fn constraint_gradients<T: Scalar>(&self, q: &V3<T>, gradients: &mut Gradients<T>) {
-            for k in 0..3 {
-                gradients.set(0, k, q[k] + q[k]);
+            fn constraint_gradients(&self, q: &V3<T>, gradients: &mut Gradients<T>) {
+                for k in 0..3 {
+                    gradients.set(0, k, q[k] + q[k]);
+                }
             }
         }
-    };
+    )*};
 }
+
+on_the_sphere! { Bead Relativistic }
 
 impl Hamiltonian for Bead {
     type Class = Constrained<General>;
@@ -235,7 +251,9 @@ impl Hamiltonian for Bead {
         Some((T::one() + q[2] * q[2]) * p.dot(p) * T::from_f64(0.5) + q[2])
     }
 
-    on_the_sphere!();
+    fn extra<T: Scalar>(&self) -> Option<&dyn HolonomicConstraints<V3<T>>> {
+        Some(self)
+    }
 }
 
 impl Hamiltonian for Relativistic {
@@ -254,7 +272,9 @@ impl Hamiltonian for Relativistic {
         Some((T::one() + p.dot(p)).sqrt() + q[2])
     }
 
-    on_the_sphere!();
+    fn extra<T: Scalar>(&self) -> Option<&dyn HolonomicConstraints<V3<T>>> {
+        Some(self)
+    }
 }
 
 /// A charged bead in the magnetic field 20 along z, on a sphere through the origin, where the vector potential vanishes:
@@ -284,15 +304,19 @@ impl Hamiltonian for Charged {
         Some(velocity.dot(&velocity) * T::from_f64(0.5) + q[2])
     }
 
+    fn extra<T: Scalar>(&self) -> Option<&dyn HolonomicConstraints<V3<T>>> {
+        Some(self)
+    }
+}
+
+impl<T: Scalar> HolonomicConstraints<V3<T>> for Charged {
     fn constraints(&self) -> usize {
         1
     }
-
-    fn constraint_values<T: Scalar>(&self, q: &V3<T>, values: &mut [T]) {
+    fn constraint_values(&self, q: &V3<T>, values: &mut [T]) {
         values[0] = q.dot(q) - (q[0] + q[0]);
     }
-
-    fn constraint_gradients<T: Scalar>(&self, q: &V3<T>, gradients: &mut Gradients<T>) {
+    fn constraint_gradients(&self, q: &V3<T>, gradients: &mut Gradients<T>) {
         for k in 0..3 {
             let centre = T::from_f64(if k == 0 { 1.0 } else { 0.0 });
             gradients.set(0, k, (q[k] - centre) + (q[k] - centre));
@@ -340,11 +364,16 @@ impl Hamiltonian for Links {
         Some(heights.fold(p.dot(p) * T::from_f64(0.5), |sum, &y| sum + y))
     }
 
+    fn extra<T: Scalar>(&self) -> Option<&dyn HolonomicConstraints<DVector<T>>> {
+        Some(self)
+    }
+}
+
+impl<T: Scalar> HolonomicConstraints<DVector<T>> for Links {
     fn constraints(&self) -> usize {
         self.0
     }
-
-    fn constraint_values<T: Scalar>(&self, q: &DVector<T>, values: &mut [T]) {
+    fn constraint_values(&self, q: &DVector<T>, values: &mut [T]) {
         let (mut x, mut y) = (T::zero(), T::zero());
         for (value, place) in values.iter_mut().zip(q.as_slice().chunks(2)) {
             let link = (place[0] - x, place[1] - y);
@@ -352,8 +381,7 @@ impl Hamiltonian for Links {
             (x, y) = (place[0], place[1]);
         }
     }
-
-    fn constraint_gradients<T: Scalar>(&self, q: &DVector<T>, gradients: &mut Gradients<T>) {
+    fn constraint_gradients(&self, q: &DVector<T>, gradients: &mut Gradients<T>) {
         for link in 0..self.0 {
             for k in 0..2 {
                 let here = 2 * link + k;

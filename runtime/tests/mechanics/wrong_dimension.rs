@@ -3,17 +3,21 @@
 use crate::methods::{Gauss2, Lobatto3, Midpoint, StoermerVerlet};
 use std::cell::Cell;
 
+use symplectic::constraints::{
+    Constrained, Gradients, HolonomicConstraints, Nonholonomic, NonholonomicConstraints,
+    consistent, consistent_momentum, constraint_force,
+};
+use symplectic::friction::{Damped, Friction};
 use symplectic::nalgebra::DVector;
 use symplectic::solver::FixedPoint;
-use symplectic::system::Gradients;
+use symplectic::system::Unconstrained;
 use symplectic::variational::{
     DiracRule, DiracSteps, DiracSystem, DiscreteLagrangian, DiscretePath, Error, LagrangianSteps,
     Newmark, StepWithStages, VariationalSteps, momentum_of_velocity, velocity_of_momentum,
 };
 use symplectic::{
-    Class, Constrained, Damped, Error as CoreError, General, Hamiltonian, Integrator, Lagrangian,
-    Method, Nonholonomic, ProvedFor, Quantity, Scalar, Separable, State, System, consistent,
-    consistent_momentum, constraint_force,
+    Class, Error as CoreError, General, Hamiltonian, Integrator, Lagrangian, Method, ProvedFor,
+    Quantity, Scalar, Separable, State, System,
 };
 
 type Vector = DVector<f64>;
@@ -28,25 +32,31 @@ enum Fault {
     Kick(usize),
 }
 
-/// The numbers of constraints of a class.
+/// What the particle has in each class.
 trait Kind: Class {
-    const HOLONOMIC: usize = 0;
-    const ROLLING: usize = 0;
+    fn extra(_particle: &Particle<Self>) -> Option<Self::Extra<'_, Vector>> {
+        None
+    }
 }
 
 impl Kind for General {}
-impl Kind for Damped {}
-impl<C> Kind for Constrained<C>
-where
-    Self: Class,
-{
-    const HOLONOMIC: usize = 1;
+
+impl Kind for Damped {
+    fn extra(particle: &Particle<Self>) -> Option<Self::Extra<'_, Vector>> {
+        Some(particle)
+    }
 }
-impl<C> Kind for Nonholonomic<C>
-where
-    Self: Class,
-{
-    const ROLLING: usize = 1;
+
+impl<C: Class + Unconstrained> Kind for Constrained<C> {
+    fn extra(particle: &Particle<Self>) -> Option<Self::Extra<'_, Vector>> {
+        Some(particle)
+    }
+}
+
+impl<C: Class + Unconstrained> Kind for Nonholonomic<C> {
+    fn extra(particle: &Particle<Self>) -> Option<Self::Extra<'_, Vector>> {
+        Some(particle)
+    }
 }
 
 /// A particle in the plane, |p|²/2 + |q|²/2: free, on the line y = 0, or with y' = 0.
@@ -102,6 +112,16 @@ impl<C: Kind> System<Vector> for Particle<C> {
         };
     }
 
+    fn extra(&self) -> Option<<Self::Class as Class>::Extra<'_, Vector>> {
+        C::extra(self)
+    }
+}
+
+impl Friction<Vector> for Particle<Damped> {
+    fn friction(&self, _component: usize) -> f64 {
+        0.0
+    }
+
     fn kick(
         &self,
         duration: f64,
@@ -116,9 +136,11 @@ impl<C: Kind> System<Vector> for Particle<C> {
         };
         true
     }
+}
 
+impl<C: Class + Unconstrained> HolonomicConstraints<Vector> for Particle<Constrained<C>> {
     fn constraints(&self) -> usize {
-        C::HOLONOMIC
+        1
     }
 
     fn constraint_values(&self, q: &Vector, values: &mut [f64]) {
@@ -128,9 +150,11 @@ impl<C: Kind> System<Vector> for Particle<C> {
     fn constraint_gradients(&self, _: &Vector, gradients: &mut Gradients<f64>) {
         gradients.set(0, 1, 1.0);
     }
+}
 
+impl<C: Class + Unconstrained> NonholonomicConstraints<Vector> for Particle<Nonholonomic<C>> {
     fn nonholonomic_constraints(&self) -> usize {
-        C::ROLLING
+        1
     }
 
     fn nonholonomic_rows(&self, _: &Vector, rows: &mut Gradients<f64>) {

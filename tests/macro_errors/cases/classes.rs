@@ -3,8 +3,10 @@
 symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
 symplectic::tableau! { Nystrom { base: mclachlan-atela-1992-order-4-optimal } }
 
+use symplectic::constraints::{Constrained, HolonomicConstraints};
+use symplectic::friction::{Damped, Friction};
 use symplectic::nalgebra::SVector;
-use symplectic::{Constrained, Damped, Error, Hamiltonian, Integrator, Scalar, Separable, State};
+use symplectic::{Error, Hamiltonian, Integrator, Scalar, Separable, State};
 
 /// H = p²/2 on the circle |q| = 1.
 struct Circle;
@@ -21,6 +23,12 @@ impl Hamiltonian for Circle {
         force.fill(T::zero());
     }
 
+    fn extra<T: Scalar>(&self) -> Option<&dyn HolonomicConstraints<SVector<T, 2>>> {
+        Some(self)
+    }
+}
+
+impl<T: Scalar> HolonomicConstraints<SVector<T, 2>> for Circle {
     fn constraints(&self) -> usize {
         1
     }
@@ -41,6 +49,12 @@ impl Hamiltonian for Oscillator {
         *force = -q;
     }
 
+    fn extra<T: Scalar>(&self) -> Option<&dyn Friction<SVector<T, 1>>> {
+        Some(self)
+    }
+}
+
+impl<T: Scalar> Friction<SVector<T, 1>> for Oscillator {
     fn friction(&self, _component: usize) -> f64 {
         0.2
     }

@@ -9,10 +9,9 @@ symplectic::tableau! { ForestRuth { base: forest-ruth-1990 } }
 symplectic::tableau! { Ruth { base: ruth-1983 } }
 symplectic::tableau! { Nystrom { base: mclachlan-atela-1992-order-4-optimal } }
 
-use symplectic::{
-    Class, Constrained, Damped, General, LowerOrder, Method, Nonholonomic, ProvedFor, Separable, Splits,
-    StoermerVerletSteps, SymmetricFor,
-};
+use symplectic::constraints::{Constrained, Nonholonomic};
+use symplectic::friction::Damped;
+use symplectic::{Class, General, LowerOrder, Method, ProvedFor, Separable, Splits, StoermerVerletSteps, SymmetricFor};
 
 fn steps<M: Method + ProvedFor<C>, C: Class>() {}
 fn symmetric<M: SymmetricFor<C>, C: Class>() {}

@@ -10,8 +10,8 @@
 
 use std::cell::Cell;
 
+use symplectic::constraints::Gradients;
 use symplectic::nalgebra::{SVector, Vector4};
-use symplectic::system::Gradients;
 use symplectic::variational::{DiracSystem, momentum_of_velocity};
 use symplectic::{General, Hamiltonian, Lagrangian, Scalar, State};
 

@@ -6,6 +6,7 @@
 //! diverge exponentially. *Source:* the equations are those of every textbook of mechanics; the angles at the start are
 //! our choice. *Reference:* recorded, [`recorded`].
 
+use symplectic::constraints::HolonomicConstraints;
 use symplectic::nalgebra::SVector;
 use symplectic::{General, Hamiltonian, Scalar, State};
 
@@ -189,7 +190,7 @@ mod tests {
         };
         assert!((angles - cartesian).abs() < 1e-14);
         let mut lengths = [1.0; 2];
-        System::constraint_values(&OnRods::new(), &rods.q, &mut lengths);
+        HolonomicConstraints::constraint_values(&OnRods::new(), &rods.q, &mut lengths);
         assert!(lengths.iter().all(|length| length.abs() < 1e-15));
     }
 

@@ -5,6 +5,7 @@
 //! *Reference:* in Euler angles, [`EulerAngles`], which the orbit keeps away from their poles up to the time 10.
 
 use symplectic::State;
+use symplectic::constraints::HolonomicConstraints;
 use symplectic::nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use symplectic::rotation::{HeavyTop, RotationState};
 
@@ -121,7 +122,7 @@ mod tests {
             assert!((found.p - expected.p).norm() < 1e-8);
         }
         let mut values = [1.0; 6];
-        System::constraint_values(&columns(), &in_the_plane.q, &mut values);
+        HolonomicConstraints::constraint_values(&columns(), &in_the_plane.q, &mut values);
         assert!(values.iter().all(|value| value.abs() < 1e-14));
     }
 

@@ -40,7 +40,8 @@ pub fn on_a_rod(state: &State<Vector2<f64>>) -> State<Vector3<f64>> {
 
 #[cfg(test)]
 mod tests {
-    use symplectic::{Constrained, General, Integrator, Method, ProvedFor, System};
+    use symplectic::constraints::Constrained;
+    use symplectic::{General, Integrator, Method, ProvedFor, System};
 
     use super::*;
     use crate::methods::{Gauss6, Lobatto3, Lobatto4, Lobatto5, StoermerVerlet};

@@ -6,6 +6,7 @@
 //! *Needs:* a method that is `constrained`. *Source:* our choice. *Reference:* closed form, [`exact`].
 
 use symplectic::State;
+use symplectic::constraints::HolonomicConstraints;
 use symplectic::nalgebra::DVector;
 
 /// Number of triangles.
@@ -91,7 +92,7 @@ mod tests {
         System::velocity(&system(), 0.7, &here.q, &here.p, &mut velocity);
         assert!(((after.q - before.q) / 2e-4 - velocity).norm() < 1e-7);
         let mut values = [1.0; 3 * TRIANGLES];
-        System::constraint_values(&system(), &here.q, &mut values);
+        HolonomicConstraints::constraint_values(&system(), &here.q, &mut values);
         assert!(values.iter().all(|value| value.abs() < 4e-15));
         let mut run = Integrator::new(Lobatto4, system(), start(), 1.0 / 16.0).expect("a start");
         let end = run.integrate_to(2.0).expect("steps");

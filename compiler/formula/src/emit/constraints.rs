@@ -1,4 +1,4 @@
-//! Constraints with their gradients or rows, and friction, as methods of `Hamiltonian`.
+//! Constraints with their gradients or rows, and friction: what a system has beside its Hamiltonian.
 
 use num_traits::One;
 use proc_macro2::{Literal, TokenStream};
@@ -13,12 +13,42 @@ use crate::graph::{Half, Id, LoopId, LoopRange, Number};
 use crate::operations::Operations;
 
 impl Emitter<'_> {
-    /// The methods that give the constraints or the friction; empty if there are neither.
-    pub(super) fn beside_energy(&mut self) -> TokenStream {
-        let friction = self.friction();
-        let constraints = self.constraints();
-        let nonholonomic = self.nonholonomic();
-        quote!(#friction #constraints #nonholonomic)
+    /// The implementation of `Friction` or of the trait of the constraints, and `Hamiltonian::extra`, which returns it; empty if there
+    /// are neither.
+    pub(super) fn beside_energy(&mut self) -> [TokenStream; 2] {
+        let given = [
+            (quote!(friction::Friction), self.friction()),
+            (
+                quote!(constraints::HolonomicConstraints),
+                self.constraints(),
+            ),
+            (
+                quote!(constraints::NonholonomicConstraints),
+                self.nonholonomic(),
+            ),
+        ]
+        .into_iter()
+        .find(|(_, functions)| !functions.is_empty());
+        let Some((of, functions)) = given else {
+            return Default::default();
+        };
+        let name = &self.header.name;
+        let [_, lengths, arguments] = self.generics();
+        let (scalar, bound) = (&self.scalar, &self.bound);
+        let over = self.vector(&quote!(#scalar));
+        let implementation = quote! {
+            #[allow(unused_variables, non_snake_case, clippy::all)]
+            impl<#scalar: #bound, #lengths> ::symplectic::#of<#over> for #name #arguments {
+                #functions
+            }
+        };
+        let extra = quote! {
+            #[inline(always)]
+            fn extra<#scalar: #bound>(&self) -> ::core::option::Option<&dyn ::symplectic::#of<#over>> {
+                ::core::option::Option::Some(self)
+            }
+        };
+        [implementation, extra]
     }
 
     fn friction(&self) -> TokenStream {
@@ -95,7 +125,7 @@ impl Emitter<'_> {
             quote!(return;),
             |place, value| quote!(gradients.set(#place, #value);),
         );
-        let (scalar, bound) = (&self.scalar, &self.bound);
+        let scalar = &self.scalar;
         let over = self.vector(&quote!(#scalar));
         let names = self.constraint_names(&constraints, &starts);
         quote! {
@@ -106,15 +136,13 @@ impl Emitter<'_> {
             #names
 
             #[inline(always)]
-            fn constraint_values<#scalar: #bound>(&self, q: &#over, values: &mut [#scalar]) {
+            fn constraint_values(&self, q: &#over, values: &mut [#scalar]) {
                 #values
             }
 
-            ::symplectic::emitted::if_alloc! {
-                #[inline(always)]
-                fn constraint_gradients<#scalar: #bound>(&self, q: &#over, gradients: &mut ::symplectic::system::Gradients<#scalar>) {
-                    #gradients
-                }
+            #[inline(always)]
+            fn constraint_gradients(&self, q: &#over, gradients: &mut ::symplectic::constraints::Gradients<#scalar>) {
+                #gradients
             }
         }
     }
@@ -143,7 +171,7 @@ impl Emitter<'_> {
             quote!(return;),
             |place, value| quote!(rows.set(#place, #value);),
         );
-        let (scalar, bound) = (&self.scalar, &self.bound);
+        let scalar = &self.scalar;
         let over = self.vector(&quote!(#scalar));
         let names = self.constraint_names(&constraints, &starts);
         quote! {
@@ -153,11 +181,9 @@ impl Emitter<'_> {
 
             #names
 
-            ::symplectic::emitted::if_alloc! {
-                #[inline(always)]
-                fn nonholonomic_rows<#scalar: #bound>(&self, q: &#over, rows: &mut ::symplectic::system::Gradients<#scalar>) {
-                    #rows
-                }
+            #[inline(always)]
+            fn nonholonomic_rows(&self, q: &#over, rows: &mut ::symplectic::constraints::Gradients<#scalar>) {
+                #rows
             }
         }
     }
@@ -179,13 +205,13 @@ impl Emitter<'_> {
             };
             rules.push(quote! {
                 if constraint < #end {
-                    return ::core::option::Option::Some(::symplectic::ConstraintName { name: #name, member: #member });
+                    return ::core::option::Option::Some(::symplectic::constraints::ConstraintName { name: #name, member: #member });
                 }
             });
             before = end;
         }
         quote! {
-            fn constraint_name(&self, constraint: usize) -> ::core::option::Option<::symplectic::ConstraintName> {
+            fn constraint_name(&self, constraint: usize) -> ::core::option::Option<::symplectic::constraints::ConstraintName> {
                 #(#rules)*
                 ::core::option::Option::None
             }

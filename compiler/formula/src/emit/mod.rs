@@ -492,11 +492,11 @@ impl<'a> Emitter<'a> {
             quote!(::symplectic::General)
         };
         let class = if !self.system.friction.is_empty() {
-            quote!(::symplectic::Damped)
+            quote!(::symplectic::friction::Damped)
         } else if !self.system.constraints.is_empty() {
-            quote!(::symplectic::Constrained<#class>)
+            quote!(::symplectic::constraints::Constrained<#class>)
         } else if !self.system.nonholonomic.is_empty() {
-            quote!(::symplectic::Nonholonomic<#class>)
+            quote!(::symplectic::constraints::Nonholonomic<#class>)
         } else {
             class
         };
@@ -544,7 +544,7 @@ impl<'a> Emitter<'a> {
                 }
             }
         });
-        let beside_energy = self.beside_energy();
+        let [beside_energy, extra] = self.beside_energy();
         let inlined = self.inlined();
         let check_dimension = self.check_dimension();
         quote! {
@@ -581,8 +581,10 @@ impl<'a> Emitter<'a> {
 
                 #check_dimension
 
-                #beside_energy
+                #extra
             }
+
+            #beside_energy
 
             #system
         }

@@ -1,30 +1,21 @@
 //! The classes of Hamiltonians for which a method has a plan.
 
 #[cfg(feature = "alloc")]
-use core::marker::PhantomData;
+use alloc::vec::Vec;
 
 use crate::contract::{Method, Plan, Solver, System};
 use crate::error::Error;
 use crate::number::Vector;
 
-mod sealed {
-    pub trait Sealed {}
-    impl Sealed for super::General {}
-    impl Sealed for super::Separable {}
-    impl Sealed for super::Damped {}
-    #[cfg(feature = "alloc")]
-    impl<C> Sealed for super::Constrained<C> {}
-    #[cfg(feature = "alloc")]
-    impl<C> Sealed for super::Nonholonomic<C> {}
-}
-
-/// What the derivatives of a [`Hamiltonian`](crate::Hamiltonian) depend on: [`General`] or [`Separable`]; with linear
-/// friction [`Damped`], with holonomic constraints [`Constrained`], with non-holonomic ones [`Nonholonomic`].
+/// What the derivatives of a [`Hamiltonian`](crate::Hamiltonian) depend on: [`General`] or [`Separable`]. Other packages add classes: with
+/// linear friction `friction::Damped`, with constraints `constraints::Constrained` and `constraints::Nonholonomic`.
 ///
-/// It selects the [`Plan`] of a [`Method`] at compile time. Sealed.
-pub trait Class: sealed::Sealed + Clone + 'static {
+/// It selects the [`Plan`] of a [`Method`] at compile time.
+pub trait Class: Clone + 'static {
     /// The plan of the method `M` for systems of this class.
     type Plan<M: Method>: Plan<Class = Self>;
+    /// What systems of this class give beside velocity and force: a reference to their constraints or to their friction, or `()`.
+    type Extra<'a, V: Vector>: Copy;
     /// Whether the velocity depends on the momentum only, and the force on the position only.
     const SEPARABLE: bool;
     /// Whether there is friction that is not part of the force.
@@ -50,6 +41,19 @@ pub trait Class: sealed::Sealed + Clone + 'static {
     fn check_steps<M: Method>(_method: &M) -> Result<(), Error> {
         Ok(())
     }
+
+    /// The numbers at a position that identify the [`Extra`](Self::Extra) of a system in a checkpoint.
+    #[cfg(feature = "alloc")]
+    #[doc(hidden)]
+    fn numbers<V: Vector, S: System<V, Class = Self>>(_system: &S, _q: &V) -> Vec<V::Scalar> {
+        Vec::new()
+    }
+
+    /// The error of a step, with details from the [`Extra`](Self::Extra) of the system.
+    #[doc(hidden)]
+    fn explain<V: Vector, S: System<V, Class = Self>>(_system: &S, error: Error) -> Error {
+        error
+    }
 }
 
 /// A class without constraints and friction: [`General`] or [`Separable`].
@@ -73,7 +77,7 @@ impl Unconstrained for Separable {}
 
 impl Unconstrained for () {}
 
-/// A class without non-holonomic constraints: an [`Unconstrained`] class, or [`Constrained`].
+/// A class without non-holonomic constraints: an [`Unconstrained`] class, or `Constrained`.
 #[diagnostic::on_unimplemented(
     message = "this method has no steps for systems of class `{Self}`",
     label = "no steps for this class",
@@ -83,7 +87,7 @@ impl Unconstrained for () {}
 )]
 pub trait Holonomic {}
 
-/// A class without holonomic constraints: an [`Unconstrained`] class, or [`Nonholonomic`].
+/// A class without holonomic constraints: an [`Unconstrained`] class, or `Nonholonomic`.
 #[diagnostic::on_unimplemented(
     message = "this method has no steps for systems of class `{Self}`",
     label = "no steps for this class",
@@ -103,15 +107,7 @@ pub trait SplitClass {}
 
 impl SplitClass for Separable {}
 
-impl SplitClass for Damped {}
-
-#[cfg(feature = "alloc")]
-impl<C: SplitClass> SplitClass for Constrained<C> {}
-
-#[cfg(feature = "alloc")]
-impl<C: SplitClass> SplitClass for Nonholonomic<C> {}
-
-/// A class without friction: any but [`Damped`]. Tableaux at run time are for these classes.
+/// A class without friction: any but `Damped`. Tableaux at run time are for these classes.
 #[diagnostic::on_unimplemented(
     message = "this method has no steps for systems of class `{Self}`",
     label = "no steps with friction",
@@ -135,29 +131,15 @@ implement! {
 #[diagnostic::do_not_recommend]
 impl<C: Unconstrained> Frictionless for C {}
 
-#[cfg(feature = "alloc")]
-impl<C> Holonomic for Constrained<C> {}
-
-#[cfg(feature = "alloc")]
-impl<C> FreePositions for Nonholonomic<C> {}
-
-#[cfg(feature = "alloc")]
-impl<C> Frictionless for Constrained<C> {}
-
-#[cfg(feature = "alloc")]
-impl<C> Frictionless for Nonholonomic<C> {}
-
 macro_rules! or_damped {
     ($($class:ident or $with:ident, without $without:literal, $needs:literal;)*) => {$(
-        #[doc = concat!("A class that is [`", stringify!($class), "`], or [`Damped`]: the classes of a splitting that has no steps with ", $without, ".")]
+        #[doc = concat!("A class that is [`", stringify!($class), "`], or `Damped`: the classes of a splitting that has no steps with ", $without, ".")]
         #[diagnostic::on_unimplemented(
             message = "this method has no steps for systems of class `{Self}`",
             label = "no steps for these constraints",
             note = $needs
         )]
         pub trait $with {}
-
-        impl $with for Damped {}
     )*};
 }
 
@@ -169,6 +151,25 @@ or_damped! {
     FreePositions or FreePositionsOrDamped, without "holonomic constraints",
     "class `Constrained` needs a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, or a composition of these methods";
 }
+
+/// A class for which a splitting without other plans has steps: any but [`General`].
+#[diagnostic::on_unimplemented(
+    message = "a splitting of more than 36 stages has no steps for systems of class `{Self}`",
+    label = "steps separable Hamiltonians only",
+    note = "implement the system as a separable one, or take a method for general Hamiltonians"
+)]
+pub trait NotGeneral {}
+
+impl NotGeneral for Separable {}
+
+impl NotGeneral for () {}
+
+/// [`Separable`], or `Damped`: the classes of a splitting that keeps its order on separable Hamiltonians only.
+pub trait SeparableOrDamped {}
+
+impl SeparableOrDamped for Separable {}
+
+impl SeparableOrDamped for () {}
 
 /// A class without friction and constraints: [`General`] or [`Separable`]. Generating functions and tangent systems are for these
 /// classes.
@@ -195,31 +196,9 @@ pub struct General;
 #[derive(Clone, Copy, Debug)]
 pub struct Separable;
 
-/// A separable Hamiltonian with linear friction: `p' = −∂H/∂q − γp`, with a rate γ for each component, given by
-/// [`Hamiltonian::friction`](crate::Hamiltonian::friction). More generally, the friction may be any force of positions and momenta whose
-/// flow at a fixed position is known, given by [`Hamiltonian::kick`](crate::Hamiltonian::kick).
-///
-/// Splittings whose order is proved for separable Hamiltonians step such systems, with the exact flow of the friction in
-/// every kick. The order is preserved. If all γ are equal, a step of size h shrinks dq∧dp and the momentum maps of symmetries of H by
-/// `e^{−γh}` exactly. Negative kicks grow by `e^{γ|τ|}`, see [`friction_growth`](crate::friction_growth): for stiff friction choose a
-/// method whose kicks are positive. For any other method [`Integrator::new`](crate::Integrator#method.new) does not compile; there any
-/// friction can be part of [`Hamiltonian::force`](crate::Hamiltonian::force) of a system of class [`General`].
-///
-/// ```compile_fail,E0277
-/// use symplectic::{Integrator, State};
-///
-/// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
-/// symplectic::hamiltonian! { Pendulum { gamma } q: [a], p: [pa]; H = pa^2/2 - cos(a) friction: gamma }
-///
-/// let start = State::from_arrays(0.0, [1.0], [0.0]);
-/// let integrator = Integrator::new(Gauss2, Pendulum::new(0.1), start, 0.1);
-/// # assert!(integrator.is_ok());
-/// ```
-#[derive(Clone, Copy, Debug)]
-pub struct Damped;
-
 impl Class for General {
     type Plan<M: Method> = M::General;
+    type Extra<'a, V: Vector> = ();
     const SEPARABLE: bool = false;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -233,6 +212,7 @@ impl Class for General {
 
 impl Class for Separable {
     type Plan<M: Method> = M::Separable;
+    type Extra<'a, V: Vector> = ();
     const SEPARABLE: bool = true;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -243,68 +223,3 @@ impl Class for Separable {
         method.separable_memory::<V, S, N>(prototype)
     }
 }
-
-/// `H` of class `C`, [`Separable`] or [`General`], with holonomic constraints `φ(q) = 0`:
-///
-/// ```text
-/// q' = ∂H/∂p      p' = −∂H/∂q − Gᵀλ      φ(q) = 0      G = ∂φ/∂q
-/// ```
-///
-/// The constraints are in [`Hamiltonian::constraint_values`](crate::Hamiltonian::constraint_values). Methods that are `constrained` step
-/// such systems. They are Lobatto IIIA–IIIB (with two stages RATTLE), other pairs with stages at both ends, symplectic Euler and its
-/// adjoint, and compositions. For any other method [`Integrator::new`](crate::Integrator#method.new) does not compile.
-///
-/// `Constrained<Damped>` is not a class: friction is part of the force of a system of class `Constrained<General>`.
-///
-/// ```compile_fail,E0277
-/// use symplectic::{Class, Constrained, Damped};
-///
-/// const SEPARABLE: bool = <Constrained<Damped> as Class>::SEPARABLE;
-/// assert!(SEPARABLE);
-/// ```
-#[cfg(feature = "alloc")]
-#[derive(Clone, Copy, Debug)]
-pub struct Constrained<C>(PhantomData<C>);
-
-/// `H` of class `C`, [`Separable`] or [`General`], with non-holonomic constraints `w(q)·q' = 0`, linear in the velocities:
-///
-/// ```text
-/// q' = ∂H/∂p      p' = −∂H/∂q − wᵀλ      w(q) ∂H/∂p = 0
-/// ```
-///
-/// The rows of the m×n matrix `w` are in [`Hamiltonian::nonholonomic_rows`](crate::Hamiltonian::nonholonomic_rows). Methods that are
-/// `nonholonomic` step such systems by the discrete Lagrange–d'Alembert–Pontryagin principle (Leok & Ohsawa, arXiv:0810.0740). These are
-/// symmetric methods of order 2, compositions of one of them, and methods of order 1. Examples of the first are the implicit midpoint rule
-/// and Lobatto IIIA–IIIB with two stages. A method of any other order would lose its order, and
-/// [`Integrator::new`](crate::Integrator#method.new) does not compile:
-///
-/// ```compile_fail,E0277
-/// use symplectic::nalgebra::Vector2;
-/// use symplectic::{Error, Integrator, Nonholonomic, Separable, State, System};
-///
-/// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
-///
-/// fn run<S: System<Vector2<f64>, Class = Nonholonomic<Separable>>>(system: S, start: State<Vector2<f64>>) -> Result<(), Error> {
-///     Integrator::new(Gauss2, system, start, 0.1)?;
-///     Ok(())
-/// }
-/// ```
-///
-/// With `basis: polynomial(1), nodes: gauss(1)` it compiles:
-///
-/// ```
-/// use symplectic::nalgebra::Vector2;
-/// use symplectic::{Error, Integrator, Nonholonomic, Separable, State, System};
-///
-/// symplectic::tableau! { Midpoint { basis: polynomial(1), nodes: gauss(1) } }
-///
-/// fn run<S: System<Vector2<f64>, Class = Nonholonomic<Separable>>>(system: S, start: State<Vector2<f64>>) -> Result<(), Error> {
-///     Integrator::new(Midpoint, system, start, 0.1)?;
-///     Ok(())
-/// }
-/// ```
-///
-/// `Nonholonomic<Damped>` is not a class: friction is part of the force of a system of class `Nonholonomic<General>`.
-#[cfg(feature = "alloc")]
-#[derive(Clone, Copy, Debug)]
-pub struct Nonholonomic<C>(PhantomData<C>);

@@ -1,17 +1,15 @@
 //! The kicks and drifts of a splitting.
 
-use crate::contract::System;
 use crate::number::{Coefficient, Summation, Vector, advance};
 
 /// How the kicks and drifts of a splitting are applied. `()` adds the force and the velocity of the system.
 pub trait KickDrift {
     /// Adds `(h weight) force` to the momentum.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn kick<R: Summation, V: Vector, S: System<V>>(
+    fn kick<R: Summation, V: Vector>(
         &mut self,
         h: f64,
         weight: Coefficient,
-        _system: &S,
         _q: &V,
         force: &V,
         (p, p_low): (&mut V, &mut V),

@@ -3,8 +3,6 @@
 pub(crate) mod change;
 pub(crate) mod class;
 mod constrained_tableau;
-#[cfg(feature = "alloc")]
-pub(crate) mod gradients;
 pub(crate) mod in_lanes;
 pub(crate) mod interpolation;
 #[cfg(feature = "alloc")]
@@ -32,16 +30,11 @@ mod work;
 
 pub use change::{HalfChange, StageChange};
 pub use class::{
-    Class, Conservative, Damped, FreePositions, FreePositionsOrDamped, Frictionless, General,
-    Holonomic, HolonomicOrDamped, Separable, SplitClass, Unconstrained, UnconstrainedOrDamped,
+    Class, Conservative, FreePositions, FreePositionsOrDamped, Frictionless, General, Holonomic,
+    HolonomicOrDamped, NotGeneral, Separable, SeparableOrDamped, SplitClass, Unconstrained,
+    UnconstrainedOrDamped,
 };
-#[cfg(feature = "alloc")]
-pub use class::{Constrained, Nonholonomic};
 pub use constrained_tableau::{ConstrainedStep, ConstrainedTableau};
-#[cfg(feature = "alloc")]
-pub use gradients::Gradients;
-#[cfg(feature = "alloc")]
-pub(crate) use gradients::Terms;
 pub use in_lanes::SystemLanes;
 pub(crate) use in_lanes::first;
 #[doc(hidden)]
@@ -56,9 +49,7 @@ pub use lane_stages::{
 };
 pub use masses::Masses;
 pub use method::Method;
-pub use plan::{Plan, check_no_constraints, check_no_friction};
-#[cfg(feature = "alloc")]
-pub(crate) use plan::{check_no_holonomic_constraints, check_no_rows};
+pub use plan::Plan;
 pub use proved::{
     LowerOrder, Orders, Possible, ProvedFor, Splits, StoermerVerletSteps, SymmetricFor, Symmetry,
 };

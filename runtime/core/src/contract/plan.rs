@@ -53,16 +53,15 @@ pub trait Plan {
     ///
     /// # Errors
     ///
-    /// [`Error::OtherClass`] if the system has constraints or friction that steps of this class ignore; [`Error::InconsistentStart`] and
-    /// others if there are constraints.
+    /// [`Error::NoExtra`] if the class has constraints or friction that the system does not give; [`Error::InconsistentStart`] and others if
+    /// there are constraints.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn check<V, S>(system: &S, _time: f64, q: &V, _p: &V) -> Result<(), Error>
+    fn check<V, S>(_system: &S, _time: f64, _q: &V, _p: &V) -> Result<(), Error>
     where
         V: Vector,
         S: System<V, Class = Self::Class>,
     {
-        check_no_constraints(system)?;
-        check_no_friction(system, q)
+        Ok(())
     }
 
     /// Takes `step` and writes its result into `outcome`; returns the statistics of the step.
@@ -203,49 +202,4 @@ pub trait Plan {
         N: Solver<V, S>,
     {
     }
-}
-
-/// Checks that a system whose class has no constraints has none.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub fn check_no_constraints<V: Vector, S: System<V>>(system: &S) -> Result<(), Error> {
-    check_no_holonomic_constraints(system)?;
-    check_no_rows(system)
-}
-
-/// Checks that a system whose class has no holonomic constraints has none.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn check_no_holonomic_constraints<V: Vector, S: System<V>>(
-    system: &S,
-) -> Result<(), Error> {
-    if system.constraints() == 0 {
-        return Ok(());
-    }
-    Err(Error::OtherClass {
-        what: "constraints",
-        class: "Constrained<Separable>` or `Constrained<General>",
-    })
-}
-
-/// Checks that a system whose class has no non-holonomic constraints has none.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn check_no_rows<V: Vector, S: System<V>>(system: &S) -> Result<(), Error> {
-    if system.nonholonomic_constraints() == 0 {
-        return Ok(());
-    }
-    Err(Error::OtherClass {
-        what: "non-holonomic constraints",
-        class: "Nonholonomic<Separable>` or `Nonholonomic<General>",
-    })
-}
-
-/// Checks that a system whose class has no friction has none.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub fn check_no_friction<V: Vector, S: System<V>>(system: &S, q: &V) -> Result<(), Error> {
-    if (0..q.dimension()).all(|component| system.friction(component) == 0.0) {
-        return Ok(());
-    }
-    Err(Error::OtherClass {
-        what: "friction",
-        class: "Damped",
-    })
 }

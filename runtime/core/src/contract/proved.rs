@@ -3,7 +3,7 @@
 #[cfg(feature = "alloc")]
 use alloc::string::String;
 
-use crate::contract::{Damped, General, Method, Plan, Separable, Solver, System};
+use crate::contract::{General, Method, Plan, Separable, Solver, System};
 use crate::number::{Coefficients, Vector};
 
 /// A method that keeps its order and its symplecticity on all systems of class `C`.
@@ -48,7 +48,7 @@ pub trait ProvedFor<C> {}
 
 /// A method that consists of kicks and drifts on separable systems. The macros implement it.
 ///
-/// Kicks and drifts can be replaced: by the flow of [friction](Damped), or by flows of any two parts.
+/// Kicks and drifts can be replaced: by the flow of friction, or by flows of any two parts.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not consist of kicks and drifts",
     label = "not a splitting",
@@ -172,8 +172,6 @@ impl<M: Method<General: Possible>> ProvedFor<General> for LowerOrder<M> {}
 impl<M: Method> ProvedFor<Separable> for LowerOrder<M> {}
 
 impl<M: Method> ProvedFor<()> for LowerOrder<M> {}
-
-impl<M: Splits> ProvedFor<Damped> for LowerOrder<M> {}
 
 impl<M: Splits> Splits for LowerOrder<M> {}
 

@@ -2,10 +2,10 @@
 
 use num_traits::Zero;
 
-use crate::contract::{Class, LaneWork, Masses, Solver};
 #[cfg(feature = "alloc")]
-use crate::contract::{Gradients, Jacobian};
-use crate::error::{ConstraintName, Error};
+use crate::contract::Jacobian;
+use crate::contract::{Class, LaneWork, Masses, Solver};
+use crate::error::Error;
 use crate::number::{F64x2, F64x4, F64x8, Lanes, Vector, WideF64x4, WideF64x8, WidestF64x8};
 
 /// A Hamiltonian system over one type of vectors, as an [`Integrator`](crate::Integrator) steps it.
@@ -137,41 +137,11 @@ pub trait System<V: Vector>: Sized {
         usize::MAX
     }
 
-    /// The rate of the friction: see [`Hamiltonian::friction`](crate::Hamiltonian::friction).
-    fn friction(&self, _component: usize) -> f64 {
-        0.0
-    }
-
-    /// The flow of a kick with friction: see [`Hamiltonian::kick`](crate::Hamiltonian::kick).
-    fn kick(&self, _duration: V::Scalar, _q: &V, _force: &V, _p: &V, _change: &mut V) -> bool {
-        false
-    }
-
-    /// The number of constraints: see [`Hamiltonian::constraints`](crate::Hamiltonian::constraints).
-    fn constraints(&self) -> usize {
-        0
-    }
-
-    /// Writes the constraints: see [`Hamiltonian::constraint_values`](crate::Hamiltonian::constraint_values).
-    fn constraint_values(&self, _q: &V, _values: &mut [V::Scalar]) {}
-
-    /// Sets the gradients of the constraints: see [`Hamiltonian::constraint_gradients`](crate::Hamiltonian::constraint_gradients).
-    #[cfg(feature = "alloc")]
-    fn constraint_gradients(&self, _q: &V, _gradients: &mut Gradients<V::Scalar>) {}
-
-    /// The name of a constraint: see [`Hamiltonian::constraint_name`](crate::Hamiltonian::constraint_name).
-    fn constraint_name(&self, _constraint: usize) -> Option<ConstraintName> {
+    /// The constraints or the friction of the system, if its class has any: see [`Hamiltonian::extra`](crate::Hamiltonian::extra).
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn extra(&self) -> Option<<Self::Class as Class>::Extra<'_, V>> {
         None
     }
-
-    /// The number of non-holonomic constraints: see [`Hamiltonian::nonholonomic_constraints`](crate::Hamiltonian::nonholonomic_constraints).
-    fn nonholonomic_constraints(&self) -> usize {
-        0
-    }
-
-    /// Sets the rows of w: see [`Hamiltonian::nonholonomic_rows`](crate::Hamiltonian::nonholonomic_rows).
-    #[cfg(feature = "alloc")]
-    fn nonholonomic_rows(&self, _q: &V, _rows: &mut Gradients<V::Scalar>) {}
 
     /// See [`Hamiltonian::check_dimension`](crate::Hamiltonian::check_dimension).
     #[doc(hidden)]

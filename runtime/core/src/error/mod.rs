@@ -446,13 +446,15 @@ pub enum Error {
         found: usize,
     },
 
-    /// A system has constraints or friction, but its class does not: steps would ignore them.
-    #[error("the system has {what}, but its class excludes them; declare `type Class = {class};`")]
-    OtherClass {
+    /// The class of a system has constraints or friction, but the system does not give them: steps would ignore them.
+    #[error(
+        "the class of the system has {what}, but the system does not give them: implement `{by}`, and return `Some(self)` from `extra`"
+    )]
+    NoExtra {
         /// Constraints or friction.
         what: &'static str,
-        /// The class to declare.
-        class: &'static str,
+        /// The trait to implement.
+        by: &'static str,
     },
 
     /// A system of class `Constrained` or `Nonholonomic` without a constraint, or with more constraints than positions.
@@ -634,7 +636,9 @@ impl Error {
     }
 
     /// Adds the name of the constraint to the error.
-    pub(crate) fn named(mut self, of: impl Fn(usize) -> Option<ConstraintName>) -> Self {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn named(mut self, of: impl Fn(usize) -> Option<ConstraintName>) -> Self {
         if let Self::GradientMismatch {
             constraint, name, ..
         }

@@ -1,11 +1,9 @@
 //! Hashes that identify a system in a checkpoint.
 
-use alloc::vec;
-
 use crate::number::vector::beside;
 use crate::number::words::vector_words;
 use crate::number::{Scalar, Vector};
-use crate::system::{Gradients, System};
+use crate::system::{Class, System};
 
 /// A hash of vectors. The upper half of each product is folded onto the lower half; otherwise it could miss changed signs of two
 /// components.
@@ -22,7 +20,7 @@ const fn joined(hash: u64, word: u64) -> u64 {
 }
 
 /// Two hashes that identify a system. The first is of velocity and force at a state and at a second point, because symmetry may hide a
-/// parameter at the first. The other is of friction, constraints and rows at the second point.
+/// parameter at the first. The other is of friction or constraints at the second point.
 pub fn system_fingerprint<V: Vector, S: System<V>>(
     system: &S,
     time: f64,
@@ -36,14 +34,7 @@ pub fn system_fingerprint<V: Vector, S: System<V>>(
     let (q, p) = (&beside(q), &beside(p));
     system.velocity(at, q, p, &mut found[2]);
     system.force(at, q, p, &mut found[3]);
-    let mut numbers = vec![V::Scalar::from_f64(0.0); system.constraints()];
-    if !numbers.is_empty() {
-        system.constraint_values(q, &mut numbers);
-    }
-    let (rows, dimension) = (system.nonholonomic_constraints(), q.dimension());
-    let rows = Gradients::learned(rows, dimension, |rows| system.nonholonomic_rows(q, rows));
-    numbers.extend(rows.values());
-    numbers.extend((0..dimension).map(|k| V::Scalar::from_f64(system.friction(k))));
+    let mut numbers = S::Class::numbers(system, q);
     // The bits of NaN differ between machines.
     let known = |number: &mut V::Scalar| {
         if !number.is_finite() {

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::method::diagnosis::{Attempt, FirstFault};
 use crate::method::{Failure, Method, Plan, Solver, StepStatistics};
 use crate::number::{Summation, Vector};
-use crate::system::System;
+use crate::system::{Class, System};
 
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitioned<M, S, V, R, N> {
     /// Computes a step of size `size`, to the time `time`, into `next`; returns its statistics.
@@ -80,7 +80,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitio
             &self.step_memory.next.0,
         );
         self.step_memory.forget();
-        let error = error.named(|constraint| self.system.constraint_name(constraint));
+        let error = S::Class::explain(&self.system, error);
         self.system.explain(error, &self.step_memory.state.q)
     }
 }

@@ -153,7 +153,7 @@ impl<L: Substeps> Plan for Composition<L> {
 /// Takes substeps one after another. `place` gives the start and the size of a substep, as fractions of the whole step. `take` takes the
 /// substep with a number, from 0; its [`WarmStart`] states which data of the previous substep or step are kept.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn in_turn<'a, V: Vector, P>(
+pub fn in_turn<'a, V: Vector, P>(
     substeps: &[P],
     place: impl Fn(&P) -> (Coefficient, Coefficient),
     step: &Step<'_, V>,

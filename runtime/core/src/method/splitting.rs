@@ -74,10 +74,9 @@ where
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn kick(&mut self, weight: Coefficient) {
         let state = &mut self.state;
-        self.kick_drift.kick::<R, V, S>(
+        self.kick_drift.kick::<R, V>(
             self.span.size,
             weight,
-            self.system,
             state.q,
             &self.evaluations.force,
             (state.p, state.p_low),

@@ -19,7 +19,7 @@ pub const fn dither_last_sweep(time: f64) -> bool {
 /// it the relative energy drift per step would be 1e-20 for `(q² + 1)(p² + 1)/2` and Gauss 6. For a double pendulum on rods and Lobatto 5
 /// it would be 3e-20.
 #[inline]
-pub(crate) const fn dither_side(time: f64) -> bool {
+pub const fn dither_side(time: f64) -> bool {
     bits(time) & 2 == 2
 }
 

@@ -151,7 +151,7 @@ pub fn advance<R: Summation, V: Vector>(
 
 /// `out + low + factor terms`, component by component.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn add_products<R: Summation, V: Vector>(
+pub fn add_products<R: Summation, V: Vector>(
     out: &mut [V::Scalar],
     low: &mut [V::Scalar],
     factor: V::Scalar,

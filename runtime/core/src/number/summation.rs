@@ -80,7 +80,7 @@ pub fn fast_two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
 
 /// The terms of a sum, by their numbers from 0. A closure is enough, except for lanes: see
 /// [`Products`](crate::number::linear_combination::Products).
-pub(crate) trait Terms<T> {
+pub trait Terms<T> {
     fn term(&self, number: usize) -> T;
 }
 
@@ -103,12 +103,7 @@ impl<T, X: Terms<T>> Terms<T> for TermsFrom<'_, X> {
 
 /// `base + low + Σ_j term_j` over `count` terms, as the nearest number and the rest.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn add<R: Summation, T: Scalar>(
-    base: T,
-    low: T,
-    count: usize,
-    terms: impl Terms<T>,
-) -> (T, T) {
+pub fn add<R: Summation, T: Scalar>(base: T, low: T, count: usize, terms: impl Terms<T>) -> (T, T) {
     if count == 0 {
         return (base, low);
     }

@@ -65,7 +65,7 @@ pub fn same<V: Vector, W: Vector>(vector: &V) -> Option<&W> {
 
 /// Mutable [`same`].
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn same_mut<V: Vector, W: Vector>(vector: &mut V) -> Option<&mut W> {
+pub fn same_mut<V: Vector, W: Vector>(vector: &mut V) -> Option<&mut W> {
     (vector as &mut dyn Any).downcast_mut()
 }
 

@@ -1,9 +1,9 @@
 //! Hamiltonian systems, written once for every scalar.
 
-use crate::contract::{Class, LaneWork, Masses, Separable, System, first};
 #[cfg(feature = "alloc")]
-use crate::contract::{Gradients, Jacobian};
-use crate::error::{ConstraintName, Error};
+use crate::contract::Jacobian;
+use crate::contract::{Class, LaneWork, Masses, Separable, System, first};
+use crate::error::Error;
 use crate::number::{
     F64x2, F64x4, F64x8, Lanes, Scalar, Vector, WideF64x4, WideF64x8, WidestF64x8,
 };
@@ -22,8 +22,8 @@ use crate::number::{
 /// error of the step. As in all code for every scalar, no branch may depend on a value.
 ///
 /// A system whose velocity depends only on `p`, and whose force only on `q`, implements [`SeparableHamiltonian`] instead and gets this
-/// trait from it. Any other system sets `type Class` to [`General`](crate::General), [`Damped`](crate::Damped), `Constrained<…>` or
-/// `Nonholonomic<…>`. [`hamiltonian`](crate::hamiltonian()) makes a system from two closures.
+/// trait from it. Any other system sets `type Class` to [`General`](crate::General), or, with friction or constraints, to another
+/// [`Class`]. [`hamiltonian`](crate::hamiltonian()) makes a system from two closures.
 ///
 /// # Time
 ///
@@ -303,243 +303,12 @@ pub trait Hamiltonian {
         usize::MAX
     }
 
-    /// The rate γ of the friction `−γp` of a component of the momentum, per unit of time, in a system of class
-    /// [`Damped`](crate::Damped).
-    ///
-    /// ```
-    /// use symplectic::nalgebra::SVector;
-    /// use symplectic::{Damped, Error, Hamiltonian, Integrator, Scalar, State};
-    ///
-    /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
-    ///
-    /// /// An oscillator with friction: q'' = −q − q'/5.
-    /// struct Oscillator;
-    ///
-    /// impl Hamiltonian for Oscillator {
-    ///     type Class = Damped;
-    ///     type Vector<T: Scalar> = SVector<T, 1>;
-    ///
-    ///     fn velocity<T: Scalar>(&self, _: T, _: &SVector<T, 1>, p: &SVector<T, 1>, velocity: &mut SVector<T, 1>) {
-    ///         *velocity = *p;
-    ///     }
-    ///
-    ///     fn force<T: Scalar>(&self, _: T, q: &SVector<T, 1>, _: &SVector<T, 1>, force: &mut SVector<T, 1>) {
-    ///         *force = -q;
-    ///     }
-    ///
-    ///     fn friction(&self, _component: usize) -> f64 {
-    ///         0.2
-    ///     }
-    /// }
-    ///
-    /// # fn main() -> Result<(), Error> {
-    /// let start = State::from_arrays(0.0, [1.0], [0.0]);
-    /// let mut run = Integrator::new(StoermerVerlet, Oscillator, start, 0.01)?;
-    /// let end = run.integrate_to(10.0)?;
-    /// let (rate, frequency) = (0.1_f64, 0.99_f64.sqrt());
-    /// let exact = (-rate * 10.0).exp() * ((frequency * 10.0).cos() + rate / frequency * (frequency * 10.0).sin());
-    /// assert!((end.q[0] - exact).abs() < 1e-4);
-    /// # Ok(())
-    /// # }
-    /// ```
-    fn friction(&self, _component: usize) -> f64 {
-        0.0
-    }
-
-    /// The flow of `p' = force + f(q, p)` at a fixed position, in a system of class [`Damped`](crate::Damped). f is any force of positions
-    /// and momenta whose flow is known. Writes `p(duration) − p` into `change` and returns `true`. If it returns `false`, kicks use the
-    /// rates of [`friction`](Self::friction).
-    ///
-    /// `duration` may be negative. [`force`](Self::force) does not include f here. For output between the steps, write f into
-    /// [`applied_force`](Self::applied_force), with [`FORCED`](Self::FORCED) `= true`.
-    ///
-    /// ```
-    /// use symplectic::nalgebra::SVector;
-    /// use symplectic::{Damped, Error, Hamiltonian, Integrator, Scalar, State};
-    ///
-    /// symplectic::tableau! { StrangSplitting { base: velocity-verlet } }
-    ///
-    /// /// A ball in free flight with the drag −p|p|/10, without a potential: the flow of the drag is p/(1 + |p|τ/10).
-    /// struct Ball;
-    ///
-    /// type Vector1<T> = SVector<T, 1>;
-    ///
-    /// impl Hamiltonian for Ball {
-    ///     type Class = Damped;
-    ///     type Vector<T: Scalar> = Vector1<T>;
-    ///
-    ///     fn velocity<T: Scalar>(&self, _: T, _: &Vector1<T>, p: &Vector1<T>, velocity: &mut Vector1<T>) {
-    ///         *velocity = *p;
-    ///     }
-    ///
-    ///     fn force<T: Scalar>(&self, _: T, _: &Vector1<T>, _: &Vector1<T>, force: &mut Vector1<T>) {
-    ///         force[0] = T::zero();
-    ///     }
-    ///
-    ///     fn kick<T: Scalar>(
-    ///         &self,
-    ///         duration: T,
-    ///         _q: &Vector1<T>,
-    ///         _force: &Vector1<T>,
-    ///         p: &Vector1<T>,
-    ///         change: &mut Vector1<T>,
-    ///     ) -> bool {
-    ///         let loss = p[0].abs() * duration * T::from_f64(0.1);
-    ///         change[0] = -p[0] * loss / (loss + T::one());
-    ///         true
-    ///     }
-    /// }
-    ///
-    /// # fn main() -> Result<(), Error> {
-    /// let start = State::from_arrays(0.0, [0.0], [2.0]);
-    /// let mut run = Integrator::new(StrangSplitting, Ball, start, 0.01)?;
-    /// // p = 2/(1 + t/5), q = 10 ln(1 + t/5)
-    /// let end = run.integrate_to(5.0)?;
-    /// assert!((end.p[0] - 1.0).abs() < 1e-14);
-    /// assert!((end.q[0] - 10.0 * 2.0_f64.ln()).abs() < 1e-5);
-    /// # Ok(())
-    /// # }
-    /// ```
-    fn kick<T: Scalar>(
-        &self,
-        _duration: T,
-        _q: &Self::Vector<T>,
-        _force: &Self::Vector<T>,
-        _p: &Self::Vector<T>,
-        _change: &mut Self::Vector<T>,
-    ) -> bool {
-        false
-    }
-
-    /// The number m of holonomic constraints `φ(q) = 0` of a system of class [`Constrained`](crate::Constrained).
-    ///
-    /// ```
-    /// use symplectic::nalgebra::SVector;
-    /// use symplectic::system::Gradients;
-    /// use symplectic::{Constrained, Error, Hamiltonian, Integrator, Masses, Scalar, Separable, State};
-    ///
-    /// symplectic::tableau! {
-    ///     /// Lobatto IIIA–IIIB with two stages: RATTLE.
-    ///     Rattle { basis: polynomial(2), nodes: lobatto(2), require: [constrained, order == 2] }
-    /// }
-    ///
-    /// /// A pendulum of length 1 in the plane: H = |p|²/2 + 9.81 y, |q|² − 1 = 0.
-    /// struct Pendulum;
-    ///
-    /// impl Hamiltonian for Pendulum {
-    ///     type Class = Constrained<Separable>;
-    ///     type Vector<T: Scalar> = SVector<T, 2>;
-    ///
-    ///     const MASSES: Masses = Masses::Unit;
-    ///
-    ///     fn velocity<T: Scalar>(&self, _: T, _: &SVector<T, 2>, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
-    ///         *velocity = *p;
-    ///     }
-    ///
-    ///     fn force<T: Scalar>(&self, _: T, _: &SVector<T, 2>, _: &SVector<T, 2>, force: &mut SVector<T, 2>) {
-    ///         *force = SVector::from([T::zero(), T::from_f64(-9.81)]);
-    ///     }
-    ///
-    ///     fn constraints(&self) -> usize {
-    ///         1
-    ///     }
-    ///
-    ///     fn constraint_values<T: Scalar>(&self, q: &SVector<T, 2>, values: &mut [T]) {
-    ///         values[0] = q.dot(q) - T::one();
-    ///     }
-    ///
-    ///     fn constraint_gradients<T: Scalar>(&self, q: &SVector<T, 2>, gradients: &mut Gradients<T>) {
-    ///         gradients.set(0, 0, T::from_f64(2.0) * q[0]);
-    ///         gradients.set(0, 1, T::from_f64(2.0) * q[1]);
-    ///     }
-    /// }
-    ///
-    /// # fn main() -> Result<(), Error> {
-    /// let start: State<SVector<f64, 2>> = State::from_arrays(0.0, [1.0, 0.0], [0.0, 0.0]);
-    /// let mut run = Integrator::new(Rattle, Pendulum, start, 0.01)?;
-    /// let end = run.integrate_to(10.0)?;
-    /// assert!((end.q.norm() - 1.0).abs() < 1e-14 && end.q.dot(&end.p).abs() < 1e-14);
-    /// # Ok(())
-    /// # }
-    /// ```
-    fn constraints(&self) -> usize {
-        0
-    }
-
-    /// Writes `φ(q)`, one value for each [constraint](Self::constraints).
-    fn constraint_values<T: Scalar>(&self, _q: &Self::Vector<T>, _values: &mut [T]) {}
-
-    /// Sets the entries of the [`Gradients`] `G = ∂φ/∂q`, always the same entries in the same order.
-    ///
-    /// An integrator compares them with differences of `φ` when it is created.
-    #[cfg(feature = "alloc")]
-    fn constraint_gradients<T: Scalar>(&self, _q: &Self::Vector<T>, _gradients: &mut Gradients<T>) {
-    }
-
-    /// The name of a constraint, holonomic or not, for errors.
-    fn constraint_name(&self, _constraint: usize) -> Option<ConstraintName> {
+    /// What a system gives beside velocity and force, if its class has any: its friction in class `friction::Damped`, its constraints in
+    /// the classes `constraints::Constrained` and `constraints::Nonholonomic`. These say how; the answer is always `Some(self)`.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn extra<T: Scalar>(&self) -> Option<<Self::Class as Class>::Extra<'_, Self::Vector<T>>> {
         None
     }
-
-    /// The number m of non-holonomic constraints `w(q)·q' = 0` of a system of class [`Nonholonomic`](crate::Nonholonomic).
-    ///
-    /// ```
-    /// use symplectic::nalgebra::SVector;
-    /// use symplectic::system::Gradients;
-    /// use symplectic::{Error, Hamiltonian, Integrator, Masses, Nonholonomic, Scalar, Separable, State};
-    ///
-    /// symplectic::tableau! {
-    ///     /// The implicit midpoint rule.
-    ///     Midpoint { basis: polynomial(1), nodes: gauss(1), require: [nonholonomic, order == 2] }
-    /// }
-    ///
-    /// /// A skate on the ice, at (x, y) in the direction a: H = (px² + py² + pa²)/2, x' sin a − y' cos a = 0.
-    /// struct Skate;
-    ///
-    /// type V3<T> = SVector<T, 3>;
-    ///
-    /// impl Hamiltonian for Skate {
-    ///     type Class = Nonholonomic<Separable>;
-    ///     type Vector<T: Scalar> = V3<T>;
-    ///
-    ///     const MASSES: Masses = Masses::Unit;
-    ///
-    ///     fn velocity<T: Scalar>(&self, _: T, _: &V3<T>, p: &V3<T>, velocity: &mut V3<T>) {
-    ///         *velocity = *p;
-    ///     }
-    ///
-    ///     fn force<T: Scalar>(&self, _: T, _: &V3<T>, _: &V3<T>, force: &mut V3<T>) {
-    ///         *force = V3::zeros();
-    ///     }
-    ///
-    ///     fn nonholonomic_constraints(&self) -> usize {
-    ///         1
-    ///     }
-    ///
-    ///     fn nonholonomic_rows<T: Scalar>(&self, q: &V3<T>, rows: &mut Gradients<T>) {
-    ///         rows.set(0, 0, q[2].sin());
-    ///         rows.set(0, 1, -q[2].cos());
-    ///     }
-    /// }
-    ///
-    /// # fn main() -> Result<(), Error> {
-    /// // It turns at the rate 1 and moves at the speed 2, on a circle of radius 2 about (0, 2).
-    /// let start: State<V3<f64>> = State::from_arrays(0.0, [0.0; 3], [2.0, 0.0, 1.0]);
-    /// let mut run = Integrator::new(Midpoint, Skate, start, 0.01)?;
-    /// let end = run.integrate_to(10.0)?;
-    /// assert!((end.q[0].hypot(end.q[1] - 2.0) - 2.0).abs() < 1e-4);
-    /// assert!((end.p[0] * end.q[2].sin() - end.p[1] * end.q[2].cos()).abs() < 1e-14);
-    /// # Ok(())
-    /// # }
-    /// ```
-    fn nonholonomic_constraints(&self) -> usize {
-        0
-    }
-
-    /// Sets the entries of the m×n matrix `w(q)`, the rows of the [non-holonomic constraints](Self::nonholonomic_constraints), always
-    /// the same entries in the same order.
-    #[cfg(feature = "alloc")]
-    fn nonholonomic_rows<T: Scalar>(&self, _q: &Self::Vector<T>, _rows: &mut Gradients<T>) {}
 }
 
 /// A system with a separable Hamiltonian `H = T(t, p) + U(t, q)`: the velocity depends only on `p`, the force only on `q`.

@@ -15,11 +15,11 @@ mod over_vectors;
 
 pub(crate) use crate::contract::linearity;
 #[cfg(feature = "alloc")]
-pub use crate::contract::{BandMatrix, Constrained, Gradients, Jacobian, Nonholonomic};
+pub use crate::contract::{BandMatrix, Jacobian};
 pub use crate::contract::{
-    Class, Conservative, Damped, FreePositions, FreePositionsOrDamped, Frictionless, General,
-    Holonomic, HolonomicOrDamped, Masses, OverEveryScalar, Separable, SplitClass, System,
-    SystemInLanes, SystemLanes, Unconstrained, UnconstrainedOrDamped,
+    Class, Conservative, FreePositions, FreePositionsOrDamped, Frictionless, General, Holonomic,
+    HolonomicOrDamped, Masses, NotGeneral, OverEveryScalar, Separable, SeparableOrDamped,
+    SplitClass, System, SystemInLanes, SystemLanes, Unconstrained, UnconstrainedOrDamped,
 };
 #[doc(hidden)]
 pub use crate::contract::{Join, LaneWork};

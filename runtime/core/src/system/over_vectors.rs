@@ -1,9 +1,9 @@
 //! A Hamiltonian over every scalar as a system over one type of vectors.
 
 #[cfg(feature = "alloc")]
-use crate::contract::{Gradients, Jacobian};
-use crate::contract::{LaneWork, Masses, OverEveryScalar, System, first};
-use crate::error::{ConstraintName, Error};
+use crate::contract::Jacobian;
+use crate::contract::{Class, LaneWork, Masses, OverEveryScalar, System, first};
+use crate::error::Error;
 use crate::number::{Lanes, Vector};
 use crate::solver::Automatic;
 use crate::system::Hamiltonian;
@@ -76,42 +76,8 @@ impl<V: Vector, H: Hamiltonian<Vector<V::Scalar> = V>> System<V> for H {
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn friction(&self, component: usize) -> f64 {
-        Hamiltonian::friction(self, component)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn kick(&self, duration: V::Scalar, q: &V, force: &V, p: &V, change: &mut V) -> bool {
-        Hamiltonian::kick::<V::Scalar>(self, duration, q, force, p, change)
-    }
-
-    fn constraints(&self) -> usize {
-        Hamiltonian::constraints(self)
-    }
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn constraint_values(&self, q: &V, values: &mut [V::Scalar]) {
-        Hamiltonian::constraint_values::<V::Scalar>(self, q, values);
-    }
-
-    #[cfg(feature = "alloc")]
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn constraint_gradients(&self, q: &V, gradients: &mut Gradients<V::Scalar>) {
-        Hamiltonian::constraint_gradients::<V::Scalar>(self, q, gradients);
-    }
-
-    fn constraint_name(&self, constraint: usize) -> Option<ConstraintName> {
-        Hamiltonian::constraint_name(self, constraint)
-    }
-
-    fn nonholonomic_constraints(&self) -> usize {
-        Hamiltonian::nonholonomic_constraints(self)
-    }
-
-    #[cfg(feature = "alloc")]
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn nonholonomic_rows(&self, q: &V, rows: &mut Gradients<V::Scalar>) {
-        Hamiltonian::nonholonomic_rows::<V::Scalar>(self, q, rows);
+    fn extra(&self) -> Option<<H::Class as Class>::Extra<'_, V>> {
+        Hamiltonian::extra::<V::Scalar>(self)
     }
 
     const JOINS: bool = H::JOINS;

@@ -5,9 +5,7 @@ use alloc::vec::Vec;
 use num_traits::Zero;
 
 use crate::Error;
-use symplectic_core::inside::{
-    HyperDual, check_no_constraints, check_no_friction, check_start, check_state,
-};
+use symplectic_core::inside::{HyperDual, check_start, check_state};
 use symplectic_core::{Hamiltonian, Scalar, State, Vector};
 
 /// The extended state ((q, t), (p, p_t)) at τ = 0; its vectors have one component more.
@@ -105,7 +103,5 @@ pub(super) fn energy_of<S: Hamiltonian>(
 ) -> Result<f64, Error> {
     let State { time, q, p } = state;
     check_start(system, state)?;
-    check_no_constraints::<S::Vector<f64>, S>(system)?;
-    check_no_friction(system, q)?;
     Hamiltonian::energy(system, *time, q, p).ok_or(Error::Core(symplectic_core::Error::NoEnergy))
 }

@@ -100,7 +100,7 @@ impl<S: Hamiltonian<Class = Separable>> Logarithmic<S> {
     /// # Errors
     ///
     /// [`Error::LogarithmicMasses`] if the velocity is not `M⁻¹p` with a constant M. [`Error::Core`] with `Dimension`, `NonFiniteState`,
-    /// `NoEnergy`, `OtherClass` if the system has constraints or friction, `LogarithmicDomain` if `U ≥ 0`, `Length` if the vectors of type
+    /// `NoEnergy`, `LogarithmicDomain` if `U ≥ 0`, `Length` if the vectors of type
     /// `W` cannot have one component more than those of the system.
     pub fn extend<W: Vector<Scalar = f64>>(
         &self,

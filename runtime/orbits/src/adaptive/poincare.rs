@@ -94,7 +94,7 @@ impl<S: Hamiltonian<Class: Conservative>, W: Monitor> Poincare<S, W> {
     ///
     /// # Errors
     ///
-    /// [`Error::Core`] with `Dimension`, `NonFiniteState`, `NoEnergy`, `Monitor`, `OtherClass` if the system has constraints or friction,
+    /// [`Error::Core`] with `Dimension`, `NonFiniteState`, `NoEnergy`, `Monitor`,
     /// `Length` if the vectors of type `V` cannot have one component more than those of the system.
     pub fn extend<V: Vector<Scalar = f64>>(
         &self,

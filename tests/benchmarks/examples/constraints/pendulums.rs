@@ -1,7 +1,8 @@
 //! Pendulums on one rod and on two.
 
+use symplectic::constraints::Constrained;
 use symplectic::nalgebra::SVector;
-use symplectic::{Constrained, Error, General, Integrator, Method, ProvedFor, Separable, State};
+use symplectic::{Error, General, Integrator, Method, ProvedFor, Separable, State};
 
 use crate::{Lobatto3, Rattle, medians};
 

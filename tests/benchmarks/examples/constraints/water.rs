@@ -2,11 +2,11 @@
 //! until the error of every bond is below a tolerance. Both programs call the same code for the forces.
 
 use core::cell::RefCell;
+use symplectic::constraints::{Constrained, Gradients, HolonomicConstraints};
 
 use symplectic::nalgebra::DVector;
 use symplectic::solver::FixedPoint;
-use symplectic::system::Gradients;
-use symplectic::{Constrained, Error, Integrator, Separable, State, System};
+use symplectic::{Error, Integrator, Separable, State, System};
 
 use crate::{Rattle, medians};
 
@@ -157,10 +157,15 @@ impl System<DVector<f64>> for Water {
         Some(self.total_energy(atoms(q), atoms(p)))
     }
 
+    fn extra(&self) -> Option<&dyn HolonomicConstraints<DVector<f64>>> {
+        Some(self)
+    }
+}
+
+impl HolonomicConstraints<DVector<f64>> for Water {
     fn constraints(&self) -> usize {
         self.rods.len()
     }
-
     fn constraint_values(&self, q: &DVector<f64>, values: &mut [f64]) {
         let q = atoms(q);
         for (value, &(i, j, length)) in values.iter_mut().zip(&self.rods) {
@@ -168,7 +173,6 @@ impl System<DVector<f64>> for Water {
             *value = d[0] * d[0] + d[1] * d[1] - length * length;
         }
     }
-
     fn constraint_gradients(&self, q: &DVector<f64>, gradients: &mut Gradients<f64>) {
         let q = atoms(q);
         for (rod, &(i, j, _)) in self.rods.iter().enumerate() {

@@ -2,9 +2,11 @@
 //!
 //! Every method is generic over the system, here only; a scene chooses a set and its parameters.
 
+use symplectic::constraints::{Constrained, Nonholonomic};
+use symplectic::friction::Damped;
 use symplectic::solver::ByNewton;
 use symplectic::system::Unconstrained;
-use symplectic::{Class, Constrained, Damped, Integrator, Nonholonomic, Separable, System, Vector};
+use symplectic::{Class, Integrator, Separable, System, Vector};
 use symplectic_report::Problem;
 use symplectic_tests::methods::{
     BlanesMoanS6, BlanesMoanS10, BlanesMoanSrkn11b, BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4,

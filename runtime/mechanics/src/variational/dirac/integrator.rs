@@ -58,7 +58,7 @@ use symplectic_core::{Equal, Run, State, Statistics, Stepper, StoermerVerletStep
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
-/// use symplectic::system::Gradients;
+/// use symplectic::constraints::Gradients;
 /// use symplectic::variational::{DiracSteps, DiracRule, DiracSystem, momentum_of_velocity};
 /// use symplectic::{Lagrangian, Scalar, State};
 ///

@@ -10,7 +10,7 @@ mod step;
 pub use integrator::{DiracIntegrator, DiracSteps};
 pub use primary::{PrimaryConstraint, primary_constraints};
 
-use symplectic_core::system::Gradients;
+use crate::constraints::Gradients;
 use symplectic_core::{Lagrangian, Scalar};
 
 /// A Lagrangian, regular or degenerate, with optional constraints `w(q) v = 0` on its velocities.

@@ -5,8 +5,8 @@ use alloc::vec;
 use num_traits::Zero;
 
 use super::DiracSystem;
+use crate::constraints::Gradients;
 use symplectic_core::inside::HyperDual;
-use symplectic_core::system::Gradients;
 use symplectic_core::{Error, Scalar, Vector};
 
 /// An entry of w.

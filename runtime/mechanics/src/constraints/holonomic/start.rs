@@ -5,17 +5,14 @@ use alloc::vec::Vec;
 use core::array;
 
 use super::metric::{Metric, Point};
-use super::of_dimension::OfDimension;
 use super::resolution::Resolution;
-use crate::contract::storage::is_finite;
-use crate::contract::{Class, Constrained, Failure, Gradients, System, Terms, Unconstrained};
-use crate::error::{Error, Quantity};
-use crate::number::vector::beside;
-use crate::number::{Scalar, Vector};
-use crate::state::State;
+use crate::constraints::{Constrained, Gradients, Terms, WithConstraints};
+use symplectic_core::inside::{Failure, beside, is_finite};
+use symplectic_core::system::Unconstrained;
+use symplectic_core::{Class, Error, Quantity, Scalar, State, System, Vector};
 
 /// How far a start may be from the constraints, relative to the sizes of their terms.
-pub(in crate::classes) const CONSISTENT: f64 = 1e-10;
+pub(in crate::constraints) const CONSISTENT: f64 = 1e-10;
 /// The size of rounding errors that other constraints leave, relative to [`CONSISTENT`] of their terms.
 const SHARED: f64 = 256.0 * f64::EPSILON / CONSISTENT;
 /// How far a gradient may be from the difference quotient, relative to its terms.
@@ -24,7 +21,7 @@ const GRADIENT: f64 = 1e-4;
 const ITERATIONS: usize = 100;
 
 /// The constraints of a system at a state.
-pub(in crate::classes) struct Examined<V: Vector> {
+pub(in crate::constraints) struct Examined<V: Vector> {
     metric: Metric<V::Scalar>,
     point: Point<V>,
     scratch: [V; 3],
@@ -42,8 +39,8 @@ pub(in crate::classes) struct Examined<V: Vector> {
 }
 
 impl<V: Vector> Examined<V> {
-    pub(in crate::classes) fn new<S: System<V>>(
-        system: &S,
+    pub(in crate::constraints) fn new<S: System<V>>(
+        system: &WithConstraints<'_, V, S>,
         time: f64,
         q: &V,
         p: &V,
@@ -81,7 +78,13 @@ impl<V: Vector> Examined<V> {
     }
 
     /// Evaluates everything at a state.
-    fn examine<S: System<V>>(&mut self, system: &S, time: f64, q: &V, p: &V) -> Result<(), Error> {
+    fn examine<S: System<V>>(
+        &mut self,
+        system: &WithConstraints<'_, V, S>,
+        time: f64,
+        q: &V,
+        p: &V,
+    ) -> Result<(), Error> {
         let Self {
             metric,
             point,
@@ -152,7 +155,7 @@ impl<V: Vector> Examined<V> {
     }
 
     /// The constraint whose `G velocity` is farthest from zero relative to its scale, and this relative size.
-    pub(in crate::classes) fn momentum(&self) -> (usize, f64) {
+    pub(in crate::constraints) fn momentum(&self) -> (usize, f64) {
         Self::largest(&self.rates, &self.rate_terms, |c| {
             let others = self.shared[1][c] - self.rate_terms[c].size();
             self.rate_scales[c].max(others)
@@ -160,14 +163,14 @@ impl<V: Vector> Examined<V> {
     }
 
     /// `|G velocity|` of a constraint.
-    pub(in crate::classes) fn rate(&self, constraint: usize) -> f64 {
+    pub(in crate::constraints) fn rate(&self, constraint: usize) -> f64 {
         self.rates[constraint].magnitude()
     }
 
     /// Moves the momentum by `−Gᵀν`, until `G velocity = 0` or nothing changes.
-    pub(in crate::classes) fn project_momentum<S: System<V>>(
+    pub(in crate::constraints) fn project_momentum<S: System<V>>(
         &mut self,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         time: f64,
         q: &V,
         p: &mut V,
@@ -212,7 +215,7 @@ pub(super) const fn error(failure: Failure, time: f64) -> Error {
 }
 
 /// Checks that position and momentum have one dimension and are finite.
-pub(in crate::classes) fn check_numbers<V: Vector>(q: &V, p: &V) -> Result<(), Error> {
+pub(in crate::constraints) fn check_numbers<V: Vector>(q: &V, p: &V) -> Result<(), Error> {
     if q.dimension() != p.dimension() {
         return Err(Error::Dimension {
             position: q.dimension(),
@@ -230,12 +233,12 @@ pub(in crate::classes) fn check_numbers<V: Vector>(q: &V, p: &V) -> Result<(), E
 /// Checks that a state is on the constraints, `φ(q) = 0` and `G ∂H/∂p = 0`. Also checks that the constraints are independent and that the
 /// system's gradients are correct.
 pub(crate) fn check_start<V: Vector, S: System<V>>(
-    system: &S,
+    system: &WithConstraints<'_, V, S>,
     time: f64,
     q: &V,
     p: &V,
 ) -> Result<(), Error> {
-    let system = &OfDimension::new(system, q.dimension());
+    system.check_given("HolonomicConstraints")?;
     let examined = system.check(time, Examined::new(system, time, q, p))?;
     check_gradients(system, q, &examined.point.gradients)?;
     // Entries may vanish at the start.
@@ -263,7 +266,7 @@ pub(crate) fn check_start<V: Vector, S: System<V>>(
 
 /// Compares the gradients at `q` with difference quotients of the constraints in two directions.
 fn check_gradients<V: Vector, S: System<V>>(
-    system: &S,
+    system: &WithConstraints<'_, V, S>,
     q: &V,
     gradients: &Gradients<V::Scalar>,
 ) -> Result<(), Error> {
@@ -359,12 +362,13 @@ pub fn consistent<V: Vector, S: System<V, Class = Constrained<C>>, C: Class + Un
 ) -> Result<State<V>, Error> {
     let State { time, q, p } = state;
     check_numbers(&q, &p)?;
-    let system = &OfDimension::new(system, q.dimension());
+    let system = &WithConstraints::holonomic(system, q.dimension());
+    system.check_given("HolonomicConstraints")?;
     system.check(time, moved_onto(system, time, q, p))
 }
 
 fn moved_onto<V: Vector, S: System<V>>(
-    system: &S,
+    system: &WithConstraints<'_, V, S>,
     time: f64,
     mut q: V,
     mut p: V,

@@ -3,10 +3,10 @@
 use alloc::vec;
 use alloc::vec::Vec;
 use core::array;
-
-use crate::number::dither::dither_side;
-use crate::number::words::words;
-use crate::number::{Scalar, Vector, Visit, larger_or_nan, scalar_words, vector_words};
+use symplectic_core::inside::{
+    Visit, dither_side, larger_or_nan, scalar_words, vector_words, words,
+};
+use symplectic_core::{Scalar, Vector};
 
 /// Number of steps from which stages are extrapolated.
 const STEPS: usize = 5;

@@ -21,26 +21,24 @@
 //! ```
 
 mod memory;
-mod rows;
 mod start;
 mod step;
 
 pub use memory::NonholonomicStages;
 pub use start::consistent_momentum;
 
+use alloc::vec::Vec;
 use core::marker::PhantomData;
 
-use crate::classes::constrained::{OfDimension, add_to_force, show_stages, taken_once_more};
-use crate::contract::{
-    Class, ConstrainedStep, Failure, Method, Nonholonomic, Outcome, Plan, Solver, StageView, Step,
-    StepStatistics, Stopping, System, Unconstrained, WarmStart, check_no_friction,
-    check_no_holonomic_constraints,
-};
-use crate::error::Error;
-use crate::method::composition::in_turn;
-use crate::number::{Scalar, Summation, Vector};
+use crate::constraints::holonomic::{add_to_force, show_stages, taken_once_more};
+use crate::constraints::{Nonholonomic, NonholonomicConstraints, WithConstraints};
 use memory::Workspace;
-use rows::RowsAsGradients;
+use symplectic_core::inside::{
+    ConstrainedStep, Failure, Outcome, Plan, Solver, StageView, Step, StepStatistics, Stopping,
+    WarmStart, in_turn,
+};
+use symplectic_core::system::Unconstrained;
+use symplectic_core::{Class, Error, Method, Scalar, Summation, System, Vector};
 
 /// The plan of the method `M` for systems with non-holonomic constraints.
 #[derive(Debug)]
@@ -48,6 +46,7 @@ pub struct NonholonomicPlan<M, C>(PhantomData<(M, C)>);
 
 impl<C: Class + Unconstrained> Class for Nonholonomic<C> {
     type Plan<M: Method> = NonholonomicPlan<M, C>;
+    type Extra<'a, V: Vector> = &'a (dyn NonholonomicConstraints<V> + 'a);
     const CONSTRAINED: bool = true;
     const SEPARABLE: bool = C::SEPARABLE;
 
@@ -64,6 +63,15 @@ impl<C: Class + Unconstrained> Class for Nonholonomic<C> {
             false => Ok(()),
         }
     }
+
+    fn numbers<V: Vector, S: System<V, Class = Self>>(system: &S, q: &V) -> Vec<V::Scalar> {
+        WithConstraints::nonholonomic(system, q.dimension()).numbers(q)
+    }
+
+    fn explain<V: Vector, S: System<V, Class = Self>>(system: &S, error: Error) -> Error {
+        let names = system.extra();
+        error.named(|constraint| names?.constraint_name(constraint))
+    }
 }
 
 impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
@@ -76,8 +84,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
         S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
     {
-        let system = &RowsAsGradients(system);
-        let system = &OfDimension::new(system, q.dimension());
+        let system = &WithConstraints::nonholonomic(system, q.dimension());
         let steps = memory.steps;
         memory.workspace = Some(Workspace::new(steps, system, time, q, p));
     }
@@ -87,9 +94,8 @@ impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
         V: Vector,
         S: System<V, Class = Self::Class>,
     {
-        check_no_friction(system, q)?;
-        check_no_holonomic_constraints(system)?;
-        start::check_start(&RowsAsGradients(system), time, q, p)
+        let system = &WithConstraints::nonholonomic(system, q.dimension());
+        start::check_start(system, time, q, p)
     }
 
     fn take<R: Summation, V: Vector, S: System<V, Class = Self::Class>, N: Solver<V, S>>(
@@ -126,7 +132,8 @@ impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
         S: System<V, Class = Self::Class>,
     {
         system.force(V::Scalar::from_f64(time), q, p, rate);
-        add_to_force(&RowsAsGradients(system), time, (q, p), rate);
+        let system = &WithConstraints::nonholonomic(system, q.dimension());
+        add_to_force(system, time, (q, p), rate);
     }
 }
 
@@ -152,8 +159,7 @@ impl<V: Vector> NonholonomicStages<V> {
             resized,
             between: [q, q_low, p, p_low],
         } = self;
-        let system = &RowsAsGradients(system);
-        let system = &OfDimension::new(system, step.q.dimension());
+        let system = &WithConstraints::nonholonomic(system, step.q.dimension());
         let workspace = workspace
             .get_or_insert_with(|| Workspace::new(steps, system, step.time, step.q, step.p));
         let between = Outcome { q, q_low, p, p_low };
@@ -166,7 +172,7 @@ impl<V: Vector> NonholonomicStages<V> {
                 workspace.take::<R, _>(tableau, part, system, kept.evaluation, stopping, here);
             let places = (&workspace.q[..], &workspace.p[..]);
             // The impulses are at the ends of the step.
-            show_stages::<V, RowsAsGradients<'_, S>>(tableau, part, places, |_| &[], &mut show);
+            show_stages::<V, S>(tableau, part, places, |_| &[], &mut show);
             taken
         };
         let place = |substep: &ConstrainedStep| (substep.start, substep.fraction);

@@ -1,8 +1,8 @@
 //! The gradients of constraints.
 
 use alloc::vec::Vec;
-
-use crate::number::{Scalar, Visit, scalar_words};
+use symplectic_core::Scalar;
+use symplectic_core::inside::{Visit, scalar_words};
 
 /// The gradients `G = ∂φ/∂q` of the constraints `φ(q) = 0` of a system, or the rows w of non-holonomic constraints `w(q)·q' = 0`: a
 /// sparse m×n matrix.
@@ -26,7 +26,7 @@ pub struct Gradients<T> {
 
 /// The size of the terms of a constraint.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Terms {
+pub(super) struct Terms {
     /// The sum of the sizes of the entries of its gradient.
     gradient: f64,
     /// The largest component of a vector at the places of these entries.
@@ -38,7 +38,7 @@ pub(crate) struct Terms {
 impl Terms {
     /// Upper bound of the product of gradient and vector.
     #[inline]
-    pub(crate) fn size(self) -> f64 {
+    pub(super) fn size(self) -> f64 {
         let size = self.gradient * self.largest;
         // A size that is NaN stays NaN.
         if self.least > size { self.least } else { size }
@@ -46,7 +46,7 @@ impl Terms {
 
     /// The size of a vector for which [`raise`](Self::raise)d terms have this size.
     #[inline]
-    pub(crate) fn raised(self) -> f64 {
+    pub(super) fn raised(self) -> f64 {
         if self.least == 0.0 {
             return 0.0;
         }
@@ -55,13 +55,13 @@ impl Terms {
 
     /// The bound that the size was [`raise`](Self::raise)d to.
     #[inline]
-    pub(crate) const fn least(self) -> f64 {
+    pub(super) const fn least(self) -> f64 {
         self.least
     }
 
     /// Forgets a bound that is not above `factor` times the other terms.
     #[inline]
-    pub(crate) fn keep_above(&mut self, factor: f64) {
+    pub(super) fn keep_above(&mut self, factor: f64) {
         if self.least <= factor * self.gradient * self.largest {
             self.least = 0.0;
         }
@@ -69,13 +69,13 @@ impl Terms {
 
     /// Makes the size at least this.
     #[inline]
-    pub(crate) fn raise(&mut self, least: f64) {
+    pub(super) fn raise(&mut self, least: f64) {
         self.least = least;
     }
 
     /// A residual relative to the terms and to `other`, a number in the same unit; zero if the residual is zero.
     #[inline]
-    pub(crate) fn relative(self, residual: f64, other: f64) -> f64 {
+    pub(super) fn relative(self, residual: f64, other: f64) -> f64 {
         if residual == 0.0 {
             return 0.0;
         }
@@ -158,13 +158,13 @@ impl<T: Scalar> Gradients<T> {
     }
 
     /// The values of the entries.
-    pub(crate) fn values(&self) -> &[T] {
+    pub(super) fn values(&self) -> &[T] {
         &self.values
     }
 
     /// `out −= Gᵀ factors`
     #[inline]
-    pub(crate) fn subtract_transposed(&self, factors: &[T], out: &mut [T]) {
+    pub(super) fn subtract_transposed(&self, factors: &[T], out: &mut [T]) {
         for (constraint, component, value) in self.entries() {
             out[component] -= value * factors[constraint];
         }
@@ -172,7 +172,7 @@ impl<T: Scalar> Gradients<T> {
 
     /// `out = G vector`
     #[inline]
-    pub(crate) fn multiply(&self, vector: &[T], out: &mut [T]) {
+    pub(super) fn multiply(&self, vector: &[T], out: &mut [T]) {
         out.fill(T::zero());
         for (constraint, component, value) in self.entries() {
             out[constraint] += value * vector[component];
@@ -180,7 +180,7 @@ impl<T: Scalar> Gradients<T> {
     }
 
     /// The size of the terms of every constraint: `Σ_k |g_ik|`, and the largest `size(k)` of its components.
-    pub(crate) fn sizes(&self, size: impl Fn(usize) -> f64, out: &mut [Terms]) {
+    pub(super) fn sizes(&self, size: impl Fn(usize) -> f64, out: &mut [Terms]) {
         out.fill(Terms::default());
         for (constraint, component, value) in self.entries() {
             let Terms {
@@ -192,7 +192,7 @@ impl<T: Scalar> Gradients<T> {
     }
 
     /// The words of the values.
-    pub(crate) fn words(&mut self, visit: &mut Visit<'_>) {
+    pub(super) fn words(&mut self, visit: &mut Visit<'_>) {
         scalar_words(&mut self.values, visit);
     }
 }

@@ -15,7 +15,6 @@ mod metric;
 mod momentum_terms;
 mod newton;
 mod normal_matrix;
-mod of_dimension;
 mod resolution;
 mod start;
 mod step;
@@ -26,22 +25,22 @@ pub(super) use last_impulse::LastImpulse;
 pub use memory::ConstrainedStages;
 pub(super) use metric::{Metric, Point};
 pub(super) use momentum_terms::MomentumTerms;
-pub(super) use of_dimension::{OfDimension, place_of_resized};
 pub(crate) use start::check_start;
 pub use start::consistent;
 pub(super) use start::{CONSISTENT, Examined, check_numbers};
 pub(super) use step::{NOISE, PATIENCE, ROUNDING, result, same_momentum, show_stages, stage};
 
+use alloc::vec::Vec;
 use core::marker::PhantomData;
 
-use crate::contract::{
-    Class, Constrained, ConstrainedStep, Failure, Method, Outcome, Plan, Solver, StageView, Step,
-    StepStatistics, Stopping, System, Unconstrained, WarmStart, check_no_friction, check_no_rows,
-};
-use crate::error::Error;
-use crate::method::composition::in_turn;
-use crate::number::{Scalar, Summation, Vector};
+use crate::constraints::{Constrained, HolonomicConstraints, WithConstraints};
 use memory::Workspace;
+use symplectic_core::inside::{
+    ConstrainedStep, Failure, Outcome, Plan, Solver, StageView, Step, StepStatistics, Stopping,
+    WarmStart, in_turn,
+};
+use symplectic_core::system::Unconstrained;
+use symplectic_core::{Class, Error, Method, Scalar, Summation, System, Vector};
 
 /// The plan of the method `M` for systems with holonomic constraints.
 #[derive(Debug)]
@@ -49,6 +48,7 @@ pub struct ConstrainedPlan<M, C>(PhantomData<(M, C)>);
 
 impl<C: Class + Unconstrained> Class for Constrained<C> {
     type Plan<M: Method> = ConstrainedPlan<M, C>;
+    type Extra<'a, V: Vector> = &'a (dyn HolonomicConstraints<V> + 'a);
     const CONSTRAINED: bool = true;
     const SEPARABLE: bool = C::SEPARABLE;
 
@@ -65,6 +65,15 @@ impl<C: Class + Unconstrained> Class for Constrained<C> {
             false => Ok(()),
         }
     }
+
+    fn numbers<V: Vector, S: System<V, Class = Self>>(system: &S, q: &V) -> Vec<V::Scalar> {
+        WithConstraints::holonomic(system, q.dimension()).numbers(q)
+    }
+
+    fn explain<V: Vector, S: System<V, Class = Self>>(system: &S, error: Error) -> Error {
+        let names = system.extra();
+        error.named(|constraint| names?.constraint_name(constraint))
+    }
 }
 
 impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
@@ -77,7 +86,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         S: System<V, Class = Self::Class>,
         N: Solver<V, S>,
     {
-        let system = &OfDimension::new(system, q.dimension());
+        let system = &WithConstraints::holonomic(system, q.dimension());
         let steps = memory.steps;
         memory.workspace = Some(Workspace::new(steps, system, time, q, p));
     }
@@ -87,9 +96,12 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         V: Vector,
         S: System<V, Class = Self::Class>,
     {
-        check_no_friction(system, q)?;
-        check_no_rows(system)?;
-        check_start(system, time, q, p)
+        check_start(
+            &WithConstraints::holonomic(system, q.dimension()),
+            time,
+            q,
+            p,
+        )
     }
 
     fn take<R: Summation, V: Vector, S: System<V, Class = Self::Class>, N: Solver<V, S>>(
@@ -100,7 +112,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure> {
-        memory.take::<R, S>(step, system, kept, stopping, outcome, |_| {})
+        memory.take::<R, S, C>(step, system, kept, stopping, outcome, |_| {})
     }
 
     fn show_stages<R, V, S>(
@@ -116,7 +128,7 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
     {
         let mut memory = ConstrainedStages::new(M::CONSTRAINED, step.q);
         Some(taken_once_more(step, |kept, outcome| {
-            memory.take::<R, S>(step, system, kept, stopping, outcome, show)
+            memory.take::<R, S, C>(step, system, kept, stopping, outcome, show)
         }))
     }
 
@@ -126,13 +138,14 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         S: System<V, Class = Self::Class>,
     {
         system.force(V::Scalar::from_f64(time), q, p, rate);
+        let system = &WithConstraints::holonomic(system, q.dimension());
         add_to_force(system, time, (q, p), rate);
     }
 }
 
 impl<V: Vector> ConstrainedStages<V> {
     /// Takes a step, of one tableau or of several, and shows their stages.
-    fn take<R: Summation, S: System<V>>(
+    fn take<R, S, C>(
         &mut self,
         step: &Step<'_, V>,
         system: &S,
@@ -140,14 +153,19 @@ impl<V: Vector> ConstrainedStages<V> {
         stopping: Stopping,
         outcome: Outcome<'_, V>,
         mut show: impl FnMut(StageView<'_, V>),
-    ) -> Result<StepStatistics, Failure> {
+    ) -> Result<StepStatistics, Failure>
+    where
+        R: Summation,
+        S: System<V, Class = Constrained<C>>,
+        C: Class + Unconstrained,
+    {
         let ConstrainedStages {
             steps,
             workspace,
             resized,
             between: [q, q_low, p, p_low],
         } = self;
-        let system = &OfDimension::new(system, step.q.dimension());
+        let system = &WithConstraints::holonomic(system, step.q.dimension());
         let workspace = workspace
             .get_or_insert_with(|| Workspace::new(steps, system, step.time, step.q, step.p));
         let between = Outcome { q, q_low, p, p_low };

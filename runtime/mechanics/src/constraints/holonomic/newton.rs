@@ -4,9 +4,9 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::memory::Workspace;
-use crate::contract::{ConstrainedTableau, Failure, Gradients, Step, System};
-use crate::number::elimination::Elimination;
-use crate::number::{Scalar, Vector};
+use crate::constraints::{Gradients, WithConstraints};
+use symplectic_core::inside::{ConstrainedTableau, Elimination, Failure, Step};
+use symplectic_core::{Scalar, System, Vector};
 
 /// The Jacobian of the constraints at the stage positions with respect to the impulses of the constraints, at the present stages:
 ///
@@ -56,7 +56,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         renew: bool,
     ) -> Result<(), Failure> {
         let (stages, constraints) = (tableau.weights.len() - 1, self.multipliers.len());
@@ -87,7 +87,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         jacobian: &mut StageJacobian<V::Scalar>,
     ) -> Result<bool, Failure> {
         let (stages, constraints) = (tableau.weights.len() - 1, self.multipliers.len());

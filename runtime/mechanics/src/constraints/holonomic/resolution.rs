@@ -1,11 +1,10 @@
 //! How well the values of constraints resolve positions.
 
+use crate::constraints::{Gradients, WithConstraints};
 use alloc::vec;
 use alloc::vec::Vec;
-
-use crate::contract::{Gradients, System};
-use crate::number::words::words;
-use crate::number::{Scalar, Vector, Visit};
+use symplectic_core::inside::{Visit, words};
+use symplectic_core::{Scalar, System, Vector};
 
 /// Displacements are tried from `4^−RANGE` to `4^RANGE`.
 const RANGE: i32 = 48;
@@ -25,7 +24,7 @@ pub(super) struct Resolution {
 impl Resolution {
     /// Measured by the smallest displacement that the values respond to.
     pub(super) fn new<V: Vector, S: System<V>>(
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         q: &V,
         gradients: &Gradients<V::Scalar>,
     ) -> Self {

@@ -1,20 +1,18 @@
 //! States whose velocities obey the constraints.
 
-use super::rows::RowsAsGradients;
-use crate::classes::constrained::{CONSISTENT, Examined, OfDimension, check_numbers};
-use crate::contract::{Class, Nonholonomic, System, Unconstrained};
-use crate::error::Error;
-use crate::number::Vector;
-use crate::state::State;
+use crate::constraints::holonomic::{CONSISTENT, Examined, check_numbers};
+use crate::constraints::{Nonholonomic, WithConstraints};
+use symplectic_core::system::Unconstrained;
+use symplectic_core::{Class, Error, State, System, Vector};
 
 /// Checks that the velocity of a state obeys the constraints, and that these are independent.
 pub(super) fn check_start<V: Vector, S: System<V>>(
-    system: &S,
+    system: &WithConstraints<'_, V, S>,
     time: f64,
     q: &V,
     p: &V,
 ) -> Result<(), Error> {
-    let system = &OfDimension::new(system, q.dimension());
+    system.check_given("NonholonomicConstraints")?;
     let examined = system.check(time, Examined::new(system, time, q, p))?;
     let (constraint, rate) = examined.momentum();
     if rate <= CONSISTENT {
@@ -79,8 +77,8 @@ where
 {
     let State { time, q, mut p } = state;
     check_numbers(&q, &p)?;
-    let system = &RowsAsGradients(system);
-    let system = &OfDimension::new(system, q.dimension());
+    let system = &WithConstraints::nonholonomic(system, q.dimension());
+    system.check_given("NonholonomicConstraints")?;
     let mut examined = system.check(time, Examined::new(system, time, &q, &p))?;
     let projected = examined.project_momentum(system, time, &q, &mut p);
     system.check(time, projected)?;

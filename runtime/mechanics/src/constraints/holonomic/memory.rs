@@ -9,14 +9,13 @@ use super::last_impulse::LastImpulse;
 use super::metric::{Metric, Point};
 use super::momentum_terms::MomentumTerms;
 use super::newton::StageJacobian;
-use super::of_dimension::place_of_resized;
 use super::resolution::Resolution;
-use crate::contract::storage::first_non_finite;
-use crate::contract::{
-    Class, ConstrainedStep, ConstrainedTableau, Gradients, StageStorage, System, Terms,
+use crate::constraints::{Gradients, Terms, WithConstraints, place_of_resized};
+use symplectic_core::inside::{
+    ConstrainedStep, ConstrainedTableau, StageStorage, Visit, first_non_finite, scalar_words,
+    vector_words,
 };
-use crate::error::Quantity;
-use crate::number::{Scalar, Vector, Visit, scalar_words, vector_words};
+use symplectic_core::{Class, Quantity, Scalar, System, Vector};
 
 /// Everything that depends on the numbers of constraints and stages.
 #[derive(Clone, Debug)]
@@ -76,7 +75,7 @@ impl<V: Vector> Workspace<V> {
     /// Memory for these steps of a method and of a system at this state.
     pub(super) fn new<S: System<V>>(
         steps: &[ConstrainedStep],
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         time: f64,
         q: &V,
         p: &V,

@@ -6,15 +6,15 @@ use alloc::vec::Vec;
 use super::metric::{Metric, Point};
 use super::momentum_terms::MomentumTerms;
 use super::step::{NOISE, PATIENCE, ROUNDING, SETTLED, result};
-use crate::contract::{Failure, Outcome, Step, StepStatistics, Stopping, System, Terms};
-use crate::error::Quantity;
-use crate::number::{Scalar, Summation, Vector, larger_or_nan};
+use crate::constraints::{Terms, WithConstraints};
+use symplectic_core::inside::{Failure, Outcome, Step, StepStatistics, Stopping, larger_or_nan};
+use symplectic_core::{Quantity, Scalar, Summation, System, Vector};
 
 /// The impulse `−Gᵀy` at the end of a step with `G velocity(q1, p1) = 0`.
 #[derive(Clone, Debug)]
-pub(in crate::classes) struct LastImpulse<T> {
+pub(in crate::constraints) struct LastImpulse<T> {
     /// The multipliers y.
-    pub(in crate::classes) multipliers: Vec<T>,
+    pub(in crate::constraints) multipliers: Vec<T>,
     /// `G velocity` at the end.
     rates: Vec<T>,
     /// The sizes that each rate is compared with.
@@ -26,7 +26,7 @@ pub(in crate::classes) struct LastImpulse<T> {
 }
 
 impl<T: Scalar> LastImpulse<T> {
-    pub(in crate::classes) fn new(constraints: usize, dimension: usize) -> Self {
+    pub(in crate::constraints) fn new(constraints: usize, dimension: usize) -> Self {
         Self {
             multipliers: vec![T::zero(); constraints],
             rates: vec![T::zero(); constraints],
@@ -43,10 +43,10 @@ impl<T: Scalar> LastImpulse<T> {
     ///
     /// [`Failure::NonFinite`] if a velocity is not finite; [`Failure::NoConvergence`].
     #[allow(clippy::too_many_arguments)]
-    pub(in crate::classes) fn find<R: Summation, V: Vector<Scalar = T>, S: System<V>>(
+    pub(in crate::constraints) fn find<R: Summation, V: Vector<Scalar = T>, S: System<V>>(
         &mut self,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         (metric, end): (&Metric<T>, &Point<V>),
         increments: &mut [V],
         scratch: &mut [V; 3],

@@ -6,15 +6,13 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::normal_matrix::{NormalMatrix, Products};
-use crate::contract::linearity::non_linear_velocity;
-use crate::contract::storage::is_finite;
-use crate::contract::{Class, Failure, Gradients, Masses, System, Terms};
-use crate::error::Quantity;
-use crate::number::{Scalar, Vector};
+use crate::constraints::{Gradients, Terms, WithConstraints};
+use symplectic_core::inside::{Failure, is_finite, non_linear_velocity};
+use symplectic_core::{Class, Masses, Quantity, Scalar, System, Vector};
 
 /// How the velocity depends on the momentum.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::classes) enum InverseMasses<T> {
+pub(in crate::constraints) enum InverseMasses<T> {
     /// The velocity is the momentum.
     Unit,
     /// Each component of the velocity is the component of the momentum times a constant.
@@ -25,7 +23,7 @@ pub(in crate::classes) enum InverseMasses<T> {
 
 /// The data from which `G M⁻¹ Gᵀ` is computed at every state.
 #[derive(Clone, Debug)]
-pub(in crate::classes) struct Metric<T> {
+pub(in crate::constraints) struct Metric<T> {
     masses: InverseMasses<T>,
     products: Products,
     /// Whether the velocity is linear in the momentum.
@@ -34,18 +32,18 @@ pub(in crate::classes) struct Metric<T> {
 
 /// Data at a state on the constraints: at the start of a step, and at its end.
 #[derive(Clone, Debug)]
-pub(in crate::classes) struct Point<V: Vector> {
+pub(in crate::constraints) struct Point<V: Vector> {
     /// The force without that of the constraints; only for separable systems.
-    pub(in crate::classes) force: V,
-    pub(in crate::classes) gradients: Gradients<V::Scalar>,
+    pub(in crate::constraints) force: V,
+    pub(in crate::constraints) gradients: Gradients<V::Scalar>,
     /// `G M⁻¹ Gᵀ`, factored.
-    pub(in crate::classes) normal: NormalMatrix<V::Scalar>,
+    pub(in crate::constraints) normal: NormalMatrix<V::Scalar>,
 }
 
 impl<T: Scalar> Metric<T> {
     /// The metric of a system at a state, and an empty point.
-    pub(in crate::classes) fn new<V: Vector<Scalar = T>, S: System<V>>(
-        system: &S,
+    pub(in crate::constraints) fn new<V: Vector<Scalar = T>, S: System<V>>(
+        system: &WithConstraints<'_, V, S>,
         time: f64,
         q: &V,
         p: &V,
@@ -71,9 +69,9 @@ impl<T: Scalar> Metric<T> {
     }
 
     /// Evaluates the gradients at `q`, and factors `G M⁻¹ Gᵀ` there.
-    pub(in crate::classes) fn evaluate<V: Vector<Scalar = T>, S: System<V>>(
+    pub(in crate::constraints) fn evaluate<V: Vector<Scalar = T>, S: System<V>>(
         &self,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         time: f64,
         (q, p): (&V, &V),
         point: &mut Point<V>,
@@ -109,7 +107,7 @@ impl<T: Scalar> Metric<T> {
     /// start the velocity may be affine, as in a magnetic field.
     fn reference<V: Vector<Scalar = T>, S: System<V>>(
         &self,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         (time, q, p): (T, &V, &V),
         velocity: &mut V,
         zero: &mut V,
@@ -125,7 +123,7 @@ impl<T: Scalar> Metric<T> {
     /// `direction = M⁻¹ g` for the gradient g of a constraint, where `velocity` is the [reference](Self::reference). Overwrites `moved`.
     fn direction<V: Vector<Scalar = T>, S: System<V>>(
         &self,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         (time, q, p): (T, &V, &V),
         (gradients, constraint): (&Gradients<T>, usize),
         [velocity, direction, moved]: [&mut V; 3],
@@ -162,19 +160,19 @@ impl<T: Scalar> Metric<T> {
     }
 
     /// Whether `M⁻¹` is known only through evaluations of the velocity.
-    pub(in crate::classes) fn is_full(&self) -> bool {
+    pub(in crate::constraints) fn is_full(&self) -> bool {
         self.masses == InverseMasses::Full
     }
 
     /// The largest difference between the numbers of two constraints that share a component.
-    pub(in crate::classes) const fn half_bandwidth(&self) -> usize {
+    pub(in crate::constraints) const fn half_bandwidth(&self) -> usize {
         self.products.half_bandwidth()
     }
 
     /// `left M⁻¹ rightᵀ` as a band by rows, with `M⁻¹` at a state.
-    pub(in crate::classes) fn cross<V: Vector<Scalar = T>, S: System<V>>(
+    pub(in crate::constraints) fn cross<V: Vector<Scalar = T>, S: System<V>>(
         &self,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         (time, q, p): (T, &V, &V),
         left: &Gradients<T>,
         right: &Gradients<T>,
@@ -209,9 +207,9 @@ impl<T: Scalar> Metric<T> {
     }
 
     /// The length `√(G M⁻¹ Gᵀ)_cc` of the gradient of every constraint, with `M⁻¹` at a state.
-    pub(in crate::classes) fn lengths<V: Vector<Scalar = T>, S: System<V>>(
+    pub(in crate::constraints) fn lengths<V: Vector<Scalar = T>, S: System<V>>(
         &self,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         at: (T, &V, &V),
         gradients: &Gradients<T>,
         scratch: &mut [V; 3],
@@ -225,9 +223,9 @@ impl<T: Scalar> Metric<T> {
     }
 
     /// Raises the terms of every constraint to `factor Σ_k |G M⁻¹|_k sizes_k`: so far do momenta of these sizes change `factor G velocity`.
-    pub(in crate::classes) fn raise<V: Vector<Scalar = T>, S: System<V>>(
+    pub(in crate::constraints) fn raise<V: Vector<Scalar = T>, S: System<V>>(
         &self,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         (time, q, p): (f64, &V, &V),
         gradients: &Gradients<T>,
         (sizes, factor): (&[f64], f64),
@@ -258,9 +256,9 @@ impl<T: Scalar> Metric<T> {
     }
 
     /// `vector = M⁻¹ vector` for a vector `Gᵀ factors`, at a state.
-    pub(in crate::classes) fn apply<V: Vector<Scalar = T>, S: System<V>>(
+    pub(in crate::constraints) fn apply<V: Vector<Scalar = T>, S: System<V>>(
         &self,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         time: f64,
         (q, p): (&V, &V),
         vector: &mut V,
@@ -290,7 +288,7 @@ impl<T: Scalar> Metric<T> {
 
 /// How the velocity of a system depends on the momentum, as far as evaluations can tell.
 fn inverse_masses<V: Vector, S: System<V>>(
-    system: &S,
+    system: &WithConstraints<'_, V, S>,
     linear: bool,
     time: f64,
     q: &V,

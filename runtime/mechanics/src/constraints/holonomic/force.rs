@@ -4,13 +4,11 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::metric::{Metric, Point};
-use super::of_dimension::OfDimension;
 use super::start::error;
-use crate::contract::storage::is_finite;
-use crate::contract::{Class, Constrained, System, Unconstrained};
-use crate::error::{Error, Quantity};
-use crate::number::{Scalar, Vector};
-use crate::state::State;
+use crate::constraints::{Constrained, WithConstraints};
+use symplectic_core::inside::is_finite;
+use symplectic_core::system::Unconstrained;
+use symplectic_core::{Class, Error, Quantity, Scalar, State, System, Vector};
 
 /// The result of [`constraint_force`]: the force of the constraints at a state, and their multipliers.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,8 +73,8 @@ where
     C: Class + Unconstrained,
 {
     let State { time, q, p } = state;
+    let system = &WithConstraints::holonomic(system, q.dimension());
     super::check_start(system, *time, q, p)?;
-    let system = &OfDimension::new(system, q.dimension());
     let mut force = q.zeros_like();
     system.force(V::Scalar::from_f64(*time), q, p, &mut force);
     let found = multipliers(system, *time, (q, p), &force);
@@ -92,8 +90,8 @@ where
 }
 
 /// Adds the force of the constraints to `force`. If the multipliers cannot be found, fills `force` with NaN.
-pub(in crate::classes) fn add_to_force<V: Vector, S: System<V>>(
-    system: &S,
+pub(in crate::constraints) fn add_to_force<V: Vector, S: System<V>>(
+    system: &WithConstraints<'_, V, S>,
     time: f64,
     at: (&V, &V),
     force: &mut V,
@@ -102,7 +100,6 @@ pub(in crate::classes) fn add_to_force<V: Vector, S: System<V>>(
         // Dense output refuses it.
         return;
     }
-    let system = &OfDimension::new(system, at.0.dimension());
     match multipliers(system, time, at, force) {
         Ok((multipliers, point)) => {
             (point.gradients).subtract_transposed(&multipliers, force.as_mut_slice());
@@ -113,7 +110,7 @@ pub(in crate::classes) fn add_to_force<V: Vector, S: System<V>>(
 
 /// The multipliers at a state at which the force without the constraints is known.
 fn multipliers<V: Vector, S: System<V>>(
-    system: &S,
+    system: &WithConstraints<'_, V, S>,
     time: f64,
     (q, p): (&V, &V),
     force: &V,

@@ -3,28 +3,26 @@
 use super::history::History;
 use super::memory::Workspace;
 use super::start::CONSISTENT;
-use crate::contract::storage::is_finite;
-use crate::contract::{
-    Class, ConstrainedTableau, Failure, Gradients, Outcome, StageView, Step, StepStatistics,
-    Stopping, System, Terms,
+use crate::constraints::{Gradients, Terms, WithConstraints};
+use symplectic_core::inside::{
+    Coefficient, ConstrainedTableau, Failure, Outcome, StageView, Step, StepStatistics, Stopping,
+    add, copy, is_finite, larger_or_nan,
 };
-use crate::error::Quantity;
-use crate::number::summation::add;
-use crate::number::{Coefficient, Scalar, Summation, Vector, copy, larger_or_nan};
+use symplectic_core::{Class, Quantity, Scalar, Summation, System, Vector};
 
 /// Residuals are in units of rounding. A residual of at most this size counts as zero if it has [stopped decreasing](STAGNANT).
-pub(in crate::classes) const ROUNDING: f64 = 2.0;
+pub(in crate::constraints) const ROUNDING: f64 = 2.0;
 /// A residual of at most this size always counts as zero. A residual that still decreases always has the same sign. With 1/2 the relative
 /// energy drift for a double pendulum on rods would be up to 10⁻²¹ per step.
-pub(in crate::classes) const SETTLED: f64 = 0.125;
+pub(in crate::constraints) const SETTLED: f64 = 0.125;
 /// A residual has stopped decreasing if the previous one is at most this size. With 128 that drift would be 4·10⁻²² per step.
 const STAGNANT: f64 = 48.0;
 /// A residual that no longer decreases is accepted up to this size, in units of rounding.
-pub(in crate::classes) const NOISE: f64 = 256.0;
+pub(in crate::constraints) const NOISE: f64 = 256.0;
 /// A sweep that leaves more than this fraction of the residual contracts badly.
 const SLOW: f64 = 0.125;
 /// Number of sweeps without a smaller residual after which the iteration has ended.
-pub(in crate::classes) const PATIENCE: u32 = 4;
+pub(in crate::constraints) const PATIENCE: u32 = 4;
 
 impl<V: Vector> Workspace<V> {
     /// Takes the step of a number in its composition; `carried` means that the previous step ended where this one starts.
@@ -43,7 +41,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         (number, tableau): (usize, &ConstrainedTableau),
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         carried: bool,
         stopping: Stopping,
         outcome: &mut Outcome<'_, V>,
@@ -95,7 +93,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         (number, tableau): (usize, &ConstrainedTableau),
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         work: &mut StepStatistics,
     ) {
         let stages = tableau.weights.len();
@@ -150,7 +148,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         stopping: Stopping,
         outcome: &mut Outcome<'_, V>,
         work: &mut StepStatistics,
@@ -235,7 +233,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         work: &mut StepStatistics,
     ) -> Result<(), Failure> {
         let constraints = self.multipliers.len();
@@ -275,7 +273,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         work: &mut StepStatistics,
     ) {
         for i in 0..tableau.weights.len() {
@@ -300,7 +298,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         outcome: &mut Outcome<'_, V>,
     ) -> [f64; 2] {
         let (stages, constraints) = (tableau.weights.len(), self.multipliers.len());
@@ -359,7 +357,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
     ) -> Result<f64, Failure> {
         let last = tableau.weights.len() - 1;
         let (q, p) = (&self.q[last], &self.p[last]);
@@ -424,7 +422,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         work: &mut StepStatistics,
     ) {
         let (stages, constraints) = (tableau.weights.len(), self.multipliers.len());
@@ -474,7 +472,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         stopping: Stopping,
         outcome: &mut Outcome<'_, V>,
         work: &mut StepStatistics,
@@ -571,7 +569,7 @@ const fn depends_on_the_start(failure: &Failure) -> bool {
 
 /// Shows the stages of a completed step, with the impulses of the constraints at each.
 #[inline]
-pub(in crate::classes) fn show_stages<'s, V: Vector, S: System<V>>(
+pub(in crate::constraints) fn show_stages<'s, V: Vector, S: System<V>>(
     tableau: &ConstrainedTableau,
     step: &Step<'_, V>,
     (q, p): (&[V], &[V]),
@@ -601,7 +599,7 @@ pub(in crate::classes) fn show_stages<'s, V: Vector, S: System<V>>(
 
 /// Whether momentum and velocity of a stage are those of the previous stage: for a separable system with equal rows.
 #[inline]
-pub(in crate::classes) fn same_momentum<V: Vector, S: System<V>>(
+pub(in crate::constraints) fn same_momentum<V: Vector, S: System<V>>(
     tableau: &ConstrainedTableau,
     i: usize,
 ) -> bool {
@@ -612,7 +610,7 @@ pub(in crate::classes) fn same_momentum<V: Vector, S: System<V>>(
 }
 
 /// Position or momentum after a step, `base + low + Σ_j increment_j`, with its compensation.
-pub(in crate::classes) fn result<R: Summation, V: Vector>(
+pub(in crate::constraints) fn result<R: Summation, V: Vector>(
     (out, out_low): (&mut V, &mut V),
     (base, low): (&V, &V),
     increments: &[V],
@@ -631,7 +629,7 @@ pub(in crate::classes) fn result<R: Summation, V: Vector>(
 
 /// `out = base + (low + Σ_j factor_j increment_j)`
 #[inline]
-pub(in crate::classes) fn stage<V: Vector>(
+pub(in crate::constraints) fn stage<V: Vector>(
     out: &mut V,
     (base, low): (&V, &V),
     factors: &[Coefficient],

@@ -1,14 +1,12 @@
 //! The memory of a step with non-holonomic constraints.
 
+use crate::constraints::holonomic::{LastImpulse, Metric, MomentumTerms, Point};
+use crate::constraints::{Gradients, Terms, WithConstraints, place_of_resized};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::array;
-
-use crate::classes::constrained::{LastImpulse, Metric, MomentumTerms, Point, place_of_resized};
-use crate::contract::storage::first_non_finite;
-use crate::contract::{ConstrainedStep, Gradients, StageStorage, System, Terms};
-use crate::error::Quantity;
-use crate::number::{Scalar, Vector, Visit};
+use symplectic_core::inside::{ConstrainedStep, StageStorage, Visit, first_non_finite};
+use symplectic_core::{Quantity, Scalar, System, Vector};
 
 /// Everything that depends on the numbers of constraints and stages.
 #[derive(Clone, Debug)]
@@ -64,7 +62,7 @@ impl<V: Vector> Workspace<V> {
     /// Memory for these steps of a method and of a system at this state.
     pub(super) fn new<S: System<V>>(
         steps: &[ConstrainedStep],
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         time: f64,
         q: &V,
         p: &V,

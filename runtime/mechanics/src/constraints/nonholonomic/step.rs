@@ -1,13 +1,13 @@
 //! One step with non-holonomic constraints.
 
 use super::memory::Workspace;
-use crate::classes::constrained::{NOISE, PATIENCE, ROUNDING, result, same_momentum, stage};
-use crate::contract::storage::is_finite;
-use crate::contract::{
-    Class, ConstrainedTableau, Failure, Outcome, Step, StepStatistics, Stopping, System,
+use crate::constraints::WithConstraints;
+use crate::constraints::holonomic::{NOISE, PATIENCE, ROUNDING, result, same_momentum, stage};
+use symplectic_core::inside::{
+    Coefficient, ConstrainedTableau, Failure, Outcome, Step, StepStatistics, Stopping, copy,
+    is_finite, larger_or_nan,
 };
-use crate::error::Quantity;
-use crate::number::{Coefficient, Scalar, Summation, Vector, copy, larger_or_nan};
+use symplectic_core::{Class, Quantity, Scalar, Summation, System, Vector};
 
 impl<V: Vector> Workspace<V> {
     /// Takes a step; `carried` means that the previous step ended where this one starts.
@@ -23,7 +23,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         carried: bool,
         stopping: Stopping,
         outcome: &mut Outcome<'_, V>,
@@ -50,7 +50,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         work: &mut StepStatistics,
     ) {
         let velocity = &mut self.scratch[0];
@@ -82,7 +82,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         stopping: Stopping,
         outcome: &mut Outcome<'_, V>,
         work: &mut StepStatistics,
@@ -138,7 +138,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         work: &mut StepStatistics,
     ) {
         for (j, &weight) in tableau.weights.iter().enumerate() {
@@ -163,7 +163,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         work: &mut StepStatistics,
     ) {
         let stages = tableau.weights.len();
@@ -233,7 +233,7 @@ impl<V: Vector> Workspace<V> {
     fn defects<S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
     ) -> Result<f64, Failure> {
         self.defects.fill(V::Scalar::from_f64(0.0));
         for (q, &weight) in self.q.iter().zip(tableau.weights) {
@@ -269,7 +269,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         movement: f64,
         size: f64,
     ) -> f64 {
@@ -306,7 +306,7 @@ impl<V: Vector> Workspace<V> {
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
-        system: &S,
+        system: &WithConstraints<'_, V, S>,
         stopping: Stopping,
         outcome: &mut Outcome<'_, V>,
         work: &mut StepStatistics,

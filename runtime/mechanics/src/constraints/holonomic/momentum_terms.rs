@@ -1,37 +1,36 @@
 //! The terms that add up to a momentum.
 
+use crate::constraints::Gradients;
 use alloc::vec;
 use alloc::vec::Vec;
-
-use crate::contract::Gradients;
-use crate::number::Scalar;
+use symplectic_core::Scalar;
 
 /// The sizes of the terms of a momentum, component by component.
 ///
 /// Forces and impulses of a step may cancel, as they do for a body at rest. The momentum then has rounding errors of `ε` times the size of
 /// these terms, and so have velocity and position. For a body at rest at the origin they have no other scale.
 #[derive(Clone, Debug)]
-pub(in crate::classes) struct MomentumTerms(Vec<f64>);
+pub(in crate::constraints) struct MomentumTerms(Vec<f64>);
 
 impl MomentumTerms {
-    pub(in crate::classes) fn new(dimension: usize) -> Self {
+    pub(in crate::constraints) fn new(dimension: usize) -> Self {
         Self(vec![0.0; dimension])
     }
 
     /// The terms of a momentum without increments.
-    pub(in crate::classes) fn start<T: Scalar>(&mut self, momentum: &[T]) {
+    pub(in crate::constraints) fn start<T: Scalar>(&mut self, momentum: &[T]) {
         self.0.fill(0.0);
         self.add(momentum);
     }
 
     /// Adds the size of an increment.
-    pub(in crate::classes) fn add<T: Scalar>(&mut self, increment: &[T]) {
+    pub(in crate::constraints) fn add<T: Scalar>(&mut self, increment: &[T]) {
         let places = self.0.iter_mut().zip(increment);
         places.for_each(|(size, term)| *size += term.magnitude());
     }
 
     /// Adds the sizes of the impulses `−Gᵀ multipliers`, constraint by constraint.
-    pub(in crate::classes) fn add_impulses<T: Scalar>(
+    pub(in crate::constraints) fn add_impulses<T: Scalar>(
         &mut self,
         gradients: &Gradients<T>,
         multipliers: &[T],
@@ -41,7 +40,7 @@ impl MomentumTerms {
         }
     }
 
-    pub(in crate::classes) fn sizes(&self) -> &[f64] {
+    pub(in crate::constraints) fn sizes(&self) -> &[f64] {
         &self.0
     }
 }
