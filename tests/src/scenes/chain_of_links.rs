@@ -3,7 +3,6 @@
 //! *Needs:* a method that is `constrained`. *Source:* our choice. *Reference:* computed by Lobatto with five stages.
 
 use symplectic::State;
-use symplectic::constraints::HolonomicConstraints;
 use symplectic::nalgebra::DVector;
 
 /// Number of links.
@@ -36,7 +35,8 @@ pub fn start() -> State<DVector<f64>> {
 
 #[cfg(test)]
 mod tests {
-    use symplectic::{Integrator, System};
+    use symplectic::constraints::HolonomicConstraints;
+    use symplectic::Integrator;
 
     use super::*;
     use crate::methods::Lobatto4;

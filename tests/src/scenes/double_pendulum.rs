@@ -6,7 +6,6 @@
 //! diverge exponentially. *Source:* the equations are those of every textbook of mechanics; the angles at the start are
 //! our choice. *Reference:* recorded, [`recorded`].
 
-use symplectic::constraints::HolonomicConstraints;
 use symplectic::nalgebra::SVector;
 use symplectic::{General, Hamiltonian, Scalar, State};
 
@@ -179,6 +178,7 @@ mod tests {
     #[test]
     fn rods_are_the_same_motion() {
         use symplectic::System;
+        use symplectic::constraints::HolonomicConstraints;
         let state = State::new(0.0, SVector::from([1.0, -0.4]), SVector::from([0.7, -1.3]));
         let rods = on_rods(&state);
         let energies = [

@@ -5,7 +5,6 @@
 //! *Reference:* in Euler angles, [`EulerAngles`], which the orbit keeps away from their poles up to the time 10.
 
 use symplectic::State;
-use symplectic::constraints::HolonomicConstraints;
 use symplectic::nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use symplectic::rotation::{HeavyTop, RotationState};
 
@@ -87,8 +86,9 @@ pub fn in_columns(state: &RotationState) -> State<Matrix3<f64>> {
 
 #[cfg(test)]
 mod tests {
+    use symplectic::constraints::HolonomicConstraints;
     use symplectic::rotation::RotationSteps;
-    use symplectic::{Integrator, System};
+    use symplectic::Integrator;
 
     use super::*;
     use crate::methods::{Gauss6, Lobatto4, Suzuki4};

@@ -6,7 +6,6 @@
 //! *Needs:* a method that is `constrained`. *Source:* our choice. *Reference:* closed form, [`exact`].
 
 use symplectic::State;
-use symplectic::constraints::HolonomicConstraints;
 use symplectic::nalgebra::DVector;
 
 /// Number of triangles.
@@ -73,6 +72,7 @@ pub fn start() -> State<DVector<f64>> {
 
 #[cfg(test)]
 mod tests {
+    use symplectic::constraints::HolonomicConstraints;
     use symplectic::{Integrator, System};
 
     use super::*;

@@ -6,8 +6,9 @@ mod reader;
 use std::fs;
 
 use serde_json::Value as Json;
+use symplectic::constraints::consistent_momentum;
 use symplectic::nalgebra::{DVector, SVector};
-use symplectic::{Error, Hamiltonian, Lagrangian, State, System, Vector, consistent_momentum};
+use symplectic::{Class, Error, Hamiltonian, Lagrangian, State, System, Vector};
 use symplectic_formula::{Form, Structure, description};
 
 use self::reader::{Values, World, constraints, solve};
@@ -323,8 +324,11 @@ fn slopes<S: Hamiltonian>(system: &S, case: &Case) -> [S::Vector<f64>; 2] {
     let [mut velocity, mut force] = [q.zeros_like(), q.zeros_like()];
     system.velocity(case.time, &q, &p, &mut velocity);
     system.force(case.time, &q, &p, &mut force);
-    for (k, force) in force.as_mut_slice().iter_mut().enumerate() {
-        *force -= system.friction(k) * case.halves[1][k];
+    if S::Class::FRICTION {
+        let rates = S::Class::numbers(system, &q);
+        for (k, force) in force.as_mut_slice().iter_mut().enumerate() {
+            *force -= rates[k] * case.halves[1][k];
+        }
     }
     [velocity, force]
 }
@@ -336,12 +340,16 @@ fn vector<S: Hamiltonian>(components: &[f64]) -> S::Vector<f64> {
 /// Compares every printed form of a system with holonomic constraints, or without constraints.
 fn compare<S: Hamiltonian>(system: &S, name: &str, text: &str, mut case: Case) {
     let [velocity, mut force] = slopes(system, &case);
-    let values = |q: &[f64]| {
-        let mut values = vec![0.0; system.constraints()];
-        system.constraint_values(&vector::<S>(q), &mut values);
-        values
+    // A system with constraints is identified by their values, and a zero for each component.
+    let values = |q: &[f64]| match S::Class::CONSTRAINED {
+        true => {
+            let mut values = S::Class::numbers(system, &vector::<S>(q));
+            values.truncate(values.len() - q.len());
+            values
+        }
+        false => Vec::new(),
     };
-    let multipliers = Random(3).vector(system.constraints());
+    let multipliers = Random(3).vector(values(&case.halves[0]).len());
     assert_eq!(multipliers.len(), case.multipliers.len());
     let named = case
         .multipliers
