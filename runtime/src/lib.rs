@@ -18,7 +18,7 @@
 //! |---|---|
 //! | The system: a formula, closures or a trait | [`hamiltonian!`], [`lagrangian!`]; [`separable`], [`hamiltonian()`], [`acceleration`]; [`SeparableHamiltonian`], [`Hamiltonian`]; [`system`] |
 //! | Numbers and vectors | [`Scalar`] (f32, f64, dual numbers), [`Vector`] (static or dynamic nalgebra vectors), [`simd`] |
-//! | Constraints, friction and other forces | [`Constrained`], [`consistent`], [`constraint_force`]; [`Nonholonomic`], [`consistent_momentum`]; [`Damped`], [`friction_growth`], [`Hamiltonian::applied_force`] |
+//! | Constraints, friction and other forces | [`constraints`], feature `mechanics`; [`friction`], feature `flows`; [`Hamiltonian::applied_force`] |
 //! | Steps of variable size, for close encounters | [`adaptive`], feature `orbits` |
 //! | Splittings over flows of your own: harmonic, magnetic, damped, stochastic, Kepler | [`flow`], feature `flows` |
 //! | A rigid body that turns about a point | [`rotation`], feature `mechanics` |
@@ -62,10 +62,10 @@
 //! # Features
 //!
 //! * `std` (default): `tan`, inverse and hyperbolic functions, and all functions of singles, from the standard library; implies `alloc`.
-//! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), constraints, tableaux at run time, checkpoints.
+//! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), tableaux at run time, checkpoints.
 //! * `newton`: Newton's iteration for stiff and strongly coupled systems, [`solver::ByNewton`]; implies `alloc`.
-//! * `mechanics`: rigid bodies and balances; with `alloc` also discrete and degenerate Lagrangians, generating functions and stages of steps.
-//! * `flows`: the module [`flow`]; Kepler orbits, linear, mollified and asynchronous flows, and correctors need `alloc`.
+//! * `mechanics`: rigid bodies and balances; with `alloc` also constraints, discrete and degenerate Lagrangians, generating functions and stages of steps.
+//! * `flows`: the modules [`flow`] and [`friction`]; Kepler orbits, linear, mollified and asynchronous flows, and correctors need `alloc`.
 //! * `orbits`: the module [`adaptive`]; with `alloc` also [`adaptive::Logarithmic`], [`adaptive::Poincare`] and the module [`tangent`].
 //! * `files`: the module [`files`], tables of a run and files that are replaced as a whole; implies `std`.
 //! * `ensembles`: the module [`ensemble`], many trajectories at once; implies `alloc`.

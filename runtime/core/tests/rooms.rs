@@ -15,7 +15,7 @@ const LEVELS: &[&[&str]] = &[
     &["contract"],
     &["method"],
     &["solver"],
-    &["classes", "system"],
+    &["system"],
     &["integrator"],
     &["output"],
     &["inside"],
