@@ -1,9 +1,9 @@
-//! Constraints take a method that is `constrained`, friction a splitting of full order for separable Hamiltonians.
+//! Constraints take a class that has them and a method that is `constrained`, friction a splitting of full order for separable Hamiltonians.
 
 symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
 symplectic::tableau! { Nystrom { base: mclachlan-atela-1992-order-4-optimal } }
 
-use symplectic::constraints::{Constrained, HolonomicConstraints};
+use symplectic::constraints::{Constrained, Gradients, HolonomicConstraints};
 use symplectic::friction::{Damped, Friction};
 use symplectic::nalgebra::SVector;
 use symplectic::{Error, Hamiltonian, Integrator, Scalar, Separable, State};
@@ -21,16 +21,6 @@ impl Hamiltonian for Circle {
 
     fn force<T: Scalar>(&self, _: T, _: &SVector<T, 2>, _: &SVector<T, 2>, force: &mut SVector<T, 2>) {
         force.fill(T::zero());
-    }
-
-    fn extra<T: Scalar>(&self) -> Option<&dyn HolonomicConstraints<SVector<T, 2>>> {
-        Some(self)
-    }
-}
-
-impl<T: Scalar> HolonomicConstraints<SVector<T, 2>> for Circle {
-    fn constraints(&self) -> usize {
-        1
     }
 }
 
@@ -57,6 +47,23 @@ impl Hamiltonian for Oscillator {
 impl<T: Scalar> Friction<SVector<T, 1>> for Oscillator {
     fn friction(&self, _component: usize) -> f64 {
         0.2
+    }
+}
+
+// Its class is `Separable`.
+symplectic::hamiltonian! { Free q: [x], p: [px]; H = px^2/2 }
+
+impl<T: Scalar> HolonomicConstraints<SVector<T, 1>> for Free {
+    fn constraints(&self) -> usize {
+        1
+    }
+
+    fn constraint_values(&self, q: &SVector<T, 1>, values: &mut [T]) {
+        values[0] = q[0];
+    }
+
+    fn constraint_gradients(&self, _: &SVector<T, 1>, gradients: &mut Gradients<T>) {
+        gradients.set(0, 0, T::one());
     }
 }
 
