@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use symplectic::at_run_time::RunTimeTableau;
 use symplectic::emitted::Solver;
 use symplectic::ensemble::{Ensemble, EnsembleError};
 use symplectic::nalgebra::DVector;
@@ -13,8 +14,7 @@ use symplectic::solver::Newton;
 use symplectic::system::{Conservative, Frictionless, Unconstrained};
 use symplectic::{
     Class, Compensated, Constrained, ConstraintName, Error as RunError, General, Hamiltonian,
-    Nonholonomic, Plain, RunTimeTableau, Separable, State, Summation, System, consistent,
-    consistent_momentum,
+    Nonholonomic, Plain, Separable, State, Summation, System, consistent, consistent_momentum,
 };
 use symplectic_compiler::Error;
 use symplectic_formula::{Structure, System as Parsed};

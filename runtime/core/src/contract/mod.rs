@@ -4,6 +4,8 @@ pub(crate) mod change;
 pub(crate) mod class;
 mod constrained_tableau;
 #[cfg(feature = "alloc")]
+pub(crate) mod coupled_step;
+#[cfg(feature = "alloc")]
 pub(crate) mod gradients;
 pub(crate) mod in_lanes;
 pub(crate) mod interpolation;
