@@ -9,7 +9,8 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::{env, f64, fs};
 
-use symplectic::{Integrator, Orders, RunTimeCoefficients, RunTimeTableau, State};
+use symplectic::at_run_time::{RunTimeCoefficients, RunTimeTableau};
+use symplectic::{Integrator, Orders, State};
 
 /// The error that is asked for, at the end of three orbits.
 const TARGET: f64 = 1e-8;

@@ -23,7 +23,7 @@
 //! | Splittings over flows of your own: harmonic, magnetic, damped, stochastic, Kepler | [`flow`], feature `flows` |
 //! | A rigid body that turns about a point | [`rotation`], feature `mechanics` |
 //! | Discrete and degenerate Lagrangians, generating functions, stages and balances | [`variational`], feature `mechanics` |
-//! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`]; [`RunTimeTableau`] |
+//! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`]; [`at_run_time`], feature `at-run-time` |
 //! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
 //! | All integrators, and your own | [`Run`], [`Stepper`], [`DenseSteps`]; their tests: [`StepMap`] |
 //! | Output and events | [`Event`], [`Invariant`], [`Progress`]; [`output`] |
@@ -62,7 +62,8 @@
 //! # Features
 //!
 //! * `std` (default): `tan`, inverse and hyperbolic functions, and all functions of singles, from the standard library; implies `alloc`.
-//! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), tableaux at run time, checkpoints.
+//! * `alloc`: dynamic vectors ([`nalgebra::DVector`]), checkpoints.
+//! * `at-run-time`: the module [`at_run_time`], methods whose coefficients are in a value; implies `alloc`.
 //! * `newton`: Newton's iteration for stiff and strongly coupled systems, [`solver::ByNewton`]; implies `alloc`.
 //! * `mechanics`: rigid bodies and balances; with `alloc` also constraints, discrete and degenerate Lagrangians, generating functions and stages of steps.
 //! * `flows`: the modules [`flow`] and [`friction`]; Kepler orbits, linear, mollified and asynchronous flows, and correctors need `alloc`.
@@ -79,6 +80,9 @@
 
 #![no_std]
 
+#[cfg(feature = "at-run-time")]
+#[doc(inline)]
+pub use symplectic_at_run_time as at_run_time;
 pub use symplectic_core::*;
 #[cfg(feature = "ensembles")]
 #[doc(inline)]

@@ -8,6 +8,7 @@ mod common;
 use common::methods::*;
 use common::systems::{Fuse, PulsatingProduct, PulsatingStar};
 use common::{coefficients, distance};
+use symplectic::at_run_time::{RunTimeTableau, TableauError};
 use symplectic::nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
 use symplectic::solver::{
     ByNewton, Dense, Differences, FixedPoint, FixedPointThenNewton, SimdFixedPoint, SimdJacobi,
@@ -15,8 +16,8 @@ use symplectic::solver::{
 };
 use symplectic::system::{Conservative, SystemInLanes, Unconstrained};
 use symplectic::{
-    Checkpoint, Compensated, Error, General, Integrator, Method, Plain, ProvedFor, RunTimeTableau,
-    Separable, State, Statistics, Summation, System, TableauError,
+    Checkpoint, Compensated, Error, General, Integrator, Method, Plain, ProvedFor, Separable,
+    State, Statistics, Summation, System,
 };
 
 type Point = State<Vector2<f64>>;

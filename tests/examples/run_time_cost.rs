@@ -9,11 +9,10 @@ use std::error::Error;
 use std::time::Instant;
 
 use nalgebra::DVector;
+use symplectic::at_run_time::RunTimeTableau;
 use symplectic::solver::{ByNewton, FixedPoint, Solver};
 use symplectic::system::Conservative;
-use symplectic::{
-    Integrator, Method, ProvedFor, RunTimeTableau, State, Summation, System, Vector, separable,
-};
+use symplectic::{Integrator, Method, ProvedFor, State, Summation, System, Vector, separable};
 use symplectic_compiler::{Definition, Limits};
 use symplectic_tests::at_run_time::tableau;
 use symplectic_tests::methods::{ForestRuth, Gauss2, Gauss4, Gauss8, Lobatto3, StoermerVerlet};

@@ -1,6 +1,7 @@
 //! Conversion of derived tableaux to tableaux at run time.
 
-use symplectic::{Orders, RunTimeCoefficients, RunTimeTableau, TableauError};
+use symplectic::Orders;
+use symplectic::at_run_time::{RunTimeCoefficients, RunTimeTableau, TableauError};
 use symplectic_compiler::Tableau;
 
 /// A derived tableau as a tableau at run time, with correctly rounded coefficients and the proved orders.

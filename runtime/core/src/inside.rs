@@ -7,6 +7,9 @@ pub use crate::error::phrases::Short;
 pub use crate::contract::in_lanes::first;
 
 #[cfg(feature = "alloc")]
+pub use crate::contract::{LaneStep, Possible, StagePart, StageVisit};
+
+#[cfg(feature = "alloc")]
 pub use crate::integrator::CoupledLanes;
 #[cfg(feature = "alloc")]
 pub use crate::integrator::checkpoint::Save;
@@ -37,14 +40,14 @@ pub use crate::number::array::array;
 pub use crate::number::dither::{dither_last_sweep, dither_side};
 pub use crate::number::dual::{Dual, HyperDual};
 #[cfg(feature = "alloc")]
-pub use crate::number::elimination::{Complex, Elimination};
+pub use crate::number::elimination::{Complex, Elimination, Entry};
 pub use crate::number::linear_combination::{add_products, totals_by};
 pub use crate::number::registers::{Avx2, Avx512, Widest};
 pub use crate::number::scalar::larger_or_nan;
 pub use crate::number::summation::{add, add_sum, fast_two_sum, two_sum};
 pub use crate::number::vector::{beside, same, same_mut};
 pub use crate::number::words::{show_vectors, words};
-pub use crate::number::{Coefficient, Visit, Words, copy, scalar_words, vector_words};
+pub use crate::number::{Coefficient, Visit, Words, advance, copy, scalar_words, vector_words};
 
 pub use crate::output::at_times::{Output, is_after};
 
@@ -56,9 +59,10 @@ pub use crate::solver::fixed_point::by_stages;
 pub use crate::system::lane_registers::{may_be_found, over_lanes_of, widest, width};
 pub use crate::system::linearity::non_linear_velocity;
 
-/// The coefficients of a tableau at run time.
+/// The coefficients of a tableau at run time, and a step with them.
 #[cfg(feature = "alloc")]
 pub mod rows {
     pub use crate::contract::CoupledRows;
-    pub use crate::contract::rows::{HalfRows, RowDecoupling};
+    pub use crate::contract::coupled_step::CoupledStep;
+    pub use crate::contract::rows::{Evaluation, HalfRows, Kind, MAX_EVALUATIONS, RowDecoupling};
 }

@@ -37,8 +37,6 @@ pub use integrator::{
     DenseSteps, Equal, Integrator, NamedSteps, Own, Pace, Partitioned, PhasePoint, Reach, Reached,
     RemainingSteps, Retry, Run, Statistics, StepMap, Stepper,
 };
-#[cfg(feature = "alloc")]
-pub use method::{RunTimeCoefficients, RunTimeTableau, TableauError};
 pub use method::{composition, splitting, tableau};
 pub use nalgebra;
 pub use num_traits;

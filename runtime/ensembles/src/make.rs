@@ -19,8 +19,8 @@ impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V> {
     ///
     /// [`EnsembleError::Empty`] without starts, [`EnsembleError::All`] for a step size that is zero or not finite,
     /// [`EnsembleError::Dimension`] for starts of different dimensions, [`EnsembleError::Start`] for a start that
-    /// [`Integrator::new`] rejects. [`EnsembleError::All`] also for a [tableau at run time](symplectic_core::RunTimeTableau) that is refused for the
-    /// class of the system.
+    /// [`Integrator::new`] rejects. [`EnsembleError::All`] also for a tableau at run time that is refused for the class of the
+    /// system.
     ///
     /// ```
     /// use symplectic::ensemble::{Ensemble, EnsembleError};

@@ -10,10 +10,11 @@ use crate::Ensemble;
 use symplectic_core::inside::{Avx2, Avx512, Widest, may_be_found, width};
 use symplectic_core::simd::DefaultLanes;
 use symplectic_core::{
-    Compensated, Masses, Method, Plain, ProvedFor, RunTimeTableau, Scalar, Separable,
-    SeparableHamiltonian, State, Summation, System,
+    Compensated, Masses, Method, Plain, ProvedFor, Scalar, Separable, SeparableHamiltonian, State,
+    Summation, System,
 };
 
+use symplectic::at_run_time::RunTimeTableau;
 use symplectic::tangent::Tangent;
 
 symplectic::tableau! {

@@ -2,11 +2,12 @@
 
 use std::ops::ControlFlow;
 
+use symplectic::at_run_time::RunTimeTableau;
 use symplectic::emitted::Solver;
 use symplectic::ensemble::{Ensemble, Row};
 use symplectic::system::Conservative;
 use symplectic::tangent::{Error, Megno, Tangent};
-use symplectic::{Class, Hamiltonian, Integrator, RunTimeTableau, State, Summation};
+use symplectic::{Class, Hamiltonian, Integrator, State, Summation};
 use symplectic_tape::Formula;
 
 use crate::Run;

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use symplectic::at_run_time::RunTimeTableau;
 use symplectic::constraints::{
     Constrained, ConstraintName, Nonholonomic, consistent, consistent_momentum,
 };
@@ -15,8 +16,8 @@ use symplectic::output::Interpolation;
 use symplectic::solver::Newton;
 use symplectic::system::{Conservative, Frictionless, Unconstrained};
 use symplectic::{
-    Class, Compensated, Error as RunError, General, Hamiltonian, Plain, RunTimeTableau, Separable,
-    State, Summation, System,
+    Class, Compensated, Error as RunError, General, Hamiltonian, Plain, Separable, State,
+    Summation, System,
 };
 use symplectic_compiler::Error;
 use symplectic_formula::{Structure, System as Parsed};

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use symplectic::Orders;
+use symplectic::at_run_time::{RunTimeCoefficients, RunTimeTableau};
 use symplectic::emitted::{Coefficient, ConstrainedStep, ConstrainedTableau};
-use symplectic::{Orders, RunTimeCoefficients, RunTimeTableau};
 use symplectic_compiler::emit::{ConstrainedSteps, Rounded, constrained_steps};
 use symplectic_compiler::export::read_text;
 use symplectic_compiler::order::HamiltonianClass;

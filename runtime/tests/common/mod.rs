@@ -4,10 +4,8 @@ pub mod dual;
 pub mod methods;
 pub mod systems;
 
-use symplectic::{
-    Error, Integrator, Method, ProvedFor, RunTimeCoefficients, RunTimeTableau, State, System,
-    Vector,
-};
+use symplectic::at_run_time::{RunTimeCoefficients, RunTimeTableau};
+use symplectic::{Error, Integrator, Method, ProvedFor, State, System, Vector};
 
 /// The state at `end` after `steps` equal steps.
 pub fn run<M, S, V>(

@@ -2,13 +2,14 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use symplectic::at_run_time::RunTimeTableau;
 use symplectic::emitted::LaneWork;
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{SVector, Vector2};
 use symplectic::simd::{F64x16, Lanes, MAX_LANES};
 use symplectic::{
-    Compensated, Hamiltonian, Integrator, Method, ProvedFor, RunTimeTableau, Scalar, Separable,
-    State, System, Vector,
+    Compensated, Hamiltonian, Integrator, Method, ProvedFor, Scalar, Separable, State, System,
+    Vector,
 };
 
 use crate::common::methods::{ForestRuth, Gauss4};

@@ -1,11 +1,10 @@
 //! Ensembles of tableaux at run time: the bits of trajectories alone, and the same method as emitted.
 
+use symplectic::at_run_time::RunTimeTableau;
 use symplectic::ensemble::{Ensemble, EnsembleError};
 use symplectic::nalgebra::{SVector, Vector2};
 use symplectic::simd::{F64x2, F64x4, F64x8};
-use symplectic::{
-    CheckpointError, Error, Integrator, RunTimeTableau, Scalar, SeparableHamiltonian, State,
-};
+use symplectic::{CheckpointError, Error, Integrator, Scalar, SeparableHamiltonian, State};
 
 use crate::common::methods::{ForestRuth, Gauss4, McLachlanAtela, StoermerVerlet, Yoshida6};
 use crate::common::systems::Product;

@@ -3,13 +3,14 @@
 use std::cell::Cell;
 
 use symplectic::adaptive::{AdaptiveSteps, Monitor};
+use symplectic::at_run_time::RunTimeTableau;
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{Vector1, Vector2};
 use symplectic::solver::{ByNewton, Dense, Differences, FixedPointThenNewton, Newton};
 use symplectic::variational::{DiracRule, DiracSteps, DiracSystem, Error, LagrangianSteps};
 use symplectic::{
-    Class, Error as CoreError, Integrator, Lagrangian, Masses, Method, RunTimeTableau, Scalar,
-    State, System, Vector,
+    Class, Error as CoreError, Integrator, Lagrangian, Masses, Method, Scalar, State, System,
+    Vector,
 };
 
 use crate::dirac::{V6, Vortices, vortices_start};

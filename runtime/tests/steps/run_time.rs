@@ -3,13 +3,14 @@
 use crate::common::methods::{ForestRuth, Gauss2, Gauss4, Lobatto3, Midpoint, StoermerVerlet};
 use crate::common::systems::{Driven, Pendulum, Product};
 use crate::common::{coefficients, distance, tableau};
+use symplectic::at_run_time::{RunTimeCoefficients, RunTimeTableau, TableauError};
 use symplectic::nalgebra::{DVector, Vector1, Vector2};
 use symplectic::simd::{F64x4, Lanes};
 use symplectic::solver::{ByNewton, FixedPoint, FixedPointThenNewton};
 use symplectic::system::{Conservative, Frictionless};
 use symplectic::{
-    Error, Event, Integrator, Method, ProvedFor, Quantity, Retry, RunTimeCoefficients,
-    RunTimeTableau, Scalar, Separable, State, System, TableauError, acceleration, separable,
+    Error, Event, Integrator, Method, ProvedFor, Quantity, Retry, Scalar, Separable, State, System,
+    acceleration, separable,
 };
 
 symplectic::tableau! { BlanesMoanSrkn11b { base: blanes-moan-2002-srkn11b } }

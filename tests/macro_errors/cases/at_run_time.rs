@@ -1,7 +1,8 @@
 //! A tableau at run time has no steps with friction. Whether it has steps with constraints is known at run time.
 
+use symplectic::at_run_time::RunTimeTableau;
 use symplectic::ensemble::Ensemble;
-use symplectic::{Integrator, RunTimeTableau, State};
+use symplectic::{Integrator, State};
 
 symplectic::hamiltonian! {
     Rod

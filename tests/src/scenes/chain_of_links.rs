@@ -35,8 +35,8 @@ pub fn start() -> State<DVector<f64>> {
 
 #[cfg(test)]
 mod tests {
-    use symplectic::constraints::HolonomicConstraints;
     use symplectic::Integrator;
+    use symplectic::constraints::HolonomicConstraints;
 
     use super::*;
     use crate::methods::Lobatto4;

@@ -86,9 +86,9 @@ pub fn in_columns(state: &RotationState) -> State<Matrix3<f64>> {
 
 #[cfg(test)]
 mod tests {
+    use symplectic::Integrator;
     use symplectic::constraints::HolonomicConstraints;
     use symplectic::rotation::RotationSteps;
-    use symplectic::Integrator;
 
     use super::*;
     use crate::methods::{Gauss6, Lobatto4, Suzuki4};

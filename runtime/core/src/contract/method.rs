@@ -11,8 +11,8 @@ use crate::contract::{
 use crate::error::Error;
 use crate::number::{Coefficients, Vector};
 
-/// A symplectic partitioned Runge–Kutta method: a value without fields, emitted from a proved tableau, or a
-/// [tableau at run time](crate::RunTimeTableau).
+/// A symplectic partitioned Runge–Kutta method: a value without fields, emitted from a proved tableau, or, with the feature
+/// `at-run-time`, a tableau at run time.
 ///
 /// It can be run on separable systems, and on general systems if it is [`ProvedFor`] them.
 pub trait Method:

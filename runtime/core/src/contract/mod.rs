@@ -3,6 +3,8 @@
 pub(crate) mod change;
 pub(crate) mod class;
 mod constrained_tableau;
+#[cfg(feature = "alloc")]
+pub(crate) mod coupled_step;
 pub(crate) mod in_lanes;
 pub(crate) mod interpolation;
 #[cfg(feature = "alloc")]

@@ -1,10 +1,11 @@
-//! The coefficients of coupled stages by rows, for tableaux that are read at run time.
+//! The coefficients of coupled stages by rows, for tableaux that are known only at run time.
 
 use alloc::vec::Vec;
 
 /// An evaluation and its use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluation {
+    /// What is evaluated.
     pub kind: Kind,
     /// Its time, as a fraction of the step.
     pub time: f64,

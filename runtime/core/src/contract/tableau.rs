@@ -98,19 +98,6 @@ pub struct HalfTableau {
     pub polynomial: Option<StagePolynomial>,
 }
 
-impl HalfTableau {
-    /// No stages.
-    #[cfg(feature = "alloc")]
-    pub(crate) const NONE: Self = Self {
-        count: 0,
-        columns: &[],
-        times: &[],
-        weights: &[],
-        extrapolation: &[],
-        polynomial: None,
-    };
-}
-
 /// The coefficients for second-order systems `q'' = M⁻¹ f(q)`, from which the momentum stages are eliminated (Nyström):
 ///
 /// ```text

@@ -4,8 +4,6 @@ pub(crate) mod composition;
 pub(crate) mod coupled;
 pub(crate) mod diagnosis;
 pub(crate) mod explicit;
-#[cfg(feature = "alloc")]
-pub(crate) mod run_time;
 pub(crate) mod separable_only;
 pub(crate) mod splitting;
 pub(crate) mod splitting_macros;
@@ -15,11 +13,6 @@ pub(crate) mod tableau_macro;
 pub use composition::{Composition, CompositionMemory, Substep, Substeps};
 pub use coupled::Coupled;
 pub use explicit::Explicit;
-#[cfg(feature = "alloc")]
-pub use run_time::{
-    RunTimeCoefficients, RunTimeMemory, RunTimePlan, RunTimeRows, RunTimeStages, RunTimeTableau,
-    TableauError,
-};
 pub use separable_only::{SeparableOnly, lower_triangular, rows};
 pub use splitting::{Splitting, SplittingPlan, SplittingStep};
 pub use splitting_macros::{composition, splitting};

@@ -9,11 +9,13 @@ use crate::number::{Scalar, Visit};
 
 /// A number of a field.
 pub trait Entry: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+    /// 0
     fn zero() -> Self;
     /// Its words, for checkpoints.
     fn words(&mut self, visit: &mut Visit<'_>);
     /// A norm, for the choice of the pivots.
     fn size(self) -> f64;
+    /// 1/x
     fn inverse(self) -> Self;
 }
 

@@ -4,12 +4,10 @@ use std::error::Error;
 use std::hint::black_box;
 use std::ops::ControlFlow;
 
+use symplectic::at_run_time::{RunTimeCoefficients, RunTimeTableau, TableauError};
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::DVector;
-use symplectic::{
-    Compensated, Integrator, Method, Plain, RunTimeCoefficients, RunTimeTableau, State,
-    TableauError,
-};
+use symplectic::{Compensated, Integrator, Method, Plain, State};
 
 symplectic::tableau! {
     Verlet { base: velocity-verlet }

@@ -6,9 +6,9 @@ use core::marker::PhantomData;
 use num_traits::Zero;
 
 use super::{BasePlusSum, LaneSweeps, Sums, keep, largest, relax, settle::settle, transform};
+use crate::contract::coupled_step::CoupledStep;
 use crate::contract::rows::{CoupledRows, HalfRows, Row};
 use crate::contract::{Class, LaneMemory, LaneOutcome, LaneStages, StepInLanes, System};
-use crate::method::run_time::{CoupledStep, counts};
 use crate::number::array::array;
 use crate::number::linear_combination::{shortest, sum_of_products, value};
 use crate::number::registers::Work;
@@ -74,7 +74,7 @@ where
             settled: if is_sound { found.lanes } else { 0 },
             sweeps: found.sweeps,
             scales: found.scales,
-            counts: counts(rows),
+            counts: rows.counts(),
         })
     }
 }

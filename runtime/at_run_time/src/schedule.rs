@@ -4,10 +4,11 @@ use alloc::sync::Arc;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::RunTimeCoefficients;
-use super::decoupling::decouple;
-use crate::contract::rows::{CoupledRows, Evaluation, HalfRows, Kind, MAX_EVALUATIONS, Row};
-use crate::number::summation::two_sum;
+use symplectic_core::inside::rows::{CoupledRows, Evaluation, HalfRows, Kind, MAX_EVALUATIONS};
+use symplectic_core::inside::two_sum;
+
+use crate::coefficients::RunTimeCoefficients;
+use crate::decoupling::decouple;
 
 /// Order of computation of a step.
 #[derive(Clone, Debug, PartialEq)]
@@ -240,7 +241,7 @@ fn scaled(matrix: &[Vec<f64>], evaluations: &[Evaluation]) -> Vec<Vec<f64>> {
 }
 
 fn half(matrix: &[Vec<f64>], evaluations: &[Evaluation]) -> HalfRows {
-    let row = |row: &Vec<f64>| -> Row {
+    let row = |row: &Vec<f64>| {
         let entries = row.iter().copied().enumerate();
         entries.filter(|(_, entry)| *entry != 0.0).collect()
     };
@@ -282,8 +283,9 @@ fn extrapolation(evaluations: &[Evaluation]) -> Vec<Vec<f64>> {
 
 #[cfg(test)]
 mod tests {
+    use symplectic_core::Method;
+
     use super::*;
-    use crate::contract::Method;
 
     symplectic::tableau! {
         Verlet { basis: polynomial(2), nodes: lobatto(2) }

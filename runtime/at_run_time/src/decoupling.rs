@@ -5,8 +5,8 @@ use alloc::vec::Vec;
 
 use nalgebra::{DMatrix, Schur};
 
-use crate::contract::rows::RowDecoupling;
-use crate::number::elimination::{Complex, Elimination, Entry};
+use symplectic_core::inside::rows::RowDecoupling;
+use symplectic_core::inside::{Complex, Elimination, Entry};
 
 /// A matrix by its rows.
 type Rows = Vec<Vec<f64>>;
@@ -192,10 +192,13 @@ fn product(a: &[Vec<f64>], b: &[Vec<f64>]) -> Rows {
 
 #[cfg(test)]
 mod tests {
+    use symplectic::emitted::Coupled;
+    use symplectic_core::Method;
+    use symplectic_core::solver::StageTableau;
+
     use super::*;
-    use crate::contract::{Method, StageTableau};
-    use crate::method::run_time::Schedule;
-    use crate::method::{Coupled, RunTimeCoefficients};
+    use crate::coefficients::RunTimeCoefficients;
+    use crate::schedule::Schedule;
 
     symplectic::tableau! {
         Gauss2 { basis: polynomial(2), nodes: gauss(2) }

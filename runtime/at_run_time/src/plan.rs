@@ -3,17 +3,22 @@
 use alloc::sync::Arc;
 use core::marker::PhantomData;
 
-use super::{RunTimeRows, Schedule, Splitting};
-use crate::contract::rows::Kind;
-use crate::contract::{
-    Class, CoupledRows, EvaluationObserver, Evaluations, Failure, Inside, Interpolation, LaneStep,
-    Outcome, Plan, Possible, Solver, StageStorage, StageVisit, Step, StepStatistics, Stopping,
-    System, WarmStart,
+use symplectic_core::inside::rows::{CoupledRows, Kind};
+use symplectic_core::inside::{
+    EvaluationObserver, Evaluations, LaneStep, Plan, Possible, StageVisit, advance, copy,
 };
-use crate::error::Quantity;
-use crate::number::{Coefficient, Lanes, Scalar, Summation, Vector, Visit, advance, copy};
+use symplectic_core::output::{Inside, Interpolation};
+use symplectic_core::simd::Lanes;
+use symplectic_core::solver::{
+    Coefficient, Failure, Outcome, Solver, StageStorage, Step, StepStatistics, Stopping, Visit,
+    WarmStart,
+};
+use symplectic_core::{Class, Quantity, Scalar, Summation, System, Vector};
 
-/// The plan of a [`RunTimeTableau`](super::RunTimeTableau) for systems of one class.
+use crate::rows::RunTimeRows;
+use crate::schedule::{Schedule, Splitting};
+
+/// The plan of a [`RunTimeTableau`](crate::RunTimeTableau) for systems of one class.
 #[derive(Clone, Copy, Debug)]
 pub struct RunTimePlan<C>(PhantomData<C>);
 
@@ -28,7 +33,7 @@ pub enum RunTimeMemory<V, M> {
 
 impl<V: Vector, M: StageStorage<V>> RunTimeMemory<V, M> {
     /// Memory for steps in this order.
-    pub(super) fn new<C: Class, S: System<V>, N: Solver<V, S, Memory<RunTimeRows<C>> = M>>(
+    pub(crate) fn new<C: Class, S: System<V>, N: Solver<V, S, Memory<RunTimeRows<C>> = M>>(
         schedule: &Schedule,
         prototype: &V,
     ) -> Self {
@@ -111,7 +116,7 @@ impl<C: Class> Plan for RunTimePlan<C> {
     type Memory<V: Vector, S: System<V>, N: Solver<V, S>> =
         RunTimeMemory<V, N::Memory<RunTimeRows<C>>>;
 
-    /// Valid only if the tableau [is explicit](RunTimeTableau::is_explicit).
+    /// Valid only if the tableau [is explicit](crate::RunTimeTableau::is_explicit).
     const LANEWISE: bool = C::SEPARABLE;
 
     #[cfg_attr(not(debug_assertions), inline(always))]

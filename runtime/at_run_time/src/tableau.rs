@@ -1,84 +1,38 @@
 //! Methods that are known only at run time: a tableau is a value instead of a type.
 
-mod decoupling;
-mod error;
-mod plan;
-mod rows;
-mod schedule;
-
 use alloc::string::{String, ToString};
 use alloc::sync::Arc;
-use alloc::vec::Vec;
 use core::fmt::Write as _;
 
-pub use error::TableauError;
-pub use plan::{RunTimeMemory, RunTimePlan};
-pub(crate) use rows::{CoupledStep, counts};
-pub use rows::{RunTimeRows, RunTimeStages};
-use schedule::{Schedule, Splitting};
-
-use crate::contract::{
-    Class, ConstrainedStep, Frictionless, General, Method, Orders, ProvedFor, Separable, Solver,
-    System,
+use symplectic_core::inside::ConstrainedStep;
+use symplectic_core::solver::{Coefficients, Solver};
+use symplectic_core::system::Frictionless;
+use symplectic_core::{
+    Class, Error, General, Method, Orders, ProvedFor, Separable, System, Vector,
 };
-use crate::error::Error;
-use crate::number::{Coefficient, Coefficients, Vector};
 
-/// The coefficients of a method with s stages, each the double nearest to the exact number.
-///
-/// ```text
-/// Q_i = q0 + h Σ_j a_ij velocity_j      q1 = q0 + h Σ_i b_i velocity_i      velocity_i at t0 + c̃_i h
-/// P_i = p0 + h Σ_j ã_ij force_j         p1 = p0 + h Σ_i b̃_i force_i         force_i at t0 + c_i h
-/// ```
-///
-/// `Tableau::to_f64` of the package `symplectic-compiler` has the same fields, and so have its files in JSON and TOML.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct RunTimeCoefficients {
-    /// `a_ij`, by rows.
-    pub a: Vec<Vec<f64>>,
-    /// `ã_ij`, by rows.
-    pub a_tilde: Vec<Vec<f64>>,
-    /// `b_i`
-    pub b: Vec<f64>,
-    /// `b̃_i`
-    pub b_tilde: Vec<f64>,
-    /// `c_i = Σ_j a_ij`
-    pub c: Vec<f64>,
-    /// `c̃_i = Σ_j ã_ij`
-    pub c_tilde: Vec<f64>,
-}
-
-/// The coefficients of an emitted method: `Midpoint::COEFFICIENTS.into()`.
-impl From<Coefficients> for RunTimeCoefficients {
-    fn from(exact: Coefficients) -> Self {
-        let doubles = |list: &[Coefficient]| list.iter().map(|x| x.double()).collect();
-        let matrix = |rows: &[&[Coefficient]]| rows.iter().map(|row| doubles(row)).collect();
-        Self {
-            a: matrix(exact.a),
-            a_tilde: matrix(exact.a_tilde),
-            b: doubles(exact.b),
-            b_tilde: doubles(exact.b_tilde),
-            c: doubles(exact.c),
-            c_tilde: doubles(exact.c_tilde),
-        }
-    }
-}
+use crate::coefficients::RunTimeCoefficients;
+use crate::error::{self, TableauError};
+use crate::plan::{RunTimeMemory, RunTimePlan};
+use crate::rows::RunTimeRows;
+use crate::schedule::Schedule;
 
 /// A symplectic partitioned Runge–Kutta method that is known only at run time: derived by the program, or read from a file.
 ///
-/// [`Integrator::new`](crate::Integrator#method.new) steps a system with it, as with a method that a macro emits. Steps take longer, by a
-/// factor measured in the guide.
+/// [`Integrator::new`](symplectic_core::Integrator#method.new) steps a system with it, as with a method that a macro emits. Steps take
+/// longer, by a factor measured in the guide.
 ///
 /// On separable systems an explicit tableau takes drifts and kicks. Coupled stages use the iteration of
-/// [`FixedPoint`](crate::solver::FixedPoint), one by one and never in lanes. For stiff systems take
-/// `by_newton`, with the feature `newton`. Dense output is the cubic polynomial through the ends of the step.
+/// [`FixedPoint`](symplectic_core::solver::FixedPoint), one by one and never in lanes. For stiff systems take `by_newton`, with the feature
+/// `newton`. Dense output is the cubic polynomial through the ends of the step.
 ///
-/// [`Error::SeparableTableau`](crate::Error::SeparableTableau) refuses a system that is not separable if the tableau has a lower order there
-/// or is not symplectic: see [`accept_lower_order`](Self::accept_lower_order). With constraints the tableau needs its
+/// [`Error::SeparableTableau`] refuses a system that is not separable if the tableau has a lower order there or is not symplectic: see
+/// [`accept_lower_order`](Self::accept_lower_order). With constraints the tableau needs its
 /// [constrained steps](Self::with_constrained_steps). With friction take an emitted method:
 ///
 /// ```compile_fail,E0277
-/// # use symplectic::{Integrator, RunTimeTableau, State};
+/// # use symplectic::at_run_time::RunTimeTableau;
+/// # use symplectic::{Integrator, State};
 /// symplectic::hamiltonian! { Damped q: [x], p: [px]; H = (px^2 + x^2)/2 friction: 0.1 }
 ///
 /// fn step(tableau: RunTimeTableau) -> Result<(), symplectic::Error> {
@@ -92,8 +46,9 @@ impl From<Coefficients> for RunTimeCoefficients {
 /// Solvers in lanes need an emitted method, too:
 ///
 /// ```compile_fail
+/// # use symplectic::at_run_time::RunTimeTableau;
 /// # use symplectic::solver::SimdFixedPoint;
-/// # use symplectic::{Integrator, RunTimeTableau, State};
+/// # use symplectic::{Integrator, State};
 /// symplectic::hamiltonian! { Oscillator q: [x], p: [px]; H = px^2/2 + x^2/2 }
 ///
 /// fn step(tableau: RunTimeTableau) -> Result<(), symplectic::Error> {
@@ -111,8 +66,9 @@ impl From<Coefficients> for RunTimeCoefficients {
 /// A copy shares the coefficients.
 ///
 /// ```
+/// use symplectic::at_run_time::{RunTimeCoefficients, RunTimeTableau};
 /// use symplectic::nalgebra::Vector1;
-/// use symplectic::{Integrator, Orders, RunTimeCoefficients, RunTimeTableau, State, acceleration};
+/// use symplectic::{Integrator, Orders, State, acceleration};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// // The midpoint rule.
@@ -198,7 +154,8 @@ impl RunTimeTableau {
     /// `emit::constrained_steps` of the package `symplectic-compiler` computes them; a program makes them static by `Box::leak`.
     ///
     /// ```
-    /// use symplectic::{Integrator, Method, RunTimeTableau, State};
+    /// use symplectic::at_run_time::RunTimeTableau;
+    /// use symplectic::{Integrator, Method, State};
     ///
     /// symplectic::tableau! { Rattle { basis: polynomial(2), nodes: lobatto(2) } }
     /// symplectic::hamiltonian! { Rod q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + y constraints: { rod = x^2 + y^2 - 1 } }

@@ -1,8 +1,10 @@
 //! Errors in coefficients.
 
-use super::RunTimeCoefficients;
+use symplectic_core::inside::debug_by_message;
 
-crate::error::debug::debug_by_message!(TableauError);
+use crate::coefficients::RunTimeCoefficients;
+
+debug_by_message!(TableauError);
 
 /// Why coefficients are not those of a symplectic method. Rows, columns and stages are counted from 1.
 #[derive(Clone, PartialEq, thiserror::Error)]
@@ -89,7 +91,7 @@ impl core::fmt::Display for OfRow {
 const UNITS: f64 = 4.0;
 
 /// Whether two numbers are equal up to the rounding errors of the `terms` terms that they were computed from.
-pub(super) fn is_about(left: f64, right: f64, terms: usize) -> bool {
+pub(crate) fn is_about(left: f64, right: f64, terms: usize) -> bool {
     is_rounding(left - right, left.abs() + right.abs(), terms)
 }
 
@@ -99,7 +101,7 @@ fn is_rounding(value: f64, size: f64, terms: usize) -> bool {
 }
 
 /// Makes every check that needs only the coefficients.
-pub(super) fn check(coefficients: &RunTimeCoefficients) -> Result<(), TableauError> {
+pub(crate) fn check(coefficients: &RunTimeCoefficients) -> Result<(), TableauError> {
     let RunTimeCoefficients {
         a,
         a_tilde,
