@@ -18,10 +18,11 @@ use symplectic::solver::{
     Automatic, Banded, Dense, Differences, FixedPoint, FixedPointThenNewton, Newton, Solver,
 };
 use symplectic::system::Conservative;
+use symplectic::system::Lagrangian;
 use symplectic::variational::{DiracRule, DiracSteps, DiracSystem, LagrangianSteps};
 use symplectic::{
-    Compensated, Error, Integrator, Lagrangian, Method, ProvedFor, Scalar, Separable, State,
-    hamiltonian, separable,
+    Compensated, Error, Integrator, Method, ProvedFor, Scalar, Separable, State, hamiltonian,
+    separable,
 };
 use symplectic_tests::at_run_time::tableau;
 use symplectic_tests::formulas::Kepler;

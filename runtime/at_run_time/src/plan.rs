@@ -13,7 +13,8 @@ use symplectic_core::solver::{
     Coefficient, Failure, Outcome, Solver, StageStorage, Step, StepStatistics, Stopping, Visit,
     WarmStart,
 };
-use symplectic_core::{Class, Quantity, Scalar, Summation, System, Vector};
+use symplectic_core::system::Class;
+use symplectic_core::{Quantity, Scalar, Summation, System, Vector};
 
 use crate::rows::RunTimeRows;
 use crate::schedule::{Schedule, Splitting};

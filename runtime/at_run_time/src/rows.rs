@@ -15,7 +15,8 @@ use symplectic_core::solver::{
     EvaluationCounts, HalfChange, HalfTableau, Outcome, SecondOrderTableau, StageChange,
     StageStorage, StageTableau, Step, StoredEvaluations, Visit, WarmStart, vector_words,
 };
-use symplectic_core::{Class, Quantity, Scalar, Summation, System, Vector};
+use symplectic_core::system::Class;
+use symplectic_core::{Quantity, Scalar, Summation, System, Vector};
 
 /// The coupled stages of a tableau at run time, for systems of class `C`.
 #[derive(Clone, Debug)]

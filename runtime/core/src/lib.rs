@@ -27,26 +27,37 @@ pub mod output;
 pub mod solver;
 pub mod system;
 
-pub use contract::{
-    LowerOrder, Method, Orders, ProvedFor, Splits, StoermerVerletSteps, SymmetricFor,
-};
+pub use contract::{Method, Orders, ProvedFor};
 pub use error::{Error, Quantity};
 #[cfg(feature = "alloc")]
 pub use integrator::{Checkpoint, CheckpointError};
-pub use integrator::{
-    DenseSteps, Equal, Integrator, NamedSteps, Own, Pace, Partitioned, PhasePoint, Reach, Reached,
-    RemainingSteps, Retry, Run, Statistics, StepMap, Stepper,
-};
+pub use integrator::{Integrator, Retry, Run, Statistics};
 pub use method::{composition, splitting, tableau};
 pub use nalgebra;
 pub use num_traits;
 pub use number::{Compensated, Plain, Scalar, Summation, Vector};
-pub use output::{Event, Events, Invariant, Moment, Progress};
-pub use state::{State, Timed};
+pub use output::{Event, Invariant, Progress};
+pub use state::State;
 pub use system::{
-    Class, General, Hamiltonian, Lagrangian, Masses, Separable, SeparableHamiltonian, System,
-    acceleration, hamiltonian, lagrangian, separable,
+    General, Hamiltonian, Separable, SeparableHamiltonian, System, acceleration, hamiltonian,
+    lagrangian, separable,
 };
+
+/// What is proved of a method, as bounds of generic code.
+pub mod proved {
+    pub use crate::contract::{
+        LowerOrder, Method, Orders, ProvedFor, Splits, StoermerVerletSteps, SymmetricFor,
+    };
+}
+
+/// All integrators, and your own: the trait of a stepper, and what a [`Run`] asks of it.
+pub mod stepper {
+    pub use crate::integrator::{
+        DenseSteps, Equal, NamedSteps, Own, Pace, Partitioned, PhasePoint, Reach, Reached,
+        RemainingSteps, Run, StepMap, Stepper,
+    };
+    pub use crate::state::Timed;
+}
 
 /// Code that needs vectors on the heap.
 #[cfg(feature = "alloc")]

@@ -13,8 +13,9 @@ use crate::run::Way;
 use symplectic_core::inside::{CoupledLanes, Output, is_after, same};
 use symplectic_core::simd::Lanes;
 use symplectic_core::solver::Solver;
+use symplectic_core::stepper::Partitioned;
 use symplectic_core::system::{Join, LaneWork};
-use symplectic_core::{Integrator, Method, Partitioned, Scalar, State, Summation, System, Vector};
+use symplectic_core::{Integrator, Method, Scalar, State, Summation, System, Vector};
 
 /// Number of steps between checks whether the run is stopped.
 const BLOCK: u64 = 1 << 16;

@@ -7,8 +7,9 @@ use core::marker::PhantomData;
 use crate::{Ensemble, EnsembleError, Wanted};
 use symplectic_core::inside::{check_step_size, widest};
 use symplectic_core::solver::Stopping;
+use symplectic_core::system::Class;
 use symplectic_core::{
-    Class, Integrator, Method, Plain, ProvedFor, Retry, State, Summation, System, Vector,
+    Integrator, Method, Plain, ProvedFor, Retry, State, Summation, System, Vector,
 };
 
 impl<M: Method, S: System<V>, V: Vector> Ensemble<M, S, V> {

@@ -9,8 +9,9 @@ use core::sync::atomic::{AtomicUsize, Ordering};
 use crate::Ensemble;
 use symplectic_core::inside::{Avx2, Avx512, Widest, may_be_found, width};
 use symplectic_core::simd::DefaultLanes;
+use symplectic_core::system::Masses;
 use symplectic_core::{
-    Compensated, Masses, Method, Plain, ProvedFor, Scalar, Separable, SeparableHamiltonian, State,
+    Compensated, Method, Plain, ProvedFor, Scalar, Separable, SeparableHamiltonian, State,
     Summation, System,
 };
 

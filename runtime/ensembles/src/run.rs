@@ -9,9 +9,10 @@ use crate::{Ensemble, Row, Wanted};
 use symplectic_core::inside::{Widest, width};
 use symplectic_core::simd::Lanes;
 use symplectic_core::solver::Solver;
+use symplectic_core::stepper::Stepper;
 use symplectic_core::system::{Join, LaneWork};
 use symplectic_core::{
-    Error, Integrator, Method, Run, Scalar, State, Statistics, Stepper, Summation, System, Vector,
+    Error, Integrator, Method, Run, Scalar, State, Statistics, Summation, System, Vector,
 };
 
 /// Number of steps below which lanes are slower with coupled stages.

@@ -13,4 +13,4 @@ pub use npz::{Npz, NpzArray, NpzValues};
 pub use recording::Recording;
 pub use replace::{PeriodicFile, replace_file};
 pub use run::{record_at, record_to};
-pub use symplectic_core::NamedSteps;
+pub use symplectic_core::stepper::NamedSteps;

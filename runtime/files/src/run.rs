@@ -6,9 +6,10 @@ use std::path::Path;
 use super::Recording;
 #[cfg(doc)]
 use symplectic_core::Error;
+use symplectic_core::Run;
+use symplectic_core::stepper::NamedSteps;
 #[cfg(doc)]
 use symplectic_core::system::Named;
-use symplectic_core::{NamedSteps, Run};
 
 /// Integrates to `end` and writes the start and the state after every step, with the [names](Named) of the system, as `.csv` or, with the
 /// feature `npz`, as `.npz`.

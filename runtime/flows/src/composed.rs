@@ -1,8 +1,9 @@
 //! Compositions of symmetric steps of order 2: methods of higher order.
 
 use super::{Flow, FlowError, Span};
+use symplectic_core::Vector;
 use symplectic_core::inside::SymmetricSteps;
-use symplectic_core::{StoermerVerletSteps, Vector};
+use symplectic_core::proved::StoermerVerletSteps;
 
 /// A symmetric flow of order 2, such as a [`Palindrome`](super::Palindrome) of three parts, composed with the step sizes `γ_1 h, …, γ_m h`.
 /// The `γ_i` come from a composition of Störmer–Verlet steps, defined by [`composition!`](symplectic_core::composition).

@@ -8,7 +8,8 @@ use super::{Flow, FlowError, Span, Splitting};
 use crate::Error;
 use crate::friction::Damped;
 use symplectic_core::inside::{check_state, check_step_size};
-use symplectic_core::{ProvedFor, Separable, Splits, State, SymmetricFor, Vector};
+use symplectic_core::proved::{Splits, SymmetricFor};
+use symplectic_core::{ProvedFor, Separable, State, Vector};
 
 /// A symplectic corrector for a symmetric [`Splitting`] K of `H = A + B` with a small `B = O(ε)` (Wisdom, Holman & Touma, *Fields Inst.
 /// Commun.* 10, 217, 1996). It is a change of variables C that reduces the error of the steps from `O(εh²)` to `O(εh^{2m+2} + ε²h²)`.

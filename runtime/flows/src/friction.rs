@@ -9,14 +9,15 @@ use symplectic_core::inside::{
     StageStorage, Step, StepStatistics, Stopping, Visit, WarmStart, add, add_products,
     larger_or_nan, same, same_mut,
 };
+use symplectic_core::proved::{LowerOrder, Splits};
 use symplectic_core::solver::FixedPoint;
+use symplectic_core::system::{Class, Masses};
 use symplectic_core::system::{
     FreePositionsOrDamped, HolonomicOrDamped, NotGeneral, SeparableOrDamped, SplitClass,
     UnconstrainedOrDamped,
 };
 use symplectic_core::{
-    Class, Error, LowerOrder, Masses, Method, ProvedFor, Quantity, Scalar, Separable, Splits,
-    Summation, System, Vector,
+    Error, Method, ProvedFor, Quantity, Scalar, Separable, Summation, System, Vector,
 };
 
 /// The class of a separable Hamiltonian with linear friction: `p' = −∂H/∂q − γp`, with a rate γ for each component. More generally, the

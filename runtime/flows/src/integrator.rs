@@ -3,10 +3,11 @@
 use super::memory::Memory;
 use super::{Flow, FlowError, Span};
 use crate::Error;
-#[cfg(feature = "alloc")]
-use symplectic_core::DenseSteps;
 use symplectic_core::inside::{Visit, Words, check_state, check_step_size, copy, is_finite, words};
-use symplectic_core::{Equal, Quantity, Run, State, Statistics, Stepper, Vector};
+#[cfg(feature = "alloc")]
+use symplectic_core::stepper::DenseSteps;
+use symplectic_core::stepper::{Equal, Stepper};
+use symplectic_core::{Quantity, Run, State, Statistics, Vector};
 
 /// Integrates with a composed [`Flow`], such as a [`Splitting`](super::Splitting) or a [`Palindrome`](super::Palindrome).
 ///

@@ -6,7 +6,8 @@ use symplectic_core::inside::{Progress, ROUNDING, STAGNATION, dither_last_sweep,
 use symplectic_core::solver::{
     Failure, HalfChange, StageChange, StageTableau, StepStatistics, Stopping, WarmStart,
 };
-use symplectic_core::{Class, Scalar, Separable, Summation, System, Vector};
+use symplectic_core::system::Class;
+use symplectic_core::{Scalar, Separable, Summation, System, Vector};
 
 /// The change stagnates if it has not halved in this many sweeps.
 ///

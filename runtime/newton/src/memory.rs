@@ -10,7 +10,8 @@ use super::coefficients::StageCoefficients;
 use super::linear_solver::{LinearSolver, Parts};
 use symplectic_core::inside::{first_mismatch, first_non_finite, show_vectors, words};
 use symplectic_core::solver::{StageStorage, StageTableau, Visit, vector_words};
-use symplectic_core::{Class, Quantity, System, Vector};
+use symplectic_core::system::Class;
+use symplectic_core::{Quantity, System, Vector};
 
 /// The memory of a [`Newton`](crate::Newton) iteration with the plan `P`.
 pub struct NewtonMemory<V: Vector, P, S: System<V>, L: LinearSolver<V, S>> {

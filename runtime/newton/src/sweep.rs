@@ -11,7 +11,8 @@ use super::linear_solver::{Coupling, LinearSolver};
 use super::memory::{NewtonMemory, Workspace, rows};
 use symplectic_core::inside::{first_non_finite_of, totals_by};
 use symplectic_core::solver::{Failure, HalfChange, Outcome, StageChange, StageTableau, Step};
-use symplectic_core::{Class, Quantity, Scalar, Summation, System, Vector};
+use symplectic_core::system::Class;
+use symplectic_core::{Quantity, Scalar, Summation, System, Vector};
 
 /// A contraction rate above this makes the derivatives stale for the next step.
 const GOOD: f64 = 1.0 / 32.0;

@@ -5,9 +5,10 @@ use std::ops::ControlFlow;
 use symplectic::at_run_time::RunTimeTableau;
 use symplectic::emitted::Solver;
 use symplectic::ensemble::{Ensemble, Row};
+use symplectic::system::Class;
 use symplectic::system::Conservative;
 use symplectic::tangent::{Error, Megno, Tangent};
-use symplectic::{Class, Hamiltonian, Integrator, State, Summation};
+use symplectic::{Hamiltonian, Integrator, State, Summation};
 use symplectic_tape::Formula;
 
 use crate::Run;

@@ -14,10 +14,11 @@ use symplectic::ensemble::{Ensemble, EnsembleError};
 use symplectic::nalgebra::DVector;
 use symplectic::output::Interpolation;
 use symplectic::solver::Newton;
+use symplectic::system::Class;
 use symplectic::system::{Conservative, Frictionless, Unconstrained};
 use symplectic::{
-    Class, Compensated, Error as RunError, General, Hamiltonian, Plain, Separable, State,
-    Summation, System,
+    Compensated, Error as RunError, General, Hamiltonian, Plain, Separable, State, Summation,
+    System,
 };
 use symplectic_compiler::Error;
 use symplectic_formula::{Structure, System as Parsed};

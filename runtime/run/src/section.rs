@@ -5,7 +5,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use symplectic::nalgebra::DVector;
-use symplectic::{Class, Error as RunError, Event, Hamiltonian, Integrator, Method, State};
+use symplectic::system::Class;
+use symplectic::{Error as RunError, Event, Hamiltonian, Integrator, Method, State};
 use symplectic_compiler::Error;
 use symplectic_tape::{At, Formula, Tape, Values};
 

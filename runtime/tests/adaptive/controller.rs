@@ -5,9 +5,10 @@ use symplectic::constraints::{Constrained, Gradients, HolonomicConstraints};
 
 use symplectic::adaptive::{Adaptive, AdaptiveSteps, DistancePower, Error, Monitor, Symmetry};
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
+use symplectic::proved::SymmetricFor;
+use symplectic::system::Masses;
 use symplectic::{
-    General, Hamiltonian, Integrator, Masses, Method, ProvedFor, Scalar, Separable, State,
-    SymmetricFor, acceleration,
+    General, Hamiltonian, Integrator, Method, ProvedFor, Scalar, Separable, State, acceleration,
 };
 
 use super::kepler::{

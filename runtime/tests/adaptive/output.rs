@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 
 use symplectic::adaptive::{Adaptive, AdaptiveSteps, DistancePower, Error};
 use symplectic::nalgebra::{Vector1, Vector2};
-use symplectic::{Event, Moment, State, acceleration};
+use symplectic::output::Moment;
+use symplectic::{Event, State, acceleration};
 
 use super::kepler::{Gauss5, Kepler, VelocityVerlet, pericentre, position};
 

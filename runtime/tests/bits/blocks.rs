@@ -5,9 +5,10 @@ use crate::common::methods::{
 };
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::solver::FixedPoint;
+use symplectic::system::Masses;
 use symplectic::{
-    Error, Integrator, Masses, Method, Quantity, Retry, Separable, State, Summation, System,
-    Vector, acceleration, separable,
+    Error, Integrator, Method, Quantity, Retry, Separable, State, Summation, System, Vector,
+    acceleration, separable,
 };
 
 /// A driven oscillator in each component.

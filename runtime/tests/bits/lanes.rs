@@ -11,10 +11,11 @@ use crate::common::systems::{Kepler, Product, perihelion};
 use symplectic::nalgebra::{DVector, SVector, Vector1, Vector2};
 use symplectic::simd::{F64x2, F64x4, F64x8, F64x16, Lanes};
 use symplectic::solver::{FixedPoint, SimdFixedPoint, SimdJacobi, Solver};
+use symplectic::system::Masses;
 use symplectic::system::SystemInLanes;
 use symplectic::{
-    Compensated, Error, General, Hamiltonian, Integrator, Masses, Method, Plain, ProvedFor,
-    Quantity, Scalar, Separable, SeparableHamiltonian, State, Summation, System, Vector,
+    Compensated, Error, General, Hamiltonian, Integrator, Method, Plain, ProvedFor, Quantity,
+    Scalar, Separable, SeparableHamiltonian, State, Summation, System, Vector,
 };
 
 /// H = (q² + 1)(p² + 1)/2 + q sin t, in each component.

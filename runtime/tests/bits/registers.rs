@@ -6,8 +6,9 @@ use crate::common::methods::{
     Gauss2, Gauss3, Gauss5, Gauss8, Gauss10, Gauss18, Lobatto4, Radau3, Tang,
 };
 use symplectic::nalgebra::DVector;
+use symplectic::system::Masses;
 use symplectic::{
-    Error, General, Hamiltonian, Integrator, Masses, Method, ProvedFor, Scalar, Separable, State,
+    Error, General, Hamiltonian, Integrator, Method, ProvedFor, Scalar, Separable, State,
     Summation, System, Vector,
 };
 

@@ -4,9 +4,8 @@ use symplectic::adaptive::{Adaptive, AdaptiveSteps, DistancePower, Error};
 use symplectic::ensemble::Ensemble;
 use symplectic::flow::{Drift, FlowSteps, Kick, Splitting};
 use symplectic::nalgebra::Vector2;
-use symplectic::{
-    CheckpointError, Event, Integrator, Method, ProvedFor, Separable, State, SymmetricFor,
-};
+use symplectic::proved::SymmetricFor;
+use symplectic::{CheckpointError, Event, Integrator, Method, ProvedFor, Separable, State};
 
 use crate::common::methods::{Gauss2, StoermerVerlet};
 use crate::systems::{Bits, bits, keep, on_threads, words};

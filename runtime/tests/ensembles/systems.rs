@@ -6,8 +6,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use symplectic::ensemble::Row;
 use symplectic::nalgebra::{DVector, SVector, Vector2};
+use symplectic::system::Masses;
 use symplectic::{
-    Error, Hamiltonian, Integrator, Masses, Scalar, SeparableHamiltonian, State, Statistics, Vector,
+    Error, Hamiltonian, Integrator, Scalar, SeparableHamiltonian, State, Statistics, Vector,
 };
 
 /// H = |p|²/2 + |q|²/2 + x²y − y³/3 + a x cos 3t: beyond the energy 1/6 trajectories escape to infinity, in a finite time.

@@ -4,7 +4,8 @@ use symplectic::flow::kepler::Jacobi;
 use symplectic::flow::{Corrector, Error, FlowError, FlowSteps, OrnsteinUhlenbeck, Splitting};
 use symplectic::friction::Damped;
 use symplectic::nalgebra::Vector1;
-use symplectic::{ProvedFor, Separable, Splits, State, SymmetricFor};
+use symplectic::proved::{Splits, SymmetricFor};
+use symplectic::{ProvedFor, Separable, State};
 
 use super::methods::{Leapfrog, Saba3};
 use super::planets::{self, Bodies, N};

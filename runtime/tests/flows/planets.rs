@@ -4,7 +4,8 @@ use symplectic::flow::kepler::{Heliocentric, Jacobi};
 use symplectic::flow::{Error, Flow, FlowError, FlowSteps, Span, Splitting, Substeps};
 use symplectic::friction::Damped;
 use symplectic::nalgebra::{DVector, SMatrix, Vector3};
-use symplectic::{Integrator, ProvedFor, Separable, Splits, State, System, separable};
+use symplectic::proved::Splits;
+use symplectic::{Integrator, ProvedFor, Separable, State, System, separable};
 
 use crate::common::distance;
 use crate::common::methods::{Gauss8, StoermerVerlet};

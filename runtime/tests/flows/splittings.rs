@@ -7,7 +7,8 @@ use symplectic::flow::{
 };
 use symplectic::friction::Damped;
 use symplectic::nalgebra::Vector1;
-use symplectic::{Method, ProvedFor, Quantity, Splits, State, acceleration};
+use symplectic::proved::Splits;
+use symplectic::{Method, ProvedFor, Quantity, State, acceleration};
 
 use crate::common::methods::{ForestRuth, Gauss8, McLachlanAtela, PositionJump, StoermerVerlet};
 use crate::common::systems::{Driven, Pendulum, point};

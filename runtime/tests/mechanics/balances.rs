@@ -4,10 +4,11 @@ use crate::methods::{Gauss2, Gauss3, Lobatto4, Midpoint, StoermerVerlet, TwoOfTh
 use symplectic::constraints::Gradients;
 use symplectic::nalgebra::{SVector, Vector2};
 use symplectic::output::Balance;
+use symplectic::system::Lagrangian;
 use symplectic::variational::{
     DiracRule, DiracSteps, DiracSystem, Error, LagrangianSteps, StagesOfStep, StepWithStages,
 };
-use symplectic::{Hamiltonian, Integrator, Lagrangian, Method, ProvedFor, Scalar, State, System};
+use symplectic::{Hamiltonian, Integrator, Method, ProvedFor, Scalar, State, System};
 
 use crate::dirac::Suzuki4;
 use crate::forces::{Ring, ring_start};

@@ -3,8 +3,9 @@
 use crate::methods::{Gauss6, Lobatto5};
 use symplectic::constraints::{Constrained, Gradients, HolonomicConstraints};
 use symplectic::nalgebra::{DVector, SVector};
+use symplectic::system::{Lagrangian, Masses};
 use symplectic::variational::{Error, LagrangianSteps, momentum_of_velocity};
-use symplectic::{Hamiltonian, Integrator, Lagrangian, Masses, Scalar, Separable};
+use symplectic::{Hamiltonian, Integrator, Scalar, Separable};
 
 use crate::systems::*;
 

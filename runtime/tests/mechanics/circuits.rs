@@ -2,10 +2,11 @@
 
 use symplectic::constraints::Gradients;
 use symplectic::nalgebra::{SVector, Vector4};
+use symplectic::system::Lagrangian;
 use symplectic::variational::{
     DiracRule, DiracSteps, DiracSystem, Error, momentum_of_velocity, primary_constraints,
 };
-use symplectic::{Lagrangian, Scalar, State};
+use symplectic::{Scalar, State};
 
 use crate::dirac::{Jump6, Suzuki4, assert_order, distance};
 

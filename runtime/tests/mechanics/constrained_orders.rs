@@ -16,7 +16,7 @@ where
     M: Method + ProvedFor<Constrained<C>>,
     V: Vector<Scalar = f64>,
     S: Hamiltonian<Class = Constrained<C>, Vector<f64> = V>,
-    C: symplectic::Class + Unconstrained,
+    C: symplectic::system::Class + Unconstrained,
 {
     let size = time / f64::from(steps);
     let mut run = Integrator::new(method, system, start.clone(), size).expect("consistent");
@@ -29,7 +29,7 @@ where
     M: Method + Copy + ProvedFor<Constrained<C>>,
     V: Vector<Scalar = f64>,
     S: Hamiltonian<Class = Constrained<C>, Vector<f64> = V> + Copy,
-    C: symplectic::Class + Unconstrained,
+    C: symplectic::system::Class + Unconstrained,
 {
     let reference = end(Lobatto6, system, start, (time, 96));
     let [coarse, fine] = [steps, 2 * steps]

@@ -5,7 +5,8 @@ use symplectic::constraints::{Constrained, Gradients, HolonomicConstraints};
 
 use symplectic::nalgebra::Vector2;
 use symplectic::solver::FixedPoint;
-use symplectic::{Error, Integrator, Masses, Method, ProvedFor, Separable, State, System};
+use symplectic::system::Masses;
+use symplectic::{Error, Integrator, Method, ProvedFor, Separable, State, System};
 
 use crate::systems::{Lobatto3, Pendulum, Rattle};
 

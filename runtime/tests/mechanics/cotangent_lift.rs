@@ -2,8 +2,9 @@
 
 use crate::methods::Gauss2;
 use symplectic::nalgebra::{DVector, Matrix4, Rotation2, Rotation3, SVector, Vector2, Vector3};
+use symplectic::stepper::StepMap;
 use symplectic::variational::{Error, PointTransformation, cotangent_lift, momentum_map};
-use symplectic::{Error as CoreError, Integrator, Scalar, State, StepMap};
+use symplectic::{Error as CoreError, Integrator, Scalar, State};
 
 use super::symmetry::Twisted;
 

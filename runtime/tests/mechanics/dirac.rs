@@ -3,12 +3,12 @@
 use symplectic::constraints::Gradients;
 use symplectic::constraints::NonholonomicConstraints;
 use symplectic::nalgebra::SVector;
+use symplectic::system::Lagrangian;
 use symplectic::variational::{
     DiracRule, DiracSteps, DiracSystem, Error, momentum_of_velocity, primary_constraints,
 };
 use symplectic::{
-    Error as CoreError, Integrator, Lagrangian, Method, ProvedFor, Quantity, Scalar, State, System,
-    Vector,
+    Error as CoreError, Integrator, Method, ProvedFor, Quantity, Scalar, State, System, Vector,
 };
 
 use crate::rolling::{

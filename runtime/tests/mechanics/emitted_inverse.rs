@@ -9,7 +9,7 @@ fn assert_rounded<M: Method>(_: M, decimals: [[&str; 4]; 4]) {
     assert_eq!(found.len(), 4, "{}", M::NAME);
     for (found, decimals) in found.iter().zip(decimals) {
         // Reading a decimal rounds it correctly.
-        let rounded = decimals.map(|decimal| decimal.parse().expect("a number"));
+        let rounded: [f64; 4] = decimals.map(|decimal| decimal.parse().expect("a number"));
         assert_eq!(**found, rounded, "{}", M::NAME);
     }
 }

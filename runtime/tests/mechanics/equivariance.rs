@@ -3,8 +3,9 @@
 use crate::methods::{Gauss2, Lobatto3, TwoOfThree};
 use symplectic::constraints::Constrained;
 use symplectic::nalgebra::{Rotation2, Rotation3, Vector2, Vector3};
+use symplectic::stepper::StepMap;
 use symplectic::variational::{Error, LagrangianSteps, momentum_map};
-use symplectic::{General, Integrator, Method, ProvedFor, Separable, State, StepMap};
+use symplectic::{General, Integrator, Method, ProvedFor, Separable, State};
 
 use crate::forces::{FourthRattle, Resisted, swing};
 use crate::lagrangians::distance;

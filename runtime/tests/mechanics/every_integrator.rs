@@ -9,12 +9,11 @@ use symplectic::nalgebra::{
     Matrix3, Rotation2, Rotation3, SVector, UnitQuaternion, Vector2, Vector3, Vector4,
 };
 use symplectic::rotation::{HeavyTop, RigidBody, RotationState, RotationSteps};
+use symplectic::stepper::{PhasePoint, StepMap};
 use symplectic::variational::{
     DiracRule, DiracSteps, Error, LagrangianSteps, VariationalSteps, momentum_of_velocity,
 };
-use symplectic::{
-    Error as CoreError, Integrator, PhasePoint, State, StepMap, acceleration, assert_conserved,
-};
+use symplectic::{Error as CoreError, Integrator, State, acceleration, assert_conserved};
 
 use crate::dirac::{V6, Vortices, vortices_start};
 use crate::discrete_lagrangians::{Trapezoid, perihelion};

@@ -7,11 +7,9 @@ use symplectic::at_run_time::RunTimeTableau;
 use symplectic::ensemble::Ensemble;
 use symplectic::nalgebra::{Vector1, Vector2};
 use symplectic::solver::{ByNewton, Dense, Differences, FixedPointThenNewton, Newton};
+use symplectic::system::{Class, Lagrangian, Masses};
 use symplectic::variational::{DiracRule, DiracSteps, DiracSystem, Error, LagrangianSteps};
-use symplectic::{
-    Class, Error as CoreError, Integrator, Lagrangian, Masses, Method, Scalar, State, System,
-    Vector,
-};
+use symplectic::{Error as CoreError, Integrator, Method, Scalar, State, System, Vector};
 
 use crate::dirac::{V6, Vortices, vortices_start};
 use crate::methods::{Gauss2, Gauss3, Lobatto3, Lobatto4, Midpoint, TwoOfThree};

@@ -3,8 +3,9 @@
 use crate::methods::{ForestRuth, Gauss4, StoermerVerlet, Yoshida6};
 use symplectic::friction::{Damped, Friction, friction_growth};
 use symplectic::nalgebra::{Matrix2, SMatrix, SVector, Vector2};
+use symplectic::system::Masses;
 use symplectic::variational::{Error, StepWithStages};
-use symplectic::{Hamiltonian, Integrator, Masses, Method, ProvedFor, Scalar, State};
+use symplectic::{Hamiltonian, Integrator, Method, ProvedFor, Scalar, State};
 
 symplectic::composition! {
     /// Forest & Ruth's steps; half kicks of successive steps are at the same position.

@@ -2,8 +2,9 @@
 
 use crate::methods::{Gauss2, TwoOfThree};
 use symplectic::nalgebra::{DMatrix, DVector, SVector, Vector2};
+use symplectic::system::Lagrangian;
 use symplectic::variational::{Error, LagrangianSteps, momentum_of_velocity, primary_constraints};
-use symplectic::{Hamiltonian, Lagrangian, Method, Scalar, State};
+use symplectic::{Hamiltonian, Method, Scalar, State};
 
 use crate::lagrangians::{
     Particle, Relativistic, Run, Vortices, Wrong, distance, near_perihelion, slope,

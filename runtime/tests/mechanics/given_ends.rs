@@ -4,10 +4,11 @@
 use crate::methods::{ForestRuth, Gauss2, Lobatto3, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1, Vector2};
 use symplectic::solver::ByNewton;
+use symplectic::stepper::StepMap;
 use symplectic::variational::{
     Error, GeneratingFunctions, GivenEnds, LagrangianSteps, VariationalSteps, generating_function,
 };
-use symplectic::{Error as CoreError, Integrator, Quantity, State, StepMap};
+use symplectic::{Error as CoreError, Integrator, Quantity, State};
 
 use crate::discrete_lagrangians::{AtTwoPoints, DoublePendulum, Shaken, Trapezoid, perihelion};
 use crate::symmetry::Twisted;

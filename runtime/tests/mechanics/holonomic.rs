@@ -135,7 +135,7 @@ fn the_adjoint_undoes_a_constrained_step_of_symplectic_euler() -> Result<(), Err
     where
         V: Vector<Scalar = f64>,
         S: Hamiltonian<Class = Constrained<C>, Vector<f64> = V> + Copy,
-        C: symplectic::Class + symplectic::system::Unconstrained,
+        C: symplectic::system::Class + symplectic::system::Unconstrained,
         Euler: ProvedFor<Constrained<C>>,
         AdjointEuler: ProvedFor<Constrained<C>>,
     {
@@ -351,7 +351,7 @@ fn the_adjoint_takes_as_many_sweeps() -> Result<(), Error> {
     where
         V: Vector<Scalar = f64>,
         S: Hamiltonian<Class = Constrained<C>, Vector<f64> = V>,
-        C: symplectic::Class + symplectic::system::Unconstrained,
+        C: symplectic::system::Class + symplectic::system::Unconstrained,
         M: Method + ProvedFor<Constrained<C>>,
     {
         let mut run = Integrator::new(method, system, start, 0.02)?;

@@ -5,13 +5,13 @@ use crate::methods::{
     TwoOfThree,
 };
 use symplectic::nalgebra::{DVector, SMatrix, SVector, Vector2};
+use symplectic::system::Lagrangian;
 use symplectic::variational::{
     Error, LagrangianIntegrator, LagrangianSteps, generating_function, momentum_of_velocity,
     velocity_of_momentum,
 };
 use symplectic::{
-    Error as CoreError, General, Integrator, Lagrangian, Method, ProvedFor, Quantity, Scalar,
-    State, System,
+    Error as CoreError, General, Integrator, Method, ProvedFor, Quantity, Scalar, State, System,
 };
 
 type V2<T> = SVector<T, 2>;

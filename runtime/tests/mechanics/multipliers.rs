@@ -102,7 +102,7 @@ where
     M: Method + ProvedFor<Constrained<C>>,
     V: Vector<Scalar = f64>,
     S: Hamiltonian<Class = Constrained<C>, Vector<f64> = V> + Copy,
-    C: symplectic::Class + Unconstrained,
+    C: symplectic::system::Class + Unconstrained,
 {
     let size = end / f64::from(steps);
     let mut run = Integrator::new(method, system, start.clone(), size).expect("consistent");
@@ -126,7 +126,7 @@ where
     M: Method + Copy + ProvedFor<Constrained<C>>,
     V: Vector<Scalar = f64>,
     S: Hamiltonian<Class = Constrained<C>, Vector<f64> = V> + Copy,
-    C: symplectic::Class + Unconstrained,
+    C: symplectic::system::Class + Unconstrained,
 {
     let exact = along(Lobatto6, system, start, (end, 128));
     let [coarse, fine] = [steps, 2 * steps].map(|steps| {

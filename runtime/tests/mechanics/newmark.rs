@@ -2,10 +2,10 @@
 
 use crate::methods::{Gauss4, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Matrix4, SVector, Vector1, Vector2};
+use symplectic::stepper::StepMap;
 use symplectic::variational::{Error, Newmark, generating_function};
 use symplectic::{
-    Error as CoreError, Hamiltonian, Integrator, Quantity, Scalar, Separable, State, StepMap,
-    System,
+    Error as CoreError, Hamiltonian, Integrator, Quantity, Scalar, Separable, State, System,
 };
 
 use super::forces::Driven;

@@ -2,7 +2,8 @@
 
 use symplectic::constraints::{Nonholonomic, consistent_momentum};
 use symplectic::nalgebra::{SVector, Vector2, Vector3};
-use symplectic::{Class, Hamiltonian, Integrator, Method, ProvedFor, Separable, State, Vector};
+use symplectic::system::Class;
+use symplectic::{Hamiltonian, Integrator, Method, ProvedFor, Separable, State, Vector};
 
 use crate::rolling::*;
 use crate::systems::{HalfSteps4, Pendulum, Rattle};

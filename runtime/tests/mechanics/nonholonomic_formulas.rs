@@ -45,7 +45,7 @@ where
     V: symplectic::Vector<Scalar = f64>,
     S: System<V, Class = Nonholonomic<C>>,
     T: System<V, Class = Nonholonomic<C>>,
-    C: symplectic::Class + symplectic::system::Unconstrained,
+    C: symplectic::system::Class + symplectic::system::Unconstrained,
 {
     let mut formula = Integrator::new(Midpoint, formula, start.clone(), 0.1)?;
     let mut by_hand = Integrator::new(Midpoint, by_hand, start, 0.1)?;

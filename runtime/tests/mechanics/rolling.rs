@@ -2,7 +2,8 @@
 
 use symplectic::constraints::{Gradients, Nonholonomic, NonholonomicConstraints};
 use symplectic::nalgebra::{SVector, Vector3, Vector4};
-use symplectic::{General, Hamiltonian, Masses, Scalar, Separable, State};
+use symplectic::system::Masses;
+use symplectic::{General, Hamiltonian, Scalar, Separable, State};
 
 pub use crate::methods::Midpoint;
 

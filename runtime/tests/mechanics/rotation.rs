@@ -3,11 +3,9 @@
 use crate::methods::{Gauss6, Lobatto3, StoermerVerlet};
 use symplectic::constraints::Constrained;
 use symplectic::nalgebra::{Matrix3, SMatrix, UnitQuaternion, Vector3};
+use symplectic::proved::StoermerVerletSteps;
 use symplectic::rotation::{Error, FreeBody, HeavyTop, RigidBody, RotationState, RotationSteps};
-use symplectic::{
-    Error as CoreError, Integrator, Method, ProvedFor, Quantity, Separable, State,
-    StoermerVerletSteps,
-};
+use symplectic::{Error as CoreError, Integrator, Method, ProvedFor, Quantity, Separable, State};
 
 symplectic::composition! {
     pub Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] }

@@ -5,7 +5,8 @@ use symplectic::constraints::{
 };
 use symplectic::friction::Damped;
 use symplectic::nalgebra::{SVector, Vector2};
-use symplectic::{Class, Error, Integrator, ProvedFor, Quantity, Separable, State};
+use symplectic::system::Class;
+use symplectic::{Error, Integrator, ProvedFor, Quantity, Separable, State};
 
 use crate::systems::*;
 

@@ -3,8 +3,9 @@
 use crate::methods::{Gauss2, Gauss3, Lobatto3};
 use symplectic::constraints::consistent;
 use symplectic::nalgebra::{Rotation2, Vector2, Vector3};
+use symplectic::stepper::StepMap;
 use symplectic::variational::{Error, momentum_map, step_with_generating_function};
-use symplectic::{Error as CoreError, Integrator, State, StepMap, assert_conserved};
+use symplectic::{Error as CoreError, Integrator, State, assert_conserved};
 
 use super::forces::Ring;
 

@@ -2,7 +2,8 @@
 
 use symplectic::constraints::{Constrained, Gradients, HolonomicConstraints, consistent};
 use symplectic::nalgebra::{DVector, SVector};
-use symplectic::{General, Hamiltonian, Masses, Scalar, Separable, State};
+use symplectic::system::Masses;
+use symplectic::{General, Hamiltonian, Scalar, Separable, State};
 
 pub use crate::methods::{Lobatto3, Lobatto4, Lobatto5};
 

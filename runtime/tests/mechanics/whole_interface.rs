@@ -7,15 +7,18 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use symplectic::adaptive::{AdaptiveSteps, DistancePower};
 use symplectic::nalgebra::{Vector1, Vector2, Vector3};
+use symplectic::output::Moment;
 use symplectic::rotation::{FreeBody, RotationState, RotationSteps};
 use symplectic::solver::ByNewton;
+use symplectic::stepper::{
+    DenseSteps, Equal, Own, Pace, PhasePoint, RemainingSteps, StepMap, Stepper,
+};
 use symplectic::variational::{
     DiracRule, DiracSteps, DiscreteLagrangian, EnergyMomentumSteps, LagrangianSteps,
     VariationalSteps,
 };
 use symplectic::{
-    DenseSteps, Equal, Error, Event, Integrator, Moment, Own, Pace, PhasePoint, RemainingSteps,
-    Retry, Run, Scalar, State, Statistics, StepMap, Stepper, Vector, acceleration,
+    Error, Event, Integrator, Retry, Run, Scalar, State, Statistics, Vector, acceleration,
 };
 
 use crate::dirac::{Vortices, vortices_start};

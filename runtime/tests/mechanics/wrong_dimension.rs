@@ -11,13 +11,14 @@ use symplectic::friction::{Damped, Friction};
 use symplectic::nalgebra::DVector;
 use symplectic::solver::FixedPoint;
 use symplectic::system::Unconstrained;
+use symplectic::system::{Class, Lagrangian};
 use symplectic::variational::{
     DiracRule, DiracSteps, DiracSystem, DiscreteLagrangian, DiscretePath, Error, LagrangianSteps,
     Newmark, StepWithStages, VariationalSteps, momentum_of_velocity, velocity_of_momentum,
 };
 use symplectic::{
-    Class, Error as CoreError, General, Hamiltonian, Integrator, Lagrangian, Method, ProvedFor,
-    Quantity, Scalar, Separable, State, System,
+    Error as CoreError, General, Hamiltonian, Integrator, Method, ProvedFor, Quantity, Scalar,
+    Separable, State, System,
 };
 
 type Vector = DVector<f64>;

@@ -13,10 +13,9 @@ use crate::common::methods::{Midpoint, StoermerVerlet};
 use symplectic::adaptive::{AdaptiveSteps, DistancePower, Logarithmic, Poincare};
 use symplectic::emitted::{Bonds, Chain};
 use symplectic::flow::{Drift, FlowSteps, Kick, Splitting, Substeps};
+use symplectic::output::Moment;
 use symplectic::variational::{self, DiscreteLagrangian, Newmark, VariationalSteps};
-use symplectic::{
-    Error, Event, Integrator, Method, Moment, Scalar, SeparableHamiltonian, State, Vector,
-};
+use symplectic::{Error, Event, Integrator, Method, Scalar, SeparableHamiltonian, State, Vector};
 
 thread_local! {
     static COUNT: Cell<u64> = const { Cell::new(0) };

@@ -9,10 +9,11 @@ use crate::common::systems::{Pendulum, Product, point};
 use crate::common::methods::{Gauss2, Lobatto3, Midpoint, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1};
 use symplectic::solver::{ByNewton, FixedPoint, FixedPointThenNewton};
+use symplectic::system::Class;
 use symplectic::variational::{self, StepWithStages};
 use symplectic::{
-    Class, Error, General, Integrator, Method, ProvedFor, Quantity, Separable, State, System,
-    Vector, acceleration, hamiltonian, separable,
+    Error, General, Integrator, Method, ProvedFor, Quantity, Separable, State, System, Vector,
+    acceleration, hamiltonian, separable,
 };
 
 type Point = Vector1<f64>;

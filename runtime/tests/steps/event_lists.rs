@@ -4,7 +4,8 @@ use std::ops::ControlFlow;
 
 use crate::common::methods::{Gauss4, StoermerVerlet};
 use symplectic::nalgebra::{DVector, Vector1, Vector2};
-use symplectic::{Error, Event, Events, Integrator, Moment, Retry, State, acceleration};
+use symplectic::output::{Events, Moment};
+use symplectic::{Error, Event, Integrator, Retry, State, acceleration};
 
 type Point = State<Vector1<f64>>;
 

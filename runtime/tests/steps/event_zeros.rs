@@ -6,7 +6,8 @@ use std::ops::ControlFlow;
 use crate::common::methods::Gauss4;
 use proptest::prelude::*;
 use symplectic::nalgebra::Vector1;
-use symplectic::{Error, Event, Integrator, Moment, State, acceleration};
+use symplectic::output::Moment;
+use symplectic::{Error, Event, Integrator, State, acceleration};
 
 type Point = State<Vector1<f64>>;
 

@@ -4,8 +4,9 @@ use std::ops::ControlFlow;
 
 use crate::common::methods::{Gauss2, Gauss4, Gauss5, StoermerVerlet};
 use symplectic::nalgebra::{Vector1, Vector2};
+use symplectic::output::Moment;
 use symplectic::{
-    Error, Event, Integrator, Method, Moment, ProvedFor, Separable, State, System, acceleration,
+    Error, Event, Integrator, Method, ProvedFor, Separable, State, System, acceleration,
 };
 
 type Ball = State<Vector1<f64>>;

@@ -130,7 +130,7 @@ fn accept_lower_order_keeps_the_bits() -> Result<(), Error> {
     let mut word = Integrator::new(ForestRuth.accept_lower_order(), oscillator(), start(), 0.1)?;
     assert_eq!(plain.take_steps(100)?, word.take_steps(100)?);
     assert_eq!(
-        <symplectic::LowerOrder<ForestRuth> as Method>::NAME,
+        <symplectic::proved::LowerOrder<ForestRuth> as Method>::NAME,
         "ForestRuth"
     );
     Ok(())

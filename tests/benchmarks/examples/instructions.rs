@@ -14,9 +14,9 @@ use std::process::Command;
 
 use symplectic::nalgebra::{DVector, SVector};
 use symplectic::solver::FixedPoint;
+use symplectic::system::Masses;
 use symplectic::{
-    Compensated, Integrator, Masses, Method, Plain, Scalar, Separable, State, Summation, System,
-    Vector,
+    Compensated, Integrator, Method, Plain, Scalar, Separable, State, Summation, System, Vector,
 };
 use symplectic_benchmarks::baseline::lanes::{fast_two_sum, two_sum};
 use symplectic_tests::methods::{ForestRuth, VelocityVerlet};

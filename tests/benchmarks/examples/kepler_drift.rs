@@ -13,7 +13,8 @@ use symplectic::flow::kepler::{Heliocentric, Jacobi};
 use symplectic::flow::{Corrector, Error, Flow, FlowSteps, Span, Splitting, Substeps};
 use symplectic::friction::Damped;
 use symplectic::nalgebra::{DVector, Rotation3, Vector3};
-use symplectic::{ProvedFor, Separable, Splits, State, SymmetricFor};
+use symplectic::proved::{Splits, SymmetricFor};
+use symplectic::{ProvedFor, Separable, State};
 use symplectic_tests::scenes::outer_solar_system::{BODIES_AT_START, GRAVITATIONAL_CONSTANT};
 
 symplectic::tableau! {

@@ -11,7 +11,8 @@ use std::time::Instant;
 
 use symplectic::adaptive::{AdaptiveSteps, DistancePower, Error, Logarithmic};
 use symplectic::nalgebra::{Vector2, Vector3};
-use symplectic::{Event, Integrator, Method, ProvedFor, Separable, State, SymmetricFor};
+use symplectic::proved::SymmetricFor;
+use symplectic::{Event, Integrator, Method, ProvedFor, Separable, State};
 use symplectic_tests::methods::{BlanesMoanS10, Gauss8, KahanLi8, KahanLi8Drift};
 use symplectic_tests::peers::{Equations, dop853};
 

@@ -11,7 +11,9 @@ symplectic::tableau! { Nystrom { base: mclachlan-atela-1992-order-4-optimal } }
 
 use symplectic::constraints::{Constrained, Nonholonomic};
 use symplectic::friction::Damped;
-use symplectic::{Class, General, LowerOrder, Method, ProvedFor, Separable, Splits, StoermerVerletSteps, SymmetricFor};
+use symplectic::proved::{LowerOrder, Splits, StoermerVerletSteps, SymmetricFor};
+use symplectic::system::Class;
+use symplectic::{General, Method, ProvedFor, Separable};
 
 fn steps<M: Method + ProvedFor<C>, C: Class>() {}
 fn symmetric<M: SymmetricFor<C>, C: Class>() {}

@@ -8,7 +8,8 @@
 use core::ops::ControlFlow;
 
 use symplectic::nalgebra::{SVector, Vector1};
-use symplectic::{Error, Event, Integrator, Method, Moment, Scalar, SeparableHamiltonian, State};
+use symplectic::output::Moment;
+use symplectic::{Error, Event, Integrator, Method, Scalar, SeparableHamiltonian, State};
 
 symplectic::tableau! {
     /// Explicit for separable systems, order 2.

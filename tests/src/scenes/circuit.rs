@@ -12,8 +12,9 @@ use std::cell::Cell;
 
 use symplectic::constraints::Gradients;
 use symplectic::nalgebra::{SVector, Vector4};
+use symplectic::system::Lagrangian;
 use symplectic::variational::{DiracSystem, momentum_of_velocity};
-use symplectic::{General, Hamiltonian, Lagrangian, Scalar, State};
+use symplectic::{General, Hamiltonian, Scalar, State};
 
 const INDUCTANCE: f64 = 0.7;
 /// C₁, C₂ and C₃.

@@ -9,7 +9,8 @@
 //! Martinoli & Vanzini, 1992. *Reference:* recorded for these frequencies, [`recorded`].
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Masses, Scalar, SeparableHamiltonian, State};
+use symplectic::system::Masses;
+use symplectic::{Scalar, SeparableHamiltonian, State};
 
 use super::Needs;
 use crate::references;

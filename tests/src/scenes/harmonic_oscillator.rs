@@ -5,7 +5,8 @@
 //! *Reference:* closed form, [`exact`].
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Masses, Scalar, SeparableHamiltonian, State};
+use symplectic::system::Masses;
+use symplectic::{Scalar, SeparableHamiltonian, State};
 
 use super::Needs;
 

@@ -6,7 +6,8 @@
 //! *Reference:* recorded, [`recorded`].
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Masses, Scalar, SeparableHamiltonian, State};
+use symplectic::system::Masses;
+use symplectic::{Scalar, SeparableHamiltonian, State};
 
 use super::Needs;
 use crate::references;

@@ -7,7 +7,8 @@
 use std::f64::consts::{PI, TAU};
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Masses, Scalar, SeparableHamiltonian, State};
+use symplectic::system::Masses;
+use symplectic::{Scalar, SeparableHamiltonian, State};
 
 use super::Needs;
 

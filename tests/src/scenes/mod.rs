@@ -64,8 +64,9 @@ impl Needs {
 #[cfg(test)]
 mod check {
     use symplectic::nalgebra::DMatrix;
+    use symplectic::system::Class;
     use symplectic::system::Unconstrained;
-    use symplectic::{Class, Integrator, State, System, Vector};
+    use symplectic::{Integrator, State, System, Vector};
 
     use super::Needs;
     use crate::methods::Gauss8;

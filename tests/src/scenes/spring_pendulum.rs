@@ -4,7 +4,8 @@
 //! with frequencies of order one. *Source:* GNI §XV.1, the pendulum on a spring; the start is our choice.
 
 use symplectic::nalgebra::SVector;
-use symplectic::{Masses, Scalar, SeparableHamiltonian, State};
+use symplectic::system::Masses;
+use symplectic::{Scalar, SeparableHamiltonian, State};
 
 use super::Needs;
 

@@ -16,7 +16,8 @@ use symplectic::solver::{
     Failure, FixedPoint, HalfTableau, Outcome, Solver, StageStorage, StageTableau, Step,
     StepStatistics, Stopping, Visit, WarmStart,
 };
-use symplectic::{Class, Quantity, Scalar, Separable, Summation, System};
+use symplectic::system::Class;
+use symplectic::{Quantity, Scalar, Separable, Summation, System};
 
 use super::systems::Stiff;
 

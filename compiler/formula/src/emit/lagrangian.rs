@@ -44,7 +44,7 @@ impl Emitter<'_> {
         let check_dimension = self.check_dimension();
         quote! {
             #[allow(unused_variables, non_snake_case, clippy::all)]
-            impl #generics ::symplectic::Lagrangian for #name #arguments {
+            impl #generics ::symplectic::system::Lagrangian for #name #arguments {
                 type Vector<#scalar: #bound> = #over;
 
                 fn lagrangian<#scalar: #bound>(&self, time: #scalar, q: &#over, v: &#over) -> #scalar {

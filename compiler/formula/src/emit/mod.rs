@@ -406,7 +406,7 @@ impl<'a> Emitter<'a> {
         let over = self.vector(&quote!(#scalar));
         let unit = (self.structure.kinetic == Kinetic::Unit).then(|| {
             quote!(
-                const MASSES: ::symplectic::Masses = ::symplectic::Masses::Unit;
+                const MASSES: ::symplectic::system::Masses = ::symplectic::system::Masses::Unit;
             )
         });
         let velocity = Derivative {
@@ -502,11 +502,11 @@ impl<'a> Emitter<'a> {
         };
         let masses = match (split.is_some(), self.structure.kinetic == Kinetic::Unit) {
             (true, true) => quote!(
-                const MASSES: ::symplectic::Masses = ::symplectic::Masses::Unit;
+                const MASSES: ::symplectic::system::Masses = ::symplectic::system::Masses::Unit;
             ),
             // A separable class says so itself.
             (true, false) if forced => quote!(
-                const MASSES: ::symplectic::Masses = ::symplectic::Masses::Constant;
+                const MASSES: ::symplectic::system::Masses = ::symplectic::system::Masses::Constant;
             ),
             _ => TokenStream::new(),
         };

@@ -126,7 +126,7 @@ pub trait Plan {
     }
 
     /// Takes `step` of a splitting with the kicks and drifts of `kick_drift`, and shows its evaluations to `observer`. Only for a plan that
-    /// [splits](crate::Splits).
+    /// [splits](crate::proved::Splits).
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take_by<R, V, S, K, W>(
         _step: &Step<'_, V>,

@@ -23,7 +23,7 @@ impl<V: Vector> PhasePoint for State<V> {
 }
 
 /// The next step of an integrator as a map of states, and checks of this map for tests. The integrator itself takes no step. For a stepper
-/// with its [own](crate::Own) pace it is the first step of a new run from each state.
+/// with its [own](crate::stepper::Own) pace it is the first step of a new run from each state.
 ///
 /// With constraints it is a map of the constrained phase space: all states must satisfy them, see [`consistent`](crate::consistent).
 ///
@@ -31,7 +31,8 @@ impl<V: Vector> PhasePoint for State<V> {
 /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
 /// symplectic::hamiltonian! { Pendulum q: [a], p: [pa]; H = pa^2/2 - cos(a) }
 /// symplectic::hamiltonian! { Damped q: [a], p: [pa]; H = pa^2/2 - cos(a) force: { a = -pa } }
-/// use symplectic::{Error, Integrator, State, StepMap};
+/// use symplectic::stepper::StepMap;
+/// use symplectic::{Error, Integrator, State};
 ///
 /// # fn main() -> Result<(), Error> {
 /// let near = |a: f64, b: f64| State::from_arrays(0.0, [0.4 + a], [0.9 + b]);
@@ -103,7 +104,8 @@ pub trait StepMap {
     /// ```
     /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
     /// symplectic::hamiltonian! { Kepler q: [2], p: [2]; H = |p|^2/2 - 1/|q| }
-    /// # use symplectic::{Error, Integrator, State, StepMap};
+    /// # use symplectic::stepper::StepMap;
+    /// # use symplectic::{Error, Integrator, State};
     /// # use symplectic::nalgebra::{Rotation2, Vector2};
     /// # fn main() -> Result<(), Error> {
     /// let start = State::new(0.0, Vector2::new(0.4, 0.0), Vector2::new(0.0, 2.0));

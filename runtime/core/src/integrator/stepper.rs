@@ -11,7 +11,8 @@ use crate::state::Timed;
 ///
 /// ```
 /// use symplectic::nalgebra::Vector1;
-/// use symplectic::{Equal, Error, Run, State, Statistics, StepMap, Stepper};
+/// use symplectic::stepper::{Equal, StepMap, Stepper};
+/// use symplectic::{Error, Run, State, Statistics};
 ///
 /// /// The symplectic Euler method for a pendulum.
 /// #[derive(Clone)]

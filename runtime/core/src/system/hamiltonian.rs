@@ -359,7 +359,8 @@ pub trait SeparableHamiltonian {
     ///
     /// ```
     /// use symplectic::nalgebra::DVector;
-    /// use symplectic::{Masses, Scalar, SeparableHamiltonian};
+    /// use symplectic::system::Masses;
+    /// use symplectic::{Scalar, SeparableHamiltonian};
     ///
     /// /// Oscillators of frequency 1.
     /// struct Oscillators;

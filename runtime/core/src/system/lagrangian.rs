@@ -10,7 +10,8 @@ use crate::number::{Scalar, Vector};
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
-/// use symplectic::{Lagrangian, Scalar};
+/// use symplectic::system::Lagrangian;
+/// use symplectic::Scalar;
 ///
 /// /// A relativistic particle in a harmonic trap, with rest mass and speed of light 1: L = −√(1 − v²) − q²/2.
 /// struct Relativistic;

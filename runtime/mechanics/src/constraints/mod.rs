@@ -35,7 +35,7 @@ use with_constraints::{WithConstraints, place_of_resized};
 /// `Constrained<Damped>` is not a class: friction is part of the force of a system of class `Constrained<General>`.
 ///
 /// ```compile_fail,E0277
-/// use symplectic::Class;
+/// use symplectic::system::Class;
 /// use symplectic::constraints::Constrained;
 /// use symplectic::friction::Damped;
 ///
@@ -140,7 +140,8 @@ impl<C> IsNonholonomic for Nonholonomic<C> {}
 /// ```
 /// use symplectic::nalgebra::SVector;
 /// use symplectic::constraints::{Constrained, Gradients, HolonomicConstraints};
-/// use symplectic::{Error, Hamiltonian, Integrator, Masses, Scalar, Separable, State};
+/// use symplectic::system::Masses;
+/// use symplectic::{Error, Hamiltonian, Integrator, Scalar, Separable, State};
 ///
 /// symplectic::tableau! {
 ///     /// Lobatto IIIA–IIIB with two stages: RATTLE.
@@ -219,7 +220,8 @@ pub trait HolonomicConstraints<V: Vector>: OfClassConstrained<V> {
 /// ```
 /// use symplectic::nalgebra::SVector;
 /// use symplectic::constraints::{Gradients, Nonholonomic, NonholonomicConstraints};
-/// use symplectic::{Error, Hamiltonian, Integrator, Masses, Scalar, Separable, State};
+/// use symplectic::system::Masses;
+/// use symplectic::{Error, Hamiltonian, Integrator, Scalar, Separable, State};
 ///
 /// symplectic::tableau! {
 ///     /// The implicit midpoint rule.

@@ -8,8 +8,9 @@ use super::{Constrained, Gradients, HolonomicConstraints, Nonholonomic, Nonholon
 use symplectic_core::inside::ConstraintName;
 use symplectic_core::inside::first_non_finite_of;
 use symplectic_core::solver::FixedPoint;
+use symplectic_core::system::Masses;
 use symplectic_core::system::{Class, Unconstrained};
-use symplectic_core::{Error, Masses, Quantity, Scalar, System, Vector};
+use symplectic_core::{Error, Quantity, Scalar, System, Vector};
 
 /// The constraints of a system; the linear algebra is the same for both kinds.
 enum Constraints<'a, V: Vector> {

@@ -8,9 +8,9 @@ use super::body::RigidBody;
 use super::free_step::{NoRotation, rotation};
 use super::state::RotationState;
 use symplectic_core::inside::{Part, SymmetricSteps, check_step_size};
-use symplectic_core::{
-    Equal, Error as CoreError, Quantity, Run, Statistics, Stepper, StoermerVerletSteps,
-};
+use symplectic_core::proved::StoermerVerletSteps;
+use symplectic_core::stepper::{Equal, Stepper};
+use symplectic_core::{Error as CoreError, Quantity, Run, Statistics};
 
 /// Integrates a [`RigidBody`] by the symplectic method on SO(3) described in [`rotation`](crate::rotation). A step
 /// allocates nothing and evaluates the torque once; a composition evaluates it once per substep. A failed step leaves

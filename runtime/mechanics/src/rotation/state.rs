@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
-use symplectic_core::{PhasePoint, State, Timed};
+use symplectic_core::State;
+use symplectic_core::stepper::{PhasePoint, Timed};
 
 /// The attitude and the angular momentum of a rigid body at a time.
 ///

@@ -10,7 +10,8 @@ use super::discrete_lagrangian::{At, Derivatives, DiscreteLagrangian};
 use super::failure::Failure;
 use super::regular::Factors;
 use symplectic_core::inside::{check_state, check_step_size};
-use symplectic_core::{Error as CoreError, Own, Quantity, Run, State, Statistics, Stepper, Vector};
+use symplectic_core::stepper::{Own, Stepper};
+use symplectic_core::{Error as CoreError, Quantity, Run, State, Statistics, Vector};
 
 /// Symplectic–energy–momentum steps of a [`DiscreteLagrangian`] that does not depend on time (Kane, Marsden & Ortiz 1999; Marsden & West
 /// 2001, 4.9). The step size is an unknown, and the discrete energy `E_d = −∂Ld/∂h` is the same in all steps.

@@ -12,9 +12,10 @@ use crate::variational::regular::Singular;
 use crate::variational::regular::largest;
 use symplectic_core::inside::check_state;
 use symplectic_core::solver::Solver;
+use symplectic_core::stepper::StepMap;
 use symplectic_core::system::Conservative;
 use symplectic_core::{
-    Error as CoreError, Integrator, Method, Quantity, State, StepMap, Summation, System, Vector,
+    Error as CoreError, Integrator, Method, Quantity, State, Summation, System, Vector,
 };
 
 /// The generating functions of the next step, at given ends:

@@ -7,9 +7,9 @@ use super::given_ends::GeneratingFunctions;
 use super::regular::Factors;
 use crate::Error;
 use symplectic_core::inside::{Part, SymmetricSteps, beside, check_state, check_step_size};
-use symplectic_core::{
-    Equal, Quantity, Run, State, Statistics, Stepper, StoermerVerletSteps, Vector,
-};
+use symplectic_core::proved::StoermerVerletSteps;
+use symplectic_core::stepper::{Equal, Stepper};
+use symplectic_core::{Quantity, Run, State, Statistics, Vector};
 
 /// Takes the steps of a [`DiscreteLagrangian`], with its forces if there are any (Marsden & West 2001, 2.1.1 and 3.2.5):
 ///

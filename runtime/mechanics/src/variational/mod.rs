@@ -3,7 +3,7 @@
 //! Every step of a method has a [generating function](generating_function()), and [stages](StagesOfStep) with the work and the impulse of
 //! applied forces. A [`DiscreteLagrangian`] supplied by the user generates the steps of a [`VariationalIntegrator`], or of an
 //! [`EnergyMomentumIntegrator`], which chooses the step size. A [`DiscretePath`] tests its properties. A [`LagrangianIntegrator`] applies
-//! a method to a [`Lagrangian`](symplectic_core::Lagrangian). A [`DiracIntegrator`] is for degenerate Lagrangians and for constraints on
+//! a method to a [`Lagrangian`](symplectic_core::system::Lagrangian). A [`DiracIntegrator`] is for degenerate Lagrangians and for constraints on
 //! velocities.
 
 mod checks;

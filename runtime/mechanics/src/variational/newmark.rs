@@ -15,8 +15,9 @@ use symplectic_core::inside::{
     HyperDual, check_start, check_state, check_step_size, is_finite, non_linear_velocity,
 };
 use symplectic_core::solver::FixedPoint;
+use symplectic_core::system::Masses;
 use symplectic_core::{
-    Error as CoreError, Hamiltonian, Masses, Quantity, Scalar, Separable, State, System, Vector,
+    Error as CoreError, Hamiltonian, Quantity, Scalar, Separable, State, System, Vector,
 };
 
 /// A system `H = pᵀM⁻¹p/2 + V(q)` in shifted positions. In these, Newmark's method with `γ = 1/2` and any β is Störmer–Verlet (Newmark

@@ -7,8 +7,9 @@ use super::energies::{EnergyAt, weighted_energy};
 use super::two_ends::{dot, solve};
 use symplectic_core::inside::{Attempt, FirstFault, Plan, StageView};
 use symplectic_core::solver::{Failure, Solver, Step, Stopping};
+use symplectic_core::system::Class;
 use symplectic_core::{
-    Class, Error as CoreError, Integrator, Method, Quantity, Scalar, Summation, System, Vector,
+    Error as CoreError, Integrator, Method, Quantity, Scalar, Summation, System, Vector,
 };
 
 /// A stage of a step, with the evaluations there.

@@ -13,7 +13,8 @@ use symplectic_core::solver::{
     Coefficient, Coefficients, EvaluationCounts, HalfChange, Outcome, StageChange, StageStorage,
     Step, Stopping, Visit, WarmStart,
 };
-use symplectic_core::{Class, Error, Method, Plain, Quantity, Scalar, Summation, System, Vector};
+use symplectic_core::system::Class;
+use symplectic_core::{Error, Method, Plain, Quantity, Scalar, Summation, System, Vector};
 
 /// The stages of the step with position `step.q` at its start and momentum `step.p` at its end, or at its start if `FORWARD`. Also returns
 /// the other momentum and the position at the end. `number` is the number of the step, for errors.

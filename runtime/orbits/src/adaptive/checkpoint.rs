@@ -3,9 +3,8 @@
 use super::integrator::{AdaptiveSteps, Controller};
 use super::monitor::{Monitor, Slopes, seen};
 use symplectic_core::inside::{Parts, Save, Solver, parts_of};
-use symplectic_core::{
-    Checkpoint, CheckpointError, Method, Run, Stepper, Summation, System, Vector,
-};
+use symplectic_core::stepper::Stepper;
+use symplectic_core::{Checkpoint, CheckpointError, Method, Run, Summation, System, Vector};
 
 /// The kind of run that the checkpoint records with the method.
 const KIND: &str = "adaptive";

@@ -8,9 +8,11 @@ use symplectic_core::inside::{
     Solver, advance_in_time, check_state, check_step_size, fast_two_sum, parts_of, two_sum,
 };
 use symplectic_core::output::DenseOutput;
+use symplectic_core::proved::SymmetricFor;
+use symplectic_core::stepper::{Own, Stepper};
 use symplectic_core::{
-    Compensated, Integrator, Method, Own, ProvedFor, Retry, Run, State, Statistics, Stepper,
-    Summation, SymmetricFor, System, Vector,
+    Compensated, Integrator, Method, ProvedFor, Retry, Run, State, Statistics, Summation, System,
+    Vector,
 };
 
 /// A symmetric method with reversible steps of variable size `h ≈ ε σ(q)`: the integrating controller of Hairer & Söderlind (2005;
@@ -31,7 +33,7 @@ use symplectic_core::{
 /// [`Poincare`](super::Poincare) or [`Logarithmic`](super::Logarithmic) for them.
 ///
 /// The order in ε is that of the method: t is the sum of the step sizes. Steps are explicit if the method is. Each step costs one
-/// additional derivative of the [`Monitor`], and one velocity unless it [is the momentum](symplectic_core::Masses::Unit).
+/// additional derivative of the [`Monitor`], and one velocity unless it [is the momentum](symplectic_core::system::Masses::Unit).
 ///
 /// # Errors of a step
 ///

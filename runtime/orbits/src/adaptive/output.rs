@@ -4,10 +4,9 @@ use super::integrator::AdaptiveSteps;
 use super::monitor::Monitor;
 use crate::Error;
 use symplectic_core::inside::Solver;
+use symplectic_core::stepper::{DenseSteps, NamedSteps, Partitioned};
 use symplectic_core::system::Named;
-use symplectic_core::{
-    DenseSteps, Method, NamedSteps, Partitioned, State, Summation, System, Vector,
-};
+use symplectic_core::{Method, State, Summation, System, Vector};
 
 impl<M, S, W, V, R, N> DenseSteps for AdaptiveSteps<M, S, W, V, R, N>
 where

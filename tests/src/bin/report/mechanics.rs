@@ -1,9 +1,10 @@
 //! The scenes with constraints, friction and forces, one function each.
 
 use symplectic::nalgebra::{Matrix3, SVector};
+use symplectic::proved::StoermerVerletSteps;
 use symplectic::rotation::{self, RotationSteps};
 use symplectic::variational::{self, DiracRule, DiracSteps};
-use symplectic::{Error, Integrator, StoermerVerletSteps};
+use symplectic::{Error, Integrator};
 use symplectic_report::{Finish, Ladder, Observe, Problem, Reference, Study};
 use symplectic_tests::methods::{
     Gauss6, Gauss8, Lobatto5, Midpoint, Rattle6, StoermerVerlet, Suzuki4,

@@ -5,8 +5,9 @@
 use symplectic::constraints::{Constrained, Nonholonomic};
 use symplectic::friction::Damped;
 use symplectic::solver::ByNewton;
+use symplectic::system::Class;
 use symplectic::system::Unconstrained;
-use symplectic::{Class, Integrator, Separable, System, Vector};
+use symplectic::{Integrator, Separable, System, Vector};
 use symplectic_report::Problem;
 use symplectic_tests::methods::{
     BlanesMoanS6, BlanesMoanS10, BlanesMoanSrkn11b, BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4,

@@ -8,7 +8,8 @@ use std::fs;
 use serde_json::Value as Json;
 use symplectic::constraints::consistent_momentum;
 use symplectic::nalgebra::{DVector, SVector};
-use symplectic::{Class, Error, Hamiltonian, Lagrangian, State, System, Vector};
+use symplectic::system::{Class, Lagrangian};
+use symplectic::{Error, Hamiltonian, State, System, Vector};
 use symplectic_formula::{Form, Structure, description};
 
 use self::reader::{Values, World, constraints, solve};

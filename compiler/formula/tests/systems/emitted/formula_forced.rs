@@ -44,7 +44,7 @@ const _: () = {
     impl ::symplectic::Hamiltonian for Drone {
         type Class = ::symplectic::General;
         type Vector<T: Scalar> = ::symplectic::nalgebra::SVector<T, 2>;
-        const MASSES: ::symplectic::Masses = ::symplectic::Masses::Unit;
+        const MASSES: ::symplectic::system::Masses = ::symplectic::system::Masses::Unit;
         const INLINED: bool = true;
         #[inline(always)]
         fn velocity<T: Scalar>(

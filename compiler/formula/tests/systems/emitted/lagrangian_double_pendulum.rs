@@ -269,7 +269,7 @@ const _: () = {
         }
     }
     #[allow(unused_variables, non_snake_case, clippy::all)]
-    impl ::symplectic::Lagrangian for DoublePendulum {
+    impl ::symplectic::system::Lagrangian for DoublePendulum {
         type Vector<T: Scalar> = ::symplectic::nalgebra::SVector<T, 2>;
         fn lagrangian<T: Scalar>(
             &self,

@@ -46,7 +46,7 @@ const _: () = {
     #[allow(unused_imports, clippy::all)]
     use ::symplectic::emitted::{One as _, Scalar, Zero as _};
     #[allow(unused_variables, non_snake_case, clippy::all)]
-    impl ::symplectic::Lagrangian for Particle {
+    impl ::symplectic::system::Lagrangian for Particle {
         type Vector<T: Scalar> = ::symplectic::nalgebra::SVector<T, 2>;
         fn lagrangian<T: Scalar>(
             &self,

@@ -15,7 +15,7 @@ impl<S: DenseSteps> Run<S> {
     /// breaks with a value, the integration ends and returns that value; otherwise it returns `None`. It ends after the step that contains
     /// the event, or at the event if it is a [`wall`](Event::wall).
     ///
-    /// A stepper with its [own](crate::Own) pace takes the steps up to the one that reaches or passes `end`, and the present state is then
+    /// A stepper with its [own](crate::stepper::Own) pace takes the steps up to the one that reaches or passes `end`, and the present state is then
     /// that after this step. Events after `end` in this step are reported too, so that a run that continues misses none. At a wall or a
     /// changed state an adaptive run begins anew, with the step density 1/σ there.
     ///
@@ -77,7 +77,8 @@ impl<S: DenseSteps> Run<S> {
     /// symplectic::tableau! { StoermerVerlet { basis: polynomial(2), nodes: lobatto(2) } }
     /// use core::ops::ControlFlow;
     /// use symplectic::nalgebra::Vector1;
-    /// use symplectic::{Error, Event, Integrator, Moment, State, acceleration};
+    /// use symplectic::output::Moment;
+    /// use symplectic::{Error, Event, Integrator, State, acceleration};
     ///
     /// # fn main() -> Result<(), Error> {
     /// type Ball = State<Vector1<f64>>;

@@ -10,7 +10,7 @@ macro_rules! chain_system {
             type Class = $crate::Separable;
             type Solver = $crate::solver::Automatic;
 
-            const MASSES: $crate::Masses = $crate::Masses::Unit;
+            const MASSES: $crate::system::Masses = $crate::system::Masses::Unit;
             const INLINED: bool = <Self as $crate::emitted::Bonds>::INLINED;
             const WELL_DECLARED: bool = true;
 

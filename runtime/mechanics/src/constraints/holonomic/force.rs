@@ -7,8 +7,9 @@ use super::metric::{Metric, Point};
 use super::start::error;
 use crate::constraints::{Constrained, WithConstraints};
 use symplectic_core::inside::is_finite;
+use symplectic_core::system::Class;
 use symplectic_core::system::Unconstrained;
-use symplectic_core::{Class, Error, Quantity, Scalar, State, System, Vector};
+use symplectic_core::{Error, Quantity, Scalar, State, System, Vector};
 
 /// The result of [`constraint_force`]: the force of the constraints at a state, and their multipliers.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +38,8 @@ pub struct ConstraintForce<V: Vector> {
 /// ```
 /// use symplectic::nalgebra::SVector;
 /// use symplectic::{Error, State, constraint_force};
-/// # use symplectic::{Constrained, Hamiltonian, Masses, Scalar, Separable};
+/// # use symplectic::system::Masses;
+/// # use symplectic::{Constrained, Hamiltonian, Scalar, Separable};
 /// # use symplectic::system::Gradients;
 /// # struct Pendulum;
 /// # impl Hamiltonian for Pendulum {

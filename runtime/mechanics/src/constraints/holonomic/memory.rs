@@ -15,7 +15,8 @@ use symplectic_core::inside::{
     ConstrainedStep, ConstrainedTableau, StageStorage, Visit, first_non_finite, scalar_words,
     vector_words,
 };
-use symplectic_core::{Class, Quantity, Scalar, System, Vector};
+use symplectic_core::system::Class;
+use symplectic_core::{Quantity, Scalar, System, Vector};
 
 /// Everything that depends on the numbers of constraints and stages.
 #[derive(Clone, Debug)]

@@ -8,8 +8,9 @@ use super::metric::{Metric, Point};
 use super::resolution::Resolution;
 use crate::constraints::{Constrained, Gradients, Terms, WithConstraints};
 use symplectic_core::inside::{Failure, beside, is_finite};
+use symplectic_core::system::Class;
 use symplectic_core::system::Unconstrained;
-use symplectic_core::{Class, Error, Quantity, Scalar, State, System, Vector};
+use symplectic_core::{Error, Quantity, Scalar, State, System, Vector};
 
 /// How far a start may be from the constraints, relative to the sizes of their terms.
 pub(in crate::constraints) const CONSISTENT: f64 = 1e-10;
@@ -327,7 +328,8 @@ fn check_gradients<V: Vector, S: System<V>>(
 /// ```
 /// use symplectic::nalgebra::SVector;
 /// use symplectic::{Error, State, consistent};
-/// # use symplectic::{Constrained, Hamiltonian, Masses, Scalar, Separable};
+/// # use symplectic::system::Masses;
+/// # use symplectic::{Constrained, Hamiltonian, Scalar, Separable};
 /// # use symplectic::system::Gradients;
 /// # struct Pendulum;
 /// # impl Hamiltonian for Pendulum {

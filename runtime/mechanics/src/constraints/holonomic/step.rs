@@ -8,7 +8,8 @@ use symplectic_core::inside::{
     Coefficient, ConstrainedTableau, Failure, Outcome, StageView, Step, StepStatistics, Stopping,
     add, copy, is_finite, larger_or_nan,
 };
-use symplectic_core::{Class, Quantity, Scalar, Summation, System, Vector};
+use symplectic_core::system::Class;
+use symplectic_core::{Quantity, Scalar, Summation, System, Vector};
 
 /// Residuals are in units of rounding. A residual of at most this size counts as zero if it has [stopped decreasing](STAGNANT).
 pub(in crate::constraints) const ROUNDING: f64 = 2.0;

@@ -37,8 +37,9 @@ use symplectic_core::inside::{
     ConstrainedStep, Failure, Outcome, Plan, Solver, StageView, Step, StepStatistics, Stopping,
     WarmStart, in_turn,
 };
+use symplectic_core::system::Class;
 use symplectic_core::system::Unconstrained;
-use symplectic_core::{Class, Error, Method, Scalar, Summation, System, Vector};
+use symplectic_core::{Error, Method, Scalar, Summation, System, Vector};
 
 /// The plan of the method `M` for systems with non-holonomic constraints.
 #[derive(Debug)]

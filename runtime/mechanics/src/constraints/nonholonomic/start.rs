@@ -2,8 +2,9 @@
 
 use crate::constraints::holonomic::{CONSISTENT, Examined, check_numbers};
 use crate::constraints::{Nonholonomic, WithConstraints};
+use symplectic_core::system::Class;
 use symplectic_core::system::Unconstrained;
-use symplectic_core::{Class, Error, State, System, Vector};
+use symplectic_core::{Error, State, System, Vector};
 
 /// Checks that the velocity of a state obeys the constraints, and that these are independent.
 pub(super) fn check_start<V: Vector, S: System<V>>(
@@ -42,7 +43,8 @@ pub(super) fn check_start<V: Vector, S: System<V>>(
 /// ```
 /// use symplectic::nalgebra::SVector;
 /// use symplectic::{Error, State, consistent_momentum};
-/// # use symplectic::{Hamiltonian, Masses, Nonholonomic, Scalar, Separable};
+/// # use symplectic::system::Masses;
+/// # use symplectic::{Hamiltonian, Nonholonomic, Scalar, Separable};
 /// # use symplectic::system::Gradients;
 /// # struct Skate;
 /// # impl Hamiltonian for Skate {

@@ -7,7 +7,8 @@ use symplectic_core::inside::{
     Coefficient, ConstrainedTableau, Failure, Outcome, Step, StepStatistics, Stopping, copy,
     is_finite, larger_or_nan,
 };
-use symplectic_core::{Class, Quantity, Scalar, Summation, System, Vector};
+use symplectic_core::system::Class;
+use symplectic_core::{Quantity, Scalar, Summation, System, Vector};
 
 impl<V: Vector> Workspace<V> {
     /// Takes a step; `carried` means that the previous step ended where this one starts.

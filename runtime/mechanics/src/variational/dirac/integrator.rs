@@ -11,7 +11,9 @@ use crate::variational::two_ends::dot;
 use symplectic_core::inside::{
     SymmetricSteps, check_state, check_step_size, copy, or_as_first_step,
 };
-use symplectic_core::{Equal, Run, State, Statistics, Stepper, StoermerVerletSteps, Vector};
+use symplectic_core::proved::StoermerVerletSteps;
+use symplectic_core::stepper::{Equal, Stepper};
+use symplectic_core::{Run, State, Statistics, Vector};
 
 /// Takes the steps of the discrete principle of Lagrange, d'Alembert and Pontryagin (Leok & Ohsawa, arXiv:0810.0740v1, 4.28 and 8.3) for a
 /// [`DiracSystem`], whose Lagrangian may be degenerate:
@@ -60,7 +62,8 @@ use symplectic_core::{Equal, Run, State, Statistics, Stepper, StoermerVerletStep
 /// use symplectic::nalgebra::SVector;
 /// use symplectic::constraints::Gradients;
 /// use symplectic::variational::{DiracSteps, DiracRule, DiracSystem, momentum_of_velocity};
-/// use symplectic::{Lagrangian, Scalar, State};
+/// use symplectic::system::Lagrangian;
+/// use symplectic::{Scalar, State};
 ///
 /// /// Two capacitors of 1 F in parallel, with an inductor of 2 H across them. The charges are those of the inductor and the capacitors.
 /// struct Circuit;

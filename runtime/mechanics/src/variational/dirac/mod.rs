@@ -11,7 +11,8 @@ pub use integrator::{DiracIntegrator, DiracSteps};
 pub use primary::{PrimaryConstraint, primary_constraints};
 
 use crate::constraints::Gradients;
-use symplectic_core::{Lagrangian, Scalar};
+use symplectic_core::Scalar;
+use symplectic_core::system::Lagrangian;
 
 /// A Lagrangian, regular or degenerate, with optional constraints `w(q) v = 0` on its velocities.
 ///

@@ -13,7 +13,8 @@ use super::step::{LAST_CHANGE, largest_contradiction};
 use crate::rank::RankElimination;
 use crate::rank::Rest;
 use crate::variational::lagrangian::derivatives::Derivatives;
-use symplectic_core::{Error as CoreError, Lagrangian, Quantity, State, Vector};
+use symplectic_core::system::Lagrangian;
+use symplectic_core::{Error as CoreError, Quantity, State, Vector};
 
 /// A constraint `direction·p = value` on the momentum at a position.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +38,8 @@ pub struct PrimaryConstraint<V> {
 /// ```
 /// use symplectic::nalgebra::SVector;
 /// use symplectic::variational::primary_constraints;
-/// use symplectic::{Lagrangian, Scalar};
+/// use symplectic::system::Lagrangian;
+/// use symplectic::Scalar;
 ///
 /// /// L = (x' + y')²/2 + x z' − (x² + z²)/2
 /// struct Degenerate;

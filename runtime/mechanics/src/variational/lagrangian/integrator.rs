@@ -9,9 +9,10 @@ use crate::variational::given_ends::GeneratingFunctions;
 use crate::variational::stages::{StagesOfStep, StepWithStages};
 use crate::variational::two_ends::dot;
 use symplectic_core::inside::{beside, check_state, check_step_size, or_as_first_step};
+use symplectic_core::stepper::{Equal, Stepper};
+use symplectic_core::system::Lagrangian;
 use symplectic_core::{
-    Equal, Error as CoreError, General, Lagrangian, Method, ProvedFor, Quantity, Run, State,
-    Statistics, Stepper, Vector,
+    Error as CoreError, General, Method, ProvedFor, Quantity, Run, State, Statistics, Vector,
 };
 
 /// Takes the steps of a partitioned Runge–Kutta method in Lagrangian form (Marsden & West 2001, 2.6.1):
@@ -52,7 +53,8 @@ use symplectic_core::{
 /// symplectic::tableau! { Gauss3 { basis: polynomial(3), nodes: gauss(3) } }
 /// use symplectic::nalgebra::SVector;
 /// use symplectic::variational::LagrangianSteps;
-/// use symplectic::{Lagrangian, Scalar};
+/// use symplectic::system::Lagrangian;
+/// use symplectic::Scalar;
 ///
 /// /// A relativistic particle in Kepler's potential: L = −√(1 − |v|²) + 1/|q|, with the speed of light 1.
 /// struct Relativistic;

@@ -5,8 +5,9 @@ use num_traits::Float;
 
 use super::derivatives::Derivatives;
 use crate::variational::regular::Factors;
+use symplectic_core::Vector;
 use symplectic_core::inside::check_state;
-use symplectic_core::{Lagrangian, Vector};
+use symplectic_core::system::Lagrangian;
 
 /// The momentum `p = ∂L/∂v(t, q, v)`, with the dimension of `q`.
 ///
@@ -19,7 +20,8 @@ use symplectic_core::{Lagrangian, Vector};
 /// ```
 /// # use symplectic::nalgebra::SVector;
 /// # use symplectic::variational::momentum_of_velocity;
-/// # use symplectic::{Lagrangian, Scalar};
+/// # use symplectic::system::Lagrangian;
+/// # use symplectic::Scalar;
 /// /// A charge in a magnetic field, L = |v|²/2 + (x y' − y x').
 /// struct Charge;
 ///
@@ -68,7 +70,8 @@ pub fn momentum_of_velocity<L: Lagrangian>(
 /// ```
 /// use symplectic::nalgebra::SVector;
 /// use symplectic::variational::{momentum_of_velocity, velocity_of_momentum};
-/// use symplectic::{Lagrangian, Scalar};
+/// use symplectic::system::Lagrangian;
+/// use symplectic::Scalar;
 ///
 /// /// A free particle at relativistic speeds: p = v/√(1 − v²).
 /// struct Free;

@@ -5,7 +5,8 @@ use alloc::vec::Vec;
 use super::derivatives::Derivatives;
 use crate::variational::regular::Factors;
 use symplectic_core::inside::beside;
-use symplectic_core::{Error, Lagrangian, Vector};
+use symplectic_core::system::Lagrangian;
+use symplectic_core::{Error, Vector};
 
 /// The largest deviation of `p` from `a(q)`, relative to their largest terms so far. Rounding errors of long runs are smaller; the
 /// deviation of a method that leaves `p = a(q)` grows above it, unless its steps are so short that it does not matter.

@@ -12,7 +12,8 @@ use crate::variational::regular::Factors;
 use crate::variational::regular::Singular;
 use crate::variational::regular::largest;
 use crate::variational::stages::StageOfStep;
-use symplectic_core::{Error, Lagrangian, Vector};
+use symplectic_core::system::Lagrangian;
+use symplectic_core::{Error, Vector};
 
 /// The unknown velocities of a step, and quantities computed from them. Each list consists of vectors one after the other.
 #[derive(Clone)]
