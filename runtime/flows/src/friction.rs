@@ -64,6 +64,7 @@ impl<M: Splits> ProvedFor<Damped> for LowerOrder<M> {}
 #[doc(hidden)]
 pub trait OfClassDamped<V> {}
 
+#[diagnostic::do_not_recommend]
 impl<V: Vector, S: System<V, Class = Damped>> OfClassDamped<V> for S {}
 
 /// The friction of a system of class [`Damped`]. It is implemented for the vectors of every scalar:

@@ -189,9 +189,8 @@ const _: () = {
         type General = emitted::Coupled<ForestRuthGeneral>;
         type Separable = emitted::Splitting<ForestRuthSeparable>;
     }
-    impl emitted::ProvedFor<emitted::Separable> for ForestRuth {}
-    impl emitted::ProvedFor<()> for ForestRuth {}
-    impl emitted::ProvedFor<emitted::Damped> for ForestRuth {}
+    #[diagnostic::do_not_recommend]
+    impl<C: emitted::SeparableOrDamped> emitted::ProvedFor<C> for ForestRuth {}
     impl emitted::Splits for ForestRuth {}
     impl<C: emitted::SplitClass> emitted::SymmetricFor<C> for ForestRuth {}
     pub struct ForestRuthGeneral;

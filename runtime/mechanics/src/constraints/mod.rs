@@ -113,6 +113,7 @@ impl<C> NotGeneral for Nonholonomic<C> {}
 #[doc(hidden)]
 pub trait OfClassConstrained<V> {}
 
+#[diagnostic::do_not_recommend]
 impl<V: Vector, S: System<V, Class: IsConstrained>> OfClassConstrained<V> for S {}
 
 /// A system of class [`Nonholonomic`].
@@ -123,6 +124,7 @@ impl<V: Vector, S: System<V, Class: IsConstrained>> OfClassConstrained<V> for S 
 #[doc(hidden)]
 pub trait OfClassNonholonomic<V> {}
 
+#[diagnostic::do_not_recommend]
 impl<V: Vector, S: System<V, Class: IsNonholonomic>> OfClassNonholonomic<V> for S {}
 
 #[doc(hidden)]
