@@ -25,7 +25,7 @@
 //! | Discrete and degenerate Lagrangians, generating functions, stages and balances | [`variational`], feature `mechanics` |
 //! | The method | the macros [`tableau!`], [`splitting!`], [`composition!`]; [`at_run_time`], feature `at-run-time` |
 //! | A run | [`Integrator`], [`State`], [`Error`], [`Retry`], [`Statistics`], [`Checkpoint`] |
-//! | All integrators, and your own | [`Run`], [`Stepper`], [`DenseSteps`]; their tests: [`StepMap`] |
+//! | All integrators, and your own | [`Run`], [`stepper`]; their tests: [`stepper::StepMap`] |
 //! | Output and events | [`Event`], [`Invariant`], [`Progress`]; [`output`] |
 //! | Many trajectories, in lanes and on all cores | [`ensemble`] |
 //! | Is an orbit chaotic? MEGNO, Lyapunov exponent, tangent map | [`tangent`], feature `orbits` |

@@ -33,7 +33,7 @@ pub enum Error {
         momentum_time: f64,
     },
 
-    /// A step of a system of class [`Damped`](symplectic_core::Damped) has no stages.
+    /// A step of a system of class `friction::Damped` has no stages.
     #[error(
         "steps with friction have no stages, because their kicks are exact flows; write the friction as a force, in a formula \
          `force: {{ x = -gamma px }}`"

@@ -25,7 +25,7 @@ impl<V: Vector> PhasePoint for State<V> {
 /// The next step of an integrator as a map of states, and checks of this map for tests. The integrator itself takes no step. For a stepper
 /// with its [own](crate::stepper::Own) pace it is the first step of a new run from each state.
 ///
-/// With constraints it is a map of the constrained phase space: all states must satisfy them, see [`consistent`](crate::consistent).
+/// With constraints it is a map of the constrained phase space: all states must satisfy them, see `constraints::consistent`.
 ///
 /// ```
 /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }

@@ -1,7 +1,7 @@
 //! The macro `lagrangian!`.
 
 /// A system from the formula of its Lagrangian. If L is quadratic in the velocities, the Hamiltonian follows, and from it everything that
-/// [`hamiltonian!`](macro@crate::hamiltonian) derives. Otherwise the type has the trait [`Lagrangian`](trait@crate::Lagrangian), and a
+/// [`hamiltonian!`](macro@crate::hamiltonian) derives. Otherwise the type has the trait [`Lagrangian`](trait@crate::system::Lagrangian), and a
 /// `variational::LagrangianIntegrator`, of the feature `mechanics`, takes its steps.
 ///
 /// ```

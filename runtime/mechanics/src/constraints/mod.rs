@@ -22,7 +22,7 @@ use symplectic_core::{System, Vector};
 use gradients::Terms;
 use with_constraints::{WithConstraints, place_of_resized};
 
-/// `H` of class `C`, [`Separable`] or [`General`], with holonomic constraints `φ(q) = 0`:
+/// `H` of class `C`, [`Separable`](symplectic_core::Separable) or [`General`](symplectic_core::General), with holonomic constraints `φ(q) = 0`:
 ///
 /// ```text
 /// q' = ∂H/∂p      p' = −∂H/∂q − Gᵀλ      φ(q) = 0      G = ∂φ/∂q
@@ -45,7 +45,7 @@ use with_constraints::{WithConstraints, place_of_resized};
 #[derive(Clone, Copy, Debug)]
 pub struct Constrained<C>(PhantomData<C>);
 
-/// `H` of class `C`, [`Separable`] or [`General`], with non-holonomic constraints `w(q)·q' = 0`, linear in the velocities:
+/// `H` of class `C`, [`Separable`](symplectic_core::Separable) or [`General`](symplectic_core::General), with non-holonomic constraints `w(q)·q' = 0`, linear in the velocities:
 ///
 /// ```text
 /// q' = ∂H/∂p      p' = −∂H/∂q − wᵀλ      w(q) ∂H/∂p = 0

@@ -36,7 +36,7 @@ pub struct StageOfStep<V: Vector> {
     /// The multiplier `Λ_i` of each holonomic constraint: at this stage the constraints change the momentum by `−h b_i G(Q_i)ᵀΛ_i`, with 1
     /// in place of a weight zero, as the last one of symplectic Euler. Empty without holonomic constraints.
     ///
-    /// With s stages they have order s − 1 (Jay, 1996); those of [`constraint_force`](symplectic_core::constraint_force) have the order of the state.
+    /// With s stages they have order s − 1 (Jay, 1996); those of [`constraint_force`](crate::constraints::constraint_force) have the order of the state.
     /// Non-holonomic constraints have impulses at both ends of a step, not at its stages.
     pub multipliers: Vec<V::Scalar>,
 }
@@ -151,7 +151,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> StepWith
     /// # Errors
     ///
     /// [`Core(EvaluationDimension)`](CoreError::EvaluationDimension) for the applied force too; [`Error::NoStages`] for a system of class
-    /// [`Damped`](symplectic_core::Damped), whose kicks are exact flows.
+    /// `friction::Damped`, whose kicks are exact flows.
     ///
     /// ```
     /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }

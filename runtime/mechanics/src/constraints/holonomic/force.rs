@@ -36,35 +36,16 @@ pub struct ConstraintForce<V: Vector> {
 /// [`Error::ResizedEvaluation`].
 ///
 /// ```
-/// use symplectic::nalgebra::SVector;
-/// use symplectic::{Error, State, constraint_force};
-/// # use symplectic::system::Masses;
-/// # use symplectic::{Constrained, Hamiltonian, Scalar, Separable};
-/// # use symplectic::system::Gradients;
-/// # struct Pendulum;
-/// # impl Hamiltonian for Pendulum {
-/// #     type Class = Constrained<Separable>;
-/// #     type Vector<T: Scalar> = SVector<T, 2>;
-/// #     const MASSES: Masses = Masses::Unit;
-/// #     fn velocity<T: Scalar>(&self, _: T, _: &SVector<T, 2>, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
-/// #         *velocity = *p;
-/// #     }
-/// #     fn force<T: Scalar>(&self, _: T, _: &SVector<T, 2>, _: &SVector<T, 2>, force: &mut SVector<T, 2>) {
-/// #         *force = SVector::from([T::zero(), T::from_f64(-9.81)]);
-/// #     }
-/// #     fn constraints(&self) -> usize { 1 }
-/// #     fn constraint_values<T: Scalar>(&self, q: &SVector<T, 2>, values: &mut [T]) {
-/// #         values[0] = q.dot(q) - T::one();
-/// #     }
-/// #     fn constraint_gradients<T: Scalar>(&self, q: &SVector<T, 2>, gradients: &mut Gradients<T>) {
-/// #         for k in 0..2 { gradients.set(0, k, q[k] + q[k]); }
-/// #     }
-/// # }
+/// use symplectic::constraints::constraint_force;
+/// use symplectic::{Error, State};
+///
+/// symplectic::hamiltonian! { Pendulum q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + 9.81 y constraints: { rod = x^2 + y^2 - 1 } }
+///
 /// # fn main() -> Result<(), Error> {
 /// // A pendulum of length 1 at its lowest point: the rod carries g + v².
 /// let state = State::from_arrays(0.0, [0.0, -1.0], [2.0, 0.0]);
 /// let rod = constraint_force(&Pendulum, &state)?;
-/// assert!((rod.force[1] - (9.81 + 4.0)).abs() < 1e-10);
+/// assert!(f64::abs(rod.force[1] - (9.81 + 4.0)) < 1e-10);
 /// # Ok(())
 /// # }
 /// ```

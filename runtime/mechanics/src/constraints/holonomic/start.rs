@@ -317,7 +317,7 @@ fn check_gradients<V: Vector, S: System<V>>(
 /// q ← q − M⁻¹ G(q)ᵀ μ with φ(q) = 0,    then    p ← p − G(q)ᵀ ν with G(q) ∂H/∂p(q, p) = 0
 /// ```
 ///
-/// An integrator does not project by itself: [`Integrator::new`](crate::Integrator#method.new) refuses a state that is not on the
+/// An integrator does not project by itself: [`Integrator::new`](symplectic_core::Integrator#method.new) refuses a state that is not on the
 /// constraints.
 ///
 /// # Errors
@@ -327,29 +327,11 @@ fn check_gradients<V: Vector, S: System<V>>(
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
-/// use symplectic::{Error, State, consistent};
-/// # use symplectic::system::Masses;
-/// # use symplectic::{Constrained, Hamiltonian, Scalar, Separable};
-/// # use symplectic::system::Gradients;
-/// # struct Pendulum;
-/// # impl Hamiltonian for Pendulum {
-/// #     type Class = Constrained<Separable>;
-/// #     type Vector<T: Scalar> = SVector<T, 2>;
-/// #     const MASSES: Masses = Masses::Unit;
-/// #     fn velocity<T: Scalar>(&self, _: T, _: &SVector<T, 2>, p: &SVector<T, 2>, velocity: &mut SVector<T, 2>) {
-/// #         *velocity = *p;
-/// #     }
-/// #     fn force<T: Scalar>(&self, _: T, _: &SVector<T, 2>, _: &SVector<T, 2>, force: &mut SVector<T, 2>) {
-/// #         *force = SVector::from([T::zero(), T::from_f64(-9.81)]);
-/// #     }
-/// #     fn constraints(&self) -> usize { 1 }
-/// #     fn constraint_values<T: Scalar>(&self, q: &SVector<T, 2>, values: &mut [T]) {
-/// #         values[0] = q.dot(q) - T::one();
-/// #     }
-/// #     fn constraint_gradients<T: Scalar>(&self, q: &SVector<T, 2>, gradients: &mut Gradients<T>) {
-/// #         for k in 0..2 { gradients.set(0, k, q[k] + q[k]); }
-/// #     }
-/// # }
+/// use symplectic::constraints::consistent;
+/// use symplectic::{Error, State};
+///
+/// symplectic::hamiltonian! { Pendulum q: [x, y], p: [px, py]; H = (px^2 + py^2)/2 + 9.81 y constraints: { rod = x^2 + y^2 - 1 } }
+///
 /// # fn main() -> Result<(), Error> {
 /// // A pendulum of length 1, |q|² − 1 = 0, that was read off a plot.
 /// let read: State<SVector<f64, 2>> = State::from_arrays(0.0, [0.6, -0.79], [0.8, 0.61]);

@@ -32,7 +32,7 @@ pub(super) fn check_start<V: Vector, S: System<V>>(
 /// p ← p − w(q)ᵀν    with w(q) ∂H/∂p(q, p) = 0
 /// ```
 ///
-/// An integrator does not project by itself: [`Integrator::new`](crate::Integrator#method.new) refuses a state whose velocity does not obey
+/// An integrator does not project by itself: [`Integrator::new`](symplectic_core::Integrator#method.new) refuses a state whose velocity does not obey
 /// the constraints.
 ///
 /// # Errors
@@ -42,27 +42,11 @@ pub(super) fn check_start<V: Vector, S: System<V>>(
 ///
 /// ```
 /// use symplectic::nalgebra::SVector;
-/// use symplectic::{Error, State, consistent_momentum};
-/// # use symplectic::system::Masses;
-/// # use symplectic::{Hamiltonian, Nonholonomic, Scalar, Separable};
-/// # use symplectic::system::Gradients;
-/// # struct Skate;
-/// # impl Hamiltonian for Skate {
-/// #     type Class = Nonholonomic<Separable>;
-/// #     type Vector<T: Scalar> = SVector<T, 3>;
-/// #     const MASSES: Masses = Masses::Unit;
-/// #     fn velocity<T: Scalar>(&self, _: T, _: &SVector<T, 3>, p: &SVector<T, 3>, velocity: &mut SVector<T, 3>) {
-/// #         *velocity = *p;
-/// #     }
-/// #     fn force<T: Scalar>(&self, _: T, _: &SVector<T, 3>, _: &SVector<T, 3>, force: &mut SVector<T, 3>) {
-/// #         *force = SVector::zeros();
-/// #     }
-/// #     fn nonholonomic_constraints(&self) -> usize { 1 }
-/// #     fn nonholonomic_rows<T: Scalar>(&self, q: &SVector<T, 3>, rows: &mut Gradients<T>) {
-/// #         rows.set(0, 0, q[2].sin());
-/// #         rows.set(0, 1, -q[2].cos());
-/// #     }
-/// # }
+/// use symplectic::constraints::consistent_momentum;
+/// use symplectic::{Error, State};
+///
+/// symplectic::lagrangian! { Skate q: [x, y, a], v: [vx, vy, va]; L = (vx^2 + vy^2 + va^2)/2 nonholonomic: { blade = vx sin(a) - vy cos(a) } }
+///
 /// # fn main() -> Result<(), Error> {
 /// // A skate, x' sin a − y' cos a = 0, that points along y and is pushed along both axes.
 /// let pushed: State<SVector<f64, 3>> = State::from_arrays(0.0, [0.0, 0.0, std::f64::consts::FRAC_PI_2], [3.0, 2.0, 1.0]);

@@ -30,7 +30,7 @@ use symplectic_core::{Run, State, Statistics, Vector};
 ///
 /// By the second line every state is a state of the continuous system. Its momentum satisfies the
 /// [primary constraints](super::primary_constraints), and its velocity satisfies the constraints. For a regular Lagrangian this determines
-/// μ, as in a step of [`Nonholonomic`](symplectic_core::Nonholonomic) systems, and the steps are the same. For a degenerate Lagrangian it also gives
+/// μ, as in a step of [`Nonholonomic`](crate::constraints::Nonholonomic) systems, and the steps are the same. For a degenerate Lagrangian it also gives
 /// the conditions on `q1` that the first line does not contain.
 ///
 /// # Degenerate Lagrangians
