@@ -1,4 +1,4 @@
-//! The mechanics of the package `symplectic`: rigid bodies, discrete and degenerate Lagrangians, generating functions, stages of steps
+//! The mechanics of the package `symplectic`: rigid bodies, constraints, discrete and degenerate Lagrangians, generating functions, stages of steps
 //!
 //! Programs depend on `symplectic` with its feature `mechanics`, which gives all names of this package.
 
