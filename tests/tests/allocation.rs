@@ -17,8 +17,7 @@ use symplectic::simd::{F64x8, Lanes};
 use symplectic::solver::{
     Automatic, Banded, Dense, Differences, FixedPoint, FixedPointThenNewton, Newton, Solver,
 };
-use symplectic::system::Conservative;
-use symplectic::system::Lagrangian;
+use symplectic::system::{Conservative, Lagrangian};
 use symplectic::variational::{DiracRule, DiracSteps, DiracSystem, LagrangianSteps};
 use symplectic::{
     Compensated, Error, Integrator, Method, ProvedFor, Scalar, Separable, State, hamiltonian,

@@ -17,9 +17,9 @@ const SOLVERS: [&str; 4] = [
 
 /// The modules with what only constraints, friction and Lagrangians need.
 const MECHANICS: [&str; 4] = [
-    "symplectic_core::classes::constrained::",
-    "symplectic_core::classes::nonholonomic::",
-    "symplectic_core::classes::damped::",
+    "symplectic_mechanics::constraints::holonomic::",
+    "symplectic_mechanics::constraints::nonholonomic::",
+    "symplectic_flows::friction::",
     "symplectic_mechanics::",
 ];
 

@@ -6,8 +6,7 @@ use core::fmt::Write as _;
 
 use symplectic_core::inside::ConstrainedStep;
 use symplectic_core::solver::{Coefficients, Solver};
-use symplectic_core::system::Class;
-use symplectic_core::system::Frictionless;
+use symplectic_core::system::{Class, Frictionless};
 use symplectic_core::{Error, General, Method, Orders, ProvedFor, Separable, System, Vector};
 
 use crate::coefficients::RunTimeCoefficients;

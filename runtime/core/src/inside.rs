@@ -1,6 +1,5 @@
 //! What the other packages of this workspace need of the core; no promise to anybody else.
 
-pub use crate::error::ConstraintName;
 pub use crate::error::debug::debug_by_message;
 pub use crate::error::phrases::Short;
 
@@ -31,9 +30,8 @@ pub use crate::method::storage::{
 };
 pub use crate::method::symmetric_steps::{Part, SymmetricSteps};
 pub use crate::method::{
-    ConstrainedStep, ConstrainedTableau, EvaluationObserver, Evaluations, Failure, KickDrift,
-    Outcome, Plan, Solver, Span, StagePlan, StageStorage, StageView, Step, StepStatistics,
-    Stopping, Symmetry, WarmStart,
+    ConstrainedStep, ConstrainedTableau, EvaluationObserver, Evaluations, KickDrift, Plan,
+    StagePlan, StageView, Symmetry,
 };
 
 pub use crate::number::array::array;
@@ -47,7 +45,7 @@ pub use crate::number::scalar::larger_or_nan;
 pub use crate::number::summation::{add, add_sum, fast_two_sum, two_sum};
 pub use crate::number::vector::{beside, same, same_mut};
 pub use crate::number::words::{show_vectors, words};
-pub use crate::number::{Coefficient, Visit, Words, advance, copy, scalar_words, vector_words};
+pub use crate::number::{advance, copy};
 
 pub use crate::output::at_times::{Output, is_after};
 
@@ -65,4 +63,12 @@ pub mod rows {
     pub use crate::contract::CoupledRows;
     pub use crate::contract::coupled_step::CoupledStep;
     pub use crate::contract::rows::{Evaluation, HalfRows, Kind, MAX_EVALUATIONS, RowDecoupling};
+}
+
+/// An error with the name of its constraint, if it has one.
+pub fn named(
+    error: crate::error::Error,
+    of: impl Fn(usize) -> Option<crate::error::ConstraintName>,
+) -> crate::error::Error {
+    error.named(of)
 }

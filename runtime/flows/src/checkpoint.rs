@@ -4,9 +4,8 @@ use super::integrator::{FlowIntegrator, FlowSteps, RunState};
 use super::memory::Memory;
 use super::{Flow, Span};
 
-use symplectic_core::inside::{
-    Clock, LastEvent, Parts, Save, Visit, Words, hash, parts_of, vector_words, words,
-};
+use symplectic_core::inside::{Clock, LastEvent, Parts, Save, hash, parts_of, words};
+use symplectic_core::solver::{Visit, Words, vector_words};
 use symplectic_core::{Checkpoint, CheckpointError, Run, State, Vector};
 
 impl<V: Vector<Scalar = f64>, F: Flow<V>> Save for FlowSteps<V, F> {

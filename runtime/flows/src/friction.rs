@@ -5,16 +5,17 @@ use core::slice;
 
 use num_traits::Float;
 use symplectic_core::inside::{
-    Coefficient, EvaluationObserver, Evaluations, Failure, KickDrift, Outcome, Plan, Solver,
-    StageStorage, Step, StepStatistics, Stopping, Visit, WarmStart, add, add_products,
-    larger_or_nan, same, same_mut,
+    EvaluationObserver, Evaluations, KickDrift, Plan, add, add_products, larger_or_nan, same,
+    same_mut,
 };
 use symplectic_core::proved::{LowerOrder, Splits};
-use symplectic_core::solver::FixedPoint;
-use symplectic_core::system::{Class, Masses};
+use symplectic_core::solver::{
+    Coefficient, Failure, FixedPoint, Outcome, Solver, StageStorage, Step, StepStatistics,
+    Stopping, Visit, WarmStart,
+};
 use symplectic_core::system::{
-    FreePositionsOrDamped, HolonomicOrDamped, NotGeneral, SeparableOrDamped, SplitClass,
-    UnconstrainedOrDamped,
+    Class, FreePositionsOrDamped, HolonomicOrDamped, Masses, NotGeneral, SeparableOrDamped,
+    SplitClass, UnconstrainedOrDamped,
 };
 use symplectic_core::{
     Error, Method, ProvedFor, Quantity, Scalar, Separable, Summation, System, Vector,
@@ -55,17 +56,6 @@ impl SeparableOrDamped for Damped {}
 impl NotGeneral for Damped {}
 
 impl<M: Splits> ProvedFor<Damped> for LowerOrder<M> {}
-
-/// A system of class [`Damped`].
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` has friction, but its class excludes it",
-    label = "declare `type Class = Damped;`"
-)]
-#[doc(hidden)]
-pub trait OfClassDamped<V> {}
-
-#[diagnostic::do_not_recommend]
-impl<V: Vector, S: System<V, Class = Damped>> OfClassDamped<V> for S {}
 
 /// The friction of a system of class [`Damped`]. It is implemented for the vectors of every scalar:
 ///
@@ -116,7 +106,7 @@ impl<V: Vector, S: System<V, Class = Damped>> OfClassDamped<V> for S {}
     message = "`{Self}` does not give its friction over the vectors `{V}`",
     label = "implement `Friction` for the vectors of every scalar"
 )]
-pub trait Friction<V: Vector>: OfClassDamped<V> {
+pub trait Friction<V: Vector>: of_class::Damped<V> {
     /// The rate γ of the friction `−γp` of a component of the momentum, per unit of time.
     fn friction(&self, component: usize) -> f64;
 
@@ -213,15 +203,16 @@ impl Class for Damped {
         DampedMemory::like(prototype)
     }
 
-    #[cfg(feature = "alloc")]
     fn numbers<V: Vector, S: System<V, Class = Self>>(
         system: &S,
         q: &V,
-    ) -> alloc::vec::Vec<V::Scalar> {
+        show: &mut dyn FnMut(V::Scalar),
+    ) {
         let friction = system.extra();
-        let rates =
-            (0..q.dimension()).map(|k| friction.map_or(0.0, |friction| friction.friction(k)));
-        rates.map(V::Scalar::from_f64).collect()
+        for k in 0..q.dimension() {
+            let rate = friction.map_or(0.0, |friction| friction.friction(k));
+            show(V::Scalar::from_f64(rate));
+        }
     }
 }
 
@@ -501,4 +492,19 @@ impl<M: Method> Plan for DampedPlan<M> {
             pairs.for_each(|(rate, &applied)| *rate += applied);
         }
     }
+}
+
+/// What the class of a system with friction must be.
+mod of_class {
+    use symplectic_core::{System, Vector};
+
+    /// A system of the class with friction.
+    #[diagnostic::on_unimplemented(
+        message = "`{Self}` has friction, but its class excludes it",
+        label = "declare `type Class = Damped;`"
+    )]
+    pub trait Damped<V> {}
+
+    #[diagnostic::do_not_recommend]
+    impl<V: Vector, S: System<V, Class = super::Damped>> Damped<V> for S {}
 }

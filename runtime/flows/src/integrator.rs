@@ -3,7 +3,8 @@
 use super::memory::Memory;
 use super::{Flow, FlowError, Span};
 use crate::Error;
-use symplectic_core::inside::{Visit, Words, check_state, check_step_size, copy, is_finite, words};
+use symplectic_core::inside::{check_state, check_step_size, copy, is_finite, words};
+use symplectic_core::solver::{Visit, Words};
 #[cfg(feature = "alloc")]
 use symplectic_core::stepper::DenseSteps;
 use symplectic_core::stepper::{Equal, Stepper};

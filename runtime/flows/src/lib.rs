@@ -111,7 +111,7 @@ pub use palindrome::Palindrome;
 pub use splitting::Splitting;
 pub use substeps::Substeps;
 
-pub use symplectic_core::inside::Span;
+pub use symplectic_core::solver::Span;
 
 use symplectic_core::Vector;
 

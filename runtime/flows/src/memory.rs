@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::Flow;
 use symplectic_core::Vector;
 #[cfg(feature = "alloc")]
-use symplectic_core::inside::{Visit, Words};
+use symplectic_core::solver::{Visit, Words};
 
 /// The words of the [memory](Flow::memory) of a flow at one moment; none without the feature `alloc`.
 #[derive(Clone, Debug, Default)]

@@ -6,9 +6,9 @@ use nalgebra::Vector1;
 
 use super::{Flow, FlowError, Span};
 use crate::friction::Damped;
-use symplectic_core::inside::{Coefficient, KickDrift, Outcome, Plan, StageStorage};
+use symplectic_core::inside::{KickDrift, Plan};
 use symplectic_core::proved::Splits;
-use symplectic_core::solver::FixedPoint;
+use symplectic_core::solver::{Coefficient, FixedPoint, Outcome, StageStorage};
 use symplectic_core::{Method, Plain, ProvedFor, Separable, Summation, System, Vector};
 
 /// A step of a splitting method with the flow of `A` in place of the drift and the flow of `B` in place of the kick.

@@ -5,15 +5,13 @@ use std::ops::ControlFlow;
 use symplectic::at_run_time::RunTimeTableau;
 use symplectic::emitted::Solver;
 use symplectic::ensemble::{Ensemble, Row};
-use symplectic::system::Class;
-use symplectic::system::Conservative;
+use symplectic::system::{Class, Conservative};
 use symplectic::tangent::{Error, Megno, Tangent};
 use symplectic::{Hamiltonian, Integrator, State, Summation};
 use symplectic_tape::Formula;
 
-use crate::Run;
 use crate::integrate::{Keep, States, Vector};
-use crate::random;
+use crate::{Run, random};
 
 /// The length of a displacement of an explicit method, relative to the state: it may grow by 10⁵⁸⁰.
 const SMALL: f64 = 1e-280;

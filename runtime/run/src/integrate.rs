@@ -14,8 +14,7 @@ use symplectic::ensemble::{Ensemble, EnsembleError};
 use symplectic::nalgebra::DVector;
 use symplectic::output::Interpolation;
 use symplectic::solver::Newton;
-use symplectic::system::Class;
-use symplectic::system::{Conservative, Frictionless, Unconstrained};
+use symplectic::system::{Class, Conservative, Frictionless, Unconstrained};
 use symplectic::{
     Compensated, Error as RunError, General, Hamiltonian, Plain, Separable, State, Summation,
     System,
@@ -24,8 +23,6 @@ use symplectic_compiler::Error;
 use symplectic_formula::{Structure, System as Parsed};
 use toml::Spanned;
 
-use crate::chaos;
-use crate::memory;
 use crate::output::{Facts, Results, Seen, append};
 use crate::progress::{Meter, Progress};
 use crate::resume::{Origin, Resume, checksum};
@@ -33,7 +30,7 @@ use crate::setup::{Iteration, Sums};
 use crate::starts::Start;
 use crate::summary::summary;
 use crate::trajectory::Trajectory;
-use crate::{Run, Shard, counted, document};
+use crate::{Run, Shard, chaos, counted, document, memory};
 use symplectic_tape::{Formula, Parameters};
 use symplectic_terminal::{errors, print};
 

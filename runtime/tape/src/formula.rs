@@ -12,8 +12,7 @@ use symplectic::constraints::{
 use symplectic::emitted::LaneWork;
 use symplectic::nalgebra::DVector;
 use symplectic::simd::Lanes;
-use symplectic::system::Class;
-use symplectic::system::Unconstrained;
+use symplectic::system::{Class, Unconstrained};
 use symplectic::{General, Hamiltonian, Scalar, Separable, Vector};
 use symplectic_formula::derivative::gradient;
 use symplectic_formula::graph::{Half, integer};

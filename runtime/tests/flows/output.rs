@@ -7,10 +7,9 @@ use symplectic::flow::{
 };
 use symplectic::nalgebra::Vector1;
 
-use crate::common::distance;
 use crate::common::methods::{ForestRuth, Gauss8};
-use crate::common::run;
 use crate::common::systems::point;
+use crate::common::{distance, run};
 
 type V = Vector1<f64>;
 

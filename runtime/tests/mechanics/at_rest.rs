@@ -1,7 +1,6 @@
 //! Constraints of bodies at rest at the origin: neither position nor velocity gives a scale for their rounding errors.
 
-use symplectic::constraints::Constrained;
-use symplectic::constraints::HolonomicConstraints;
+use symplectic::constraints::{Constrained, HolonomicConstraints};
 use symplectic::nalgebra::{Vector2, Vector3, Vector4};
 use symplectic::{Error, Integrator, Method, ProvedFor, Separable, State};
 

@@ -1,7 +1,6 @@
 //! Degenerate Lagrangians, and constraints on velocities: vortices and rolling.
 
-use symplectic::constraints::Gradients;
-use symplectic::constraints::NonholonomicConstraints;
+use symplectic::constraints::{Gradients, NonholonomicConstraints};
 use symplectic::nalgebra::SVector;
 use symplectic::system::Lagrangian;
 use symplectic::variational::{

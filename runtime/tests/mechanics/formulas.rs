@@ -2,8 +2,7 @@
 
 use crate::methods::{ForestRuth, Gauss6, Lobatto4};
 use crate::systems::Rattle;
-use symplectic::constraints::HolonomicConstraints;
-use symplectic::constraints::{ConstraintName, consistent};
+use symplectic::constraints::{ConstraintName, HolonomicConstraints, consistent};
 use symplectic::nalgebra::{DVector, SMatrix, SVector};
 use symplectic::{Error, Integrator, State};
 

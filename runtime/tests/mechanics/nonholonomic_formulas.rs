@@ -1,7 +1,6 @@
 //! Non-holonomic constraints from formulas, against the same systems by hand.
 
-use symplectic::constraints::Nonholonomic;
-use symplectic::constraints::NonholonomicConstraints;
+use symplectic::constraints::{Nonholonomic, NonholonomicConstraints};
 use symplectic::nalgebra::SMatrix;
 use symplectic::{Error, Integrator, State, System};
 

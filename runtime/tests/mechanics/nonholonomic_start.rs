@@ -79,7 +79,7 @@ fn a_velocity_that_does_not_obey_is_refused() {
     assert!(
         error
             .to_string()
-            .contains("consistent_momentum(&system, state)"),
+            .contains("constraints::consistent_momentum(&system, state)"),
         "{error}"
     );
 }

@@ -80,7 +80,9 @@ fn a_start_off_the_constraints_is_refused() {
         "{error}"
     );
     assert!(
-        error.to_string().contains("consistent(&system, state)"),
+        error
+            .to_string()
+            .contains("constraints::consistent(&system, state)"),
         "{error}"
     );
     let error = refused(CIRCLE, [1.0, 0.0], [1.0, 1.0]);

@@ -10,8 +10,7 @@ use symplectic::constraints::{
 use symplectic::friction::{Damped, Friction};
 use symplectic::nalgebra::DVector;
 use symplectic::solver::FixedPoint;
-use symplectic::system::Unconstrained;
-use symplectic::system::{Class, Lagrangian};
+use symplectic::system::{Class, Lagrangian, Unconstrained};
 use symplectic::variational::{
     DiracRule, DiracSteps, DiracSystem, DiscreteLagrangian, DiscretePath, Error, LagrangianSteps,
     Newmark, StepWithStages, VariationalSteps, momentum_of_velocity, velocity_of_momentum,

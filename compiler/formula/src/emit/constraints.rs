@@ -1,4 +1,4 @@
-//! Constraints with their gradients or rows, and friction: what a system has beside its Hamiltonian.
+//! Constraints with their gradients or rows, and friction: what a system has in addition to its Hamiltonian.
 
 use num_traits::One;
 use proc_macro2::{Literal, TokenStream};
@@ -15,7 +15,7 @@ use crate::operations::Operations;
 impl Emitter<'_> {
     /// The implementation of `Friction` or of the trait of the constraints, and `Hamiltonian::extra`, which returns it; empty if there
     /// are neither.
-    pub(super) fn beside_energy(&mut self) -> [TokenStream; 2] {
+    pub(super) fn in_addition(&mut self) -> [TokenStream; 2] {
         let given = [
             (quote!(friction::Friction), self.friction()),
             (

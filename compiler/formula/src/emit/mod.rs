@@ -544,7 +544,7 @@ impl<'a> Emitter<'a> {
                 }
             }
         });
-        let [beside_energy, extra] = self.beside_energy();
+        let [in_addition, extra] = self.in_addition();
         let inlined = self.inlined();
         let check_dimension = self.check_dimension();
         quote! {
@@ -584,7 +584,7 @@ impl<'a> Emitter<'a> {
                 #extra
             }
 
-            #beside_energy
+            #in_addition
 
             #system
         }

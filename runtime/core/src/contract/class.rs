@@ -1,8 +1,5 @@
 //! The classes of Hamiltonians for which a method has a plan.
 
-#[cfg(feature = "alloc")]
-use alloc::vec::Vec;
-
 use crate::contract::{Method, Plan, Solver, System};
 use crate::error::Error;
 use crate::number::Vector;
@@ -10,11 +7,11 @@ use crate::number::Vector;
 /// What the derivatives of a [`Hamiltonian`](crate::Hamiltonian) depend on: [`General`] or [`Separable`]. Other packages add classes: with
 /// linear friction `friction::Damped`, with constraints `constraints::Constrained` and `constraints::Nonholonomic`.
 ///
-/// It selects the [`Plan`] of a [`Method`] at compile time.
+/// It selects the [`Plan`] of a [`Method`] at compile time. The packages of this workspace implement it; it is no promise to others.
 pub trait Class: Clone + 'static {
     /// The plan of the method `M` for systems of this class.
     type Plan<M: Method>: Plan<Class = Self>;
-    /// What systems of this class give beside velocity and force: a reference to their constraints or to their friction, or `()`.
+    /// What systems of this class give in addition to velocity and force: a reference to their constraints or to their friction, or `()`.
     type Extra<'a, V: Vector>: Copy;
     /// Whether the velocity depends on the momentum only, and the force on the position only.
     const SEPARABLE: bool;
@@ -42,11 +39,13 @@ pub trait Class: Clone + 'static {
         Ok(())
     }
 
-    /// The numbers at a position that identify the [`Extra`](Self::Extra) of a system in a checkpoint.
-    #[cfg(feature = "alloc")]
+    /// Shows the numbers at a position that identify the [`Extra`](Self::Extra) of a system in a checkpoint.
     #[doc(hidden)]
-    fn numbers<V: Vector, S: System<V, Class = Self>>(_system: &S, _q: &V) -> Vec<V::Scalar> {
-        Vec::new()
+    fn numbers<V: Vector, S: System<V, Class = Self>>(
+        _system: &S,
+        _q: &V,
+        _show: &mut dyn FnMut(V::Scalar),
+    ) {
     }
 
     /// The error of a step, with details from the [`Extra`](Self::Extra) of the system.
@@ -152,7 +151,7 @@ or_damped! {
     "class `Constrained` needs a method that is `constrained`: `basis: polynomial(s), nodes: lobatto(s)`, or a composition of these methods";
 }
 
-/// A class for which a splitting without other plans has steps: any but [`General`].
+/// Any class but [`General`]: for splittings of more than 36 stages, which have no plan for it. Steps with constraints do not use that plan.
 #[diagnostic::on_unimplemented(
     message = "a splitting of more than 36 stages has no steps for systems of class `{Self}`",
     label = "steps separable Hamiltonians only",

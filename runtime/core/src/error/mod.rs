@@ -446,9 +446,9 @@ pub enum Error {
         found: usize,
     },
 
-    /// The class of a system has constraints or friction, but the system does not give them: steps would ignore them.
+    /// The class of a system has constraints or friction, but the system gives none: steps would ignore them.
     #[error(
-        "the class of the system has {what}, but the system does not give them: implement `{by}`, and return `Some(self)` from `extra`"
+        "the class of the system has {what}, but the system gives none: implement `{by}`, and return `Some(self)` from `extra`"
     )]
     NoExtra {
         /// Constraints or friction.
@@ -516,7 +516,7 @@ pub enum Error {
     /// The start violates the constraints.
     #[error(
         "the state is not on the constraints: for constraint {constraint}{} |φ| = {value:e}, |dφ/dt| = {rate:e}; both must be 0; \
-         `consistent(&system, state)` returns a consistent state",
+         `constraints::consistent(&system, state)` returns a consistent state",
         Named(*name)
     )]
     InconsistentStart {
@@ -533,7 +533,7 @@ pub enum Error {
     /// The velocity at the start violates the non-holonomic constraints.
     #[error(
         "the velocity violates the constraints: |w·q'| of constraint {constraint}{} is {rate:e}, but must be 0; use \
-         `consistent_momentum(&system, state)`; for a Lagrangian use `momentum_of_velocity` with a consistent velocity",
+         `constraints::consistent_momentum(&system, state)`; for a Lagrangian use `variational::momentum_of_velocity` with a consistent velocity",
         Named(*name)
     )]
     InconsistentVelocity {
@@ -636,9 +636,7 @@ impl Error {
     }
 
     /// Adds the name of the constraint to the error.
-    #[doc(hidden)]
-    #[must_use]
-    pub fn named(mut self, of: impl Fn(usize) -> Option<ConstraintName>) -> Self {
+    pub(crate) fn named(mut self, of: impl Fn(usize) -> Option<ConstraintName>) -> Self {
         if let Self::GradientMismatch {
             constraint, name, ..
         }

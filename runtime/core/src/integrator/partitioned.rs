@@ -86,7 +86,7 @@ impl<M: Method, S: System<V>, V: Vector> Integrator<M, S, V> {
     ///
     /// [`Error::StepSize`], [`Error::Dimension`] if the dimensions of `q` and `p` differ, [`Error::NonFiniteState`],
     /// [`Error::NotQuadraticKinetic`], [`Error::NotUnitMasses`], [`Error::NotSeparable`], [`Error::NotForced`]. With constraints also
-    /// [`Error::InconsistentStart`], [`Error::DependentConstraints`] and [`Error::ResizedEvaluation`]. If parameters of a formula do not
+    /// [`Error::NoExtra`], [`Error::InconsistentStart`], [`Error::DependentConstraints`] and [`Error::ResizedEvaluation`]. If parameters of a formula do not
     /// fit the state, [`Error::ParameterLength`], [`Error::PairOutOfRange`], [`Error::DimensionFactor`] or [`Error::TooFewBodies`]. For a
     /// tableau at run time also [`Error::SeparableTableau`] and [`Error::NoConstrainedSteps`].
     pub fn new(method: M, system: S, state: State<V>, step_size: f64) -> Result<Self, Error>

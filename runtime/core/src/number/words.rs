@@ -16,7 +16,7 @@ pub trait Words {
 #[macro_export]
 macro_rules! words {
     ($visit:ident: $($value:expr),+ $(,)?) => {
-        $( $crate::inside::Words::words(&mut $value, $visit); )+
+        $( $crate::solver::Words::words(&mut $value, $visit); )+
     };
 }
 pub use words;

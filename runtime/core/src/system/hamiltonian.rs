@@ -303,8 +303,10 @@ pub trait Hamiltonian {
         usize::MAX
     }
 
-    /// What a system gives beside velocity and force, if its class has any: its friction in class `friction::Damped`, its constraints in
-    /// the classes `constraints::Constrained` and `constraints::Nonholonomic`. These say how; the answer is always `Some(self)`.
+    /// The friction or the constraints of the system. The classes [`General`](crate::General) and [`Separable`](crate::Separable) have none:
+    /// keep the default. A system of any other class implements the trait of its class and returns `Some(self)`. This is
+    /// `friction::Friction` (feature `flows`), `constraints::HolonomicConstraints` or `constraints::NonholonomicConstraints` (feature
+    /// `mechanics`).
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn extra<T: Scalar>(&self) -> Option<<Self::Class as Class>::Extra<'_, Self::Vector<T>>> {
         None

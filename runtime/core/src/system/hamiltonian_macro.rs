@@ -94,14 +94,15 @@
 ///
 /// `constraints: { rod = |q[0]|^2 - 1, link(i in 1..N) = |q[i] - q[i-1]|^2 - 1 }` lists the functions φ(q) that vanish. They are numbers or
 /// vectors. `link(i in 1..N)` is one for each index; `rod(s = (i, j) in rods) = …` is one for each pair of a parameter. The class of the
-/// system is `constraints::Constrained`, for methods that are `constrained`.
+/// system is `constraints::Constrained` (feature `mechanics`), for methods that are `constrained`.
 ///
 /// `nonholonomic: { edge = vx sin(a) - vy cos(a) }` lists the linear forms of the velocities that vanish. Their coefficients are functions
 /// of the positions. `v: [vx, vy, va]` after `p: […]` names the velocities for this section. The class of the system is
-/// `constraints::Nonholonomic`, for methods that are `nonholonomic`.
+/// `constraints::Nonholonomic` (feature `mechanics`), for methods that are `nonholonomic`.
 ///
 /// `friction: gamma` adds the force `−γp` to a separable system. `friction: [a, b]` has a rate for each coordinate or, if positions are
-/// vectors, for each component of a vector. The class of the system is `friction::Damped`, for splittings.
+/// vectors, for each component of a vector. The class of the system is `friction::Damped` (feature
+/// `flows`), for splittings.
 ///
 /// `force: { x = -c px + cos(t) }` adds forces without a potential, `force: { q[i] = -c p[i] }` one for each index. If a force depends on
 /// momenta, the class of the system is [`General`](crate::General), with constraints `Constrained<General>`.

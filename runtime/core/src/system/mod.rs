@@ -23,6 +23,7 @@ pub use crate::contract::{
 };
 #[doc(hidden)]
 pub use crate::contract::{Join, LaneWork};
+pub use crate::error::ConstraintName;
 pub use closures::{
     HamiltonianClosures, Momentum, NoEnergy, SeparableClosures, acceleration, hamiltonian,
     separable,

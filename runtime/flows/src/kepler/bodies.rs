@@ -2,8 +2,7 @@
 
 use alloc::vec::Vec;
 
-use crate::Error;
-use crate::{check_count, check_parameter};
+use crate::{Error, check_count, check_parameter};
 use symplectic_core::{State, Vector};
 
 /// Masses, the first of which is the star's, and the constant of gravity.

@@ -3,8 +3,7 @@
 use super::attraction::Attraction;
 use super::bodies::Bodies;
 use super::drift::KeplerDrift;
-use crate::Error;
-use crate::{Flow, FlowError, Span};
+use crate::{Error, Flow, FlowError, Span};
 use symplectic_core::inside::array;
 use symplectic_core::{State, Vector};
 

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 use symplectic_core::Scalar;
-use symplectic_core::inside::{Visit, scalar_words};
+use symplectic_core::solver::{Visit, scalar_words};
 
 /// The gradients `G = ∂φ/∂q` of the constraints `φ(q) = 0` of a system, or the rows w of non-holonomic constraints `w(q)·q' = 0`: a
 /// sparse m×n matrix.
@@ -85,8 +85,11 @@ impl Terms {
 
 impl<T: Scalar> Gradients<T> {
     /// An m×n matrix of gradients, with the places of the entries that `evaluate` sets.
-    #[doc(hidden)]
-    pub fn learned(constraints: usize, dimension: usize, evaluate: impl FnOnce(&mut Self)) -> Self {
+    pub(crate) fn learned(
+        constraints: usize,
+        dimension: usize,
+        evaluate: impl FnOnce(&mut Self),
+    ) -> Self {
         let mut gradients = Self {
             constraints,
             dimension,
@@ -127,8 +130,7 @@ impl<T: Scalar> Gradients<T> {
 
     /// Calls `evaluate` to set all entries; returns whether each entry had its place.
     #[inline]
-    #[doc(hidden)]
-    pub fn evaluate(&mut self, evaluate: impl FnOnce(&mut Self)) -> bool {
+    pub(crate) fn evaluate(&mut self, evaluate: impl FnOnce(&mut Self)) -> bool {
         self.next = 0;
         self.misplaced = None;
         evaluate(self);
@@ -136,21 +138,18 @@ impl<T: Scalar> Gradients<T> {
     }
 
     /// The first misplaced entry: constraint and component.
-    #[doc(hidden)]
-    pub const fn misplaced(&self) -> Option<(usize, usize)> {
+    pub(crate) const fn misplaced(&self) -> Option<(usize, usize)> {
         self.misplaced
     }
 
     /// Number of constraints m.
-    #[doc(hidden)]
-    pub const fn constraints(&self) -> usize {
+    pub(crate) const fn constraints(&self) -> usize {
         self.constraints
     }
 
     /// Every entry: constraint, component and value.
     #[inline]
-    #[doc(hidden)]
-    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, T)> {
+    pub(crate) fn entries(&self) -> impl Iterator<Item = (usize, usize, T)> {
         let entries = self.places.iter().zip(&self.values);
         entries.map(|(&(constraint, component), &value)| {
             (constraint as usize, component as usize, value)

@@ -12,12 +12,12 @@ mod with_constraints;
 pub use gradients::Gradients;
 pub use holonomic::{ConstraintForce, consistent, constraint_force};
 pub use nonholonomic::consistent_momentum;
-pub use symplectic_core::inside::ConstraintName;
+pub use symplectic_core::system::ConstraintName;
 
 use core::marker::PhantomData;
 
+use symplectic_core::Vector;
 use symplectic_core::system::{FreePositions, Frictionless, Holonomic, NotGeneral, SplitClass};
-use symplectic_core::{System, Vector};
 
 use gradients::Terms;
 use with_constraints::{WithConstraints, place_of_resized};
@@ -105,38 +105,6 @@ impl<C> NotGeneral for Constrained<C> {}
 
 impl<C> NotGeneral for Nonholonomic<C> {}
 
-/// A system of class [`Constrained`].
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` has constraints, but its class excludes them",
-    label = "declare `type Class = Constrained<Separable>;` or `Constrained<General>`"
-)]
-#[doc(hidden)]
-pub trait OfClassConstrained<V> {}
-
-#[diagnostic::do_not_recommend]
-impl<V: Vector, S: System<V, Class: IsConstrained>> OfClassConstrained<V> for S {}
-
-/// A system of class [`Nonholonomic`].
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` has non-holonomic constraints, but its class excludes them",
-    label = "declare `type Class = Nonholonomic<Separable>;` or `Nonholonomic<General>`"
-)]
-#[doc(hidden)]
-pub trait OfClassNonholonomic<V> {}
-
-#[diagnostic::do_not_recommend]
-impl<V: Vector, S: System<V, Class: IsNonholonomic>> OfClassNonholonomic<V> for S {}
-
-#[doc(hidden)]
-pub trait IsConstrained {}
-
-impl<C> IsConstrained for Constrained<C> {}
-
-#[doc(hidden)]
-pub trait IsNonholonomic {}
-
-impl<C> IsNonholonomic for Nonholonomic<C> {}
-
 /// The holonomic constraints `φ(q) = 0` of a system of class [`Constrained`]. It is implemented for the vectors of every scalar:
 ///
 /// ```
@@ -199,7 +167,7 @@ impl<C> IsNonholonomic for Nonholonomic<C> {}
     message = "`{Self}` does not give its holonomic constraints over the vectors `{V}`",
     label = "implement `HolonomicConstraints` for the vectors of every scalar"
 )]
-pub trait HolonomicConstraints<V: Vector>: OfClassConstrained<V> {
+pub trait HolonomicConstraints<V: Vector>: of_class::Constrained<V> {
     /// Their number m.
     fn constraints(&self) -> usize;
 
@@ -279,7 +247,7 @@ pub trait HolonomicConstraints<V: Vector>: OfClassConstrained<V> {
     message = "`{Self}` does not give its non-holonomic constraints over the vectors `{V}`",
     label = "implement `NonholonomicConstraints` for the vectors of every scalar"
 )]
-pub trait NonholonomicConstraints<V: Vector>: OfClassNonholonomic<V> {
+pub trait NonholonomicConstraints<V: Vector>: of_class::Nonholonomic<V> {
     /// Their number m.
     fn nonholonomic_constraints(&self) -> usize;
 
@@ -289,5 +257,43 @@ pub trait NonholonomicConstraints<V: Vector>: OfClassNonholonomic<V> {
     /// The name of a constraint, for errors.
     fn constraint_name(&self, _constraint: usize) -> Option<ConstraintName> {
         None
+    }
+}
+
+/// What the class of a system with constraints must be.
+mod of_class {
+    use symplectic_core::system::{Class, Unconstrained};
+    use symplectic_core::{System, Vector};
+
+    /// A system of the class with holonomic constraints.
+    #[diagnostic::on_unimplemented(
+        message = "`{Self}` has constraints, but its class excludes them",
+        label = "declare `type Class = Constrained<Separable>;` or `Constrained<General>`"
+    )]
+    pub trait Constrained<V> {}
+
+    #[diagnostic::do_not_recommend]
+    impl<V, C, S> Constrained<V> for S
+    where
+        V: Vector,
+        C: Class + Unconstrained,
+        S: System<V, Class = super::Constrained<C>>,
+    {
+    }
+
+    /// A system of the class with non-holonomic constraints.
+    #[diagnostic::on_unimplemented(
+        message = "`{Self}` has non-holonomic constraints, but its class excludes them",
+        label = "declare `type Class = Nonholonomic<Separable>;` or `Nonholonomic<General>`"
+    )]
+    pub trait Nonholonomic<V> {}
+
+    #[diagnostic::do_not_recommend]
+    impl<V, C, S> Nonholonomic<V> for S
+    where
+        V: Vector,
+        C: Class + Unconstrained,
+        S: System<V, Class = super::Nonholonomic<C>>,
+    {
     }
 }

@@ -5,11 +5,9 @@ use alloc::vec::Vec;
 use core::cell::Cell;
 
 use super::{Constrained, Gradients, HolonomicConstraints, Nonholonomic, NonholonomicConstraints};
-use symplectic_core::inside::ConstraintName;
 use symplectic_core::inside::first_non_finite_of;
 use symplectic_core::solver::FixedPoint;
-use symplectic_core::system::Masses;
-use symplectic_core::system::{Class, Unconstrained};
+use symplectic_core::system::{Class, ConstraintName, Masses, Unconstrained};
 use symplectic_core::{Error, Quantity, Scalar, System, Vector};
 
 /// The constraints of a system; the linear algebra is the same for both kinds.
@@ -24,16 +22,23 @@ pub(super) struct WithConstraints<'a, V: Vector, S> {
     system: &'a S,
     /// None if the system does not give them.
     constraints: Option<Constraints<'a, V>>,
+    /// The trait that gives them.
+    by: &'static str,
     dimension: usize,
     /// The first evaluation of a wrong dimension, and this dimension.
     resized: Cell<Option<(Quantity, usize)>>,
 }
 
 impl<'a, V: Vector, S: System<V>> WithConstraints<'a, V, S> {
-    const fn new(system: &'a S, constraints: Option<Constraints<'a, V>>, dimension: usize) -> Self {
+    const fn new(
+        system: &'a S,
+        (constraints, by): (Option<Constraints<'a, V>>, &'static str),
+        dimension: usize,
+    ) -> Self {
         Self {
             system,
             constraints,
+            by,
             dimension,
             resized: Cell::new(None),
         }
@@ -45,7 +50,7 @@ impl<'a, V: Vector, S: System<V>> WithConstraints<'a, V, S> {
         S: System<V, Class = Constrained<C>>,
     {
         let constraints = system.extra().map(Constraints::Holonomic);
-        Self::new(system, constraints, dimension)
+        Self::new(system, (constraints, "HolonomicConstraints"), dimension)
     }
 
     /// A system with non-holonomic constraints: its rows w stand for the gradients.
@@ -54,14 +59,14 @@ impl<'a, V: Vector, S: System<V>> WithConstraints<'a, V, S> {
         S: System<V, Class = Nonholonomic<C>>,
     {
         let constraints = system.extra().map(Constraints::Nonholonomic);
-        Self::new(system, constraints, dimension)
+        Self::new(system, (constraints, "NonholonomicConstraints"), dimension)
     }
 
     /// Checks that the system gives its constraints.
-    pub(super) fn check_given(&self, by: &'static str) -> Result<(), Error> {
+    pub(super) fn check_given(&self) -> Result<(), Error> {
         let missing = Error::NoExtra {
             what: "constraints",
-            by,
+            by: self.by,
         };
         self.constraints.as_ref().map(|_| ()).ok_or(missing)
     }

@@ -6,9 +6,7 @@ use alloc::vec::Vec;
 
 use num_traits::Float;
 
-use crate::variational::regular::Factors;
-use crate::variational::regular::Singular;
-use crate::variational::regular::largest;
+use crate::variational::regular::{Factors, Singular, largest};
 use symplectic_core::Vector;
 
 /// Length of a difference relative to the unknown, about the cube root of the rounding error.

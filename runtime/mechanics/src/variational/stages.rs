@@ -151,7 +151,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> StepWith
     /// # Errors
     ///
     /// [`Core(EvaluationDimension)`](CoreError::EvaluationDimension) for the applied force too; [`Error::NoStages`] for a system of class
-    /// `friction::Damped`, whose kicks are exact flows.
+    /// `friction::Damped` (feature `flows`), whose kicks are exact flows.
     ///
     /// ```
     /// symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }

@@ -2,7 +2,8 @@
 
 use super::integrator::{AdaptiveSteps, Controller};
 use super::monitor::{Monitor, Slopes, seen};
-use symplectic_core::inside::{Parts, Save, Solver, parts_of};
+use symplectic_core::inside::{Parts, Save, parts_of};
+use symplectic_core::solver::Solver;
 use symplectic_core::stepper::Stepper;
 use symplectic_core::{Checkpoint, CheckpointError, Method, Run, Summation, System, Vector};
 

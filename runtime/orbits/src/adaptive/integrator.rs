@@ -5,10 +5,11 @@ use core::fmt;
 use super::monitor::{Monitor, Slopes, monitor_at, seen, value_at};
 use crate::Error;
 use symplectic_core::inside::{
-    Solver, advance_in_time, check_state, check_step_size, fast_two_sum, parts_of, two_sum,
+    advance_in_time, check_state, check_step_size, fast_two_sum, parts_of, two_sum,
 };
 use symplectic_core::output::DenseOutput;
 use symplectic_core::proved::SymmetricFor;
+use symplectic_core::solver::Solver;
 use symplectic_core::stepper::{Own, Stepper};
 use symplectic_core::{
     Compensated, Integrator, Method, ProvedFor, Retry, Run, State, Statistics, Summation, System,

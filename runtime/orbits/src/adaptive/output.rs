@@ -3,7 +3,7 @@
 use super::integrator::AdaptiveSteps;
 use super::monitor::Monitor;
 use crate::Error;
-use symplectic_core::inside::Solver;
+use symplectic_core::solver::Solver;
 use symplectic_core::stepper::{DenseSteps, NamedSteps, Partitioned};
 use symplectic_core::system::Named;
 use symplectic_core::{Method, State, Summation, System, Vector};

@@ -3,7 +3,8 @@
 use super::check_even;
 use super::dual_vector::halves;
 use crate::Error;
-use symplectic_core::inside::{Visit, Words, check_state, words};
+use symplectic_core::inside::{check_state, words};
+use symplectic_core::solver::{Visit, Words};
 use symplectic_core::{Checkpoint, CheckpointError, Scalar, State, Vector};
 
 /// MEGNO, the mean exponential growth factor of nearby orbits, and the largest Lyapunov exponent, from the growth of a

@@ -5,8 +5,7 @@
 use symplectic::constraints::{Constrained, Nonholonomic};
 use symplectic::friction::Damped;
 use symplectic::solver::ByNewton;
-use symplectic::system::Class;
-use symplectic::system::Unconstrained;
+use symplectic::system::{Class, Unconstrained};
 use symplectic::{Integrator, Separable, System, Vector};
 use symplectic_report::Problem;
 use symplectic_tests::methods::{

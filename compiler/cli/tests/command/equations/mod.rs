@@ -6,10 +6,11 @@ mod reader;
 use std::fs;
 
 use serde_json::Value as Json;
-use symplectic::constraints::consistent_momentum;
+use symplectic::constraints::{Constrained, Nonholonomic, consistent_momentum};
+use symplectic::friction::Damped;
 use symplectic::nalgebra::{DVector, SVector};
-use symplectic::system::{Class, Lagrangian};
-use symplectic::{Error, Hamiltonian, State, System, Vector};
+use symplectic::system::{Class, Lagrangian, Unconstrained};
+use symplectic::{Error, General, Hamiltonian, Separable, State, System, Vector};
 use symplectic_formula::{Form, Structure, description};
 
 use self::reader::{Values, World, constraints, solve};
@@ -319,17 +320,49 @@ fn assert_same(form: &str, found: &Values, expected: &Values) {
     }
 }
 
+/// What systems of a class have in addition to velocity and force.
+trait Given: Class {
+    /// A rate of friction.
+    fn rate<S: Hamiltonian<Class = Self>>(_system: &S, _component: usize) -> f64 {
+        0.0
+    }
+
+    /// The values of holonomic constraints.
+    fn values<S: Hamiltonian<Class = Self>>(_system: &S, _q: &S::Vector<f64>) -> Vec<f64> {
+        Vec::new()
+    }
+}
+
+impl Given for General {}
+
+impl Given for Separable {}
+
+impl Given for Damped {
+    fn rate<S: Hamiltonian<Class = Self>>(system: &S, component: usize) -> f64 {
+        let friction = Hamiltonian::extra::<f64>(system).expect("friction");
+        friction.friction(component)
+    }
+}
+
+impl<C: Class + Unconstrained> Given for Constrained<C> {
+    fn values<S: Hamiltonian<Class = Self>>(system: &S, q: &S::Vector<f64>) -> Vec<f64> {
+        let constraints = Hamiltonian::extra::<f64>(system).expect("constraints");
+        let mut values = vec![0.0; constraints.constraints()];
+        constraints.constraint_values(q, &mut values);
+        values
+    }
+}
+
+impl<C: Class + Unconstrained> Given for Nonholonomic<C> {}
+
 /// Velocity, and force with friction, by the functions that integrate.
-fn slopes<S: Hamiltonian>(system: &S, case: &Case) -> [S::Vector<f64>; 2] {
+fn slopes<S: Hamiltonian<Class: Given>>(system: &S, case: &Case) -> [S::Vector<f64>; 2] {
     let [q, p] = case.halves.each_ref().map(|half| vector::<S>(half));
     let [mut velocity, mut force] = [q.zeros_like(), q.zeros_like()];
     system.velocity(case.time, &q, &p, &mut velocity);
     system.force(case.time, &q, &p, &mut force);
-    if S::Class::FRICTION {
-        let rates = S::Class::numbers(system, &q);
-        for (k, force) in force.as_mut_slice().iter_mut().enumerate() {
-            *force -= rates[k] * case.halves[1][k];
-        }
+    for (k, force) in force.as_mut_slice().iter_mut().enumerate() {
+        *force -= S::Class::rate(system, k) * case.halves[1][k];
     }
     [velocity, force]
 }
@@ -339,17 +372,9 @@ fn vector<S: Hamiltonian>(components: &[f64]) -> S::Vector<f64> {
 }
 
 /// Compares every printed form of a system with holonomic constraints, or without constraints.
-fn compare<S: Hamiltonian>(system: &S, name: &str, text: &str, mut case: Case) {
+fn compare<S: Hamiltonian<Class: Given>>(system: &S, name: &str, text: &str, mut case: Case) {
     let [velocity, mut force] = slopes(system, &case);
-    // A system with constraints is identified by their values, and a zero for each component.
-    let values = |q: &[f64]| match S::Class::CONSTRAINED {
-        true => {
-            let mut values = S::Class::numbers(system, &vector::<S>(q));
-            values.truncate(values.len() - q.len());
-            values
-        }
-        false => Vec::new(),
-    };
+    let values = |q: &[f64]| S::Class::values(system, &vector::<S>(q));
     let multipliers = Random(3).vector(values(&case.halves[0]).len());
     assert_eq!(multipliers.len(), case.multipliers.len());
     let named = case
@@ -531,7 +556,7 @@ fn printed_equations_with_constraints_are_those_that_integrate() {
 
 /// The multipliers act along the rows of the constraints, which a projection of the momentum shows. On projected momenta the printed
 /// constraints hold.
-fn compare_nonholonomic<S: Hamiltonian>(
+fn compare_nonholonomic<S: Hamiltonian<Class: Given>>(
     system: &S,
     project: impl Fn(State<S::Vector<f64>>) -> Result<State<S::Vector<f64>>, Error>,
     name: &str,

@@ -6,9 +6,8 @@ use alloc::vec::Vec;
 use super::metric::{Metric, Point};
 use super::start::error;
 use crate::constraints::{Constrained, WithConstraints};
-use symplectic_core::inside::is_finite;
-use symplectic_core::system::Class;
-use symplectic_core::system::Unconstrained;
+use symplectic_core::inside::{is_finite, named};
+use symplectic_core::system::{Class, Unconstrained};
 use symplectic_core::{Error, Quantity, Scalar, State, System, Vector};
 
 /// The result of [`constraint_force`]: the force of the constraints at a state, and their multipliers.
@@ -32,7 +31,7 @@ pub struct ConstraintForce<V: Vector> {
 ///
 /// # Errors
 ///
-/// [`Error::InconsistentStart`] if the state is not on the constraints; [`Error::DependentConstraints`]; [`Error::NonFiniteState`];
+/// [`Error::NoExtra`] if the system does not give its constraints; [`Error::InconsistentStart`] if the state is not on the constraints; [`Error::DependentConstraints`]; [`Error::NonFiniteState`];
 /// [`Error::ResizedEvaluation`].
 ///
 /// ```
@@ -101,7 +100,7 @@ fn multipliers<V: Vector, S: System<V>>(
     let (metric, mut point) = Metric::new(system, time, q, p);
     let mut scratch = core::array::from_fn(|_| q.zeros_like());
     let evaluated = metric.evaluate(system, time, (q, p), &mut point, &mut scratch);
-    evaluated.map_err(|failure| error(failure, time).named(|k| system.constraint_name(k)))?;
+    evaluated.map_err(|failure| named(error(failure, time), |k| system.constraint_name(k)))?;
     let mut velocity = q.zeros_like();
     system.velocity(V::Scalar::from_f64(time), q, p, &mut velocity);
     // A time in which the state changes little.

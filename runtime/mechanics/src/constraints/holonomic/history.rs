@@ -3,9 +3,8 @@
 use alloc::vec;
 use alloc::vec::Vec;
 use core::array;
-use symplectic_core::inside::{
-    Visit, dither_side, larger_or_nan, scalar_words, vector_words, words,
-};
+use symplectic_core::inside::{dither_side, larger_or_nan, words};
+use symplectic_core::solver::{Visit, scalar_words, vector_words};
 use symplectic_core::{Scalar, Vector};
 
 /// Number of steps from which stages are extrapolated.

@@ -7,7 +7,8 @@ use super::metric::{Metric, Point};
 use super::momentum_terms::MomentumTerms;
 use super::step::{NOISE, PATIENCE, ROUNDING, SETTLED, result};
 use crate::constraints::{Terms, WithConstraints};
-use symplectic_core::inside::{Failure, Outcome, Step, StepStatistics, Stopping, larger_or_nan};
+use symplectic_core::inside::larger_or_nan;
+use symplectic_core::solver::{Failure, Outcome, Step, StepStatistics, Stopping};
 use symplectic_core::{Quantity, Scalar, Summation, System, Vector};
 
 /// The impulse `−Gᵀy` at the end of a step with `G velocity(q1, p1) = 0`.

@@ -11,10 +11,8 @@ use super::momentum_terms::MomentumTerms;
 use super::newton::StageJacobian;
 use super::resolution::Resolution;
 use crate::constraints::{Gradients, Terms, WithConstraints, place_of_resized};
-use symplectic_core::inside::{
-    ConstrainedStep, ConstrainedTableau, StageStorage, Visit, first_non_finite, scalar_words,
-    vector_words,
-};
+use symplectic_core::inside::{ConstrainedStep, ConstrainedTableau, first_non_finite};
+use symplectic_core::solver::{StageStorage, Visit, scalar_words, vector_words};
 use symplectic_core::system::Class;
 use symplectic_core::{Quantity, Scalar, System, Vector};
 

@@ -7,7 +7,8 @@ use alloc::vec::Vec;
 
 use super::normal_matrix::{NormalMatrix, Products};
 use crate::constraints::{Gradients, Terms, WithConstraints};
-use symplectic_core::inside::{Failure, is_finite, non_linear_velocity};
+use symplectic_core::inside::{is_finite, non_linear_velocity};
+use symplectic_core::solver::Failure;
 use symplectic_core::system::{Class, Masses};
 use symplectic_core::{Quantity, Scalar, System, Vector};
 

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::metric::InverseMasses;
 use crate::constraints::Gradients;
-use symplectic_core::inside::{Failure, Visit, scalar_words};
+use symplectic_core::solver::{Failure, Visit, scalar_words};
 use symplectic_core::{Quantity, Scalar};
 
 /// The products of entries of G that make up the entries of S.

@@ -3,7 +3,8 @@
 use crate::constraints::{Gradients, WithConstraints};
 use alloc::vec;
 use alloc::vec::Vec;
-use symplectic_core::inside::{Visit, words};
+use symplectic_core::inside::words;
+use symplectic_core::solver::Visit;
 use symplectic_core::{Scalar, System, Vector};
 
 /// Displacements are tried from `4^−RANGE` to `4^RANGE`.

@@ -7,9 +7,9 @@ use core::array;
 use super::metric::{Metric, Point};
 use super::resolution::Resolution;
 use crate::constraints::{Constrained, Gradients, Terms, WithConstraints};
-use symplectic_core::inside::{Failure, beside, is_finite};
-use symplectic_core::system::Class;
-use symplectic_core::system::Unconstrained;
+use symplectic_core::inside::{beside, is_finite, named};
+use symplectic_core::solver::Failure;
+use symplectic_core::system::{Class, Unconstrained};
 use symplectic_core::{Error, Quantity, Scalar, State, System, Vector};
 
 /// How far a start may be from the constraints, relative to the sizes of their terms.
@@ -93,7 +93,7 @@ impl<V: Vector> Examined<V> {
             ..
         } = self;
         let evaluated = metric.evaluate(system, time, (q, p), point, scratch);
-        evaluated.map_err(|failure| error(failure, time).named(|k| system.constraint_name(k)))?;
+        evaluated.map_err(|failure| named(error(failure, time), |k| system.constraint_name(k)))?;
         system.constraint_values(q, &mut self.values);
         let velocity = &mut self.scratch[0];
         system.velocity(V::Scalar::from_f64(time), q, p, velocity);
@@ -239,7 +239,7 @@ pub(crate) fn check_start<V: Vector, S: System<V>>(
     q: &V,
     p: &V,
 ) -> Result<(), Error> {
-    system.check_given("HolonomicConstraints")?;
+    system.check_given()?;
     let examined = system.check(time, Examined::new(system, time, q, p))?;
     check_gradients(system, q, &examined.point.gradients)?;
     // Entries may vanish at the start.
@@ -322,7 +322,7 @@ fn check_gradients<V: Vector, S: System<V>>(
 ///
 /// # Errors
 ///
-/// [`Error::NoConsistentState`] if the iteration does not converge; [`Error::DependentConstraints`], [`Error::NonFiniteState`],
+/// [`Error::NoExtra`] if the system does not give its constraints; [`Error::NoConsistentState`] if the iteration does not converge; [`Error::DependentConstraints`], [`Error::NonFiniteState`],
 /// [`Error::ResizedEvaluation`], and the errors of a system whose constraints or gradients are wrong.
 ///
 /// ```
@@ -347,7 +347,7 @@ pub fn consistent<V: Vector, S: System<V, Class = Constrained<C>>, C: Class + Un
     let State { time, q, p } = state;
     check_numbers(&q, &p)?;
     let system = &WithConstraints::holonomic(system, q.dimension());
-    system.check_given("HolonomicConstraints")?;
+    system.check_given()?;
     system.check(time, moved_onto(system, time, q, p))
 }
 

@@ -4,10 +4,8 @@ use super::history::History;
 use super::memory::Workspace;
 use super::start::CONSISTENT;
 use crate::constraints::{Gradients, Terms, WithConstraints};
-use symplectic_core::inside::{
-    Coefficient, ConstrainedTableau, Failure, Outcome, StageView, Step, StepStatistics, Stopping,
-    add, copy, is_finite, larger_or_nan,
-};
+use symplectic_core::inside::{ConstrainedTableau, StageView, add, copy, is_finite, larger_or_nan};
+use symplectic_core::solver::{Coefficient, Failure, Outcome, Step, StepStatistics, Stopping};
 use symplectic_core::system::Class;
 use symplectic_core::{Quantity, Scalar, Summation, System, Vector};
 

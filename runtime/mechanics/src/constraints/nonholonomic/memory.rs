@@ -5,7 +5,8 @@ use crate::constraints::{Gradients, Terms, WithConstraints, place_of_resized};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::array;
-use symplectic_core::inside::{ConstrainedStep, StageStorage, Visit, first_non_finite};
+use symplectic_core::inside::{ConstrainedStep, first_non_finite};
+use symplectic_core::solver::{StageStorage, Visit};
 use symplectic_core::{Quantity, Scalar, System, Vector};
 
 /// Everything that depends on the numbers of constraints and stages.

@@ -27,18 +27,16 @@ mod step;
 pub use memory::NonholonomicStages;
 pub use start::consistent_momentum;
 
-use alloc::vec::Vec;
 use core::marker::PhantomData;
 
 use crate::constraints::holonomic::{add_to_force, show_stages, taken_once_more};
 use crate::constraints::{Nonholonomic, NonholonomicConstraints, WithConstraints};
 use memory::Workspace;
-use symplectic_core::inside::{
-    ConstrainedStep, Failure, Outcome, Plan, Solver, StageView, Step, StepStatistics, Stopping,
-    WarmStart, in_turn,
+use symplectic_core::inside::{ConstrainedStep, Plan, StageView, in_turn, named};
+use symplectic_core::solver::{
+    Failure, Outcome, Solver, Step, StepStatistics, Stopping, WarmStart,
 };
-use symplectic_core::system::Class;
-use symplectic_core::system::Unconstrained;
+use symplectic_core::system::{Class, Unconstrained};
 use symplectic_core::{Error, Method, Scalar, Summation, System, Vector};
 
 /// The plan of the method `M` for systems with non-holonomic constraints.
@@ -65,13 +63,18 @@ impl<C: Class + Unconstrained> Class for Nonholonomic<C> {
         }
     }
 
-    fn numbers<V: Vector, S: System<V, Class = Self>>(system: &S, q: &V) -> Vec<V::Scalar> {
-        WithConstraints::nonholonomic(system, q.dimension()).numbers(q)
+    fn numbers<V: Vector, S: System<V, Class = Self>>(
+        system: &S,
+        q: &V,
+        show: &mut dyn FnMut(V::Scalar),
+    ) {
+        let system = WithConstraints::nonholonomic(system, q.dimension());
+        system.numbers(q).into_iter().for_each(show);
     }
 
     fn explain<V: Vector, S: System<V, Class = Self>>(system: &S, error: Error) -> Error {
-        let names = system.extra();
-        error.named(|constraint| names?.constraint_name(constraint))
+        let constraints = system.extra();
+        named(error, |constraint| constraints?.constraint_name(constraint))
     }
 }
 

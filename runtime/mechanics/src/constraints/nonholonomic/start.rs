@@ -2,8 +2,7 @@
 
 use crate::constraints::holonomic::{CONSISTENT, Examined, check_numbers};
 use crate::constraints::{Nonholonomic, WithConstraints};
-use symplectic_core::system::Class;
-use symplectic_core::system::Unconstrained;
+use symplectic_core::system::{Class, Unconstrained};
 use symplectic_core::{Error, State, System, Vector};
 
 /// Checks that the velocity of a state obeys the constraints, and that these are independent.
@@ -13,7 +12,7 @@ pub(super) fn check_start<V: Vector, S: System<V>>(
     q: &V,
     p: &V,
 ) -> Result<(), Error> {
-    system.check_given("NonholonomicConstraints")?;
+    system.check_given()?;
     let examined = system.check(time, Examined::new(system, time, q, p))?;
     let (constraint, rate) = examined.momentum();
     if rate <= CONSISTENT {
@@ -37,7 +36,7 @@ pub(super) fn check_start<V: Vector, S: System<V>>(
 ///
 /// # Errors
 ///
-/// [`Error::NoConsistentState`] if the iteration does not converge; [`Error::DependentConstraints`],
+/// [`Error::NoExtra`] if the system does not give its constraints; [`Error::NoConsistentState`] if the iteration does not converge; [`Error::DependentConstraints`],
 /// [`Error::NonFiniteState`], [`Error::ResizedEvaluation`], and the errors of a system whose rows are wrong.
 ///
 /// ```
@@ -64,7 +63,7 @@ where
     let State { time, q, mut p } = state;
     check_numbers(&q, &p)?;
     let system = &WithConstraints::nonholonomic(system, q.dimension());
-    system.check_given("NonholonomicConstraints")?;
+    system.check_given()?;
     let mut examined = system.check(time, Examined::new(system, time, &q, &p))?;
     let projected = examined.project_momentum(system, time, &q, &mut p);
     system.check(time, projected)?;

@@ -3,10 +3,8 @@
 use super::memory::Workspace;
 use crate::constraints::WithConstraints;
 use crate::constraints::holonomic::{NOISE, PATIENCE, ROUNDING, result, same_momentum, stage};
-use symplectic_core::inside::{
-    Coefficient, ConstrainedTableau, Failure, Outcome, Step, StepStatistics, Stopping, copy,
-    is_finite, larger_or_nan,
-};
+use symplectic_core::inside::{ConstrainedTableau, copy, is_finite, larger_or_nan};
+use symplectic_core::solver::{Coefficient, Failure, Outcome, Step, StepStatistics, Stopping};
 use symplectic_core::system::Class;
 use symplectic_core::{Quantity, Scalar, Summation, System, Vector};
 

@@ -1,7 +1,6 @@
 //! Failed steps.
 
-use crate::Error;
-use crate::variational;
+use crate::{Error, variational};
 use symplectic_core::{Error as CoreError, Quantity};
 
 /// Maximum number of Newton iterations; 2 to 6 are typical.
