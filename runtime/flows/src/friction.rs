@@ -495,7 +495,8 @@ impl<M: Method> Plan for DampedPlan<M> {
 }
 
 /// What the class of a system with friction must be.
-mod of_class {
+#[doc(hidden)]
+pub mod of_class {
     use symplectic_core::{System, Vector};
 
     /// A system of the class with friction.

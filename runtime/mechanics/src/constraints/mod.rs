@@ -261,7 +261,8 @@ pub trait NonholonomicConstraints<V: Vector>: of_class::Nonholonomic<V> {
 }
 
 /// What the class of a system with constraints must be.
-mod of_class {
+#[doc(hidden)]
+pub mod of_class {
     use symplectic_core::system::{Class, Unconstrained};
     use symplectic_core::{System, Vector};
 
