@@ -3,7 +3,7 @@
 symplectic::tableau! { Gauss2 { basis: polynomial(2), nodes: gauss(2) } }
 symplectic::tableau! { Nystrom { base: mclachlan-atela-1992-order-4-optimal } }
 
-use symplectic::constraints::{Constrained, Gradients, HolonomicConstraints};
+use symplectic::constraints::{Constrained, Gradients, HolonomicConstraints, NonholonomicConstraints};
 use symplectic::friction::{Damped, Friction};
 use symplectic::nalgebra::SVector;
 use symplectic::{Error, Hamiltonian, Integrator, Scalar, Separable, State};
@@ -64,6 +64,22 @@ impl<T: Scalar> HolonomicConstraints<SVector<T, 1>> for Free {
 
     fn constraint_gradients(&self, _: &SVector<T, 1>, gradients: &mut Gradients<T>) {
         gradients.set(0, 0, T::one());
+    }
+}
+
+impl<T: Scalar> NonholonomicConstraints<SVector<T, 1>> for Free {
+    fn nonholonomic_constraints(&self) -> usize {
+        1
+    }
+
+    fn nonholonomic_rows(&self, _: &SVector<T, 1>, rows: &mut Gradients<T>) {
+        rows.set(0, 0, T::one());
+    }
+}
+
+impl<T: Scalar> Friction<SVector<T, 1>> for Free {
+    fn friction(&self, _component: usize) -> f64 {
+        0.2
     }
 }
 

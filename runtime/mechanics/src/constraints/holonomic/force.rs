@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::metric::{Metric, Point};
-use super::start::error;
+use super::start::{check_start, error};
 use crate::constraints::{Constrained, WithConstraints};
 use symplectic_core::inside::{is_finite, named};
 use symplectic_core::system::{Class, Unconstrained};
@@ -56,7 +56,7 @@ where
 {
     let State { time, q, p } = state;
     let system = &WithConstraints::holonomic(system, q.dimension());
-    super::check_start(system, *time, q, p)?;
+    check_start(system, *time, q, p)?;
     let mut force = q.zeros_like();
     system.force(V::Scalar::from_f64(*time), q, p, &mut force);
     let found = multipliers(system, *time, (q, p), &force);

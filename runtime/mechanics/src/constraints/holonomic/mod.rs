@@ -25,7 +25,6 @@ pub(super) use last_impulse::LastImpulse;
 pub use memory::ConstrainedStages;
 pub(super) use metric::{Metric, Point};
 pub(super) use momentum_terms::MomentumTerms;
-pub(crate) use start::check_start;
 pub use start::consistent;
 pub(super) use start::{CONSISTENT, Examined, check_numbers};
 pub(super) use step::{NOISE, PATIENCE, ROUNDING, result, same_momentum, show_stages, stage};
@@ -100,12 +99,8 @@ impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
         V: Vector,
         S: System<V, Class = Self::Class>,
     {
-        check_start(
-            &WithConstraints::holonomic(system, q.dimension()),
-            time,
-            q,
-            p,
-        )
+        let system = &WithConstraints::holonomic(system, q.dimension());
+        start::check_start(system, time, q, p)
     }
 
     fn take<R: Summation, V: Vector, S: System<V, Class = Self::Class>, N: Solver<V, S>>(

@@ -233,7 +233,7 @@ pub(in crate::constraints) fn check_numbers<V: Vector>(q: &V, p: &V) -> Result<(
 
 /// Checks that a state is on the constraints, `φ(q) = 0` and `G ∂H/∂p = 0`. Also checks that the constraints are independent and that the
 /// system's gradients are correct.
-pub(crate) fn check_start<V: Vector, S: System<V>>(
+pub(super) fn check_start<V: Vector, S: System<V>>(
     system: &WithConstraints<'_, V, S>,
     time: f64,
     q: &V,
