@@ -25,21 +25,26 @@ pub fn or_as_first_step<I, T, E: OfTheCore>(
     forget: impl FnOnce(&mut I) -> bool,
     take: impl FnOnce(&mut I) -> Result<T, E>,
 ) -> Result<T, E> {
-    // Whatever the starting values are, these faults of a system remain.
-    let is_of_the_system = |error: &E| {
-        matches!(
-            error.of_the_core(),
-            Some(Error::EvaluationDimension { .. } | Error::MovingGradients { .. })
-        )
-    };
     match taken {
-        Err(error) if !is_of_the_system(&error) && forget(run) => take(run).map_err(|second| {
-            // No convergence is the reason, whatever the other attempt looks like.
-            match error.of_the_core() {
-                Some(Error::NoConvergence { .. }) => error,
-                _ => second,
-            }
-        }),
+        Err(error) if may_depend_on_start(&error) && forget(run) => {
+            take(run).map_err(|second| reason_of(error, second))
+        }
         taken => taken,
+    }
+}
+
+/// Whether a step that failed so may succeed with other starting values: some faults of a system remain, whatever they are.
+pub(super) fn may_depend_on_start(error: &impl OfTheCore) -> bool {
+    !matches!(
+        error.of_the_core(),
+        Some(Error::EvaluationDimension { .. } | Error::MovingGradients { .. })
+    )
+}
+
+/// The error to report of two attempts: no convergence is the reason, whatever the other attempt looks like.
+pub(super) fn reason_of<E: OfTheCore>(first: E, second: E) -> E {
+    match first.of_the_core() {
+        Some(Error::NoConvergence { .. }) => first,
+        _ => second,
     }
 }

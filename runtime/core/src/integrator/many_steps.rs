@@ -79,9 +79,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitio
     /// Takes a step that failed once more as a first step.
     #[cold]
     fn accept_as_first(&mut self, size: f64, time: f64, failed: Failed) -> Result<(), Error> {
-        let work = self.prepare_as_first(size, failed)?;
-        self.step_memory.accept::<R>(size, time, work);
-        Ok(())
+        let rejected = self.reject(None, size, failed)?;
+        self.advance_after(Some(rejected), size, time)
     }
 
     /// Number of the remaining steps to take next: one, to provide an evaluation to continue from, or many in place.

@@ -1,6 +1,6 @@
 //! One step: computed, checked, and accepted or rejected.
 
-use super::first_step::or_as_first_step;
+use super::first_step::{may_depend_on_start, reason_of};
 use super::memory::Failed;
 use super::{Partitioned, PlanOf};
 use crate::error::Error;
@@ -9,52 +9,93 @@ use crate::method::{Failure, Method, Plan, Solver, StepStatistics};
 use crate::number::{Summation, Vector};
 use crate::system::{Class, System};
 
+/// An attempt at a step that failed.
+pub(super) struct Rejected<V> {
+    error: Error,
+    /// The round-off of the state.
+    low: (V, V),
+}
+
 impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitioned<M, S, V, R, N> {
     /// Computes a step of size `size`, to the time `time`, into `next`; returns its statistics.
     #[inline]
     pub(super) fn prepare(&mut self, size: f64, time: f64) -> Result<StepStatistics, Error> {
+        self.check_progress(size, time)?;
+        self.prepare_after(None, size)
+    }
+
+    /// Checks that a step changes the time.
+    #[inline]
+    pub(super) fn check_progress(&self, size: f64, time: f64) -> Result<(), Error> {
         if time == self.step_memory.state.time {
             return Err(Error::TimeResolution {
                 time,
                 step_size: size,
             });
         }
-        let attempt =
-            self.step_memory
-                .attempt::<PlanOf<M, S, V>, R, S, N>(&self.system, size, self.stopping);
-        attempt.or_else(|failed| self.prepare_as_first(size, failed))
+        Ok(())
     }
 
-    /// [`prepare`](Self::prepare) after an attempt that failed: once more as the first step of a new integrator, unless it was one. The
+    /// [`prepare`](Self::prepare), perhaps after an attempt that failed. The code of a step is here only once, for first and second attempts.
+    #[inline]
+    fn prepare_after(
+        &mut self,
+        mut rejected: Option<Rejected<V>>,
+        size: f64,
+    ) -> Result<StepStatistics, Error> {
+        loop {
+            let attempt = self.step_memory.attempt::<PlanOf<M, S, V>, R, S, N>(
+                &self.system,
+                size,
+                self.stopping,
+            );
+            match attempt {
+                Ok(work) => {
+                    return Ok(StepStatistics {
+                        rejected: work.rejected + u32::from(rejected.is_some()),
+                        ..work
+                    });
+                }
+                Err(failed) => rejected = Some(self.reject(rejected.take(), size, failed)?),
+            }
+        }
+    }
+
+    /// Takes the step that [`prepare_after`](Self::prepare_after) computes.
+    #[inline(never)]
+    pub(super) fn advance_after(
+        &mut self,
+        rejected: Option<Rejected<V>>,
+        size: f64,
+        time: f64,
+    ) -> Result<(), Error> {
+        let work = self.prepare_after(rejected, size)?;
+        self.step_memory.accept::<R>(size, time, work);
+        Ok(())
+    }
+
+    /// After an attempt that failed: how to take the step once more, as the first step of a new integrator. An error if it was one. The
     /// step then starts from the rounded state too: a long iteration may end elsewhere if its start differs by less than a rounding error.
     #[cold]
-    pub(super) fn prepare_as_first(
+    pub(super) fn reject(
         &mut self,
+        before: Option<Rejected<V>>,
         size: f64,
         failed: Failed,
-    ) -> Result<StepStatistics, Error> {
+    ) -> Result<Rejected<V>, Error> {
         // This also forgets what earlier steps left.
         let error = self.fail(size, failed.failure);
-        let forget = |_: &mut Self| failed.from_kept;
-        or_as_first_step(self, Err(error), forget, |run| {
-            let low = run.step_memory.take_low();
-            match run.attempt_apart(size) {
-                Ok(work) => Ok(StepStatistics {
-                    rejected: work.rejected + 1,
-                    ..work
-                }),
-                Err(failed) => {
-                    run.step_memory.low = low;
-                    Err(run.fail(size, failed.failure))
-                }
+        match before {
+            Some(Rejected { error: first, low }) => {
+                self.step_memory.low = low;
+                Err(reason_of(first, error))
             }
-        })
-    }
-
-    /// [`StepMemory::attempt`](super::StepMemory::attempt), for steps that are rare: the code of a step is not repeated there.
-    #[inline(never)]
-    fn attempt_apart(&mut self, size: f64) -> Result<StepStatistics, Failed> {
-        (self.step_memory).attempt::<PlanOf<M, S, V>, R, S, N>(&self.system, size, self.stopping)
+            None if failed.from_kept && may_depend_on_start(&error) => Ok(Rejected {
+                error,
+                low: self.step_memory.take_low(),
+            }),
+            None => Err(error),
+        }
     }
 
     /// Returns the reason of a failed step, and forgets all data that the step left behind.

@@ -386,9 +386,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Stepper
 
     #[inline]
     fn advance(&mut self, size: f64, end: f64) -> Result<(), Error> {
-        let work = self.prepare(size, end)?;
-        self.step_memory.accept::<R>(size, end, work);
-        Ok(())
+        self.check_progress(size, end)?;
+        self.advance_after(None, size, end)
     }
 
     /// A splitting takes the steps in place, in blocks of 128 to 65 536 steps, and checks after each block whether the state is finite. If
