@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use nalgebra::{DMatrix, Schur};
 
 use symplectic_core::inside::rows::RowDecoupling;
-use symplectic_core::inside::{Complex, Elimination, Entry};
+use symplectic_linearisation::{Complex, Elimination, Entry};
 
 /// A matrix by its rows.
 type Rows = Vec<Vec<f64>>;

@@ -36,9 +36,6 @@ pub use crate::method::{
 
 pub use crate::number::array::array;
 pub use crate::number::dither::{dither_last_sweep, dither_side};
-pub use crate::number::dual::{Dual, HyperDual};
-#[cfg(feature = "alloc")]
-pub use crate::number::elimination::{Complex, Elimination, Entry};
 pub use crate::number::linear_combination::{add_products, totals_by};
 pub use crate::number::registers::{Avx2, Avx512, Widest};
 pub use crate::number::scalar::larger_or_nan;

@@ -3,10 +3,10 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use symplectic_core::inside::Elimination;
 use symplectic_core::solver::Failure;
 use symplectic_core::system::Jacobian;
 use symplectic_core::{Quantity, Scalar};
+use symplectic_linearisation::Elimination;
 
 /// All stages of a step, for a [`LinearSolver`](crate::LinearSolver) that evaluates the derivatives at each of them.
 #[derive(Clone, Copy, Debug)]

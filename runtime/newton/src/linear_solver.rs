@@ -6,10 +6,10 @@ use core::marker::PhantomData;
 
 use super::every_stage::{AllStages, EveryStage, NOT_FINITE};
 use super::jacobian::Derivatives;
-use symplectic_core::inside::{Complex, Elimination};
 use symplectic_core::solver::{Failure, Visit, Words, scalar_words};
 use symplectic_core::system::{BandMatrix, Class, Jacobian};
 use symplectic_core::{Scalar, System, Vector};
+use symplectic_linearisation::{Complex, Elimination};
 
 /// Coupling between the parts of the unknown of a linear system: the factor `γ` in `(1 − γ J) x = r`.
 ///

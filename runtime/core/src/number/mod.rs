@@ -3,12 +3,9 @@
 pub(crate) mod array;
 pub(crate) mod coefficient;
 pub(crate) mod dither;
-pub(crate) mod dual;
 #[cfg(feature = "num-dual")]
 mod dual64;
 pub(crate) mod elementary;
-#[cfg(feature = "alloc")]
-pub(crate) mod elimination;
 pub(crate) mod lanes;
 pub(crate) mod linear_combination;
 pub(crate) mod registers;

@@ -6,8 +6,9 @@ use alloc::vec;
 use num_traits::{Float, Zero};
 
 use super::regular::{Factors, Singular};
-use symplectic_core::inside::{HyperDual, check_state};
+use symplectic_core::inside::check_state;
 use symplectic_core::{Error as CoreError, Scalar, State, Vector};
+use symplectic_linearisation::HyperDual;
 
 /// A map of positions `Q = Φ(q)`: a symmetry, or a change of coordinates. It is written once for all scalars, and its derivatives are
 /// exact.

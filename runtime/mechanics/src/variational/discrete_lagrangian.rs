@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 use num_traits::Zero;
 
 use super::failure::Failure;
-use symplectic_core::inside::HyperDual;
 use symplectic_core::{Error, Quantity, Scalar, Vector};
+use symplectic_linearisation::HyperDual;
 
 /// A discrete Lagrangian `Ld(q0, q1)`: an approximation of the action from `q0` at the time t to `q1` at t + h. It is written once for all
 /// scalars, and its derivatives are exact (Marsden & West 2001, §1.3).

@@ -12,13 +12,14 @@ use num_traits::Zero;
 use super::regular::Factors;
 use super::two_ends::dot;
 use symplectic_core::inside::{
-    HyperDual, check_start, check_state, check_step_size, is_finite, non_linear_velocity,
+    check_start, check_state, check_step_size, is_finite, non_linear_velocity,
 };
 use symplectic_core::solver::FixedPoint;
 use symplectic_core::system::Masses;
 use symplectic_core::{
     Error as CoreError, Hamiltonian, Quantity, Scalar, Separable, State, System, Vector,
 };
+use symplectic_linearisation::HyperDual;
 
 /// A system `H = pᵀM⁻¹p/2 + V(q)` in shifted positions. In these, Newmark's method with `γ = 1/2` and any β is Störmer–Verlet (Newmark
 /// 1959; Marsden & West 2001, 2.6.3; Skeel, Zhang & Schlick 1997):

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use num_traits::Float;
 
-use symplectic_core::inside::Elimination;
+use symplectic_linearisation::Elimination;
 
 /// If an iterate changes by less than this, relative to the distance from the start, the next iterate is exact up to rounding: the
 /// iteration converges quadratically.

@@ -5,8 +5,9 @@ use alloc::vec::Vec;
 use num_traits::Zero;
 
 use crate::Error;
-use symplectic_core::inside::{HyperDual, check_start, check_state};
+use symplectic_core::inside::{check_start, check_state};
 use symplectic_core::{Hamiltonian, Scalar, State, Vector};
+use symplectic_linearisation::HyperDual;
 
 /// The extended state ((q, t), (p, p_t)) at τ = 0; its vectors have one component more.
 pub(super) fn extended<V, W>(state: &State<V>, momentum: f64) -> Result<State<W>, Error>

@@ -1,7 +1,7 @@
 //! Monitors: functions of the positions that set the step size.
 
-use symplectic_core::inside::HyperDual;
 use symplectic_core::{Hamiltonian, Scalar, Separable, System, Vector};
+use symplectic_linearisation::HyperDual;
 
 /// A monitor σ(q) > 0, which sets the step size `h ≈ ε σ(q)`. The run chooses ε.
 ///

@@ -5,7 +5,7 @@ use alloc::vec;
 use num_traits::Zero;
 
 use symplectic_core::Vector;
-use symplectic_core::inside::Dual;
+use symplectic_linearisation::Dual;
 
 /// The first and the second half of the components.
 #[cfg_attr(not(debug_assertions), inline(always))]

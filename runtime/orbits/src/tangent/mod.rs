@@ -13,11 +13,12 @@ use alloc::vec;
 
 use dual_vector::{halves, halves_mut, joined, part, zeros};
 
-use symplectic_core::inside::{Dual, check_start, check_state, first};
+use symplectic_core::inside::{check_start, check_state, first};
 use symplectic_core::simd::Lanes;
 use symplectic_core::solver::Automatic;
 use symplectic_core::system::{Class, Conservative, LaneWork, OverEveryScalar};
 use symplectic_core::{Hamiltonian, Quantity, Scalar, State, System, Vector};
+use symplectic_linearisation::Dual;
 
 /// A system together with its variational equations, for positions `(q, δq)` and momenta `(δp, p)`:
 ///

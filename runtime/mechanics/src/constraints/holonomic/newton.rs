@@ -5,9 +5,10 @@ use alloc::vec::Vec;
 
 use super::memory::Workspace;
 use crate::constraints::{Gradients, WithConstraints};
-use symplectic_core::inside::{ConstrainedTableau, Elimination};
+use symplectic_core::inside::ConstrainedTableau;
 use symplectic_core::solver::{Failure, Step};
 use symplectic_core::{Scalar, System, Vector};
+use symplectic_linearisation::Elimination;
 
 /// The Jacobian of the constraints at the stage positions with respect to the impulses of the constraints, at the present stages:
 ///

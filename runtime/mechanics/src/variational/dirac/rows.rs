@@ -6,8 +6,8 @@ use num_traits::Zero;
 
 use super::DiracSystem;
 use crate::constraints::Gradients;
-use symplectic_core::inside::HyperDual;
 use symplectic_core::{Error, Scalar, Vector};
+use symplectic_linearisation::HyperDual;
 
 /// An entry of w.
 #[derive(Clone, Copy, Debug)]

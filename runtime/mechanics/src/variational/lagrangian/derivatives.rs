@@ -7,9 +7,9 @@ use num_traits::Zero;
 
 use crate::variational::failure::Failure;
 use crate::variational::stages::StageOfStep;
-use symplectic_core::inside::HyperDual;
 use symplectic_core::system::Lagrangian;
 use symplectic_core::{Error, Quantity, Scalar, Vector};
+use symplectic_linearisation::HyperDual;
 
 /// The momentum and its rate at a state of positions and velocities, with their Jacobians, and memory to evaluate them. Matrices are by
 /// rows.

@@ -4,8 +4,9 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::{Add, Mul, Neg, Sub};
 
-use crate::number::words::words;
-use crate::number::{Scalar, Visit};
+use symplectic_core::Scalar;
+use symplectic_core::inside::words;
+use symplectic_core::solver::Visit;
 
 /// A number of a field.
 pub trait Entry: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {

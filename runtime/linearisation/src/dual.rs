@@ -4,7 +4,9 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 
 use num_traits::{One, Zero};
 
-use crate::number::{Coefficient, Scalar, larger_or_nan};
+use symplectic_core::Scalar;
+use symplectic_core::emitted::Coefficient;
+use symplectic_core::inside::larger_or_nan;
 
 /// `value + slope ε` with `ε² = 0`: a number and its derivative with respect to a parameter. The bits of the value are those without it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -330,7 +332,7 @@ impl<T: Scalar> Scalar for Dual<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::number::{F64x2, Lanes};
+    use symplectic_core::simd::{F64x2, Lanes};
 
     /// Checks every function against differences of order 4, along both parameters, and checks the same values and slopes in lanes.
     #[test]
