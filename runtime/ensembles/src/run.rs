@@ -7,7 +7,7 @@ use crate::coupled::lanes::goes_in_lanes;
 use crate::group::{Job, Task};
 use crate::pool::{self, threads};
 use crate::{Ensemble, Row, Wanted};
-use symplectic_core::inside::{Plan, PlanOf, Widest, width};
+use symplectic_core::inside::{Plan, PlanOf, Widest, step_parts_of, width};
 use symplectic_core::simd::Lanes;
 use symplectic_core::solver::Solver;
 use symplectic_core::stepper::Stepper;
@@ -418,7 +418,7 @@ where
         let system = self.family_of(place).0.clone();
         let start = self.starts[place].clone();
         let mut run = Integrator::unchecked(self.method.clone(), system, start, self.step_size);
-        run.stepper_mut().set_stopping(self.stopping);
+        *step_parts_of(run.stepper_mut()).stopping = self.stopping;
         run.set_retry(self.retry);
         (self.offset + place, run)
     }

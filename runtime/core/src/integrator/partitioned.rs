@@ -316,12 +316,6 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitio
         &self.system
     }
 
-    /// Sets the criterion by which the iteration of coupled stages stops.
-    #[doc(hidden)]
-    pub const fn set_stopping(&mut self, stopping: Stopping) {
-        self.stopping = stopping;
-    }
-
     /// Writes p' at a state: see [`Plan::momentum_rate`].
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn momentum_rate(&self, time: f64, q: &V, p: &V, rate: &mut V) {

@@ -38,7 +38,7 @@ pub struct StepParts<'a, S, V, T> {
     /// The state, and what a step leaves for the next one.
     pub step_memory: &'a mut StepMemory<V, T>,
     /// When the iteration of coupled stages ends.
-    pub stopping: Stopping,
+    pub stopping: &'a mut Stopping,
 }
 
 /// The parts of the steps of a method.
@@ -56,6 +56,6 @@ where
     StepParts {
         system: &mut stepper.system,
         step_memory: &mut stepper.step_memory,
-        stopping: stepper.stopping,
+        stopping: &mut stepper.stopping,
     }
 }

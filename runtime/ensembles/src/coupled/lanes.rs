@@ -8,12 +8,11 @@ use alloc::vec::Vec;
 use core::marker::PhantomData;
 use core::mem;
 
-use symplectic_core::num_traits::Zero;
-
 use super::stages::{LaneMemory, LaneOutcome, StepInLanes};
 use super::sweeps::{Fits, WithSums};
 use crate::in_lanes::{evaluations, fill};
 use symplectic_core::inside::{Plan, PlanOf, StepParts, Work, step_parts_of};
+use symplectic_core::num_traits::Zero;
 use symplectic_core::simd::Lanes;
 use symplectic_core::solver::{Outcome, Solver, Step, Stopping, WarmStart};
 use symplectic_core::{Integrator, Method, Scalar, State, Summation, System, Vector};
@@ -76,7 +75,7 @@ where
         Self {
             system,
             linear_velocity: step_memory.linear_velocity,
-            stopping,
+            stopping: *stopping,
             states: StatesInLanes {
                 now: vectors(),
                 other: vectors(),

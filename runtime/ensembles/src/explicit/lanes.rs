@@ -1,16 +1,15 @@
 //! Trajectories side by side: one integrator over lanes in place of one integrator per trajectory.
 //!
-//! Every lane of a step of a [lanewise](symplectic_core::inside::Plan::LANEWISE) plan has the bits of a step of doubles. A run can therefore switch between
-//! integrators of doubles and one over lanes at any step.
+//! Every lane of a step of a [lanewise](symplectic_core::inside::Plan::LANEWISE) plan has the bits of a step of doubles. A run can
+//! therefore switch between integrators of doubles and one over lanes at any step.
 
 use alloc::vec::Vec;
-
-use symplectic_core::num_traits::Zero;
 
 use crate::in_lanes::{evaluations, fill};
 use symplectic_core::inside::{
     Clock, MemoryOf, Output, PlanOf, StepMemory, StepParts, Work, parts_of, step_parts_of,
 };
+use symplectic_core::num_traits::Zero;
 use symplectic_core::simd::Lanes;
 use symplectic_core::solver::{Solver, Stopping, WarmStart};
 use symplectic_core::stepper::{DenseSteps, Partitioned, RemainingSteps, Stepper};
@@ -53,7 +52,7 @@ where
         let blank = State::new(0.0, zeros.clone(), zeros.clone());
         // A step that fails is repeated by the trajectory that it belongs to.
         let mut run = Integrator::unchecked(method, system, blank, step_size);
-        run.stepper_mut().set_stopping(stopping);
+        *step_parts_of(run.stepper_mut()).stopping = stopping;
         Self { run }
     }
 
@@ -304,7 +303,7 @@ where
             step_memory,
             stopping,
         } = step_parts_of(self.stepper);
-        let attempt = step_memory.attempt::<PlanOf<M, S, V>, R, S, N>(system, self.size, stopping);
+        let attempt = step_memory.attempt::<PlanOf<M, S, V>, R, S, N>(system, self.size, *stopping);
         match attempt {
             Ok(work) => step_memory.accept::<R>(self.size, self.time, work),
             Err(_) => step_memory.forget(),

@@ -1,8 +1,7 @@
 //! Coupled stages of several trajectories, each in one lane, with the bits of [`Automatic`](symplectic_core::solver::Automatic).
 //!
 //! A sweep computes the stages of all trajectories at once, with the operations of a single run in the same order. Only steps with a warm
-//! start are taken here. If the stages of a trajectory do not settle in few sweeps, the
-//! trajectory takes the step alone.
+//! start are taken here. If the stages of a trajectory do not settle in few sweeps, the trajectory takes the step alone.
 
 mod by_halves;
 mod emitted;
@@ -12,8 +11,6 @@ mod settle;
 
 use core::marker::PhantomData;
 
-use symplectic_core::num_traits::Zero;
-
 use super::stages::{LaneOutcome, LaneStages, StepInLanes};
 use emitted::ByMethod;
 use run_time::ByTableau;
@@ -21,6 +18,7 @@ use symplectic_core::inside::TableauWork;
 use symplectic_core::inside::sweeps::{
     LaneMovement, StageValue, eliminates, moved, noted, shortest, sum_of_products,
 };
+use symplectic_core::num_traits::Zero;
 use symplectic_core::simd::Lanes;
 use symplectic_core::solver::StageTableau;
 use symplectic_core::system::Class;

@@ -3,8 +3,6 @@
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
-use symplectic_core::num_traits::Zero;
-
 use super::{LaneSweeps, Sums, keep, largest, relax, settle::settle, transform};
 use crate::coupled::stages::{LaneMemory, LaneOutcome, LaneStages, StepInLanes};
 use symplectic_core::inside::rows::{CoupledRows, CoupledStep, HalfRows, Row};
@@ -12,6 +10,7 @@ use symplectic_core::inside::sweeps::{
     BasePlusSum, LaneMovement, Overrelaxed, moved, noted, shortest, sum_of_products,
 };
 use symplectic_core::inside::{Work, array, copy};
+use symplectic_core::num_traits::Zero;
 use symplectic_core::simd::Lanes;
 use symplectic_core::system::Class;
 use symplectic_core::{Scalar, Summation, System, Vector};
