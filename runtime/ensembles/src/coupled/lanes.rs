@@ -9,7 +9,7 @@ use core::marker::PhantomData;
 use core::mem;
 
 use super::stages::{LaneMemory, LaneOutcome, StepInLanes};
-use super::sweeps::{Fits, WithSums};
+use super::sweeps::{FindStep, Fits};
 use crate::in_lanes::{evaluations, fill};
 use symplectic_core::inside::{Plan, PlanOf, StepParts, Work, step_parts_of};
 use symplectic_core::num_traits::Zero;
@@ -230,15 +230,15 @@ where
         };
         let [q, p, q_low, p_low] = &mut *self.states.other;
         let outcome = Outcome { q, q_low, p, p_low };
-        let step = StepInLanes {
+        let take = PlanOf::<M, S, V>::with_tableau(FindStep::<R, W, J>(PhantomData))?;
+        take(StepInLanes {
             step: &step,
             system: &self.system,
             memory: &mut self.memory,
             live,
             stopping: self.stopping,
             outcome,
-        };
-        PlanOf::<M, S, V>::with_tableau(WithSums::<R, _>(step, PhantomData))?
+        })
     }
 
     /// Makes a computed step, to the time `time`, the present state. Lanes in which it failed have to be [loaded](Self::load) again.

@@ -36,23 +36,28 @@ impl<C: Class> TableauWork<C> for Fits {
     }
 }
 
-/// A step of several trajectories with the sums `R`. Writes the results of those whose stages converge into its outcome. They have the
-/// bits of a single run with [`Automatic`](symplectic_core::solver::Automatic). The result is `None` if stages are not coupled.
-pub(super) struct WithSums<R, T>(pub(super) T, pub(super) PhantomData<R>);
+/// Takes a step of several trajectories. Writes the results of those whose stages converge into its outcome. They have the bits of a
+/// single run with [`Automatic`](symplectic_core::solver::Automatic). The result is `None` if stages are not coupled.
+pub(super) type LaneStep<W, J> =
+    for<'a> fn(StepInLanes<'a, W, J>) -> Option<LaneOutcome<<W as Vector>::Scalar>>;
 
-impl<C, R, W, J> TableauWork<C> for WithSums<R, StepInLanes<'_, W, J>>
+/// Finds the function that takes a step with a tableau and the sums `R`.
+pub(super) struct FindStep<R, W, J>(pub(super) PhantomData<fn(W, J) -> R>);
+
+impl<C, R, W, J> TableauWork<C> for FindStep<R, W, J>
 where
     C: Class,
     R: Summation,
     W: Vector<Scalar: Lanes>,
     J: System<W, Class = C>,
 {
-    type Output = Option<LaneOutcome<W::Scalar>>;
+    type Output = LaneStep<W, J>;
 
+    #[inline]
     fn run<P: StageTableau<Class = C>>(self) -> Self::Output {
         match P::AT_RUN_TIME {
-            true => W::Scalar::in_registers(ByTableau::<C, R, _>(self.0, PhantomData)),
-            false => W::Scalar::in_registers(ByMethod::<P, R, _>(self.0, PhantomData)),
+            true => |step| W::Scalar::in_registers(ByTableau::<C, R, _>(step, PhantomData)),
+            false => |step| W::Scalar::in_registers(ByMethod::<P, R, _>(step, PhantomData)),
         }
     }
 }
