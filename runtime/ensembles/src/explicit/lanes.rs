@@ -50,7 +50,7 @@ where
     /// An integrator of the system of the lanes, in vectors like `zeros`; every lane still has to be [begun](Self::begin).
     pub(super) fn new(method: M, system: J, zeros: &W, step_size: f64, stopping: Stopping) -> Self {
         let blank = State::new(0.0, zeros.clone(), zeros.clone());
-        // A step that fails is repeated by the trajectory that it belongs to.
+        // Its steps are never split: one that fails is repeated by the trajectory that it belongs to.
         let mut run = Integrator::unchecked(method, system, blank, step_size);
         *step_parts_of(run.stepper_mut()).stopping = stopping;
         Self { run }
