@@ -5,10 +5,9 @@ use core::marker::PhantomData;
 
 use symplectic_core::inside::rows::{CoupledRows, Kind};
 use symplectic_core::inside::{
-    EvaluationObserver, Evaluations, LaneStep, Plan, Possible, StageVisit, advance, copy,
+    EvaluationObserver, Evaluations, Plan, Possible, StageVisit, TableauWork, advance, copy,
 };
 use symplectic_core::output::{Inside, Interpolation};
-use symplectic_core::simd::Lanes;
 use symplectic_core::solver::{
     Coefficient, Failure, Outcome, Solver, StageStorage, Step, StepStatistics, Stopping, Visit,
     WarmStart,
@@ -155,26 +154,9 @@ impl<C: Class> Plan for RunTimePlan<C> {
         }
     }
 
-    fn goes_in_lanes<V, S, N>() -> bool
-    where
-        V: Vector,
-        S: System<V, Class = C>,
-        N: Solver<V, S>,
-    {
-        N::goes_in_lanes()
-    }
-
-    #[inline]
-    fn lane_step<R, V, S, N, W, J>() -> Option<LaneStep<W, J>>
-    where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = C>,
-        N: Solver<V, S>,
-        W: Vector<Scalar: Lanes>,
-        J: System<W, Class = C>,
-    {
-        N::lane_step::<RunTimeRows<C>, R, W, J>()
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn with_tableau<W: TableauWork<C>>(work: W) -> Option<W::Output> {
+        Some(work.run::<RunTimeRows<C>>())
     }
 
     fn observe<R, V, S, N, W>(

@@ -6,20 +6,18 @@ pub use crate::error::phrases::Short;
 pub use crate::contract::in_lanes::first;
 
 #[cfg(feature = "alloc")]
-pub use crate::contract::{LaneStep, Possible, StagePart, StageVisit};
+pub use crate::contract::{Possible, StagePart, StageVisit};
 
-#[cfg(feature = "alloc")]
-pub use crate::integrator::CoupledLanes;
 #[cfg(feature = "alloc")]
 pub use crate::integrator::checkpoint::Save;
 pub use crate::integrator::clock::Clock;
 #[cfg(feature = "alloc")]
-pub use crate::integrator::explicit_in_lanes::{evaluations, is_same};
-#[cfg(feature = "alloc")]
 pub use crate::integrator::fingerprint::{hash, system_fingerprint};
 pub use crate::integrator::first_step::{OfTheCore, or_as_first_step};
 pub use crate::integrator::last_step::LastEvent;
-pub use crate::integrator::parts::{Parts, parts_of};
+pub use crate::integrator::memory::StepMemory;
+pub use crate::integrator::partitioned::{MemoryOf, PlanOf};
+pub use crate::integrator::parts::{Parts, StepParts, parts_of, step_parts_of};
 pub use crate::integrator::stepper::advance_in_time;
 pub use crate::integrator::validation::{check_start, check_state, check_step_size};
 
@@ -31,18 +29,18 @@ pub use crate::method::storage::{
 pub use crate::method::symmetric_steps::{Part, SymmetricSteps};
 pub use crate::method::{
     ConstrainedStep, ConstrainedTableau, EvaluationObserver, Evaluations, KickDrift, Plan,
-    StagePlan, StageView, Symmetry,
+    StagePlan, StageView, Symmetry, TableauWork,
 };
 
 pub use crate::number::array::array;
 pub use crate::number::dither::{dither_last_sweep, dither_side};
 pub use crate::number::linear_combination::{add_products, totals_by};
-pub use crate::number::registers::{Avx2, Avx512, Widest};
+pub use crate::number::registers::{Avx2, Avx512, Widest, Work};
 pub use crate::number::scalar::larger_or_nan;
 pub use crate::number::summation::{add, add_sum, fast_two_sum, two_sum};
 pub use crate::number::vector::{beside, same, same_mut};
 pub use crate::number::words::{show_vectors, words};
-pub use crate::number::{advance, copy};
+pub use crate::number::{advance, copy, scale};
 
 pub use crate::output::at_times::{Output, is_after};
 
@@ -59,7 +57,22 @@ pub use crate::system::linearity::non_linear_velocity;
 pub mod rows {
     pub use crate::contract::CoupledRows;
     pub use crate::contract::coupled_step::CoupledStep;
-    pub use crate::contract::rows::{Evaluation, HalfRows, Kind, MAX_EVALUATIONS, RowDecoupling};
+    pub use crate::contract::rows::{
+        Evaluation, HalfRows, Kind, MAX_EVALUATIONS, Row, RowDecoupling,
+    };
+}
+
+/// What sweeps over the stages of several trajectories share with those over the stages of one.
+pub mod sweeps {
+    pub use crate::contract::tableau::{Columns, eliminates};
+    pub use crate::number::linear_combination::{TermsOfComponents, shortest, sum_of_products};
+    pub use crate::number::summation::{Overrelaxed, Terms, moved};
+    pub use crate::solver::convergence::PATIENCE;
+    pub use crate::solver::nystrom::{Start, position, tableau};
+    pub use crate::solver::predictor::{Starting, starts_at_once};
+    pub use crate::solver::stages_in_lanes::change::{LaneMovement, noted};
+    pub use crate::solver::stages_in_lanes::sums::{BasePlusSum, StageValue};
+    pub use crate::solver::stages_in_lanes::sweeps::{are_at_one_time, extrapolates};
 }
 
 /// An error with the name of its constraint, if it has one.

@@ -4,9 +4,10 @@ use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
 use crate::explicit::SideBySide;
+use crate::in_lanes::{evaluations, is_same};
 use crate::run::Way;
 use crate::{Ensemble, Row};
-use symplectic_core::inside::{evaluations, is_same, over_lanes_of, width};
+use symplectic_core::inside::{over_lanes_of, width};
 use symplectic_core::simd::Lanes;
 use symplectic_core::solver::Solver;
 use symplectic_core::system::Join;

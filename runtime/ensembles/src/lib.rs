@@ -64,6 +64,7 @@ mod explicit;
 mod facts;
 mod group;
 mod histogram;
+mod in_lanes;
 mod make;
 mod moments;
 #[cfg(feature = "npz")]

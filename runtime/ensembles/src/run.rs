@@ -3,10 +3,11 @@
 use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
+use crate::coupled::lanes::goes_in_lanes;
 use crate::group::{Job, Task};
 use crate::pool::{self, threads};
 use crate::{Ensemble, Row, Wanted};
-use symplectic_core::inside::{Widest, width};
+use symplectic_core::inside::{Plan, PlanOf, Widest, step_parts_of, width};
 use symplectic_core::simd::Lanes;
 use symplectic_core::solver::Solver;
 use symplectic_core::stepper::Stepper;
@@ -337,10 +338,8 @@ where
         let faster = M::AT_RUN_TIME || is_wide && !S::DISPLACED;
         let coupled = faster || self.lanes == Wanted::Yes;
         match possible {
-            true if Integrator::<M, S, V, R, N>::LANEWISE && self.method.is_lanewise() => {
-                Way::Explicit
-            }
-            true if coupled && Integrator::<M, S, V, R, N>::goes_in_lanes() => Way::Coupled,
+            true if PlanOf::<M, S, V>::LANEWISE && self.method.is_lanewise() => Way::Explicit,
+            true if coupled && goes_in_lanes::<M, S, V, N>() => Way::Coupled,
             _ => Way::Alone,
         }
     }
@@ -419,7 +418,7 @@ where
         let system = self.family_of(place).0.clone();
         let start = self.starts[place].clone();
         let mut run = Integrator::unchecked(self.method.clone(), system, start, self.step_size);
-        run.stepper_mut().set_stopping(self.stopping);
+        *step_parts_of(run.stepper_mut()).stopping = self.stopping;
         run.set_retry(self.retry);
         (self.offset + place, run)
     }

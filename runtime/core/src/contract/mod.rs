@@ -10,8 +10,6 @@ pub(crate) mod interpolation;
 #[cfg(feature = "alloc")]
 mod jacobian;
 mod kick_drift;
-#[cfg(feature = "alloc")]
-mod lane_stages;
 pub(crate) mod linearity;
 mod masses;
 mod method;
@@ -45,10 +43,6 @@ pub use interpolation::{Inside, Interpolation};
 #[cfg(feature = "alloc")]
 pub use jacobian::{BandMatrix, Jacobian};
 pub use kick_drift::KickDrift;
-#[cfg(feature = "alloc")]
-pub use lane_stages::{
-    LaneMemory, LaneOutcome, LaneStages, LaneStep, StagePart, StageVisit, StepInLanes,
-};
 pub use masses::Masses;
 pub use method::Method;
 pub use plan::Plan;
@@ -63,8 +57,11 @@ pub use stage_sums::{StageSums, StartingValues, Sweep};
 pub use step::{EvaluationCounts, EvaluationObserver, Outcome, Span, StageView, Step, WarmStart};
 pub use stopping::Stopping;
 pub use storage::{Evaluations, StageStorage, Stages};
+#[cfg(feature = "alloc")]
+pub use storage::{StagePart, StageVisit};
 pub use system::{OverEveryScalar, System, SystemInLanes};
 pub use tableau::{
     Decoupling, HalfTableau, SecondOrderTableau, StagePolynomial, StageTableau, StoredEvaluations,
+    TableauWork,
 };
 pub use work::{Failure, StepStatistics};

@@ -1,14 +1,11 @@
 //! How a method takes one step.
 
-#[cfg(feature = "alloc")]
-use crate::contract::LaneStep;
 use crate::contract::{
     Class, EvaluationObserver, Evaluations, Failure, Inside, Interpolation, KickDrift, Outcome,
-    Solver, Span, StageStorage, StageView, Step, StepStatistics, Stopping, System, WarmStart,
+    Solver, Span, StageStorage, StageView, Step, StepStatistics, Stopping, System, TableauWork,
+    WarmStart,
 };
 use crate::error::Error;
-#[cfg(feature = "alloc")]
-use crate::number::Lanes;
 use crate::number::{Scalar, Summation, Vector};
 
 /// How a [`Method`](crate::Method) takes one step of a system of one [`Class`]:
@@ -78,32 +75,10 @@ pub trait Plan {
         outcome: Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure>;
 
-    /// Whether steps are taken [in lanes](Self::lane_step).
-    #[cfg(feature = "alloc")]
+    /// Runs work with the tableau whose stages a [`Solver`] finds; `None` if it has none.
     #[doc(hidden)]
-    #[inline]
-    fn goes_in_lanes<V, S, N>() -> bool
-    where
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-        N: Solver<V, S>,
-    {
-        false
-    }
-
-    /// How it takes a step in lanes; `None` if that is impossible.
-    #[cfg(feature = "alloc")]
-    #[doc(hidden)]
-    #[inline]
-    fn lane_step<R, V, S, N, W, J>() -> Option<LaneStep<W, J>>
-    where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-        N: Solver<V, S>,
-        W: Vector<Scalar: Lanes>,
-        J: System<W, Class = Self::Class>,
-    {
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn with_tableau<W: TableauWork<Self::Class>>(_work: W) -> Option<W::Output> {
         None
     }
 

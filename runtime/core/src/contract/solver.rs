@@ -4,14 +4,10 @@
 use alloc::string::String;
 use core::fmt::Debug;
 
-#[cfg(feature = "alloc")]
-use crate::contract::LaneStep;
 use crate::contract::{
     Failure, Inside, Outcome, StageStorage, StageTableau, Step, StepStatistics, Stopping, System,
     WarmStart,
 };
-#[cfg(feature = "alloc")]
-use crate::number::Lanes;
 use crate::number::{Summation, Vector};
 
 /// Finds the stages of a [`Coupled`](crate::emitted::Coupled) plan, for a system `S` over the vectors `V`.
@@ -20,6 +16,10 @@ use crate::number::{Summation, Vector};
 pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
     /// Whether it takes steps by Newton's iteration, always or if another one fails.
     const IS_NEWTON: bool = false;
+
+    /// Whether it is [`Automatic`](crate::solver::Automatic).
+    #[doc(hidden)]
+    const IS_AUTOMATIC: bool = false;
 
     /// Whether a new integrator tests if the velocity is [linear](Step::linear_velocity) in the momentum.
     const TRIES_LINEARITY: bool = false;
@@ -65,28 +65,6 @@ pub trait Solver<V: Vector, S: System<V>>: Copy + Debug + 'static {
         P: StageTableau,
         R: Summation,
         S: System<V, Class = P::Class>;
-
-    /// Whether several trajectories can run [in lanes](Self::lane_step).
-    #[cfg(feature = "alloc")]
-    #[doc(hidden)]
-    #[inline]
-    fn goes_in_lanes() -> bool {
-        false
-    }
-
-    /// [`Plan::lane_step`](crate::emitted::Plan::lane_step)
-    #[cfg(feature = "alloc")]
-    #[doc(hidden)]
-    #[inline]
-    fn lane_step<P, R, W, J>() -> Option<LaneStep<W, J>>
-    where
-        P: StageTableau,
-        R: Summation,
-        W: Vector<Scalar: Lanes>,
-        J: System<W, Class = P::Class>,
-    {
-        None
-    }
 
     /// Adds to `q` and `p` their deviations from the straight line between the ends of the last step. These come from the
     /// [polynomials](crate::solver::HalfTableau::polynomial) through the evaluations in `memory`.

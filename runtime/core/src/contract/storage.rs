@@ -6,9 +6,9 @@ use core::array;
 
 use core::mem;
 
-use crate::contract::StoredEvaluations;
 #[cfg(feature = "alloc")]
-use crate::contract::{CoupledRows, StageVisit};
+use crate::contract::CoupledRows;
+use crate::contract::StoredEvaluations;
 use crate::error::Quantity;
 use crate::number::vector::LIGHT;
 use crate::number::{Scalar, Vector, Visit};
@@ -46,7 +46,7 @@ pub trait StageStorage<V: Vector>: Sized + Clone {
         self.clone().words(visit);
     }
 
-    /// Shows `visit` the stages that can run in lanes, if there are any.
+    /// Shows `visit` the coupled stages, if there are any.
     #[cfg(feature = "alloc")]
     #[doc(hidden)]
     fn stages(&mut self, _visit: &mut StageVisit<'_>) {}
@@ -64,6 +64,26 @@ pub trait StageStorage<V: Vector>: Sized + Clone {
     /// numbered from 1; outside the stages the number is 0.
     fn mismatch(&self, dimension: usize) -> Option<(Quantity, usize, usize)>;
 }
+
+/// A part of the memory of coupled stages.
+#[cfg(feature = "alloc")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StagePart {
+    /// The positions of the stages.
+    Positions,
+    /// The momenta of the stages.
+    Momenta,
+    /// The velocities, or the increments computed from them.
+    Velocities,
+    /// The forces, or the increments computed from them.
+    Forces,
+    /// The velocity at the start of the step, if momenta are eliminated.
+    Start,
+}
+
+/// Called with the part, the stage, the component, and the number there.
+#[cfg(feature = "alloc")]
+pub type StageVisit<'a> = dyn FnMut(StagePart, usize, usize, &mut f64) + 'a;
 
 /// Visits a copy of the stages on the stack: stages to which no pointer exists can stay in registers from step to step.
 #[cfg_attr(not(debug_assertions), inline(always))]

@@ -58,6 +58,16 @@ pub trait StageTableau: StagePlan {
     fn stored<V: Vector>(stages: &Self::Stages<V>) -> [StoredEvaluations<'_, V>; 2];
 }
 
+/// Work with a tableau that is a type.
+#[doc(hidden)]
+pub trait TableauWork<C: Class> {
+    /// The result of the work.
+    type Output;
+
+    /// Runs the work with the tableau of a method for systems of class `C`.
+    fn run<P: StageTableau<Class = C>>(self) -> Self::Output;
+}
+
 /// Velocities or forces as a step leaves them, stage by stage.
 #[derive(Clone, Copy, Debug)]
 pub struct StoredEvaluations<'a, V> {
@@ -118,7 +128,7 @@ pub struct SecondOrderTableau {
 
 /// Whether the momenta of the stages of this method are eliminated on systems with a [`SecondOrderTableau`].
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) const fn eliminates<P: StageTableau>() -> bool {
+pub const fn eliminates<P: StageTableau>() -> bool {
     P::SECOND_ORDER.is_some() && P::Class::SEPARABLE
 }
 
@@ -140,19 +150,21 @@ const fn is_zero(column: &[f64]) -> bool {
     i == column.len()
 }
 
-/// The [`significant`] columns of the matrices of a plan.
-pub(crate) struct Columns<P>(PhantomData<P>);
+/// The `significant` columns of the matrices of a plan.
+pub struct Columns<P>(PhantomData<P>);
 
 impl<P: StageTableau> Columns<P> {
-    pub(crate) const POSITIONS: &'static [&'static [f64]] = significant(P::POSITIONS.columns);
-    pub(crate) const MOMENTA: &'static [&'static [f64]] = significant(P::MOMENTA.columns);
+    /// Those of the positions.
+    pub const POSITIONS: &'static [&'static [f64]] = significant(P::POSITIONS.columns);
+    /// Those of the momenta.
+    pub const MOMENTA: &'static [&'static [f64]] = significant(P::MOMENTA.columns);
     /// The columns for second-order systems; empty if there are no coefficients for them.
-    pub(crate) const SECOND_ORDER: &'static [&'static [f64]] = match P::SECOND_ORDER {
+    pub const SECOND_ORDER: &'static [&'static [f64]] = match P::SECOND_ORDER {
         Some(tableau) => significant(tableau.columns),
         None => &[],
     };
     /// The columns of [`SECOND_ORDER`](Self::SECOND_ORDER) as factors of the forces.
-    pub(crate) const OF_FORCES: &'static [&'static [f64]] = match P::SECOND_ORDER {
+    pub const OF_FORCES: &'static [&'static [f64]] = match P::SECOND_ORDER {
         Some(tableau) => significant(tableau.of_forces),
         None => &[],
     };

@@ -20,7 +20,8 @@ impl Words for Clock {
 }
 
 impl Clock {
-    pub(crate) const fn new(start: f64, size: f64) -> Self {
+    /// The times of steps of one size.
+    pub const fn new(start: f64, size: f64) -> Self {
         Self {
             start,
             size,
@@ -29,7 +30,7 @@ impl Clock {
     }
 
     /// The time after the next step.
-    pub(crate) fn next(&self) -> f64 {
+    pub fn next(&self) -> f64 {
         self.later(1)
     }
 
@@ -38,7 +39,8 @@ impl Clock {
         self.start + (self.count + steps) as f64 * self.size
     }
 
-    pub(crate) const fn tick(&mut self) {
+    /// Counts a step as taken.
+    pub const fn tick(&mut self) {
         self.skip(1);
     }
 

@@ -117,8 +117,9 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitio
     }
 
     /// Takes steps in place. Returns `false`, with the state unchanged, if that is impossible or if a result is NaN or infinite.
+    #[doc(hidden)]
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn advance_in_place(&mut self, steps: u64, remaining: &mut RemainingSteps) -> bool {
+    pub fn advance_in_place(&mut self, steps: u64, remaining: &mut RemainingSteps) -> bool {
         let RemainingSteps { size, clock, .. } = *remaining;
         let Some(evaluations) = PlanOf::<M, S, V>::EVALUATIONS_IN_PLACE else {
             return false;

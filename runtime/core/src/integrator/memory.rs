@@ -16,7 +16,7 @@ use crate::state::State;
 use crate::system::System;
 
 /// A failed attempt at a step.
-pub(super) struct Failed {
+pub struct Failed {
     /// `None` if the result is not finite, or an evaluation has a wrong dimension.
     pub(super) failure: Option<Failure>,
     /// Whether it used anything that earlier steps left.
@@ -25,24 +25,27 @@ pub(super) struct Failed {
 
 /// The data that steps change: the state, and the values that a step leaves behind for the next one.
 #[derive(Clone)]
-pub(super) struct StepMemory<V, T> {
-    pub(super) state: State<V>,
+pub struct StepMemory<V, T> {
+    /// The present state.
+    pub state: State<V>,
     /// Round-off of the position and the momentum of the state, in compensated sums.
-    pub(super) low: (V, V),
+    pub low: (V, V),
     /// The result of a step; swapped with the state when it is accepted.
-    pub(super) next: (V, V),
+    pub next: (V, V),
     /// Round-off of `next`.
-    pub(super) next_low: (V, V),
-    pub(super) memory: T,
+    pub next_low: (V, V),
+    /// The memory of the plan.
+    pub memory: T,
     /// The parts of `memory` that the next step reuses.
-    pub(super) kept: WarmStart,
+    pub kept: WarmStart,
     /// Size of the previous step.
-    pub(super) last_size: f64,
+    pub last_size: f64,
     /// Time at the start of the previous step.
-    pub(super) last_time: f64,
-    pub(super) statistics: Statistics,
+    pub last_time: f64,
+    /// The statistics of all steps.
+    pub statistics: Statistics,
     /// Whether the velocity is linear: see [`Step::linear_velocity`](Step::linear_velocity).
-    pub(super) linear_velocity: bool,
+    pub linear_velocity: bool,
 }
 
 impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
@@ -65,7 +68,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
 
     /// Position, momentum and their round-off: of the state, then of the last result.
     #[cfg(feature = "alloc")]
-    pub(super) const fn vectors(&mut self) -> [&mut V; 8] {
+    pub const fn vectors(&mut self) -> [&mut V; 8] {
         [
             &mut self.state.q,
             &mut self.state.p,
@@ -106,21 +109,11 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
 
     /// Shows `visit` the words of all scalars of state, result and memory.
     #[cfg(feature = "alloc")]
-    pub(super) fn scalar_words(&mut self, visit: &mut Visit<'_>) {
+    pub fn scalar_words(&mut self, visit: &mut Visit<'_>) {
         for vector in self.vectors() {
             scalar_words(vector.as_mut_slice(), visit);
         }
         self.memory.words(visit);
-    }
-
-    /// Copies time, statistics and flags from a run with other vectors, but neither scalars nor [`linear_velocity`](Self::linear_velocity).
-    #[cfg(feature = "alloc")]
-    pub(super) fn same_place<W, U>(&mut self, other: &StepMemory<W, U>) {
-        self.state.time = other.state.time;
-        self.kept = other.kept;
-        self.last_size = other.last_size;
-        self.last_time = other.last_time;
-        self.statistics = other.statistics;
     }
 
     /// The memory of a run from the present state, without reused data of previous steps.
@@ -169,7 +162,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
 
     /// Computes a step of size `size` into `next` and checks it; returns its statistics.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn attempt<P, R, S, N>(
+    pub fn attempt<P, R, S, N>(
         &mut self,
         system: &S,
         size: f64,
@@ -220,7 +213,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
 
     /// Makes the step computed by [`attempt`](Self::attempt), to the time `time`, the present state.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn accept<R: Summation>(&mut self, size: f64, time: f64, work: StepStatistics) {
+    pub fn accept<R: Summation>(&mut self, size: f64, time: f64, work: StepStatistics) {
         self.swap::<R>();
         self.last_time = mem::replace(&mut self.state.time, time);
         self.statistics.count(work);
@@ -233,7 +226,7 @@ impl<V: Vector, T: StageStorage<V>> StepMemory<V, T> {
     }
 
     /// Forgets all data of previous steps.
-    pub(super) fn forget(&mut self) {
+    pub fn forget(&mut self) {
         self.memory.forget(&self.state.q);
         self.kept = WarmStart::default();
     }

@@ -17,12 +17,10 @@ pub(crate) mod stepper;
 #[cfg(feature = "alloc")]
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use clock::RemainingSteps;
-#[cfg(feature = "alloc")]
-pub use coupled_in_lanes::CoupledLanes;
 pub use dense_steps::DenseSteps;
 pub use named_steps::NamedSteps;
 pub use pace::{Equal, Own, Pace};
-pub(crate) use partitioned::PlanOf;
+pub use partitioned::PlanOf;
 pub use partitioned::{Integrator, Partitioned};
 pub use reach::{Reach, Reached};
 pub use retry::Retry;
@@ -36,16 +34,12 @@ pub(crate) mod checkpoint;
 #[cfg(feature = "serde")]
 mod checkpoint_format;
 #[cfg(feature = "alloc")]
-mod coupled_in_lanes;
-#[cfg(feature = "alloc")]
-pub(crate) mod explicit_in_lanes;
-#[cfg(feature = "alloc")]
 pub(crate) mod fingerprint;
 mod many_steps;
-mod memory;
+pub(crate) mod memory;
 mod named_steps;
 mod one_step;
-mod partitioned;
+pub(crate) mod partitioned;
 mod solvers;
 mod step_map;
 pub(crate) mod validation;

@@ -21,10 +21,10 @@ use crate::state::State;
 use crate::system::{Class, System};
 
 /// The plan of the method `M` for the class of the system `S`.
-pub(crate) type PlanOf<M, S, V> = <<S as System<V>>::Class as Class>::Plan<M>;
+pub type PlanOf<M, S, V> = <<S as System<V>>::Class as Class>::Plan<M>;
 
 /// The memory of the plan of `M` with the solver `N`.
-pub(super) type MemoryOf<M, S, V, N> = <PlanOf<M, S, V> as Plan>::Memory<V, S, N>;
+pub type MemoryOf<M, S, V, N> = <PlanOf<M, S, V> as Plan>::Memory<V, S, N>;
 
 /// The memory of the plan of a method.
 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -314,12 +314,6 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitio
     /// The system.
     pub const fn system(&self) -> &S {
         &self.system
-    }
-
-    /// Sets the criterion by which the iteration of coupled stages stops.
-    #[doc(hidden)]
-    pub const fn set_stopping(&mut self, stopping: Stopping) {
-        self.stopping = stopping;
     }
 
     /// Writes p' at a state: see [`Plan::momentum_rate`].

@@ -1,8 +1,13 @@
 //! The parts of a run.
 
-use super::Run;
 use super::clock::Clock;
 use super::last_step::LastEvent;
+use super::memory::StepMemory;
+use super::partitioned::MemoryOf;
+use super::{Partitioned, Run};
+use crate::method::{Method, Solver, Stopping};
+use crate::number::{Summation, Vector};
+use crate::system::System;
 
 /// What a [`Run`] consists of, for checkpoints and for runs that contain a run.
 pub struct Parts<'a, S> {
@@ -23,5 +28,34 @@ pub const fn parts_of<S>(run: &mut Run<S>) -> Parts<'_, S> {
         clock: &mut run.clock,
         step_size: &mut run.step_size,
         last_event: &mut run.last_event,
+    }
+}
+
+/// What the steps of an [`Integrator`](crate::Integrator) read and change.
+pub struct StepParts<'a, S, V, T> {
+    /// The system.
+    pub system: &'a mut S,
+    /// The state, and what a step leaves for the next one.
+    pub step_memory: &'a mut StepMemory<V, T>,
+    /// When the iteration of coupled stages ends.
+    pub stopping: &'a mut Stopping,
+}
+
+/// The parts of the steps of a method.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub const fn step_parts_of<M, S, V, R, N>(
+    stepper: &mut Partitioned<M, S, V, R, N>,
+) -> StepParts<'_, S, V, MemoryOf<M, S, V, N>>
+where
+    M: Method,
+    S: System<V>,
+    V: Vector,
+    R: Summation,
+    N: Solver<V, S>,
+{
+    StepParts {
+        system: &mut stepper.system,
+        step_memory: &mut stepper.step_memory,
+        stopping: &mut stepper.stopping,
     }
 }

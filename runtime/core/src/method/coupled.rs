@@ -2,16 +2,10 @@
 
 use core::marker::PhantomData;
 
-#[cfg(feature = "alloc")]
-use crate::contract::LaneStep;
-#[cfg(feature = "alloc")]
-use crate::contract::tableau::eliminates;
 use crate::contract::{
     Failure, Inside, Interpolation, Outcome, Plan, Possible, Solver, StageTableau, Step,
-    StepStatistics, Stopping, System, WarmStart,
+    StepStatistics, Stopping, System, TableauWork, WarmStart,
 };
-#[cfg(feature = "alloc")]
-use crate::number::Lanes;
 use crate::number::{Summation, Vector};
 
 /// The plan of a step with stages that depend on each other: a [`Solver`] finds them.
@@ -36,31 +30,9 @@ impl<P: StageTableau> Plan for Coupled<P> {
         N::take::<P, R>(step, system, memory, kept, stopping, outcome)
     }
 
-    #[cfg(feature = "alloc")]
-    #[inline]
-    fn goes_in_lanes<V, S, N>() -> bool
-    where
-        V: Vector,
-        S: System<V, Class = P::Class>,
-        N: Solver<V, S>,
-    {
-        // If momenta are eliminated, the velocities' memory holds the slopes of the positions, one for each force.
-        let slopes_fit = !eliminates::<P>() || P::POSITIONS.count == P::MOMENTA.count;
-        slopes_fit && N::goes_in_lanes()
-    }
-
-    #[cfg(feature = "alloc")]
-    #[inline]
-    fn lane_step<R, V, S, N, W, J>() -> Option<LaneStep<W, J>>
-    where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = P::Class>,
-        N: Solver<V, S>,
-        W: Vector<Scalar: Lanes>,
-        J: System<W, Class = P::Class>,
-    {
-        N::lane_step::<P, R, W, J>()
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn with_tableau<W: TableauWork<P::Class>>(work: W) -> Option<W::Output> {
+        Some(work.run::<P>())
     }
 
     const INTERPOLATION: Interpolation =

@@ -269,7 +269,7 @@ pub fn copy_to<V: Vector, const N: usize>(vectors: &mut [V], from: usize, to: [u
 
 /// The shortest length, so that one comparison bounds every index of a loop.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn shortest<'a, V: Vector>(vectors: impl IntoIterator<Item = &'a V>) -> usize {
+pub fn shortest<'a, V: Vector>(vectors: impl IntoIterator<Item = &'a V>) -> usize {
     let mut shortest = usize::MAX;
     for vector in vectors {
         shortest = shortest.min(vector.as_slice().len());
@@ -313,7 +313,7 @@ impl<T, F: Fn(usize) -> (T, T)> Products<T> for F {
 /// The sum of `count` products, at least one, and of an optional start. Products with even and with odd indices are summed separately, so
 /// that additions need not wait for one another.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn sum_of_products<T: Scalar>(
+pub fn sum_of_products<T: Scalar>(
     start: Option<T>,
     count: usize,
     product: impl Fn(usize) -> (T, T),
@@ -346,9 +346,10 @@ fn plus_product<T: Scalar>(sum: Option<T>, (x, y): (T, T)) -> T {
     }
 }
 
-/// The terms of the sums of a vector, by the numbers of the component and of the term. A closure is enough, except for lanes: see
-/// [`Products`].
+/// The terms of the sums of a vector, by the numbers of the component and of the term. A closure is enough, except for lanes: one with
+/// operations of lanes may not be inlined.
 pub trait TermsOfComponents<T> {
+    /// The term of a component.
     fn term(&self, component: usize, number: usize) -> T;
 }
 

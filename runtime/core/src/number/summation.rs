@@ -46,7 +46,7 @@ impl Summation for Plain {
 
 /// The sums of `R` in an over-relaxed sweep, which moves stages twice as far. If it converges fast, this approximately mirrors the stages.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Overrelaxed<R>(PhantomData<R>);
+pub struct Overrelaxed<R>(PhantomData<R>);
 
 impl<R: Summation> Summation for Overrelaxed<R> {
     const COMPENSATED: bool = R::COMPENSATED;
@@ -56,7 +56,7 @@ impl<R: Summation> Summation for Overrelaxed<R> {
 
 /// The updated value of a stage, over-relaxed if `overrelaxed`.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn moved<T: Scalar>(overrelaxed: bool, old: T, new: T) -> T {
+pub fn moved<T: Scalar>(overrelaxed: bool, old: T, new: T) -> T {
     match overrelaxed {
         true => new + (new - old),
         false => new,
@@ -78,9 +78,9 @@ pub fn fast_two_sum<T: Scalar>(a: T, b: T) -> (T, T) {
     (sum, b - (sum - a))
 }
 
-/// The terms of a sum, by their numbers from 0. A closure is enough, except for lanes: see
-/// [`Products`](crate::number::linear_combination::Products).
+/// The terms of a sum, by their numbers from 0. A closure is enough, except for lanes: one with operations of lanes may not be inlined.
 pub trait Terms<T> {
+    /// The term of this number.
     fn term(&self, number: usize) -> T;
 }
 

@@ -6,10 +6,6 @@ use core::ops::ControlFlow;
 use crate::error::Error;
 use crate::integrator::clock::check_count;
 use crate::integrator::{DenseSteps, Own, Pace, Reach, Run};
-#[cfg(feature = "alloc")]
-use crate::number::registers::Work;
-#[cfg(feature = "alloc")]
-use crate::number::{Scalar, Vector};
 
 impl<S: DenseSteps> Run<S> {
     /// Steps past the last of `times` and calls `observe` with the state at each of them, in order.
@@ -216,23 +212,6 @@ impl<S: DenseSteps> Output<S> {
         stepper.look_by_step(time, &mut self.scratch, &mut self.state)
     }
 
-    /// [`look_at`](Self::look_at) for runs side by side, in the registers of their lanes.
-    #[cfg(feature = "alloc")]
-    pub fn look_together(&mut self, stepper: &mut S, time: f64) -> Result<(), S::Error> {
-        <S::Vector as Vector>::Scalar::in_registers(Look {
-            output: self,
-            stepper,
-            time,
-        })
-    }
-
-    /// Removes the output times up to the time `present` from the list.
-    #[cfg(feature = "alloc")]
-    pub fn skip(&self, times: &mut &[f64], present: f64) {
-        let seen = (times.iter()).take_while(|&&time| !self.is_after(time, present));
-        *times = &times[seen.count()..];
-    }
-
     /// Observes the states at the output times up to the present time and removes these times from the list.
     pub fn show(
         &mut self,
@@ -255,23 +234,5 @@ impl<S: DenseSteps> Output<S> {
             *times = rest;
         }
         Ok(())
-    }
-}
-
-/// A look at a time inside a step.
-#[cfg(feature = "alloc")]
-struct Look<'a, S: DenseSteps> {
-    output: &'a mut Output<S>,
-    stepper: &'a mut S,
-    time: f64,
-}
-
-#[cfg(feature = "alloc")]
-impl<S: DenseSteps> Work for Look<'_, S> {
-    type Output = Result<(), S::Error>;
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run(self) -> Self::Output {
-        self.output.look_at(self.stepper, self.time)
     }
 }

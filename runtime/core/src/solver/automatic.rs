@@ -10,7 +10,7 @@ use crate::contract::{
     StepStatistics, Stopping, System, SystemInLanes, WarmStart,
 };
 #[cfg(feature = "alloc")]
-use crate::contract::{CoupledRows, LaneStep, StageVisit};
+use crate::contract::{CoupledRows, StageVisit};
 use crate::error::Quantity;
 use crate::number::Lanes;
 use crate::number::registers::{self, Avx2, Avx512, Work};
@@ -21,8 +21,6 @@ use crate::solver::fixed_point::by_stages;
 use crate::solver::nystrom::{self, NystromStages, nystrom};
 use crate::solver::stages_in_lanes::in_registers::InRegisters;
 use crate::solver::stages_in_lanes::sweeps;
-#[cfg(feature = "alloc")]
-use crate::solver::trajectories_in_lanes;
 
 /// The fastest fixed-point iteration for a method, a system and its scalar. It is the default of an
 /// [`Integrator`](crate::Integrator).
@@ -229,6 +227,8 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
         }
     }
 
+    const IS_AUTOMATIC: bool = true;
+
     const TRIES_LINEARITY: bool = V::Scalar::IS_DOUBLE;
 
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -281,26 +281,6 @@ impl<V: Vector, S: OverEveryScalar<V>> Solver<V, S> for Automatic {
             }
             _ => unreachable!("{NO_DOUBLES}"),
         }
-    }
-
-    #[cfg(feature = "alloc")]
-    fn goes_in_lanes() -> bool {
-        V::Scalar::IS_DOUBLE
-    }
-
-    #[cfg(feature = "alloc")]
-    #[inline]
-    fn lane_step<P, R, W, J>() -> Option<LaneStep<W, J>>
-    where
-        P: StageTableau,
-        R: Summation,
-        W: Vector<Scalar: Lanes>,
-        J: System<W, Class = P::Class>,
-    {
-        Some(match P::AT_RUN_TIME {
-            true => trajectories_in_lanes::take_by_rows::<P::Class, R, W, J>,
-            false => trajectories_in_lanes::take::<P, R, W, J>,
-        })
     }
 
     fn extend<P: StageTableau>(memory: &Self::Memory<P>, at: Inside<'_, V>, q: &mut V, p: &mut V) {

@@ -6,8 +6,6 @@ pub(crate) mod fixed_point;
 pub(crate) mod nystrom;
 pub(crate) mod predictor;
 pub(crate) mod stages_in_lanes;
-#[cfg(feature = "alloc")]
-pub(crate) mod trajectories_in_lanes;
 
 pub use crate::contract::{
     Decoupling, EvaluationCounts, Failure, HalfChange, HalfTableau, Outcome, SecondOrderTableau,

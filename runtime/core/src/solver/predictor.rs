@@ -5,14 +5,14 @@ use core::marker::PhantomData;
 use crate::contract::{HalfTableau, StageTableau};
 
 /// The largest number of stages whose starting values are computed directly.
-pub(crate) const MAX_STAGES: usize = 16;
+pub const MAX_STAGES: usize = 16;
 
 /// The columns of `μ E`. The matrix `E` extrapolates the increments of one half to the next step, and `μ` turns them into stage values
 /// of the other half. The product is rounded to doubles, because it only gives starting values.
-pub(crate) type StartingColumns = [[f64; MAX_STAGES]; MAX_STAGES];
+pub type StartingColumns = [[f64; MAX_STAGES]; MAX_STAGES];
 
-/// Whether the increments of a half can be extrapolated, and are few enough for [`starting_columns`].
-pub(crate) const fn starts_at_once(half: &HalfTableau) -> bool {
+/// Whether the increments of a half can be extrapolated, and are few enough for `starting_columns`.
+pub const fn starts_at_once(half: &HalfTableau) -> bool {
     !half.extrapolation.is_empty() && half.extrapolation.len() <= MAX_STAGES
 }
 
@@ -55,12 +55,14 @@ pub(crate) const fn weighted(columns: &StartingColumns, weights: &[f64]) -> Star
     product
 }
 
-/// The [`starting_columns`] for positions and for momenta.
-pub(crate) struct Starting<P>(PhantomData<P>);
+/// The `starting_columns` for positions and for momenta.
+pub struct Starting<P>(PhantomData<P>);
 
 impl<P: StageTableau> Starting<P> {
-    pub(crate) const POSITIONS: &'static StartingColumns =
+    /// The columns for positions.
+    pub const POSITIONS: &'static StartingColumns =
         &starting_columns(P::POSITIONS.columns, &P::MOMENTA);
-    pub(crate) const MOMENTA: &'static StartingColumns =
+    /// The columns for momenta.
+    pub const MOMENTA: &'static StartingColumns =
         &starting_columns(P::MOMENTA.columns, &P::POSITIONS);
 }

@@ -49,8 +49,10 @@ use crate::number::Scalar;
 /// Work to be compiled for wide registers. Its function and everything that it calls have to be inlined. Closures may not be inlined, so it
 /// calls none that computes with vectors.
 pub trait Work {
+    /// The result of the work.
     type Output;
 
+    /// Does the work.
     fn run(self) -> Self::Output;
 }
 

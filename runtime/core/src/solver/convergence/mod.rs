@@ -12,9 +12,9 @@ use crate::number::dither::{dither_last_sweep, dither_side};
 /// gains digits below the threshold goes on.
 pub const ROUNDING: f64 = 64.0;
 
-/// Sweeps without progress after which a change that has shrunk by [`CONTRACTION`] counts as noise. The sweeps before
+/// Sweeps without progress after which a change that has shrunk by `CONTRACTION` counts as noise. The sweeps before
 /// this one are the early sweeps: they are not examined before the change can be rounding errors.
-pub(crate) const PATIENCE: u32 = 10;
+pub const PATIENCE: u32 = 10;
 
 /// An iteration has stagnated when the latest 1/`STAGNATION` of its sweeps made no progress. If it converges slowly and with
 /// oscillations, its change grows now and then long before it has settled. With fewer sweeps, one without progress suffices.

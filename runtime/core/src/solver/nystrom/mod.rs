@@ -268,7 +268,7 @@ const fn start_of<'a, V: Vector, S: System<V>>(momentum: &'a V, velocity: &'a V)
 /// The position of stages: `base + low + size node velocity + factor sum`. `low` is the low part of the base, `velocity` that at the
 /// start of the step, and `node` the stage's fraction of the step.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn position<R: Summation, L: Lanes>(
+pub fn position<R: Summation, L: Lanes>(
     (base, low): (L, L),
     (size, node): (f64, L),
     velocity: L,
@@ -307,7 +307,7 @@ impl<P: StageTableau, R: Summation> StageValue<P::Lanes> for Position<'_, P, R> 
 
 /// The coefficients of a method that [`eliminates`] the momenta. They are constants, so that the compiler unrolls sums over stages.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) const fn tableau<P: StageTableau>() -> SecondOrderTableau {
+pub const fn tableau<P: StageTableau>() -> SecondOrderTableau {
     match P::SECOND_ORDER {
         Some(tableau) => tableau,
         None => SecondOrderTableau {
@@ -319,12 +319,14 @@ pub(crate) const fn tableau<P: StageTableau>() -> SecondOrderTableau {
 }
 
 /// The matrix `ν E`, which gives starting values from the previous step.
-pub(crate) struct Start<P>(PhantomData<P>);
+pub struct Start<P>(PhantomData<P>);
 
 impl<P: StageTableau> Start<P> {
-    pub(crate) const OF_INCREMENTS: &'static StartingColumns =
+    /// As factors of increments.
+    pub const OF_INCREMENTS: &'static StartingColumns =
         &starting_columns(tableau::<P>().columns, &P::POSITIONS);
-    pub(crate) const OF_FORCES: &'static StartingColumns =
+    /// As factors of forces.
+    pub const OF_FORCES: &'static StartingColumns =
         &weighted(Self::OF_INCREMENTS, P::POSITIONS.weights);
 }
 

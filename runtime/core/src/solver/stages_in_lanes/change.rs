@@ -6,14 +6,16 @@ use crate::solver::convergence::Movement;
 /// Change of the positions and the momenta of the stages in a sweep: the largest change of a component, lane by lane. NaN if any change
 /// is NaN. A stage that recovers from NaN has also changed by NaN.
 #[derive(Clone, Copy)]
-pub(crate) struct LaneMovement<L> {
-    pub(crate) q: L,
-    pub(crate) p: L,
+pub struct LaneMovement<L> {
+    /// Of the positions.
+    pub q: L,
+    /// Of the momenta.
+    pub p: L,
 }
 
 /// The largest change so far and one more. `None` instead of zero at the start: otherwise the compiler would compare with zero.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn noted<L: Lanes>(largest: Option<L>, change: L) -> L {
+pub fn noted<L: Lanes>(largest: Option<L>, change: L) -> L {
     match largest {
         Some(largest) => largest.larger_or_nan(change),
         None => change,

@@ -102,12 +102,13 @@ pub(crate) fn sums<R: Summation, P: StageTableau>(
 }
 
 /// A stage value from the indices of group and component, the base with its low part, and the sum.
-pub(crate) trait StageValue<L> {
+pub trait StageValue<L> {
+    /// The value in this place.
     fn of(&self, place: (usize, usize), base: (L, L), sum: L) -> L;
 }
 
 /// `base + sum`, for a sum that includes the low part of the base.
-pub(crate) struct BasePlusSum;
+pub struct BasePlusSum;
 
 impl<L: Lanes> StageValue<L> for BasePlusSum {
     #[cfg_attr(not(debug_assertions), inline(always))]

@@ -175,7 +175,7 @@ where
 }
 
 /// Whether there are predictor coefficients: for the velocities, and for the forces if the system is not separable.
-pub(crate) const fn extrapolates<P: StageTableau>() -> bool {
+pub const fn extrapolates<P: StageTableau>() -> bool {
     !P::MOMENTA.extrapolation.is_empty()
         && (P::Class::SEPARABLE || !P::POSITIONS.extrapolation.is_empty())
 }
@@ -306,7 +306,7 @@ where
 }
 
 /// Whether force and velocity of each stage are evaluated at the same time.
-pub(crate) const fn are_at_one_time<P: StageTableau>() -> bool {
+pub const fn are_at_one_time<P: StageTableau>() -> bool {
     same(P::POSITIONS.times, P::MOMENTA.times)
 }
 

@@ -3,19 +3,23 @@
 //! With explicit steps one integrator over lanes takes the steps of a group. A trajectory gets its own integrator only if a step fails in a
 //! lane of its group.
 
+mod lanes;
+
 use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 
+use self::lanes::{InLanes, OutputInLanes, words_of};
 use crate::Row;
 use crate::coupled::Coupled;
+use crate::coupled::lanes::CoupledLanes;
 use crate::group::{Attempt, Group, Job, Task};
+use crate::in_lanes::copy_lane;
 use crate::run::Way;
-use symplectic_core::inside::{CoupledLanes, Output, is_after, same};
+use symplectic_core::inside::{Output, Plan, PlanOf, is_after, same};
 use symplectic_core::simd::Lanes;
 use symplectic_core::solver::Solver;
-use symplectic_core::stepper::Partitioned;
 use symplectic_core::system::{Join, LaneWork};
-use symplectic_core::{Integrator, Method, Scalar, State, Summation, System, Vector};
+use symplectic_core::{Method, State, Summation, System, Vector};
 
 /// Number of steps between checks whether the run is stopped.
 const BLOCK: u64 = 1 << 16;
@@ -29,12 +33,6 @@ pub(super) struct SideBySide<'j, 'a, M, S: System<V>, V: Vector, R, N, L, A, F> 
     pub(super) places: &'j mut Range<usize>,
     pub(super) rows: &'j mut Vec<Row<V, A>>,
 }
-
-/// The integrator whose lanes hold the trajectories.
-type InLanes<M, J, W, R> = Integrator<M, J, W, R, <J as System<W>>::Solver>;
-
-/// Output of such an integrator.
-type OutputInLanes<M, J, W, R> = Output<Partitioned<M, J, W, R, <J as System<W>>::Solver>>;
 
 impl<M, S, V, R, N, L, K, A, F> LaneWork<V, S, K> for SideBySide<'_, '_, M, S, V, R, N, L, A, F>
 where
@@ -101,13 +99,17 @@ where
                 );
                 let run = lanes.and_then(|lanes| Coupled::new(&mut group, job.see, lanes));
                 run.map_or(Attempt::Refused, |run| run.run(job.task))
-            } else if Integrator::<M, S, V, R, N>::LANEWISE {
+            } else if PlanOf::<M, S, V>::LANEWISE {
                 // A constant condition: other methods compile without this code.
                 let lanes = ready(
                     &mut lanes,
                     joined.flatten(),
                     InLanes::set_system,
-                    |system| group.integrator(0).over_lanes(system, zeros),
+                    |system| {
+                        let method = ensemble.method.clone();
+                        let (size, stopping) = (ensemble.step_size, ensemble.stopping);
+                        InLanes::new(method, system, zeros, size, stopping)
+                    },
                 );
                 let run = lanes.map(|lanes| Explicit::new(&mut group, job, lanes, join));
                 run.map_or(Attempt::Refused, |run| run.run(rows))
@@ -179,7 +181,7 @@ where
         join: Join<S, J>,
     ) -> Self {
         // Unused lanes hold copies: zeros might be a singular point.
-        lanes.begin_together(|lane| group.start(lane % group.len()));
+        lanes.begin(|lane| group.start(lane % group.len()));
         Self {
             group,
             job,
@@ -191,10 +193,7 @@ where
 
     /// Runs all trajectories; those that stay in their lanes get their rows.
     fn run(mut self, rows: &mut Vec<Row<V, A>>) -> Attempt {
-        if !self
-            .group
-            .evaluates_like(&self.lanes.evaluations_together())
-        {
+        if !self.group.evaluates_like(&self.lanes.evaluations()) {
             return Attempt::Refused;
         }
         let attempt = match self.job.task {
@@ -205,9 +204,9 @@ where
             match self.group.members.is_empty() {
                 true => {
                     let first = rows.len();
-                    self.group.write_starts(*self.lanes.statistics(), rows);
+                    self.group.write_starts(*self.lanes.run.statistics(), rows);
                     self.lanes
-                        .write_lanes(&mut rows[first..], |row| &mut row.state);
+                        .write_states(&mut rows[first..], |row| &mut row.state);
                 }
                 false => self.take_from_lanes(),
             }
@@ -217,17 +216,21 @@ where
 
     /// Copies the live members into the lanes.
     fn put_in_lanes(&mut self) {
-        let places: Vec<usize> = cycle::<W::Scalar>(self.live.iter().copied()).collect();
-        let members = &self.group.members;
-        self.lanes.set_lanes(|lane| &members[places[lane]].run);
+        let Some(&first) = self.live.first() else {
+            return;
+        };
+        let members = &mut self.group.members;
+        let words = |&place: &usize| words_of(&mut members[place].run);
+        let words: Vec<_> = self.live.iter().map(words).collect();
+        self.lanes.load(&words, &mut members[first].run);
     }
 
     /// Copies the lanes back to the live members.
     fn take_from_lanes(&mut self) {
-        let words = self.lanes.words();
+        let words = words_of(&mut self.lanes.run);
         for (lane, &place) in self.live.iter().enumerate() {
             let run = &mut self.group.members[place].run;
-            self.lanes.get_lane(&words, lane, run);
+            self.lanes.store(&words, lane, run);
         }
     }
 
@@ -235,8 +238,8 @@ where
     /// lanes.
     fn take_remaining(&mut self) -> Attempt {
         let remaining = match self.job.task {
-            Task::To(end) => self.lanes.steps_to_time(end),
-            Task::Steps(count) => Ok(self.lanes.steps_left(count)),
+            Task::To(end) => self.lanes.run.steps_to_time(end),
+            Task::Steps(count) => Ok(self.lanes.run.steps_left(count)),
             Task::At(_) => return Attempt::Refused,
         };
         let Ok(mut remaining) = remaining else {
@@ -248,12 +251,12 @@ where
             if self.job.ensemble.is_stopped() {
                 return Attempt::Stopped;
             }
-            let block = self.lanes.stepper().block_of(&remaining);
+            let block = self.lanes.run.stepper().block_of(&remaining);
             let left = remaining.left() - block;
             if begun.left() > remaining.left() && begun.left() - left > UNSAVED {
                 (saved, begun) = (Some(self.lanes.saved()), remaining);
             }
-            if self.lanes.take_block_together(block, &mut remaining) {
+            if self.lanes.take_block(block, &mut remaining) {
                 continue;
             }
             self.leave_lanes();
@@ -307,11 +310,11 @@ where
     /// Observes the trajectories at given times. If anything fails in a lane, all trajectories continue alone from the
     /// last observed time.
     fn see_at(&mut self, times: &[f64]) -> Attempt {
-        if self.lanes.check_times(times).is_err() {
+        if self.lanes.run.check_times(times).is_err() {
             return Attempt::Refused;
         }
-        let present = self.lanes.state().time;
-        let direction = self.lanes.step_size();
+        let present = self.lanes.run.state().time;
+        let direction = self.lanes.run.step_size();
         let seen = times
             .iter()
             .take_while(|&&time| !is_after(direction, time, present));
@@ -322,7 +325,7 @@ where
                 self.see(index, start);
             }
         }
-        let mut output = Output::new(self.lanes.stepper(), direction);
+        let mut output = Output::new(self.lanes.run.stepper(), direction);
         let mut shown = self.group.start(0).clone();
         while !rest.is_empty() {
             if self.job.ensemble.is_stopped() {
@@ -363,10 +366,10 @@ where
         times: &[f64],
         (output, shown): (&mut OutputInLanes<M, J, W, R>, &mut State<V>),
     ) -> Option<usize> {
-        let direction = self.lanes.step_size();
+        let direction = self.lanes.run.step_size();
         let mut steps = 0_u64;
-        while is_after(direction, times[0], self.lanes.state().time) {
-            if !self.lanes.step_together() {
+        while is_after(direction, times[0], self.lanes.run.state().time) {
+            if !self.lanes.step() {
                 return None;
             }
             output.evaluated = false;
@@ -377,7 +380,7 @@ where
         }
         let mut count = 0;
         for &time in times {
-            let present = self.lanes.state();
+            let present = self.lanes.run.state();
             if is_after(direction, time, present.time) {
                 break;
             }
@@ -385,7 +388,7 @@ where
                 // A zero time has the same sign as in a run of one trajectory.
                 true => present,
                 false => {
-                    output.look_together(self.lanes.stepper_mut(), time).ok()?;
+                    self.lanes.look_at(time, output).ok()?;
                     &output.state
                 }
             };
@@ -406,11 +409,4 @@ where
 /// A live trajectory for each lane, cyclically, so that no lane is empty.
 fn cycle<L: Lanes>(live: impl Iterator<Item = usize> + Clone) -> impl Iterator<Item = usize> {
     live.cycle().take(L::WIDTH)
-}
-
-/// Copies the vector of a lane.
-fn copy_lane<V: Vector, W: Vector<Scalar: Lanes>>(lane: usize, from: &W, to: &mut V) {
-    for (to, from) in to.as_mut_slice().iter_mut().zip(from.as_slice()) {
-        *to = V::Scalar::from_f64(from.get(lane));
-    }
 }

@@ -5,29 +5,19 @@ use core::marker::PhantomData;
 use super::by_halves::{self, GaussSeidel, Jacobi};
 use super::second_order::{self, SecondOrder};
 use super::settle::settle;
-use super::{BasePlusSum, Sums, largest, relax, scalar, transform};
-use crate::contract::tableau::{Columns, eliminates};
-use crate::contract::{
-    Class, HalfTableau, LaneOutcome, LaneStages, Outcome, StageTableau, Step, StepInLanes, System,
+use super::{Sums, largest, relax, scalar, transform};
+use crate::coupled::stages::{LaneOutcome, LaneStages, StepInLanes};
+use symplectic_core::inside::sweeps::{
+    BasePlusSum, Columns, TermsOfComponents, are_at_one_time, eliminates, shortest,
 };
-use crate::number::linear_combination::{TermsOfComponents, scale, shortest, totals_by};
-use crate::number::registers::Work;
-use crate::number::{Coefficient, Lanes, Scalar, Summation, Vector, copy};
-use crate::solver::stages_in_lanes::sweeps::are_at_one_time;
+use symplectic_core::inside::{Work, copy, scale, totals_by};
+use symplectic_core::simd::Lanes;
+use symplectic_core::solver::{Coefficient, HalfTableau, Outcome, StageTableau, Step};
+use symplectic_core::system::Class;
+use symplectic_core::{Summation, System, Vector};
 
-/// The [`LaneStep`](crate::contract::LaneStep) of an emitted method.
-pub(crate) fn take<P, R, W, S>(step: StepInLanes<'_, W, S>) -> Option<LaneOutcome<W::Scalar>>
-where
-    P: StageTableau,
-    R: Summation,
-    W: Vector<Scalar: Lanes>,
-    S: System<W, Class = P::Class>,
-{
-    W::Scalar::in_registers(ByMethod::<P, R, _>(step, PhantomData))
-}
-
-/// The work of [`take`].
-struct ByMethod<P, R, T>(T, PhantomData<(P, R)>);
+/// A step of an emitted method.
+pub(super) struct ByMethod<P, R, T>(pub(super) T, pub(super) PhantomData<(P, R)>);
 
 impl<P, R, W, S> Work for ByMethod<P, R, StepInLanes<'_, W, S>>
 where
@@ -95,7 +85,7 @@ pub(super) struct Emitted<'a, P, R, W, S> {
     kind: PhantomData<(P, R)>,
 }
 
-/// The sums of [`sums`](crate::solver::stages_in_lanes::sums::sums), stage by stage.
+/// The sums that give one half of the stages from the evaluations of the other half, which may be increments.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn sums<R: Summation, P: StageTableau>(
     columns: &'static [&'static [f64]],

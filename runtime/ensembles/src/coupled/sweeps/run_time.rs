@@ -3,34 +3,20 @@
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
-use num_traits::Zero;
+use super::{LaneSweeps, Sums, keep, largest, relax, settle::settle, transform};
+use crate::coupled::stages::{LaneMemory, LaneOutcome, LaneStages, StepInLanes};
+use symplectic_core::inside::rows::{CoupledRows, CoupledStep, HalfRows, Row};
+use symplectic_core::inside::sweeps::{
+    BasePlusSum, LaneMovement, Overrelaxed, moved, noted, shortest, sum_of_products,
+};
+use symplectic_core::inside::{Work, array, copy};
+use symplectic_core::num_traits::Zero;
+use symplectic_core::simd::Lanes;
+use symplectic_core::system::Class;
+use symplectic_core::{Scalar, Summation, System, Vector};
 
-use super::{BasePlusSum, LaneSweeps, Sums, keep, largest, relax, settle::settle, transform};
-use crate::contract::coupled_step::CoupledStep;
-use crate::contract::rows::{CoupledRows, HalfRows, Row};
-use crate::contract::{Class, LaneMemory, LaneOutcome, LaneStages, StepInLanes, System};
-use crate::number::array::array;
-use crate::number::linear_combination::{shortest, sum_of_products, value};
-use crate::number::registers::Work;
-use crate::number::summation::{Overrelaxed, moved};
-use crate::number::{Lanes, Scalar, Summation, Vector, copy};
-use crate::solver::stages_in_lanes::change::{LaneMovement, noted};
-
-/// The [`LaneStep`](crate::contract::LaneStep) of a tableau at run time; `None` if stages are not coupled.
-pub(crate) fn take_by_rows<C, R, W, S>(
-    step: StepInLanes<'_, W, S>,
-) -> Option<LaneOutcome<W::Scalar>>
-where
-    C: Class,
-    R: Summation,
-    W: Vector<Scalar: Lanes>,
-    S: System<W, Class = C>,
-{
-    W::Scalar::in_registers(ByTableau::<C, R, _>(step, PhantomData))
-}
-
-/// The work of [`take_by_rows`].
-struct ByTableau<C, R, T>(T, PhantomData<(C, R)>);
+/// A step of a tableau at run time; its result is `None` if stages are not coupled.
+pub(super) struct ByTableau<C, R, T>(pub(super) T, pub(super) PhantomData<(C, R)>);
 
 impl<C, R, W, S> Work for ByTableau<C, R, StepInLanes<'_, W, S>>
 where
@@ -182,8 +168,9 @@ impl<R: Summation, W: Vector<Scalar: Lanes>, const N: usize> Work for RelaxAll<'
         for k in 0..n {
             let terms: [W::Scalar; N] = array(W::Scalar::zero(), |j| terms[j][k]);
             for (out, factors) in out.iter_mut().zip(&factors) {
-                let factors = array(W::Scalar::zero(), |j| W::Scalar::from_f64(factors[j]));
-                let new = value::<R, _, N>(base[k], low[k], &factors, |j| terms[j]);
+                let factors: [_; N] = array(W::Scalar::zero(), |j| W::Scalar::from_f64(factors[j]));
+                let start = R::COMPENSATED.then_some(low[k]);
+                let new = base[k] + sum_of_products(start, N, |j| (factors[j], terms[j]));
                 let component = &mut out.as_mut_slice()[k];
                 let new = moved(R::OVERRELAXED, *component, new);
                 largest = Some(noted(largest, (new - *component).abs()));

@@ -2,10 +2,15 @@
 //!
 //! Every step is taken in all lanes. A trajectory whose stages do not converge in its lane takes the step alone.
 
+pub(super) mod lanes;
+mod stages;
+mod sweeps;
+
 use core::ops::ControlFlow;
 
+use self::lanes::{CoupledLanes, has_linear_velocity};
 use crate::group::{Attempt, Group, Member, Task};
-use symplectic_core::inside::{CoupledLanes, Output};
+use symplectic_core::inside::{Output, is_after};
 use symplectic_core::simd::Lanes;
 use symplectic_core::solver::Solver;
 use symplectic_core::{Error, Method, State, Summation, System, Vector};
@@ -58,11 +63,15 @@ where
     ) -> Option<Self> {
         group.leave_lanes();
         let count = group.members.len();
+        let members = group.members.iter_mut();
+        let mut kinds = members.map(|member| has_linear_velocity(&mut member.run));
+        let linear_velocity = kinds.next()?;
+        if kinds.any(|other| other != linear_velocity) || !lanes.may_sweep() {
+            return None;
+        }
         // Unused lanes hold copies: zeros might be a singular point.
-        let first = group.members.first()?;
-        lanes.begin(&first.run, |lane| group.start(lane % count));
-        let are_alike = group.members.iter().all(|member| lanes.takes(&member.run));
-        if !are_alike || !group.evaluates_like(&lanes.evaluations()) {
+        lanes.begin(linear_velocity, |lane| group.start(lane % count));
+        if !group.evaluates_like(&lanes.evaluations()) {
             return None;
         }
         let live = (1 << count) - 1;
@@ -122,7 +131,8 @@ where
         }
         let mut steps = run.steps_left(u64::MAX);
         let see = self.see;
-        let mut output = Output::new(run.stepper(), run.step_size());
+        let direction = run.step_size();
+        let mut output = Output::new(run.stepper(), direction);
         let mut rest = times;
         for (lane, member) in self.group.members.iter_mut().enumerate() {
             let Member {
@@ -133,7 +143,7 @@ where
                 output.show(run.stepper_mut(), &mut seen, &mut |state| see(own, state));
             self.live &= !(u32::from(member.outcome.is_err()) << lane);
         }
-        output.skip(&mut rest, self.lanes.time());
+        skip(&mut rest, direction, self.lanes.time());
         let mut count = 0;
         while !rest.is_empty()
             && self.live != 0
@@ -156,7 +166,7 @@ where
                 outcome.map(|_| ())
             });
             steps.tick();
-            output.skip(&mut rest, time);
+            skip(&mut rest, direction, time);
             if rest.len() == before.len() {
                 continue;
             }
@@ -219,6 +229,14 @@ where
         }
         settled
     }
+}
+
+/// Removes the times up to the time `present` from the list.
+fn skip(times: &mut &[f64], direction: f64, present: f64) {
+    let seen = times
+        .iter()
+        .take_while(|&&time| !is_after(direction, time, present));
+    *times = &times[seen.count()..];
 }
 
 /// The indices of the bits that are set.

@@ -4,15 +4,15 @@ use core::marker::PhantomData;
 
 use super::emitted::{Emitted, increments, total};
 use super::{LaneSweeps, Sums, copy_lanes, largest, relax, scalar, transform};
-use crate::contract::tableau::Columns;
-use crate::contract::{EvaluationCounts, LaneStages, Outcome, StageTableau, System};
-use crate::number::linear_combination::{shortest, sum_of_products};
-use crate::number::summation::{Terms, add};
-use crate::number::{Lanes, Plain, Scalar, Summation, Vector, copy};
-use crate::solver::nystrom::{Start, position, tableau};
-use crate::solver::predictor::starts_at_once;
-use crate::solver::stages_in_lanes::change::LaneMovement;
-use crate::solver::stages_in_lanes::sums::StageValue;
+use crate::coupled::stages::LaneStages;
+use symplectic_core::inside::sweeps::{
+    Columns, LaneMovement, StageValue, Start, Terms, position, shortest, starts_at_once,
+    sum_of_products, tableau,
+};
+use symplectic_core::inside::{add, copy};
+use symplectic_core::simd::Lanes;
+use symplectic_core::solver::{EvaluationCounts, Outcome, StageTableau};
+use symplectic_core::{Plain, Scalar, Summation, System, Vector};
 
 /// The evaluations of a step.
 pub(super) const fn counts<P: StageTableau, R: Summation>() -> EvaluationCounts {

@@ -8,17 +8,19 @@ use alloc::vec::Vec;
 use core::marker::PhantomData;
 use core::mem;
 
-use num_traits::Zero;
+use super::stages::{LaneMemory, LaneOutcome, StepInLanes};
+use super::sweeps::{FindStep, Fits};
+use crate::in_lanes::{evaluations, fill};
+use symplectic_core::inside::{Plan, PlanOf, StepParts, Work, step_parts_of};
+use symplectic_core::num_traits::Zero;
+use symplectic_core::simd::Lanes;
+use symplectic_core::solver::{Outcome, Solver, Step, Stopping, WarmStart};
+use symplectic_core::{Integrator, Method, Scalar, State, Summation, System, Vector};
 
-use super::explicit_in_lanes::{evaluations, fill};
-use super::{Integrator, PlanOf};
-use crate::method::{
-    LaneMemory, LaneOutcome, Method, Outcome, Plan, Solver, Step, StepInLanes, Stopping, WarmStart,
-};
-use crate::number::registers::Work;
-use crate::number::{Lanes, Scalar, Summation, Vector};
-use crate::state::State;
-use crate::system::System;
+/// Whether steps with this method and solver can be taken in lanes.
+pub(crate) fn goes_in_lanes<M: Method, S: System<V>, V: Vector, N: Solver<V, S>>() -> bool {
+    N::IS_AUTOMATIC && PlanOf::<M, S, V>::with_tableau(Fits) == Some(true)
+}
 
 /// The state of runs: position and momentum, their low parts, and the same at the start of the last step.
 #[derive(Clone, Debug)]
@@ -31,7 +33,7 @@ struct StatesInLanes<W> {
 type Kind<M, S, V, R, N> = fn() -> (M, S, V, R, N);
 
 /// Runs of the same system and the same step size, at the same time.
-pub struct CoupledLanes<M, S, V, R, N, W: Vector, J> {
+pub(crate) struct CoupledLanes<M, S, V, R, N, W: Vector, J> {
     system: J,
     linear_velocity: bool,
     stopping: Stopping,
@@ -62,18 +64,23 @@ where
     W: Vector<Scalar: Lanes>,
 {
     /// Empty lanes for runs like this one, of a system with the parameters of each of them, in vectors like `zeros`.
-    pub fn like(run: &mut Integrator<M, S, V, R, N>, system: J, zeros: &W) -> Self {
+    pub(crate) fn like(run: &mut Integrator<M, S, V, R, N>, system: J, zeros: &W) -> Self {
         let vectors = || Box::new(core::array::from_fn(|_| zeros.clone()));
-        let time = run.stepper.step_memory.state.time;
+        let StepParts {
+            step_memory,
+            stopping,
+            ..
+        } = step_parts_of(run.stepper_mut());
+        let time = step_memory.state.time;
         Self {
             system,
-            linear_velocity: run.stepper.step_memory.linear_velocity,
-            stopping: run.stepper.stopping,
+            linear_velocity: step_memory.linear_velocity,
+            stopping: *stopping,
             states: StatesInLanes {
                 now: vectors(),
                 other: vectors(),
             },
-            memory: LaneMemory::like(&mut run.stepper.step_memory.memory, zeros),
+            memory: LaneMemory::like(&mut step_memory.memory, zeros),
             taken: None,
             time,
             last_time: time,
@@ -88,11 +95,8 @@ where
 
     /// Begins runs at other states of the same time: each lane at the state that `start` returns for it. A run has to be
     /// [loaded](Self::load) before its first step in a lane.
-    pub fn begin<'s>(
-        &mut self,
-        first: &Integrator<M, S, V, R, N>,
-        start: impl Fn(usize) -> &'s State<V>,
-    ) where
+    pub(crate) fn begin<'s>(&mut self, linear_velocity: bool, start: impl Fn(usize) -> &'s State<V>)
+    where
         V: 's,
     {
         let [q, p, q_low, p_low] = &mut *self.states.now;
@@ -101,7 +105,7 @@ where
         for low in [q_low, p_low] {
             low.as_mut_slice().fill(W::Scalar::zero());
         }
-        self.linear_velocity = first.stepper.step_memory.linear_velocity;
+        self.linear_velocity = linear_velocity;
         self.taken = None;
         (self.time, self.last_time, self.last_size) = (start(0).time, start(0).time, 0.0);
         self.since.fill(self.steps);
@@ -109,31 +113,34 @@ where
     }
 
     /// Sets the system, with the parameters of the run in each lane.
-    pub fn set_system(&mut self, system: J) {
+    pub(crate) fn set_system(&mut self, system: J) {
         self.system = system;
     }
 
     /// Velocity and force in all lanes.
-    pub fn evaluations(&self) -> [W; 2] {
+    pub(crate) fn evaluations(&self) -> [W; 2] {
         let [q, p, ..] = &*self.states.now;
         evaluations(&self.system, &State::new(self.time, q.clone(), p.clone()))
     }
 
-    /// Whether a run can be in these lanes.
-    pub fn takes(&self, run: &Integrator<M, S, V, R, N>) -> bool {
-        // The last allowed sweep of a step is left to the run.
-        run.stepper.step_memory.linear_velocity == self.linear_velocity
-            && self.stopping.max_iterations > 1
+    /// Whether a step may take more than one sweep: the last one is left to the run.
+    pub(crate) const fn may_sweep(&self) -> bool {
+        self.stopping.max_iterations > 1
     }
 
     /// Time of all runs in lanes.
-    pub const fn time(&self) -> f64 {
+    pub(crate) const fn time(&self) -> f64 {
         self.time
     }
 
     /// Copies a run into a lane; returns whether its next step, of this size, can be taken there.
-    pub fn load(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>, size: f64) -> bool {
-        let step_memory = &mut run.stepper.step_memory;
+    pub(crate) fn load(
+        &mut self,
+        lane: usize,
+        run: &mut Integrator<M, S, V, R, N>,
+        size: f64,
+    ) -> bool {
+        let step_memory = step_parts_of(run.stepper_mut()).step_memory;
         let StatesInLanes { now, other } = &mut self.states;
         let lanes = now.iter_mut().chain(other.iter_mut());
         for (lanes, numbers) in lanes.zip(step_memory.vectors()) {
@@ -152,10 +159,11 @@ where
     }
 
     /// Copies a lane into its run.
-    pub fn store(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>) {
+    pub(crate) fn store(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>) {
         self.store_state(lane, run);
-        self.memory.store(lane, &mut run.stepper.step_memory.memory);
-        run.stepper.step_memory.kept = WarmStart {
+        let step_memory = step_parts_of(run.stepper_mut()).step_memory;
+        self.memory.store(lane, &mut step_memory.memory);
+        step_memory.kept = WarmStart {
             evaluation: true,
             stages: true,
             scales: self.memory.scales.map(|scale| scale.get(lane)),
@@ -163,8 +171,8 @@ where
     }
 
     /// Copies the state of a lane, and its statistics, into its run, but not the stages: the run has ended.
-    pub fn store_state(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>) {
-        let step_memory = &mut run.stepper.step_memory;
+    pub(crate) fn store_state(&mut self, lane: usize, run: &mut Integrator<M, S, V, R, N>) {
+        let step_memory = step_parts_of(run.stepper_mut()).step_memory;
         let StatesInLanes { now, other } = &self.states;
         let lanes = now.iter().chain(other.iter());
         for (lanes, numbers) in lanes.zip(step_memory.vectors()) {
@@ -195,8 +203,14 @@ where
     }
 
     /// Computes a step of the runs in the lanes `live`; returns the lanes in which it succeeds. The others are as before.
-    pub fn attempt(&mut self, size: f64, live: u32) -> u32 {
-        let Some(taken) = self.take(size, live) else {
+    pub(crate) fn attempt(&mut self, size: f64, live: u32) -> u32 {
+        // A constant condition: ensembles with other solvers compile without this code.
+        let taken = if N::IS_AUTOMATIC {
+            self.take(size, live)
+        } else {
+            None
+        };
+        let Some(taken) = taken else {
             return 0;
         };
         self.taken = Some(taken);
@@ -216,7 +230,7 @@ where
         };
         let [q, p, q_low, p_low] = &mut *self.states.other;
         let outcome = Outcome { q, q_low, p, p_low };
-        let take = PlanOf::<M, S, V>::lane_step::<R, V, S, N, W, J>()?;
+        let take = PlanOf::<M, S, V>::with_tableau(FindStep::<R, W, J>(PhantomData))?;
         take(StepInLanes {
             step: &step,
             system: &self.system,
@@ -228,7 +242,7 @@ where
     }
 
     /// Makes a computed step, to the time `time`, the present state. Lanes in which it failed have to be [loaded](Self::load) again.
-    pub fn accept(&mut self, size: f64, time: f64) {
+    pub(crate) fn accept(&mut self, size: f64, time: f64) {
         // With plain sums all low parts are zero.
         mem::swap(&mut self.states.now, &mut self.states.other);
         mem::swap(&mut self.memory.before, &mut self.memory.settled);
@@ -246,7 +260,7 @@ where
     }
 
     /// Sets the time after a step that every run has taken alone.
-    pub const fn go_to(&mut self, size: f64, time: f64) {
+    pub(crate) const fn go_to(&mut self, size: f64, time: f64) {
         self.last_size = size;
         self.last_time = mem::replace(&mut self.time, time);
     }
@@ -257,6 +271,18 @@ where
         self.sweeps.set(lane, 0.0);
         self.most.set(lane, 0.0);
     }
+}
+
+/// Whether the velocity of a run is [linear](Step::linear_velocity).
+pub(crate) fn has_linear_velocity<M, S, V, R, N>(run: &mut Integrator<M, S, V, R, N>) -> bool
+where
+    M: Method,
+    S: System<V>,
+    V: Vector,
+    R: Summation,
+    N: Solver<V, S>,
+{
+    step_parts_of(run.stepper_mut()).step_memory.linear_velocity
 }
 
 /// The lanes in which a computed state is finite.

@@ -1,8 +1,7 @@
-//! Coupled stages of several trajectories, each in one lane, with the bits of [`Automatic`](crate::solver::Automatic).
+//! Coupled stages of several trajectories, each in one lane, with the bits of [`Automatic`](symplectic_core::solver::Automatic).
 //!
 //! A sweep computes the stages of all trajectories at once, with the operations of a single run in the same order. Only steps with a warm
-//! start are taken here. If the stages of a trajectory do not settle in few [sweeps](crate::solver::convergence), the
-//! trajectory takes the step alone.
+//! start are taken here. If the stages of a trajectory do not settle in few sweeps, the trajectory takes the step alone.
 
 mod by_halves;
 mod emitted;
@@ -10,21 +9,62 @@ mod run_time;
 mod second_order;
 mod settle;
 
-pub(crate) use emitted::take;
-pub(crate) use run_time::take_by_rows;
+use core::marker::PhantomData;
 
-use num_traits::Zero;
+use super::stages::{LaneOutcome, LaneStages, StepInLanes};
+use emitted::ByMethod;
+use run_time::ByTableau;
+use symplectic_core::inside::TableauWork;
+use symplectic_core::inside::sweeps::{
+    LaneMovement, StageValue, eliminates, moved, noted, shortest, sum_of_products,
+};
+use symplectic_core::num_traits::Zero;
+use symplectic_core::simd::Lanes;
+use symplectic_core::solver::StageTableau;
+use symplectic_core::system::Class;
+use symplectic_core::{Scalar, Summation, System, Vector};
 
-use crate::contract::LaneStages;
-use crate::number::linear_combination::{shortest, sum_of_products};
-use crate::number::summation::moved;
-use crate::number::{Lanes, Scalar, Summation, Vector};
-use crate::solver::stages_in_lanes::change::{LaneMovement, noted};
-use crate::solver::stages_in_lanes::sums::{BasePlusSum, StageValue};
+/// Tests whether steps with a tableau can be taken in lanes.
+pub(super) struct Fits;
+
+impl<C: Class> TableauWork<C> for Fits {
+    type Output = bool;
+
+    fn run<P: StageTableau<Class = C>>(self) -> bool {
+        // If momenta are eliminated, the velocities' memory holds the slopes of the positions, one for each force.
+        !eliminates::<P>() || P::POSITIONS.count == P::MOMENTA.count
+    }
+}
+
+/// Takes a step of several trajectories. Writes the results of those whose stages converge into its outcome. They have the bits of a
+/// single run with [`Automatic`](symplectic_core::solver::Automatic). The result is `None` if stages are not coupled.
+pub(super) type LaneStep<W, J> =
+    for<'a> fn(StepInLanes<'a, W, J>) -> Option<LaneOutcome<<W as Vector>::Scalar>>;
+
+/// Finds the function that takes a step with a tableau and the sums `R`.
+pub(super) struct FindStep<R, W, J>(pub(super) PhantomData<fn(W, J) -> R>);
+
+impl<C, R, W, J> TableauWork<C> for FindStep<R, W, J>
+where
+    C: Class,
+    R: Summation,
+    W: Vector<Scalar: Lanes>,
+    J: System<W, Class = C>,
+{
+    type Output = LaneStep<W, J>;
+
+    #[inline]
+    fn run<P: StageTableau<Class = C>>(self) -> Self::Output {
+        match P::AT_RUN_TIME {
+            true => |step| W::Scalar::in_registers(ByTableau::<C, R, _>(step, PhantomData)),
+            false => |step| W::Scalar::in_registers(ByMethod::<P, R, _>(step, PhantomData)),
+        }
+    }
+}
 
 /// Sweeps over the coupled stages of several trajectories.
 trait LaneSweeps<L: Lanes> {
-    /// As in [`Sweeps`](crate::solver::convergence::Sweeps).
+    /// Whether a change at the level of rounding errors is the last if the next one would be at most one unit of EPSILON.
     const STOPS_AT_ROUNDING: bool;
 
     /// Computes the starting values from the stages of the previous step.

@@ -1,13 +1,15 @@
 //! Sweeps over positions and momenta.
 
 use super::emitted::Emitted;
-use super::{BasePlusSum, LaneSweeps, Sums, keep, relax};
-use crate::contract::{Class, EvaluationCounts, StageTableau, System};
-use crate::number::summation::Overrelaxed;
-use crate::number::{Lanes, Summation, Vector, copy};
-use crate::solver::predictor::{Starting, starts_at_once};
-use crate::solver::stages_in_lanes::change::LaneMovement;
-use crate::solver::stages_in_lanes::sweeps::extrapolates;
+use super::{LaneSweeps, Sums, keep, relax};
+use symplectic_core::inside::copy;
+use symplectic_core::inside::sweeps::{
+    BasePlusSum, LaneMovement, Overrelaxed, Starting, extrapolates, starts_at_once,
+};
+use symplectic_core::simd::Lanes;
+use symplectic_core::solver::{EvaluationCounts, StageTableau};
+use symplectic_core::system::Class;
+use symplectic_core::{Summation, System, Vector};
 
 /// The evaluations of a step.
 pub(super) const fn counts<P: StageTableau>() -> EvaluationCounts {
@@ -26,7 +28,7 @@ pub(super) const fn counts<P: StageTableau>() -> EvaluationCounts {
     }
 }
 
-/// The sweeps of [`SimdFixedPoint`](crate::solver::SimdFixedPoint), for separable systems.
+/// The sweeps of [`SimdFixedPoint`](symplectic_core::solver::SimdFixedPoint), for separable systems.
 pub(super) struct GaussSeidel<'a, P, R, W, S>(pub(super) Emitted<'a, P, R, W, S>);
 
 impl<P, R, W, S> LaneSweeps<W::Scalar> for GaussSeidel<'_, P, R, W, S>
@@ -82,7 +84,7 @@ where
     }
 }
 
-/// The sweeps of [`SimdJacobi`](crate::solver::SimdJacobi), for systems that are not separable.
+/// The sweeps of [`SimdJacobi`](symplectic_core::solver::SimdJacobi), for systems that are not separable.
 pub(super) struct Jacobi<'a, P, R, W, S>(pub(super) Emitted<'a, P, R, W, S>);
 
 impl<P, R, W, S> Jacobi<'_, P, R, W, S>

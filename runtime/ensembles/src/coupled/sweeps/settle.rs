@@ -1,11 +1,11 @@
-//! Convergence test of several trajectories, lane by lane: that of a [single run](crate::solver::convergence) with a warm start.
+//! Convergence test of several trajectories, lane by lane: that of a single run with a warm start.
 
 use super::LaneSweeps;
-use crate::contract::{Class, Stopping};
-use crate::number::Lanes;
-use crate::number::dither::{dither_last_sweep, dither_side};
-use crate::solver::convergence::{PATIENCE, ROUNDING, STAGNATION};
-use crate::solver::stages_in_lanes::change::LaneMovement;
+use symplectic_core::inside::sweeps::{LaneMovement, PATIENCE};
+use symplectic_core::inside::{ROUNDING, STAGNATION, dither_last_sweep, dither_side};
+use symplectic_core::simd::Lanes;
+use symplectic_core::solver::Stopping;
+use symplectic_core::system::Class;
 
 /// The lanes that have settled, with the number of sweeps and the sizes of the stages.
 pub(super) struct Settled<L> {
