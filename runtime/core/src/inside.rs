@@ -11,7 +11,7 @@ pub use crate::contract::{LaneStep, Possible, StagePart, StageVisit};
 #[cfg(feature = "alloc")]
 pub use crate::integrator::CoupledLanes;
 #[cfg(feature = "alloc")]
-pub use crate::integrator::checkpoint::Save;
+pub use crate::integrator::checkpoint::{Save, SaveWords};
 pub use crate::integrator::clock::Clock;
 #[cfg(feature = "alloc")]
 pub use crate::integrator::explicit_in_lanes::{evaluations, is_same};
@@ -21,6 +21,7 @@ pub use crate::integrator::first_step::{OfTheCore, or_as_first_step};
 pub use crate::integrator::last_step::LastEvent;
 pub use crate::integrator::parts::{Parts, parts_of};
 pub use crate::integrator::stepper::advance_in_time;
+pub use crate::integrator::steps_beside::StepsBeside;
 pub use crate::integrator::validation::{check_start, check_state, check_step_size};
 
 pub use crate::method::composition::in_turn;

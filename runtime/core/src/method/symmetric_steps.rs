@@ -1,5 +1,8 @@
 //! The steps of a composition of Störmer–Verlet, taken with another symmetric method of order 2.
 
+#[cfg(feature = "alloc")]
+use alloc::string::String;
+
 use crate::contract::{ConstrainedStep, StoermerVerletSteps};
 
 /// The fractions `γ_1, …, γ_m` of a composition of Störmer–Verlet steps.
@@ -27,6 +30,16 @@ impl SymmetricSteps {
     /// The steps of `M`.
     pub fn of<M: StoermerVerletSteps>() -> Self {
         Self(M::CONSTRAINED)
+    }
+
+    /// The fractions, as a text that identifies them in a checkpoint; empty for a single step.
+    #[cfg(feature = "alloc")]
+    pub fn definition(self) -> String {
+        let fractions = self.0.iter().map(|step| step.fraction.double());
+        fractions.fold(String::new(), |text, fraction| match text.as_str() {
+            "" => alloc::format!("composition of steps {fraction}"),
+            text => alloc::format!("{text}, {fraction}"),
+        })
     }
 
     /// The substeps of the step of size `size` from `time` to `end`.

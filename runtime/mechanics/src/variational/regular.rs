@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use num_traits::Float;
 
 use symplectic_core::inside::Elimination;
+use symplectic_core::solver::{Visit, Words};
 
 /// If an iterate changes by less than this, relative to the distance from the start, the next iterate is exact up to rounding: the
 /// iteration converges quadratically.
@@ -40,6 +41,13 @@ pub(super) struct Correction {
 pub(super) fn largest(numbers: &[f64]) -> f64 {
     let sizes = numbers.iter().map(|&number| Float::abs(number));
     sizes.fold(0.0, f64::max)
+}
+
+/// The largest entries are computed with the factors.
+impl Words for Factors {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        self.elimination.words(visit);
+    }
 }
 
 impl Factors {
