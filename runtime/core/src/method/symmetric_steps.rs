@@ -32,13 +32,15 @@ impl SymmetricSteps {
         Self(M::CONSTRAINED)
     }
 
-    /// The fractions, as a text that identifies them in a checkpoint; empty for a single step.
+    /// The text that identifies them in a checkpoint.
     #[cfg(feature = "alloc")]
     pub fn definition(self) -> String {
+        if self.0.is_empty() {
+            return "single steps".into();
+        }
         let fractions = self.0.iter().map(|step| step.fraction.double());
-        fractions.fold(String::new(), |text, fraction| match text.as_str() {
-            "" => alloc::format!("composition of steps {fraction}"),
-            text => alloc::format!("{text}, {fraction}"),
+        fractions.fold("composed steps:".into(), |text, fraction| {
+            alloc::format!("{text} {fraction}")
         })
     }
 

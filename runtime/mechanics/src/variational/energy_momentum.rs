@@ -1,7 +1,6 @@
 //! Symplectic–energy–momentum steps.
 
 use crate::Error;
-use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -299,7 +298,7 @@ impl<L: DiscreteLagrangian> SaveWords for EnergyMomentumSteps<L> {
         let dimension = self.state().q.dimension();
         Checkpoint::of_method(
             "steps of constant discrete energy",
-            String::new(),
+            "single steps".into(),
             dimension,
         )
     }

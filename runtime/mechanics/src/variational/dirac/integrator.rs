@@ -344,7 +344,7 @@ impl<L: DiracSystem> StepsBeside for DiracSteps<L> {
 
 impl<L: DiracSystem> SaveWords for DiracSteps<L> {
     fn blank_checkpoint(&self) -> Checkpoint {
-        let definition = format!("{:?} {}", self.equations.rule, self.steps.definition());
+        let definition = format!("{:?}, {}", self.equations.rule, self.steps.definition());
         Checkpoint::of_method(
             "steps of a Dirac system",
             definition,
