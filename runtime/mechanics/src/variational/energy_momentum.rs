@@ -9,7 +9,7 @@ use num_traits::Float;
 use super::discrete_lagrangian::{At, Derivatives, DiscreteLagrangian};
 use super::ends::Ends;
 use super::failure::Failure;
-use super::regular::Factors;
+use super::regular::{Factors, is_solved};
 use symplectic_core::inside::{SaveWords, StepsBeside, check_state, check_step_size, copy, words};
 use symplectic_core::solver::{Visit, Words};
 use symplectic_core::stepper::{Own, Stepper};
@@ -360,6 +360,10 @@ impl<L: DiscreteLagrangian> EnergyMomentumSteps<L> {
             if residual <= LAST_CHANGE {
                 return Ok(size);
             }
+        }
+        let p = self.moving.ends.state.p.as_slice();
+        if energy.is_none() && is_solved(p, &self.derivatives.start) {
+            return Ok(size);
         }
         Err(Failure::NotFound {
             residual,

@@ -5,7 +5,7 @@ use super::discrete_lagrangian::{At, Derivatives, DiscreteLagrangian};
 use super::ends::Ends;
 use super::failure::Failure;
 use super::given_ends::GeneratingFunctions;
-use super::regular::Factors;
+use super::regular::{Factors, is_solved};
 use crate::Error;
 use alloc::vec::Vec;
 use symplectic_core::inside::{
@@ -226,6 +226,9 @@ impl<L: DiscreteLagrangian> VariationalSteps<L> {
                 return Ok(());
             }
             residual = correction.residual;
+        }
+        if is_solved(p.as_slice(), &self.derivatives.start) {
+            return Ok(());
         }
         Err(Failure::NotFound {
             residual,

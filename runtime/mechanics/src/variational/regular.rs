@@ -50,6 +50,14 @@ impl Words for Factors {
     }
 }
 
+/// Whether `p + slope = 0` holds up to the rounding of p: a step that returns to its start has no length to which the last change of an
+/// iterate could be compared.
+pub(super) fn is_solved(p: &[f64], slope: &[f64]) -> bool {
+    let rounding = 16.0 * f64::EPSILON * largest(p);
+    let mut rows = p.iter().zip(slope);
+    rows.all(|(p, slope)| Float::abs(p + slope) <= rounding)
+}
+
 impl Factors {
     pub(super) fn new(size: usize) -> Self {
         Self {
