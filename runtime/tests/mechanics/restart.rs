@@ -44,13 +44,14 @@ saved! {
     LagrangianSteps<lagrangians::Vortices>, DiracSteps<Vortices>, DiracSteps<Disk>
 }
 
-/// Runs that are saved after any numbers of steps, restored elsewhere, and taken on beside the one that was not interrupted.
-fn restarts<S: Saved>(name: &str, make: impl Fn() -> Run<S>) {
-    let mut whole = make();
+/// Runs with steps of a size that are saved after any numbers of steps, restored elsewhere, and taken on beside the one that was not
+/// interrupted.
+fn restarts<S: Saved>(name: &str, make: impl Fn(f64) -> Run<S>) {
+    let mut whole = make(0.1);
     let goes_on = |whole: &mut Run<S>| {
         let saved = S::saved(whole);
         assert_eq!(saved, S::saved(whole), "{name}");
-        let mut resumed = make();
+        let mut resumed = make(0.05);
         // It has steps of its own.
         resumed.take_steps(4).expect(name);
         S::restore(&mut resumed, &saved).expect(name);
@@ -83,14 +84,14 @@ fn restarts<S: Saved>(name: &str, make: impl Fn() -> Run<S>) {
 }
 
 /// [`restarts`], also after a step that was shortened to end at a given time, with another size, and in parts.
-fn equal_steps_restart<S: Saved + Stepper<Pace = Equal>>(name: &str, make: impl Fn() -> Run<S>) {
+fn equal_steps_restart<S: Saved + Stepper<Pace = Equal>>(name: &str, make: impl Fn(f64) -> Run<S>) {
     restarts(name, &make);
-    let mut whole = make();
+    let mut whole = make(0.1);
     whole.integrate_to(0.73).expect(name);
     whole.set_step_size(0.07).expect(name);
     whole.set_retry(Retry::Split { halvings: 2 });
     whole.integrate_to(1.0).expect(name);
-    let mut resumed = make();
+    let mut resumed = make(0.05);
     S::restore(&mut resumed, &S::saved(&mut whole)).expect(name);
     assert_eq!(
         resumed.integrate_to(1.77).expect(name),
@@ -112,64 +113,64 @@ impl DiscreteLagrangian for Weighted {
     }
 }
 
-fn top(body: HeavyTop) -> Run<RotationSteps<HeavyTop>> {
-    RotationSteps::run(body, top_start(), 0.1).expect("a run")
+fn top(body: HeavyTop, size: f64) -> Run<RotationSteps<HeavyTop>> {
+    RotationSteps::run(body, top_start(), size).expect("a run")
 }
 
 fn weighted(weight: f64) -> Run<VariationalSteps<Weighted>> {
     VariationalSteps::run(Weighted(weight), near_perihelion(), 0.1).expect("a run")
 }
 
-fn particle(friction: f64) -> Run<LagrangianSteps<Particle>> {
-    LagrangianSteps::run(Gauss2, Particle { friction }, near_perihelion(), 0.1).expect("a run")
+fn particle(friction: f64, size: f64) -> Run<LagrangianSteps<Particle>> {
+    LagrangianSteps::run(Gauss2, Particle { friction }, near_perihelion(), size).expect("a run")
 }
 
-fn vortices(rule: DiracRule) -> Run<DiracSteps<Vortices>> {
-    DiracSteps::run(rule, Vortices, vortices_start(), 0.1).expect("a run")
+fn vortices(rule: DiracRule, size: f64) -> Run<DiracSteps<Vortices>> {
+    DiracSteps::run(rule, Vortices, vortices_start(), size).expect("a run")
 }
 
-fn kepler() -> Run<VariationalSteps<Trapezoid>> {
-    VariationalSteps::run(Trapezoid, near_perihelion(), 0.1).expect("a run")
+fn kepler(size: f64) -> Run<VariationalSteps<Trapezoid>> {
+    VariationalSteps::run(Trapezoid, near_perihelion(), size).expect("a run")
 }
 
-fn of_equal_energy() -> Run<EnergyMomentumSteps<Trapezoid>> {
+fn of_equal_energy(size: f64) -> Run<EnergyMomentumSteps<Trapezoid>> {
     let start = State::from_arrays(0.0, [1.0, 0.0], [0.0, 1.1]);
-    EnergyMomentumSteps::run(Trapezoid, start, 0.05).expect("a run")
+    EnergyMomentumSteps::run(Trapezoid, start, size).expect("a run")
 }
 
 #[test]
 fn every_interrupted_run_goes_on_with_the_same_bits() {
-    equal_steps_restart("top", || top(LOPSIDED));
-    equal_steps_restart("top, order 4", || {
-        RotationSteps::composed(Suzuki4, LOPSIDED, top_start(), 0.1).expect("a run")
+    equal_steps_restart("top", |size| top(LOPSIDED, size));
+    equal_steps_restart("top, order 4", |size| {
+        RotationSteps::composed(Suzuki4, LOPSIDED, top_start(), size).expect("a run")
     });
     equal_steps_restart("discrete Lagrangian", kepler);
-    equal_steps_restart("composed", || {
-        VariationalSteps::composed(Suzuki4, Trapezoid, near_perihelion(), 0.1).expect("a run")
+    equal_steps_restart("composed", |size| {
+        VariationalSteps::composed(Suzuki4, Trapezoid, near_perihelion(), size).expect("a run")
     });
-    equal_steps_restart("discrete Lagrangian that depends on time", || {
+    equal_steps_restart("discrete Lagrangian that depends on time", |size| {
         let [q, p] = [0.4, 0.9].map(|x| DVector::from_element(1, x));
-        VariationalSteps::run(ShakenLagrangian, State::new(0.0, q, p), 0.1).expect("a run")
+        VariationalSteps::run(ShakenLagrangian, State::new(0.0, q, p), size).expect("a run")
     });
     restarts("energy and momentum", of_equal_energy);
-    equal_steps_restart("Lagrangian", || particle(0.02));
-    equal_steps_restart("Galerkin", || {
+    equal_steps_restart("Lagrangian", |size| particle(0.02, size));
+    equal_steps_restart("Galerkin", |size| {
         let system = Particle { friction: 0.0 };
-        LagrangianSteps::galerkin(TwoOfThree, system, near_perihelion(), 0.1).expect("a run")
+        LagrangianSteps::galerkin(TwoOfThree, system, near_perihelion(), size).expect("a run")
     });
-    equal_steps_restart("from a velocity", || {
+    equal_steps_restart("from a velocity", |size| {
         let (q, v) = (Vector2::new(2.0, 0.0), Vector2::new(0.1, 0.6));
         let system = Particle { friction: 0.0 };
-        LagrangianSteps::from_velocity(Gauss3, system, 0.0, q, v, 0.1).expect("a run")
+        LagrangianSteps::from_velocity(Gauss3, system, 0.0, q, v, size).expect("a run")
     });
-    equal_steps_restart("linear in the velocities", || {
+    equal_steps_restart("linear in the velocities", |size| {
         let q = SVector::from([1.0, 0.3, -0.5, -0.2]);
         let (system, v) = (lagrangians::Vortices, SVector::zeros());
-        LagrangianSteps::from_velocity(Gauss2, system, 0.0, q, v, 0.1).expect("a run")
+        LagrangianSteps::from_velocity(Gauss2, system, 0.0, q, v, size).expect("a run")
     });
-    equal_steps_restart("vortices", || vortices(DiracRule::Midpoint));
-    equal_steps_restart("rolling", || {
-        DiracSteps::run(DiracRule::Trapezoid, Disk, disk_start(), 0.1).expect("a run")
+    equal_steps_restart("vortices", |size| vortices(DiracRule::Midpoint, size));
+    equal_steps_restart("rolling", |size| {
+        DiracSteps::run(DiracRule::Trapezoid, Disk, disk_start(), size).expect("a run")
     });
 }
 
@@ -193,12 +194,15 @@ fn other<S: Saved, T: Saved>(run: Run<S>, of: Run<T>) -> &'static str {
 
 #[test]
 fn checkpoints_of_other_steps_are_refused() {
-    assert_eq!(other(kepler(), of_equal_energy()), "method");
-    assert_eq!(other(of_equal_energy(), kepler()), "method");
-    assert_eq!(other(top(LOPSIDED), kepler()), "method");
-    assert_eq!(other(vortices(DiracRule::Midpoint), kepler()), "method");
+    assert_eq!(other(kepler(0.1), of_equal_energy(0.1)), "method");
+    assert_eq!(other(of_equal_energy(0.1), kepler(0.1)), "method");
+    assert_eq!(other(top(LOPSIDED, 0.1), kepler(0.1)), "method");
     assert_eq!(
-        other(particle(0.0), vortices(DiracRule::Midpoint)),
+        other(vortices(DiracRule::Midpoint, 0.1), kepler(0.1)),
+        "method"
+    );
+    assert_eq!(
+        other(particle(0.0, 0.1), vortices(DiracRule::Midpoint, 0.1)),
         "method"
     );
     let galerkin = || {
@@ -209,7 +213,7 @@ fn checkpoints_of_other_steps_are_refused() {
         let system = Particle { friction: 0.0 };
         LagrangianSteps::run(TwoOfThree, system, near_perihelion(), 0.1).expect("a run")
     };
-    assert_eq!(other(particle(0.0), rectangular()), "method");
+    assert_eq!(other(particle(0.0, 0.1), rectangular()), "method");
     assert_eq!(other(galerkin(), rectangular()), "method");
     let composed = |order| {
         let start = near_perihelion();
@@ -219,26 +223,29 @@ fn checkpoints_of_other_steps_are_refused() {
         };
         run.expect("a run")
     };
-    assert_eq!(other(kepler(), composed(4)), "definition");
+    assert_eq!(other(kepler(0.1), composed(4)), "definition");
     assert_eq!(other(composed(6), composed(4)), "definition");
     let words = "the definition of the checkpoint is `single steps`, that of this integrator `composed steps: 1.58";
     assert!(
-        refused(composed(6), kepler())
+        refused(composed(6), kepler(0.1))
             .to_string()
             .starts_with(words)
     );
     let top_of_order_4 = || RotationSteps::composed(Suzuki4, LOPSIDED, top_start(), 0.1);
     assert_eq!(
-        other(top(LOPSIDED), top_of_order_4().expect("a run")),
+        other(top(LOPSIDED, 0.1), top_of_order_4().expect("a run")),
         "definition"
     );
     let (midpoint, trapezoid) = (DiracRule::Midpoint, DiracRule::Trapezoid);
-    assert_eq!(other(vortices(midpoint), vortices(trapezoid)), "definition");
+    assert_eq!(
+        other(vortices(midpoint, 0.1), vortices(trapezoid, 0.1)),
+        "definition"
+    );
     let disk = DiracSteps::run(midpoint, Disk, disk_start(), 0.1).expect("a run");
-    assert_eq!(other(vortices(midpoint), disk), "dimension");
+    assert_eq!(other(vortices(midpoint, 0.1), disk), "dimension");
     let [q, p] = [0.4, 0.9].map(|x| DVector::from_element(1, x));
     let shaken = VariationalSteps::run(ShakenLagrangian, State::new(0.0, q, p), 0.1);
-    assert_eq!(other(kepler(), shaken.expect("a run")), "dimension");
+    assert_eq!(other(kepler(0.1), shaken.expect("a run")), "dimension");
 }
 
 #[test]
@@ -248,7 +255,7 @@ fn checkpoints_of_other_systems_are_refused() {
         ..LOPSIDED
     };
     assert_eq!(
-        refused(top(LOPSIDED), top(heavier)),
+        refused(top(LOPSIDED, 0.1), top(heavier, 0.1)),
         CheckpointError::OtherSystem
     );
     let free = |third| {
@@ -266,7 +273,7 @@ fn checkpoints_of_other_systems_are_refused() {
         CheckpointError::OtherSystem
     );
     assert_eq!(
-        refused(particle(0.0), particle(0.1)),
+        refused(particle(0.0, 0.1), particle(0.1, 0.1)),
         CheckpointError::OtherSystem
     );
 }
