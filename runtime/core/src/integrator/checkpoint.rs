@@ -20,7 +20,7 @@ use crate::system::System;
 /// Everything that a run needs to continue from its present state with the bits of an uninterrupted run.
 ///
 /// It contains the state with the round-off of its compensated sums, and the stages from which the next ones are extrapolated. It also
-/// contains the matrices of Newton's iteration, clock, step size, tolerance and statistics.
+/// contains the matrices of Newton's iteration, clock, step size, tolerance and statistics. All integrators of this crate have checkpoints.
 ///
 /// With the feature `serde` it can be written in any format. All numbers are in `words`: sixteen hexadecimal digits for each word of
 /// 64 bits, or eight bytes in a binary format. A word is the bits of an IEEE 754 double, of a single in its lower half, or of an integer.

@@ -39,6 +39,12 @@ use symplectic_core::{Checkpoint, Error as CoreError, Quantity, Run, State, Stat
 /// when the equations hold up to the rounding of q1. A free particle, which conserves its energy with steps of every size, keeps its step
 /// size.
 ///
+/// # Output and events
+///
+/// [`integrate_to`](Run::integrate_to) passes the given time and returns the state there. A state inside the last step is that of a shorter
+/// step of `Ld` from its start, whatever its discrete energy. After a [wall](symplectic_core::Event::wall), as after every new state, the run
+/// begins anew: the next step has the size of the first one and defines E.
+///
 /// # Errors of a step
 ///
 /// [`Error::NoEnergyStep`] if Newton's iteration finds no step that conserves the discrete energy; [`Error::NoEndOfStep`],

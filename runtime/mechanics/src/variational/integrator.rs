@@ -36,6 +36,9 @@ use symplectic_core::{Checkpoint, Quantity, Run, State, Statistics, Vector};
 /// For n components, an iteration takes n² evaluations of `Ld` with its derivatives and the elimination of a full matrix. The end of the
 /// step takes n evaluations. A step allocates no memory. A step that fails leaves the state unchanged.
 ///
+/// A state inside the last step is that of a shorter step from its start, with the order of the method and the cost of a step. A
+/// [checkpoint](Run::checkpoint) is refused if another `Ld`, or its derivatives or forces, has other values near the state.
+///
 /// # Errors of a step
 ///
 /// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Core(NonFinite)`](symplectic_core::Error::NonFinite),

@@ -54,6 +54,14 @@ use symplectic_core::{Checkpoint, Run, State, Statistics, Vector};
 /// For n components and m constraints, an iteration eliminates a full matrix of 2(n + m) rows. It takes n(2n + 1) evaluations of L at each
 /// point of the rule and at the end. A step allocates no memory. A step that fails leaves the state unchanged.
 ///
+/// # Output, events and checkpoints
+///
+/// A state inside the last step is that of a shorter step from its start, with the order of the rule and the cost of a step. With
+/// [`Midpoint`](DiracRule::Midpoint) a violation of conditions on positions at the start of the step changes its sign there, as it does from
+/// step to step. At a [wall](symplectic_core::Event::wall) the handler must leave a momentum and a velocity that satisfy the constraints;
+/// otherwise the run ends with the error of such a start. A [checkpoint](Run::checkpoint) is refused if L, its derivatives, the force or a
+/// row of w has other values near the state.
+///
 /// # Errors of a step
 ///
 /// [`Error::ContradictoryStep`], [`Error::UndeterminedPosition`],

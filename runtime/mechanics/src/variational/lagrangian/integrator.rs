@@ -49,6 +49,9 @@ use symplectic_core::{
 /// matrix of size sn. An iteration takes s evaluations of L with its [gradient](Lagrangian::gradient), or s n by hyper-dual numbers. A step
 /// allocates no memory. A step that fails leaves the state unchanged.
 ///
+/// A state inside the last step is that of a shorter step from its start, with the order of the method and the cost of a step. A
+/// [checkpoint](Run::checkpoint) is refused if L, its derivatives or the force has other values near the state.
+///
 /// # Errors of a step
 ///
 /// [`Error::IrregularLagrangian`], [`Error::NoEndOfStep`], [`Core(NonFinite)`](CoreError::NonFinite),
