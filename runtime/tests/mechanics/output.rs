@@ -2,13 +2,14 @@
 
 use core::ops::ControlFlow;
 
+use symplectic::constraints::Gradients;
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
 use symplectic::output::Moment;
 use symplectic::stepper::DenseSteps;
 use symplectic::system::Lagrangian;
 use symplectic::variational::{
-    DiracRule, DiracSteps, DiscreteLagrangian, EnergyMomentumSteps, Error, LagrangianSteps,
-    VariationalSteps,
+    DiracRule, DiracSteps, DiracSystem, DiscreteLagrangian, EnergyMomentumSteps, Error,
+    LagrangianSteps, VariationalSteps,
 };
 use symplectic::{Error as CoreError, Event, Integrator, Run, Scalar, State, Vector};
 
@@ -142,7 +143,7 @@ impl Lagrangian for Ball {
     }
 }
 
-impl symplectic::variational::DiracSystem for Ball {}
+impl DiracSystem for Ball {}
 
 impl DiscreteLagrangian for Ball {
     type Vector<T: Scalar> = SVector<T, 1>;
@@ -187,6 +188,68 @@ fn a_ball_bounces_off_a_wall_by_every_lagrangian() -> Result<(), Error> {
     bounces(|start| VariationalSteps::run(Ball, start, h))?;
     bounces(|start| LagrangianSteps::run(Gauss3, Ball, start, h))?;
     bounces(|start| DiracSteps::run(DiracRule::Midpoint, Ball, start, h))
+}
+
+/// The ball is back where it was thrown: Newton's iteration has no length for its last change.
+#[test]
+fn a_step_that_ends_where_it_began_is_taken() -> Result<(), Error> {
+    let start = || State::from_arrays(0.0, [0.0], [0.025]);
+    let mut run = VariationalSteps::run(Ball, start(), 0.05)?;
+    let mut of_equal_energy = EnergyMomentumSteps::run(Ball, start(), 0.05)?;
+    for end in [run.step()?, of_equal_energy.step()?] {
+        assert!(end.q[0].abs() < 1e-17 && (end.p[0] + 0.025).abs() < 1e-17);
+    }
+    Ok(())
+}
+
+/// A bead on a rail: y' = x', for a Dirac system.
+#[derive(Clone, Copy)]
+struct Rail;
+
+impl Lagrangian for Rail {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    fn lagrangian<T: Scalar>(&self, _: T, _: &SVector<T, 2>, v: &SVector<T, 2>) -> T {
+        v.dot(v) * T::from_f64(0.5)
+    }
+}
+
+impl DiracSystem for Rail {
+    fn nonholonomic_constraints(&self) -> usize {
+        1
+    }
+
+    fn nonholonomic_rows<T: Scalar>(&self, _: &SVector<T, 2>, rows: &mut Gradients<T>) {
+        rows.set(0, 0, T::one());
+        rows.set(0, 1, -T::one());
+    }
+}
+
+#[test]
+fn a_wall_off_the_constraints_is_an_error_of_the_new_start() -> Result<(), Error> {
+    let start = || State::from_arrays(0.0, [0.0, 0.0], [1.0, 1.0]);
+    let made = || DiracSteps::run(DiracRule::Trapezoid, Rail, start(), 0.1);
+    let wall = Event::wall(|state: &Plane| 0.55 - state.q[0]);
+    let (mut run, mut refused) = (made()?, made()?);
+    run.integrate_through(1.0, &[], &wall, |moment| {
+        if let Moment::Event { state, .. } = moment {
+            state.p *= -1.0;
+        }
+        ControlFlow::<()>::Continue(())
+    })?;
+    assert!((run.state().q[1] - 0.1).abs() < 1e-12);
+    let outcome = refused.integrate_through(1.0, &[], &wall, |moment| {
+        if let Moment::Event { state, .. } = moment {
+            state.p[0] *= -1.0;
+        }
+        ControlFlow::<()>::Continue(())
+    });
+    assert!(matches!(
+        outcome,
+        Err(Error::Core(CoreError::InconsistentVelocity { .. }))
+    ));
+    assert!((refused.state().time - 0.55).abs() < 1e-12);
+    Ok(())
 }
 
 #[test]

@@ -2,11 +2,13 @@
 
 use core::fmt::Debug;
 
+use symplectic::constraints::Gradients;
 use symplectic::nalgebra::{DVector, SVector, Vector2};
 use symplectic::rotation::{FreeBody, HeavyTop, RotationState, RotationSteps};
 use symplectic::stepper::{Equal, Stepper};
+use symplectic::system::Lagrangian;
 use symplectic::variational::{
-    DiracRule, DiracSteps, DiscreteLagrangian, EnergyMomentumSteps, LagrangianSteps,
+    DiracRule, DiracSteps, DiracSystem, DiscreteLagrangian, EnergyMomentumSteps, LagrangianSteps,
     VariationalSteps,
 };
 use symplectic::{Checkpoint, CheckpointError, Retry, Run, Scalar, State};
@@ -41,7 +43,7 @@ macro_rules! saved {
 saved! {
     RotationSteps<HeavyTop>, RotationSteps<FreeBody>, VariationalSteps<Trapezoid>, VariationalSteps<AtOnePoint>,
     VariationalSteps<ShakenLagrangian>, VariationalSteps<Weighted>, EnergyMomentumSteps<Trapezoid>, LagrangianSteps<Particle>,
-    LagrangianSteps<lagrangians::Vortices>, DiracSteps<Vortices>, DiracSteps<Disk>
+    LagrangianSteps<lagrangians::Vortices>, DiracSteps<Vortices>, DiracSteps<Disk>, DiracSteps<Rail>
 }
 
 /// Runs with steps of a size that are saved after any numbers of steps, restored elsewhere, and taken on beside the one that was not
@@ -111,6 +113,35 @@ impl DiscreteLagrangian for Weighted {
     fn value<T: Scalar>(&self, time: T, h: T, q0: &SVector<T, 2>, q1: &SVector<T, 2>) -> T {
         AtOnePoint(0.5).value(time, h, q0, q1) * T::from_f64(self.0)
     }
+}
+
+/// A particle in the plane that moves along this slope.
+#[derive(Clone, Copy)]
+struct Rail(f64);
+
+impl Lagrangian for Rail {
+    type Vector<T: Scalar> = SVector<T, 2>;
+
+    fn lagrangian<T: Scalar>(&self, _: T, _: &SVector<T, 2>, v: &SVector<T, 2>) -> T {
+        v.dot(v) * T::from_f64(0.5)
+    }
+}
+
+impl DiracSystem for Rail {
+    fn nonholonomic_constraints(&self) -> usize {
+        1
+    }
+
+    fn nonholonomic_rows<T: Scalar>(&self, _: &SVector<T, 2>, rows: &mut Gradients<T>) {
+        rows.set(0, 0, T::from_f64(self.0));
+        rows.set(0, 1, -T::one());
+    }
+}
+
+/// At rest: the constraint alone tells one slope from another.
+fn rail(slope: f64) -> Run<DiracSteps<Rail>> {
+    let start = State::from_arrays(0.0, [0.0, 0.0], [0.0, 0.0]);
+    DiracSteps::run(DiracRule::Midpoint, Rail(slope), start, 0.1).expect("a run")
 }
 
 fn top(body: HeavyTop, size: f64) -> Run<RotationSteps<HeavyTop>> {
@@ -268,6 +299,7 @@ fn checkpoints_of_other_systems_are_refused() {
         .expect("a run")
     };
     assert_eq!(refused(free(0.8), free(0.9)), CheckpointError::OtherSystem);
+    assert_eq!(refused(rail(1.0), rail(1.5)), CheckpointError::OtherSystem);
     assert_eq!(
         refused(weighted(1.0), weighted(1.5)),
         CheckpointError::OtherSystem
@@ -276,4 +308,15 @@ fn checkpoints_of_other_systems_are_refused() {
         refused(particle(0.0, 0.1), particle(0.1, 0.1)),
         CheckpointError::OtherSystem
     );
+}
+
+#[cfg(feature = "serde")]
+#[test]
+fn a_checkpoint_of_a_lagrangian_is_written_and_read() -> Result<(), Box<dyn core::error::Error>> {
+    let (mut run, mut resumed) = (particle(0.0, 0.1), particle(0.0, 0.1));
+    run.take_steps(9)?;
+    let text = serde_json::to_string(&run.checkpoint()?)?;
+    resumed.restore(&serde_json::from_str(&text)?)?;
+    assert_eq!(resumed.take_steps(9)?, run.take_steps(9)?);
+    Ok(())
 }
