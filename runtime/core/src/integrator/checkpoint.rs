@@ -291,7 +291,7 @@ pub trait SaveWords: Stepper {
     /// Shows `visit` every word on which the next steps depend.
     fn words(&mut self, visit: &mut Visit<'_>);
 
-    /// Numbers that a system with other parameters gives another value, at the present state. Those that are not finite are ignored.
+    /// Numbers that differ for a system with other parameters, at the present state. Those that are not finite are ignored.
     fn fingerprint(&mut self) -> Vec<f64>;
 }
 

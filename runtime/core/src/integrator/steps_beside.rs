@@ -7,7 +7,8 @@ use crate::number::{Scalar, Vector};
 use crate::state::State;
 
 /// A stepper that can take a step from another state beside its run. It is one of [`DenseSteps`]: a state inside the last step is that of a
-/// shorter step from its start, with the order of the method. q' and p' are difference quotients of a short step.
+/// shorter step from its start. This has the order of the method, while a cubic through both ends has order 3 and needs q' and p', which a
+/// discrete Lagrangian does not give. For the start of a search, q' and p' are difference quotients of a short step.
 pub trait StepsBeside: Stepper<State = State<Self::Vector>> {
     /// The vectors of a state.
     type Vector: Vector;
@@ -21,7 +22,7 @@ pub trait StepsBeside: Stepper<State = State<Self::Vector>> {
     /// Exchanges what a step changes.
     fn exchange(&mut self, moving: &mut Self::Moving);
 
-    /// Begins a step of size `size` from `state`, with the starting values of the run, whose place has been taken.
+    /// Sets the start and the size of a step, after an [exchange](Self::exchange). `run` is what moves in the run, for starting values.
     fn begin_beside(&mut self, run: &Self::Moving, state: &State<Self::Vector>, size: f64);
 
     /// The state at the start of the last step and the size of that step; `None` before the first step, and after a new state or a failed
