@@ -9,7 +9,7 @@ pub use crate::contract::in_lanes::first;
 pub use crate::contract::{Possible, StagePart, StageVisit};
 
 #[cfg(feature = "alloc")]
-pub use crate::integrator::checkpoint::Save;
+pub use crate::integrator::checkpoint::{Save, SaveWords};
 pub use crate::integrator::clock::Clock;
 #[cfg(feature = "alloc")]
 pub use crate::integrator::fingerprint::{hash, system_fingerprint};
@@ -19,6 +19,7 @@ pub use crate::integrator::memory::StepMemory;
 pub use crate::integrator::partitioned::{MemoryOf, PlanOf};
 pub use crate::integrator::parts::{Parts, StepParts, parts_of, step_parts_of};
 pub use crate::integrator::stepper::advance_in_time;
+pub use crate::integrator::steps_beside::StepsBeside;
 pub use crate::integrator::validation::{check_start, check_state, check_step_size};
 
 pub use crate::method::composition::in_turn;

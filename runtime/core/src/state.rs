@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::error::Error;
-use crate::number::{Scalar, Vector, copy};
+use crate::number::{Scalar, Vector, Visit, Words, copy, scalar_words};
 
 /// A point of phase space at a time.
 ///
@@ -34,6 +34,14 @@ impl<V: Clone> Timed for State<V> {
     #[inline]
     fn time(&self) -> f64 {
         self.time
+    }
+}
+
+impl<V: Vector> Words for State<V> {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        self.time.words(visit);
+        scalar_words(self.q.as_mut_slice(), visit);
+        scalar_words(self.p.as_mut_slice(), visit);
     }
 }
 

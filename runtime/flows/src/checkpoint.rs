@@ -29,6 +29,7 @@ impl<V: Vector<Scalar = f64>, F: Flow<V>> Save for FlowSteps<V, F> {
             clock,
             step_size,
             last_event,
+            ..
         } = parts_of(run);
         let mut memory = stepper.present_memory();
         let own = Checkpoint::of_flow(saved.run_state.state.q.dimension(), memory.len());

@@ -15,8 +15,8 @@ type V4<T> = SVector<T, 4>;
 /// The circuit of Yoshimura & Marsden (2006), with the charges of an inductor and of three capacitors:
 /// L = ℓ v0²/2 − Σ q_i²/2C_i − βq3⁴/4, −v0 + v2 = 0, −v1 + v2 − v3 = 0.
 #[derive(Clone, Copy)]
-struct Circuit {
-    beta: f64,
+pub struct Circuit {
+    pub beta: f64,
 }
 
 const INDUCTANCE: f64 = 0.7;
@@ -63,7 +63,7 @@ impl Circuit {
 }
 
 /// With the current 0.4 in the inductor, and the same voltage on both capacitors.
-fn circuit_start(circuit: Circuit) -> State<Vector4<f64>> {
+pub fn circuit_start(circuit: Circuit) -> State<Vector4<f64>> {
     let q3 = 0.5;
     let mut q = Vector4::new(0.1, 0.0, -0.3, q3);
     q[1] = circuit.voltages(&q)[1] * CAPACITIES[0];
@@ -73,7 +73,7 @@ fn circuit_start(circuit: Circuit) -> State<Vector4<f64>> {
 }
 
 /// Without β: ℓ f' = −V, V' = f (1/(C1 + C3) + 1/C2) for V = q1/C1 + q2/C2; the charges of the capacitors follow the charge of the inductor.
-fn circuit_exact(time: f64) -> State<Vector4<f64>> {
+pub fn circuit_exact(time: f64) -> State<Vector4<f64>> {
     let State { q, p, .. } = circuit_start(Circuit { beta: 0.0 });
     let [a, b, c] = CAPACITIES;
     let rate = ((1.0 / (a + c) + 1.0 / b) / INDUCTANCE).sqrt();
@@ -338,7 +338,7 @@ fn symmetric_rules_go_back() {
 
 /// Starts off a primary constraint, and off the condition on positions; a position that nothing determines.
 #[test]
-fn circuit_starts_off_the_constraints_are_refused() {
+pub fn circuit_starts_off_the_constraints_are_refused() {
     let circuit = Circuit { beta: 0.0 };
     let mut start = circuit_start(circuit);
     start.p[2] = 0.125;

@@ -32,6 +32,8 @@ mod nonholonomic;
 mod nonholonomic_formulas;
 mod nonholonomic_start;
 mod observed_order;
+mod output;
+mod restart;
 mod rolling;
 mod rotation;
 mod scales;

@@ -309,6 +309,28 @@ fn every_run_that_can_be_followed_has_output_and_events() {
     followed_run("adaptive", || {
         AdaptiveSteps::run(Verlet, kepler(), DistancePower(1.5), start(), 0.1)
     });
+    followed_run("discrete Lagrangian", || {
+        VariationalSteps::run(Trapezoid, start(), 0.1)
+    });
+    followed_run("composed", || {
+        VariationalSteps::composed(Suzuki4, Trapezoid, start(), 0.1)
+    });
+    followed_run("Lagrangian", || {
+        LagrangianSteps::run(Gauss2, Particle { friction: 0.0 }, start(), 0.1)
+    });
+    followed_run("Galerkin", || {
+        LagrangianSteps::galerkin(TwoOfThree, Particle { friction: 0.0 }, start(), 0.1)
+    });
+    followed_run("vortices", || {
+        DiracSteps::run(DiracRule::Midpoint, Vortices, vortices_start(), 0.1)
+    });
+    followed_run("energy and momentum", || {
+        EnergyMomentumSteps::run(
+            Trapezoid,
+            State::from_arrays(0.0, [1.0, 0.0], [0.0, 1.1]),
+            0.1,
+        )
+    });
 }
 
 /// A free particle with the pace `P`, by hand.

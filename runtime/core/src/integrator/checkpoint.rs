@@ -6,9 +6,10 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use crate::integrator::clock::Clock;
-use crate::integrator::fingerprint::system_fingerprint;
+use crate::integrator::fingerprint::{hash_of, system_fingerprint};
 use crate::integrator::last_step::LastEvent;
 use crate::integrator::memory::StepMemory;
+use crate::integrator::parts::parts_of;
 use crate::integrator::{Integrator, Retry, Run, Statistics, Stepper};
 use crate::method::{Method, Solver, Stopping, WarmStart};
 use crate::number::words::{Visit, Words, words};
@@ -19,7 +20,7 @@ use crate::system::System;
 /// Everything that a run needs to continue from its present state with the bits of an uninterrupted run.
 ///
 /// It contains the state with the round-off of its compensated sums, and the stages from which the next ones are extrapolated. It also
-/// contains the matrices of Newton's iteration, clock, step size, tolerance and statistics.
+/// contains the matrices of Newton's iteration, clock, step size, tolerance and statistics. All integrators of this crate have checkpoints.
 ///
 /// With the feature `serde` it can be written in any format. All numbers are in `words`: sixteen hexadecimal digits for each word of
 /// 64 bits, or eight bytes in a binary format. A word is the bits of an IEEE 754 double, of a single in its lower half, or of an integer.
@@ -125,10 +126,10 @@ pub enum CheckpointError {
         expected: String,
     },
 
-    /// The system gives another velocity, force, constraint or flow at the state of the checkpoint or near it.
+    /// The system gives another velocity, force, Lagrangian, constraint or flow at the state of the checkpoint or near it.
     #[error(
-        "the system gives another velocity, force, constraint or flow at the state of the checkpoint or beside it: it is another system, or \
-         has other parameters"
+        "the system gives another velocity, force, Lagrangian, constraint or flow at the state of the checkpoint or beside it: it is another \
+         system, or has other parameters"
     )]
     OtherSystem,
 
@@ -162,11 +163,18 @@ impl Checkpoint {
     /// An empty checkpoint of a flow. `carried` is the number of words of the flow's own memory; flows with another number are told apart.
     #[doc(hidden)]
     pub fn of_flow(dimension: usize, carried: usize) -> Self {
+        let definition = format!("words carried: {carried}");
+        Self::of_method(Self::OF_FLOW, definition, dimension)
+    }
+
+    /// An empty checkpoint of a method, with plain sums of doubles.
+    #[doc(hidden)]
+    pub fn of_method(method: &str, definition: String, dimension: usize) -> Self {
         Self {
             format: Self::FORMAT,
             version: env!("CARGO_PKG_VERSION").to_string(),
-            method: Self::OF_FLOW.to_string(),
-            definition: format!("words carried: {carried}"),
+            method: method.to_string(),
+            definition,
             scalar: f64::SAVED_AS.unwrap_or_default().to_string(),
             sums: "plain".to_string(),
             solver: String::new(),
@@ -176,14 +184,18 @@ impl Checkpoint {
         }
     }
 
+    /// The same of compensated sums.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn with_compensated_sums(self) -> Self {
+        let sums = "compensated".to_string();
+        Self { sums, ..self }
+    }
+
     /// An empty checkpoint of values that are computed beside a run.
     #[doc(hidden)]
     pub fn of_values(name: &str) -> Self {
-        Self {
-            method: name.to_string(),
-            definition: String::new(),
-            ..Self::of_flow(0, 0)
-        }
+        Self::of_method(name, String::new(), 0)
     }
 
     /// Fills a checkpoint with the words that `show` shows.
@@ -269,6 +281,47 @@ pub trait Save: Stepper + Sized {
     ///
     /// Those of [`Run::restore`].
     fn restore(run: &mut Run<Self>, checkpoint: &Checkpoint) -> Result<(), CheckpointError>;
+}
+
+/// A stepper whose checkpoints consist of the words of its run, its own, and the fingerprint of its system.
+pub trait SaveWords: Stepper {
+    /// A checkpoint without words.
+    fn blank_checkpoint(&self) -> Checkpoint;
+
+    /// Shows `visit` every word on which the next steps depend.
+    fn words(&mut self, visit: &mut Visit<'_>);
+
+    /// Numbers that differ for a system with other parameters, at the present state. Those that are not finite are ignored.
+    fn fingerprint(&mut self) -> Vec<f64>;
+}
+
+impl<S: SaveWords> Save for S {
+    fn checkpoint(run: &mut Run<S>) -> Result<Checkpoint, CheckpointError> {
+        Ok(run.stepper.blank_checkpoint().filled(|visit| {
+            words!(visit: parts_of(run), hash_of(run.stepper.fingerprint()));
+            run.stepper.words(visit);
+        }))
+    }
+
+    fn restore(run: &mut Run<S>, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
+        let present = Self::checkpoint(run)?;
+        let mut fingerprint = 0;
+        let mut read = |checkpoint: &Checkpoint| {
+            checkpoint.read(&present, |visit| {
+                words!(visit: parts_of(run), fingerprint);
+                run.stepper.words(visit);
+            })?;
+            match fingerprint == hash_of(run.stepper.fingerprint()) {
+                true => Ok(()),
+                false => Err(CheckpointError::OtherSystem),
+            }
+        };
+        let outcome = read(checkpoint);
+        if outcome.is_err() {
+            read(&present)?;
+        }
+        outcome
+    }
 }
 
 impl<S: Save> Run<S> {
@@ -447,24 +500,8 @@ impl Numbers {
             scales,
         } = &mut self.kept;
         words!(visit: *evaluation, *stages, *scales, self.last_size, self.last_time, self.linear_velocity);
-        let Statistics {
-            steps,
-            rejected,
-            iterations,
-            most_iterations,
-            evaluations,
-            factorisations,
-            largest_residual,
-        } = &mut self.statistics;
-        words!(visit: *steps, *rejected, *iterations, *most_iterations, *evaluations, *factorisations, *largest_residual);
-        self.clock.words(visit);
-        words!(visit: self.stopping.max_iterations, self.stopping.tolerance);
-        let mut halvings = match self.retry {
-            Retry::Never => None,
-            Retry::Split { halvings } => Some(halvings),
-        };
-        words!(visit: halvings, self.last_event, self.fingerprint);
-        self.retry = halvings.map_or(Retry::Never, |halvings| Retry::Split { halvings });
+        words!(visit: self.statistics, self.clock, self.stopping.max_iterations, self.stopping.tolerance);
+        words!(visit: self.retry, self.last_event, self.fingerprint);
     }
 }
 

@@ -15,6 +15,13 @@ pub fn hash<V: Vector>(vectors: &mut [V]) -> u64 {
     found
 }
 
+/// A hash of numbers. Those that are not finite count as zero, because the bits of NaN differ between machines.
+pub(super) fn hash_of(numbers: Vec<f64>) -> u64 {
+    let finite = |number: f64| if number.is_finite() { number } else { 0.0 };
+    let words = numbers.into_iter().map(|number| finite(number).to_bits());
+    words.fold(0, joined)
+}
+
 /// The hash of a hash and a word.
 const fn joined(hash: u64, word: u64) -> u64 {
     let product = (hash ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);

@@ -13,6 +13,7 @@ pub(crate) mod run;
 pub(crate) mod sight;
 pub(crate) mod statistics;
 pub(crate) mod stepper;
+pub(crate) mod steps_beside;
 
 #[cfg(feature = "alloc")]
 pub use checkpoint::{Checkpoint, CheckpointError};

@@ -4,8 +4,9 @@ use super::clock::Clock;
 use super::last_step::LastEvent;
 use super::memory::StepMemory;
 use super::partitioned::MemoryOf;
-use super::{Partitioned, Run};
+use super::{Partitioned, Retry, Run};
 use crate::method::{Method, Solver, Stopping};
+use crate::number::words::{Visit, Words, words};
 use crate::number::{Summation, Vector};
 use crate::system::System;
 
@@ -17,6 +18,8 @@ pub struct Parts<'a, S> {
     pub clock: &'a mut Clock,
     /// The step size.
     pub step_size: &'a mut f64,
+    /// The reaction to a failed step.
+    pub retry: &'a mut Retry,
     /// The event from which the next search continues.
     pub last_event: &'a mut Option<LastEvent>,
 }
@@ -27,7 +30,15 @@ pub const fn parts_of<S>(run: &mut Run<S>) -> Parts<'_, S> {
         stepper: &mut run.stepper,
         clock: &mut run.clock,
         step_size: &mut run.step_size,
+        retry: &mut run.retry,
         last_event: &mut run.last_event,
+    }
+}
+
+/// Those of the run itself.
+impl<S> Words for Parts<'_, S> {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        words!(visit: *self.step_size, *self.clock, *self.retry, *self.last_event);
     }
 }
 

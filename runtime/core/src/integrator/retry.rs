@@ -6,6 +6,7 @@ use core::ops::ControlFlow;
 use super::clock::RemainingSteps;
 use super::stepper::advance_in_time;
 use super::{Run, Stepper};
+use crate::number::words::{Visit, Words};
 
 /// The reaction of a [`Run`] with equal steps if the stages of a step do not converge or a result is NaN or infinite.
 ///
@@ -38,6 +39,17 @@ impl Retry {
             Self::Split { halvings } => halvings.min(Self::MAX_HALVINGS),
         };
         (1..=halvings).map(|halving| 1 << halving)
+    }
+}
+
+impl Words for Retry {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        let mut halvings = match *self {
+            Self::Never => None,
+            Self::Split { halvings } => Some(halvings),
+        };
+        halvings.words(visit);
+        *self = halvings.map_or(Self::Never, |halvings| Self::Split { halvings });
     }
 }
 

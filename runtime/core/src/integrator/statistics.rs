@@ -1,6 +1,7 @@
 //! Statistics of an integration.
 
 use crate::method::StepStatistics;
+use crate::number::words::{Visit, Words, words};
 
 /// Counts over all steps taken; a failed step changes none of them. A stepper without an [`Integrator`](crate::Integrator) counts only steps,
 /// and attempts that were [split](crate::Retry).
@@ -70,5 +71,20 @@ impl Statistics {
         self.factorisations += u64::from(work.factorisations);
         self.rejected += u64::from(work.rejected);
         self.largest_residual = self.largest_residual.max(work.residual);
+    }
+}
+
+impl Words for Statistics {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        let Self {
+            steps,
+            rejected,
+            iterations,
+            most_iterations,
+            evaluations,
+            factorisations,
+            largest_residual,
+        } = self;
+        words!(visit: *steps, *rejected, *iterations, *most_iterations, *evaluations, *factorisations, *largest_residual);
     }
 }

@@ -1,5 +1,8 @@
 //! The steps of a composition of Störmer–Verlet, taken with another symmetric method of order 2.
 
+#[cfg(feature = "alloc")]
+use alloc::string::String;
+
 use crate::contract::{ConstrainedStep, StoermerVerletSteps};
 
 /// The fractions `γ_1, …, γ_m` of a composition of Störmer–Verlet steps.
@@ -27,6 +30,18 @@ impl SymmetricSteps {
     /// The steps of `M`.
     pub fn of<M: StoermerVerletSteps>() -> Self {
         Self(M::CONSTRAINED)
+    }
+
+    /// The text that identifies them in a checkpoint.
+    #[cfg(feature = "alloc")]
+    pub fn definition(self) -> String {
+        if self.0.is_empty() {
+            return "single steps".into();
+        }
+        let fractions = self.0.iter().map(|step| step.fraction.double());
+        fractions.fold("composed steps:".into(), |text, fraction| {
+            alloc::format!("{text} {fraction}")
+        })
     }
 
     /// The substeps of the step of size `size` from `time` to `end`.

@@ -3,13 +3,20 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3, Vector4};
 
 use symplectic_core::Scalar;
-use symplectic_core::inside::{add_sum, fast_two_sum};
+use symplectic_core::inside::{add_sum, fast_two_sum, words};
+use symplectic_core::solver::{Visit, Words};
 
 /// A compensated vector `high + low`; `low` is the rounding error of `high`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Precise<const N: usize> {
     pub(super) high: [f64; N],
     low: [f64; N],
+}
+
+impl<const N: usize> Words for Precise<N> {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        words!(visit: self.high, self.low);
+    }
 }
 
 impl<const N: usize> Precise<N> {
@@ -32,6 +39,12 @@ impl<const N: usize> Precise<N> {
 /// A unit quaternion `w + xi + yj + zk` as a compensated sum.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Attitude(Precise<4>);
+
+impl Words for Attitude {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        self.0.words(visit);
+    }
+}
 
 impl Attitude {
     /// The attitude of a quaternion, normalized.

@@ -7,8 +7,9 @@ use super::attitude::{Attitude, Precise};
 use super::body::RigidBody;
 use super::free_step::{NoRotation, rotation};
 use super::state::RotationState;
-use symplectic_core::inside::{Part, SymmetricSteps, check_step_size};
+use symplectic_core::inside::{Part, SymmetricSteps, check_step_size, words};
 use symplectic_core::proved::StoermerVerletSteps;
+use symplectic_core::solver::{Visit, Words};
 use symplectic_core::stepper::{Equal, Stepper};
 use symplectic_core::{Error as CoreError, Quantity, Run, Statistics};
 
@@ -18,6 +19,9 @@ use symplectic_core::{Error as CoreError, Quantity, Run, Statistics};
 ///
 /// The errors of a step are [`Error::HalfTurn`] for a rotation by π or more, [`Error::NoEndOfStep`] if Newton's iteration does not
 /// converge, [`Core(NonFinite)`](CoreError::NonFinite) for a torque, and [`Core(TimeResolution)`](CoreError::TimeResolution).
+///
+/// With the feature `alloc` a [checkpoint](Run::checkpoint) is refused if the moments of inertia or the torque have other values. There are no
+/// output times and events inside steps.
 ///
 /// ```
 /// symplectic::composition! { Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] } }
@@ -41,10 +45,10 @@ pub type RotationIntegrator<B> = Run<RotationSteps<B>>;
 /// The steps of a [`RotationIntegrator`].
 #[derive(Clone, Debug)]
 pub struct RotationSteps<B> {
-    body: B,
-    moments: Vector3<f64>,
-    steps: SymmetricSteps,
-    present: Present,
+    pub(super) body: B,
+    pub(super) moments: Vector3<f64>,
+    pub(super) steps: SymmetricSteps,
+    pub(super) present: Present,
 }
 
 /// What a step changes.
@@ -55,6 +59,17 @@ pub struct Present {
     statistics: Statistics,
 }
 
+impl Words for Present {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        let PreciseState {
+            attitude,
+            momentum,
+            torque,
+        } = &mut self.precise;
+        words!(visit: *attitude, *momentum, *torque, self.state, self.statistics);
+    }
+}
+
 /// The state with its rounding errors, and the torque there.
 #[derive(Clone, Copy, Debug)]
 struct PreciseState {
@@ -62,7 +77,7 @@ struct PreciseState {
     /// The angular momentum in space.
     momentum: Precise<3>,
     /// The torque in space at the current attitude, if known.
-    torque: Option<Vector3<f64>>,
+    torque: Option<[f64; 3]>,
 }
 
 impl PreciseState {
@@ -169,7 +184,7 @@ impl<B: RigidBody> RotationSteps<B> {
     /// A step of order 2: half a kick, the free step, half a kick.
     fn kick_free_step_kick(&self, precise: &mut PreciseState, part: Part) -> Result<(), Failure> {
         let before = match precise.torque {
-            Some(torque) => torque,
+            Some(torque) => torque.into(),
             None => self.torque(part.time, &precise.attitude.rounded())?,
         };
         precise.momentum.add((before * (part.size / 2.0)).into());
@@ -179,7 +194,7 @@ impl<B: RigidBody> RotationSteps<B> {
         precise.attitude.turn(&rotation);
         let after = self.torque(part.end, &precise.attitude.rounded())?;
         precise.momentum.add((after * (part.size / 2.0)).into());
-        precise.torque = Some(after);
+        precise.torque = Some(after.into());
         Ok(())
     }
 

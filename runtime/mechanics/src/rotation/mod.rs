@@ -48,6 +48,8 @@
 
 mod attitude;
 mod body;
+#[cfg(feature = "alloc")]
+mod checkpoint;
 mod free_step;
 mod integrator;
 mod state;

@@ -3,6 +3,8 @@
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use symplectic_core::State;
+use symplectic_core::inside::words;
+use symplectic_core::solver::{Visit, Words, scalar_words};
 use symplectic_core::stepper::{PhasePoint, Timed};
 
 /// The attitude and the angular momentum of a rigid body at a time.
@@ -45,6 +47,15 @@ impl RotationState {
 impl Timed for RotationState {
     fn time(&self) -> f64 {
         self.time
+    }
+}
+
+impl Words for RotationState {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        words!(visit: self.time);
+        let attitude = self.attitude.as_mut_unchecked();
+        scalar_words(attitude.coords.as_mut_slice(), visit);
+        scalar_words(self.momentum.as_mut_slice(), visit);
     }
 }
 

@@ -6,7 +6,8 @@ use alloc::vec::Vec;
 use num_traits::Zero;
 
 use super::failure::Failure;
-use symplectic_core::{Error, Quantity, Scalar, Vector};
+use symplectic_core::inside::beside;
+use symplectic_core::{Error, Quantity, Scalar, State, Vector};
 use symplectic_linearisation::HyperDual;
 
 /// A discrete Lagrangian `Ld(q0, q1)`: an approximation of the action from `q0` at the time t to `q1` at t + h. It is written once for all
@@ -182,6 +183,22 @@ impl<L: DiscreteLagrangian> Derivatives<L> {
         let dual = lagrangian.value(time, size(1.0), &self.q0, &self.q1);
         rows[n * (n + 1) + n] = dual.mixed();
         dual.first()
+    }
+
+    /// Identifies a discrete Lagrangian and its forces, by two paths near a state.
+    pub(super) fn fingerprint(
+        &mut self,
+        lagrangian: &L,
+        State { time, q, .. }: &State<L::Vector<f64>>,
+    ) -> Vec<f64> {
+        let (near, mut numbers) = (beside(q), Vec::new());
+        for (q0, q1) in [(q, &near), (&near, &beside(&near))] {
+            let (time, size) = (*time, 1.0);
+            self.first(lagrangian, At { time, size, q0, q1 });
+            numbers.push(self.value);
+            numbers.extend(self.start.iter().chain(&self.end));
+        }
+        numbers
     }
 
     /// Whether everything that [`first`](Self::first) or [`second`](Self::second) has written is finite.

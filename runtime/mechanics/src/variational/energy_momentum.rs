@@ -7,11 +7,13 @@ use alloc::vec::Vec;
 use num_traits::Float;
 
 use super::discrete_lagrangian::{At, Derivatives, DiscreteLagrangian};
+use super::ends::Ends;
 use super::failure::Failure;
-use super::regular::Factors;
-use symplectic_core::inside::{check_state, check_step_size};
+use super::regular::{Factors, is_solved};
+use symplectic_core::inside::{SaveWords, StepsBeside, check_state, check_step_size, copy, words};
+use symplectic_core::solver::{Visit, Words};
 use symplectic_core::stepper::{Own, Stepper};
-use symplectic_core::{Error as CoreError, Quantity, Run, State, Statistics, Vector};
+use symplectic_core::{Checkpoint, Error as CoreError, Quantity, Run, State, Statistics, Vector};
 
 /// Symplectic–energy–momentum steps of a [`DiscreteLagrangian`] that does not depend on time (Kane, Marsden & Ortiz 1999; Marsden & West
 /// 2001, 4.9). The step size is an unknown, and the discrete energy `E_d = −∂Ld/∂h` is the same in all steps.
@@ -36,6 +38,12 @@ use symplectic_core::{Error as CoreError, Quantity, Run, State, Statistics, Vect
 /// The condition number of the equations grows as `h⁻²`: E is conserved up to rounding errors times this number. Newton's iteration ends
 /// when the equations hold up to the rounding of q1. A free particle, which conserves its energy with steps of every size, keeps its step
 /// size.
+///
+/// # Output and events
+///
+/// [`integrate_to`](Run::integrate_to) passes the given time and returns the state there. A state inside the last step is that of a shorter
+/// step of `Ld` from its start, whatever its discrete energy. After a [wall](symplectic_core::Event::wall), as after every new state, the run
+/// begins anew: the next step has the size of the first one and defines E.
 ///
 /// # Errors of a step
 ///
@@ -79,20 +87,25 @@ pub type EnergyMomentumIntegrator<L> = Run<EnergyMomentumSteps<L>>;
 #[derive(Clone)]
 pub struct EnergyMomentumSteps<L: DiscreteLagrangian> {
     lagrangian: L,
-    state: State<L::Vector<f64>>,
-    q1: L::Vector<f64>,
-    /// That of the last step.
-    step_size: f64,
-    first_size: f64,
-    statistics: Statistics,
-    energy: Option<f64>,
-    curvature: Option<f64>,
+    moving: Moving<L::Vector<f64>>,
     derivatives: Derivatives<L>,
     /// By rows.
     matrix: Vec<f64>,
     /// The derivatives of `∂Ld/∂h` with respect to q1 and h.
     last_row: Vec<f64>,
     factors: Factors,
+}
+
+/// What a step changes.
+#[derive(Clone)]
+pub struct Moving<V> {
+    /// The position of the next state is the unknown q1 of a step.
+    ends: Ends<V>,
+    /// That of the last step.
+    step_size: f64,
+    first_size: f64,
+    energy: Option<f64>,
+    curvature: Option<f64>,
 }
 
 /// Maximum number of Newton iterations.
@@ -132,30 +145,30 @@ impl<L: DiscreteLagrangian> EnergyMomentumSteps<L> {
         check_state(state.time, &state.q, &state.p, n)?;
         let stepper = EnergyMomentumSteps {
             lagrangian,
-            q1: state.q.clone(),
-            step_size,
-            first_size: step_size,
-            statistics: Statistics::default(),
-            energy: None,
-            curvature: None,
             derivatives: Derivatives::new(&state.q)?,
             matrix: vec![0.0; (n + 1) * (n + 1)],
             last_row: vec![0.0; n + 1],
             factors: Factors::new(n + 1),
-            state,
+            moving: Moving {
+                ends: Ends::new(state),
+                step_size,
+                first_size: step_size,
+                energy: None,
+                curvature: None,
+            },
         };
         Ok(Run::of(stepper, 1.0)?)
     }
 
     /// The discrete energy E of all steps; `None` before the first step.
     pub const fn discrete_energy(&self) -> Option<f64> {
-        self.energy
+        self.moving.energy
     }
 
     /// The curvature c at the start of the last step, from the derivative of the discrete energy by the step size: `−dE_d/dh / (2h)`. If it
     /// comes near zero, the run is about to end. `None` before the first step.
     pub const fn curvature(&self) -> Option<f64> {
-        self.curvature
+        self.moving.curvature
     }
 }
 
@@ -167,43 +180,41 @@ impl<L: DiscreteLagrangian> Stepper for EnergyMomentumSteps<L> {
     type Saved = ();
 
     fn state(&self) -> &Self::State {
-        &self.state
+        &self.moving.ends.state
     }
 
     fn statistics(&self) -> &Statistics {
-        &self.statistics
+        &self.moving.ends.statistics
     }
 
     fn statistics_mut(&mut self) -> &mut Statistics {
-        &mut self.statistics
+        &mut self.moving.ends.statistics
     }
 
     /// The next step has the size of the first one, and defines E.
     fn set_state(&mut self, state: &Self::State) -> Result<(), Error> {
-        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
-        self.state.copy_from(state);
-        (self.energy, self.curvature) = (None, None);
-        self.step_size = self.first_size;
+        self.moving.ends.check(state)?;
+        self.moving.begin(state, self.moving.first_size);
         Ok(())
     }
 
     fn advance(&mut self, _size: f64, _end: f64) -> Result<(), Error> {
-        let (time, before) = (self.state.time, self.step_size);
+        let (time, before) = (self.time(), self.moving.step_size);
+        let ends = &mut self.moving.ends;
+        let step = ends.begin();
         // First the end of a step of the previous size, then that of a step with the energy E.
-        self.q1
-            .as_mut_slice()
-            .copy_from_slice(self.state.q.as_slice());
+        copy(&mut ends.next.q, &ends.state.q);
         let fixed = self.solve(before, None);
         fixed.map_err(|failure| self.error(failure))?;
         let curvature = self.slope_of_energy() / (-2.0 * before);
-        let size = match self.energy {
+        let size = match self.moving.energy {
             None => before,
             Some(energy) => self
                 .solve(before, Some(energy))
                 .map_err(|_| Error::NoEnergyStep {
                     time,
                     step_size: before,
-                    step: self.statistics.steps + 1,
+                    step,
                     curvature,
                 })?,
         };
@@ -216,11 +227,12 @@ impl<L: DiscreteLagrangian> Stepper for EnergyMomentumSteps<L> {
             .into());
         }
         let energy = self.evaluate(size);
+        let Ends { state, next, .. } = &mut self.moving.ends;
         let at = At {
             time,
             size,
-            q0: &self.state.q,
-            q1: &self.q1,
+            q0: &state.q,
+            q1: &next.q,
         };
         self.derivatives.first(&self.lagrangian, at);
         if !(self.derivatives.is_finite() && energy.is_finite()) {
@@ -229,20 +241,19 @@ impl<L: DiscreteLagrangian> Stepper for EnergyMomentumSteps<L> {
         let Derivatives {
             start, end: last, ..
         } = &self.derivatives;
-        let momenta = self.state.p.as_mut_slice().iter_mut();
+        copy(&mut next.p, &state.p);
+        let momenta = next.p.as_mut_slice().iter_mut();
         for (p, (start, last)) in momenta.zip(start.iter().zip(last)) {
             *p += start + last;
         }
-        core::mem::swap(&mut self.state.q, &mut self.q1);
-        self.state.time = end;
-        self.energy.get_or_insert(energy);
-        (self.step_size, self.curvature) = (size, Some(curvature));
-        self.statistics.steps += 1;
+        self.moving.ends.end(size, end);
+        self.moving.energy.get_or_insert(energy);
+        (self.moving.step_size, self.moving.curvature) = (size, Some(curvature));
         Ok(())
     }
 
     fn own_step_size(&self) -> Option<f64> {
-        Some(self.step_size)
+        Some(self.moving.step_size)
     }
 
     fn save(&self) {}
@@ -250,10 +261,67 @@ impl<L: DiscreteLagrangian> Stepper for EnergyMomentumSteps<L> {
     fn go_back(&mut self, _saved: &()) {}
 }
 
+impl<V: Vector<Scalar = f64>> Moving<V> {
+    /// Begins at a state: the next step has this size, and defines E.
+    fn begin(&mut self, state: &State<V>, size: f64) {
+        self.ends.set(state);
+        (self.energy, self.curvature) = (None, None);
+        self.step_size = size;
+    }
+}
+
+impl<V: Vector<Scalar = f64>> Words for Moving<V> {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        words!(visit: self.ends, self.step_size, self.first_size, self.energy, self.curvature);
+    }
+}
+
+impl<L: DiscreteLagrangian> StepsBeside for EnergyMomentumSteps<L> {
+    type Vector = L::Vector<f64>;
+    type Moving = Moving<L::Vector<f64>>;
+
+    fn moving(&self) -> Self::Moving {
+        self.moving.clone()
+    }
+
+    fn exchange(&mut self, moving: &mut Self::Moving) {
+        core::mem::swap(&mut self.moving, moving);
+    }
+
+    /// The step has the given size, whatever its energy.
+    fn begin_beside(&mut self, run: &Self::Moving, state: &Self::State, size: f64) {
+        self.moving.begin(state, size);
+        self.moving.ends.set_beside(&run.ends, state);
+    }
+
+    fn last_step(&self) -> Option<(&Self::State, f64)> {
+        self.moving.ends.last_step()
+    }
+}
+
+impl<L: DiscreteLagrangian> SaveWords for EnergyMomentumSteps<L> {
+    fn blank_checkpoint(&self) -> Checkpoint {
+        let dimension = self.state().q.dimension();
+        Checkpoint::of_method(
+            "steps of constant discrete energy",
+            "single steps".into(),
+            dimension,
+        )
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        self.moving.words(visit);
+    }
+
+    fn fingerprint(&mut self) -> Vec<f64> {
+        (self.derivatives).fingerprint(&self.lagrangian, &self.moving.ends.state)
+    }
+}
+
 impl<L: DiscreteLagrangian> EnergyMomentumSteps<L> {
     /// Newton's iteration for q1, and for the step size if `energy` is given. It starts from the present q1.
     fn solve(&mut self, before: f64, energy: Option<f64>) -> Result<f64, Failure> {
-        let n = self.q1.dimension();
+        let n = self.moving.ends.next.q.dimension();
         let (mut size, mut residual) = (before, f64::INFINITY);
         for _ in 0..MAX_ITERATIONS {
             let found = self.evaluate(size);
@@ -276,15 +344,12 @@ impl<L: DiscreteLagrangian> EnergyMomentumSteps<L> {
             if holds {
                 return Ok(size);
             }
-            let pairs = self.state.p.as_slice().iter().zip(&self.derivatives.start);
+            let Ends { state, next, .. } = &mut self.moving.ends;
+            let pairs = state.p.as_slice().iter().zip(&self.derivatives.start);
             let right = pairs.map(|(p, start)| -(p + start));
             let changes = self.factors.solve(right.chain([missing.unwrap_or(0.0)]));
             let (mut changed, mut way) = (0.0_f64, 0.0_f64);
-            let ends = self
-                .q1
-                .as_mut_slice()
-                .iter_mut()
-                .zip(self.state.q.as_slice());
+            let ends = (next.q.as_mut_slice().iter_mut()).zip(state.q.as_slice());
             for (&change, (q1, q0)) in changes.iter().zip(ends) {
                 *q1 += change;
                 changed = changed.max(Float::abs(change));
@@ -302,6 +367,10 @@ impl<L: DiscreteLagrangian> EnergyMomentumSteps<L> {
                 return Ok(size);
             }
         }
+        let p = self.moving.ends.state.p.as_slice();
+        if energy.is_none() && is_solved(p, &self.derivatives.start) {
+            return Ok(size);
+        }
         Err(Failure::NotFound {
             residual,
             iterations: MAX_ITERATIONS,
@@ -310,12 +379,13 @@ impl<L: DiscreteLagrangian> EnergyMomentumSteps<L> {
 
     /// Whether the equations hold up to the rounding of q1; `missing` is the error of the discrete energy.
     fn holds(&self, missing: f64) -> bool {
-        let q1 = self.q1.as_slice();
+        let Ends { state, next, .. } = &self.moving.ends;
+        let q1 = next.q.as_slice();
         let rounding = |row: &[f64]| {
             let terms = row.iter().zip(q1).map(|(slope, q)| Float::abs(slope * q));
             ROUNDING * terms.fold(0.0, |sum, term| sum + term)
         };
-        let momenta = self.state.p.as_slice().iter().zip(&self.derivatives.start);
+        let momenta = state.p.as_slice().iter().zip(&self.derivatives.start);
         let mut rows = self.matrix.chunks(q1.len() + 1).zip(momenta);
         rows.all(|(row, (p, start))| Float::abs(p + start) <= rounding(row))
             && Float::abs(missing) <= rounding(&self.last_row)
@@ -323,23 +393,24 @@ impl<L: DiscreteLagrangian> EnergyMomentumSteps<L> {
 
     /// Evaluates all derivatives for a step of this size, and returns `E_d = −∂Ld/∂h`.
     fn evaluate(&mut self, size: f64) -> f64 {
+        let Ends { state, next, .. } = &self.moving.ends;
         let at = At {
-            time: self.state.time,
+            time: state.time,
             size,
-            q0: &self.state.q,
-            q1: &self.q1,
+            q0: &state.q,
+            q1: &next.q,
         };
         let slope = self
             .derivatives
             .by_size(&self.lagrangian, at, &mut self.matrix);
-        let n = self.q1.dimension();
+        let n = self.moving.ends.next.q.dimension();
         self.last_row.copy_from_slice(&self.matrix[n * (n + 1)..]);
         -slope
     }
 
     /// `dE_d/dh` along the ends of steps of all sizes, after the iteration for one size has converged.
     fn slope_of_energy(&mut self) -> f64 {
-        let n = self.q1.dimension();
+        let n = self.moving.ends.next.q.dimension();
         let right = (0..=n).map(|k| if k == n { 1.0 } else { 0.0 });
         let ends = self.factors.solve(right);
         let products = self
@@ -351,12 +422,7 @@ impl<L: DiscreteLagrangian> EnergyMomentumSteps<L> {
     }
 
     fn error(&self, failure: Failure) -> Error {
-        let what = Quantity::DiscreteLagrangian;
-        failure.error(
-            what,
-            self.state.time,
-            self.step_size,
-            self.statistics.steps + 1,
-        )
+        let (what, size) = (Quantity::DiscreteLagrangian, self.moving.step_size);
+        failure.error(what, self.time(), size, self.statistics().steps + 1)
     }
 }

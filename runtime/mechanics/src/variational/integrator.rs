@@ -2,14 +2,19 @@
 
 use super::checks::DiscretePath;
 use super::discrete_lagrangian::{At, Derivatives, DiscreteLagrangian};
+use super::ends::Ends;
 use super::failure::Failure;
 use super::given_ends::GeneratingFunctions;
-use super::regular::Factors;
+use super::regular::{Factors, is_solved};
 use crate::Error;
-use symplectic_core::inside::{Part, SymmetricSteps, beside, check_state, check_step_size};
+use alloc::vec::Vec;
+use symplectic_core::inside::{
+    Part, SaveWords, StepsBeside, SymmetricSteps, beside, check_state, check_step_size, words,
+};
 use symplectic_core::proved::StoermerVerletSteps;
+use symplectic_core::solver::Visit;
 use symplectic_core::stepper::{Equal, Stepper};
-use symplectic_core::{Quantity, Run, State, Statistics, Vector};
+use symplectic_core::{Checkpoint, Quantity, Run, State, Statistics, Vector};
 
 /// Takes the steps of a [`DiscreteLagrangian`], with its forces if there are any (Marsden & West 2001, 2.1.1 and 3.2.5):
 ///
@@ -30,6 +35,9 @@ use symplectic_core::{Quantity, Run, State, Statistics, Vector};
 ///
 /// For n components, an iteration takes n² evaluations of `Ld` with its derivatives and the elimination of a full matrix. The end of the
 /// step takes n evaluations. A step allocates no memory. A step that fails leaves the state unchanged.
+///
+/// A state inside the last step is that of a shorter step from its start, with the order of the method and the cost of a step. A
+/// [checkpoint](Run::checkpoint) is refused if another `Ld`, or its derivatives or forces, has other values near the state.
 ///
 /// # Errors of a step
 ///
@@ -71,10 +79,7 @@ pub type VariationalIntegrator<L> = Run<VariationalSteps<L>>;
 pub struct VariationalSteps<L: DiscreteLagrangian> {
     lagrangian: L,
     steps: SymmetricSteps,
-    statistics: Statistics,
-    state: State<L::Vector<f64>>,
-    /// The state inside a step.
-    next: State<L::Vector<f64>>,
+    ends: Ends<L::Vector<f64>>,
     q1: L::Vector<f64>,
     derivatives: Derivatives<L>,
     factors: Factors,
@@ -152,12 +157,10 @@ impl<L: DiscreteLagrangian> VariationalSteps<L> {
         let stepper = VariationalSteps {
             lagrangian,
             steps,
-            statistics: Statistics::default(),
-            next: state.clone(),
             q1: state.q.clone(),
             derivatives: Derivatives::new(&state.q)?,
             factors: Factors::new(state.q.dimension()),
-            state,
+            ends: Ends::new(state),
             action: None,
         };
         Ok(Run::of(stepper, step_size)?)
@@ -179,7 +182,7 @@ impl<L: DiscreteLagrangian> VariationalSteps<L> {
     /// A step of the discrete Lagrangian, from `next` to `next`.
     fn part(&mut self, part: Part) -> Result<(), Failure> {
         self.find_end(part)?;
-        let State { q, p, .. } = &mut self.next;
+        let State { q, p, .. } = &mut self.ends.next;
         let at = At {
             time: part.time,
             size: part.size,
@@ -201,7 +204,7 @@ impl<L: DiscreteLagrangian> VariationalSteps<L> {
 
     /// Solves `p0 + D1 Ld + f_d⁻ = 0` for `q1`.
     fn find_end(&mut self, part: Part) -> Result<(), Failure> {
-        let State { q, p, .. } = &self.next;
+        let State { q, p, .. } = &self.ends.next;
         self.q1.as_mut_slice().copy_from_slice(q.as_slice());
         let mut residual = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
@@ -227,6 +230,9 @@ impl<L: DiscreteLagrangian> VariationalSteps<L> {
             }
             residual = correction.residual;
         }
+        if is_solved(p.as_slice(), &self.derivatives.start) {
+            return Ok(());
+        }
         Err(Failure::NotFound {
             residual,
             iterations: MAX_ITERATIONS,
@@ -238,30 +244,30 @@ impl<L: DiscreteLagrangian> Stepper for VariationalSteps<L> {
     type State = State<L::Vector<f64>>;
     type Error = Error;
     type Pace = Equal;
-    type Saved = (Self::State, Option<f64>, Statistics);
+    type Saved = <Self as StepsBeside>::Moving;
 
     fn state(&self) -> &Self::State {
-        &self.state
+        &self.ends.state
     }
 
     fn statistics(&self) -> &Statistics {
-        &self.statistics
+        &self.ends.statistics
     }
 
     fn statistics_mut(&mut self) -> &mut Statistics {
-        &mut self.statistics
+        &mut self.ends.statistics
     }
 
     fn set_state(&mut self, state: &Self::State) -> Result<(), Error> {
-        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
-        self.state.copy_from(state);
+        self.ends.check(state)?;
+        self.ends.set(state);
         self.action = None;
         Ok(())
     }
 
     fn advance(&mut self, size: f64, end: f64) -> Result<(), Error> {
-        let (start, number) = (self.state.time, self.statistics.steps + 1);
-        self.next.copy_from(&self.state);
+        let (start, number) = (self.ends.state.time, self.ends.begin());
+        self.ends.next.copy_from(&self.ends.state);
         let mut action = 0.0;
         for part in self.steps.parts(start, size, end) {
             self.part(part).map_err(|failure| {
@@ -269,24 +275,59 @@ impl<L: DiscreteLagrangian> Stepper for VariationalSteps<L> {
             })?;
             action += self.derivatives.value;
         }
-        self.next.time = end;
-        core::mem::swap(&mut self.state, &mut self.next);
+        self.ends.end(size, end);
         self.action = Some(action);
-        self.statistics.steps = number;
         Ok(())
     }
 
     fn save(&self) -> Self::Saved {
-        (self.state.clone(), self.action, self.statistics)
+        self.moving()
     }
 
-    fn go_back(&mut self, (state, action, statistics): &Self::Saved) {
-        self.state.copy_from(state);
-        (self.action, self.statistics) = (*action, *statistics);
+    fn go_back(&mut self, saved: &Self::Saved) {
+        (self.ends, self.action) = saved.clone();
     }
 
     fn may_split(&self, error: &Error) -> bool {
         error.depends_on_the_size()
+    }
+}
+
+impl<L: DiscreteLagrangian> StepsBeside for VariationalSteps<L> {
+    type Vector = L::Vector<f64>;
+    type Moving = (Ends<L::Vector<f64>>, Option<f64>);
+
+    fn moving(&self) -> Self::Moving {
+        (self.ends.clone(), self.action)
+    }
+
+    fn exchange(&mut self, (ends, action): &mut Self::Moving) {
+        core::mem::swap(&mut self.ends, ends);
+        core::mem::swap(&mut self.action, action);
+    }
+
+    fn begin_beside(&mut self, (run, _): &Self::Moving, state: &Self::State, _size: f64) {
+        self.ends.set_beside(run, state);
+    }
+
+    fn last_step(&self) -> Option<(&Self::State, f64)> {
+        self.ends.last_step()
+    }
+}
+
+impl<L: DiscreteLagrangian> SaveWords for VariationalSteps<L> {
+    fn blank_checkpoint(&self) -> Checkpoint {
+        let dimension = self.ends.state.q.dimension();
+        let definition = self.steps.definition();
+        Checkpoint::of_method("steps of a discrete Lagrangian", definition, dimension)
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        words!(visit: self.ends, self.action);
+    }
+
+    fn fingerprint(&mut self) -> Vec<f64> {
+        (self.derivatives).fingerprint(&self.lagrangian, &self.ends.state)
     }
 }
 

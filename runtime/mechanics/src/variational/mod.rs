@@ -11,6 +11,7 @@ mod cotangent_lift;
 mod dirac;
 mod discrete_lagrangian;
 mod end_derivative;
+mod ends;
 mod energies;
 mod energy_momentum;
 mod failure;

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 
 use num_traits::Float;
 
+use symplectic_core::solver::{Visit, Words};
 use symplectic_linearisation::Elimination;
 
 /// If an iterate changes by less than this, relative to the distance from the start, the next iterate is exact up to rounding: the
@@ -40,6 +41,21 @@ pub(super) struct Correction {
 pub(super) fn largest(numbers: &[f64]) -> f64 {
     let sizes = numbers.iter().map(|&number| Float::abs(number));
     sizes.fold(0.0, f64::max)
+}
+
+/// The largest entries are computed with the factors.
+impl Words for Factors {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        self.elimination.words(visit);
+    }
+}
+
+/// Whether `p + slope = 0` holds up to the rounding of p: a step that returns to its start has no length to which the last change of an
+/// iterate could be compared.
+pub(super) fn is_solved(p: &[f64], slope: &[f64]) -> bool {
+    let rounding = 16.0 * f64::EPSILON * largest(p);
+    let mut rows = p.iter().zip(slope);
+    rows.all(|(p, slope)| Float::abs(p + slope) <= rounding)
 }
 
 impl Factors {

@@ -17,7 +17,7 @@ impl<S: DenseSteps> Run<S> {
     ///
     /// A stepper with its [own](crate::stepper::Own) pace takes the steps up to the one that reaches or passes `end`, and the present state is then
     /// that after this step. Events after `end` in this step are reported too, so that a run that continues misses none. At a wall or a
-    /// changed state an adaptive run begins anew, with the step density 1/σ there.
+    /// changed state it begins anew: an adaptive run with the step density 1/σ there.
     ///
     /// # Errors
     ///

@@ -1,19 +1,23 @@
 //! Steps of degenerate Lagrangians, and of Lagrangians with constraints on velocities.
 
 use crate::Error;
+use alloc::format;
 use alloc::vec::Vec;
 
 use super::primary::consistent_velocity;
 use super::step::Equations;
 use super::{DiracRule, DiracSystem};
+use crate::variational::ends::Ends;
 use crate::variational::stages::{StagesOfStep, StepWithStages};
 use crate::variational::two_ends::dot;
 use symplectic_core::inside::{
-    SymmetricSteps, check_state, check_step_size, copy, or_as_first_step,
+    SaveWords, StepsBeside, SymmetricSteps, check_state, check_step_size, copy, or_as_first_step,
+    words,
 };
 use symplectic_core::proved::StoermerVerletSteps;
+use symplectic_core::solver::{Visit, vector_words};
 use symplectic_core::stepper::{Equal, Stepper};
-use symplectic_core::{Run, State, Statistics, Vector};
+use symplectic_core::{Checkpoint, Run, State, Statistics, Vector};
 
 /// Takes the steps of the discrete principle of Lagrange, d'Alembert and Pontryagin (Leok & Ohsawa, arXiv:0810.0740v1, 4.28 and 8.3) for a
 /// [`DiracSystem`], whose Lagrangian may be degenerate:
@@ -49,6 +53,14 @@ use symplectic_core::{Run, State, Statistics, Vector};
 ///
 /// For n components and m constraints, an iteration eliminates a full matrix of 2(n + m) rows. It takes n(2n + 1) evaluations of L at each
 /// point of the rule and at the end. A step allocates no memory. A step that fails leaves the state unchanged.
+///
+/// # Output, events and checkpoints
+///
+/// A state inside the last step is that of a shorter step from its start, with the order of the rule and the cost of a step. With
+/// [`Midpoint`](DiracRule::Midpoint) a violation of conditions on positions at the start of the step changes its sign there, as it does from
+/// step to step. At a [wall](symplectic_core::Event::wall) the handler must leave a momentum and a velocity that satisfy the constraints;
+/// otherwise the run ends with the error of such a start. A [checkpoint](Run::checkpoint) is refused if L, its derivatives, the force or a
+/// row of w has other values near the state.
 ///
 /// # Errors of a step
 ///
@@ -111,11 +123,10 @@ pub struct DiracSteps<L: DiracSystem> {
     system: L,
     equations: Equations<L>,
     steps: SymmetricSteps,
-    statistics: Statistics,
-    state: State<L::Vector<f64>>,
+    ends: Ends<L::Vector<f64>>,
     velocity: L::Vector<f64>,
-    /// State and velocity inside a step.
-    next: (State<L::Vector<f64>>, L::Vector<f64>),
+    /// The velocity at the start of the last step, or inside a step.
+    next_velocity: L::Vector<f64>,
 }
 
 impl<L: DiracSystem> DiracSteps<L> {
@@ -173,9 +184,8 @@ impl<L: DiracSystem> DiracSteps<L> {
             equations: Equations::new(rule, &system, state.q.as_slice())?,
             system,
             steps,
-            statistics: Statistics::default(),
-            next: (state.clone(), velocity.clone()),
-            state,
+            ends: Ends::new(state),
+            next_velocity: velocity.clone(),
             velocity,
         };
         Ok(Run::of(stepper, step_size)?)
@@ -207,13 +217,13 @@ impl<L: DiracSystem> DiracSteps<L> {
         mut state: State<L::Vector<f64>>,
         mut velocity: L::Vector<f64>,
     ) -> Result<StagesOfStep<L::Vector<f64>>, Error> {
-        let (start, end) = (state.time, self.state.time);
+        let (start, end) = (state.time, self.ends.state.time);
         let mut stages = Vec::new();
         for part in self.steps.parts(start, size, end) {
             let q0 = state.q.clone();
             self.equations
                 .take(&self.system, part, &mut state, &mut velocity)
-                .map_err(|failure| failure.error(start, size, self.statistics.steps))?;
+                .map_err(|failure| failure.error(start, size, self.statistics().steps))?;
             stages.extend(self.equations.stages(&self.system, part, q0.as_slice()));
         }
         Ok(StagesOfStep::new(stages))
@@ -221,14 +231,12 @@ impl<L: DiracSystem> DiracSteps<L> {
 
     /// Computes a step into `next`, whose velocity is the starting value.
     fn attempt(&mut self, size: f64, end: f64) -> Result<(), Error> {
-        let (start, number) = (self.state.time, self.statistics.steps + 1);
-        let (next, velocity) = &mut self.next;
-        for (to, from) in [(&mut next.q, &self.state.q), (&mut next.p, &self.state.p)] {
-            to.as_mut_slice().copy_from_slice(from.as_slice());
-        }
+        let (start, number) = (self.ends.state.time, self.ends.begin());
+        let Ends { state, next, .. } = &mut self.ends;
+        next.copy_from(state);
         for part in self.steps.parts(start, size, end) {
             self.equations
-                .take(&self.system, part, next, velocity)
+                .take(&self.system, part, next, &mut self.next_velocity)
                 .map_err(|failure| failure.error(start, size, number))?;
         }
         Ok(())
@@ -236,9 +244,9 @@ impl<L: DiracSystem> DiracSteps<L> {
 
     /// Lets the next attempt start from the velocity with which a new integrator starts; returns whether it differs.
     fn begin_as_first(&mut self) -> bool {
-        match consistent_velocity(&self.system, &self.state) {
+        match consistent_velocity(&self.system, &self.ends.state) {
             Ok(velocity) if velocity.as_slice() != self.velocity.as_slice() => {
-                self.next.1 = velocity;
+                self.next_velocity = velocity;
                 true
             }
             _ => false,
@@ -271,52 +279,96 @@ impl<L: DiracSystem> Stepper for DiracSteps<L> {
     type State = State<L::Vector<f64>>;
     type Error = Error;
     type Pace = Equal;
-    type Saved = (Self::State, L::Vector<f64>, Statistics);
+    type Saved = <Self as StepsBeside>::Moving;
 
     fn state(&self) -> &Self::State {
-        &self.state
+        &self.ends.state
     }
 
     fn statistics(&self) -> &Statistics {
-        &self.statistics
+        &self.ends.statistics
     }
 
     fn statistics_mut(&mut self) -> &mut Statistics {
-        &mut self.statistics
+        &mut self.ends.statistics
     }
 
     fn set_state(&mut self, state: &Self::State) -> Result<(), Error> {
-        check_state(state.time, &state.q, &state.p, self.state.q.dimension())?;
+        self.ends.check(state)?;
         self.velocity = consistent_velocity(&self.system, state)?;
-        self.state.copy_from(state);
+        self.ends.set(state);
         Ok(())
     }
 
     fn advance(&mut self, size: f64, end: f64) -> Result<(), Error> {
-        copy(&mut self.next.1, &self.velocity);
+        copy(&mut self.next_velocity, &self.velocity);
         let taken = self.attempt(size, end);
         or_as_first_step(self, taken, Self::begin_as_first, |run| {
             run.attempt(size, end)
         })?;
-        let (next, velocity) = &mut self.next;
-        next.time = end;
-        core::mem::swap(&mut self.state, next);
-        core::mem::swap(&mut self.velocity, velocity);
-        self.statistics.steps += 1;
+        self.ends.end(size, end);
+        core::mem::swap(&mut self.velocity, &mut self.next_velocity);
         Ok(())
     }
 
     fn save(&self) -> Self::Saved {
-        (self.state.clone(), self.velocity.clone(), self.statistics)
+        self.moving()
     }
 
-    fn go_back(&mut self, (state, velocity, statistics): &Self::Saved) {
-        self.state.copy_from(state);
-        copy(&mut self.velocity, velocity);
-        self.statistics = *statistics;
+    fn go_back(&mut self, saved: &Self::Saved) {
+        (self.ends, [self.velocity, self.next_velocity]) = saved.clone();
     }
 
     fn may_split(&self, error: &Error) -> bool {
         error.depends_on_the_size()
+    }
+}
+
+impl<L: DiracSystem> StepsBeside for DiracSteps<L> {
+    type Vector = L::Vector<f64>;
+    type Moving = (Ends<L::Vector<f64>>, [L::Vector<f64>; 2]);
+
+    fn moving(&self) -> Self::Moving {
+        let velocities = [&self.velocity, &self.next_velocity].map(Clone::clone);
+        (self.ends.clone(), velocities)
+    }
+
+    fn exchange(&mut self, (ends, [velocity, next]): &mut Self::Moving) {
+        core::mem::swap(&mut self.ends, ends);
+        core::mem::swap(&mut self.velocity, velocity);
+        core::mem::swap(&mut self.next_velocity, next);
+    }
+
+    /// Newton's iteration begins with the velocity at the start of the last step.
+    fn begin_beside(&mut self, (run, [_, start]): &Self::Moving, state: &Self::State, _: f64) {
+        self.ends.set_beside(run, state);
+        copy(&mut self.velocity, start);
+    }
+
+    fn last_step(&self) -> Option<(&Self::State, f64)> {
+        self.ends.last_step()
+    }
+}
+
+impl<L: DiracSystem> SaveWords for DiracSteps<L> {
+    fn blank_checkpoint(&self) -> Checkpoint {
+        let definition = format!("{:?}, {}", self.equations.rule, self.steps.definition());
+        Checkpoint::of_method(
+            "steps of a Dirac system",
+            definition,
+            self.velocity.dimension(),
+        )
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        words!(visit: self.ends);
+        for velocity in [&mut self.velocity, &mut self.next_velocity] {
+            vector_words(core::slice::from_mut(velocity), visit);
+        }
+    }
+
+    fn fingerprint(&mut self) -> Vec<f64> {
+        self.equations
+            .fingerprint(&self.system, &self.ends.state, &self.velocity)
     }
 }

@@ -11,7 +11,7 @@ use super::{DiracRule, DiracSystem};
 use crate::rank::{RankElimination, Rest};
 use crate::variational::lagrangian::derivatives::Derivatives;
 use crate::variational::regular::largest;
-use symplectic_core::inside::Part;
+use symplectic_core::inside::{Part, beside};
 use symplectic_core::{Error, Quantity, State, Vector};
 
 /// The residual of a dependent equation counts as zero if it is smaller than this, relative to its terms.
@@ -146,6 +146,20 @@ impl<L: DiracSystem> Equations<L> {
         };
         let value = Float::abs(value);
         Some(Failure::Contradiction { what, index, value })
+    }
+
+    /// Identifies a system, by its Lagrangian, and by its constraints at a position beside that of a state.
+    pub(super) fn fingerprint(
+        &mut self,
+        system: &L,
+        State { time, q, .. }: &State<L::Vector<f64>>,
+        velocity: &L::Vector<f64>,
+    ) -> Vec<f64> {
+        let mut numbers = (self.derivatives).fingerprint(system, *time, q, velocity);
+        if let Some(entries) = self.rows.at(system, beside(q).as_slice()) {
+            numbers.extend(entries.map(|entry| entry.value));
+        }
+        numbers
     }
 
     /// Moves to q1 and v1.

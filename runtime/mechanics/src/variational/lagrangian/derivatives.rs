@@ -7,6 +7,7 @@ use num_traits::Zero;
 
 use crate::variational::failure::Failure;
 use crate::variational::stages::StageOfStep;
+use symplectic_core::inside::beside;
 use symplectic_core::system::Lagrangian;
 use symplectic_core::{Error, Quantity, Scalar, Vector};
 use symplectic_linearisation::HyperDual;
@@ -83,6 +84,23 @@ impl<L: Lagrangian> Derivatives<L> {
         if L::FORCED {
             self.add_value_of_force(lagrangian, time);
         }
+    }
+
+    /// Identifies a Lagrangian and its force, at a position and a velocity and beside them.
+    pub(crate) fn fingerprint(
+        &mut self,
+        lagrangian: &L,
+        time: f64,
+        q: &L::Vector<f64>,
+        v: &L::Vector<f64>,
+    ) -> Vec<f64> {
+        let mut numbers = Vec::new();
+        for (q, v) in [(q, v), (&beside(q), &beside(v))] {
+            self.first(lagrangian, time, q.as_slice(), v.as_slice());
+            numbers.push(self.value);
+            numbers.extend(self.momentum.iter().chain(&self.rate));
+        }
+        numbers
     }
 
     /// The stage at a position and a velocity, with the weight `h b_i`.

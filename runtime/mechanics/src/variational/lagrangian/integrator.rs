@@ -3,16 +3,23 @@
 use super::coefficients::StageCoefficients;
 use super::legendre::{momentum_of_velocity, velocity_near, velocity_of_momentum};
 use super::linear::{LinearConstraint, is_regular_beside};
-use super::stages::{Stages, Start};
+use super::stages::{Kept, Stages, Start};
 use crate::Error;
+use crate::variational::ends::Ends;
 use crate::variational::given_ends::GeneratingFunctions;
 use crate::variational::stages::{StagesOfStep, StepWithStages};
 use crate::variational::two_ends::dot;
-use symplectic_core::inside::{beside, check_state, check_step_size, or_as_first_step};
+use alloc::format;
+use alloc::vec::Vec;
+use symplectic_core::inside::{
+    SaveWords, StepsBeside, beside, check_state, check_step_size, or_as_first_step, words,
+};
+use symplectic_core::solver::{Visit, Words};
 use symplectic_core::stepper::{Equal, Stepper};
 use symplectic_core::system::Lagrangian;
 use symplectic_core::{
-    Error as CoreError, General, Method, ProvedFor, Quantity, Run, State, Statistics, Vector,
+    Checkpoint, Error as CoreError, General, Method, ProvedFor, Quantity, Run, State, Statistics,
+    Vector,
 };
 
 /// Takes the steps of a partitioned Runge–Kutta method in Lagrangian form (Marsden & West 2001, 2.6.1):
@@ -41,6 +48,9 @@ use symplectic_core::{
 /// For s stages and n components, a new matrix takes s n(2n + 1) evaluations of L by hyper-dual numbers and the elimination of a full
 /// matrix of size sn. An iteration takes s evaluations of L with its [gradient](Lagrangian::gradient), or s n by hyper-dual numbers. A step
 /// allocates no memory. A step that fails leaves the state unchanged.
+///
+/// A state inside the last step is that of a shorter step from its start, with the order of the method and the cost of a step. A
+/// [checkpoint](Run::checkpoint) is refused if L, its derivatives or the force has other values near the state.
 ///
 /// # Errors of a step
 ///
@@ -85,13 +95,12 @@ pub type LagrangianIntegrator<L> = Run<LagrangianSteps<L>>;
 #[derive(Clone)]
 pub struct LagrangianSteps<L: Lagrangian> {
     lagrangian: L,
-    statistics: Statistics,
-    state: State<L::Vector<f64>>,
-    next: State<L::Vector<f64>>,
+    ends: Ends<L::Vector<f64>>,
     stages: Stages<L>,
     action: Option<f64>,
-    /// The name of the method.
+    /// Name and definition of the method.
     method: &'static str,
+    definition: &'static str,
     /// Checks that momenta stay on `p = a(q)`, if `L = a(q)·v − H(q)`.
     constraint: Option<LinearConstraint<L>>,
 }
@@ -175,13 +184,12 @@ impl<L: Lagrangian> LagrangianSteps<L> {
         check_force(&lagrangian, &state)?;
         check_step_size(step_size)?;
         let stepper = LagrangianSteps {
-            statistics: Statistics::default(),
             stages: Stages::new(coefficients, n)?,
-            next: state.clone(),
             lagrangian,
-            state,
+            ends: Ends::new(state),
             action: None,
             method: M::NAME,
+            definition: M::DEFINITION,
             constraint: None,
         };
         Ok(Run::of(stepper, step_size)?)
@@ -261,7 +269,7 @@ impl<L: Lagrangian> LagrangianSteps<L> {
     /// Finds the velocity of the start: from rest, or, because L may be degenerate at rest only, as v⁴ is, from v = p. A degenerate L is
     /// refused, unless it `may_be_linear` in the velocities and is.
     fn find_velocity<M: Method>(&mut self, may_be_linear: bool) -> Result<(), Error> {
-        let State { time, q, p } = &self.state;
+        let State { time, q, p } = &self.ends.state;
         let near = |velocity| velocity_near(&self.lagrangian, *time, q, p, velocity);
         let Err(error) = near(q.zeros_like()) else {
             return Ok(());
@@ -284,7 +292,7 @@ impl<L: Lagrangian> LagrangianSteps<L> {
     /// Keeps an L that is linear in the velocities if it `may_be`, and one that is degenerate at the start only; refuses others, which do not
     /// determine this component.
     fn allow_linear<M: Method>(&mut self, may_be: bool, component: usize) -> Result<(), Error> {
-        let State { time, q, p } = &self.state;
+        let State { time, q, p } = &self.ends.state;
         let degenerate = Error::DegenerateLagrangian {
             method: M::NAME,
             component,
@@ -307,18 +315,19 @@ impl<L: Lagrangian> LagrangianSteps<L> {
 
     /// Computes a step into `next`.
     fn attempt(&mut self, size: f64, end: f64) -> Result<(), Error> {
-        let number = self.statistics.steps + 1;
+        let number = self.ends.begin();
+        let Ends { state, next, .. } = &mut self.ends;
         let start = Start {
-            time: self.state.time,
+            time: state.time,
             size,
-            q: self.state.q.as_slice(),
-            p: self.state.p.as_slice(),
+            q: state.q.as_slice(),
+            p: state.p.as_slice(),
         };
-        let (q1, p1) = (self.next.q.as_mut_slice(), self.next.p.as_mut_slice());
+        let (q1, p1) = (next.q.as_mut_slice(), next.p.as_mut_slice());
         self.stages
             .take(&self.lagrangian, start, q1, p1)
             .map_err(|failure| failure.error(Quantity::Lagrangian, start.time, size, number))?;
-        let State { q, p, .. } = &self.next;
+        let State { q, p, .. } = &*next;
         if let Some(constraint) = &mut self.constraint
             && let Some((component, _)) = constraint.violation(&self.lagrangian, end, q, p)
         {
@@ -335,9 +344,10 @@ impl<L: Lagrangian> LagrangianSteps<L> {
         let Self {
             stages,
             lagrangian,
-            state: State { time, q, p },
+            ends,
             ..
         } = self;
+        let State { time, q, p } = &ends.state;
         let velocity = || velocity_near(&*lagrangian, *time, q, p, p.clone()).ok();
         stages.begin_as_first(velocity);
         true
@@ -393,31 +403,31 @@ impl<L: Lagrangian> Stepper for LagrangianSteps<L> {
     type State = State<L::Vector<f64>>;
     type Error = Error;
     type Pace = Equal;
-    type Saved = (Self::State, Option<f64>, Statistics);
+    type Saved = <Self as StepsBeside>::Moving;
 
     fn state(&self) -> &Self::State {
-        &self.state
+        &self.ends.state
     }
 
     fn statistics(&self) -> &Statistics {
-        &self.statistics
+        &self.ends.statistics
     }
 
     fn statistics_mut(&mut self) -> &mut Statistics {
-        &mut self.statistics
+        &mut self.ends.statistics
     }
 
     /// Newton's iteration begins where it began in the first step of this stepper.
     fn set_state(&mut self, state: &Self::State) -> Result<(), Error> {
         let State { time, q, p } = state;
-        check_state(*time, q, p, self.state.q.dimension())?;
+        self.ends.check(state)?;
         if let Some(constraint) = &mut self.constraint
             && let Some((component, value)) =
                 constraint.violation_at_start(&self.lagrangian, *time, q, p)
         {
             return Err(Error::PrimaryConstraint { component, value });
         }
-        self.state.copy_from(state);
+        self.ends.set(state);
         self.stages.forget();
         self.action = None;
         Ok(())
@@ -428,25 +438,97 @@ impl<L: Lagrangian> Stepper for LagrangianSteps<L> {
         let taken = self.attempt(size, end);
         let forget = |run: &mut Self| !are_new && run.begin_as_first();
         or_as_first_step(self, taken, forget, |run| run.attempt(size, end))?;
-        self.next.time = end;
+        self.ends.end(size, end);
         self.action = Some(self.stages.action(size));
-        core::mem::swap(&mut self.state, &mut self.next);
-        self.statistics.steps += 1;
         Ok(())
     }
 
     fn save(&self) -> Self::Saved {
-        (self.state.clone(), self.action, self.statistics)
+        self.moving()
     }
 
-    fn go_back(&mut self, (state, action, statistics): &Self::Saved) {
-        self.state.copy_from(state);
+    fn go_back(&mut self, saved: &Self::Saved) {
+        self.exchange(&mut saved.clone());
         self.begin_as_first();
-        (self.action, self.statistics) = (*action, *statistics);
     }
 
     fn may_split(&self, error: &Error) -> bool {
         error.depends_on_the_size()
+    }
+}
+
+/// What a step changes.
+#[derive(Clone)]
+pub struct Moving<V> {
+    ends: Ends<V>,
+    action: Option<f64>,
+    kept: Kept,
+    /// The largest term of the primary constraints.
+    size: f64,
+}
+
+impl<L: Lagrangian> StepsBeside for LagrangianSteps<L> {
+    type Vector = L::Vector<f64>;
+    type Moving = Moving<L::Vector<f64>>;
+
+    fn moving(&self) -> Self::Moving {
+        let constraint = self.constraint.as_ref();
+        Moving {
+            ends: self.ends.clone(),
+            action: self.action,
+            kept: self.stages.kept.clone(),
+            size: constraint.map_or(0.0, |constraint| constraint.size),
+        }
+    }
+
+    fn exchange(&mut self, moving: &mut Self::Moving) {
+        core::mem::swap(&mut self.ends, &mut moving.ends);
+        core::mem::swap(&mut self.action, &mut moving.action);
+        core::mem::swap(&mut self.stages.kept, &mut moving.kept);
+        if let Some(constraint) = &mut self.constraint {
+            core::mem::swap(&mut constraint.size, &mut moving.size);
+        }
+    }
+
+    /// Newton's iteration begins with the velocities of the last step.
+    fn begin_beside(&mut self, run: &Self::Moving, state: &Self::State, _size: f64) {
+        self.ends.set_beside(&run.ends, state);
+        self.stages.kept.begin_with_those_of(&run.kept);
+        if let Some(constraint) = &mut self.constraint {
+            constraint.size = run.size;
+        }
+    }
+
+    fn last_step(&self) -> Option<(&Self::State, f64)> {
+        self.ends.last_step()
+    }
+}
+
+impl<L: Lagrangian> SaveWords for LagrangianSteps<L> {
+    fn blank_checkpoint(&self) -> Checkpoint {
+        let form = match self.stages.is_rectangular() {
+            true => "Galerkin",
+            false => "Lagrangian",
+        };
+        let linear = match self.constraint {
+            Some(_) => " for L = a(q)·v − H(q)",
+            None => "",
+        };
+        let dimension = self.ends.state.q.dimension();
+        let definition = format!("{}{linear}", self.definition);
+        Checkpoint::of_method(&format!("{}, {form}", self.method), definition, dimension)
+    }
+
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        words!(visit: self.ends, self.action, self.stages.kept);
+        if let Some(constraint) = &mut self.constraint {
+            constraint.words(visit);
+        }
+    }
+
+    fn fingerprint(&mut self) -> Vec<f64> {
+        let State { time, q, .. } = &self.ends.state;
+        self.stages.fingerprint(&self.lagrangian, *time, q)
     }
 }
 

@@ -4,7 +4,8 @@ use alloc::vec::Vec;
 
 use super::derivatives::Derivatives;
 use crate::variational::regular::Factors;
-use symplectic_core::inside::beside;
+use symplectic_core::inside::{beside, words};
+use symplectic_core::solver::{Visit, Words};
 use symplectic_core::system::Lagrangian;
 use symplectic_core::{Error, Vector};
 
@@ -20,7 +21,13 @@ pub(super) struct LinearConstraint<L: Lagrangian> {
     /// `|∂a_i/∂q_j|` at the start, by rows.
     slopes: Vec<f64>,
     /// The largest term so far.
-    size: f64,
+    pub(super) size: f64,
+}
+
+impl<L: Lagrangian> Words for LinearConstraint<L> {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        words!(visit: self.slopes[..], self.size);
+    }
 }
 
 impl<L: Lagrangian> LinearConstraint<L> {

@@ -10,6 +10,8 @@ use super::derivatives::Derivatives;
 use crate::variational::failure::Failure;
 use crate::variational::regular::{Factors, Singular, largest};
 use crate::variational::stages::StageOfStep;
+use symplectic_core::inside::words;
+use symplectic_core::solver::{Visit, Words};
 use symplectic_core::system::Lagrangian;
 use symplectic_core::{Error, Vector};
 
@@ -17,12 +19,7 @@ use symplectic_core::{Error, Vector};
 #[derive(Clone)]
 pub(super) struct Stages<L: Lagrangian> {
     coefficients: StageCoefficients,
-    /// The unknowns `V_k`.
-    unknowns: Vec<f64>,
-    /// The unknowns of the last successful step.
-    before: Vec<f64>,
-    /// The unknowns of a new integrator.
-    first: Vec<f64>,
+    pub(super) kept: Kept,
     /// `P'_i`.
     rates: Vec<f64>,
     /// `L_i`.
@@ -35,10 +32,36 @@ pub(super) struct Stages<L: Lagrangian> {
     terms: Vec<f64>,
     change: Vec<f64>,
     matrix: Vec<f64>,
+    derivatives: Derivatives<L>,
+}
+
+/// What is kept from step to step.
+#[derive(Clone)]
+pub struct Kept {
+    /// The unknowns `V_k`.
+    unknowns: Vec<f64>,
+    /// The unknowns of the last successful step.
+    before: Vec<f64>,
+    /// The unknowns of a new integrator.
+    first: Vec<f64>,
     factors: Factors,
     /// The step size of the present factors; `None` if there are none.
     factored: Option<f64>,
-    derivatives: Derivatives<L>,
+}
+
+impl Kept {
+    /// Begins with the unknowns of the last step of a run.
+    pub(super) fn begin_with_those_of(&mut self, run: &Self) {
+        self.unknowns.copy_from_slice(&run.before);
+        self.before.copy_from_slice(&run.before);
+        self.factored = None;
+    }
+}
+
+impl Words for Kept {
+    fn words(&mut self, visit: &mut Visit<'_>) {
+        words!(visit: self.unknowns[..], self.before[..], self.first[..], self.factors, self.factored);
+    }
 }
 
 /// The start of a step.
@@ -68,9 +91,13 @@ impl<L: Lagrangian> Stages<L> {
         let (stages, unknowns) = (coefficients.stages(), coefficients.unknowns());
         let size = unknowns * n;
         Ok(Self {
-            unknowns: vec![0.0; size],
-            before: vec![0.0; size],
-            first: vec![0.0; size],
+            kept: Kept {
+                unknowns: vec![0.0; size],
+                before: vec![0.0; size],
+                first: vec![0.0; size],
+                factors: Factors::new(size),
+                factored: None,
+            },
             rates: vec![0.0; stages * n],
             values: vec![0.0; stages],
             q: vec![0.0; n],
@@ -79,8 +106,6 @@ impl<L: Lagrangian> Stages<L> {
             terms: vec![0.0; size],
             change: vec![0.0; size],
             matrix: vec![0.0; size * size],
-            factors: Factors::new(size),
-            factored: None,
             derivatives: Derivatives::new(n)?,
             coefficients,
         })
@@ -89,13 +114,13 @@ impl<L: Lagrangian> Stages<L> {
     /// Begins with this velocity at every stage.
     pub(super) fn begin_with(&mut self, velocity: &[f64]) {
         self.set_unknowns(velocity);
-        self.first.copy_from_slice(&self.unknowns);
+        self.kept.first.copy_from_slice(&self.kept.unknowns);
         self.forget();
     }
 
     /// The same velocity at every stage.
     fn set_unknowns(&mut self, velocity: &[f64]) {
-        let unknowns = self.unknowns.chunks_exact_mut(velocity.len().max(1));
+        let unknowns = self.kept.unknowns.chunks_exact_mut(velocity.len().max(1));
         for (unknowns, factor) in unknowns.zip(&self.coefficients.constant) {
             for (unknown, component) in unknowns.iter_mut().zip(velocity) {
                 *unknown = factor * component;
@@ -105,21 +130,21 @@ impl<L: Lagrangian> Stages<L> {
 
     /// Starts like a new integrator, without the stages and factors of earlier steps.
     pub(super) fn forget(&mut self) {
-        self.before.copy_from_slice(&self.first);
-        self.unknowns.copy_from_slice(&self.first);
-        self.factored = None;
+        self.kept.before.copy_from_slice(&self.kept.first);
+        self.kept.unknowns.copy_from_slice(&self.kept.first);
+        self.kept.factored = None;
     }
 
     /// Whether the next step starts like that of a new integrator.
     pub(super) fn are_new(&self) -> bool {
-        self.factored.is_none() && self.unknowns == self.first
+        self.kept.factored.is_none() && self.kept.unknowns == self.kept.first
     }
 
     /// Lets the next step start like that of a new integrator: with this velocity at every stage, unless a new one begins at rest.
     pub(super) fn begin_as_first(&mut self, velocity: impl FnOnce() -> Option<L::Vector<f64>>) {
-        self.factored = None;
-        self.unknowns.copy_from_slice(&self.first);
-        if self.first.iter().any(|&component| component != 0.0)
+        self.kept.factored = None;
+        self.kept.unknowns.copy_from_slice(&self.kept.first);
+        if self.kept.first.iter().any(|&component| component != 0.0)
             && let Some(velocity) = velocity()
         {
             self.set_unknowns(velocity.as_slice());
@@ -128,7 +153,24 @@ impl<L: Lagrangian> Stages<L> {
 
     /// Adds `(q1 − q0)/h` of the last step to `out`.
     pub(super) fn add_mean_velocity(&self, out: &mut [f64]) {
-        add_combination(out, &self.coefficients.end, &self.before);
+        add_combination(out, &self.coefficients.end, &self.kept.before);
+    }
+
+    /// Whether there are fewer unknowns than stages.
+    pub(super) fn is_rectangular(&self) -> bool {
+        self.coefficients.unknowns() < self.coefficients.stages()
+    }
+
+    /// Identifies a Lagrangian, at a position with the mean velocity of the last step.
+    pub(super) fn fingerprint(
+        &mut self,
+        lagrangian: &L,
+        time: f64,
+        q: &L::Vector<f64>,
+    ) -> Vec<f64> {
+        let mut mean = q.zeros_like();
+        self.add_mean_velocity(mean.as_mut_slice());
+        self.derivatives.fingerprint(lagrangian, time, q, &mean)
     }
 
     /// Takes a step, and writes its end. A step that fails leaves the unknowns unchanged.
@@ -141,8 +183,8 @@ impl<L: Lagrangian> Stages<L> {
     ) -> Result<(), Failure> {
         let outcome = self.try_to_take(lagrangian, start, q1, p1);
         match outcome {
-            Ok(()) => self.before.copy_from_slice(&self.unknowns),
-            Err(_) => self.unknowns.copy_from_slice(&self.before),
+            Ok(()) => self.kept.before.copy_from_slice(&self.kept.unknowns),
+            Err(_) => self.kept.unknowns.copy_from_slice(&self.kept.before),
         }
         outcome
     }
@@ -167,39 +209,42 @@ impl<L: Lagrangian> Stages<L> {
     /// Finds the stages by Newton's iteration from the unknowns of the previous step, extrapolated if that step had the same size. If
     /// something is not finite there, starts from fractions of these. The factors are kept from step to step while they contract well.
     fn find(&mut self, lagrangian: &L, start: Start<'_>) -> Result<(), Failure> {
-        let (mut fresh, mut last) = (self.factored.take() != Some(start.size), f64::INFINITY);
+        let (mut fresh, mut last) = (self.kept.factored.take() != Some(start.size), f64::INFINITY);
         if !fresh {
-            let unknowns = self.unknowns.chunks_exact_mut(start.q.len().max(1));
+            let unknowns = self.kept.unknowns.chunks_exact_mut(start.q.len().max(1));
             for (unknowns, row) in unknowns.zip(&self.coefficients.next) {
                 unknowns.fill(0.0);
-                add_combination(unknowns, row, &self.before);
+                add_combination(unknowns, row, &self.kept.before);
             }
         }
-        self.change.copy_from_slice(&self.unknowns);
+        self.change.copy_from_slice(&self.kept.unknowns);
         fresh |= !self.evaluate_on_the_way(lagrangian, start, fresh)?;
         for _ in 0..MAX_ITERATIONS {
             if fresh {
                 self.factor(start.q.len())?;
             }
-            let change = self.factors.solve(self.residual.iter().map(|entry| -entry));
+            let change = self
+                .kept
+                .factors
+                .solve(self.residual.iter().map(|entry| -entry));
             self.change.copy_from_slice(change);
-            for (unknown, change) in self.unknowns.iter_mut().zip(&self.change) {
+            for (unknown, change) in self.kept.unknowns.iter_mut().zip(&self.change) {
                 *unknown += change;
             }
-            let (changed, size) = (largest(&self.change), largest(&self.unknowns));
+            let (changed, size) = (largest(&self.change), largest(&self.kept.unknowns));
             let slow = changed > CONTRACTION * last;
             let stationary = STATIONARY[usize::from(fresh)];
             let done = changed <= ROUNDING * size || (slow && changed <= stationary * size);
             let whole = self.evaluate_on_the_way(lagrangian, start, slow && !done)?;
             if whole && (done || (slow && self.is_solved())) {
-                self.factored = Some(start.size);
+                self.kept.factored = Some(start.size);
                 return Ok(());
             }
             fresh = slow || !whole;
             last = if whole { changed } else { f64::INFINITY };
         }
         Err(Failure::NotFound {
-            residual: last / largest(&self.unknowns),
+            residual: last / largest(&self.kept.unknowns),
             iterations: MAX_ITERATIONS,
         })
     }
@@ -211,7 +256,7 @@ impl<L: Lagrangian> Stages<L> {
     }
 
     fn factor(&mut self, n: usize) -> Result<(), Failure> {
-        self.factors.factor(&self.matrix).map_err(|singular| {
+        self.kept.factors.factor(&self.matrix).map_err(|singular| {
             Failure::Singular(Singular {
                 component: singular.component % n,
                 ..singular
@@ -232,7 +277,7 @@ impl<L: Lagrangian> Stages<L> {
             return Ok(true);
         }
         for _ in 0..MAX_HALVINGS {
-            for (unknown, change) in self.unknowns.iter_mut().zip(&mut self.change) {
+            for (unknown, change) in self.kept.unknowns.iter_mut().zip(&mut self.change) {
                 *change *= 0.5;
                 *unknown -= *change;
             }
@@ -294,7 +339,7 @@ impl<L: Lagrangian> Stages<L> {
             (&mut self.v, &self.coefficients.velocities[stage]),
         ];
         for (out, row) in rows {
-            add_combination(out, row, &self.unknowns);
+            add_combination(out, row, &self.kept.unknowns);
         }
         for (q, q0) in self.q.iter_mut().zip(start.q) {
             *q = q0 + start.size * *q;
@@ -338,7 +383,7 @@ impl<L: Lagrangian> Stages<L> {
     fn end(&self, start: Start<'_>, q1: &mut [f64], p1: &mut [f64]) {
         let StageCoefficients { end, weights, .. } = &self.coefficients;
         for (out, from, row, vectors) in [
-            (q1, start.q, end, &self.unknowns),
+            (q1, start.q, end, &self.kept.unknowns),
             (p1, start.p, weights, &self.rates),
         ] {
             out.fill(0.0);
