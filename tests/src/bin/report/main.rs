@@ -1,16 +1,16 @@
 //! The report of all methods on all scenes, error against run time:
-//! `cargo run --release -p symplectic-tests --bin report`
+//! `cargo run --release -p symplectic-tests --bin report`; with `--no-default-features` only the scenes of the README, which build sooner.
 //!
 //! Writes a page, plots, CSV, JSON and the table of the book to a folder.
 
 #![allow(clippy::print_stdout, reason = "a report prints its table")]
 
 mod facts;
-mod mechanics;
+#[cfg(feature = "all-scenes")]
+mod more;
 mod peers;
 mod scenes;
 mod sets;
-mod variable_steps;
 
 use std::error::Error;
 use std::fs;
@@ -22,10 +22,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 use symplectic_report::{Fact, Measurements, Repetitions, Settings, Study};
 use symplectic_tests::stiff_and_extreme;
 
-use crate::scenes::{SCENES, Scene};
+use crate::scenes::{Scene, scenes};
 
 /// The name of the stiff and extreme cases among the scenes.
 const STIFF: &str = "stiff-and-extreme";
+
+/// Whether this build has more scenes than those of the README.
+const HAS_ALL_SCENES: bool = cfg!(feature = "all-scenes");
 
 /// The report of all methods on all scenes, error against run time.
 #[derive(Debug, Parser)]
@@ -56,8 +59,7 @@ struct Arguments {
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments = Arguments::parse();
     if arguments.list {
-        let names = SCENES.iter().map(|(name, _)| *name);
-        names.chain([STIFF]).for_each(|name| println!("{name}"));
+        names().for_each(|name| println!("{name}"));
         return Ok(());
     }
     let measurements = match &arguments.from {
@@ -69,12 +71,34 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// The names of the scenes.
+fn names() -> impl Iterator<Item = &'static str> {
+    let stiff = HAS_ALL_SCENES.then_some(STIFF);
+    scenes().map(|(name, _)| *name).chain(stiff)
+}
+
+/// Checks that every text is in the name of a scene.
+fn check_scenes(texts: &[String]) -> Result<(), String> {
+    let is_in_none = |text: &&String| !names().any(|name| contains_any(name, &[(*text).clone()]));
+    let Some(text) = texts.iter().find(is_in_none) else {
+        return Ok(());
+    };
+    let hint = match HAS_ALL_SCENES {
+        true => "",
+        false => "; a build without `--no-default-features` has more scenes",
+    };
+    Err(format!(
+        "no scene has `{text}` in its name: `--list` prints the names{hint}"
+    ))
+}
+
 fn measure(arguments: &Arguments) -> Result<Measurements, Box<dyn Error>> {
+    check_scenes(&arguments.scene)?;
     let chosen = |(name, _): &&Scene| contains_any(name, &arguments.scene);
     let bar = ProgressBar::new(1000);
     bar.set_style(ProgressStyle::with_template("{bar:30} {elapsed}  {msg}")?);
     let mut study = Study::new("Error against run time");
-    for (name, add) in SCENES.iter().filter(chosen) {
+    for (name, add) in scenes().filter(chosen) {
         bar.set_message(format!("{name}: reference"));
         study = add(study)?;
     }
@@ -84,7 +108,7 @@ fn measure(arguments: &Arguments) -> Result<Measurements, Box<dyn Error>> {
         let method = advance.method.unwrap_or("times, in turn");
         bar.set_message(format!("{}: {method}", advance.problem));
     });
-    if contains_any(STIFF, &arguments.scene) {
+    if HAS_ALL_SCENES && contains_any(STIFF, &arguments.scene) {
         let keep = |name: &str| contains_any(name, &arguments.method);
         let steps = if arguments.quick { 10_000 } else { 10_000_000 };
         let table = stiff_and_extreme::verdicts(steps, keep, |problem, part| {
@@ -185,6 +209,16 @@ fn processor() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_text_that_is_in_the_name_of_no_scene_is_an_error() {
+        assert_eq!(
+            check_scenes(&["henon".to_owned(), STIFF.to_owned()]),
+            Ok(())
+        );
+        let error = check_scenes(&["kepler".to_owned(), "keplr".to_owned()]);
+        assert!(error.is_err_and(|error| error.contains("`keplr`")));
+    }
 
     #[test]
     fn names_are_found_as_anyone_types_them() {

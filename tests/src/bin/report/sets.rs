@@ -2,17 +2,13 @@
 //!
 //! Every method is generic over the system, here only; a scene chooses a set and its parameters.
 
-use symplectic::constraints::{Constrained, Nonholonomic};
-use symplectic::friction::Damped;
-use symplectic::solver::ByNewton;
-use symplectic::system::{Class, Unconstrained};
+use symplectic::system::Unconstrained;
 use symplectic::{Integrator, Separable, System, Vector};
 use symplectic_report::Problem;
 use symplectic_tests::methods::{
     BlanesMoanS6, BlanesMoanS10, BlanesMoanSrkn11b, BlanesMoanSrkn14a, ForestRuth, Gauss2, Gauss4,
-    Gauss6, Gauss8, KahanLi8, Lobatto3, Lobatto4, Lobatto5, Midpoint, Midpoint4, Midpoint6,
-    Rattle4, Rattle6, SofroniouSpaletta10, StoermerVerlet, SymplecticEuler, VelocityVerlet,
-    Yoshida8,
+    Gauss6, Gauss8, KahanLi8, Lobatto3, SofroniouSpaletta10, StoermerVerlet, SymplecticEuler,
+    VelocityVerlet, Yoshida8,
 };
 
 /// Adds a set of methods to a problem.
@@ -27,6 +23,8 @@ macro_rules! run {
         }))+
     };
 }
+#[cfg(feature = "all-scenes")]
+pub(crate) use run;
 
 /// Competitive explicit methods for quadratic kinetic energy, with plain sums.
 pub fn explicit<V, S>(problem: Problem<V, S>) -> Problem<V, S>
@@ -84,67 +82,5 @@ where
     run!(implicit(problem), integrator => Ok(integrator);
         StoermerVerlet "Störmer–Verlet, implicit" plain,
         Lobatto3 "Lobatto 3" plain,
-    )
-}
-
-/// Methods for holonomic constraints.
-pub fn constrained<V, S, C>(problem: Problem<V, S>) -> Problem<V, S>
-where
-    V: Vector<Scalar = f64>,
-    S: System<V, Class = Constrained<C>> + Clone + 'static,
-    C: Class + Unconstrained,
-{
-    run!(problem, integrator => Ok(integrator);
-        StoermerVerlet "RATTLE" plain,
-        Rattle4 "RATTLE, order 4" plain,
-        Rattle6 "RATTLE, order 6" plain,
-        Lobatto3 "Lobatto 3" plain,
-        Lobatto4 "Lobatto 4" plain,
-        Lobatto5 "Lobatto 5" plain,
-        Lobatto4 "Lobatto 4, compensated" new,
-    )
-}
-
-/// Splittings for friction in the kicks.
-pub fn damped<V, S>(problem: Problem<V, S>) -> Problem<V, S>
-where
-    V: Vector<Scalar = f64>,
-    S: System<V, Class = Damped> + Clone + 'static,
-{
-    run!(problem, integrator => Ok(integrator);
-        VelocityVerlet "Störmer–Verlet" plain,
-        ForestRuth "Forest–Ruth" plain,
-        BlanesMoanS6 "Blanes–Moan S6" plain,
-        BlanesMoanS10 "Blanes–Moan S10" plain,
-        KahanLi8 "Kahan–Li 8" plain,
-        BlanesMoanS10 "S10, compensated" new,
-    )
-}
-
-/// Methods for non-holonomic constraints.
-pub fn nonholonomic<V, S, C>(problem: Problem<V, S>) -> Problem<V, S>
-where
-    V: Vector<Scalar = f64>,
-    S: System<V, Class = Nonholonomic<C>> + Clone + 'static,
-    C: Class + Unconstrained,
-{
-    run!(problem, integrator => Ok(integrator);
-        Midpoint "Midpoint" plain,
-        StoermerVerlet "Störmer–Verlet, implicit" plain,
-        Midpoint4 "Midpoint, order 4" plain,
-        Midpoint6 "Midpoint, order 6" plain,
-        Midpoint4 "Midpoint, order 4, compensated" new,
-    )
-}
-
-/// Implicit methods with Newton's iteration, for stiff systems.
-pub fn newton<V, S>(problem: Problem<V, S>) -> Problem<V, S>
-where
-    V: Vector<Scalar = f64>,
-    S: System<V, Class: Unconstrained> + Clone + 'static,
-{
-    run!(problem, integrator => Ok(integrator.by_newton());
-        Gauss4 "Gauss 4, Newton" plain,
-        Gauss8 "Gauss 8, Newton" plain,
     )
 }

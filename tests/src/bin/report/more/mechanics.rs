@@ -14,8 +14,9 @@ use symplectic_tests::scenes::{
     nonholonomic_oscillator, resisted_pendulum, rigid_triangles, rolling_disk, skate, sleigh,
 };
 
+use super::sets::{constrained, damped, nonholonomic};
 use crate::peers::{with_peers, with_rk4};
-use crate::sets::{constrained, coupled, damped, nonholonomic};
+use crate::sets::coupled;
 
 pub fn double_pendulum_on_rods(study: Study) -> Result<Study, Error> {
     let (angles, end) = (double_pendulum::start(), 10.0);
