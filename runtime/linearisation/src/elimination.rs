@@ -161,6 +161,9 @@ impl<E: Entry> Elimination<E> {
             entry.words(visit);
         }
         words!(visit: self.pivots[..]);
+        // A checkpoint that someone changed must not lead outside the matrix.
+        let last = self.size.saturating_sub(1);
+        self.pivots.iter_mut().for_each(|row| *row = last.min(*row));
     }
 
     /// The index of an entry.

@@ -338,7 +338,7 @@ fn symmetric_rules_go_back() {
 
 /// Starts off a primary constraint, and off the condition on positions; a position that nothing determines.
 #[test]
-pub fn circuit_starts_off_the_constraints_are_refused() {
+fn circuit_starts_off_the_constraints_are_refused() {
     let circuit = Circuit { beta: 0.0 };
     let mut start = circuit_start(circuit);
     start.p[2] = 0.125;

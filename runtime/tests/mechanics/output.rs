@@ -1,6 +1,9 @@
 //! What is seen of runs of Lagrangians between their steps, and that it changes no step.
 
+use core::cell::Cell;
 use core::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::rc::Rc;
 
 use symplectic::constraints::Gradients;
 use symplectic::nalgebra::{SVector, Vector1, Vector2};
@@ -11,7 +14,7 @@ use symplectic::variational::{
     DiracRule, DiracSteps, DiracSystem, DiscreteLagrangian, EnergyMomentumSteps, Error,
     LagrangianSteps, VariationalSteps,
 };
-use symplectic::{Error as CoreError, Event, Integrator, Run, Scalar, State, Vector};
+use symplectic::{Error as CoreError, Event, Integrator, Retry, Run, Scalar, State, Vector};
 
 use crate::circuits::{Circuit, circuit_exact, circuit_start};
 use crate::dirac::{CanonicalVortices, Suzuki4, Vortices, assert_order, distance, vortices_start};
@@ -128,6 +131,61 @@ fn a_run_that_is_looked_at_takes_the_same_steps() -> Result<(), Box<dyn std::err
         DiracSteps::run(DiracRule::Trapezoid, LINEAR, circuit_start(LINEAR), 0.125);
         EnergyMomentumSteps::run(Trapezoid, State::from_arrays(0.0, [1.0, 0.0], [0.0, 1.1]), 0.05);
     }
+    Ok(())
+}
+
+/// The same of steps that are too long and are taken in parts.
+#[test]
+fn a_run_whose_steps_are_split_takes_the_same_steps_when_it_is_looked_at() -> Result<(), Error> {
+    let make =
+        |size| LagrangianSteps::run(Gauss3, Particle { friction: 0.0 }, near_perihelion(), size);
+    // Some fail in the first step, others later.
+    let fails = |&size: &f64| make(size).is_ok_and(|mut run| run.take_steps(20).is_err());
+    let sizes = (16..100).map(|k| 0.125 * f64::from(k));
+    let sizes: Vec<_> = sizes.filter(fails).take(4).collect();
+    assert_eq!(sizes.len(), 4);
+    for size in sizes {
+        let [mut plain, mut seen] = [make(size)?, make(size)?];
+        plain.set_retry(Retry::Split { halvings: 12 });
+        seen.set_retry(Retry::Split { halvings: 12 });
+        let times: Vec<_> = (0..30).map(|k| 0.7 * size * f64::from(k)).collect();
+        seen.integrate_at(&times, |_| {})?;
+        while plain.state().time < seen.state().time {
+            plain.step()?;
+        }
+        assert!(plain.statistics().rejected > 0);
+        assert_eq!(seen.state(), plain.state());
+        assert_eq!(seen.statistics(), plain.statistics());
+    }
+    Ok(())
+}
+
+/// A particle whose Lagrangian panics when it is told to.
+#[derive(Clone)]
+struct Panicking(Rc<Cell<bool>>);
+
+impl DiscreteLagrangian for Panicking {
+    type Vector<T: Scalar> = Vector1<T>;
+
+    fn value<T: Scalar>(&self, _time: T, h: T, q0: &Vector1<T>, q1: &Vector1<T>) -> T {
+        assert!(!self.0.get(), "as told");
+        let way = q1[0] - q0[0];
+        way * way / h * T::from_f64(0.5)
+    }
+}
+
+#[test]
+fn a_look_in_which_the_system_panics_leaves_the_run_as_it_was() -> Result<(), Error> {
+    let panics = Rc::new(Cell::new(false));
+    let start = State::from_arrays(0.0, [0.0], [1.0]);
+    let mut run = VariationalSteps::run(Panicking(panics.clone()), start, 0.5)?;
+    let end = run.take_steps(3)?.clone();
+    panics.set(true);
+    let look = catch_unwind(AssertUnwindSafe(|| run.state_at(1.25).is_ok()));
+    assert!(look.is_err());
+    assert_eq!(run.state(), &end);
+    panics.set(false);
+    assert_eq!(run.state_at(1.25)?.q[0], 1.25);
     Ok(())
 }
 

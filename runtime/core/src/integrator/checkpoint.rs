@@ -20,7 +20,7 @@ use crate::system::System;
 /// Everything that a run needs to continue from its present state with the bits of an uninterrupted run.
 ///
 /// It contains the state with the round-off of its compensated sums, and the stages from which the next ones are extrapolated. It also
-/// contains the matrices of Newton's iteration, clock, step size, tolerance and statistics. All integrators of this crate have checkpoints.
+/// contains the matrices of Newton's iteration, clock, step size, tolerance and statistics. All integrators of this library have checkpoints.
 ///
 /// With the feature `serde` it can be written in any format. All numbers are in `words`: sixteen hexadecimal digits for each word of
 /// 64 bits, or eight bytes in a binary format. A word is the bits of an IEEE 754 double, of a single in its lower half, or of an integer.
@@ -184,7 +184,7 @@ impl Checkpoint {
         }
     }
 
-    /// The same of compensated sums.
+    /// The same with compensated sums.
     #[doc(hidden)]
     #[must_use]
     pub fn with_compensated_sums(self) -> Self {
@@ -305,22 +305,22 @@ impl<S: SaveWords> Save for S {
 
     fn restore(run: &mut Run<S>, checkpoint: &Checkpoint) -> Result<(), CheckpointError> {
         let present = Self::checkpoint(run)?;
-        let mut fingerprint = 0;
-        let mut read = |checkpoint: &Checkpoint| {
+        let read = |run: &mut Run<S>, checkpoint: &Checkpoint| {
+            let mut fingerprint = 0;
             checkpoint.read(&present, |visit| {
                 words!(visit: parts_of(run), fingerprint);
                 run.stepper.words(visit);
             })?;
-            match fingerprint == hash_of(run.stepper.fingerprint()) {
-                true => Ok(()),
-                false => Err(CheckpointError::OtherSystem),
-            }
+            Ok(fingerprint)
         };
-        let outcome = read(checkpoint);
-        if outcome.is_err() {
-            read(&present)?;
-        }
-        outcome
+        let reason = match read(run, checkpoint) {
+            Ok(fingerprint) if fingerprint == hash_of(run.stepper.fingerprint()) => return Ok(()),
+            Ok(_) => CheckpointError::OtherSystem,
+            Err(error) => error,
+        };
+        // Back to what the run was.
+        read(run, &present)?;
+        Err(reason)
     }
 }
 

@@ -33,7 +33,7 @@ pub fn or_as_first_step<I, T, E: OfTheCore>(
     }
 }
 
-/// Whether a step that failed so may succeed with other starting values: some faults of a system remain, whatever they are.
+/// Whether other starting values may help: some faults of a system do not depend on them.
 pub(super) fn may_depend_on_start(error: &impl OfTheCore) -> bool {
     !matches!(
         error.of_the_core(),

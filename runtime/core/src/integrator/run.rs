@@ -12,7 +12,7 @@ use super::validation::check_step_size;
 use super::{Equal, Pace, Retry, Statistics, Stepper};
 use crate::error::Error;
 
-/// A [`Stepper`] that steps from a state. All integrators of this crate are runs.
+/// A [`Stepper`] that steps from a state. All integrators of this library are runs.
 ///
 /// A step allocates nothing. A step that fails leaves the state and the counts unchanged.
 ///

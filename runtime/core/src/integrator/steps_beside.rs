@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::number::{Scalar, Vector};
 use crate::state::State;
 
-/// A stepper that can take a step from another state beside its run. It is one of [`DenseSteps`]: a state inside the last step is that of a
+/// A stepper that can take a step from another state beside its run. It implements [`DenseSteps`]: a state inside the last step is that of a
 /// shorter step from its start. This has the order of the method, while a cubic through both ends has order 3 and needs q' and p', which a
 /// discrete Lagrangian does not give. For the start of a search, q' and p' are difference quotients of a short step.
 pub trait StepsBeside: Stepper<State = State<Self::Vector>> {
@@ -38,14 +38,25 @@ fn step_beside<S: StepsBeside>(
     state: &mut State<S::Vector>,
 ) -> Result<(), S::Error> {
     stepper.exchange(moving);
-    stepper.begin_beside(moving, state, size);
-    let taken = advance_in_time(stepper, size, end);
-    if taken.is_ok() {
-        state.copy_from(stepper.state());
-        state.time = end;
+    let beside = Beside { stepper, moving };
+    let stepper = &mut *beside.stepper;
+    stepper.begin_beside(beside.moving, state, size);
+    advance_in_time(stepper, size, end)?;
+    state.copy_from(stepper.state());
+    state.time = end;
+    Ok(())
+}
+
+/// A stepper beside its run. It returns to the run when this is dropped, also if the system panics.
+struct Beside<'a, S: StepsBeside> {
+    stepper: &'a mut S,
+    moving: &'a mut S::Moving,
+}
+
+impl<S: StepsBeside> Drop for Beside<'_, S> {
+    fn drop(&mut self) {
+        self.stepper.exchange(self.moving);
     }
-    stepper.exchange(moving);
-    taken
 }
 
 impl<S: StepsBeside> DenseSteps for S {

@@ -37,7 +37,7 @@ use symplectic_core::{Checkpoint, Quantity, Run, State, Statistics, Vector};
 /// step takes n evaluations. A step allocates no memory. A step that fails leaves the state unchanged.
 ///
 /// A state inside the last step is that of a shorter step from its start, with the order of the method and the cost of a step. A
-/// [checkpoint](Run::checkpoint) is refused if another `Ld`, or its derivatives or forces, has other values near the state.
+/// [checkpoint](Run::checkpoint) is refused if `Ld`, its derivatives or its forces have other values near the state.
 ///
 /// # Errors of a step
 ///

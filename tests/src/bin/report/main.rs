@@ -213,7 +213,7 @@ mod tests {
     #[test]
     fn a_text_that_is_in_the_name_of_no_scene_is_an_error() {
         assert_eq!(
-            check_scenes(&["henon".to_owned(), STIFF.to_owned()]),
+            check_scenes(&["henon".to_owned(), "fput-chain".to_owned()]),
             Ok(())
         );
         let error = check_scenes(&["kepler".to_owned(), "keplr".to_owned()]);

@@ -1,7 +1,7 @@
 //! The scenes of the report, one function each: the system, the reference, the largest step, and the sets of methods.
 //!
 //! Here are those of the README; a new scene needs a function and a row in [`more`](crate::more). Every scene is compiled with every method
-//! of its sets, so all scenes take three times as long to build.
+//! of its sets, so all scenes take twice as long to build.
 
 use std::f64::consts::TAU;
 

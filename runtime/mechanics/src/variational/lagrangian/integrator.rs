@@ -449,7 +449,6 @@ impl<L: Lagrangian> Stepper for LagrangianSteps<L> {
 
     fn go_back(&mut self, saved: &Self::Saved) {
         self.exchange(&mut saved.clone());
-        self.begin_as_first();
     }
 
     fn may_split(&self, error: &Error) -> bool {
