@@ -20,8 +20,8 @@ use symplectic_core::{Error as CoreError, Quantity, Run, Statistics};
 /// The errors of a step are [`Error::HalfTurn`] for a rotation by π or more, [`Error::NoEndOfStep`] if Newton's iteration does not
 /// converge, [`Core(NonFinite)`](CoreError::NonFinite) for a torque, and [`Core(TimeResolution)`](CoreError::TimeResolution).
 ///
-/// With the feature `alloc` a [checkpoint](Run::checkpoint) is refused if the moments of inertia or the torque have other values. There are no
-/// output times and events inside steps.
+/// With the feature `alloc` a [checkpoint](Run::checkpoint) is refused if the moments of inertia or the torque have other values. A run has no
+/// output times or events inside steps.
 ///
 /// ```
 /// symplectic::composition! { Suzuki4 { base: stormer-verlet, weights: suzuki(4), require: [order == 4] } }
