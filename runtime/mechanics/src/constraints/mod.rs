@@ -6,7 +6,9 @@
 
 mod gradients;
 mod holonomic;
+mod memory;
 mod nonholonomic;
+mod plan;
 mod with_constraints;
 
 pub use gradients::Gradients;
@@ -20,7 +22,8 @@ use symplectic_core::Vector;
 use symplectic_core::system::{FreePositions, Frictionless, Holonomic, NotGeneral, SplitClass};
 
 use gradients::Terms;
-use with_constraints::{WithConstraints, place_of_resized};
+use memory::Workspace;
+use with_constraints::WithConstraints;
 
 /// `H` of class `C`, [`Separable`](symplectic_core::Separable) or [`General`](symplectic_core::General), with holonomic constraints `φ(q) = 0`:
 ///

@@ -55,7 +55,7 @@ where
     C: Class + Unconstrained,
 {
     let State { time, q, p } = state;
-    let system = &WithConstraints::holonomic(system, q.dimension());
+    let system = &WithConstraints::new(system, q.dimension());
     check_start(system, *time, q, p)?;
     let mut force = q.zeros_like();
     system.force(V::Scalar::from_f64(*time), q, p, &mut force);

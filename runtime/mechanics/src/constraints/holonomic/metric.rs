@@ -25,7 +25,7 @@ pub(in crate::constraints) enum InverseMasses<T> {
 
 /// The data from which `G M⁻¹ Gᵀ` is computed at every state.
 #[derive(Clone, Debug)]
-pub(in crate::constraints) struct Metric<T> {
+pub struct Metric<T> {
     masses: InverseMasses<T>,
     products: Products,
     /// Whether the velocity is linear in the momentum.
@@ -34,7 +34,7 @@ pub(in crate::constraints) struct Metric<T> {
 
 /// Data at a state on the constraints: at the start of a step, and at its end.
 #[derive(Clone, Debug)]
-pub(in crate::constraints) struct Point<V: Vector> {
+pub struct Point<V: Vector> {
     /// The force without that of the constraints; only for separable systems.
     pub(in crate::constraints) force: V,
     pub(in crate::constraints) gradients: Gradients<V::Scalar>,

@@ -346,7 +346,7 @@ pub fn consistent<V: Vector, S: System<V, Class = Constrained<C>>, C: Class + Un
 ) -> Result<State<V>, Error> {
     let State { time, q, p } = state;
     check_numbers(&q, &p)?;
-    let system = &WithConstraints::holonomic(system, q.dimension());
+    let system = &WithConstraints::new(system, q.dimension());
     system.check_given()?;
     system.check(time, moved_onto(system, time, q, p))
 }

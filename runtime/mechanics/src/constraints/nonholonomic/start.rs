@@ -62,7 +62,7 @@ where
 {
     let State { time, q, mut p } = state;
     check_numbers(&q, &p)?;
-    let system = &WithConstraints::nonholonomic(system, q.dimension());
+    let system = &WithConstraints::new(system, q.dimension());
     system.check_given()?;
     let mut examined = system.check(time, Examined::new(system, time, &q, &p))?;
     let projected = examined.project_momentum(system, time, &q, &mut p);
