@@ -4,7 +4,9 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::array;
 
-use super::holonomic::{LastImpulse, Metric, MomentumTerms, Point};
+use super::last_impulse::LastImpulse;
+use super::metric::{Metric, Point};
+use super::momentum_terms::MomentumTerms;
 use super::{Terms, WithConstraints};
 use symplectic_core::inside::{
     ConstrainedStep, ConstrainedTableau, first_non_finite, first_non_finite_of, is_finite,

@@ -6,9 +6,16 @@
 
 mod gradients;
 mod holonomic;
+mod increments;
+mod kind;
+mod last_impulse;
 mod memory;
+mod metric;
+mod momentum_terms;
 mod nonholonomic;
+mod normal_matrix;
 mod plan;
+mod residuals;
 mod with_constraints;
 
 pub use gradients::Gradients;

@@ -3,9 +3,11 @@
 use core::array;
 use core::marker::PhantomData;
 
-use super::holonomic::{add_to_force, same_momentum};
+use super::holonomic::add_to_force;
+use super::increments::same_momentum;
+use super::kind::Kind;
 use super::memory::{ConstrainedStages, OwnPart, Workspace};
-use super::with_constraints::{Constraints, WithConstraints};
+use super::with_constraints::WithConstraints;
 use super::{Constrained, HolonomicConstraints, Nonholonomic, NonholonomicConstraints};
 use symplectic_core::inside::{
     ConstrainedStep, ConstrainedTableau, Plan, StageView, in_turn, named,
@@ -15,32 +17,6 @@ use symplectic_core::solver::{
 };
 use symplectic_core::system::{Class, Unconstrained};
 use symplectic_core::{Error, Method, Scalar, Summation, System, Vector};
-
-/// A class of systems with constraints. The two kinds differ in what is here, and share the plan and the memory.
-pub trait Kind: Class {
-    /// The part of the memory that only its steps need.
-    type Part<V: Vector>: OwnPart<V>;
-
-    /// Name of the trait that gives the constraints.
-    const GIVEN_BY: &'static str;
-
-    /// The constraints of a system.
-    fn constraints<'a, V: Vector>(given: Self::Extra<'a, V>) -> Constraints<'a, V>;
-
-    /// The steps of a method.
-    fn steps<M: Method>(method: &M) -> &'static [ConstrainedStep];
-
-    /// The steps of a method whose coefficients are constants.
-    fn known_steps<M: Method>() -> &'static [ConstrainedStep];
-
-    /// Checks that a state obeys the constraints, and that these are independent.
-    fn check_start<V: Vector, S: System<V>>(
-        system: &WithConstraints<'_, V, S>,
-        time: f64,
-        q: &V,
-        p: &V,
-    ) -> Result<(), Error>;
-}
 
 macro_rules! classes {
     ($($class:ident by $constraints:ident;)*) => {$(
@@ -69,7 +45,7 @@ macro_rules! classes {
                 q: &V,
                 show: &mut dyn FnMut(V::Scalar),
             ) {
-                let system = WithConstraints::new(system, q.dimension());
+                let system = Self::with_constraints(system, q.dimension());
                 system.numbers(q).into_iter().for_each(show);
             }
 
@@ -105,7 +81,7 @@ impl<M: Method, K: Kind> Plan for ConstrainedPlan<M, K> {
         S: System<V, Class = K>,
         N: Solver<V, S>,
     {
-        let system = &WithConstraints::new(system, q.dimension());
+        let system = &K::with_constraints(system, q.dimension());
         let steps = memory.steps;
         memory.workspace = Some(Workspace::new(steps, system, time, q, p));
     }
@@ -115,7 +91,7 @@ impl<M: Method, K: Kind> Plan for ConstrainedPlan<M, K> {
         V: Vector,
         S: System<V, Class = K>,
     {
-        K::check_start(&WithConstraints::new(system, q.dimension()), time, q, p)
+        K::check_start(&K::with_constraints(system, q.dimension()), time, q, p)
     }
 
     fn take<R: Summation, V: Vector, S: System<V, Class = K>, N: Solver<V, S>>(
@@ -126,7 +102,7 @@ impl<M: Method, K: Kind> Plan for ConstrainedPlan<M, K> {
         stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure> {
-        let system = &WithConstraints::new(system, step.q.dimension());
+        let system = &K::with_constraints(system, step.q.dimension());
         memory.take::<R, S>(step, system, kept, stopping, outcome, |_| {})
     }
 
@@ -142,7 +118,7 @@ impl<M: Method, K: Kind> Plan for ConstrainedPlan<M, K> {
         S: System<V, Class = K>,
     {
         let mut memory = ConstrainedStages::<V, K::Part<V>>::new(K::known_steps::<M>(), step.q);
-        let system = &WithConstraints::new(system, step.q.dimension());
+        let system = &K::with_constraints(system, step.q.dimension());
         let [mut q, mut q_low, mut p, mut p_low] = array::from_fn(|_| step.q.zeros_like());
         let outcome = Outcome {
             q: &mut q,
@@ -161,7 +137,7 @@ impl<M: Method, K: Kind> Plan for ConstrainedPlan<M, K> {
         S: System<V, Class = K>,
     {
         system.force(V::Scalar::from_f64(time), q, p, rate);
-        let system = &WithConstraints::new(system, q.dimension());
+        let system = &K::with_constraints(system, q.dimension());
         add_to_force(system, time, (q, p), rate);
     }
 }

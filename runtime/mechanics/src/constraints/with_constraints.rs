@@ -4,7 +4,6 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::cell::Cell;
 
-use super::plan::Kind;
 use super::{Gradients, HolonomicConstraints, NonholonomicConstraints};
 use symplectic_core::solver::FixedPoint;
 use symplectic_core::system::{ConstraintName, Masses};
@@ -30,15 +29,16 @@ pub struct WithConstraints<'a, V: Vector, S> {
 }
 
 impl<'a, V: Vector, S: System<V>> WithConstraints<'a, V, S> {
-    /// A system with constraints, for states of this dimension. The rows w of non-holonomic ones stand for the gradients.
-    pub(super) fn new<K: Kind>(system: &'a S, dimension: usize) -> Self
-    where
-        S: System<V, Class = K>,
-    {
+    /// A system with these constraints, given by this trait, for states of this dimension.
+    pub(super) const fn new(
+        system: &'a S,
+        (constraints, by): (Option<Constraints<'a, V>>, &'static str),
+        dimension: usize,
+    ) -> Self {
         Self {
             system,
-            constraints: system.extra().map(K::constraints),
-            by: K::GIVEN_BY,
+            constraints,
+            by,
             dimension,
             resized: Cell::new(None),
         }

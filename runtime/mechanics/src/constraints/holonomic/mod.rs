@@ -9,30 +9,23 @@
 
 mod force;
 mod history;
-mod last_impulse;
-mod metric;
-mod momentum_terms;
 mod newton;
-mod normal_matrix;
 mod resolution;
 mod start;
 mod step;
 
 pub(super) use force::add_to_force;
 pub use force::{ConstraintForce, constraint_force};
-pub(super) use last_impulse::LastImpulse;
-pub(super) use metric::{Metric, Point};
-pub(super) use momentum_terms::MomentumTerms;
 pub use start::consistent;
 pub(super) use start::{CONSISTENT, Examined, check_numbers};
-pub(super) use step::{NOISE, PATIENCE, ROUNDING, result, same_momentum, stage};
 
 use alloc::vec;
 use alloc::vec::Vec;
 use core::array;
 
+use crate::constraints::kind::Kind;
 use crate::constraints::memory::OwnPart;
-use crate::constraints::plan::Kind;
+use crate::constraints::metric::{Metric, Point};
 use crate::constraints::with_constraints::Constraints;
 use crate::constraints::{Constrained, Gradients, WithConstraints, Workspace};
 use history::History;

@@ -2,25 +2,19 @@
 
 use super::HolonomicPart;
 use super::start::CONSISTENT;
+use crate::constraints::increments::{result, same_momentum, stage};
+use crate::constraints::residuals::{NOISE, PATIENCE, ROUNDING, SETTLED};
 use crate::constraints::{Gradients, Terms, WithConstraints, Workspace};
-use symplectic_core::inside::{ConstrainedTableau, add, copy, larger_or_nan};
+use symplectic_core::inside::{ConstrainedTableau, copy, larger_or_nan};
 use symplectic_core::solver::{Coefficient, Failure, Outcome, Step, StepStatistics, Stopping};
 use symplectic_core::system::Class;
 use symplectic_core::{Quantity, Scalar, Summation, System, Vector};
 
-/// Residuals are in units of rounding. A residual of at most this size counts as zero if it has [stopped decreasing](STAGNANT).
-pub(in crate::constraints) const ROUNDING: f64 = 2.0;
-/// A residual of at most this size always counts as zero. A residual that still decreases always has the same sign. With 1/2 the relative
-/// energy drift for a double pendulum on rods would be up to 10⁻²¹ per step.
-pub(in crate::constraints) const SETTLED: f64 = 0.125;
-/// A residual has stopped decreasing if the previous one is at most this size. With 128 that drift would be 4·10⁻²² per step.
+/// A residual has stopped decreasing if the previous one is at most this size. With 128 the relative energy drift for a double pendulum on
+/// rods would be 4·10⁻²² per step.
 const STAGNANT: f64 = 48.0;
-/// A residual that no longer decreases is accepted up to this size, in units of rounding.
-pub(in crate::constraints) const NOISE: f64 = 256.0;
 /// A sweep that leaves more than this fraction of the residual contracts badly.
 const SLOW: f64 = 0.125;
-/// Number of sweeps without a smaller residual after which the iteration has ended.
-pub(in crate::constraints) const PATIENCE: u32 = 4;
 
 impl<V: Vector> Workspace<V, HolonomicPart<V>> {
     /// Starting values of the stages and multipliers.
@@ -478,60 +472,6 @@ pub(super) const fn depends_on_the_start(failure: &Failure) -> bool {
         failure,
         Failure::NoConvergence { .. } | Failure::NonFinite { .. } | Failure::SingularMatrix
     )
-}
-
-/// Whether momentum and velocity of a stage are those of the previous stage: for a separable system with equal rows.
-#[inline]
-pub(in crate::constraints) fn same_momentum<V: Vector, S: System<V>>(
-    tableau: &ConstrainedTableau,
-    i: usize,
-) -> bool {
-    i > 0
-        && S::Class::SEPARABLE
-        && tableau.momentum_nodes[i] == tableau.momentum_nodes[i - 1]
-        && tableau.momenta[i] == tableau.momenta[i - 1]
-}
-
-/// Position or momentum after a step, `base + low + Σ_j increment_j`, with its compensation.
-pub(in crate::constraints) fn result<R: Summation, V: Vector>(
-    (out, out_low): (&mut V, &mut V),
-    (base, low): (&V, &V),
-    increments: &[V],
-) {
-    let (base, low) = (base.as_slice(), low.as_slice());
-    let places = out.as_mut_slice().iter_mut();
-    for (k, (out, out_low)) in places.zip(out_low.as_mut_slice()).enumerate() {
-        let increment = |j: usize| increments[j].as_slice()[k];
-        let (sum, rest) = add::<R, _>(base[k], low[k], increments.len(), increment);
-        *out = sum;
-        if R::COMPENSATED {
-            *out_low = rest;
-        }
-    }
-}
-
-/// `out = base + (low + Σ_j factor_j increment_j)`
-#[inline]
-pub(in crate::constraints) fn stage<V: Vector>(
-    out: &mut V,
-    (base, low): (&V, &V),
-    factors: &[Coefficient],
-    increments: &[V],
-) {
-    copy(out, low);
-    for (&factor, increment) in factors.iter().zip(increments) {
-        if factor.double() == 0.0 {
-            continue;
-        }
-        let factor = V::Scalar::from_coefficient(factor);
-        let pairs = out.as_mut_slice().iter_mut().zip(increment.as_slice());
-        for (out, &increment) in pairs {
-            *out = increment.fused(factor, *out);
-        }
-    }
-    for (out, &base) in out.as_mut_slice().iter_mut().zip(base.as_slice()) {
-        *out = base + *out;
-    }
 }
 
 /// The largest size of a position for which raised terms have their size.

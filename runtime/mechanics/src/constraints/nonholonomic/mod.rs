@@ -28,9 +28,9 @@ pub use start::consistent_momentum;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::constraints::holonomic::{Metric, Point};
+use crate::constraints::kind::Kind;
 use crate::constraints::memory::OwnPart;
-use crate::constraints::plan::Kind;
+use crate::constraints::metric::{Metric, Point};
 use crate::constraints::with_constraints::Constraints;
 use crate::constraints::{Gradients, Nonholonomic, WithConstraints, Workspace};
 use symplectic_core::inside::{ConstrainedStep, ConstrainedTableau};

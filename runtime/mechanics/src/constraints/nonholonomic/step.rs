@@ -1,7 +1,8 @@
 //! One step with non-holonomic constraints.
 
 use super::NonholonomicPart;
-use crate::constraints::holonomic::{NOISE, PATIENCE, ROUNDING, result, same_momentum, stage};
+use crate::constraints::increments::{result, same_momentum, stage};
+use crate::constraints::residuals::{NOISE, PATIENCE, ROUNDING};
 use crate::constraints::{WithConstraints, Workspace};
 use symplectic_core::inside::{ConstrainedTableau, copy, larger_or_nan};
 use symplectic_core::solver::{Coefficient, Failure, Outcome, Step, StepStatistics, Stopping};
