@@ -15,10 +15,10 @@ pub trait Kind: Class {
     const GIVEN_BY: &'static str;
 
     /// The constraints of a system.
-    fn constraints<'a, V: Vector>(given: Self::Extra<'a, V>) -> Constraints<'a, V>;
+    fn constraints_of<'a, V: Vector>(given: Self::Extra<'a, V>) -> Constraints<'a, V>;
 
     /// The steps of a method.
-    fn steps<M: Method>(method: &M) -> &'static [ConstrainedStep];
+    fn steps_of<M: Method>(method: &M) -> &'static [ConstrainedStep];
 
     /// The steps of a method whose coefficients are constants.
     fn known_steps<M: Method>() -> &'static [ConstrainedStep];
@@ -36,7 +36,7 @@ pub trait Kind: Class {
         system: &S,
         dimension: usize,
     ) -> WithConstraints<'_, V, S> {
-        let constraints = system.extra().map(Self::constraints);
+        let constraints = system.extra().map(Self::constraints_of);
         WithConstraints::new(system, (constraints, Self::GIVEN_BY), dimension)
     }
 }

@@ -49,7 +49,7 @@ pub trait OwnPart<V: Vector>: Clone {
     const IMPULSES: usize;
 
     /// Memory for these steps of a method, with up to `stages` stages, and of a system at this position and point.
-    fn new<S: System<V>>(
+    fn for_steps<S: System<V>>(
         steps: &[ConstrainedStep],
         stages: usize,
         system: &WithConstraints<'_, V, S>,
@@ -58,7 +58,7 @@ pub trait OwnPart<V: Vector>: Clone {
     ) -> Self;
 
     /// Takes the substep of this number and tableau; `carried` means that the previous step ended where this one starts.
-    fn take<R: Summation, S: System<V>>(
+    fn take_substep<R: Summation, S: System<V>>(
         workspace: &mut Workspace<V, Self>,
         substep: (usize, &ConstrainedTableau),
         step: &Step<'_, V>,
@@ -69,14 +69,14 @@ pub trait OwnPart<V: Vector>: Clone {
     ) -> Result<StepStatistics, Failure>;
 
     /// The impulses of the constraints at a stage of the last step; empty if they act at the ends of the step only.
-    fn impulses<'w>(
+    fn impulses_at<'w>(
         workspace: &'w Workspace<V, Self>,
         tableau: &ConstrainedTableau,
         stage: usize,
     ) -> &'w [V::Scalar];
 
     /// Passes the numbers that a step leaves for the next one to `visit`.
-    fn words(workspace: &mut Workspace<V, Self>, visit: &mut Visit<'_>);
+    fn own_words(workspace: &mut Workspace<V, Self>, visit: &mut Visit<'_>);
 }
 
 impl<V: Vector, O: OwnPart<V>> Workspace<V, O> {
@@ -94,7 +94,7 @@ impl<V: Vector, O: OwnPart<V>> Workspace<V, O> {
         let stages = stages.max().unwrap_or(0);
         let vectors = |count: usize| -> Vec<V> { (0..count).map(|_| q.zeros_like()).collect() };
         Self {
-            own: O::new(steps, stages, system, q, (&metric, &point)),
+            own: O::for_steps(steps, stages, system, q, (&metric, &point)),
             metric,
             start: point.clone(),
             end: point,
@@ -166,7 +166,7 @@ impl<V: Vector, O: OwnPart<V>> StageStorage<V> for ConstrainedStages<V, O> {
 
     fn words(&mut self, visit: &mut Visit<'_>) {
         if let Some(workspace) = &mut self.workspace {
-            O::words(workspace, visit);
+            O::own_words(workspace, visit);
         }
     }
 

@@ -30,11 +30,11 @@ macro_rules! classes {
                 method: &M,
                 prototype: &V,
             ) -> ConstrainedStages<V, <Self as Kind>::Part<V>> {
-                ConstrainedStages::new(Self::steps(method), prototype)
+                ConstrainedStages::new(Self::steps_of(method), prototype)
             }
 
             fn check_steps<M: Method>(method: &M) -> Result<(), Error> {
-                match Self::steps(method).is_empty() {
+                match Self::steps_of(method).is_empty() {
                     true => Err(Error::NoConstrainedSteps),
                     false => Ok(()),
                 }
@@ -163,7 +163,8 @@ impl<V: Vector, O: OwnPart<V>> ConstrainedStages<V, O> {
                     kept: WarmStart,
                     here: &mut Outcome<'_, V>| {
             let (substep, carried) = ((number, substep.tableau), kept.evaluation);
-            let taken = O::take::<R, S>(workspace, substep, part, system, carried, stopping, here);
+            let taken =
+                O::take_substep::<R, S>(workspace, substep, part, system, carried, stopping, here);
             workspace.show_stages::<S>(substep.1, part, &mut show);
             taken
         };
@@ -195,7 +196,7 @@ impl<V: Vector, O: OwnPart<V>> Workspace<V, O> {
                 momentum_time: step.at(tableau.momentum_nodes[i]),
                 q,
                 p: &self.p[last],
-                impulses: O::impulses(self, tableau, i),
+                impulses: O::impulses_at(self, tableau, i),
                 impulse_weight: match weight.double() {
                     0.0 => step.size,
                     weight => step.size * weight,

@@ -44,11 +44,11 @@ impl<C: Class + Unconstrained> Kind for Constrained<C> {
 
     const GIVEN_BY: &'static str = "HolonomicConstraints";
 
-    fn constraints<'a, V: Vector>(given: Self::Extra<'a, V>) -> Constraints<'a, V> {
+    fn constraints_of<'a, V: Vector>(given: Self::Extra<'a, V>) -> Constraints<'a, V> {
         Constraints::Holonomic(given)
     }
 
-    fn steps<M: Method>(method: &M) -> &'static [ConstrainedStep] {
+    fn steps_of<M: Method>(method: &M) -> &'static [ConstrainedStep] {
         method.holonomic()
     }
 
@@ -90,7 +90,7 @@ pub struct HolonomicPart<V: Vector> {
 impl<V: Vector> OwnPart<V> for HolonomicPart<V> {
     const IMPULSES: usize = 0;
 
-    fn new<S: System<V>>(
+    fn for_steps<S: System<V>>(
         steps: &[ConstrainedStep],
         stages: usize,
         system: &WithConstraints<'_, V, S>,
@@ -137,7 +137,7 @@ impl<V: Vector> OwnPart<V> for HolonomicPart<V> {
     ///
     /// with 1 in place of a weight `b_k = 0`, until the residuals are rounding errors. Stages between start and end follow the new
     /// multipliers at once. Then `Q_s = q1`, and the last multiplier follows from `G velocity(q1, p1) = 0`.
-    fn take<R: Summation, S: System<V>>(
+    fn take_substep<R: Summation, S: System<V>>(
         workspace: &mut Workspace<V, Self>,
         (number, tableau): (usize, &ConstrainedTableau),
         step: &Step<'_, V>,
@@ -184,7 +184,7 @@ impl<V: Vector> OwnPart<V> for HolonomicPart<V> {
         Ok(work)
     }
 
-    fn impulses<'w>(
+    fn impulses_at<'w>(
         workspace: &'w Workspace<V, Self>,
         tableau: &ConstrainedTableau,
         stage: usize,
@@ -196,7 +196,7 @@ impl<V: Vector> OwnPart<V> for HolonomicPart<V> {
         &workspace.own.impulses[stage * constraints..][..constraints]
     }
 
-    fn words(workspace: &mut Workspace<V, Self>, visit: &mut Visit<'_>) {
+    fn own_words(workspace: &mut Workspace<V, Self>, visit: &mut Visit<'_>) {
         let Workspace {
             end,
             multipliers,

@@ -43,11 +43,11 @@ impl<C: Class + Unconstrained> Kind for Nonholonomic<C> {
 
     const GIVEN_BY: &'static str = "NonholonomicConstraints";
 
-    fn constraints<'a, V: Vector>(given: Self::Extra<'a, V>) -> Constraints<'a, V> {
+    fn constraints_of<'a, V: Vector>(given: Self::Extra<'a, V>) -> Constraints<'a, V> {
         Constraints::Nonholonomic(given)
     }
 
-    fn steps<M: Method>(method: &M) -> &'static [ConstrainedStep] {
+    fn steps_of<M: Method>(method: &M) -> &'static [ConstrainedStep] {
         method.nonholonomic()
     }
 
@@ -85,7 +85,7 @@ impl<V: Vector> OwnPart<V> for NonholonomicPart<V> {
     /// `−w(q0)ᵀλ` and `−w(q1)ᵀμ`
     const IMPULSES: usize = 2;
 
-    fn new<S: System<V>>(
+    fn for_steps<S: System<V>>(
         _: &[ConstrainedStep],
         stages: usize,
         system: &WithConstraints<'_, V, S>,
@@ -112,7 +112,7 @@ impl<V: Vector> OwnPart<V> for NonholonomicPart<V> {
     /// ```
     ///
     /// until the residuals are rounding errors. Then the last impulse follows from `w velocity(q1, p1) = 0`.
-    fn take<R: Summation, S: System<V>>(
+    fn take_substep<R: Summation, S: System<V>>(
         workspace: &mut Workspace<V, Self>,
         (_, tableau): (usize, &ConstrainedTableau),
         step: &Step<'_, V>,
@@ -133,7 +133,7 @@ impl<V: Vector> OwnPart<V> for NonholonomicPart<V> {
         Ok(work)
     }
 
-    fn impulses<'w>(
+    fn impulses_at<'w>(
         _: &'w Workspace<V, Self>,
         _: &ConstrainedTableau,
         _: usize,
@@ -141,7 +141,7 @@ impl<V: Vector> OwnPart<V> for NonholonomicPart<V> {
         &[]
     }
 
-    fn words(workspace: &mut Workspace<V, Self>, visit: &mut Visit<'_>) {
+    fn own_words(workspace: &mut Workspace<V, Self>, visit: &mut Visit<'_>) {
         workspace.end.gradients.words(visit);
         workspace.end.normal.words(visit);
     }
