@@ -31,6 +31,7 @@ pub struct Workspace<V: Vector, O> {
     pub(super) drift: Vec<V>,
     /// The increments of the momentum: `h b_i force_i`, then [impulses](OwnPart::IMPULSES).
     pub(super) kick: Vec<V>,
+    /// Non-holonomic: λ of this step. Holonomic: those at the end of the previous step, from which the next starts without a history.
     pub(super) multipliers: Vec<V::Scalar>,
     /// The terms of the momentum of a stage.
     pub(super) momentum: MomentumTerms,
