@@ -6,7 +6,16 @@
 
 mod gradients;
 mod holonomic;
+mod increments;
+mod kind;
+mod last_impulse;
+mod memory;
+mod metric;
+mod momentum_terms;
 mod nonholonomic;
+mod normal_matrix;
+mod plan;
+mod residuals;
 mod with_constraints;
 
 pub use gradients::Gradients;
@@ -20,7 +29,8 @@ use symplectic_core::Vector;
 use symplectic_core::system::{FreePositions, Frictionless, Holonomic, NotGeneral, SplitClass};
 
 use gradients::Terms;
-use with_constraints::{WithConstraints, place_of_resized};
+use memory::Workspace;
+use with_constraints::WithConstraints;
 
 /// `H` of class `C`, [`Separable`](symplectic_core::Separable) or [`General`](symplectic_core::General), with holonomic constraints `φ(q) = 0`:
 ///

@@ -4,21 +4,20 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::cell::Cell;
 
-use super::{Constrained, Gradients, HolonomicConstraints, Nonholonomic, NonholonomicConstraints};
-use symplectic_core::inside::first_non_finite_of;
+use super::{Gradients, HolonomicConstraints, NonholonomicConstraints};
 use symplectic_core::solver::FixedPoint;
-use symplectic_core::system::{Class, ConstraintName, Masses, Unconstrained};
+use symplectic_core::system::{ConstraintName, Masses};
 use symplectic_core::{Error, Quantity, Scalar, System, Vector};
 
 /// The constraints of a system; the linear algebra is the same for both kinds.
-enum Constraints<'a, V: Vector> {
+pub enum Constraints<'a, V: Vector> {
     Holonomic(&'a dyn HolonomicConstraints<V>),
     Nonholonomic(&'a dyn NonholonomicConstraints<V>),
 }
 
 /// A system with its constraints, as steps evaluate it. NaN replaces an evaluation of a wrong dimension: so nothing is cut off, and no
 /// component is missing.
-pub(super) struct WithConstraints<'a, V: Vector, S> {
+pub struct WithConstraints<'a, V: Vector, S> {
     system: &'a S,
     /// None if the system does not give them.
     constraints: Option<Constraints<'a, V>>,
@@ -30,7 +29,8 @@ pub(super) struct WithConstraints<'a, V: Vector, S> {
 }
 
 impl<'a, V: Vector, S: System<V>> WithConstraints<'a, V, S> {
-    const fn new(
+    /// A system with these constraints, given by this trait, for states of this dimension.
+    pub(super) const fn new(
         system: &'a S,
         (constraints, by): (Option<Constraints<'a, V>>, &'static str),
         dimension: usize,
@@ -42,24 +42,6 @@ impl<'a, V: Vector, S: System<V>> WithConstraints<'a, V, S> {
             dimension,
             resized: Cell::new(None),
         }
-    }
-
-    /// A system with holonomic constraints, for states of this dimension.
-    pub(super) fn holonomic<C: Class + Unconstrained>(system: &'a S, dimension: usize) -> Self
-    where
-        S: System<V, Class = Constrained<C>>,
-    {
-        let constraints = system.extra().map(Constraints::Holonomic);
-        Self::new(system, (constraints, "HolonomicConstraints"), dimension)
-    }
-
-    /// A system with non-holonomic constraints: its rows w stand for the gradients.
-    pub(super) fn nonholonomic<C: Class + Unconstrained>(system: &'a S, dimension: usize) -> Self
-    where
-        S: System<V, Class = Nonholonomic<C>>,
-    {
-        let constraints = system.extra().map(Constraints::Nonholonomic);
-        Self::new(system, (constraints, "NonholonomicConstraints"), dimension)
     }
 
     /// Checks that the system gives its constraints.
@@ -174,19 +156,4 @@ impl<V: Vector, S: System<V>> System<V> for WithConstraints<'_, V, S> {
         self.system.force(time, q, p, force);
         self.restore(Quantity::Force, q, force);
     }
-}
-
-/// The quantity of an evaluation of a wrong dimension, its stage from 1 (0 outside the stages), and its dimension. NaN replaced it, so its
-/// stage is the first increment of a step that is not finite.
-pub(super) fn place_of_resized<V: Vector>(
-    (what, found): (Quantity, usize),
-    kick: &[V],
-    drift: &[V],
-) -> Option<(Quantity, usize, usize)> {
-    let increments = match what {
-        Quantity::Force => kick,
-        _ => drift,
-    };
-    let stage = first_non_finite_of(increments).unwrap_or(0);
-    Some((what, stage, found))
 }

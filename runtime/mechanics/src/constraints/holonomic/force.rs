@@ -3,8 +3,9 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::metric::{Metric, Point};
 use super::start::{check_start, error};
+use crate::constraints::kind::Kind;
+use crate::constraints::metric::{Metric, Point};
 use crate::constraints::{Constrained, WithConstraints};
 use symplectic_core::inside::{is_finite, named};
 use symplectic_core::system::{Class, Unconstrained};
@@ -55,7 +56,7 @@ where
     C: Class + Unconstrained,
 {
     let State { time, q, p } = state;
-    let system = &WithConstraints::holonomic(system, q.dimension());
+    let system = &Kind::with_constraints(system, q.dimension());
     check_start(system, *time, q, p)?;
     let mut force = q.zeros_like();
     system.force(V::Scalar::from_f64(*time), q, p, &mut force);

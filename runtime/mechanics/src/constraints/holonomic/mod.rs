@@ -9,201 +9,207 @@
 
 mod force;
 mod history;
-mod last_impulse;
-mod memory;
-mod metric;
-mod momentum_terms;
 mod newton;
-mod normal_matrix;
 mod resolution;
 mod start;
 mod step;
 
 pub(super) use force::add_to_force;
 pub use force::{ConstraintForce, constraint_force};
-pub(super) use last_impulse::LastImpulse;
-pub use memory::ConstrainedStages;
-pub(super) use metric::{Metric, Point};
-pub(super) use momentum_terms::MomentumTerms;
 pub use start::consistent;
 pub(super) use start::{CONSISTENT, Examined, check_numbers};
-pub(super) use step::{NOISE, PATIENCE, ROUNDING, result, same_momentum, show_stages, stage};
 
-use core::marker::PhantomData;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::array;
 
-use crate::constraints::{Constrained, HolonomicConstraints, WithConstraints};
-use memory::Workspace;
-use symplectic_core::inside::{ConstrainedStep, Plan, StageView, in_turn, named};
+use crate::constraints::kind::Kind;
+use crate::constraints::memory::OwnPart;
+use crate::constraints::metric::{Metric, Point};
+use crate::constraints::with_constraints::Constraints;
+use crate::constraints::{Constrained, Gradients, WithConstraints, Workspace};
+use history::History;
+use newton::StageJacobian;
+use resolution::Resolution;
+use step::depends_on_the_start;
+use symplectic_core::inside::{ConstrainedStep, ConstrainedTableau};
 use symplectic_core::solver::{
-    Failure, Outcome, Solver, Step, StepStatistics, Stopping, WarmStart,
+    Failure, Outcome, Step, StepStatistics, Stopping, Visit, scalar_words, vector_words,
 };
 use symplectic_core::system::{Class, Unconstrained};
 use symplectic_core::{Error, Method, Scalar, Summation, System, Vector};
 
-/// The plan of the method `M` for systems with holonomic constraints.
-#[derive(Debug)]
-pub struct ConstrainedPlan<M, C>(PhantomData<(M, C)>);
+impl<C: Class + Unconstrained> Kind for Constrained<C> {
+    type Part<V: Vector> = HolonomicPart<V>;
 
-impl<C: Class + Unconstrained> Class for Constrained<C> {
-    type Plan<M: Method> = ConstrainedPlan<M, C>;
-    type Extra<'a, V: Vector> = &'a (dyn HolonomicConstraints<V> + 'a);
-    const CONSTRAINED: bool = true;
-    const SEPARABLE: bool = C::SEPARABLE;
+    const GIVEN_BY: &'static str = "HolonomicConstraints";
 
-    fn memory<M: Method, V: Vector, S: System<V>, N: Solver<V, S>>(
-        method: &M,
-        prototype: &V,
-    ) -> ConstrainedStages<V> {
-        ConstrainedStages::new(method.holonomic(), prototype)
+    fn constraints_of<'a, V: Vector>(given: Self::Extra<'a, V>) -> Constraints<'a, V> {
+        Constraints::Holonomic(given)
     }
 
-    fn check_steps<M: Method>(method: &M) -> Result<(), Error> {
-        match method.holonomic().is_empty() {
-            true => Err(Error::NoConstrainedSteps),
-            false => Ok(()),
+    fn steps_of<M: Method>(method: &M) -> &'static [ConstrainedStep] {
+        method.holonomic()
+    }
+
+    fn known_steps<M: Method>() -> &'static [ConstrainedStep] {
+        M::CONSTRAINED
+    }
+
+    fn check_start<V: Vector, S: System<V>>(
+        system: &WithConstraints<'_, V, S>,
+        time: f64,
+        q: &V,
+        p: &V,
+    ) -> Result<(), Error> {
+        start::check_start(system, time, q, p)
+    }
+}
+
+/// The part of the memory that only steps with holonomic constraints need.
+#[derive(Clone, Debug)]
+pub struct HolonomicPart<V: Vector> {
+    /// How well the values of the constraints resolve positions.
+    resolution: Resolution,
+    /// The gradients at Q_2 … Q_{s−1}.
+    gradients: Vec<Gradients<V::Scalar>>,
+    /// `h b_k Λ_k`, stage by stage.
+    impulses: Vec<V::Scalar>,
+    /// Their last changes.
+    changes: Vec<V::Scalar>,
+    /// One for each number of stages; a costly one is made when it is first needed.
+    jacobians: Vec<StageJacobian<V::Scalar>>,
+    /// `φ(Q_i)`, then `S⁻¹ φ(Q_i)`, i = 2..s, stage by stage.
+    defects: Vec<V::Scalar>,
+    /// The previous steps of every part of a composition.
+    histories: Vec<History<V>>,
+    /// Whether the stages of this step start from extrapolated ones.
+    extrapolated: bool,
+}
+
+impl<V: Vector> OwnPart<V> for HolonomicPart<V> {
+    const IMPULSES: usize = 0;
+
+    fn for_steps<S: System<V>>(
+        steps: &[ConstrainedStep],
+        stages: usize,
+        system: &WithConstraints<'_, V, S>,
+        q: &V,
+        (metric, point): (&Metric<V::Scalar>, &Point<V>),
+    ) -> Self {
+        let (constraints, half) = (system.constraints(), metric.half_bandwidth());
+        let mut jacobians: Vec<StageJacobian<V::Scalar>> = Vec::new();
+        for step in steps {
+            let own = step.tableau.weights.len().saturating_sub(1);
+            let known = jacobians.iter().any(|known| known.fits(own));
+            if !known && !metric.is_full() {
+                jacobians.push(StageJacobian::new(constraints, own, half));
+            }
+        }
+        let histories = steps.iter().map(|step| {
+            let stages = step.tableau.weights.len();
+            let momenta = if S::Class::SEPARABLE { 0 } else { stages };
+            let own = stages.saturating_sub(1);
+            History::new(q, own + momenta, own * constraints)
+        });
+        let numbers = || vec![V::Scalar::from_f64(0.0); stages.saturating_sub(1) * constraints];
+        Self {
+            resolution: Resolution::new(system, q, &point.gradients),
+            gradients: vec![point.gradients.clone(); stages.saturating_sub(2)],
+            impulses: numbers(),
+            changes: numbers(),
+            jacobians,
+            defects: numbers(),
+            histories: histories.collect(),
+            extrapolated: false,
         }
     }
 
-    fn numbers<V: Vector, S: System<V, Class = Self>>(
-        system: &S,
-        q: &V,
-        show: &mut dyn FnMut(V::Scalar),
-    ) {
-        let system = WithConstraints::holonomic(system, q.dimension());
-        system.numbers(q).into_iter().for_each(show);
-    }
-
-    fn explain<V: Vector, S: System<V, Class = Self>>(system: &S, error: Error) -> Error {
-        let constraints = system.extra();
-        named(error, |constraint| constraints?.constraint_name(constraint))
-    }
-}
-
-impl<M: Method, C: Class + Unconstrained> Plan for ConstrainedPlan<M, C> {
-    type Class = Constrained<C>;
-    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = ConstrainedStages<V>;
-
-    fn prepare<V, S, N>(memory: &mut ConstrainedStages<V>, system: &S, time: f64, q: &V, p: &V)
-    where
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-        N: Solver<V, S>,
-    {
-        let system = &WithConstraints::holonomic(system, q.dimension());
-        let steps = memory.steps;
-        memory.workspace = Some(Workspace::new(steps, system, time, q, p));
-    }
-
-    fn check<V, S>(system: &S, time: f64, q: &V, p: &V) -> Result<(), Error>
-    where
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-    {
-        let system = &WithConstraints::holonomic(system, q.dimension());
-        start::check_start(system, time, q, p)
-    }
-
-    fn take<R: Summation, V: Vector, S: System<V, Class = Self::Class>, N: Solver<V, S>>(
+    /// Takes the step of a number in its composition; `carried` means that the previous step ended where this one starts.
+    ///
+    /// Stages and multipliers start from those of the last five steps if these had the same size. A sweep evaluates the forces at the
+    /// stages, computes the stages with the present multipliers, and corrects the multipliers by a Newton step. In the first sweep without
+    /// previous steps it corrects them by
+    ///
+    /// ```text
+    /// h b_k Λ_k += (b_k/h) Σ_i (X⁻¹)_ki S⁻¹ φ(Q_i)      S = G M⁻¹ Gᵀ at q0
+    /// ```
+    ///
+    /// with 1 in place of a weight `b_k = 0`, until the residuals are rounding errors. Stages between start and end follow the new
+    /// multipliers at once. Then `Q_s = q1`, and the last multiplier follows from `G velocity(q1, p1) = 0`.
+    fn take_substep<R: Summation, S: System<V>>(
+        workspace: &mut Workspace<V, Self>,
+        (number, tableau): (usize, &ConstrainedTableau),
         step: &Step<'_, V>,
-        system: &S,
-        memory: &mut ConstrainedStages<V>,
-        kept: WarmStart,
+        system: &WithConstraints<'_, V, S>,
+        carried: bool,
         stopping: Stopping,
-        outcome: Outcome<'_, V>,
+        outcome: &mut Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure> {
-        memory.take::<R, S, C>(step, system, kept, stopping, outcome, |_| {})
-    }
-
-    fn show_stages<R, V, S>(
-        step: &Step<'_, V>,
-        system: &S,
-        stopping: Stopping,
-        show: &mut dyn FnMut(StageView<'_, V>),
-    ) -> Option<Result<(), Failure>>
-    where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-    {
-        let mut memory = ConstrainedStages::new(M::CONSTRAINED, step.q);
-        Some(taken_once_more(step, |kept, outcome| {
-            memory.take::<R, S, C>(step, system, kept, stopping, outcome, show)
-        }))
-    }
-
-    fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
-    where
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-    {
-        system.force(V::Scalar::from_f64(time), q, p, rate);
-        let system = &WithConstraints::holonomic(system, q.dimension());
-        add_to_force(system, time, (q, p), rate);
-    }
-}
-
-impl<V: Vector> ConstrainedStages<V> {
-    /// Takes a step, of one tableau or of several, and shows their stages.
-    fn take<R, S, C>(
-        &mut self,
-        step: &Step<'_, V>,
-        system: &S,
-        kept: WarmStart,
-        stopping: Stopping,
-        outcome: Outcome<'_, V>,
-        mut show: impl FnMut(StageView<'_, V>),
-    ) -> Result<StepStatistics, Failure>
-    where
-        R: Summation,
-        S: System<V, Class = Constrained<C>>,
-        C: Class + Unconstrained,
-    {
-        let ConstrainedStages {
-            steps,
-            workspace,
-            resized,
-            between: [q, q_low, p, p_low],
-        } = self;
-        let system = &WithConstraints::holonomic(system, step.q.dimension());
-        let workspace = workspace
-            .get_or_insert_with(|| Workspace::new(steps, system, step.time, step.q, step.p));
-        let between = Outcome { q, q_low, p, p_low };
-        let take = |(number, substep): (usize, &ConstrainedStep),
-                    part: &Step<'_, V>,
-                    kept: WarmStart,
-                    here: &mut Outcome<'_, V>| {
-            let tableau = substep.tableau;
-            let taken = workspace.take::<R, _>(
-                (number, tableau),
-                part,
-                system,
-                kept.evaluation,
-                stopping,
-                here,
-            );
-            let places = (&workspace.q[..], &workspace.p[..]);
-            let impulses = |stage| workspace.impulses_at(tableau, stage);
-            show_stages::<V, S>(tableau, part, places, impulses, &mut show);
-            taken
+        let separable = S::Class::SEPARABLE;
+        let mut work = StepStatistics::default();
+        if !carried {
+            // The multipliers of another state, or of a step that failed, are not used as starting values.
+            workspace.multipliers.fill(V::Scalar::from_f64(0.0));
+            workspace.own.histories.iter_mut().for_each(History::forget);
+            let (end, scratch) = (&mut workspace.end, &mut workspace.scratch);
+            (workspace.metric).evaluate(system, step.time, (step.q, step.p), end, scratch)?;
+            if separable {
+                let at = V::Scalar::from_f64(step.time);
+                system.force(at, step.q, step.p, &mut workspace.end.force);
+                work.evaluations += 1;
+            }
+        }
+        core::mem::swap(&mut workspace.start, &mut workspace.end);
+        workspace.begin((number, tableau), step, system, &mut work);
+        let mut iterated =
+            workspace.iterate::<R, S>(tableau, step, system, stopping, outcome, &mut work);
+        if workspace.own.extrapolated
+            && matches!(iterated, Err(ref failure) if depends_on_the_start(failure))
+        {
+            workspace.own.histories[number].forget();
+            workspace.begin((number, tableau), step, system, &mut work);
+            iterated =
+                workspace.iterate::<R, S>(tableau, step, system, stopping, outcome, &mut work);
+        }
+        iterated?;
+        let momenta = if separable {
+            &[]
+        } else {
+            &workspace.p[..tableau.weights.len()]
         };
-        let place = |substep: &ConstrainedStep| (substep.start, substep.fraction);
-        let taken = in_turn(steps, place, step, kept, between, outcome, take);
-        *resized = system.resized();
-        taken
+        let stages = workspace.q[1..tableau.weights.len()].iter().chain(momenta);
+        workspace.own.histories[number].end(stages, &workspace.own.impulses);
+        workspace.finish::<R, S>(tableau, step, system, stopping, outcome, &mut work)?;
+        Ok(work)
     }
-}
 
-/// Repeats a step, with nothing kept from the previous one, to show its stages by `take`; discards its result.
-pub(super) fn taken_once_more<V: Vector>(
-    step: &Step<'_, V>,
-    take: impl FnOnce(WarmStart, Outcome<'_, V>) -> Result<StepStatistics, Failure>,
-) -> Result<(), Failure> {
-    let [mut q, mut q_low, mut p, mut p_low] = core::array::from_fn(|_| step.q.zeros_like());
-    let outcome = Outcome {
-        q: &mut q,
-        q_low: &mut q_low,
-        p: &mut p,
-        p_low: &mut p_low,
-    };
-    take(WarmStart::default(), outcome).map(|_| ())
+    fn impulses_at<'w>(
+        workspace: &'w Workspace<V, Self>,
+        tableau: &ConstrainedTableau,
+        stage: usize,
+    ) -> &'w [V::Scalar] {
+        if stage + 1 == tableau.weights.len() {
+            return &workspace.last_impulse.multipliers;
+        }
+        let constraints = workspace.multipliers.len();
+        &workspace.own.impulses[stage * constraints..][..constraints]
+    }
+
+    fn own_words(workspace: &mut Workspace<V, Self>, visit: &mut Visit<'_>) {
+        let Workspace {
+            end,
+            multipliers,
+            own,
+            ..
+        } = workspace;
+        vector_words(array::from_mut(&mut end.force), visit);
+        end.gradients.words(visit);
+        end.normal.words(visit);
+        scalar_words(multipliers, visit);
+        own.resolution.words(visit);
+        for history in &mut own.histories {
+            history.words(visit);
+        }
+    }
 }

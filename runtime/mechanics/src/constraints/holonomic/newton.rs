@@ -3,8 +3,8 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::memory::Workspace;
-use crate::constraints::{Gradients, WithConstraints};
+use super::HolonomicPart;
+use crate::constraints::{Gradients, WithConstraints, Workspace};
 use symplectic_core::inside::ConstrainedTableau;
 use symplectic_core::solver::{Failure, Step};
 use symplectic_core::{Scalar, System, Vector};
@@ -43,7 +43,7 @@ impl<T: Scalar> StageJacobian<T> {
     }
 }
 
-impl<V: Vector> Workspace<V> {
+impl<V: Vector> Workspace<V, HolonomicPart<V>> {
     /// Whether the matrix needs many evaluations of the velocity.
     pub(super) fn jacobian_is_costly(&self) -> bool {
         self.metric.is_full()
@@ -62,25 +62,26 @@ impl<V: Vector> Workspace<V> {
         renew: bool,
     ) -> Result<(), Failure> {
         let (stages, constraints) = (tableau.weights.len() - 1, self.multipliers.len());
-        let place = self.jacobians.iter().position(|known| known.fits(stages));
+        let jacobians = &mut self.own.jacobians;
+        let place = jacobians.iter().position(|known| known.fits(stages));
         let mut jacobian = match place {
-            Some(place) => self.jacobians.swap_remove(place),
+            Some(place) => jacobians.swap_remove(place),
             None => StageJacobian::new(constraints, stages, self.metric.half_bandwidth()),
         };
         let regular = !renew || self.renew(tableau, step, system, &mut jacobian)?;
         let elimination = &mut jacobian.elimination;
         for c in 0..constraints {
             for i in 0..stages {
-                elimination.right[c * stages + i] = self.defects[i * constraints + c];
+                elimination.right[c * stages + i] = self.own.defects[i * constraints + c];
             }
         }
         elimination.solve();
         for c in 0..constraints {
             for k in 0..stages {
-                self.changes[k * constraints + c] = elimination.right[c * stages + k];
+                self.own.changes[k * constraints + c] = elimination.right[c * stages + k];
             }
         }
-        self.jacobians.push(jacobian);
+        self.own.jacobians.push(jacobian);
         regular.then_some(()).ok_or(Failure::SingularMatrix)
     }
 
@@ -104,7 +105,7 @@ impl<V: Vector> Workspace<V> {
             match stage {
                 0 => &self.start.gradients,
                 _ if stage == stages => &self.end.gradients,
-                _ => &self.gradients[stage - 1],
+                _ => &self.own.gradients[stage - 1],
             }
         };
         let factor = |i: usize, k: usize| {

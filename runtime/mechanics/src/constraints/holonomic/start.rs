@@ -4,8 +4,9 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::array;
 
-use super::metric::{Metric, Point};
 use super::resolution::Resolution;
+use crate::constraints::kind::Kind;
+use crate::constraints::metric::{Metric, Point};
 use crate::constraints::{Constrained, Gradients, Terms, WithConstraints};
 use symplectic_core::inside::{beside, is_finite, named};
 use symplectic_core::solver::Failure;
@@ -346,7 +347,7 @@ pub fn consistent<V: Vector, S: System<V, Class = Constrained<C>>, C: Class + Un
 ) -> Result<State<V>, Error> {
     let State { time, q, p } = state;
     check_numbers(&q, &p)?;
-    let system = &WithConstraints::holonomic(system, q.dimension());
+    let system = &Kind::with_constraints(system, q.dimension());
     system.check_given()?;
     system.check(time, moved_onto(system, time, q, p))
 }

@@ -1,94 +1,24 @@
 //! One constrained step.
 
-use super::history::History;
-use super::memory::Workspace;
+use super::HolonomicPart;
 use super::start::CONSISTENT;
-use crate::constraints::{Gradients, Terms, WithConstraints};
-use symplectic_core::inside::{ConstrainedTableau, StageView, add, copy, is_finite, larger_or_nan};
+use crate::constraints::increments::{result, same_momentum, stage};
+use crate::constraints::residuals::{NOISE, PATIENCE, ROUNDING, SETTLED};
+use crate::constraints::{Gradients, Terms, WithConstraints, Workspace};
+use symplectic_core::inside::{ConstrainedTableau, copy, larger_or_nan};
 use symplectic_core::solver::{Coefficient, Failure, Outcome, Step, StepStatistics, Stopping};
 use symplectic_core::system::Class;
 use symplectic_core::{Quantity, Scalar, Summation, System, Vector};
 
-/// Residuals are in units of rounding. A residual of at most this size counts as zero if it has [stopped decreasing](STAGNANT).
-pub(in crate::constraints) const ROUNDING: f64 = 2.0;
-/// A residual of at most this size always counts as zero. A residual that still decreases always has the same sign. With 1/2 the relative
-/// energy drift for a double pendulum on rods would be up to 10⁻²¹ per step.
-pub(in crate::constraints) const SETTLED: f64 = 0.125;
-/// A residual has stopped decreasing if the previous one is at most this size. With 128 that drift would be 4·10⁻²² per step.
+/// A residual has stopped decreasing if the previous one is at most this size. With 128 the relative energy drift for a double pendulum on
+/// rods would be 4·10⁻²² per step.
 const STAGNANT: f64 = 48.0;
-/// A residual that no longer decreases is accepted up to this size, in units of rounding.
-pub(in crate::constraints) const NOISE: f64 = 256.0;
 /// A sweep that leaves more than this fraction of the residual contracts badly.
 const SLOW: f64 = 0.125;
-/// Number of sweeps without a smaller residual after which the iteration has ended.
-pub(in crate::constraints) const PATIENCE: u32 = 4;
 
-impl<V: Vector> Workspace<V> {
-    /// Takes the step of a number in its composition; `carried` means that the previous step ended where this one starts.
-    ///
-    /// Stages and multipliers start from those of the last five steps if these had the same size. A sweep evaluates the forces at the
-    /// stages, computes the stages with the present multipliers, and corrects the multipliers by a Newton step. In the first sweep without
-    /// previous steps it corrects them by
-    ///
-    /// ```text
-    /// h b_k Λ_k += (b_k/h) Σ_i (X⁻¹)_ki S⁻¹ φ(Q_i)      S = G M⁻¹ Gᵀ at q0
-    /// ```
-    ///
-    /// with 1 in place of a weight `b_k = 0`, until the residuals are rounding errors. Stages between start and end follow the new
-    /// multipliers at once. Then `Q_s = q1`, and the last multiplier follows from `G velocity(q1, p1) = 0`.
-    pub(super) fn take<R: Summation, S: System<V>>(
-        &mut self,
-        (number, tableau): (usize, &ConstrainedTableau),
-        step: &Step<'_, V>,
-        system: &WithConstraints<'_, V, S>,
-        carried: bool,
-        stopping: Stopping,
-        outcome: &mut Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure> {
-        let separable = S::Class::SEPARABLE;
-        let mut work = StepStatistics::default();
-        if !carried {
-            // The multipliers of another state, or of a step that failed, are not used as starting values.
-            self.multipliers.fill(V::Scalar::from_f64(0.0));
-            self.histories.iter_mut().for_each(History::forget);
-            let Self {
-                metric,
-                end,
-                scratch,
-                ..
-            } = self;
-            metric.evaluate(system, step.time, (step.q, step.p), end, scratch)?;
-            if separable {
-                let at = V::Scalar::from_f64(step.time);
-                system.force(at, step.q, step.p, &mut self.end.force);
-                work.evaluations += 1;
-            }
-        }
-        core::mem::swap(&mut self.start, &mut self.end);
-        self.begin((number, tableau), step, system, &mut work);
-        let mut iterated =
-            self.iterate::<R, S>(tableau, step, system, stopping, outcome, &mut work);
-        if self.extrapolated
-            && matches!(iterated, Err(ref failure) if depends_on_the_start(failure))
-        {
-            self.histories[number].forget();
-            self.begin((number, tableau), step, system, &mut work);
-            iterated = self.iterate::<R, S>(tableau, step, system, stopping, outcome, &mut work);
-        }
-        iterated?;
-        let momenta = if separable {
-            &[]
-        } else {
-            &self.p[..tableau.weights.len()]
-        };
-        let stages = self.q[1..tableau.weights.len()].iter().chain(momenta);
-        self.histories[number].end(stages, &self.impulses);
-        self.finish::<R, S>(tableau, step, system, stopping, outcome, &mut work)?;
-        Ok(work)
-    }
-
+impl<V: Vector> Workspace<V, HolonomicPart<V>> {
     /// Starting values of the stages and multipliers.
-    fn begin<S: System<V>>(
+    pub(super) fn begin<S: System<V>>(
         &mut self,
         (number, tableau): (usize, &ConstrainedTableau),
         step: &Step<'_, V>,
@@ -99,19 +29,19 @@ impl<V: Vector> Workspace<V> {
         let velocity = &mut self.scratch[0];
         system.velocity(step.at(Coefficient::exact(0.0)), step.q, step.p, velocity);
         work.evaluations += 1;
-        let history = &mut self.histories[number];
+        let history = &mut self.own.histories[number];
         let (velocity, gradients) = (&self.scratch[0], &self.start.gradients);
         // Another step of the composition may have more stages.
-        let impulses = &mut self.impulses[..(stages - 1) * self.multipliers.len()];
+        let impulses = &mut self.own.impulses[..(stages - 1) * self.multipliers.len()];
         let weights = history.begin(step.time, step.size, impulses, |apart| {
             // Positions have rounding errors, and so have the impulses that correct them in a step.
             let [q, p, v] = [step.q, step.p, velocity].map(largest);
             let rounding = V::Scalar::EPSILON * p * (1.0 + q / (step.size.abs() * v));
             apart * largest_of(gradients.values()) <= NOISE * rounding
         });
-        self.extrapolated = weights.is_some();
-        if !self.extrapolated {
-            let impulses = self.impulses.chunks_exact_mut(self.multipliers.len());
+        self.own.extrapolated = weights.is_some();
+        if !self.own.extrapolated {
+            let impulses = self.own.impulses.chunks_exact_mut(self.multipliers.len());
             for (impulses, &weight) in impulses.zip(tableau.weights) {
                 let weight = V::Scalar::weight(step.size, weight);
                 for (impulse, &multiplier) in impulses.iter_mut().zip(&self.multipliers) {
@@ -143,7 +73,7 @@ impl<V: Vector> Workspace<V> {
     }
 
     /// Sweeps until the stages are on the constraints and no longer move. The position after the step is in `outcome`.
-    fn iterate<R: Summation, S: System<V>>(
+    pub(super) fn iterate<R: Summation, S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
@@ -157,7 +87,7 @@ impl<V: Vector> Workspace<V> {
         let (unit, mut cancelled) = (V::Scalar::EPSILON, false);
         let stages = tableau.weights.len();
         // The first sweep with Newton's matrix, which needs good stages.
-        let first = if self.extrapolated { 1 } else { 2 };
+        let first = if self.own.extrapolated { 1 } else { 2 };
         // Forces inside the step depend on the multipliers if there are stages between start and end.
         let between = stages > 2 && !self.jacobian_is_costly();
         for sweep in 1..=stopping.max_iterations {
@@ -214,7 +144,7 @@ impl<V: Vector> Workspace<V> {
                 self.correct_by_newton(tableau, step, system, renew)?;
                 work.factorisations += u32::from(renew);
             }
-            for (impulse, &change) in self.impulses.iter_mut().zip(&self.changes) {
+            for (impulse, &change) in self.own.impulses.iter_mut().zip(&self.own.changes) {
                 *impulse += change;
             }
             if between {
@@ -241,7 +171,7 @@ impl<V: Vector> Workspace<V> {
             let gradients = if j == 0 {
                 &self.start.gradients
             } else {
-                let gradients = &mut self.gradients[j - 1];
+                let gradients = &mut self.own.gradients[j - 1];
                 let q = &self.q[j];
                 if !gradients.evaluate(|gradients| system.constraint_gradients(q, gradients)) {
                     return Err(Failure::MovingGradients);
@@ -261,7 +191,7 @@ impl<V: Vector> Workspace<V> {
             for (kick, &force) in kick.iter_mut().zip(force.as_slice()) {
                 *kick = weight * force;
             }
-            let impulses = &self.impulses[j * constraints..(j + 1) * constraints];
+            let impulses = &self.own.impulses[j * constraints..(j + 1) * constraints];
             gradients.subtract_transposed(impulses, kick);
         }
         Ok(())
@@ -331,7 +261,7 @@ impl<V: Vector> Workspace<V> {
                     size = size.max(new.magnitude());
                 }
             }
-            let defects = &mut self.defects[(i - 1) * constraints..i * constraints];
+            let defects = &mut self.own.defects[(i - 1) * constraints..i * constraints];
             system.constraint_values(&self.q[i], defects);
         }
         [movement, size]
@@ -340,7 +270,7 @@ impl<V: Vector> Workspace<V> {
     /// The distance of the stages from the constraints, in units of rounding.
     fn defect(&self, stages: usize) -> f64 {
         let constraints = self.multipliers.len();
-        let defects = self.defects.chunks_exact(constraints).take(stages - 1);
+        let defects = self.own.defects.chunks_exact(constraints).take(stages - 1);
         let mut residual = 0.0;
         for defects in defects {
             for (defect, terms) in defects.iter().zip(&self.terms) {
@@ -376,11 +306,11 @@ impl<V: Vector> Workspace<V> {
         (self.metric).raise(system, at, end, sizes, terms, scratch);
         let pushed = reach(terms);
         self.momentum.start(step.p.as_slice());
-        let impulses = self.impulses.chunks_exact(self.multipliers.len());
+        let impulses = self.own.impulses.chunks_exact(self.multipliers.len());
         for (j, impulses) in impulses.take(last).enumerate() {
             let gradients = match j {
                 0 => &self.start.gradients,
-                _ => &self.gradients[j - 1],
+                _ => &self.own.gradients[j - 1],
             };
             self.momentum.add(self.kick[j].as_slice());
             self.momentum.add_impulses(gradients, impulses);
@@ -400,13 +330,10 @@ impl<V: Vector> Workspace<V> {
 
     /// The larger of distance and movement in units of what the values of the constraints resolve.
     fn noise(&self, stages: usize, movement: f64, size: f64) -> f64 {
-        let resolution = &self.resolution;
+        let resolution = &self.own.resolution;
         let mut noise = movement * size / (size + resolution.position);
-        for defects in self
-            .defects
-            .chunks_exact(self.multipliers.len())
-            .take(stages - 1)
-        {
+        let defects = self.own.defects.chunks_exact(self.multipliers.len());
+        for defects in defects.take(stages - 1) {
             let defects = defects.iter().zip(&self.terms).zip(&resolution.values);
             for ((defect, terms), &resolved) in defects {
                 let defect = terms.relative(defect.magnitude(), resolved);
@@ -425,15 +352,11 @@ impl<V: Vector> Workspace<V> {
         work: &mut StepStatistics,
     ) {
         let (stages, constraints) = (tableau.weights.len(), self.multipliers.len());
-        for (j, changes) in self
-            .changes
-            .chunks_exact(constraints)
-            .take(stages - 1)
-            .enumerate()
-        {
+        let changes = self.own.changes.chunks_exact(constraints);
+        for (j, changes) in changes.take(stages - 1).enumerate() {
             let gradients = match j {
                 0 => &self.start.gradients,
-                _ => &self.gradients[j - 1],
+                _ => &self.own.gradients[j - 1],
             };
             gradients.subtract_transposed(changes, self.kick[j].as_mut_slice());
         }
@@ -447,11 +370,11 @@ impl<V: Vector> Workspace<V> {
     /// Changes of the impulses of the constraints from the defects.
     fn correct(&mut self, tableau: &ConstrainedTableau, step: &Step<'_, V>) {
         let (stages, constraints) = (tableau.weights.len(), self.multipliers.len());
-        let defects = self.defects.chunks_exact_mut(constraints);
+        let defects = self.own.defects.chunks_exact_mut(constraints);
         for defects in defects.take(stages - 1) {
             self.start.normal.solve(defects);
         }
-        self.changes.fill(V::Scalar::from_f64(0.0));
+        self.own.changes.fill(V::Scalar::from_f64(0.0));
         for (k, row) in tableau.multipliers.iter().enumerate() {
             let weight = match tableau.weights[k].double() {
                 0.0 => 1.0,
@@ -460,14 +383,15 @@ impl<V: Vector> Workspace<V> {
             for (i, &entry) in row.iter().enumerate() {
                 let factor = V::Scalar::from_f64(weight / step.size * entry);
                 for c in 0..constraints {
-                    self.changes[k * constraints + c] += factor * self.defects[i * constraints + c];
+                    self.own.changes[k * constraints + c] +=
+                        factor * self.own.defects[i * constraints + c];
                 }
             }
         }
     }
 
     /// The momentum after the step, on the hidden constraint.
-    fn finish<R: Summation, S: System<V>>(
+    pub(super) fn finish<R: Summation, S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
@@ -494,14 +418,8 @@ impl<V: Vector> Workspace<V> {
             copy(&mut self.end.force, force);
         }
         let end = step.time + step.size;
-        let Self {
-            metric,
-            end: point,
-            scratch,
-            p,
-            ..
-        } = self;
-        metric.evaluate(system, end, (outcome.q, &p[last]), point, scratch)?;
+        let (point, scratch) = (&mut self.end, &mut self.scratch);
+        (self.metric).evaluate(system, end, (outcome.q, &self.p[last]), point, scratch)?;
         let found = self.last_impulse.find::<R, V, S>(
             step,
             system,
@@ -520,7 +438,7 @@ impl<V: Vector> Workspace<V> {
         let constraints = self.multipliers.len();
         let (impulses, weight) = if weight == V::Scalar::from_f64(0.0) {
             let weight = V::Scalar::weight(step.size, tableau.weights[last - 1]);
-            (&self.impulses[(last - 1) * constraints..], weight)
+            (&self.own.impulses[(last - 1) * constraints..], weight)
         } else {
             (&self.last_impulse.multipliers[..], weight)
         };
@@ -537,117 +455,23 @@ impl<V: Vector> Workspace<V> {
             let mut values = gradients.values().iter();
             values.all(|value| value.is_finite())
         };
-        if let Some(stage) = self
-            .gradients
-            .iter()
-            .position(|gradients| !finite(gradients))
-        {
-            return Failure::NonFinite {
+        let mut gradients = self.own.gradients.iter();
+        match gradients.position(|gradients| !finite(gradients)) {
+            Some(stage) => Failure::NonFinite {
                 what: Quantity::Constraint,
                 stage: Some(stage + 2),
-            };
+            },
+            None => self.non_finite_increment(),
         }
-        let kicks = self.kick.iter().position(|kick| !is_finite(kick));
-        let drifts = self.drift.iter().position(|drift| !is_finite(drift));
-        let (what, stage) = match (kicks, drifts) {
-            (Some(stage), _) => (Quantity::Force, Some(stage + 1)),
-            (None, Some(stage)) => (Quantity::Velocity, Some(stage + 1)),
-            (None, None) => (Quantity::Constraint, None),
-        };
-        Failure::NonFinite { what, stage }
     }
 }
 
 /// Whether an iteration that fails like this may succeed from other starting values.
-const fn depends_on_the_start(failure: &Failure) -> bool {
+pub(super) const fn depends_on_the_start(failure: &Failure) -> bool {
     matches!(
         failure,
         Failure::NoConvergence { .. } | Failure::NonFinite { .. } | Failure::SingularMatrix
     )
-}
-
-/// Shows the stages of a completed step, with the impulses of the constraints at each.
-#[inline]
-pub(in crate::constraints) fn show_stages<'s, V: Vector, S: System<V>>(
-    tableau: &ConstrainedTableau,
-    step: &Step<'_, V>,
-    (q, p): (&[V], &[V]),
-    impulses: impl Fn(usize) -> &'s [V::Scalar],
-    show: &mut impl FnMut(StageView<'_, V>),
-) {
-    let mut last = 0;
-    for (i, (q, &weight)) in q.iter().zip(tableau.weights).enumerate() {
-        if !same_momentum::<V, S>(tableau, i) {
-            last = i;
-        }
-        show(StageView {
-            weight: step.size * weight.double(),
-            force_weight: step.size * weight.double(),
-            time: step.at(tableau.nodes[i]),
-            momentum_time: step.at(tableau.momentum_nodes[i]),
-            q,
-            p: &p[last],
-            impulses: impulses(i),
-            impulse_weight: match weight.double() {
-                0.0 => step.size,
-                weight => step.size * weight,
-            },
-        });
-    }
-}
-
-/// Whether momentum and velocity of a stage are those of the previous stage: for a separable system with equal rows.
-#[inline]
-pub(in crate::constraints) fn same_momentum<V: Vector, S: System<V>>(
-    tableau: &ConstrainedTableau,
-    i: usize,
-) -> bool {
-    i > 0
-        && S::Class::SEPARABLE
-        && tableau.momentum_nodes[i] == tableau.momentum_nodes[i - 1]
-        && tableau.momenta[i] == tableau.momenta[i - 1]
-}
-
-/// Position or momentum after a step, `base + low + Σ_j increment_j`, with its compensation.
-pub(in crate::constraints) fn result<R: Summation, V: Vector>(
-    (out, out_low): (&mut V, &mut V),
-    (base, low): (&V, &V),
-    increments: &[V],
-) {
-    let (base, low) = (base.as_slice(), low.as_slice());
-    let places = out.as_mut_slice().iter_mut();
-    for (k, (out, out_low)) in places.zip(out_low.as_mut_slice()).enumerate() {
-        let increment = |j: usize| increments[j].as_slice()[k];
-        let (sum, rest) = add::<R, _>(base[k], low[k], increments.len(), increment);
-        *out = sum;
-        if R::COMPENSATED {
-            *out_low = rest;
-        }
-    }
-}
-
-/// `out = base + (low + Σ_j factor_j increment_j)`
-#[inline]
-pub(in crate::constraints) fn stage<V: Vector>(
-    out: &mut V,
-    (base, low): (&V, &V),
-    factors: &[Coefficient],
-    increments: &[V],
-) {
-    copy(out, low);
-    for (&factor, increment) in factors.iter().zip(increments) {
-        if factor.double() == 0.0 {
-            continue;
-        }
-        let factor = V::Scalar::from_coefficient(factor);
-        let pairs = out.as_mut_slice().iter_mut().zip(increment.as_slice());
-        for (out, &increment) in pairs {
-            *out = increment.fused(factor, *out);
-        }
-    }
-    for (out, &base) in out.as_mut_slice().iter_mut().zip(base.as_slice()) {
-        *out = base + *out;
-    }
 }
 
 /// The largest size of a position for which raised terms have their size.

@@ -20,168 +20,129 @@
 //! (−)  q0 = −D1 H_d⁻(p, q1)                  p1 + D2 H_d⁻(p, q1) ∈ span w(q1)ᵀ       p − p0 ∈ span w(q0)ᵀ
 //! ```
 
-mod memory;
 mod start;
 mod step;
 
-pub use memory::NonholonomicStages;
 pub use start::consistent_momentum;
 
-use core::marker::PhantomData;
+use alloc::vec;
+use alloc::vec::Vec;
 
-use crate::constraints::holonomic::{add_to_force, show_stages, taken_once_more};
-use crate::constraints::{Nonholonomic, NonholonomicConstraints, WithConstraints};
-use memory::Workspace;
-use symplectic_core::inside::{ConstrainedStep, Plan, StageView, in_turn, named};
-use symplectic_core::solver::{
-    Failure, Outcome, Solver, Step, StepStatistics, Stopping, WarmStart,
-};
+use crate::constraints::kind::Kind;
+use crate::constraints::memory::OwnPart;
+use crate::constraints::metric::{Metric, Point};
+use crate::constraints::with_constraints::Constraints;
+use crate::constraints::{Gradients, Nonholonomic, WithConstraints, Workspace};
+use symplectic_core::inside::{ConstrainedStep, ConstrainedTableau};
+use symplectic_core::solver::{Failure, Outcome, Step, StepStatistics, Stopping, Visit};
 use symplectic_core::system::{Class, Unconstrained};
 use symplectic_core::{Error, Method, Scalar, Summation, System, Vector};
 
-/// The plan of the method `M` for systems with non-holonomic constraints.
-#[derive(Debug)]
-pub struct NonholonomicPlan<M, C>(PhantomData<(M, C)>);
+impl<C: Class + Unconstrained> Kind for Nonholonomic<C> {
+    type Part<V: Vector> = NonholonomicPart<V>;
 
-impl<C: Class + Unconstrained> Class for Nonholonomic<C> {
-    type Plan<M: Method> = NonholonomicPlan<M, C>;
-    type Extra<'a, V: Vector> = &'a (dyn NonholonomicConstraints<V> + 'a);
-    const CONSTRAINED: bool = true;
-    const SEPARABLE: bool = C::SEPARABLE;
+    const GIVEN_BY: &'static str = "NonholonomicConstraints";
 
-    fn memory<M: Method, V: Vector, S: System<V>, N: Solver<V, S>>(
-        method: &M,
-        prototype: &V,
-    ) -> NonholonomicStages<V> {
-        NonholonomicStages::new(method.nonholonomic(), prototype)
+    fn constraints_of<'a, V: Vector>(given: Self::Extra<'a, V>) -> Constraints<'a, V> {
+        Constraints::Nonholonomic(given)
     }
 
-    fn check_steps<M: Method>(method: &M) -> Result<(), Error> {
-        match method.nonholonomic().is_empty() {
-            true => Err(Error::NoConstrainedSteps),
-            false => Ok(()),
+    fn steps_of<M: Method>(method: &M) -> &'static [ConstrainedStep] {
+        method.nonholonomic()
+    }
+
+    fn known_steps<M: Method>() -> &'static [ConstrainedStep] {
+        M::NONHOLONOMIC
+    }
+
+    fn check_start<V: Vector, S: System<V>>(
+        system: &WithConstraints<'_, V, S>,
+        time: f64,
+        q: &V,
+        p: &V,
+    ) -> Result<(), Error> {
+        start::check_start(system, time, q, p)
+    }
+}
+
+/// The part of the memory that only steps with non-holonomic constraints need.
+#[derive(Clone, Debug)]
+pub struct NonholonomicPart<V: Vector> {
+    /// Whether the last sweep moved a position.
+    moved: Vec<bool>,
+    /// w(Q_i) of one stage.
+    rows: Gradients<V::Scalar>,
+    /// `w(Q_i)·(q1 − q0)` of one stage, and the weighted mean over all stages.
+    part: Vec<V::Scalar>,
+    defects: Vec<V::Scalar>,
+    /// `q1 − q0`
+    displacement: V,
+    /// The largest displacement of every component over all sweeps of a step.
+    reach: V,
+}
+
+impl<V: Vector> OwnPart<V> for NonholonomicPart<V> {
+    /// `−w(q0)ᵀλ` and `−w(q1)ᵀμ`
+    const IMPULSES: usize = 2;
+
+    fn for_steps<S: System<V>>(
+        _: &[ConstrainedStep],
+        stages: usize,
+        system: &WithConstraints<'_, V, S>,
+        q: &V,
+        (_, point): (&Metric<V::Scalar>, &Point<V>),
+    ) -> Self {
+        let numbers = || vec![V::Scalar::from_f64(0.0); system.constraints()];
+        Self {
+            moved: vec![true; stages],
+            rows: point.gradients.clone(),
+            part: numbers(),
+            defects: numbers(),
+            displacement: q.zeros_like(),
+            reach: q.zeros_like(),
         }
     }
 
-    fn numbers<V: Vector, S: System<V, Class = Self>>(
-        system: &S,
-        q: &V,
-        show: &mut dyn FnMut(V::Scalar),
-    ) {
-        let system = WithConstraints::nonholonomic(system, q.dimension());
-        system.numbers(q).into_iter().for_each(show);
-    }
-
-    fn explain<V: Vector, S: System<V, Class = Self>>(system: &S, error: Error) -> Error {
-        let constraints = system.extra();
-        named(error, |constraint| constraints?.constraint_name(constraint))
-    }
-}
-
-impl<M: Method, C: Class + Unconstrained> Plan for NonholonomicPlan<M, C> {
-    type Class = Nonholonomic<C>;
-    type Memory<V: Vector, S: System<V>, N: Solver<V, S>> = NonholonomicStages<V>;
-
-    fn prepare<V, S, N>(memory: &mut NonholonomicStages<V>, system: &S, time: f64, q: &V, p: &V)
-    where
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-        N: Solver<V, S>,
-    {
-        let system = &WithConstraints::nonholonomic(system, q.dimension());
-        let steps = memory.steps;
-        memory.workspace = Some(Workspace::new(steps, system, time, q, p));
-    }
-
-    fn check<V, S>(system: &S, time: f64, q: &V, p: &V) -> Result<(), Error>
-    where
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-    {
-        let system = &WithConstraints::nonholonomic(system, q.dimension());
-        start::check_start(system, time, q, p)
-    }
-
-    fn take<R: Summation, V: Vector, S: System<V, Class = Self::Class>, N: Solver<V, S>>(
+    /// Takes a step; `carried` means that the previous step ended where this one starts.
+    ///
+    /// A sweep evaluates the forces at the stages, computes the stages with the present multipliers, and corrects the multipliers by
+    ///
+    /// ```text
+    /// λ += S⁻¹ Σ_i b_i w(Q_i)·(q1 − q0)/h      S = w M⁻¹ wᵀ at q0
+    /// ```
+    ///
+    /// until the residuals are rounding errors. Then the last impulse follows from `w velocity(q1, p1) = 0`.
+    fn take_substep<R: Summation, S: System<V>>(
+        workspace: &mut Workspace<V, Self>,
+        (_, tableau): (usize, &ConstrainedTableau),
         step: &Step<'_, V>,
-        system: &S,
-        memory: &mut NonholonomicStages<V>,
-        kept: WarmStart,
+        system: &WithConstraints<'_, V, S>,
+        carried: bool,
         stopping: Stopping,
-        outcome: Outcome<'_, V>,
+        outcome: &mut Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure> {
-        memory.take::<R, S, C>(step, system, kept, stopping, outcome, |_| {})
+        let mut work = StepStatistics::default();
+        if !carried {
+            let (end, scratch) = (&mut workspace.end, &mut workspace.scratch);
+            (workspace.metric).evaluate(system, step.time, (step.q, step.p), end, scratch)?;
+        }
+        core::mem::swap(&mut workspace.start, &mut workspace.end);
+        workspace.begin(tableau, step, system, &mut work);
+        workspace.iterate::<R, S>(tableau, step, system, stopping, outcome, &mut work)?;
+        workspace.finish::<R, S>(tableau, step, system, stopping, outcome, &mut work)?;
+        Ok(work)
     }
 
-    fn show_stages<R, V, S>(
-        step: &Step<'_, V>,
-        system: &S,
-        stopping: Stopping,
-        show: &mut dyn FnMut(StageView<'_, V>),
-    ) -> Option<Result<(), Failure>>
-    where
-        R: Summation,
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-    {
-        let mut memory = NonholonomicStages::new(M::NONHOLONOMIC, step.q);
-        Some(taken_once_more(step, |kept, outcome| {
-            memory.take::<R, S, C>(step, system, kept, stopping, outcome, show)
-        }))
+    fn impulses_at<'w>(
+        _: &'w Workspace<V, Self>,
+        _: &ConstrainedTableau,
+        _: usize,
+    ) -> &'w [V::Scalar] {
+        &[]
     }
 
-    fn momentum_rate<V, S>(system: &S, time: f64, q: &V, p: &V, rate: &mut V)
-    where
-        V: Vector,
-        S: System<V, Class = Self::Class>,
-    {
-        system.force(V::Scalar::from_f64(time), q, p, rate);
-        let system = &WithConstraints::nonholonomic(system, q.dimension());
-        add_to_force(system, time, (q, p), rate);
-    }
-}
-
-impl<V: Vector> NonholonomicStages<V> {
-    /// Takes a step, of one tableau or of several, and shows their stages.
-    fn take<R, S, C>(
-        &mut self,
-        step: &Step<'_, V>,
-        system: &S,
-        kept: WarmStart,
-        stopping: Stopping,
-        outcome: Outcome<'_, V>,
-        mut show: impl FnMut(StageView<'_, V>),
-    ) -> Result<StepStatistics, Failure>
-    where
-        R: Summation,
-        S: System<V, Class = Nonholonomic<C>>,
-        C: Class + Unconstrained,
-    {
-        let NonholonomicStages {
-            steps,
-            workspace,
-            resized,
-            between: [q, q_low, p, p_low],
-        } = self;
-        let system = &WithConstraints::nonholonomic(system, step.q.dimension());
-        let workspace = workspace
-            .get_or_insert_with(|| Workspace::new(steps, system, step.time, step.q, step.p));
-        let between = Outcome { q, q_low, p, p_low };
-        let take = |(_, substep): (usize, &ConstrainedStep),
-                    part: &Step<'_, V>,
-                    kept: WarmStart,
-                    here: &mut Outcome<'_, V>| {
-            let tableau = substep.tableau;
-            let taken =
-                workspace.take::<R, _>(tableau, part, system, kept.evaluation, stopping, here);
-            let places = (&workspace.q[..], &workspace.p[..]);
-            // The impulses are at the ends of the step.
-            show_stages::<V, S>(tableau, part, places, |_| &[], &mut show);
-            taken
-        };
-        let place = |substep: &ConstrainedStep| (substep.start, substep.fraction);
-        let taken = in_turn(steps, place, step, kept, between, outcome, take);
-        *resized = system.resized();
-        taken
+    fn own_words(workspace: &mut Workspace<V, Self>, visit: &mut Visit<'_>) {
+        workspace.end.gradients.words(visit);
+        workspace.end.normal.words(visit);
     }
 }

@@ -1,51 +1,17 @@
 //! One step with non-holonomic constraints.
 
-use super::memory::Workspace;
-use crate::constraints::WithConstraints;
-use crate::constraints::holonomic::{NOISE, PATIENCE, ROUNDING, result, same_momentum, stage};
-use symplectic_core::inside::{ConstrainedTableau, copy, is_finite, larger_or_nan};
+use super::NonholonomicPart;
+use crate::constraints::increments::{result, same_momentum, stage};
+use crate::constraints::residuals::{NOISE, PATIENCE, ROUNDING};
+use crate::constraints::{WithConstraints, Workspace};
+use symplectic_core::inside::{ConstrainedTableau, copy, larger_or_nan};
 use symplectic_core::solver::{Coefficient, Failure, Outcome, Step, StepStatistics, Stopping};
 use symplectic_core::system::Class;
-use symplectic_core::{Quantity, Scalar, Summation, System, Vector};
+use symplectic_core::{Scalar, Summation, System, Vector};
 
-impl<V: Vector> Workspace<V> {
-    /// Takes a step; `carried` means that the previous step ended where this one starts.
-    ///
-    /// A sweep evaluates the forces at the stages, computes the stages with the present multipliers, and corrects the multipliers by
-    ///
-    /// ```text
-    /// λ += S⁻¹ Σ_i b_i w(Q_i)·(q1 − q0)/h      S = w M⁻¹ wᵀ at q0
-    /// ```
-    ///
-    /// until the residuals are rounding errors. Then the last impulse follows from `w velocity(q1, p1) = 0`.
-    pub(super) fn take<R: Summation, S: System<V>>(
-        &mut self,
-        tableau: &ConstrainedTableau,
-        step: &Step<'_, V>,
-        system: &WithConstraints<'_, V, S>,
-        carried: bool,
-        stopping: Stopping,
-        outcome: &mut Outcome<'_, V>,
-    ) -> Result<StepStatistics, Failure> {
-        let mut work = StepStatistics::default();
-        if !carried {
-            let Self {
-                metric,
-                end,
-                scratch,
-                ..
-            } = self;
-            metric.evaluate(system, step.time, (step.q, step.p), end, scratch)?;
-        }
-        core::mem::swap(&mut self.start, &mut self.end);
-        self.begin(tableau, step, system, &mut work);
-        self.iterate::<R, S>(tableau, step, system, stopping, outcome, &mut work)?;
-        self.finish::<R, S>(tableau, step, system, stopping, outcome, &mut work)?;
-        Ok(work)
-    }
-
+impl<V: Vector> Workspace<V, NonholonomicPart<V>> {
     /// Starting values of the stages; the multipliers start from zero.
-    fn begin<S: System<V>>(
+    pub(super) fn begin<S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
@@ -56,7 +22,7 @@ impl<V: Vector> Workspace<V> {
         system.velocity(step.at(Coefficient::exact(0.0)), step.q, step.p, velocity);
         work.evaluations += 1;
         for (i, &node) in tableau.nodes.iter().enumerate() {
-            self.moved[i] = true;
+            self.own.moved[i] = true;
             copy(&mut self.p[i], step.p);
             let factor = V::Scalar::weight(step.size, node);
             let pairs = step.q.as_slice().iter().zip(velocity.as_slice());
@@ -70,14 +36,14 @@ impl<V: Vector> Workspace<V> {
         }
         self.multipliers.fill(zero);
         let size = V::Scalar::from_f64(step.size);
-        let pairs = self.reach.as_mut_slice().iter_mut();
+        let pairs = self.own.reach.as_mut_slice().iter_mut();
         for (reach, &velocity) in pairs.zip(velocity.as_slice()) {
             *reach = size * velocity;
         }
     }
 
     /// Sweeps until the displacement obeys the constraints and the stages no longer move. The position after the step is in `outcome`.
-    fn iterate<R: Summation, S: System<V>>(
+    pub(super) fn iterate<R: Summation, S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
@@ -105,7 +71,7 @@ impl<V: Vector> Workspace<V> {
                 return Ok(());
             }
             if residual.is_nan() {
-                return Err(self.not_finite());
+                return Err(self.non_finite_increment());
             }
             if residual < best {
                 (best, since) = (residual, 0);
@@ -142,7 +108,7 @@ impl<V: Vector> Workspace<V> {
     ) {
         for (j, &weight) in tableau.weights.iter().enumerate() {
             // The force of a separable system is known if the position has not moved.
-            if S::Class::SEPARABLE && !self.moved[j] {
+            if S::Class::SEPARABLE && !self.own.moved[j] {
                 continue;
             }
             let force = &mut self.scratch[1];
@@ -196,10 +162,10 @@ impl<V: Vector> Workspace<V> {
         outcome: &mut Outcome<'_, V>,
     ) -> (Residual, f64) {
         let stages = tableau.weights.len();
-        for (k, displacement) in self.displacement.as_mut_slice().iter_mut().enumerate() {
+        for (k, displacement) in self.own.displacement.as_mut_slice().iter_mut().enumerate() {
             let drifts = self.drift[..stages].iter().map(|drift| drift.as_slice()[k]);
             *displacement = drifts.fold(V::Scalar::from_f64(0.0), |sum, drift| sum + drift);
-            let reach = &mut self.reach.as_mut_slice()[k];
+            let reach = &mut self.own.reach.as_mut_slice()[k];
             if displacement.magnitude() > reach.magnitude() {
                 *reach = *displacement;
             }
@@ -212,8 +178,8 @@ impl<V: Vector> Workspace<V> {
             core::mem::swap(old, &mut self.q[i]);
             let start = (step.q, step.q_low);
             stage(&mut self.q[i], start, tableau.positions[i], &self.drift);
-            self.moved[i] = self.q[i].as_slice() != old.as_slice();
-            let reach = self.reach.as_slice().iter();
+            self.own.moved[i] = self.q[i].as_slice() != old.as_slice();
+            let reach = self.own.reach.as_slice().iter();
             let pairs = self.q[i].as_slice().iter().zip(old.as_slice()).zip(reach);
             for ((&new, &old), &reach) in pairs {
                 let change = (new - old).magnitude();
@@ -234,30 +200,30 @@ impl<V: Vector> Workspace<V> {
         tableau: &ConstrainedTableau,
         system: &WithConstraints<'_, V, S>,
     ) -> Result<f64, Failure> {
-        self.defects.fill(V::Scalar::from_f64(0.0));
+        self.own.defects.fill(V::Scalar::from_f64(0.0));
         for (q, &weight) in self.q.iter().zip(tableau.weights) {
-            let rows = &mut self.rows;
+            let rows = &mut self.own.rows;
             if !rows.evaluate(|rows| system.constraint_gradients(q, rows)) {
                 return Err(Failure::MovingGradients);
             }
-            rows.multiply(self.displacement.as_slice(), &mut self.part);
+            rows.multiply(self.own.displacement.as_slice(), &mut self.own.part);
             let weight = V::Scalar::from_coefficient(weight);
-            for (defect, &part) in self.defects.iter_mut().zip(&self.part) {
+            for (defect, &part) in self.own.defects.iter_mut().zip(&self.own.part) {
                 *defect += weight * part;
             }
         }
-        let (reach, q) = (self.reach.as_slice(), self.q[0].as_slice());
-        self.rows.sizes(|k| reach[k].magnitude(), &mut self.terms);
+        let (reach, q) = (self.own.reach.as_slice(), self.q[0].as_slice());
+        let rows = &self.own.rows;
+        rows.sizes(|k| reach[k].magnitude(), &mut self.terms);
         let own = self.largest_defect();
-        self.rows
-            .sizes(|k| q[k].magnitude() + reach[k].magnitude(), &mut self.terms);
+        rows.sizes(|k| q[k].magnitude() + reach[k].magnitude(), &mut self.terms);
         Ok(own)
     }
 
     /// The largest defect, in units of rounding of its terms.
     fn largest_defect(&self) -> f64 {
         let mut largest = 0.0;
-        for (defect, terms) in self.defects.iter().zip(&self.terms) {
+        for (defect, terms) in self.own.defects.iter().zip(&self.terms) {
             largest = larger_or_nan(largest, terms.relative(defect.magnitude(), 0.0));
         }
         largest / V::Scalar::EPSILON
@@ -281,7 +247,7 @@ impl<V: Vector> Workspace<V> {
         let (q, p) = (&self.q[stages - 1], &self.p[stages - 1]);
         let at = (step.time + step.size, q, p);
         let sizes = (self.momentum.sizes(), step.size.abs());
-        let rows = &self.rows;
+        let rows = &self.own.rows;
         (self.metric).raise(system, at, rows, sizes, &mut self.terms, &mut self.scratch);
         let reaches = self.terms.iter().map(|terms| terms.raised());
         let reach = reaches.fold(size, f64::max);
@@ -290,9 +256,9 @@ impl<V: Vector> Workspace<V> {
 
     /// Changes the multipliers by the defects, and with them their impulse.
     fn correct(&mut self, tableau: &ConstrainedTableau, step: &Step<'_, V>) {
-        self.start.normal.solve(&mut self.defects);
+        self.start.normal.solve(&mut self.own.defects);
         let factor = V::Scalar::from_f64(step.size.recip());
-        for (multiplier, &change) in self.multipliers.iter_mut().zip(&self.defects) {
+        for (multiplier, &change) in self.multipliers.iter_mut().zip(&self.own.defects) {
             *multiplier += change * factor;
         }
         let impulse = self.kick[tableau.weights.len()].as_mut_slice();
@@ -301,7 +267,7 @@ impl<V: Vector> Workspace<V> {
     }
 
     /// The momentum after the step, with a velocity that obeys the constraints.
-    fn finish<R: Summation, S: System<V>>(
+    pub(super) fn finish<R: Summation, S: System<V>>(
         &mut self,
         tableau: &ConstrainedTableau,
         step: &Step<'_, V>,
@@ -310,7 +276,7 @@ impl<V: Vector> Workspace<V> {
         outcome: &mut Outcome<'_, V>,
         work: &mut StepStatistics,
     ) -> Result<(), Failure> {
-        let Self {
+        let Workspace {
             metric,
             end,
             scratch,
@@ -326,22 +292,9 @@ impl<V: Vector> Workspace<V> {
         let found =
             last_impulse.find::<R, V, S>(step, system, end, kick, scratch, stopping, outcome, work);
         match found {
-            Err(Failure::NonFinite { .. }) => Err(self.not_finite()),
+            Err(Failure::NonFinite { .. }) => Err(self.non_finite_increment()),
             found => found,
         }
-    }
-
-    /// The failure for stages that are not finite.
-    fn not_finite(&self) -> Failure {
-        let stages = self.q.len();
-        let kicks = self.kick[..stages].iter().position(|kick| !is_finite(kick));
-        let drifts = self.drift.iter().position(|drift| !is_finite(drift));
-        let (what, stage) = match (kicks, drifts) {
-            (Some(stage), _) => (Quantity::Force, Some(stage + 1)),
-            (None, Some(stage)) => (Quantity::Velocity, Some(stage + 1)),
-            (None, None) => (Quantity::Constraint, None),
-        };
-        Failure::NonFinite { what, stage }
     }
 }
 

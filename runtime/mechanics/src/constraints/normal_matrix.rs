@@ -3,14 +3,14 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::Gradients;
 use super::metric::InverseMasses;
-use crate::constraints::Gradients;
 use symplectic_core::solver::{Failure, Visit, scalar_words};
 use symplectic_core::{Quantity, Scalar};
 
 /// The products of entries of G that make up the entries of S.
 #[derive(Clone, Debug)]
-pub(in crate::constraints) struct Products {
+pub(super) struct Products {
     /// Two entries of G in the same column, the constraints of both (the second is not larger than the first), and the column.
     pairs: Vec<[u32; 5]>,
     half_bandwidth: usize,
@@ -18,10 +18,7 @@ pub(in crate::constraints) struct Products {
 
 impl Products {
     /// The products for gradients with this sparsity pattern. With [`InverseMasses::Full`] there are none, and the matrix is full.
-    pub(in crate::constraints) fn new<T: Scalar>(
-        gradients: &Gradients<T>,
-        masses: &InverseMasses<T>,
-    ) -> Self {
+    pub(super) fn new<T: Scalar>(gradients: &Gradients<T>, masses: &InverseMasses<T>) -> Self {
         if *masses == InverseMasses::Full {
             return Self {
                 pairs: Vec::new(),
@@ -58,27 +55,27 @@ impl Products {
 }
 
 impl Products {
-    pub(in crate::constraints) const fn half_bandwidth(&self) -> usize {
+    pub(super) const fn half_bandwidth(&self) -> usize {
         self.half_bandwidth
     }
 
     /// Two entries of G in the same column, the constraints of both (the second is not larger than the first), and the column.
     #[inline]
-    pub(in crate::constraints) fn pairs(&self) -> impl Iterator<Item = [usize; 5]> {
+    pub(super) fn pairs(&self) -> impl Iterator<Item = [usize; 5]> {
         self.pairs.iter().map(|pair| pair.map(|x| x as usize))
     }
 }
 
 /// A symmetric band matrix: row k holds the entries from column `k − half_bandwidth` to k. The factors `L D Lᵀ` take the same places.
 #[derive(Clone, Debug)]
-pub(in crate::constraints) struct NormalMatrix<T> {
+pub(super) struct NormalMatrix<T> {
     size: usize,
     half_bandwidth: usize,
     rows: Vec<T>,
 }
 
 impl<T: Scalar> NormalMatrix<T> {
-    pub(in crate::constraints) fn new(size: usize, products: &Products) -> Self {
+    pub(super) fn new(size: usize, products: &Products) -> Self {
         let half_bandwidth = products.half_bandwidth;
         Self {
             size,
@@ -93,7 +90,7 @@ impl<T: Scalar> NormalMatrix<T> {
     }
 
     /// `G M⁻¹ Gᵀ` with diagonal masses.
-    pub(in crate::constraints) fn assemble(
+    pub(super) fn assemble(
         &mut self,
         products: &Products,
         masses: &InverseMasses<T>,
@@ -118,12 +115,7 @@ impl<T: Scalar> NormalMatrix<T> {
     }
 
     /// Sets row `row` of `G M⁻¹ Gᵀ` from `direction`, which is `M⁻¹` times the gradient of that constraint; for a full matrix.
-    pub(in crate::constraints) fn set_row(
-        &mut self,
-        row: usize,
-        gradients: &Gradients<T>,
-        direction: &[T],
-    ) {
+    pub(super) fn set_row(&mut self, row: usize, gradients: &Gradients<T>, direction: &[T]) {
         for column in 0..=row {
             let place = self.place(row, column);
             self.rows[place] = T::zero();
@@ -139,7 +131,7 @@ impl<T: Scalar> NormalMatrix<T> {
     /// # Errors
     /// [`Failure::DependentConstraints`] if a pivot is lost in rounding errors: the gradient of the constraint depends linearly on those of
     /// the previous constraints, or vanishes; [`Failure::NonFinite`].
-    pub(in crate::constraints) fn factor(&mut self) -> Result<(), Failure> {
+    pub(super) fn factor(&mut self) -> Result<(), Failure> {
         let (size, half) = (self.size, self.half_bandwidth);
         for k in 0..size {
             let diagonal = self.rows[self.place(k, k)].magnitude();
@@ -182,7 +174,7 @@ impl<T: Scalar> NormalMatrix<T> {
     }
 
     /// Solves for a right-hand side in place.
-    pub(in crate::constraints) fn solve(&self, unknown: &mut [T]) {
+    pub(super) fn solve(&self, unknown: &mut [T]) {
         if let ([unknown], [pivot]) = (&mut *unknown, &*self.rows) {
             *unknown *= pivot.recip();
             return;
@@ -216,7 +208,7 @@ impl<T: Scalar> NormalMatrix<T> {
     }
 
     /// The words of the factors.
-    pub(in crate::constraints) fn words(&mut self, visit: &mut Visit<'_>) {
+    pub(super) fn words(&mut self, visit: &mut Visit<'_>) {
         scalar_words(&mut self.rows, visit);
     }
 }

@@ -3,19 +3,20 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::increments::result;
 use super::metric::{Metric, Point};
 use super::momentum_terms::MomentumTerms;
-use super::step::{NOISE, PATIENCE, ROUNDING, SETTLED, result};
-use crate::constraints::{Terms, WithConstraints};
+use super::residuals::{NOISE, PATIENCE, ROUNDING, SETTLED};
+use super::{Terms, WithConstraints};
 use symplectic_core::inside::larger_or_nan;
 use symplectic_core::solver::{Failure, Outcome, Step, StepStatistics, Stopping};
 use symplectic_core::{Quantity, Scalar, Summation, System, Vector};
 
 /// The impulse `−Gᵀy` at the end of a step with `G velocity(q1, p1) = 0`.
 #[derive(Clone, Debug)]
-pub(in crate::constraints) struct LastImpulse<T> {
+pub(super) struct LastImpulse<T> {
     /// The multipliers y.
-    pub(in crate::constraints) multipliers: Vec<T>,
+    pub(super) multipliers: Vec<T>,
     /// `G velocity` at the end.
     rates: Vec<T>,
     /// The sizes that each rate is compared with.
@@ -27,7 +28,7 @@ pub(in crate::constraints) struct LastImpulse<T> {
 }
 
 impl<T: Scalar> LastImpulse<T> {
-    pub(in crate::constraints) fn new(constraints: usize, dimension: usize) -> Self {
+    pub(super) fn new(constraints: usize, dimension: usize) -> Self {
         Self {
             multipliers: vec![T::zero(); constraints],
             rates: vec![T::zero(); constraints],
@@ -44,7 +45,7 @@ impl<T: Scalar> LastImpulse<T> {
     ///
     /// [`Failure::NonFinite`] if a velocity is not finite; [`Failure::NoConvergence`].
     #[allow(clippy::too_many_arguments)]
-    pub(in crate::constraints) fn find<R: Summation, V: Vector<Scalar = T>, S: System<V>>(
+    pub(super) fn find<R: Summation, V: Vector<Scalar = T>, S: System<V>>(
         &mut self,
         step: &Step<'_, V>,
         system: &WithConstraints<'_, V, S>,

@@ -6,7 +6,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::normal_matrix::{NormalMatrix, Products};
-use crate::constraints::{Gradients, Terms, WithConstraints};
+use super::{Gradients, Terms, WithConstraints};
 use symplectic_core::inside::{is_finite, non_linear_velocity};
 use symplectic_core::solver::Failure;
 use symplectic_core::system::{Class, Masses};
@@ -14,7 +14,7 @@ use symplectic_core::{Quantity, Scalar, System, Vector};
 
 /// How the velocity depends on the momentum.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::constraints) enum InverseMasses<T> {
+pub(super) enum InverseMasses<T> {
     /// The velocity is the momentum.
     Unit,
     /// Each component of the velocity is the component of the momentum times a constant.
@@ -25,7 +25,7 @@ pub(in crate::constraints) enum InverseMasses<T> {
 
 /// The data from which `G M⁻¹ Gᵀ` is computed at every state.
 #[derive(Clone, Debug)]
-pub(in crate::constraints) struct Metric<T> {
+pub struct Metric<T> {
     masses: InverseMasses<T>,
     products: Products,
     /// Whether the velocity is linear in the momentum.
@@ -34,17 +34,17 @@ pub(in crate::constraints) struct Metric<T> {
 
 /// Data at a state on the constraints: at the start of a step, and at its end.
 #[derive(Clone, Debug)]
-pub(in crate::constraints) struct Point<V: Vector> {
+pub struct Point<V: Vector> {
     /// The force without that of the constraints; only for separable systems.
-    pub(in crate::constraints) force: V,
-    pub(in crate::constraints) gradients: Gradients<V::Scalar>,
+    pub(super) force: V,
+    pub(super) gradients: Gradients<V::Scalar>,
     /// `G M⁻¹ Gᵀ`, factored.
-    pub(in crate::constraints) normal: NormalMatrix<V::Scalar>,
+    pub(super) normal: NormalMatrix<V::Scalar>,
 }
 
 impl<T: Scalar> Metric<T> {
     /// The metric of a system at a state, and an empty point.
-    pub(in crate::constraints) fn new<V: Vector<Scalar = T>, S: System<V>>(
+    pub(super) fn new<V: Vector<Scalar = T>, S: System<V>>(
         system: &WithConstraints<'_, V, S>,
         time: f64,
         q: &V,
@@ -71,7 +71,7 @@ impl<T: Scalar> Metric<T> {
     }
 
     /// Evaluates the gradients at `q`, and factors `G M⁻¹ Gᵀ` there.
-    pub(in crate::constraints) fn evaluate<V: Vector<Scalar = T>, S: System<V>>(
+    pub(super) fn evaluate<V: Vector<Scalar = T>, S: System<V>>(
         &self,
         system: &WithConstraints<'_, V, S>,
         time: f64,
@@ -162,17 +162,17 @@ impl<T: Scalar> Metric<T> {
     }
 
     /// Whether `M⁻¹` is known only through evaluations of the velocity.
-    pub(in crate::constraints) fn is_full(&self) -> bool {
+    pub(super) fn is_full(&self) -> bool {
         self.masses == InverseMasses::Full
     }
 
     /// The largest difference between the numbers of two constraints that share a component.
-    pub(in crate::constraints) const fn half_bandwidth(&self) -> usize {
+    pub(super) const fn half_bandwidth(&self) -> usize {
         self.products.half_bandwidth()
     }
 
     /// `left M⁻¹ rightᵀ` as a band by rows, with `M⁻¹` at a state.
-    pub(in crate::constraints) fn cross<V: Vector<Scalar = T>, S: System<V>>(
+    pub(super) fn cross<V: Vector<Scalar = T>, S: System<V>>(
         &self,
         system: &WithConstraints<'_, V, S>,
         (time, q, p): (T, &V, &V),
@@ -209,7 +209,7 @@ impl<T: Scalar> Metric<T> {
     }
 
     /// The length `√(G M⁻¹ Gᵀ)_cc` of the gradient of every constraint, with `M⁻¹` at a state.
-    pub(in crate::constraints) fn lengths<V: Vector<Scalar = T>, S: System<V>>(
+    pub(super) fn lengths<V: Vector<Scalar = T>, S: System<V>>(
         &self,
         system: &WithConstraints<'_, V, S>,
         at: (T, &V, &V),
@@ -225,7 +225,7 @@ impl<T: Scalar> Metric<T> {
     }
 
     /// Raises the terms of every constraint to `factor Σ_k |G M⁻¹|_k sizes_k`: so far do momenta of these sizes change `factor G velocity`.
-    pub(in crate::constraints) fn raise<V: Vector<Scalar = T>, S: System<V>>(
+    pub(super) fn raise<V: Vector<Scalar = T>, S: System<V>>(
         &self,
         system: &WithConstraints<'_, V, S>,
         (time, q, p): (f64, &V, &V),
@@ -258,7 +258,7 @@ impl<T: Scalar> Metric<T> {
     }
 
     /// `vector = M⁻¹ vector` for a vector `Gᵀ factors`, at a state.
-    pub(in crate::constraints) fn apply<V: Vector<Scalar = T>, S: System<V>>(
+    pub(super) fn apply<V: Vector<Scalar = T>, S: System<V>>(
         &self,
         system: &WithConstraints<'_, V, S>,
         time: f64,
