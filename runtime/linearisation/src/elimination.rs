@@ -161,7 +161,7 @@ impl<E: Entry> Elimination<E> {
             entry.words(visit);
         }
         words!(visit: self.pivots[..]);
-        // A checkpoint that someone changed must not lead outside the matrix.
+        // A checkpoint that someone changed must not lead outside the matrix; its numbers are not checked otherwise.
         let last = self.size.saturating_sub(1);
         self.pivots.iter_mut().for_each(|row| *row = last.min(*row));
     }
@@ -345,5 +345,13 @@ mod tests {
             let difference = row[0] * x[0] + row[1] * x[1] - expected;
             assert!(difference.size() < 1e-15);
         }
+    }
+
+    #[test]
+    fn factors_from_a_changed_checkpoint_lead_to_no_panic() {
+        let mut elimination = Elimination::new(4, 4);
+        assert!(elimination.factor(entry));
+        elimination.words(&mut |word| *word = u64::MAX);
+        elimination.solve();
     }
 }

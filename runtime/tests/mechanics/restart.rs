@@ -1,6 +1,8 @@
 //! Runs of rigid bodies and of Lagrangians that are interrupted.
 
+use core::cell::Cell;
 use core::fmt::Debug;
+use std::rc::Rc;
 
 use symplectic::constraints::Gradients;
 use symplectic::nalgebra::{DVector, SVector, Vector2};
@@ -221,6 +223,33 @@ fn other<S: Saved, T: Saved>(run: Run<S>, of: Run<T>) -> &'static str {
         CheckpointError::OtherRun { what, .. } => what,
         error => panic!("{error}"),
     }
+}
+
+/// A free particle; its Lagrangian has another constant in every evaluation.
+#[derive(Clone)]
+struct Unrepeatable(Rc<Cell<f64>>);
+
+impl DiscreteLagrangian for Unrepeatable {
+    type Vector<T: Scalar> = Vector2<T>;
+
+    fn value<T: Scalar>(&self, _time: T, h: T, q0: &Vector2<T>, q1: &Vector2<T>) -> T {
+        let way = q1 - q0;
+        let constant = self.0.replace(self.0.get() + 1.0);
+        way.dot(&way) / h * T::from_f64(0.5) + T::from_f64(constant)
+    }
+}
+
+#[test]
+fn a_checkpoint_of_other_steps_is_refused_as_such_by_a_system_that_does_not_repeat_its_values()
+-> Result<(), Box<dyn std::error::Error>> {
+    let system = Unrepeatable(Rc::new(Cell::new(0.0)));
+    let start = State::from_arrays(0.0, [0.0, 0.0], [1.0, 2.0]);
+    let mut run = VariationalSteps::run(system, start, 0.5)?;
+    let error = run.restore(&of_equal_energy(0.1).checkpoint()?);
+    assert!(matches!(error, Err(CheckpointError::OtherRun { .. })));
+    let checkpoint = run.checkpoint()?;
+    assert_eq!(run.restore(&checkpoint), Err(CheckpointError::OtherSystem));
+    Ok(())
 }
 
 #[test]

@@ -193,8 +193,8 @@ fn checkpoints_of_other_runs_are_refused() -> Result<(), Error> {
     assert_eq!(error, CheckpointError::OtherSystem);
     assert_eq!(
         error.to_string(),
-        "the system gives another velocity, force, Lagrangian, constraint or flow at the state of the checkpoint or beside it: it is \
-         another system, or has other parameters"
+        "the system gives another velocity, force, constraint, Lagrangian, flow, moment of inertia or torque at or near the state of the \
+         checkpoint: it is another system, or has other parameters"
     );
     Ok(())
 }

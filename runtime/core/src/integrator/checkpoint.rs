@@ -126,10 +126,11 @@ pub enum CheckpointError {
         expected: String,
     },
 
-    /// The system gives another velocity, force, Lagrangian, constraint or flow at the state of the checkpoint or near it.
+    /// The system gives another velocity, force, constraint, Lagrangian, flow, moment of inertia or torque at or near the state of the
+    /// checkpoint.
     #[error(
-        "the system gives another velocity, force, Lagrangian, constraint or flow at the state of the checkpoint or beside it: it is another \
-         system, or has other parameters"
+        "the system gives another velocity, force, constraint, Lagrangian, flow, moment of inertia or torque at or near the state of the \
+         checkpoint: it is another system, or has other parameters"
     )]
     OtherSystem,
 

@@ -37,8 +37,7 @@ fn step_beside<S: StepsBeside>(
     moving: &mut S::Moving,
     state: &mut State<S::Vector>,
 ) -> Result<(), S::Error> {
-    stepper.exchange(moving);
-    let beside = Beside { stepper, moving };
+    let beside = Beside::new(stepper, moving);
     let stepper = &mut *beside.stepper;
     stepper.begin_beside(beside.moving, state, size);
     advance_in_time(stepper, size, end)?;
@@ -51,6 +50,13 @@ fn step_beside<S: StepsBeside>(
 struct Beside<'a, S: StepsBeside> {
     stepper: &'a mut S,
     moving: &'a mut S::Moving,
+}
+
+impl<'a, S: StepsBeside> Beside<'a, S> {
+    fn new(stepper: &'a mut S, moving: &'a mut S::Moving) -> Self {
+        stepper.exchange(moving);
+        Self { stepper, moving }
+    }
 }
 
 impl<S: StepsBeside> Drop for Beside<'_, S> {

@@ -20,7 +20,7 @@ pub trait Kind: Class {
     /// The steps of a method.
     fn steps_of<M: Method>(method: &M) -> &'static [ConstrainedStep];
 
-    /// The steps of a method whose coefficients are constants.
+    /// The steps of a method whose coefficients are known at compile time.
     fn known_steps<M: Method>() -> &'static [ConstrainedStep];
 
     /// Checks that a state obeys the constraints, and that these are independent.
@@ -30,13 +30,13 @@ pub trait Kind: Class {
         q: &V,
         p: &V,
     ) -> Result<(), Error>;
+}
 
-    /// A system with its constraints, for states of this dimension.
-    fn with_constraints<V: Vector, S: System<V, Class = Self>>(
-        system: &S,
-        dimension: usize,
-    ) -> WithConstraints<'_, V, S> {
-        let constraints = system.extra().map(Self::constraints_of);
-        WithConstraints::new(system, (constraints, Self::GIVEN_BY), dimension)
-    }
+/// A system with its constraints, for states of this dimension.
+pub(super) fn with_constraints<K: Kind, V: Vector, S: System<V, Class = K>>(
+    system: &S,
+    dimension: usize,
+) -> WithConstraints<'_, V, S> {
+    let constraints = system.extra().map(K::constraints_of);
+    WithConstraints::new(system, (constraints, K::GIVEN_BY), dimension)
 }

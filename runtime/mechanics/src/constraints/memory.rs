@@ -20,18 +20,19 @@ use symplectic_core::{Quantity, Scalar, Summation, System, Vector};
 #[derive(Clone, Debug)]
 pub struct Workspace<V: Vector, O> {
     pub(super) metric: Metric<V::Scalar>,
-    /// At the start of the step, once it has begun.
+    /// The point at the start of the step, once it has begun.
     pub(super) start: Point<V>,
-    /// At its end; at the start of the next one.
+    /// The point at its end, which is the start of the next one.
     pub(super) end: Point<V>,
     /// Stage positions Q_i and momenta P_i.
     pub(super) q: Vec<V>,
     pub(super) p: Vec<V>,
     /// The increments `h b_i velocity_i` of the position.
     pub(super) drift: Vec<V>,
-    /// The increments of the momentum: `h b_i force_i`, then [impulses](OwnPart::IMPULSES).
+    /// The increments of the momentum: `h b_i force_i`, with the forces of holonomic constraints; after those of the stages, the
+    /// [impulses](OwnPart::IMPULSES) at the ends of a step with non-holonomic ones.
     pub(super) kick: Vec<V>,
-    /// Non-holonomic: λ of this step. Holonomic: those at the end of the previous step, from which the next starts without a history.
+    /// Non-holonomic: λ of this step. Holonomic: the multipliers at the end of the previous step, with which a step without history starts.
     pub(super) multipliers: Vec<V::Scalar>,
     /// The terms of the momentum of a stage.
     pub(super) momentum: MomentumTerms,
@@ -44,12 +45,12 @@ pub struct Workspace<V: Vector, O> {
     pub(super) own: O,
 }
 
-/// The part of a [`Workspace`] that only steps with one kind of constraints need, and how they are taken.
+/// The part of a [`Workspace`] that only steps with one kind of constraints need, and how such steps are taken.
 pub trait OwnPart<V: Vector>: Clone {
     /// Number of increments of the momentum after those of the stages.
     const IMPULSES: usize;
 
-    /// Memory for these steps of a method, with up to `stages` stages, and of a system at this position and point.
+    /// Memory for these steps of a method, with up to `stages` stages, for a system, with its metric and gradients at the position `q`.
     fn for_steps<S: System<V>>(
         steps: &[ConstrainedStep],
         stages: usize,

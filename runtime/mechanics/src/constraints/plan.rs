@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 
 use super::holonomic::add_to_force;
 use super::increments::same_momentum;
-use super::kind::Kind;
+use super::kind::{Kind, with_constraints};
 use super::memory::{ConstrainedStages, OwnPart, Workspace};
 use super::with_constraints::WithConstraints;
 use super::{Constrained, HolonomicConstraints, Nonholonomic, NonholonomicConstraints};
@@ -45,7 +45,7 @@ macro_rules! classes {
                 q: &V,
                 show: &mut dyn FnMut(V::Scalar),
             ) {
-                let system = Self::with_constraints(system, q.dimension());
+                let system = with_constraints(system, q.dimension());
                 system.numbers(q).into_iter().for_each(show);
             }
 
@@ -81,9 +81,8 @@ impl<M: Method, K: Kind> Plan for ConstrainedPlan<M, K> {
         S: System<V, Class = K>,
         N: Solver<V, S>,
     {
-        let system = &K::with_constraints(system, q.dimension());
-        let steps = memory.steps;
-        memory.workspace = Some(Workspace::new(steps, system, time, q, p));
+        let system = &with_constraints(system, q.dimension());
+        memory.workspace = Some(Workspace::new(memory.steps, system, time, q, p));
     }
 
     fn check<V, S>(system: &S, time: f64, q: &V, p: &V) -> Result<(), Error>
@@ -91,7 +90,7 @@ impl<M: Method, K: Kind> Plan for ConstrainedPlan<M, K> {
         V: Vector,
         S: System<V, Class = K>,
     {
-        K::check_start(&K::with_constraints(system, q.dimension()), time, q, p)
+        K::check_start(&with_constraints(system, q.dimension()), time, q, p)
     }
 
     fn take<R: Summation, V: Vector, S: System<V, Class = K>, N: Solver<V, S>>(
@@ -102,7 +101,7 @@ impl<M: Method, K: Kind> Plan for ConstrainedPlan<M, K> {
         stopping: Stopping,
         outcome: Outcome<'_, V>,
     ) -> Result<StepStatistics, Failure> {
-        let system = &K::with_constraints(system, step.q.dimension());
+        let system = &with_constraints(system, step.q.dimension());
         memory.take::<R, S>(step, system, kept, stopping, outcome, |_| {})
     }
 
@@ -117,8 +116,9 @@ impl<M: Method, K: Kind> Plan for ConstrainedPlan<M, K> {
         V: Vector,
         S: System<V, Class = K>,
     {
+        // The step once more, without what the run has kept; its result is discarded.
         let mut memory = ConstrainedStages::<V, K::Part<V>>::new(K::known_steps::<M>(), step.q);
-        let system = &K::with_constraints(system, step.q.dimension());
+        let system = &with_constraints(system, step.q.dimension());
         let [mut q, mut q_low, mut p, mut p_low] = array::from_fn(|_| step.q.zeros_like());
         let outcome = Outcome {
             q: &mut q,
@@ -137,7 +137,7 @@ impl<M: Method, K: Kind> Plan for ConstrainedPlan<M, K> {
         S: System<V, Class = K>,
     {
         system.force(V::Scalar::from_f64(time), q, p, rate);
-        let system = &K::with_constraints(system, q.dimension());
+        let system = &with_constraints(system, q.dimension());
         add_to_force(system, time, (q, p), rate);
     }
 }
@@ -162,10 +162,11 @@ impl<V: Vector, O: OwnPart<V>> ConstrainedStages<V, O> {
                     part: &Step<'_, V>,
                     kept: WarmStart,
                     here: &mut Outcome<'_, V>| {
-            let (substep, carried) = ((number, substep.tableau), kept.evaluation);
+            let (tableau, carried) = (substep.tableau, kept.evaluation);
+            let numbered = (number, tableau);
             let taken =
-                O::take_substep::<R, S>(workspace, substep, part, system, carried, stopping, here);
-            workspace.show_stages::<S>(substep.1, part, &mut show);
+                O::take_substep::<R, S>(workspace, numbered, part, system, carried, stopping, here);
+            workspace.show_stages::<S>(tableau, part, &mut show);
             taken
         };
         let place = |substep: &ConstrainedStep| (substep.start, substep.fraction);

@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::start::{check_start, error};
-use crate::constraints::kind::Kind;
+use crate::constraints::kind::with_constraints;
 use crate::constraints::metric::{Metric, Point};
 use crate::constraints::{Constrained, WithConstraints};
 use symplectic_core::inside::{is_finite, named};
@@ -56,7 +56,7 @@ where
     C: Class + Unconstrained,
 {
     let State { time, q, p } = state;
-    let system = &Kind::with_constraints(system, q.dimension());
+    let system = &with_constraints(system, q.dimension());
     check_start(system, *time, q, p)?;
     let mut force = q.zeros_like();
     system.force(V::Scalar::from_f64(*time), q, p, &mut force);

@@ -128,6 +128,7 @@ impl<V: Vector> History<V> {
     /// The words of all numbers.
     pub(super) fn words(&mut self, visit: &mut Visit<'_>) {
         words!(visit: self.size, self.known);
+        self.known = STEPS.min(self.known);
         for step in &mut self.steps {
             vector_words(&mut step.corrections, visit);
             scalar_words(&mut step.impulses, visit);

@@ -125,7 +125,7 @@ impl<V: Vector> OwnPart<V> for HolonomicPart<V> {
         }
     }
 
-    /// Takes the step of a number in its composition; `carried` means that the previous step ended where this one starts.
+    /// Takes the step with this number in the composition; `carried` means that the previous step ended where this one starts.
     ///
     /// Stages and multipliers start from those of the last five steps if these had the same size. A sweep evaluates the forces at the
     /// stages, computes the stages with the present multipliers, and corrects the multipliers by a Newton step. In the first sweep without

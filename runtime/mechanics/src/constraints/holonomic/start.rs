@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::array;
 
 use super::resolution::Resolution;
-use crate::constraints::kind::Kind;
+use crate::constraints::kind::with_constraints;
 use crate::constraints::metric::{Metric, Point};
 use crate::constraints::{Constrained, Gradients, Terms, WithConstraints};
 use symplectic_core::inside::{beside, is_finite, named};
@@ -347,7 +347,7 @@ pub fn consistent<V: Vector, S: System<V, Class = Constrained<C>>, C: Class + Un
 ) -> Result<State<V>, Error> {
     let State { time, q, p } = state;
     check_numbers(&q, &p)?;
-    let system = &Kind::with_constraints(system, q.dimension());
+    let system = &with_constraints(system, q.dimension());
     system.check_given()?;
     system.check(time, moved_onto(system, time, q, p))
 }

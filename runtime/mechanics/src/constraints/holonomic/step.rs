@@ -1,4 +1,4 @@
-//! One constrained step.
+//! One step with holonomic constraints.
 
 use super::HolonomicPart;
 use super::start::CONSISTENT;

@@ -1,7 +1,7 @@
 //! States whose velocities obey the constraints.
 
 use crate::constraints::holonomic::{CONSISTENT, Examined, check_numbers};
-use crate::constraints::kind::Kind;
+use crate::constraints::kind::with_constraints;
 use crate::constraints::{Nonholonomic, WithConstraints};
 use symplectic_core::system::{Class, Unconstrained};
 use symplectic_core::{Error, State, System, Vector};
@@ -63,7 +63,7 @@ where
 {
     let State { time, q, mut p } = state;
     check_numbers(&q, &p)?;
-    let system = &Kind::with_constraints(system, q.dimension());
+    let system = &with_constraints(system, q.dimension());
     system.check_given()?;
     let mut examined = system.check(time, Examined::new(system, time, &q, &p))?;
     let projected = examined.project_momentum(system, time, &q, &mut p);

@@ -58,9 +58,9 @@ use symplectic_core::{Checkpoint, Run, State, Statistics, Vector};
 ///
 /// A state inside the last step is that of a shorter step from its start, with the order of the rule and the cost of a step. With
 /// [`Midpoint`](DiracRule::Midpoint) a violation of conditions on positions at the start of the step changes its sign there, as it does from
-/// step to step; an event next to such a start may be missed. At a [wall](symplectic_core::Event::wall) the handler must leave a momentum and a velocity that satisfy the constraints;
-/// otherwise the run ends with the error of such a start. A [checkpoint](Run::checkpoint) is refused if L, its derivatives, the force or a
-/// row of w has other values near the state.
+/// step to step; an event close to the start of such a step may be missed. At a [wall](symplectic_core::Event::wall) the handler must leave
+/// a momentum and a velocity that satisfy the constraints; otherwise the run ends with the error of such a start. A
+/// [checkpoint](Run::checkpoint) is refused if L, its derivatives, the force or a row of w has other values near the state.
 ///
 /// # Errors of a step
 ///
