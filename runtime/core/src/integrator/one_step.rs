@@ -36,7 +36,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitio
         Ok(())
     }
 
-    /// [`prepare`](Self::prepare), perhaps after an attempt that failed. The code of a step is here only once, for first and second attempts.
+    /// [`prepare`](Self::prepare), perhaps after an attempt that failed. A second attempt is a turn of a loop, not a call of the same step:
+    /// a program would contain the inlined code of the step once more.
     #[inline]
     fn prepare_after(
         &mut self,
@@ -61,7 +62,8 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Partitio
         }
     }
 
-    /// Takes the step that [`prepare_after`](Self::prepare_after) computes.
+    /// Takes the step that [`prepare_after`](Self::prepare_after) computes. Not inlined, so that single steps and repeated ones share its
+    /// code.
     #[inline(never)]
     pub(super) fn advance_after(
         &mut self,

@@ -194,7 +194,8 @@ impl<L: DiscreteLagrangian> Stepper for EnergyMomentumSteps<L> {
     /// The next step has the size of the first one, and defines E.
     fn set_state(&mut self, state: &Self::State) -> Result<(), Error> {
         self.moving.ends.check(state)?;
-        self.moving.begin(state, self.moving.first_size);
+        self.moving.ends.set(state);
+        self.moving.begin(self.moving.first_size);
         Ok(())
     }
 
@@ -262,9 +263,8 @@ impl<L: DiscreteLagrangian> Stepper for EnergyMomentumSteps<L> {
 }
 
 impl<V: Vector<Scalar = f64>> Moving<V> {
-    /// Begins at a state: the next step has this size, and defines E.
-    fn begin(&mut self, state: &State<V>, size: f64) {
-        self.ends.set(state);
+    /// Begins at a new state: the next step has this size, and defines E.
+    const fn begin(&mut self, size: f64) {
         (self.energy, self.curvature) = (None, None);
         self.step_size = size;
     }
@@ -290,8 +290,8 @@ impl<L: DiscreteLagrangian> StepsBeside for EnergyMomentumSteps<L> {
 
     /// The step has the given size, whatever its energy.
     fn begin_beside(&mut self, run: &Self::Moving, state: &Self::State, size: f64) {
-        self.moving.begin(state, size);
         self.moving.ends.set_beside(&run.ends, state);
+        self.moving.begin(size);
     }
 
     fn last_step(&self) -> Option<(&Self::State, f64)> {
