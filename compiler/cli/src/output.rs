@@ -23,7 +23,7 @@ pub(crate) fn order(found: &ClassOrder) -> String {
 
 /// Formats of a tableau.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Format {
+pub enum Format {
     /// A readable table.
     Text,
     /// The lossless exchange format.
@@ -85,43 +85,52 @@ impl OutputOptions {
     /// Writes a tableau.
     ///
     /// # Errors
-    /// If the digits cannot be computed in bounded time.
+    /// Those of [`write`].
     pub(crate) fn write(&self, tableau: &Tableau) -> Result<String, Error> {
-        let digits = |default| self.digits.unwrap_or(default);
-        let most = export::most_digits(tableau);
-        if let Some(wanted) = self.digits.filter(|&wanted| wanted > most) {
-            let stages = tableau.stages();
-            let message = format!(
-                "{wanted} digits take too long for a method with {stages} stages: for this method `--digits` may be up to {most}"
-            );
-            return Err(ErrorKind::Definition { message }.into());
-        }
-        let in_language = |language: Language, default| language.write(tableau, digits(default));
-        Ok(match self.format {
-            Format::Text => {
-                let table = export::text::write(tableau, digits(TEXT_DIGITS));
-                format!("{table}\n{}", export::text::write_facts(tableau))
-            }
-            Format::Toml => export::toml::write(tableau, digits(DEFAULT_DIGITS)),
-            Format::Json => export::json::write(tableau, digits(DEFAULT_DIGITS)),
-            Format::Latex => in_language(Language::Latex, TEXT_DIGITS)?,
-            Format::C => in_language(Language::C, DOUBLE_DIGITS)?,
-            Format::Fortran => in_language(Language::Fortran, DOUBLE_DIGITS)?,
-            Format::Julia => in_language(Language::Julia, DEFAULT_DIGITS)?,
-            Format::Python => in_language(Language::Python, DEFAULT_DIGITS)?,
-            Format::Sundials => in_language(Language::Sundials, DOUBLE_DIGITS)?,
-            Format::Petsc => in_language(Language::Petsc, DOUBLE_DIGITS)?,
-            Format::Tsv => in_language(Language::Tsv, DOUBLE_DIGITS)?,
-            Format::Coq => in_language(Language::Coq, DEFAULT_DIGITS)?,
-            Format::Nodepy => in_language(Language::Nodepy, DEFAULT_DIGITS)?,
-        })
+        write(tableau, self.format, self.digits)
     }
+}
+
+/// Writes a tableau in a format, with a number of significant digits or the default number of the format.
+///
+/// # Errors
+/// If the digits cannot be computed in bounded time, or the language cannot express the method.
+pub fn write(tableau: &Tableau, format: Format, wanted: Option<usize>) -> Result<String, Error> {
+    let digits = |default| wanted.unwrap_or(default);
+    let most = export::most_digits(tableau);
+    if let Some(wanted) = wanted.filter(|&wanted| wanted > most) {
+        let stages = tableau.stages();
+        let message = format!(
+            "{wanted} digits take too long for a method with {stages} stages: for this method `--digits` may be up to {most}"
+        );
+        return Err(ErrorKind::Definition { message }.into());
+    }
+    let in_language = |language: Language, default| language.write(tableau, digits(default));
+    Ok(match format {
+        Format::Text => {
+            let table = export::text::write(tableau, digits(TEXT_DIGITS));
+            format!("{table}\n{}", export::text::write_facts(tableau))
+        }
+        Format::Toml => export::toml::write(tableau, digits(DEFAULT_DIGITS)),
+        Format::Json => export::json::write(tableau, digits(DEFAULT_DIGITS)),
+        Format::Latex => in_language(Language::Latex, TEXT_DIGITS)?,
+        Format::C => in_language(Language::C, DOUBLE_DIGITS)?,
+        Format::Fortran => in_language(Language::Fortran, DOUBLE_DIGITS)?,
+        Format::Julia => in_language(Language::Julia, DEFAULT_DIGITS)?,
+        Format::Python => in_language(Language::Python, DEFAULT_DIGITS)?,
+        Format::Sundials => in_language(Language::Sundials, DOUBLE_DIGITS)?,
+        Format::Petsc => in_language(Language::Petsc, DOUBLE_DIGITS)?,
+        Format::Tsv => in_language(Language::Tsv, DOUBLE_DIGITS)?,
+        Format::Coq => in_language(Language::Coq, DEFAULT_DIGITS)?,
+        Format::Nodepy => in_language(Language::Nodepy, DEFAULT_DIGITS)?,
+    })
 }
 
 pub(crate) fn limits(max_stages: Option<u16>) -> Limits {
     max_stages.map_or_else(Limits::default, Limits::at_most)
 }
 
+/// Reads a number of digits.
 pub(crate) fn digits(text: &str) -> Result<usize, String> {
     text.parse()
         .ok()

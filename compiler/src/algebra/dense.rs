@@ -10,10 +10,10 @@ use super::{Ball, Image, Number, StageAlgebra, Zero};
 use crate::symbolic::Constant;
 
 /// A field of real numbers.
-pub trait Field: Debug + PartialEq {
+pub trait Field: Debug + PartialEq + Send + Sync {
     /// Its elements. Equal elements are equal numbers. If equal numbers may be different elements,
     /// [`Field::zero`] decides as far as possible.
-    type Element: Clone + Debug + PartialEq;
+    type Element: Clone + Debug + PartialEq + Send + Sync;
 
     /// A rational number.
     fn rational(&self, value: &BigRational) -> Self::Element;

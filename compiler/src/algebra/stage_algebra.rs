@@ -11,11 +11,11 @@ use super::{Field, Number, Zero};
 ///
 /// An equation between tableau coefficients, order conditions among them, is a few of these
 /// operations and the question whether the residual vanishes.
-pub trait StageAlgebra: Debug + PartialEq + Sized {
+pub trait StageAlgebra: Debug + PartialEq + Send + Sync + Sized {
     /// Quantities with one index.
-    type Vector: Clone + Debug + PartialEq;
+    type Vector: Clone + Debug + PartialEq + Send + Sync;
     /// Quantities with two indices.
-    type Matrix: Clone + Debug + PartialEq;
+    type Matrix: Clone + Debug + PartialEq + Send + Sync;
     /// The numbers over which this is a linear algebra: a sum over all stages is one.
     type Constants: Field;
 

@@ -25,7 +25,7 @@ pub(super) struct PositiveRoot<P> {
 }
 
 /// A positive real number that can be enclosed to any precision and compared with rationals.
-pub(super) trait PositiveReal: Debug {
+pub(super) trait PositiveReal: Debug + Send + Sync {
     /// An enclosure with this many binary places. Its width tends to zero as `bits` grows, as far as the number is known.
     fn enclose(&self, bits: u32) -> Interval;
     /// Whether the number equals `value`.

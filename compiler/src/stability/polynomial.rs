@@ -18,7 +18,7 @@ use crate::arithmetic::rational::ratio;
 use crate::arithmetic::roots::{Root, classified, enclose, real_roots};
 
 /// A polynomial in one variable `x` over an ordered field. All operands of an operation are over the same field.
-pub(super) trait RealPolynomial: Clone + Debug + 'static {
+pub(super) trait RealPolynomial: Clone + Debug + Send + Sync + 'static {
     /// A rational constant over the same field.
     fn constant(&self, value: &BigRational) -> Self;
     /// The sum.

@@ -28,6 +28,11 @@ pub fn to_stderr(error: &Error) {
     let _ = writeln!(std::io::stderr().lock(), "{}", render(error, in_colour()));
 }
 
+/// An error as text without colour: the message, and the line of the input with carets.
+pub fn plain(error: &Error) -> String {
+    render(error, false)
+}
+
 /// Writes a warning to standard error.
 pub fn warning(message: &str) {
     let title = Level::WARNING.primary_title(message.to_owned());

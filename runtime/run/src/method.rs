@@ -1,10 +1,10 @@
-//! The method of a run.
+//! The method of a run: from a derived tableau to one that takes steps.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use symplectic::Orders;
-use symplectic::at_run_time::{RunTimeCoefficients, RunTimeTableau};
+use symplectic::at_run_time::{RunTimeCoefficients, RunTimeTableau, TableauError};
 use symplectic::emitted::{Coefficient, ConstrainedStep, ConstrainedTableau};
 use symplectic_compiler::emit::{ConstrainedSteps, Rounded, constrained_steps};
 use symplectic_compiler::export::read_text;
@@ -34,29 +34,9 @@ impl Method {
         let span = setup.method.span();
         let tableau = derive(file, setup.method.get_ref(), max_stages)
             .map_err(|error| file.placed(span, error))?;
-        let report = tableau.orders();
-        let order = |class| u32::try_from(report.class(class).order).unwrap_or(u32::MAX);
-        let orders = Orders {
-            general: order(HamiltonianClass::General),
-            separable: order(HamiltonianClass::Separable),
-            nystrom: order(HamiltonianClass::Nystrom),
-        };
-        let numbers = tableau.to_f64();
-        let coefficients = RunTimeCoefficients {
-            a: numbers.a,
-            a_tilde: numbers.a_tilde,
-            b: numbers.b,
-            b_tilde: numbers.b_tilde,
-            c: numbers.c,
-            c_tilde: numbers.c_tilde,
-        };
-        let name = tableau.name().unwrap_or("a method without a name");
-        let made = RunTimeTableau::new(name, &coefficients, orders)
-            .map_err(|error| file.error(setup.method.span(), error.to_string()))?;
-        let made = match system.is_constrained() {
-            true => with_constraints(file, setup, system, (made, &tableau))?,
-            false => made,
-        };
+        let holonomic = constraints_of(system);
+        let made = stepping(&tableau, holonomic)
+            .map_err(|refusal| file.error(setup.method.span(), refusal.to_string()))?;
         Ok(Method {
             tableau: match setup.accept_lower_order {
                 true => made.accept_lower_order(),
@@ -67,34 +47,81 @@ impl Method {
     }
 }
 
-/// A method with its steps for the constraints of a system.
-fn with_constraints(
-    file: &File<'_>,
-    setup: &Setup,
-    system: &System,
-    (made, tableau): (RunTimeTableau, &Tableau),
-) -> Result<RunTimeTableau, Error> {
+/// Whether the constraints of a system are holonomic; `None` if it has none.
+pub fn constraints_of(system: &System) -> Option<bool> {
+    let is_constrained = system.is_constrained();
+    is_constrained.then_some(!system.constraints.is_empty())
+}
+
+/// Why a derived method cannot take steps of a system.
+#[derive(Debug, thiserror::Error)]
+pub enum Refusal {
+    /// It is not symplectic.
+    #[error(transparent)]
+    Tableau(#[from] TableauError),
+    /// It has no steps for the constraints.
+    #[error("`{method}` has no steps for {}", instead(*are_holonomic))]
+    Constraints {
+        /// Its name.
+        method: String,
+        /// Whether the constraints are holonomic.
+        are_holonomic: bool,
+    },
+}
+
+/// The methods for constraints.
+fn instead(are_holonomic: bool) -> &'static str {
+    match are_holonomic {
+        true => {
+            "holonomic constraints: take one that is `constrained`, such as `lobatto-2`, which is RATTLE, `lobatto-3` of order 4, \
+             or `{ base = \"lobatto-2\", weights = \"triple_jump(4)\" }`"
+        }
+        false => {
+            "non-holonomic constraints: take one that is `nonholonomic`, such as `gauss-1`, `lobatto-2`, \
+             or `{ base = \"gauss-1\", weights = \"triple_jump(4)\" }`"
+        }
+    }
+}
+
+/// A derived method as one that takes steps, with correctly rounded coefficients and its proved orders; with its steps for constraints if there
+/// are any, holonomic ones or not.
+///
+/// Steps for constraints live as long as the program: derive a method once.
+///
+/// # Errors
+///
+/// [`Refusal`] of a method that is not symplectic, or has no steps for the constraints.
+pub fn stepping(tableau: &Tableau, holonomic: Option<bool>) -> Result<RunTimeTableau, Refusal> {
+    let report = tableau.orders();
+    let order = |class| u32::try_from(report.class(class).order).unwrap_or(u32::MAX);
+    let orders = Orders {
+        general: order(HamiltonianClass::General),
+        separable: order(HamiltonianClass::Separable),
+        nystrom: order(HamiltonianClass::Nystrom),
+    };
+    let numbers = tableau.to_f64();
+    let coefficients = RunTimeCoefficients {
+        a: numbers.a,
+        a_tilde: numbers.a_tilde,
+        b: numbers.b,
+        b_tilde: numbers.b_tilde,
+        c: numbers.c,
+        c_tilde: numbers.c_tilde,
+    };
+    let name = tableau.name().unwrap_or("a method without a name");
+    let made = RunTimeTableau::new(name, &coefficients, orders)?;
+    let Some(are_holonomic) = holonomic else {
+        return Ok(made);
+    };
     let [holonomic, nonholonomic] = constrained_steps(tableau);
-    let are_holonomic = !system.constraints.is_empty();
-    let (steps, what, instead) = match are_holonomic {
-        true => (
-            holonomic,
-            "holonomic constraints: take one that is `constrained`",
-            "`lobatto-2`, which is RATTLE, `lobatto-3` of order 4, or `{ base = \"lobatto-2\", weights = \"triple_jump(4)\" }`",
-        ),
-        false => (
-            nonholonomic,
-            "non-holonomic constraints: take one that is `nonholonomic`",
-            "`gauss-1`, `lobatto-2`, or `{ base = \"gauss-1\", weights = \"triple_jump(4)\" }`",
-        ),
+    let steps = match are_holonomic {
+        true => holonomic,
+        false => nonholonomic,
     };
-    let Some(steps) = steps else {
-        let message = format!(
-            "`{}` has no steps for {what}, such as {instead}",
-            made.name()
-        );
-        return Err(file.error(setup.method.span(), message));
-    };
+    let steps = steps.ok_or_else(|| Refusal::Constraints {
+        method: name.to_owned(),
+        are_holonomic,
+    })?;
     let steps = leaked(&steps);
     Ok(match are_holonomic {
         true => made.with_constrained_steps(steps, &[]),
@@ -102,7 +129,7 @@ fn with_constraints(
     })
 }
 
-/// Steps as those of an emitted method, which live as long as the program: it has only one method.
+/// Steps as those of an emitted method, which live as long as the program.
 fn leaked(steps: &ConstrainedSteps) -> &'static [ConstrainedStep] {
     let coefficient = |number: &Rounded| Coefficient::new(number.double, number.low, number.single);
     let list = |numbers: &Vec<Rounded>| -> &'static [Coefficient] {

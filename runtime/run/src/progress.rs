@@ -109,10 +109,10 @@ impl Watch for Meter {
         self.start
     }
 
-    fn evaluated(&self, elapsed: f64, trajectories: usize) {
+    fn goes_on(&self, elapsed: f64, trajectories: usize) -> bool {
         let slot = rayon::current_thread_index().and_then(|thread| self.slots.get(thread));
         let Some(slot) = slot else {
-            return;
+            return true;
         };
         let get = |place: &AtomicU64| f64::from_bits(place.load(Ordering::Relaxed));
         let set = |place: &AtomicU64, value: f64| place.store(value.to_bits(), Ordering::Relaxed);
@@ -124,6 +124,7 @@ impl Watch for Meter {
             set(&slot.total, get(&slot.total) + more);
             set(&slot.elapsed, elapsed);
         }
+        true
     }
 }
 

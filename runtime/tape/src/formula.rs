@@ -172,13 +172,22 @@ fn fill<'a: 'p, 'p, T: Scalar>(
     );
 }
 
-/// What sees the evaluations of a system, such as a display of the progress.
+/// Fills vectors with NaN, so that a step fails.
+#[cold]
+fn stop<'a, T: Scalar>(vectors: impl IntoIterator<Item = &'a mut DVector<T>>) {
+    for vector in vectors {
+        vector.fill(T::from_f64(f64::NAN));
+    }
+}
+
+/// What sees the evaluations of a system, such as a display of the progress, and may stop a run.
 pub trait Watch: Debug + Send + Sync {
     /// The time of the starts.
     fn start(&self) -> f64;
 
-    /// The force of a number of trajectories was evaluated on this thread, at a time since the start.
-    fn evaluated(&self, elapsed: f64, trajectories: usize);
+    /// The force of a number of trajectories is evaluated on this thread, at a time since the start. If the run is not to go on, the force
+    /// is NaN, and the step fails.
+    fn goes_on(&self, elapsed: f64, trajectories: usize) -> bool;
 }
 
 /// A system of class `C`, with an applied force if it is `FORCED`. The tapes of a separable system read no momentum for the force, and no position for the velocity.
@@ -211,11 +220,11 @@ impl<C, const FORCED: bool> Formula<C, FORCED> {
     }
 
     #[inline(always)]
-    fn note<T: Scalar>(&self, time: T) {
-        if let Some(watch) = &self.watch {
+    fn goes_on<T: Scalar>(&self, time: T) -> bool {
+        self.watch.as_ref().is_none_or(|watch| {
             let elapsed = time - T::from_f64(watch.start());
-            watch.evaluated(elapsed.magnitude(), self.count);
-        }
+            watch.goes_on(elapsed.magnitude(), self.count)
+        })
     }
 
     /// The constraints, if they are holonomic or not as wanted.
@@ -291,8 +300,8 @@ impl<C: ClassOfFormula, const FORCED: bool> Hamiltonian for Formula<C, FORCED> {
     }
 
     fn forces<'a, T: Scalar>(&self, at: impl Fn(usize) -> Point<'a, T>, out: &mut [DVector<T>]) {
-        if !out.is_empty() {
-            self.note(at(0).0);
+        if !out.is_empty() && !self.goes_on(at(0).0) {
+            return stop(out);
         }
         fill((&self.tapes.force, &self.parameters), at, out);
     }
@@ -304,7 +313,9 @@ impl<C: ClassOfFormula, const FORCED: bool> Hamiltonian for Formula<C, FORCED> {
         p: &DVector<T>,
         (velocity, force): (&mut DVector<T>, &mut DVector<T>),
     ) {
-        self.note(time);
+        if !self.goes_on(time) {
+            return stop([velocity, force]);
+        }
         let (velocity, force) = (velocity.as_mut_slice(), force.as_mut_slice());
         let count = velocity.len();
         let write = |_, k: usize, value| {

@@ -1,7 +1,7 @@
 //! From text to a [`Definition`].
 //!
 //! ```text
-//! system     = name [ "<" lengths ">" ] [ "{" parameters "}" ] { statement }
+//! system     = [ name [ "<" lengths ">" ] ] [ "{" parameters "}" ] { statement }
 //! parameter  = name [ ":" ( number | "[" shape "]" | "pairs" ) ]
 //! statement  = "q" ":" coordinates "," ( "p" | "v" ) ":" coordinates [ "," "v" ":" coordinates ] ";"
 //!              coordinates = "[" names | length [ ";" number ] "]"

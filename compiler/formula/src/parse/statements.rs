@@ -16,7 +16,7 @@ impl Parser<'_> {
     pub(super) fn definition(&mut self) -> Result<Definition, Error> {
         let mut definition = Definition {
             form: self.form,
-            name: self.name("the name of the system")?,
+            name: self.name_of_system()?,
             lengths: Vec::new(),
             parameters: Vec::new(),
             coordinates: [None, None],
@@ -67,6 +67,19 @@ impl Parser<'_> {
             return Err(self.other_form("v".to_owned(), &velocities.span));
         }
         Ok(definition)
+    }
+
+    /// The name of the system, which only code needs.
+    fn name_of_system(&mut self) -> Result<Name, Error> {
+        let is_first = |word: &str| matches!(self.peek(), Token::Name(name) if name == word);
+        let is_coordinates = is_first("q") && *self.ahead(1) == Token::Symbol(':');
+        if self.is('{') || is_coordinates || is_first("let") {
+            return Ok(Name {
+                text: "System".to_owned(),
+                span: 0..0,
+            });
+        }
+        self.name("the name of the system, its parameters or `q: […]`")
     }
 
     /// The name of a Rust function; it must differ from the names in the generated code of a system.

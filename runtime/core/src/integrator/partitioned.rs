@@ -224,6 +224,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             step_size,
             retry: Retry::default(),
             last_event: None,
+            output_by_steps: false,
         }
     }
 

@@ -26,6 +26,7 @@ pub struct Run<S> {
     pub(crate) step_size: f64,
     pub(crate) retry: Retry,
     pub(crate) last_event: Option<LastEvent>,
+    pub(crate) output_by_steps: bool,
 }
 
 impl<S: Stepper> Run<S> {
@@ -41,6 +42,7 @@ impl<S: Stepper> Run<S> {
             step_size,
             retry: Retry::Never,
             last_event: None,
+            output_by_steps: false,
             stepper,
         })
     }
@@ -249,6 +251,12 @@ impl<S: Stepper> Run<S> {
     /// The present state, rounded.
     pub fn state(&self) -> &S::State {
         self.stepper.state()
+    }
+
+    /// Whether a state at an output time inside a step is that of a step of the method from the start of the step, which has the order of the
+    /// method, and not that of the dense output. Such an output costs about as much as a step. The default is `false`.
+    pub const fn set_output_by_steps(&mut self, by_steps: bool) {
+        self.output_by_steps = by_steps;
     }
 
     /// Replaces the present state by another one of the same dimension. The next step is that of a new run from there.

@@ -42,6 +42,7 @@ impl<M: Method, S: System<V>, V: Vector, R: Summation, N: Solver<V, S>> Integrat
             clock: self.clock,
             step_size: self.step_size,
             retry: self.retry,
+            output_by_steps: self.output_by_steps,
             last_event: self.last_event,
         }
     }

@@ -44,6 +44,7 @@ impl<S: DenseSteps> Run<S> {
         self.check_times(times)?;
         let mut rest = times;
         let mut output = Output::new(&self.stepper, self.step_size());
+        output.by_steps = self.output_by_steps;
         output.show(&mut self.stepper, &mut rest, &mut observe)?;
         while let Some(&time) = rest.first() {
             if !S::Pace::OWN {
@@ -179,6 +180,8 @@ pub struct Output<S: DenseSteps> {
     pub state: S::State,
     /// The sign of the step size.
     direction: f64,
+    /// Whether output inside the last step is [by a step](Self::look_by_step).
+    pub by_steps: bool,
 }
 
 impl<S: DenseSteps> Output<S> {
@@ -189,6 +192,7 @@ impl<S: DenseSteps> Output<S> {
             evaluated: false,
             state: stepper.state().clone(),
             direction,
+            by_steps: false,
         }
     }
 
@@ -212,6 +216,14 @@ impl<S: DenseSteps> Output<S> {
         stepper.look_by_step(time, &mut self.scratch, &mut self.state)
     }
 
+    /// [`look_at`](Self::look_at), or by a step of the method if output is by steps.
+    pub fn look_for_output(&mut self, stepper: &mut S, time: f64) -> Result<(), S::Error> {
+        match self.by_steps {
+            true => self.look_by_step(stepper, time),
+            false => self.look_at(stepper, time),
+        }
+    }
+
     /// Observes the states at the output times up to the present time and removes these times from the list.
     pub fn show(
         &mut self,
@@ -228,7 +240,7 @@ impl<S: DenseSteps> Output<S> {
             if time == present {
                 observe(stepper.state());
             } else {
-                self.look_at(stepper, time)?;
+                self.look_for_output(stepper, time)?;
                 observe(&self.state);
             }
             *times = rest;

@@ -137,6 +137,7 @@ impl<S: DenseSteps> Run<S> {
         }
         check_times(step, times, before, Some(end))?;
         let mut search = Search::new(events, times, &self.stepper, self.last_event, step);
+        search.output.by_steps = self.output_by_steps;
         search.start(&mut self.stepper, step)?;
         let mut ended = search.show_output(&mut self.stepper, present, &mut handle)?;
         loop {

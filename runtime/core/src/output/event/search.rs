@@ -349,7 +349,7 @@ impl<'e, E: EventList<S::Vector> + ?Sized, S: DenseSteps> Search<'e, E, S> {
             let handled = if time == present.time {
                 handle(Moment::Output(present))
             } else {
-                self.look_at(stepper, time, false)?;
+                self.output.look_for_output(stepper, time)?;
                 handle(Moment::Output(&self.output.state))
             };
             self.times = rest;

@@ -1,0 +1,325 @@
+//! Trajectories one by one: output at any time and events.
+
+use std::ops::ControlFlow;
+
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use symplectic::at_run_time::RunTimeTableau;
+use symplectic::emitted::Solver;
+use symplectic::ensemble::{Ensemble, Row};
+use symplectic::output::Moment;
+use symplectic::system::Class;
+use symplectic::{Error, Hamiltonian, Integrator, State, Statistics, Summation};
+use symplectic_tape::{Formula, Parameters, Tapes};
+
+use crate::errors;
+use crate::events::{Events, Given};
+use crate::method::Method;
+use crate::problem::Problem;
+use crate::watch::{Pulse, guarded};
+use crate::work::{Job, Setting, Starts, Vector, Work};
+
+/// When states are written.
+#[derive(FromPyObject)]
+pub(crate) enum Output {
+    /// At these times.
+    Times(Vec<f64>),
+    /// After steps, equally far from each other, with at most this number of states; 0 for the end only.
+    Steps(usize),
+}
+
+/// States in rows.
+#[derive(Default)]
+pub(crate) struct Rows {
+    pub(crate) t: Vec<f64>,
+    pub(crate) q: Vec<f64>,
+    pub(crate) p: Vec<f64>,
+}
+
+impl Rows {
+    fn with_capacity(count: usize, dimension: usize) -> Self {
+        Rows {
+            t: Vec::with_capacity(count),
+            q: Vec::with_capacity(count * dimension),
+            p: Vec::with_capacity(count * dimension),
+        }
+    }
+
+    /// Adds a state; with friction, the momenta of the system from those of the integrator.
+    fn add(&mut self, state: &State<Vector>, (tapes, parameters): (&Tapes, &Parameters)) {
+        self.t.push(state.time);
+        self.q.extend_from_slice(state.q.as_slice());
+        let factors = tapes.factors(parameters, state.time);
+        match factors {
+            None => self.p.extend_from_slice(state.p.as_slice()),
+            Some(factors) => {
+                let damped = state.p.iter().zip(factors).map(|(p, factor)| p * factor);
+                self.p.extend(damped);
+            }
+        }
+    }
+
+    /// The arrays `t`, `q` and `p`.
+    pub(crate) fn arrays<'py>(
+        self,
+        py: Python<'py>,
+        dimension: usize,
+    ) -> PyResult<(
+        Bound<'py, PyArray1<f64>>,
+        Bound<'py, PyArray2<f64>>,
+        Bound<'py, PyArray2<f64>>,
+    )> {
+        let count = self.t.len();
+        let shaped = |list: Vec<f64>| list.into_pyarray(py).reshape([count, dimension]);
+        let (q, p) = (shaped(self.q)?, shaped(self.p)?);
+        Ok((self.t.into_pyarray(py), q, p))
+    }
+}
+
+/// What a trajectory leaves.
+#[derive(Default)]
+pub(crate) struct Seen {
+    pub(crate) output: Rows,
+    pub(crate) events: Rows,
+    /// The number of the event of each row of `events`.
+    pub(crate) indices: Vec<u32>,
+}
+
+/// Where a run goes, and what is written on the way.
+pub(crate) struct Plan<'a> {
+    pub(crate) end: f64,
+    pub(crate) output: &'a Output,
+    pub(crate) events: &'a Events,
+    pub(crate) tapes: &'a Tapes,
+    /// The largest number of states at events.
+    pub(crate) most: usize,
+}
+
+impl Plan<'_> {
+    /// Integrates to the end.
+    fn walk<C, R, N, const F: bool>(
+        &self,
+        seen: &mut Seen,
+        run: &mut Integrator<RunTimeTableau, Formula<C, F>, Vector, R, N>,
+    ) -> Result<(), Error>
+    where
+        C: Class,
+        Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
+        R: Summation,
+        N: Solver<Vector, Formula<C, F>>,
+    {
+        let parameters = run.system().parameters().clone();
+        let with = (self.tapes, &parameters);
+        let dimension = run.state().q.len();
+        let steps = match self.output {
+            Output::Times(_) => Vec::new(),
+            Output::Steps(most) => step_times(run, self.end, *most)?,
+        };
+        let times = match self.output {
+            Output::Times(times) => times,
+            Output::Steps(_) => &steps,
+        };
+        seen.output = Rows::with_capacity(times.len(), dimension);
+        if times.is_empty() && self.events.is_empty() {
+            return run.integrate_to(self.end).map(|_| ());
+        }
+        run.set_output_by_steps(true);
+        let list = self.events.list(&parameters);
+        let mut counts = vec![0; list.len()];
+        // The state of an event that ends the run is its last one.
+        let mut last = None;
+        let ended = run.integrate_through(self.end, times, &list, |moment| {
+            let (index, state) = match moment {
+                Moment::Output(state) => {
+                    seen.output.add(state, with);
+                    return ControlFlow::Continue(());
+                }
+                Moment::Event { index, state } => (index, state),
+            };
+            if seen.indices.len() >= self.most {
+                return ControlFlow::Break(());
+            }
+            seen.events.add(state, with);
+            seen.indices.push(index as u32);
+            self.events.change(index, &parameters, state);
+            counts[index] += 1;
+            match self.events.ends(index, counts[index]) {
+                true => {
+                    last = Some(state.clone());
+                    ControlFlow::Break(())
+                }
+                false => ControlFlow::Continue(()),
+            }
+        });
+        ended?;
+        last.map_or(Ok(()), |state| run.set_state(state))
+    }
+}
+
+/// The times after steps, equally far from each other.
+fn step_times<C, R, N, const F: bool>(
+    run: &Integrator<RunTimeTableau, Formula<C, F>, Vector, R, N>,
+    end: f64,
+    most: usize,
+) -> Result<Vec<f64>, Error>
+where
+    C: Class,
+    Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
+    R: Summation,
+    N: Solver<Vector, Formula<C, F>>,
+{
+    let Some(intervals) = most.checked_sub(1).filter(|&intervals| intervals > 0) else {
+        return Ok(Vec::new());
+    };
+    let mut remaining = run.steps_to_time(end)?;
+    let stride = remaining.left().div_ceil(intervals as u64).max(1);
+    let mut times = vec![run.state().time];
+    let mut step = 0;
+    while let Some((_, time)) = remaining.next() {
+        remaining.tick();
+        step += 1;
+        if step % stride == 0 || remaining.left() == 0 {
+            times.push(time);
+        }
+    }
+    Ok(times)
+}
+
+/// Integrates each trajectory alone.
+pub(crate) struct OneByOne<'a> {
+    pub(crate) plan: Plan<'a>,
+    pub(crate) pulse: &'a Pulse,
+}
+
+impl Work for OneByOne<'_> {
+    type Output = Vec<Row<Vector, Seen>>;
+
+    fn run<C: Class, const F: bool, R: Summation, N: Solver<Vector, Formula<C, F>>>(
+        self,
+        ensemble: Ensemble<RunTimeTableau, Formula<C, F>, Vector, R, N>,
+    ) -> Self::Output
+    where
+        Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
+    {
+        let mut rows = Vec::new();
+        let work = |seen: &mut Seen, run: &mut _| self.plan.walk(seen, run);
+        ensemble.each(
+            |_| Seen::default(),
+            work,
+            |row| {
+                let finished = &self.pulse.finished;
+                finished.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+                rows.push(row);
+                ControlFlow::Continue(())
+            },
+        );
+        rows
+    }
+}
+
+/// The counts of a run by name.
+pub(crate) fn statistics<'py>(
+    py: Python<'py>,
+    statistics: &Statistics,
+) -> PyResult<Bound<'py, PyDict>> {
+    let Statistics {
+        steps,
+        rejected,
+        iterations,
+        most_iterations,
+        evaluations,
+        factorisations,
+        largest_residual,
+    } = *statistics;
+    let dict = PyDict::new(py);
+    dict.set_item("steps", steps)?;
+    dict.set_item("rejected", rejected)?;
+    dict.set_item("iterations", iterations)?;
+    dict.set_item("most_iterations", most_iterations)?;
+    dict.set_item("evaluations", evaluations)?;
+    dict.set_item("factorisations", factorisations)?;
+    dict.set_item("largest_residual", largest_residual)?;
+    Ok(dict)
+}
+
+/// The trajectory of a start: a dictionary with the states at the output times and at events, the last state, the counts, the error of a
+/// step that failed, and the exception of a signal.
+#[pyfunction]
+#[pyo3(signature = (problem, method, setting, time, q, p, varied, end, output, events, progress))]
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn integrate<'py>(
+    py: Python<'py>,
+    problem: &Problem,
+    method: &Method,
+    setting: Setting,
+    time: f64,
+    q: PyReadonlyArray2<'py, f64>,
+    p: PyReadonlyArray2<'py, f64>,
+    varied: PyReadonlyArray2<'py, f64>,
+    end: f64,
+    output: Output,
+    events: Vec<Given>,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let events = Events::new(problem, events)?;
+    let starts = Starts {
+        time,
+        q: q.as_slice()?,
+        p: p.as_slice()?,
+        varied: varied.as_slice()?,
+        count: 1,
+    };
+    let job = Job::new(problem, method, &setting, starts)?;
+    let work = OneByOne {
+        plan: Plan {
+            end,
+            output: &output,
+            events: &events,
+            tapes: &problem.tapes,
+            most: usize::MAX,
+        },
+        pulse: &job.pulse,
+    };
+    let (rows, interrupted) = guarded(py, &job.pulse, progress.as_ref(), || job.run(work))?;
+    let row = rows?.pop();
+    let found = PyDict::new(py);
+    let Some(Row {
+        outcome,
+        state,
+        statistics: counts,
+        output: seen,
+        ..
+    }) = row
+    else {
+        let signal = interrupted.unwrap_or_else(|| errors::internal("the run has no result"));
+        return Err(signal);
+    };
+    let (t, q, p) = seen.output.arrays(py, problem.dimension)?;
+    found.set_item("t", t)?;
+    found.set_item("q", q)?;
+    found.set_item("p", p)?;
+    let (t, q, p) = seen.events.arrays(py, problem.dimension)?;
+    found.set_item("event_t", t)?;
+    found.set_item("event_q", q)?;
+    found.set_item("event_p", p)?;
+    found.set_item("event_index", seen.indices.into_pyarray(py))?;
+    let mut last = Rows::default();
+    let own = Parameters::from(varied.as_slice()?);
+    last.add(&state, (&problem.tapes, &own));
+    found.set_item(
+        "state",
+        (last.t[0], last.q.into_pyarray(py), last.p.into_pyarray(py)),
+    )?;
+    found.set_item("statistics", statistics(py, &counts)?)?;
+    let error = outcome.err().filter(|_| interrupted.is_none());
+    found.set_item(
+        "error",
+        error.map(|error| errors::step(&error).into_value(py)),
+    )?;
+    found.set_item(
+        "interrupted",
+        interrupted.map(|signal| signal.into_value(py)),
+    )?;
+    Ok(found)
+}

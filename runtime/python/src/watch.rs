@@ -1,0 +1,108 @@
+//! Ctrl-C and the progress of a run: the work runs beside, this thread asks Python.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::Duration;
+
+use pyo3::prelude::*;
+use symplectic_tape::Watch;
+
+use crate::errors;
+
+/// The time between two looks at signals.
+const INTERVAL: Duration = Duration::from_millis(40);
+
+/// Sees the evaluations of a run and stops it.
+#[derive(Debug, Default)]
+pub(crate) struct Pulse {
+    start: f64,
+    stopped: AtomicBool,
+    /// The largest elapsed time of a trajectory, as bits; they are ordered as the numbers are.
+    elapsed: AtomicU64,
+    /// The number of trajectories that are finished.
+    pub(crate) finished: AtomicU64,
+}
+
+impl Pulse {
+    pub(crate) fn new(start: f64) -> Arc<Self> {
+        Arc::new(Pulse {
+            start,
+            ..Pulse::default()
+        })
+    }
+
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed)
+    }
+
+    fn elapsed(&self) -> f64 {
+        f64::from_bits(self.elapsed.load(Ordering::Relaxed))
+    }
+}
+
+impl Watch for Pulse {
+    fn start(&self) -> f64 {
+        self.start
+    }
+
+    fn goes_on(&self, elapsed: f64, _trajectories: usize) -> bool {
+        // Only the thread of a single run writes often; in ensembles the finished trajectories count.
+        self.elapsed.store(elapsed.to_bits(), Ordering::Relaxed);
+        !self.is_stopped()
+    }
+}
+
+/// The progress of a run as Python sees it: a function of the elapsed time and of the number of finished trajectories.
+pub(crate) type Shown<'a> = Option<&'a Bound<'a, PyAny>>;
+
+/// Does work that may take long without the GIL, and stops it at a signal. Returns the result, which is then incomplete, with the exception
+/// of the signal.
+pub(crate) fn guarded<T: Send>(
+    py: Python<'_>,
+    pulse: &Pulse,
+    progress: Shown<'_>,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<(T, Option<PyErr>)> {
+    let progress = progress.map(|function| function.clone().unbind());
+    let (done, interrupted) = py.detach(|| {
+        let (sender, receiver) = channel();
+        let mut interrupted = None;
+        thread::scope(|scope| {
+            scope.spawn(move || {
+                let done = catch_unwind(AssertUnwindSafe(work));
+                // The other end waits for it.
+                let _ = sender.send(done);
+            });
+            loop {
+                match receiver.recv_timeout(INTERVAL) {
+                    Ok(done) => return (done.ok(), interrupted),
+                    Err(RecvTimeoutError::Disconnected) => return (None, interrupted),
+                    Err(RecvTimeoutError::Timeout) if interrupted.is_some() => {}
+                    Err(RecvTimeoutError::Timeout) => {
+                        let asked = Python::attach(|py| {
+                            py.check_signals()?;
+                            if let Some(progress) = &progress {
+                                let finished = pulse.finished.load(Ordering::Relaxed);
+                                progress.call1(py, (pulse.elapsed(), finished))?;
+                            }
+                            Ok(())
+                        });
+                        if let Err(error) = asked {
+                            pulse.stopped.store(true, Ordering::Relaxed);
+                            interrupted = Some(error);
+                        }
+                    }
+                }
+            }
+        })
+    });
+    match done {
+        Some(done) => Ok((done, interrupted)),
+        None => Err(errors::internal(
+            "the library made an error that it should not make; please report it with the call",
+        )),
+    }
+}

@@ -1,0 +1,363 @@
+//! From a problem and a method to an ensemble of the right type.
+
+use std::sync::Arc;
+
+use pyo3::prelude::*;
+use symplectic::at_run_time::RunTimeTableau;
+use symplectic::constraints::{Constrained, Nonholonomic, consistent, consistent_momentum};
+use symplectic::emitted::Solver;
+use symplectic::ensemble::{Ensemble, EnsembleError};
+use symplectic::nalgebra::DVector;
+use symplectic::solver::Newton;
+use symplectic::system::{Class, Conservative};
+use symplectic::{
+    Compensated, Error, General, Hamiltonian, Plain, Retry, Separable, State, Summation,
+};
+use symplectic_tape::{Formula, Parameters, Watch};
+
+use crate::errors;
+use crate::method::Method;
+use crate::problem::Problem;
+use crate::watch::Pulse;
+
+pub(crate) type Vector = DVector<f64>;
+
+/// Moves a state onto the constraints.
+type Project<C> = fn(&Formula<C>, State<Vector>) -> Result<State<Vector>, Error>;
+
+/// How a run is made.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Setting {
+    step: f64,
+    /// The sums are compensated.
+    compensated: bool,
+    newton: bool,
+    accept_lower_order: bool,
+    project: bool,
+    /// The number of halvings of a failed step.
+    halvings: u32,
+    threads: Option<usize>,
+}
+
+/// The starts of trajectories in rows, with the parameters of each that vary.
+pub(crate) struct Starts<'a> {
+    pub(crate) time: f64,
+    pub(crate) q: &'a [f64],
+    pub(crate) p: &'a [f64],
+    pub(crate) varied: &'a [f64],
+    pub(crate) count: usize,
+}
+
+/// What is done with an ensemble of formulas.
+pub(crate) trait Work: Send {
+    type Output: Send;
+
+    fn run<C: Class, const F: bool, R: Summation, N: Solver<Vector, Formula<C, F>>>(
+        self,
+        ensemble: Ensemble<RunTimeTableau, Formula<C, F>, Vector, R, N>,
+    ) -> Self::Output
+    where
+        Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>;
+}
+
+/// What is done with systems of H alone.
+pub(crate) trait FreeWork: Send {
+    type Output: Send;
+
+    fn run<C: Class + Conservative, R: Summation>(
+        self,
+        job: &Job<'_>,
+        newton: bool,
+        families: Families<C, false>,
+    ) -> Result<Self::Output, Failure>
+    where
+        Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>;
+}
+
+/// Systems with their starts.
+pub(crate) type Families<C, const F: bool> = Vec<(Formula<C, F>, Vec<State<Vector>>)>;
+
+/// Why no ensemble can be made.
+pub(crate) struct Failure(String);
+
+impl From<Failure> for PyErr {
+    fn from(failure: Failure) -> Self {
+        errors::argument(failure.0)
+    }
+}
+
+/// All that decides a run.
+pub(crate) struct Job<'a> {
+    pub(crate) problem: &'a Problem,
+    pub(crate) method: RunTimeTableau,
+    pub(crate) setting: &'a Setting,
+    pub(crate) starts: Starts<'a>,
+    pub(crate) pulse: Arc<Pulse>,
+}
+
+impl<'a> Job<'a> {
+    pub(crate) fn new(
+        problem: &'a Problem,
+        method: &Method,
+        setting: &'a Setting,
+        starts: Starts<'a>,
+    ) -> PyResult<Self> {
+        let (dimension, width) = (problem.dimension, problem.varied);
+        let Starts {
+            q,
+            p,
+            varied,
+            count,
+            time,
+        } = starts;
+        let numbers = count.checked_mul(dimension);
+        let fits = Some(q.len()) == numbers
+            && Some(p.len()) == numbers
+            && Some(varied.len()) == count.checked_mul(width);
+        if !fits {
+            return Err(errors::internal("starts of another dimension"));
+        }
+        if setting.project && problem.kind.holonomic.is_none() {
+            return Err(errors::argument(
+                "the system has no constraints, so starts are not projected: leave out `project_starts`",
+            ));
+        }
+        if setting.newton && problem.kind.holonomic.is_some() {
+            return Err(errors::argument(
+                "steps with constraints have an iteration of their own: leave out `solver`",
+            ));
+        }
+        if setting.newton && problem.kind.is_separable && method.0.is_explicit() {
+            return Err(errors::argument(format!(
+                "`{}` is explicit for this H, so its stages need no iteration: leave out `solver`, or take an implicit method",
+                method.0.name()
+            )));
+        }
+        let orders = method.0.orders();
+        if problem.tapes.has_friction()
+            && orders.nystrom > orders.separable
+            && !setting.accept_lower_order
+        {
+            return Err(errors::argument(format!(
+                "`{}` has order {} without friction, but only {} with it: take another method, or `accept_lower_order=True`",
+                method.0.name(),
+                orders.nystrom,
+                orders.separable
+            )));
+        }
+        let pulse = Pulse::new(time);
+        let tableau = method.0.clone();
+        Ok(Job {
+            problem,
+            method: match setting.accept_lower_order {
+                true => tableau.accept_lower_order(),
+                false => tableau,
+            },
+            setting,
+            starts,
+            pulse,
+        })
+    }
+
+    /// Does work with the ensemble of the starts.
+    pub(crate) fn run<W: Work>(&self, work: W) -> Result<W::Output, Failure> {
+        self.on_threads(|| match self.setting.compensated {
+            true => self.with_sums::<Compensated, W>(work),
+            false => self.with_sums::<Plain, W>(work),
+        })
+    }
+
+    /// Does work with systems of H alone.
+    pub(crate) fn run_free<W: FreeWork>(&self, work: W) -> Result<W::Output, Failure> {
+        let newton = self.setting.newton;
+        self.on_threads(
+            || match (self.setting.compensated, self.problem.kind.is_separable) {
+                (true, true) => work.run::<Separable, Compensated>(self, newton, self.families()),
+                (true, false) => work.run::<General, Compensated>(self, newton, self.families()),
+                (false, true) => work.run::<Separable, Plain>(self, newton, self.families()),
+                (false, false) => work.run::<General, Plain>(self, newton, self.families()),
+            },
+        )
+    }
+
+    fn on_threads<T: Send>(
+        &self,
+        work: impl FnOnce() -> Result<T, Failure> + Send,
+    ) -> Result<T, Failure> {
+        let Some(threads) = self.setting.threads else {
+            return work();
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build();
+        let pool = pool.map_err(|error| Failure(format!("cannot start the threads: {error}")))?;
+        pool.install(work)
+    }
+
+    fn with_sums<R: Summation, W: Work>(&self, work: W) -> Result<W::Output, Failure> {
+        let kind = self.problem.kind;
+        match (kind.holonomic, kind.is_separable, kind.is_forced) {
+            (Some(true), true, _) => self.holonomic::<Separable, R, W>(work),
+            (Some(true), false, _) => self.holonomic::<General, R, W>(work),
+            (Some(false), true, _) => self.nonholonomic::<Separable, R, W>(work),
+            (Some(false), false, _) => self.nonholonomic::<General, R, W>(work),
+            (None, true, true) => self.by_solver::<Separable, true, R, W>(work),
+            (None, false, true) => self.by_solver::<General, true, R, W>(work),
+            (None, true, false) => self.by_solver::<Separable, false, R, W>(work),
+            (None, false, false) => self.by_solver::<General, false, R, W>(work),
+        }
+    }
+
+    fn by_solver<C: Class + Conservative, const F: bool, R: Summation, W: Work>(
+        &self,
+        work: W,
+    ) -> Result<W::Output, Failure>
+    where
+        Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
+    {
+        let ensemble = self.made::<_, R>(self.families::<C, F>())?;
+        Ok(match self.setting.newton {
+            false => work.run(ensemble),
+            true => work.run(ensemble.with_solver(<Newton>::new())),
+        })
+    }
+
+    fn holonomic<C, R: Summation, W: Work>(&self, work: W) -> Result<W::Output, Failure>
+    where
+        C: Class + symplectic::system::Unconstrained,
+    {
+        let families = self.projected::<Constrained<C>>(consistent)?;
+        Ok(work.run(self.made::<_, R>(families)?))
+    }
+
+    fn nonholonomic<C, R: Summation, W: Work>(&self, work: W) -> Result<W::Output, Failure>
+    where
+        C: Class + symplectic::system::Unconstrained,
+    {
+        let families = self.projected::<Nonholonomic<C>>(consistent_momentum)?;
+        Ok(work.run(self.made::<_, R>(families)?))
+    }
+
+    /// An ensemble of systems.
+    pub(crate) fn made<S, R>(
+        &self,
+        families: impl IntoIterator<Item = (S, Vec<State<Vector>>)>,
+    ) -> Result<Ensemble<RunTimeTableau, S, Vector, R>, Failure>
+    where
+        S: symplectic::System<Vector, Class: symplectic::system::Frictionless>,
+        R: Summation,
+    {
+        let made = Ensemble::<RunTimeTableau, S, Vector, R>::with_summation(
+            self.method.clone(),
+            families,
+            self.setting.step,
+        );
+        let mut ensemble = made.map_err(|error| self.refused(&error))?;
+        if self.setting.halvings > 0 {
+            ensemble.set_retry(Retry::Split {
+                halvings: self.setting.halvings,
+            });
+        }
+        let pulse = Arc::clone(&self.pulse);
+        ensemble.stop_if(move || pulse.is_stopped());
+        Ok(ensemble)
+    }
+
+    /// The systems of the starts: one for all trajectories with the same parameters.
+    fn families<C, const F: bool>(&self) -> Families<C, F> {
+        let Starts {
+            time,
+            q,
+            p,
+            varied,
+            count,
+        } = self.starts;
+        let (dimension, width) = (self.problem.dimension, self.problem.varied);
+        let mut families: Families<C, F> = Vec::new();
+        let bits = |row: &[f64]| row.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        let mut last: Option<Vec<u64>> = None;
+        for row in 0..count {
+            let part = |all: &[f64]| {
+                Vector::from_column_slice(&all[row * dimension..(row + 1) * dimension])
+            };
+            let state = State::new(time, part(q), part(p));
+            let own = &varied[row * width..(row + 1) * width];
+            let is_same = last.as_ref().is_some_and(|last| *last == bits(own));
+            match families.last_mut() {
+                Some((_, family)) if is_same => family.push(state),
+                _ => {
+                    let watch: Arc<dyn Watch> = Arc::<Pulse>::clone(&self.pulse);
+                    let system =
+                        Formula::new(Arc::clone(&self.problem.tapes), Parameters::from(own));
+                    families.push((system.watched(Some(watch)), vec![state]));
+                    last = Some(bits(own));
+                }
+            }
+        }
+        families
+    }
+
+    /// The systems with their starts on the constraints, if that is wanted.
+    fn projected<C>(&self, project: Project<C>) -> Result<Families<C, false>, Failure> {
+        let mut families = self.families::<C, false>();
+        if !self.setting.project {
+            return Ok(families);
+        }
+        let all = families.iter_mut();
+        let all = all.flat_map(|(system, starts)| starts.iter_mut().map(|start| (&*system, start)));
+        for (number, (system, start)) in all.enumerate() {
+            *start = project(system, start.clone())
+                .map_err(|error| Failure(format!("start {number}: {error}")))?;
+        }
+        Ok(families)
+    }
+
+    /// Translates an error of the ensemble into terms of Python.
+    fn refused(&self, error: &EnsembleError) -> Failure {
+        let accept = "take another method, or `accept_lower_order=True`";
+        let name = self.method.name();
+        let off = |start: usize, constraint: Option<String>, how: String| {
+            format!(
+                "start {start} is not on the constraint{}: {how}, but each must be 0; give other starts, or `project_starts=True`, which \
+                 moves starts to the nearest ones on the constraints",
+                constraint.unwrap_or_default()
+            )
+        };
+        Failure(match error {
+            EnsembleError::Start {
+                error:
+                    Error::NotQuadraticKinetic {
+                        order, lower_order, ..
+                    },
+                ..
+            } => format!(
+                "`{name}` has order {order} if the kinetic energy is quadratic in the momenta, but for this H only {lower_order}: {accept}"
+            ),
+            EnsembleError::Start {
+                trajectory,
+                error:
+                    Error::InconsistentStart {
+                        name, value, rate, ..
+                    },
+            } => off(
+                *trajectory,
+                name.as_ref().map(|name| format!(" `{name}`")),
+                format!("|φ| = {value:e}, |dφ/dt| = {rate:e}"),
+            ),
+            EnsembleError::Start {
+                trajectory,
+                error: Error::InconsistentVelocity { name, rate, .. },
+            } => off(
+                *trajectory,
+                name.as_ref().map(|name| format!(" `{name}`")),
+                format!("|w·q'| = {rate:e}"),
+            ),
+            EnsembleError::All(Error::SeparableTableau { order, lower_order }) => format!(
+                "H is not separable, or a force depends on momenta: `{name}` has order {order} for separable H only, and for this H it has \
+                 order {lower_order} or is not symplectic: {accept}"
+            ),
+            EnsembleError::Start { error, .. } if self.starts.count == 1 => error.to_string(),
+            other => other.to_string(),
+        })
+    }
+}
