@@ -13,7 +13,7 @@ use symplectic::ensemble::{Ensemble, Row};
 use symplectic::solver::Newton;
 use symplectic::system::{Class, Conservative};
 use symplectic::tangent::{self, Megno, Tangent};
-use symplectic::{Hamiltonian, Integrator, State, Statistics, Summation};
+use symplectic::{Hamiltonian, Integrator, Method as Steps, State, Statistics, Summation};
 use symplectic_tape::{Formula, Parameters};
 
 use crate::errors;
@@ -131,12 +131,13 @@ struct InLanes<'a> {
 impl Work for InLanes<'_> {
     type Output = Ends;
 
-    fn run<C: Class, const F: bool, R: Summation, N: Solver<Vector, Formula<C, F>>>(
-        self,
-        ensemble: Ensemble<RunTimeTableau, Formula<C, F>, Vector, R, N>,
-    ) -> Ends
+    fn run<M, C, const F: bool, R, N>(self, ensemble: Ensemble<M, Formula<C, F>, Vector, R, N>) -> Ends
     where
+        M: Steps + Send + Sync,
+        C: Class,
         Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
+        R: Summation,
+        N: Solver<Vector, Formula<C, F>>,
     {
         let dimension = self.dimension;
         let mut ends = Ends::with_capacity(ensemble.starts().len(), dimension);
@@ -354,7 +355,7 @@ impl<W: TangentWork> FreeWork for Displaced<'_, W> {
             let displaced = displaced.collect();
             tangents.push((Tangent::new(system), displaced));
         }
-        let ensemble = job.made::<_, R>(tangents)?;
+        let ensemble = job.made::<_, _, R>(job.method.clone(), tangents)?;
         Ok(match newton {
             false => self.work.run(ensemble),
             true => self.work.run(ensemble.with_solver(<Newton>::new())),

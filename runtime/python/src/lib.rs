@@ -3,6 +3,7 @@
 
 mod catalogue;
 mod command;
+mod emitted;
 mod ensemble;
 mod errors;
 mod events;

@@ -5,12 +5,11 @@ use std::ops::ControlFlow;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use symplectic::at_run_time::RunTimeTableau;
 use symplectic::emitted::Solver;
 use symplectic::ensemble::{Ensemble, Row};
 use symplectic::output::Moment;
 use symplectic::system::Class;
-use symplectic::{Error, Hamiltonian, Integrator, State, Statistics, Summation};
+use symplectic::{Error, Hamiltonian, Integrator, Method as Steps, State, Statistics, Summation};
 use symplectic_tape::{Formula, Parameters, Tapes};
 
 use crate::errors;
@@ -98,12 +97,13 @@ pub(crate) struct Plan<'a> {
 
 impl Plan<'_> {
     /// Integrates to the end.
-    fn walk<C, R, N, const F: bool>(
+    fn walk<M, C, R, N, const F: bool>(
         &self,
         seen: &mut Seen,
-        run: &mut Integrator<RunTimeTableau, Formula<C, F>, Vector, R, N>,
+        run: &mut Integrator<M, Formula<C, F>, Vector, R, N>,
     ) -> Result<(), Error>
     where
+        M: Steps,
         C: Class,
         Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
         R: Summation,
@@ -158,12 +158,13 @@ impl Plan<'_> {
 }
 
 /// The times after steps, equally far from each other.
-fn step_times<C, R, N, const F: bool>(
-    run: &Integrator<RunTimeTableau, Formula<C, F>, Vector, R, N>,
+fn step_times<M, C, R, N, const F: bool>(
+    run: &Integrator<M, Formula<C, F>, Vector, R, N>,
     end: f64,
     most: usize,
 ) -> Result<Vec<f64>, Error>
 where
+    M: Steps,
     C: Class,
     Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
     R: Summation,
@@ -195,12 +196,16 @@ pub(crate) struct OneByOne<'a> {
 impl Work for OneByOne<'_> {
     type Output = Vec<Row<Vector, Seen>>;
 
-    fn run<C: Class, const F: bool, R: Summation, N: Solver<Vector, Formula<C, F>>>(
+    fn run<M, C, const F: bool, R, N>(
         self,
-        ensemble: Ensemble<RunTimeTableau, Formula<C, F>, Vector, R, N>,
+        ensemble: Ensemble<M, Formula<C, F>, Vector, R, N>,
     ) -> Self::Output
     where
+        M: Steps + Send + Sync,
+        C: Class,
         Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
+        R: Summation,
+        N: Solver<Vector, Formula<C, F>>,
     {
         let mut rows = Vec::new();
         let work = |seen: &mut Seen, run: &mut _| self.plan.walk(seen, run);

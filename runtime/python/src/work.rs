@@ -1,5 +1,6 @@
 //! From a problem and a method to an ensemble of the right type.
 
+use std::marker::PhantomData;
 use std::sync::Arc;
 
 use pyo3::prelude::*;
@@ -11,10 +12,11 @@ use symplectic::nalgebra::DVector;
 use symplectic::solver::Newton;
 use symplectic::system::{Class, Conservative};
 use symplectic::{
-    Compensated, Error, General, Hamiltonian, Plain, Retry, Separable, State, Summation,
+    Compensated, Error, General, Hamiltonian, Method as Steps, Plain, ProvedFor, Retry, Separable, State, Summation,
 };
 use symplectic_tape::{Formula, Parameters, Watch};
 
+use crate::emitted::{Emitted, ForEverySystem, OfMethod};
 use crate::errors;
 use crate::method::Method;
 use crate::problem::Problem;
@@ -53,13 +55,40 @@ pub(crate) struct Starts<'a> {
 pub(crate) trait Work: Send {
     type Output: Send;
 
-    fn run<C: Class, const F: bool, R: Summation, N: Solver<Vector, Formula<C, F>>>(
+    fn run<M, C, const F: bool, R, N>(
         self,
-        ensemble: Ensemble<RunTimeTableau, Formula<C, F>, Vector, R, N>,
+        ensemble: Ensemble<M, Formula<C, F>, Vector, R, N>,
     ) -> Self::Output
     where
-        Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>;
+        M: Steps + Send + Sync,
+        C: Class,
+        Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
+        R: Summation,
+        N: Solver<Vector, Formula<C, F>>;
 }
+
+/// Does work with the ensemble of a compiled method.
+struct Compiled<'j, 'a, C, W> {
+    job: &'j Job<'a>,
+    work: W,
+    class: PhantomData<fn() -> C>,
+}
+
+macro_rules! compiled {
+    ($($class:ident)*) => {$(
+        impl<W: Work> OfMethod for Compiled<'_, '_, $class, W> {
+            type Output = Result<W::Output, Failure>;
+
+            fn run<M: Steps + Copy + Send + Sync + ForEverySystem>(self, method: M) -> Self::Output {
+                let families = self.job.families::<$class, false>();
+                let ensemble = self.job.made::<_, _, Compensated>(method, families)?;
+                Ok(self.work.run(ensemble))
+            }
+        }
+    )*};
+}
+
+compiled! { General Separable }
 
 /// What is done with systems of H alone.
 pub(crate) trait FreeWork: Send {
@@ -196,6 +225,14 @@ impl<'a> Job<'a> {
 
     fn with_sums<R: Summation, W: Work>(&self, work: W) -> Result<W::Output, Failure> {
         let kind = self.problem.kind;
+        if R::COMPENSATED
+            && let Some(emitted) = self.emitted()
+        {
+            return match kind.is_separable {
+                true => emitted.with(Compiled::<Separable, W> { job: self, work, class: PhantomData }),
+                false => emitted.with(Compiled::<General, W> { job: self, work, class: PhantomData }),
+            };
+        }
         match (kind.holonomic, kind.is_separable, kind.is_forced) {
             (Some(true), true, _) => self.holonomic::<Separable, R, W>(work),
             (Some(true), false, _) => self.holonomic::<General, R, W>(work),
@@ -208,6 +245,13 @@ impl<'a> Job<'a> {
         }
     }
 
+    /// The method, if it is compiled into this module for the kind of system.
+    fn emitted(&self) -> Option<Emitted> {
+        let kind = self.problem.kind;
+        let is_plain = kind.holonomic.is_none() && !kind.is_forced && !self.setting.newton;
+        is_plain.then(|| Emitted::of(&self.method)).flatten()
+    }
+
     fn by_solver<C: Class + Conservative, const F: bool, R: Summation, W: Work>(
         &self,
         work: W,
@@ -215,7 +259,7 @@ impl<'a> Job<'a> {
     where
         Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
     {
-        let ensemble = self.made::<_, R>(self.families::<C, F>())?;
+        let ensemble = self.made::<_, _, R>(self.method.clone(), self.families::<C, F>())?;
         Ok(match self.setting.newton {
             false => work.run(ensemble),
             true => work.run(ensemble.with_solver(<Newton>::new())),
@@ -227,7 +271,7 @@ impl<'a> Job<'a> {
         C: Class + symplectic::system::Unconstrained,
     {
         let families = self.projected::<Constrained<C>>(consistent)?;
-        Ok(work.run(self.made::<_, R>(families)?))
+        Ok(work.run(self.made::<_, _, R>(self.method.clone(), families)?))
     }
 
     fn nonholonomic<C, R: Summation, W: Work>(&self, work: W) -> Result<W::Output, Failure>
@@ -235,20 +279,22 @@ impl<'a> Job<'a> {
         C: Class + symplectic::system::Unconstrained,
     {
         let families = self.projected::<Nonholonomic<C>>(consistent_momentum)?;
-        Ok(work.run(self.made::<_, R>(families)?))
+        Ok(work.run(self.made::<_, _, R>(self.method.clone(), families)?))
     }
 
     /// An ensemble of systems.
-    pub(crate) fn made<S, R>(
+    pub(crate) fn made<M, S, R>(
         &self,
+        method: M,
         families: impl IntoIterator<Item = (S, Vec<State<Vector>>)>,
-    ) -> Result<Ensemble<RunTimeTableau, S, Vector, R>, Failure>
+    ) -> Result<Ensemble<M, S, Vector, R>, Failure>
     where
-        S: symplectic::System<Vector, Class: symplectic::system::Frictionless>,
+        M: Steps + ProvedFor<S::Class>,
+        S: symplectic::System<Vector>,
         R: Summation,
     {
-        let made = Ensemble::<RunTimeTableau, S, Vector, R>::with_summation(
-            self.method.clone(),
+        let made = Ensemble::<M, S, Vector, R>::with_summation(
+            method,
             families,
             self.setting.step,
         );

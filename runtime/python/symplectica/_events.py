@@ -42,8 +42,8 @@ class Event:
     >>> ball = sy.system("q: [y], p: [py]; H = py^2/2 + 9.81 y")
     >>> floor = sy.Event("y", wall=True, set={"py": "-0.8 py"})
     >>> run = ball.integrate([1.0], [0.0], t=2, step=0.01, method="stormer-verlet", events=floor)
-    >>> [round(t, 4) for t in run.events[0].t]
-    [0.4515, 1.1739, 1.7519]
+    >>> run.events[0].t.round(4).tolist()
+    [0.4515, 1.174, 1.7519]
     """
 
     of: str
@@ -124,6 +124,8 @@ def events_of(given: Given, direction: str = "both") -> tuple[list[Any], list[An
         return [], []
     if isinstance(given, (Event, str)):
         given = [given]
+    if not isinstance(given, (Mapping, Sequence)):
+        raise ArgumentError(f"events are an expression in text, an `Event`, or a list or dict of these, found {type(given).__name__}")
     if isinstance(given, Mapping):
         return list(given), [event(one)._native() for one in given.values()]
     return list(range(len(given))), [event(one)._native() for one in given]

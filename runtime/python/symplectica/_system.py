@@ -285,7 +285,7 @@ class System:
         >>> import symplectica as sy
         >>> kepler = sy.system("q: [2], p: [2]; H = |p|^2/2 - 1/|q|")
         >>> run = kepler.integrate([0.4, 0], [0, 2], t=100, step=0.05, method="gauss-8")
-        >>> abs(run.energy_error).max() < 1e-13
+        >>> bool(abs(run.energy_error).max() < 1e-13)
         True
         >>> run.q[-1].shape, run.t[-1]
         ((2,), 100.0)

@@ -483,11 +483,13 @@ class Tableau:
         return "$$\n" + "\n".join(lines) + "\n\\end{array}\n$$"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_restored, (self._native.toml(), self.name, self.stages))
+        if self.name is not None and _is_known(self):
+            return (_of_catalogue, (self.name,))
+        return (_restored, (self._native.toml(), self.stages))
 
 
-def _restored(toml: str, name: str | None, stages: int) -> Tableau:
-    return Tableau(_native.Tableau.read(name or "a pickled tableau", toml, max(stages, 36)))
+def _restored(toml: str, stages: int) -> Tableau:
+    return Tableau(_native.Tableau.read("pickled.toml", toml, max(stages, 36)))
 
 
 def tableau(*, name: str | None = None, require: str | Sequence[str] = (), max_stages: int | None = None, **definition: Exact) -> Tableau:
@@ -532,7 +534,7 @@ def tableau(*, name: str | None = None, require: str | Sequence[str] = (), max_s
     <Tableau: 3 stages, order general 4, separable 4, nystrom 4>
     >>> waves = sy.tableau(basis=["1", "cos(pi*t)", "sin(pi*t)"], nodes=["0", "1/2", "1"])
     >>> waves.exact["b"]
-    ['1/2 - 1/pi', '2/pi', '1/2 - 1/pi']
+    ['(pi - 2)/(2*pi)', '2/pi', '(pi - 2)/(2*pi)']
     """
     parts = []
     for key, value in definition.items():
@@ -654,7 +656,7 @@ def catalogue() -> dict[str, Entry]:
     >>> import symplectica as sy
     >>> len(sy.catalogue()) > 100
     True
-    >>> sy.catalogue()["ruth-3"].tableau.order("separable")
+    >>> sy.catalogue()["ruth-1983"].tableau.order("separable")
     3
     """
     return {entry[0]: Entry(*entry) for entry in _native.catalogue()}
@@ -663,6 +665,12 @@ def catalogue() -> dict[str, Entry]:
 @lru_cache(maxsize=256)
 def _of_catalogue(name: str) -> Tableau:
     return Tableau(_native.Tableau.of_catalogue(name))
+
+
+def _is_known(made: Tableau) -> bool:
+    """Whether a tableau is the method of the catalogue that has its name."""
+    known = catalogue().get(made.name or "")
+    return known is not None and known.tableau == made
 
 
 class Doubles:
@@ -766,7 +774,9 @@ def method(given: str | Path | Mapping[str, Exact] | Tableau | Doubles | Any) ->
             raise ArgumentError(f"cannot read `{path}`: {error.strerror}") from None
         return Tableau(_native.Tableau.read(str(path), text))
     if isinstance(given, str):
-        return Tableau(_native.Tableau.read("the definition", given)) if "\n" in given or "=" in given else _of_catalogue(given)
+        if "\n" not in given and "=" not in given:
+            return _of_catalogue(given)
+        return Tableau(_native.Tableau.read("definition.json" if given.lstrip().startswith("{") else "definition.toml", given))
     a, b = getattr(given, "A", None), getattr(given, "b", getattr(given, "B", None))
     if a is not None and b is not None:
         a, b = np.array(a, dtype=float), np.array(b, dtype=float)
