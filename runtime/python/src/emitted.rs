@@ -12,7 +12,10 @@ pub(crate) trait OfMethod {
 }
 
 /// A method that is proved for every conservative system.
-pub(crate) trait ForEverySystem: ProvedFor<symplectic::General> + ProvedFor<symplectic::Separable> {}
+pub(crate) trait ForEverySystem:
+    ProvedFor<symplectic::General> + ProvedFor<symplectic::Separable>
+{
+}
 
 impl<M: ProvedFor<symplectic::General> + ProvedFor<symplectic::Separable>> ForEverySystem for M {}
 

@@ -13,7 +13,7 @@ use symplectic::ensemble::{Ensemble, Row};
 use symplectic::solver::Newton;
 use symplectic::system::{Class, Conservative};
 use symplectic::tangent::{self, Megno, Tangent};
-use symplectic::{Hamiltonian, Integrator, Method as Steps, State, Statistics, Summation};
+use symplectic::{Compensated, Hamiltonian, Integrator, Method as Steps, State, Statistics};
 use symplectic_tape::{Formula, Parameters};
 
 use crate::errors;
@@ -131,12 +131,14 @@ struct InLanes<'a> {
 impl Work for InLanes<'_> {
     type Output = Ends;
 
-    fn run<M, C, const F: bool, R, N>(self, ensemble: Ensemble<M, Formula<C, F>, Vector, R, N>) -> Ends
+    fn run<M, C, const F: bool, N>(
+        self,
+        ensemble: Ensemble<M, Formula<C, F>, Vector, Compensated, N>,
+    ) -> Ends
     where
         M: Steps + Send + Sync,
         C: Class,
         Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
-        R: Summation,
         N: Solver<Vector, Formula<C, F>>,
     {
         let dimension = self.dimension;
@@ -320,9 +322,9 @@ struct Displaced<'a, W> {
 trait TangentWork: Send {
     type Output: Send;
 
-    fn run<C: Class + Conservative, R: Summation, N: Solver<Vector, Tangent<Formula<C>>>>(
+    fn run<C: Class + Conservative, N: Solver<Vector, Tangent<Formula<C>>>>(
         self,
-        ensemble: Ensemble<RunTimeTableau, Tangent<Formula<C>>, Vector, R, N>,
+        ensemble: Ensemble<RunTimeTableau, Tangent<Formula<C>>, Vector, Compensated, N>,
     ) -> Self::Output
     where
         Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>;
@@ -331,7 +333,7 @@ trait TangentWork: Send {
 impl<W: TangentWork> FreeWork for Displaced<'_, W> {
     type Output = W::Output;
 
-    fn run<C: Class + Conservative, R: Summation>(
+    fn run<C: Class + Conservative>(
         self,
         job: &Job<'_>,
         newton: bool,
@@ -355,7 +357,7 @@ impl<W: TangentWork> FreeWork for Displaced<'_, W> {
             let displaced = displaced.collect();
             tangents.push((Tangent::new(system), displaced));
         }
-        let ensemble = job.made::<_, _, R>(job.method.clone(), tangents)?;
+        let ensemble = job.made(job.method.clone(), tangents)?;
         Ok(match newton {
             false => self.work.run(ensemble),
             true => self.work.run(ensemble.with_solver(<Newton>::new())),
@@ -380,9 +382,9 @@ impl TangentWork for Follow<'_> {
     /// The ends, and the displacements there.
     type Output = (Ends, Vec<f64>);
 
-    fn run<C: Class + Conservative, R: Summation, N: Solver<Vector, Tangent<Formula<C>>>>(
+    fn run<C: Class + Conservative, N: Solver<Vector, Tangent<Formula<C>>>>(
         self,
-        ensemble: Ensemble<RunTimeTableau, Tangent<Formula<C>>, Vector, R, N>,
+        ensemble: Ensemble<RunTimeTableau, Tangent<Formula<C>>, Vector, Compensated, N>,
     ) -> Self::Output
     where
         Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>,
@@ -414,26 +416,31 @@ impl TangentWork for Chaos<'_> {
     /// The ends, and the mean MEGNO and the exponent of each trajectory.
     type Output = (Ends, Vec<[f64; 2]>);
 
-    fn run<C: Class + Conservative, R: Summation, N: Solver<Vector, Tangent<Formula<C>>>>(
+    fn run<C: Class + Conservative, N: Solver<Vector, Tangent<Formula<C>>>>(
         self,
-        ensemble: Ensemble<RunTimeTableau, Tangent<Formula<C>>, Vector, R, N>,
+        ensemble: Ensemble<RunTimeTableau, Tangent<Formula<C>>, Vector, Compensated, N>,
     ) -> Self::Output
     where
         Formula<C>: Hamiltonian<Class = C, Vector<f64> = Vector>,
     {
         let (mut ends, mut indicators) = (Ends::default(), Vec::new());
-        let work =
-            |found: &mut [f64; 2],
-             run: &mut Integrator<RunTimeTableau, Tangent<Formula<C>>, Vector, R, N>| {
-                let mut megno = Megno::new(run.state())?;
-                let ended = run.integrate_while(self.end, |progress| {
-                    megno.see(progress.state);
-                    ControlFlow::<()>::Continue(())
-                });
-                *found = [megno.mean(), megno.lyapunov_exponent()];
-                ended?;
-                Ok(())
-            };
+        let work = |found: &mut [f64; 2],
+                    run: &mut Integrator<
+            RunTimeTableau,
+            Tangent<Formula<C>>,
+            Vector,
+            Compensated,
+            N,
+        >| {
+            let mut megno = Megno::new(run.state())?;
+            let ended = run.integrate_while(self.end, |progress| {
+                megno.see(progress.state);
+                ControlFlow::<()>::Continue(())
+            });
+            *found = [megno.mean(), megno.lyapunov_exponent()];
+            ended?;
+            Ok(())
+        };
         let show = |row: Row<Vector, [f64; 2], tangent::Error>| {
             self.pulse.finished.fetch_add(1, Ordering::Relaxed);
             let [q, p, ..] = parts(&row.state);

@@ -9,7 +9,7 @@ use symplectic::emitted::Solver;
 use symplectic::ensemble::{Ensemble, Row};
 use symplectic::output::Moment;
 use symplectic::system::Class;
-use symplectic::{Error, Hamiltonian, Integrator, Method as Steps, State, Statistics, Summation};
+use symplectic::{Compensated, Error, Hamiltonian, Integrator, Method as Steps, State, Statistics};
 use symplectic_tape::{Formula, Parameters, Tapes};
 
 use crate::errors;
@@ -97,16 +97,15 @@ pub(crate) struct Plan<'a> {
 
 impl Plan<'_> {
     /// Integrates to the end.
-    fn walk<M, C, R, N, const F: bool>(
+    fn walk<M, C, N, const F: bool>(
         &self,
         seen: &mut Seen,
-        run: &mut Integrator<M, Formula<C, F>, Vector, R, N>,
+        run: &mut Integrator<M, Formula<C, F>, Vector, Compensated, N>,
     ) -> Result<(), Error>
     where
         M: Steps,
         C: Class,
         Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
-        R: Summation,
         N: Solver<Vector, Formula<C, F>>,
     {
         let parameters = run.system().parameters().clone();
@@ -158,8 +157,8 @@ impl Plan<'_> {
 }
 
 /// The times after steps, equally far from each other.
-fn step_times<M, C, R, N, const F: bool>(
-    run: &Integrator<M, Formula<C, F>, Vector, R, N>,
+fn step_times<M, C, N, const F: bool>(
+    run: &Integrator<M, Formula<C, F>, Vector, Compensated, N>,
     end: f64,
     most: usize,
 ) -> Result<Vec<f64>, Error>
@@ -167,7 +166,6 @@ where
     M: Steps,
     C: Class,
     Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
-    R: Summation,
     N: Solver<Vector, Formula<C, F>>,
 {
     let Some(intervals) = most.checked_sub(1).filter(|&intervals| intervals > 0) else {
@@ -196,15 +194,14 @@ pub(crate) struct OneByOne<'a> {
 impl Work for OneByOne<'_> {
     type Output = Vec<Row<Vector, Seen>>;
 
-    fn run<M, C, const F: bool, R, N>(
+    fn run<M, C, const F: bool, N>(
         self,
-        ensemble: Ensemble<M, Formula<C, F>, Vector, R, N>,
+        ensemble: Ensemble<M, Formula<C, F>, Vector, Compensated, N>,
     ) -> Self::Output
     where
         M: Steps + Send + Sync,
         C: Class,
         Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
-        R: Summation,
         N: Solver<Vector, Formula<C, F>>,
     {
         let mut rows = Vec::new();

@@ -12,7 +12,7 @@ use symplectic::nalgebra::DVector;
 use symplectic::solver::Newton;
 use symplectic::system::{Class, Conservative};
 use symplectic::{
-    Compensated, Error, General, Hamiltonian, Method as Steps, Plain, ProvedFor, Retry, Separable, State, Summation,
+    Compensated, Error, General, Hamiltonian, Method as Steps, ProvedFor, Retry, Separable, State,
 };
 use symplectic_tape::{Formula, Parameters, Watch};
 
@@ -32,8 +32,6 @@ type Project<C> = fn(&Formula<C>, State<Vector>) -> Result<State<Vector>, Error>
 #[pyo3(from_item_all)]
 pub(crate) struct Setting {
     step: f64,
-    /// The sums are compensated.
-    compensated: bool,
     newton: bool,
     accept_lower_order: bool,
     project: bool,
@@ -55,15 +53,14 @@ pub(crate) struct Starts<'a> {
 pub(crate) trait Work: Send {
     type Output: Send;
 
-    fn run<M, C, const F: bool, R, N>(
+    fn run<M, C, const F: bool, N>(
         self,
-        ensemble: Ensemble<M, Formula<C, F>, Vector, R, N>,
+        ensemble: Ensemble<M, Formula<C, F>, Vector, Compensated, N>,
     ) -> Self::Output
     where
         M: Steps + Send + Sync,
         C: Class,
         Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
-        R: Summation,
         N: Solver<Vector, Formula<C, F>>;
 }
 
@@ -81,7 +78,7 @@ macro_rules! compiled {
 
             fn run<M: Steps + Copy + Send + Sync + ForEverySystem>(self, method: M) -> Self::Output {
                 let families = self.job.families::<$class, false>();
-                let ensemble = self.job.made::<_, _, Compensated>(method, families)?;
+                let ensemble = self.job.made(method, families)?;
                 Ok(self.work.run(ensemble))
             }
         }
@@ -94,7 +91,7 @@ compiled! { General Separable }
 pub(crate) trait FreeWork: Send {
     type Output: Send;
 
-    fn run<C: Class + Conservative, R: Summation>(
+    fn run<C: Class + Conservative>(
         self,
         job: &Job<'_>,
         newton: bool,
@@ -191,23 +188,16 @@ impl<'a> Job<'a> {
 
     /// Does work with the ensemble of the starts.
     pub(crate) fn run<W: Work>(&self, work: W) -> Result<W::Output, Failure> {
-        self.on_threads(|| match self.setting.compensated {
-            true => self.with_sums::<Compensated, W>(work),
-            false => self.with_sums::<Plain, W>(work),
-        })
+        self.on_threads(|| self.of_kind(work))
     }
 
     /// Does work with systems of H alone.
     pub(crate) fn run_free<W: FreeWork>(&self, work: W) -> Result<W::Output, Failure> {
         let newton = self.setting.newton;
-        self.on_threads(
-            || match (self.setting.compensated, self.problem.kind.is_separable) {
-                (true, true) => work.run::<Separable, Compensated>(self, newton, self.families()),
-                (true, false) => work.run::<General, Compensated>(self, newton, self.families()),
-                (false, true) => work.run::<Separable, Plain>(self, newton, self.families()),
-                (false, false) => work.run::<General, Plain>(self, newton, self.families()),
-            },
-        )
+        self.on_threads(|| match self.problem.kind.is_separable {
+            true => work.run::<Separable>(self, newton, self.families()),
+            false => work.run::<General>(self, newton, self.families()),
+        })
     }
 
     fn on_threads<T: Send>(
@@ -223,25 +213,31 @@ impl<'a> Job<'a> {
         pool.install(work)
     }
 
-    fn with_sums<R: Summation, W: Work>(&self, work: W) -> Result<W::Output, Failure> {
+    fn of_kind<W: Work>(&self, work: W) -> Result<W::Output, Failure> {
         let kind = self.problem.kind;
-        if R::COMPENSATED
-            && let Some(emitted) = self.emitted()
-        {
+        if let Some(emitted) = self.emitted() {
             return match kind.is_separable {
-                true => emitted.with(Compiled::<Separable, W> { job: self, work, class: PhantomData }),
-                false => emitted.with(Compiled::<General, W> { job: self, work, class: PhantomData }),
+                true => emitted.with(Compiled::<Separable, W> {
+                    job: self,
+                    work,
+                    class: PhantomData,
+                }),
+                false => emitted.with(Compiled::<General, W> {
+                    job: self,
+                    work,
+                    class: PhantomData,
+                }),
             };
         }
         match (kind.holonomic, kind.is_separable, kind.is_forced) {
-            (Some(true), true, _) => self.holonomic::<Separable, R, W>(work),
-            (Some(true), false, _) => self.holonomic::<General, R, W>(work),
-            (Some(false), true, _) => self.nonholonomic::<Separable, R, W>(work),
-            (Some(false), false, _) => self.nonholonomic::<General, R, W>(work),
-            (None, true, true) => self.by_solver::<Separable, true, R, W>(work),
-            (None, false, true) => self.by_solver::<General, true, R, W>(work),
-            (None, true, false) => self.by_solver::<Separable, false, R, W>(work),
-            (None, false, false) => self.by_solver::<General, false, R, W>(work),
+            (Some(true), true, _) => self.holonomic::<Separable, W>(work),
+            (Some(true), false, _) => self.holonomic::<General, W>(work),
+            (Some(false), true, _) => self.nonholonomic::<Separable, W>(work),
+            (Some(false), false, _) => self.nonholonomic::<General, W>(work),
+            (None, true, true) => self.by_solver::<Separable, true, W>(work),
+            (None, false, true) => self.by_solver::<General, true, W>(work),
+            (None, true, false) => self.by_solver::<Separable, false, W>(work),
+            (None, false, false) => self.by_solver::<General, false, W>(work),
         }
     }
 
@@ -252,52 +248,47 @@ impl<'a> Job<'a> {
         is_plain.then(|| Emitted::of(&self.method)).flatten()
     }
 
-    fn by_solver<C: Class + Conservative, const F: bool, R: Summation, W: Work>(
+    fn by_solver<C: Class + Conservative, const F: bool, W: Work>(
         &self,
         work: W,
     ) -> Result<W::Output, Failure>
     where
         Formula<C, F>: Hamiltonian<Class = C, Vector<f64> = Vector>,
     {
-        let ensemble = self.made::<_, _, R>(self.method.clone(), self.families::<C, F>())?;
+        let ensemble = self.made(self.method.clone(), self.families::<C, F>())?;
         Ok(match self.setting.newton {
             false => work.run(ensemble),
             true => work.run(ensemble.with_solver(<Newton>::new())),
         })
     }
 
-    fn holonomic<C, R: Summation, W: Work>(&self, work: W) -> Result<W::Output, Failure>
+    fn holonomic<C, W: Work>(&self, work: W) -> Result<W::Output, Failure>
     where
         C: Class + symplectic::system::Unconstrained,
     {
         let families = self.projected::<Constrained<C>>(consistent)?;
-        Ok(work.run(self.made::<_, _, R>(self.method.clone(), families)?))
+        Ok(work.run(self.made(self.method.clone(), families)?))
     }
 
-    fn nonholonomic<C, R: Summation, W: Work>(&self, work: W) -> Result<W::Output, Failure>
+    fn nonholonomic<C, W: Work>(&self, work: W) -> Result<W::Output, Failure>
     where
         C: Class + symplectic::system::Unconstrained,
     {
         let families = self.projected::<Nonholonomic<C>>(consistent_momentum)?;
-        Ok(work.run(self.made::<_, _, R>(self.method.clone(), families)?))
+        Ok(work.run(self.made(self.method.clone(), families)?))
     }
 
     /// An ensemble of systems.
-    pub(crate) fn made<M, S, R>(
+    pub(crate) fn made<M, S>(
         &self,
         method: M,
         families: impl IntoIterator<Item = (S, Vec<State<Vector>>)>,
-    ) -> Result<Ensemble<M, S, Vector, R>, Failure>
+    ) -> Result<Ensemble<M, S, Vector>, Failure>
     where
         M: Steps + ProvedFor<S::Class>,
         S: symplectic::System<Vector>,
-        R: Summation,
     {
-        let made = Ensemble::<M, S, Vector, R>::with_summation(
-            method,
-            families,
-            self.setting.step,
-        );
+        let made = Ensemble::of_families(method, families, self.setting.step);
         let mut ensemble = made.map_err(|error| self.refused(&error))?;
         if self.setting.halvings > 0 {
             ensemble.set_retry(Retry::Split {

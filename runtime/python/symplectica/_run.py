@@ -52,7 +52,7 @@ class Run:
     method: Tableau | Doubles
     step: float
     start: tuple[float, Array, Array]
-    _sums: dict[str, Any] = field(repr=False, default_factory=dict)
+    _setting: dict[str, Any] = field(repr=False, default_factory=dict)
 
     @classmethod
     def _of(cls, system: System, method: Any, q0: Array, p0: Array, start: float, setting: dict[str, Any], names: list[Any], found: dict[str, Any]) -> Run:
@@ -145,9 +145,8 @@ class Run:
             t0=time,
             step=abs(self.step),
             method=self.method,
-            sums="compensated" if self._sums.get("compensated", True) else "plain",
-            solver="newton" if self._sums.get("newton") else None,
-            accept_lower_order=self._sums.get("accept_lower_order", False),
+            solver="newton" if self._setting.get("newton") else None,
+            accept_lower_order=self._setting.get("accept_lower_order", False),
         )
         return derivative
 

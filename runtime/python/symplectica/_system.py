@@ -223,7 +223,6 @@ class System:
         events: Event | str | Sequence[Event | str] | Mapping[str, Event | str] | None = None,
         parameters: Mapping[str, Any] | None = None,
         progress: bool | Callable[[float], object] = False,
-        sums: str = "compensated",
         solver: str | None = None,
         accept_lower_order: bool = False,
         project_starts: bool = False,
@@ -256,8 +255,6 @@ class System:
             Values of parameters for this run.
         progress : bool or callable
             Show a bar, or call a function with the fraction that is done.
-        sums : str
-            ``compensated`` or ``plain``: how increments are added to the state.
         solver : str, optional
             ``newton`` for stiff systems.
         accept_lower_order : bool
@@ -297,7 +294,7 @@ class System:
         q0, p0 = self._halves(q, p, v, start, values)
         problem = self._problem(q0.size, start, values, {})
         made = method_of(method if method is not None else self._default())
-        setting = self._setting(step, end - start, sums, solver, accept_lower_order, project_starts, halvings, None)
+        setting = self._setting(step, end - start, solver, accept_lower_order, project_starts, halvings, None)
         names, given = events_of(events)
         found = _native.integrate(
             problem,
@@ -331,7 +328,6 @@ class System:
         self,
         step: Any,
         length: float,
-        sums: str,
         solver: str | None,
         accept_lower_order: bool,
         project_starts: bool,
@@ -343,15 +339,12 @@ class System:
             raise ArgumentError(f"the step is {size}: it must be positive; to go backward, give an end `t` before the start")
         if abs(length) / size > 2**53:
             raise ArgumentError(f"there are more than 2^53 steps of {size}")
-        if sums not in ("compensated", "plain"):
-            raise ArgumentError(f"unknown sums `{sums}`; known here: compensated, plain")
         if solver not in (None, "fixed-point", "newton"):
             raise ArgumentError(f"unknown solver `{solver}`; known here: fixed-point, newton")
         if threads is not None and _arrays.count(threads, "threads", 1) > 256:
             raise ArgumentError(f"`threads` is {threads}; at most 256 are possible")
         return {
             "step": float(np.copysign(size, length)),
-            "compensated": sums == "compensated",
             "newton": solver == "newton",
             "accept_lower_order": bool(accept_lower_order),
             "project": bool(project_starts),
@@ -382,7 +375,6 @@ class System:
         parameters: Mapping[str, Any] | None = None,
         threads: int | None = None,
         progress: bool | Callable[[float], object] = False,
-        sums: str = "compensated",
         solver: str | None = None,
         accept_lower_order: bool = False,
         project_starts: bool = False,
@@ -404,7 +396,7 @@ class System:
             Values of parameters: with one axis more than the formula has, the first one of length n, they vary between trajectories.
         threads : int, optional
             The number of threads; by default one per core. The bits of the results do not depend on it.
-        t, step, v, t0, method, progress, sums, solver, accept_lower_order, project_starts, halvings
+        t, step, v, t0, method, progress, solver, accept_lower_order, project_starts, halvings
             See :meth:`integrate`.
 
         Returns
@@ -452,7 +444,7 @@ class System:
             momenta = [problem.momentum(start, *row) for row in zip(qs.tolist(), ps.tolist(), table.tolist(), strict=True)]
             ps = np.array(momenta).reshape(-1, dimension)
         made = method_of(method if method is not None else self._default())
-        setting = self._setting(step, end - start, sums, solver, accept_lower_order, project_starts, halvings, threads)
+        setting = self._setting(step, end - start, solver, accept_lower_order, project_starts, halvings, threads)
         steps = stepping(made, self._constraints)
         if sum((output is not None, section is not None, bool(megno))) > 1:
             raise ArgumentError("give one of `output`, `section` and `megno`")
@@ -503,7 +495,6 @@ class System:
         method: Method | None = None,
         parameters: Mapping[str, Any] | None = None,
         threads: int | None = None,
-        sums: str = "compensated",
         solver: str | None = None,
         accept_lower_order: bool = False,
     ) -> tuple[Array, Array, Array]:
@@ -530,7 +521,7 @@ class System:
         q0, p0 = self._halves(q, p, None, start, values)
         dimension = q0.size
         problem = self._problem(dimension, start, values, {})
-        setting = self._setting(step, end - start, sums, solver, accept_lower_order, False, 0, threads)
+        setting = self._setting(step, end - start, solver, accept_lower_order, False, 0, threads)
         directions = 2 * dimension
         found = _native.transition(
             problem,

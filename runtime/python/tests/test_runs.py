@@ -288,7 +288,6 @@ WRONG = [
     ({"output": [0.5, 2.0]}, "from t0"),
     ({"output": []}, "at least one time"),
     ({"output": -1}, "whole number"),
-    ({"sums": "exact"}, "compensated, plain"),
     ({"solver": "newtn"}, "newton"),
     ({"project_starts": True}, "no constraints"),
     ({"parameters": {"mu": 1}}, "no parameter `mu`"),
