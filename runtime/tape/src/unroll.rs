@@ -1,6 +1,6 @@
 //! From a formula to a tape: unrolls loops, substitutes parameters, and shares common subexpressions.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 use std::error::Error;
 use std::fmt;
 use std::rc::Rc;
@@ -12,7 +12,9 @@ use symplectic_formula::function::Elementary;
 use symplectic_formula::graph::{Half, Id, LoopId};
 use symplectic_formula::operations::{Op, Operation, Operations};
 
-use crate::tape::{Code, Input, Register, Step, Tape, apply};
+use crate::assembly::{Assembly, join_products};
+use crate::operation::{Code, apply};
+use crate::tape::Tape;
 use crate::values::{Entry, Indices, Values};
 
 /// Largest number of operations of a formula with unrolled loops.
@@ -50,7 +52,7 @@ pub(crate) type Number = u32;
 
 /// A value of an unrolled formula.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-enum Value {
+pub(crate) enum Value {
     /// A constant, by its bits.
     Constant(u64),
     Time,
@@ -462,7 +464,7 @@ impl<'a> Unrolled<'a> {
     pub(crate) fn tape(&self, results: &[Number]) -> Result<Tape, Refusal> {
         let mut list = self.list.clone();
         let used = join_products(&mut list, results);
-        Assembly::new(&list, &used, results).tape()
+        Assembly::of(&list, used, results).tape()
     }
 }
 
@@ -479,151 +481,5 @@ fn elementary(function: Elementary) -> Code {
         Elementary::Sinh => Code::Sinh,
         Elementary::Cosh => Code::Cosh,
         Elementary::Tanh => Code::Tanh,
-    }
-}
-
-/// The number of uses of each value for the given results.
-fn uses(list: &[Value], results: &[Number]) -> Vec<usize> {
-    let mut uses = vec![0; list.len()];
-    for &result in results {
-        uses[result as usize] += 1;
-    }
-    for number in (0..list.len()).rev() {
-        if uses[number] > 0
-            && let Value::Step(code, operands) = list[number]
-        {
-            for &operand in &operands[..arity(code)] {
-                uses[operand as usize] += 1;
-            }
-        }
-    }
-    uses
-}
-
-/// Fuses a sum and a product that only this sum uses into one operation, with the same rounding; returns the new number
-/// of uses.
-fn join_products(list: &mut [Value], results: &[Number]) -> Vec<usize> {
-    let before = uses(list, results);
-    for number in 0..list.len() {
-        let Value::Step(code @ (Code::Add | Code::Subtract), [left, right, _]) = list[number]
-        else {
-            continue;
-        };
-        let product = |of: Number| match list[of as usize] {
-            Value::Step(Code::Multiply, [a, b, _]) if before[of as usize] == 1 => Some([a, b]),
-            _ => None,
-        };
-        let joined = match (code, product(left), product(right)) {
-            (Code::Add, Some([a, b]), _) => Some((Code::MultiplyAdd, [a, b, right])),
-            (Code::Add, None, Some([a, b])) => Some((Code::MultiplyAdd, [a, b, left])),
-            (Code::Subtract, Some([a, b]), _) => Some((Code::MultiplySubtract, [a, b, right])),
-            (Code::Subtract, None, Some([a, b])) => Some((Code::SubtractProduct, [a, b, left])),
-            _ => None,
-        };
-        if let Some((code, operands)) = joined {
-            list[number] = Value::Step(code, operands);
-        }
-    }
-    uses(list, results)
-}
-
-/// The number of operands of an operation.
-fn arity(code: Code) -> usize {
-    match code {
-        Code::MultiplyAdd | Code::MultiplySubtract | Code::SubtractProduct => 3,
-        Code::Add | Code::Subtract | Code::Multiply | Code::Divide | Code::OrZero | Code::Atan2 => {
-            2
-        }
-        _ => 1,
-    }
-}
-
-/// Register allocation.
-struct Assembly<'a> {
-    list: &'a [Value],
-    results: &'a [Number],
-    /// The number of remaining uses of each value.
-    left: Vec<usize>,
-    registers: BTreeMap<Number, Register>,
-    free: Vec<Register>,
-    tape: Tape,
-}
-
-impl<'a> Assembly<'a> {
-    fn new(list: &'a [Value], uses: &[usize], results: &'a [Number]) -> Self {
-        Assembly {
-            list,
-            results,
-            left: uses.to_vec(),
-            registers: BTreeMap::new(),
-            free: Vec::new(),
-            tape: Tape::default(),
-        }
-    }
-
-    fn tape(mut self) -> Result<Tape, Refusal> {
-        for (number, value) in self.list.iter().enumerate() {
-            let input = match *value {
-                Value::Step(..) => continue,
-                Value::Constant(bits) => Input::Constant(f64::from_bits(bits)),
-                Value::Time => Input::Time,
-                Value::Position(k) => Input::Position(k),
-                Value::Momentum(k) => Input::Momentum(k),
-                Value::Parameter(k) => Input::Parameter(k),
-            };
-            if self.left[number] > 0 {
-                let register = self.new_register()?;
-                self.registers.insert(number as Number, register);
-                self.tape.inputs.push(input);
-            }
-        }
-        for (number, value) in self.list.iter().enumerate() {
-            let Value::Step(code, operands) = *value else {
-                continue;
-            };
-            if self.left[number] == 0 {
-                continue;
-            }
-            if self.tape.steps.len() == MAX_OPERATIONS {
-                return Err(Refusal::TooLong);
-            }
-            let places = operands.map(|operand| self.registers.get(&operand).copied());
-            let operands = &operands[..arity(code)];
-            let first = places[0].unwrap_or_default();
-            let places = places.map(|place| place.unwrap_or(first));
-            for operand in operands {
-                self.release(*operand);
-            }
-            let into = match self.free.pop() {
-                Some(register) => register,
-                None => self.new_register()?,
-            };
-            self.registers.insert(number as Number, into);
-            self.tape.steps.push(Step {
-                code,
-                into,
-                operands: places,
-            });
-        }
-        let place = |result| self.registers.get(result).copied().ok_or(Refusal::Outside);
-        self.tape.results = self.results.iter().map(place).collect::<Result<_, _>>()?;
-        Ok(self.tape)
-    }
-
-    /// Counts a use of an operand; after its last use its register is free.
-    fn release(&mut self, operand: Number) {
-        let left = &mut self.left[operand as usize];
-        *left -= 1;
-        if *left == 0
-            && let Some(register) = self.registers.remove(&operand)
-        {
-            self.free.push(register);
-        }
-    }
-
-    fn new_register(&mut self) -> Result<Register, Refusal> {
-        let register = Register::try_from(self.tape.registers).map_err(|_| Refusal::TooLong)?;
-        self.tape.registers += 1;
-        Ok(register)
     }
 }
